@@ -1,0 +1,39 @@
+# Third-party libraries, each behind one imported target whose headers are SYSTEM: warnings are errors in our own
+# code only.
+
+find_package(MPI REQUIRED COMPONENTS CXX)
+find_package(Trilinos REQUIRED COMPONENTS Teuchos Tpetra Amesos2 Belos Thyra)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+
+# Trilinos names some libraries many times over; once is enough. Its Thyra component also names Epetra wrappers, which
+# Epafi never uses.
+set(epafi_trilinos_libraries ${Trilinos_LIBRARIES} ${Trilinos_TPL_LIBRARIES})
+list(REMOVE_DUPLICATES epafi_trilinos_libraries)
+add_library(epafi_trilinos INTERFACE)
+add_library(Epafi::trilinos ALIAS epafi_trilinos)
+target_include_directories(epafi_trilinos SYSTEM INTERFACE ${Trilinos_INCLUDE_DIRS} ${Trilinos_TPL_INCLUDE_DIRS})
+target_link_libraries(epafi_trilinos INTERFACE ${epafi_trilinos_libraries} MPI::MPI_CXX)
+# Trilinos 13.2 hides Tpetra::Map::getLocalNumElements under an older name; see base/Compatibility.hpp.
+target_compile_definitions(epafi_trilinos INTERFACE OMPI_SKIP_MPICXX)
+
+find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
+find_library(METIS_LIBRARY metis REQUIRED)
+add_library(epafi_metis INTERFACE)
+add_library(Epafi::metis ALIAS epafi_metis)
+target_include_directories(epafi_metis SYSTEM INTERFACE "${METIS_INCLUDE_DIR}")
+target_link_libraries(epafi_metis INTERFACE "${METIS_LIBRARY}")
+
+# Fields are written by all ranks at once, which takes the parallel HDF5.
+set(HDF5_PREFER_PARALLEL TRUE)
+find_package(HDF5 REQUIRED COMPONENTS C)
+if(NOT HDF5_IS_PARALLEL)
+  message(FATAL_ERROR "Epafi writes its fields with parallel HDF5, but the HDF5 found is a serial one. "
+                      "Install libhdf5-openmpi-dev or set HDF5_ROOT.")
+endif()
+add_library(epafi_hdf5 INTERFACE)
+add_library(Epafi::hdf5 ALIAS epafi_hdf5)
+target_include_directories(epafi_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
+target_link_libraries(epafi_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
+
+# Debian's own interpreter: it has Debian's matplotlib and h5py, another python3 on the PATH may not.
+find_program(EPAFI_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

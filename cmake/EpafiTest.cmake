@@ -1,0 +1,33 @@
+# epafi_test(<name> SOURCES ... USES ... [RANKS 1 2 ...] [LABELS ...] [TIMEOUT seconds])
+# One googletest program, run by ctest once for every number of ranks. The tests of a program are valid for any number.
+
+find_package(GTest REQUIRED)
+
+add_library(epafi_test_main STATIC "${PROJECT_SOURCE_DIR}/test/main.cpp")
+target_link_libraries(epafi_test_main PUBLIC Epafi::base GTest::gtest)
+epafi_own_code(epafi_test_main)
+
+set(EPAFI_MPIRUN_FLAGS --oversubscribe --bind-to none)
+
+function(epafi_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "" "TIMEOUT" "SOURCES;USES;RANKS;LABELS")
+  if(NOT TEST_RANKS)
+    set(TEST_RANKS 1)
+  endif()
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 120)
+  endif()
+  add_executable(test_${name} ${TEST_SOURCES})
+  target_link_libraries(test_${name} PRIVATE epafi_test_main ${TEST_USES})
+  target_compile_definitions(test_${name} PRIVATE EPAFI_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                                  EPAFI_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  epafi_own_code(test_${name})
+  foreach(ranks IN LISTS TEST_RANKS)
+    add_test(NAME ${name}_np${ranks}
+             COMMAND ${MPIEXEC_EXECUTABLE} ${EPAFI_MPIRUN_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+                     $<TARGET_FILE:test_${name}>)
+    set_tests_properties(${name}_np${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT ${TEST_TIMEOUT}
+      LABELS "${TEST_LABELS}"
+      ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OPENBLAS_NUM_THREADS=1")
+  endforeach()
+endfunction()

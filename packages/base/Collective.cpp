@@ -1,0 +1,94 @@
+#include "epafi/base/Collective.hpp"
+
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+
+#include <string>
+#include <vector>
+
+namespace epafi {
+namespace {
+
+enum class Failure : int { none = 0, other = 1, input = 2, noSolution = 3, notUnique = 4 };
+
+[[noreturn]] void raise(Failure kind, const std::string& text) {
+  switch (kind) {
+  case Failure::input:
+    throw InputError(text);
+  case Failure::noSolution:
+    throw SolvabilityError(SolvabilityError::Kind::noSolution, text);
+  case Failure::notUnique:
+    throw SolvabilityError(SolvabilityError::Kind::notUnique, text);
+  default:
+    throw Error(text);
+  }
+}
+
+} // namespace
+
+void collectively(const Comm& comm, const std::function<void()>& work) {
+  Failure mine = Failure::none;
+  std::string text;
+  try {
+    work();
+  } catch (const InputError& error) {
+    mine = Failure::input;
+    text = error.what();
+  } catch (const SolvabilityError& error) {
+    mine = error.kind() == SolvabilityError::Kind::noSolution ? Failure::noSolution : Failure::notUnique;
+    text = error.what();
+  } catch (const std::exception& error) {
+    mine = Failure::other;
+    text = error.what();
+  } catch (...) {
+    mine = Failure::other;
+    text = "an unknown error occurred on rank " + std::to_string(comm.getRank());
+  }
+
+  const int candidate = mine == Failure::none ? comm.getSize() : comm.getRank();
+  int first = 0;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, 1, &candidate, &first);
+  if (first == comm.getSize())
+    return;
+
+  int message[2] = {static_cast<int>(mine), static_cast<int>(text.size())};
+  Teuchos::broadcast(comm, first, 2, message);
+  text.resize(static_cast<std::size_t>(message[1]));
+  if (message[1] > 0)
+    Teuchos::broadcast(comm, first, message[1], text.data());
+  raise(static_cast<Failure>(message[0]), text);
+}
+
+void sumOverRanks(const Comm& comm, std::span<double> values) {
+  if (values.empty() || comm.getSize() == 1)
+    return;
+  const std::vector<double> mine(values.begin(), values.end());
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, static_cast<int>(values.size()), mine.data(), values.data());
+}
+
+double sumOverRanks(const Comm& comm, double value) {
+  double result = 0;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 1, &value, &result);
+  return result;
+}
+
+GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value) {
+  GlobalOrdinal result = 0;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 1, &value, &result);
+  return result;
+}
+
+double maxOverRanks(const Comm& comm, double value) {
+  double result = 0;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, 1, &value, &result);
+  return result;
+}
+
+double minOverRanks(const Comm& comm, double value) {
+  double result = 0;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, 1, &value, &result);
+  return result;
+}
+
+} // namespace epafi

@@ -1,0 +1,28 @@
+#pragma once
+
+/// Errors that all ranks agree on: a rank in trouble never leaves the others waiting in a collective call.
+
+#include "epafi/base/Types.hpp"
+
+#include <functional>
+#include <span>
+
+namespace epafi {
+
+/// Runs `work` on every rank. If it throws anywhere, every rank throws the error of the lowest failing rank, with the same
+/// type (InputError, SolvabilityError, or Error for all else) and the same text.
+///
+/// \param work  must contain no collective call itself, or only ones that all ranks reach before any can throw.
+/// Collective.
+void collectively(const Comm& comm, const std::function<void()>& work);
+
+/// Sums `values` over the ranks, in place. Collective.
+void sumOverRanks(const Comm& comm, std::span<double> values);
+
+/// Sum, maximum or minimum of one value over the ranks. Collective.
+double sumOverRanks(const Comm& comm, double value);
+GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value);
+double maxOverRanks(const Comm& comm, double value);
+double minOverRanks(const Comm& comm, double value);
+
+} // namespace epafi

@@ -1,0 +1,30 @@
+#pragma once
+
+/// What differs between Trilinos 13.2 and later versions, in one place.
+
+#include <Tpetra_Map.hpp>
+#include <Trilinos_version.h>
+
+#include <cstddef>
+
+namespace epafi {
+
+/// Number of entries that this rank owns (Tpetra renamed the method after 13.2). Not collective.
+inline std::size_t numLocal(const Tpetra::Map<>& map) {
+#if TRILINOS_MAJOR_MINOR_VERSION >= 130400
+  return map.getLocalNumElements();
+#else
+  return map.getNodeNumElements();
+#endif
+}
+
+/// Global indices that this rank owns, in local order. Not collective.
+inline auto localIndices(const Tpetra::Map<>& map) {
+#if TRILINOS_MAJOR_MINOR_VERSION >= 130400
+  return map.getLocalElementList();
+#else
+  return map.getNodeElementList();
+#endif
+}
+
+} // namespace epafi

@@ -1,0 +1,57 @@
+#pragma once
+
+/// The errors that a user can act on. Each carries one sentence: what is wrong, the value found, what to do.
+
+#include <stdexcept>
+#include <string>
+
+namespace epafi {
+
+/// Base of Epafi's errors.
+class Error : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The input is wrong: file, list, parameter, value and what is allowed (exit code 2 of the driver).
+class InputError : public Error {
+public:
+  using Error::Error;
+};
+
+/// The problem has no solution, or more than one (exit code 3 of the driver); names the body and the reason.
+class SolvabilityError : public Error {
+public:
+  enum class Kind { noSolution, notUnique };
+
+  SolvabilityError(Kind kind, const std::string& what) : Error(what), kind_(kind) {}
+
+  [[nodiscard]] Kind kind() const noexcept { return kind_; }
+
+private:
+  Kind kind_;
+};
+
+/// The candidate that is nearest to `word` in spelling, or an empty string if none is near.
+/// Used to suggest a name in error messages.
+template <class Names>
+std::string nearestName(const std::string& word, const Names& candidates);
+
+/// Number of single-letter edits (insert, delete, replace; case ignored) between two words.
+std::size_t editDistance(const std::string& a, const std::string& b);
+
+template <class Names>
+std::string nearestName(const std::string& word, const Names& candidates) {
+  std::string best;
+  std::size_t bestDistance = word.size() / 2 + 2;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = editDistance(word, candidate);
+    if (distance < bestDistance) {
+      bestDistance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+} // namespace epafi

@@ -1,0 +1,37 @@
+#pragma once
+
+/// Scalar, ordinals and the Tpetra classes built on them, named once. Everything uses Tpetra's default node.
+
+#include <Teuchos_RCP.hpp>
+#include <Tpetra_CrsMatrix_fwd.hpp>
+#include <Tpetra_Export_fwd.hpp>
+#include <Tpetra_Import_fwd.hpp>
+#include <Tpetra_Map_fwd.hpp>
+#include <Tpetra_MultiVector_fwd.hpp>
+#include <Tpetra_Operator_fwd.hpp>
+#include <Tpetra_Vector_fwd.hpp>
+
+namespace Teuchos {
+template <typename Ordinal>
+class Comm;
+} // namespace Teuchos
+
+namespace epafi {
+
+using Scalar = double;
+using LocalOrdinal = Tpetra::Map<>::local_ordinal_type;
+using GlobalOrdinal = Tpetra::Map<>::global_ordinal_type;
+
+using Comm = Teuchos::Comm<int>;
+using Map = Tpetra::Map<>;
+using Vector = Tpetra::Vector<Scalar>;
+using MultiVector = Tpetra::MultiVector<Scalar>;
+using Operator = Tpetra::Operator<Scalar>;
+using CrsMatrix = Tpetra::CrsMatrix<Scalar>;
+using Import = Tpetra::Import<>;
+using Export = Tpetra::Export<>;
+
+using Teuchos::RCP;
+using Teuchos::rcp;
+
+} // namespace epafi

@@ -1,0 +1,56 @@
+#pragma once
+
+/// Partition of one body's elements into subdomains.
+
+#include "epafi/fem/RectangleMesh.hpp"
+#include "epafi/scene/Scene.hpp"
+
+#include <vector>
+
+namespace epafi::decomposition {
+
+/// Which part each element belongs to. Parts are numbered from 0 and each is connected through element edges.
+class Partition {
+public:
+  virtual ~Partition() = default;
+  [[nodiscard]] virtual int numParts() const = 0;
+  [[nodiscard]] virtual int partOf(GlobalOrdinal element) const = 0;
+  /// Elements of a part, ascending.
+  [[nodiscard]] virtual std::vector<GlobalOrdinal> elementsOf(int part) const = 0;
+};
+
+/// Cuts a rectangle into counts[0] × counts[1] rectangles of as equal numbers of elements as possible. Stores nothing of
+/// global size.
+class GridPartition final : public Partition {
+public:
+  /// Precondition: 1 ≤ counts ≤ number of elements in each direction.
+  GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> counts);
+  [[nodiscard]] int numParts() const override { return counts_[0] * counts_[1]; }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override;
+  [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override;
+
+private:
+  std::array<int, 2> elements_;
+  std::array<int, 2> counts_;
+};
+
+/// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the body is kept
+/// on each rank (one int an element): the one place where something of the mesh's size is replicated.
+class GraphPartition final : public Partition {
+public:
+  /// METIS runs on rank 0, its result is broadcast; the same mesh and count give the same parts on any number of ranks.
+  /// The number of parts may differ from the one asked for where METIS leaves parts empty.
+  /// Collective. \throws InputError if METIS refuses.
+  GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm);
+  [[nodiscard]] int numParts() const override { return numParts_; }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override {
+    return part_[static_cast<std::size_t>(element)];
+  }
+  [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override;
+
+private:
+  int numParts_ = 0;
+  std::vector<int> part_;
+};
+
+} // namespace epafi::decomposition
