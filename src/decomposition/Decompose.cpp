@@ -37,7 +37,8 @@ BodyLayout layoutBody(const scene::Body& body, int firstSubdomain, const Comm& c
 }
 
 /// Parts of the body that share a node, ascending.
-std::vector<int> sharingParts(const BodyLayout& body, GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) {
+std::vector<int> sharingParts(const BodyLayout& body, GlobalOrdinal node,
+                              std::vector<GlobalOrdinal>& elements) {
   body.mesh->nodeElements(node, elements);
   std::vector<int> parts;
   for (const GlobalOrdinal element : elements)
@@ -48,7 +49,9 @@ std::vector<int> sharingParts(const BodyLayout& body, GlobalOrdinal node, std::v
 }
 
 std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
-  const auto first = [&](GlobalOrdinal rank) { return static_cast<int>(rank * layout.numSubdomains / comm.getSize()); };
+  const auto first = [&](GlobalOrdinal rank) {
+    return static_cast<int>(rank * layout.numSubdomains / comm.getSize());
+  };
   std::vector<Piece> pieces;
   std::vector<GlobalOrdinal> elements;
   for (int number = first(comm.getRank()); number < first(comm.getRank() + 1); ++number) {
@@ -59,8 +62,8 @@ std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
       ++piece.body;
     const BodyLayout& body = layout.bodies[static_cast<std::size_t>(piece.body)];
     piece.part = number - body.firstSubdomain;
-    piece.assembled =
-        fem::assemble(*layout.models[static_cast<std::size_t>(piece.body)], body.partition->elementsOf(piece.part));
+    piece.assembled = fem::assemble(*layout.models[static_cast<std::size_t>(piece.body)],
+                                    body.partition->elementsOf(piece.part));
     for (const GlobalOrdinal node : piece.assembled.nodes)
       piece.sharing.push_back(sharingParts(body, node, elements));
     pieces.push_back(std::move(piece));
@@ -71,8 +74,8 @@ std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
 RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm) {
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(indices), 0,
-                     comm));
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                     Teuchos::arrayViewFromVector(indices), 0, comm));
 }
 
 /// Splits the unknowns of a piece in remainder and crosspoints.
@@ -118,8 +121,8 @@ std::vector<GlobalOrdinal> ownedCrosspoints(const Layout& layout, const Crosspoi
   return owned;
 }
 
-std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout, const std::vector<Piece>& pieces,
-                                 const Comm& comm) {
+std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout,
+                                 const std::vector<Piece>& pieces, const Comm& comm) {
   std::vector<Body> bodies;
   int offset = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {

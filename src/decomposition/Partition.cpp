@@ -32,8 +32,8 @@ std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
   idx_t numConstraints = 1, numParts = parts, cut = 0;
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
   const int status =
-      METIS_PartGraphKway(&numVertices, &numConstraints, start.data(), neighbours.data(), nullptr, nullptr, nullptr,
-                          &numParts, nullptr, nullptr, options, &cut, part.data());
+      METIS_PartGraphKway(&numVertices, &numConstraints, start.data(), neighbours.data(), nullptr, nullptr,
+                          nullptr, &numParts, nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK)
     throw InputError("METIS could not cut a mesh of " + std::to_string(numVertices) + " elements into " +
                      std::to_string(parts) + " parts (its status " + std::to_string(status) + ")");
@@ -62,7 +62,8 @@ Pieces findPieces(const fem::Mesh& mesh, const std::vector<int>& part) {
       ++pieces.size.back();
       mesh.elementNeighbours(element, adjacent);
       for (const GlobalOrdinal other : adjacent)
-        if (pieces.of[static_cast<std::size_t>(other)] < 0 && part[static_cast<std::size_t>(other)] == part[seed]) {
+        if (pieces.of[static_cast<std::size_t>(other)] < 0 &&
+            part[static_cast<std::size_t>(other)] == part[seed]) {
           pieces.of[static_cast<std::size_t>(other)] = piece;
           stack.push_back(other);
         }
@@ -71,7 +72,8 @@ Pieces findPieces(const fem::Mesh& mesh, const std::vector<int>& part) {
   return pieces;
 }
 
-/// Gives every piece that is not the largest of its part to the neighbouring part with which it shares most edges.
+/// Gives every piece that is not the largest of its part to the neighbouring part with which it shares most
+/// edges.
 void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
   for (;;) {
     const Pieces pieces = findPieces(mesh, part);
@@ -79,7 +81,8 @@ void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
     for (std::size_t element = 0; element < part.size(); ++element) {
       const int piece = pieces.of[element];
       const auto [entry, isNew] = largest.try_emplace(part[element], piece);
-      if (!isNew && pieces.size[static_cast<std::size_t>(piece)] > pieces.size[static_cast<std::size_t>(entry->second)])
+      if (!isNew &&
+          pieces.size[static_cast<std::size_t>(piece)] > pieces.size[static_cast<std::size_t>(entry->second)])
         entry->second = piece;
     }
     if (largest.size() == pieces.size.size())
@@ -136,8 +139,10 @@ std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
   const auto first = [](GlobalOrdinal k, int n, int m) { return k * n / m; };
   const GlobalOrdinal column = part % counts_[0], row = part / counts_[0];
   std::vector<GlobalOrdinal> elements;
-  for (GlobalOrdinal j = first(row, elements_[1], counts_[1]); j < first(row + 1, elements_[1], counts_[1]); ++j)
-    for (GlobalOrdinal i = first(column, elements_[0], counts_[0]); i < first(column + 1, elements_[0], counts_[0]); ++i)
+  for (GlobalOrdinal j = first(row, elements_[1], counts_[1]); j < first(row + 1, elements_[1], counts_[1]);
+       ++j)
+    for (GlobalOrdinal i = first(column, elements_[0], counts_[0]);
+         i < first(column + 1, elements_[0], counts_[0]); ++i)
       elements.push_back(i + j * elements_[0]);
   return elements;
 }
@@ -147,7 +152,8 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
   collectively(comm, [&] {
     if (parts < 1 || parts > mesh.numElements())
       throw InputError("a mesh of " + std::to_string(mesh.numElements()) + " elements cannot be cut into " +
-                       std::to_string(parts) + " parts; choose between 1 and " + std::to_string(mesh.numElements()));
+                       std::to_string(parts) + " parts; choose between 1 and " +
+                       std::to_string(mesh.numElements()));
     if (comm.getRank() != 0)
       return;
     if (parts > 1) {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What the steps of the decomposition share: this rank's subdomains with their topology, before unknowns are numbered.
+/// What the steps of the decomposition share: this rank's subdomains with their topology, before unknowns are
+/// numbered.
 
 #include "epafi/decomposition/Decompose.hpp"
 #include "epafi/fem/BodyModel.hpp"
@@ -15,11 +16,13 @@ namespace epafi::decomposition {
 struct Piece {
   int body = 0, part = 0, number = 0;
   fem::AssembledSubdomain assembled;
-  std::vector<std::vector<int>> sharing; ///< parts of the body that share each node, ascending (this one among them)
-  std::vector<char> isCrosspoint;        ///< for each node
+  std::vector<std::vector<int>>
+      sharing;                    ///< parts of the body that share each node, ascending (this one among them)
+  std::vector<char> isCrosspoint; ///< for each node
 };
 
-/// The bodies' layouts and physics, and how subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P).
+/// The bodies' layouts and physics, and how subdomains go to ranks: rank r of P has the numbers [rN/P,
+/// (r+1)N/P).
 struct Layout {
   const std::vector<BodyLayout>& bodies;
   std::vector<std::unique_ptr<fem::BodyModel>> models;
@@ -28,8 +31,8 @@ struct Layout {
 
 /// An entry of B that is still named by its global row.
 struct RowEntry {
-  std::size_t piece;   ///< index among this rank's pieces
-  GlobalOrdinal row;   ///< index of the multiplier
+  std::size_t piece; ///< index among this rank's pieces
+  GlobalOrdinal row; ///< index of the multiplier
   int unknown;
   double coefficient;
 };
