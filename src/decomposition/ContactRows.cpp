@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
+#include <utility>
 
 namespace epafi::decomposition {
 namespace {
@@ -44,6 +46,28 @@ void requireUnsupported(const scene::ContactPair& pair, const scene::Body& body,
                        "'; remove one of them");
 }
 
+void requireBodies(const scene::ContactPair& pair, std::size_t numBodies) {
+  for (const int body : {pair.first, pair.second})
+    if (body < 0 || static_cast<std::size_t>(body) >= numBodies)
+      throw InputError("contact pair '" + pair.name + "' names body number " + std::to_string(body) +
+                       ", but the scene has " + std::to_string(numBodies) + " bodies, numbered from 0");
+}
+
+/// Remembers which pair has taken an edge of a body; one edge cannot serve two pairs.
+class TakenEdges {
+public:
+  void take(const scene::ContactPair& pair, int body, scene::Edge edge, const std::string& bodyName) {
+    const auto [entry, isNew] = taken_.try_emplace({body, edge}, pair.name);
+    if (!isNew)
+      throw InputError("the " + toString(edge) + " edge of body '" + bodyName +
+                       "' is used twice for contact, by '" + entry->second + "' and '" + pair.name +
+                       "'; give each contact pair edges of its own");
+  }
+
+private:
+  std::map<std::pair<int, scene::Edge>, std::string> taken_;
+};
+
 struct Side {
   double coefficient;
   int body;
@@ -55,11 +79,15 @@ struct Side {
 std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
   std::vector<ContactLayout> contacts;
   GlobalOrdinal firstRow = 0;
+  TakenEdges takenEdges;
   for (const scene::ContactPair& pair : scene.contacts) {
+    requireBodies(pair, bodies.size());
     const auto first = static_cast<std::size_t>(pair.first), second = static_cast<std::size_t>(pair.second);
     requireUnsupported(pair, scene.bodies[first], pair.firstEdge);
     requireUnsupported(pair, scene.bodies[second], pair.secondEdge);
     requireMatchingNodes(pair, bodies[first], bodies[second]);
+    takenEdges.take(pair, pair.first, pair.firstEdge, bodies[first].name);
+    takenEdges.take(pair, pair.second, pair.secondEdge, bodies[second].name);
     const GlobalOrdinal numRows = bodies[first].mesh->numEdgeNodes(pair.firstEdge);
     contacts.push_back(
         {pair.name, firstRow, numRows, pair.first, pair.second, pair.firstEdge, pair.secondEdge, pair.gap});

@@ -35,7 +35,7 @@ Sides findSides(const Layout& layout, const std::vector<Piece>& pieces) {
     const Piece& piece = pieces[p];
     const int components = layout.models[static_cast<std::size_t>(piece.body)]->components();
     for (std::size_t i = 0; i < piece.assembled.nodes.size(); ++i) {
-      const std::vector<int>& parts = piece.sharing[i];
+      const std::span<const int> parts = piece.sharing[i];
       if (parts.size() < 2 || piece.isCrosspoint[i] != 0)
         continue;
       const GlobalOrdinal node = firstKey[static_cast<std::size_t>(piece.body)] + piece.assembled.nodes[i];

@@ -7,7 +7,10 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <span>
 #include <string>
 
 namespace epafi::decomposition {
@@ -154,6 +157,9 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
       throw InputError("a mesh of " + std::to_string(mesh.numElements()) + " elements cannot be cut into " +
                        std::to_string(parts) + " parts; choose between 1 and " +
                        std::to_string(mesh.numElements()));
+    if (mesh.numElements() > std::numeric_limits<idx_t>::max() / mesh.nodesPerElement())
+      throw InputError("a mesh of " + std::to_string(mesh.numElements()) +
+                       " elements is too large for METIS's 32-bit indices; cut the body as a grid");
     if (comm.getRank() != 0)
       return;
     if (parts > 1) {
@@ -164,14 +170,21 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
   });
   Teuchos::broadcast(comm, 0, 1, &numParts_);
   Teuchos::broadcast(comm, 0, static_cast<int>(part_.size()), part_.data());
+
+  start_.assign(static_cast<std::size_t>(numParts_) + 1, 0);
+  for (const int p : part_)
+    ++start_[static_cast<std::size_t>(p) + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  members_.resize(part_.size());
+  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  for (std::size_t element = 0; element < part_.size(); ++element)
+    members_[next[static_cast<std::size_t>(part_[element])]++] = static_cast<int>(element);
 }
 
 std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
-  std::vector<GlobalOrdinal> elements;
-  for (std::size_t element = 0; element < part_.size(); ++element)
-    if (part_[element] == part)
-      elements.push_back(static_cast<GlobalOrdinal>(element));
-  return elements;
+  const auto p = static_cast<std::size_t>(part);
+  const std::span<const int> members(members_.data() + start_[p], members_.data() + start_[p + 1]);
+  return {members.begin(), members.end()};
 }
 
 } // namespace epafi::decomposition

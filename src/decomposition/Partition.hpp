@@ -35,7 +35,7 @@ private:
 };
 
 /// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the
-/// body is kept on each rank (one int an element): the one place where something of the mesh's size is
+/// body is kept on each rank (two ints an element): the one place where something of the mesh's size is
 /// replicated.
 class GraphPartition final : public Partition {
 public:
@@ -52,6 +52,8 @@ public:
 private:
   int numParts_ = 0;
   std::vector<int> part_;
+  std::vector<std::size_t> start_; ///< of each part in members_
+  std::vector<int> members_;       ///< elements, part by part, ascending in each
 };
 
 } // namespace epafi::decomposition

@@ -8,16 +8,32 @@
 #include "epafi/fem/SubdomainAssembly.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace epafi::decomposition {
+
+/// Parts of the body that share each node of a piece, ascending; the piece's own part is among them.
+class Sharing {
+public:
+  /// \param nodes  of one piece
+  Sharing(const BodyLayout& body, std::span<const GlobalOrdinal> nodes);
+  Sharing() = default;
+  [[nodiscard]] std::size_t size() const { return start_.size() - 1; }
+  [[nodiscard]] std::span<const int> operator[](std::size_t node) const {
+    return {parts_.data() + start_[node], parts_.data() + start_[node + 1]};
+  }
+
+private:
+  std::vector<std::size_t> start_{0};
+  std::vector<int> parts_;
+};
 
 /// One of this rank's subdomains.
 struct Piece {
   int body = 0, part = 0, number = 0;
   fem::AssembledSubdomain assembled;
-  std::vector<std::vector<int>>
-      sharing;                    ///< parts of the body that share each node, ascending (this one among them)
+  Sharing sharing;
   std::vector<char> isCrosspoint; ///< for each node
 };
 
@@ -28,6 +44,12 @@ struct Layout {
   std::vector<std::unique_ptr<fem::BodyModel>> models;
   int numSubdomains = 0;
 };
+
+/// Body of a subdomain. Precondition: 0 ≤ number < layout.numSubdomains.
+int bodyOf(const Layout& layout, int number);
+
+/// Assembles this rank's subdomains, in the order of their numbers. Not collective.
+std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm);
 
 /// An entry of B that is still named by its global row.
 struct RowEntry {
