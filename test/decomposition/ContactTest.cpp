@@ -74,6 +74,22 @@ TEST(ContactTest, RowsJoinOppositeNodesFromBottomToTop) {
   }
 }
 
+TEST(ContactTest, ASharedNodesEntryAndRowBelongToItsLowestSubdomain) {
+  const auto result = decompose(twoMembranes(false, 4, grid(2, 2)), world());
+  const DecomposedProblem& p = result.problem;
+  std::vector<int> holders;
+  for (const Subdomain& s : p.subdomains)
+    for (const ConstraintEntry& entry : s.constraint)
+      if (p.multiplierGhostMap->getGlobalElement(entry.multiplier) == 2) { // the middle node, a crosspoint
+        EXPECT_TRUE(s.number == 1 || s.number == 4) << s.number;
+        EXPECT_EQ(entry.coefficient, s.number == 1 ? 1.0 : -1.0);
+        holders.push_back(s.number);
+      }
+  EXPECT_EQ(sumOverRanks(*p.comm, static_cast<GlobalOrdinal>(holders.size())), 2);
+  const bool holdsFirst = std::find(holders.begin(), holders.end(), 1) != holders.end();
+  EXPECT_EQ(p.multiplierMap->isNodeGlobalElement(2), holdsFirst);
+}
+
 TEST(ContactTest, SupportedNodesLeaveTheRowAndEnterTheGap) {
   scene::Scene scene = twoMembranes(false, 4, grid(2, 2));
   scene.contacts.front().gap = 0.5;

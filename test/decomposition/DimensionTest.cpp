@@ -47,8 +47,10 @@ TEST(DimensionTest, MapsHoldExactlyTheNumbersTheyAnnounce) {
       EXPECT_EQ(p.multiplierMap->getMinAllGlobalIndex(), 0);
       EXPECT_EQ(p.multiplierMap->getMaxAllGlobalIndex(), p.dualDimension() - 1);
     }
-    EXPECT_TRUE(p.multiplierMap->isOneToOne());
-    EXPECT_TRUE(p.crosspointMap->isOneToOne());
+    for (const RCP<const Map>& map : {p.multiplierMap, p.crosspointMap})
+      if (map->getGlobalNumElements() > 0) { // Tpetra calls a map without entries replicated
+        EXPECT_TRUE(map->isOneToOne());
+      }
     EXPECT_LE(static_cast<GlobalOrdinal>(p.crosspointMap->getGlobalNumElements()), p.numCrosspoints);
     std::size_t remainders = 0;
     for (const Subdomain& s : p.subdomains)
