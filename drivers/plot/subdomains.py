@@ -89,8 +89,8 @@ def figure(run):
     for body in run.bodies:
         draw_cells(axes, body, colour)
         between, boundary = borders(body)
-        axes.add_collection(LineCollection(between, colors="#444444", linewidths=0.9, zorder=3))
-        axes.add_collection(LineCollection(boundary, colors=style.BLACK, linewidths=1.4, zorder=3))
+        axes.add_collection(LineCollection(between, colors="#444444", linewidths=0.9, zorder=3, capstyle="projecting", snap=False))
+        axes.add_collection(LineCollection(boundary, colors=style.BLACK, linewidths=1.4, zorder=3, capstyle="projecting", snap=False))
         if count <= MOST_NUMBERS:
             draw_numbers(axes, body, 11 if count <= 16 else 8.5)
     crosspoints = numpy.concatenate([body.crosspoints for body in run.bodies])
@@ -100,8 +100,9 @@ def figure(run):
         axes.plot(pair.points[:, 0], pair.points[:, 1], color=style.VERMILLION, linewidth=3.4, zorder=4,
                   solid_capstyle="butt")
     axes.set_aspect("equal")
-    axes.autoscale_view()
+    axes.use_sticky_edges = False
     axes.margins(0.02)
+    axes.autoscale_view()
     axes.set_xlabel("x [length]")
     axes.set_ylabel("y [length]")
     axes.set_title(f"{count} subdomain{'s' if count != 1 else ''}, {len(crosspoints)} crosspoints — {run.title}")

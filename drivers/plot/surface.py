@@ -76,10 +76,10 @@ def frame(axes, corners):
     for bounds, start, end in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), low, low + extent):
         bounds(start, end)
     plane = extent[:2] / extent[:2].max()
-    axes.set_box_aspect((*(1.7 * numpy.maximum(plane, 0.25)), 0.8), zoom=1.02)
+    axes.set_box_aspect((*(1.7 * numpy.maximum(plane, 0.25)), 0.8), zoom=1.0)
     axes.set_xlabel("x [length]", labelpad=14)
     axes.set_ylabel("y [length]", labelpad=8)
-    axes.set_zlabel("deflection u [length]", labelpad=8)
+    axes.set_zlabel("u [length]", labelpad=9)
     axes.locator_params(axis="y", nbins=5)
     axes.locator_params(axis="z", nbins=5)
     axes.view_init(elev=24, azim=-62)
@@ -99,13 +99,14 @@ def figure(run):
                                            zorder=1))
     closed = draw_contacts(axes, run)
     frame(axes, corners)
-    bar = picture.colorbar(matplotlib.cm.ScalarMappable(norm, "viridis"), ax=axes, shrink=0.62, pad=0.09, aspect=22)
+    bar = picture.colorbar(matplotlib.cm.ScalarMappable(norm, "viridis"), ax=axes, shrink=0.62, pad=0.13, aspect=22)
     bar.set_label("deflection u [length]")
     bar.outline.set_visible(False)
-    axes.set_title(f"Deflection of {' and '.join(body.name for body in run.bodies[:4])} — {run.title}", pad=4)
+    names = ", ".join(body.name for body in run.bodies[:4]) + (", …" if len(run.bodies) > 4 else "")
+    axes.set_title(f"Deflection of {names} — {run.title}", pad=0, y=0.98)
     handles = [Line2D([], [], color=style.BLACK, linewidth=1.2, label="contact line")] if run.contacts else []
     if closed:
         handles.append(Line2D([], [], color=style.ACTIVE, linewidth=4, label="contact closed"))
     if handles:
-        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, 0.93))
+        axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, -0.04), ncol=2)
     return picture

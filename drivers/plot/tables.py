@@ -41,7 +41,7 @@ def figure(rows):
     for axes, problem in zip(panels[0], problems):
         draw_problem(axes, [row for row in rows if row["problem"] == problem], ratios, has_paper)
         axes.set_title(problem)
-        axes.set_ylim(bottom=0)
+    panels[0, 0].set_ylim(bottom=0)  # once all panels, which share the axis, have set its upper end
     panels[0, 0].set_ylabel("CG steps [number]")
     handles = [Line2D([], [], color=style.SERIES[k % len(style.SERIES)], marker=MARKERS[k % len(MARKERS)], linewidth=1.8,
                       label=f"H/h = {ratio:g}") for k, ratio in enumerate(ratios)]
