@@ -3,7 +3,7 @@
 import matplotlib
 import matplotlib.pyplot as pyplot
 import numpy
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -72,6 +72,13 @@ def draw_cells(axes, body, colour):
                     vmax=len(style.AREAS) - 0.5, rasterized=True)
 
 
+def draw_edges(axes, edges, colour, width):
+    """All edges as one path: stroked at once, they show no seams where they meet."""
+    gaps = numpy.full((len(edges), 1, 2), numpy.nan)
+    path = numpy.concatenate([edges, gaps], axis=1).reshape(-1, 2)
+    axes.plot(path[:, 0], path[:, 1], color=colour, linewidth=width, zorder=3, solid_capstyle="butt")
+
+
 def draw_numbers(axes, body, size):
     middles = body.points[body.cells][:, :, :2].mean(axis=1)
     for s in numpy.unique(body.subdomain):
@@ -89,8 +96,8 @@ def figure(run):
     for body in run.bodies:
         draw_cells(axes, body, colour)
         between, boundary = borders(body)
-        axes.add_collection(LineCollection(between, colors="#444444", linewidths=0.9, zorder=3, capstyle="projecting", snap=False))
-        axes.add_collection(LineCollection(boundary, colors=style.BLACK, linewidths=1.4, zorder=3, capstyle="projecting", snap=False))
+        draw_edges(axes, between, "#444444", 0.9)
+        draw_edges(axes, boundary, style.BLACK, 1.4)
         if count <= MOST_NUMBERS:
             draw_numbers(axes, body, 11 if count <= 16 else 8.5)
     crosspoints = numpy.concatenate([body.crosspoints for body in run.bodies])
