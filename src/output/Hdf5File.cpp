@@ -101,17 +101,20 @@ hid_t createFile(const std::filesystem::path& temporary, MPI_Comm comm) {
   return checked(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), temporary, "creating it");
 }
 
-hid_t createDataset(hid_t file, const std::string& name, hid_t type, GlobalOrdinal rows, int columns) {
+hid_t createDataset(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type,
+                    GlobalOrdinal rows, int columns) {
   const hsize_t extent[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
   const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, extent, nullptr), H5Sclose);
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links, 1);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER); // every row is written
-  return H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT);
+  return checked(H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT), path,
+                 "making dataset '" + name + "'");
 }
 
-herr_t writeRows(hid_t dataset, hid_t type, int columns, const RowRange& range, const void* values) {
+void writeRows(hid_t dataset, const std::filesystem::path& path, const std::string& name, hid_t type,
+               int columns, const RowRange& range, const void* values) {
   const int rank = columns == 0 ? 1 : 2;
   const hsize_t start[2] = {static_cast<hsize_t>(range.first), 0};
   const hsize_t count[2] = {static_cast<hsize_t>(range.count), static_cast<hsize_t>(columns)};
@@ -125,7 +128,10 @@ herr_t writeRows(hid_t dataset, hid_t type, int columns, const RowRange& range, 
   }
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
-  return H5Dwrite(dataset, type, memorySpace, fileSpace, transfer, values);
+  const double nothing = 0; // HDF5 wants an address even of no rows
+  const void* source = range.count == 0 ? &nothing : values;
+  checked(H5Dwrite(dataset, type, memorySpace, fileSpace, transfer, source), path,
+          "writing dataset '" + name + "'");
 }
 
 } // namespace
@@ -148,10 +154,21 @@ Hdf5File::~Hdf5File() {
     abandon();
 }
 
+void Hdf5File::flush() {
+  collectively(*comm_, [&] { checked(H5Fflush(file_, H5F_SCOPE_LOCAL), path_, "completing it"); });
+}
+
 void Hdf5File::abandon() noexcept {
   const QuietHdf5 quiet;
-  if (file_ >= 0)
-    H5Fclose(file_);
+  if (file_ >= 0) {
+    try {
+      flush();
+      H5Fclose(file_);
+    } catch (...) {
+      // H5Fclose would fail too and leave an identifier of freed memory, which HDF5 would close once more at
+      // the end of MPI. So HDF5 keeps the file until then; it has no name any more.
+    }
+  }
   file_ = -1;
   std::error_code ignored;
   if (comm_->getRank() == 0)
@@ -184,14 +201,11 @@ void Hdf5File::write(const std::string& dataset, GlobalOrdinal rows, int columns
   });
   const QuietHdf5 quiet;
   hid_t id = -1;
-  collectively(*comm_, [&] {
-    id = checked(createDataset(file_, dataset, memoryType<T>(), rows, columns), path_,
-                 "making dataset '" + dataset + "'");
-  });
+  collectively(*comm_, [&] { id = createDataset(file_, path_, dataset, memoryType<T>(), rows, columns); });
   const Handle owned(id, H5Dclose);
   collectively(*comm_, [&] {
-    checked(writeRows(id, memoryType<T>(), columns, range, values.data()), path_,
-            "writing dataset '" + dataset + "'");
+    if (rows > 0)
+      writeRows(id, path_, dataset, memoryType<T>(), columns, range, values.data());
   });
 }
 
@@ -239,7 +253,8 @@ void Hdf5File::close() {
     throw Error("File '" + path_.string() + "' is closed already.");
   const QuietHdf5 quiet;
   try {
-    collectively(*comm_, [&] { checked(H5Fclose(std::exchange(file_, -1)), path_, "completing it"); });
+    flush();
+    collectively(*comm_, [&] { checked(H5Fclose(std::exchange(file_, -1)), path_, "closing it"); });
   } catch (...) {
     abandon();
     throw;

@@ -56,6 +56,7 @@ private:
   using Identifier = std::int64_t; ///< HDF5's hid_t
 
   void writeAttribute(const std::string& object, const std::string& name, Identifier type, const void* value);
+  void flush();
   void abandon() noexcept;
 
   std::filesystem::path path_;
