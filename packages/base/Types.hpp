@@ -4,6 +4,7 @@
 
 #include <Teuchos_RCP.hpp>
 #include <Tpetra_CrsMatrix_fwd.hpp>
+#include <Tpetra_Details_DefaultTypes.hpp>
 #include <Tpetra_Export_fwd.hpp>
 #include <Tpetra_Import_fwd.hpp>
 #include <Tpetra_Map_fwd.hpp>
@@ -19,8 +20,8 @@ class Comm;
 namespace epafi {
 
 using Scalar = double;
-using LocalOrdinal = Tpetra::Map<>::local_ordinal_type;
-using GlobalOrdinal = Tpetra::Map<>::global_ordinal_type;
+using LocalOrdinal = Tpetra::Details::DefaultTypes::local_ordinal_type;
+using GlobalOrdinal = Tpetra::Details::DefaultTypes::global_ordinal_type;
 
 using Comm = Teuchos::Comm<int>;
 using Map = Tpetra::Map<>;

@@ -12,6 +12,9 @@ enum class Status { converged, maxIterations, stagnated, indefiniteOperator, inf
 /// "Converged", "MaxIterations", …
 std::string toString(Status status);
 
+/// One sentence that says what the status means and what to do.
+std::string explain(Status status);
+
 /// Kinds of steps and their letters in every log: c (conjugate gradient), e (expansion), p (proportioning), and s for the
 /// start of an inner solve.
 enum class StepKind : char { start = 's', conjugateGradient = 'c', expansion = 'e', proportioning = 'p' };
@@ -48,6 +51,7 @@ struct SolveReport {
   double relativeConstraintResidual = 0;
   double objective = 0;
   double operatorNorm = 0; ///< the estimate of ‖A‖ used
+  History history;         ///< every step, in order
 };
 
 /// Receives every step of a solver as it happens. Called on all ranks; must not throw.
