@@ -1,0 +1,188 @@
+#include "epafi/scene/ParameterFile.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_StringInputSource.hpp>
+#include <Teuchos_XMLObject.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace epafi::scene {
+namespace {
+
+using Teuchos::ParameterEntry;
+using Teuchos::ParameterList;
+using Teuchos::XMLObject;
+
+std::string textOfFile(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr std::uintmax_t mostBytes = 64u << 20;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (path.empty() || !fs::exists(status))
+    throw InputError("the parameter file \"" + path + "\" does not exist.");
+  if (fs::is_directory(status))
+    throw InputError(path + " is a directory, but must be an XML file.");
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw InputError(path + " cannot be opened for reading; check its permissions.");
+  if (fs::is_regular_file(status) && fs::file_size(path, error) > mostBytes)
+    throw InputError(path + " is larger than 64 MiB, which no parameter file should be.");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad())
+    throw InputError(path + " could not be read to its end.");
+  if (text.size() > mostBytes)
+    throw InputError(path + " is larger than 64 MiB, which no parameter file should be.");
+  return text;
+}
+
+/// Teuchos reports "… XML parse error at line 2: reason" after lines that mean nothing to a user.
+[[noreturn]] void refuseMalformed(const std::string& where, const std::string& report) {
+  const std::string mark = "XML parse error at line ";
+  const auto found = report.rfind(mark);
+  if (found == std::string::npos)
+    throw InputError(where + ": this is not an XML file that can be read.");
+  std::string reason = report.substr(found + mark.size());
+  reason = reason.substr(0, reason.find('\n'));
+  const auto colon = reason.find(": ");
+  if (colon == std::string::npos)
+    throw InputError(where + ": malformed XML in line " + reason + '.');
+  throw InputError(where + ", line " + reason.substr(0, colon) + ": malformed XML, " +
+                   reason.substr(colon + 2) + '.');
+}
+
+XMLObject parsedXml(const std::string& text, const std::string& where) {
+  const std::string byteOrderMark = "\xEF\xBB\xBF";
+  const bool hasMark = text.starts_with(byteOrderMark);
+  const std::string content = hasMark ? text.substr(byteOrderMark.size()) : text;
+  if (content.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw InputError(where + " is empty, but must hold a <ParameterList>.");
+  if (content.find('\0') != std::string::npos)
+    throw InputError(where + " is a binary file, but must be an XML file.");
+  try {
+    Teuchos::StringInputSource source(content);
+    return source.getObject();
+  } catch (const std::exception& error) {
+    const std::string report = error.what();
+    if (report.find("empty XML") != std::string::npos)
+      throw InputError(where + " holds no XML element, but must hold a <ParameterList>.");
+    refuseMalformed(where, report);
+  }
+}
+
+/// Turns XML elements into lists; `where` and the list's path stand in the messages.
+class ListBuilder {
+public:
+  explicit ListBuilder(std::string where) : where_(std::move(where)) {}
+
+  void fill(ParameterList& list, const XMLObject& element, const std::string& path) const {
+    checkNoText(element, path);
+    for (int i = 0; i < element.numChildren(); ++i) {
+      const XMLObject& child = element.getChild(i);
+      if (child.getTag() == "ParameterList")
+        addList(list, child, path);
+      else if (child.getTag() == "Parameter")
+        addParameter(list, child, path);
+      else
+        refuse("<" + child.getTag() + "> in " + named(path) +
+               " is unknown; allowed are <ParameterList> and <Parameter>.");
+    }
+  }
+
+private:
+  [[noreturn]] void refuse(const std::string& sentence) const { throw InputError(where_ + ": " + sentence); }
+
+  static std::string named(const std::string& path) {
+    return path.empty() ? "the top list" : "list \"" + path + '"';
+  }
+
+  void checkNoText(const XMLObject& element, const std::string& path) const {
+    for (int i = 0; i < element.numContentLines(); ++i)
+      if (const std::string& line = element.getContentLine(i);
+          line.find_first_not_of(" \t\r\n") != std::string::npos)
+        refuse("the text \"" + line + "\" in " + named(path) + " stands outside of any tag.");
+  }
+
+  std::string nameOf(const XMLObject& element, const ParameterList& list, const std::string& path) const {
+    if (!element.hasAttribute("name"))
+      refuse("a <" + element.getTag() + "> in " + named(path) + " has no name; give it name=\"...\".");
+    const std::string& name = element.getAttribute("name");
+    if (list.isParameter(name))
+      refuse("\"" + name + "\" appears twice in " + named(path) + "; remove or rename one of them.");
+    return name;
+  }
+
+  void addList(ParameterList& list, const XMLObject& element, const std::string& path) const {
+    const std::string name = nameOf(element, list, path);
+    fill(list.sublist(name), element, path.empty() ? name : path + '/' + name);
+  }
+
+  void addParameter(ParameterList& list, const XMLObject& element, const std::string& path) const {
+    const std::string name = nameOf(element, list, path);
+    const std::string what = "parameter \"" + name + "\" in " + named(path);
+    std::string types;
+    for (const std::string& type : parameterTypes())
+      types += (types.empty() ? "" : ", ") + type;
+    for (const char* const attribute : {"type", "value"})
+      if (!element.hasAttribute(attribute))
+        refuse(what + " has no " + attribute + "; give it " + attribute + "=\"...\".");
+    if (element.numChildren() > 0)
+      refuse(what + " holds <" + element.getChild(0).getTag() + ">, but must hold nothing.");
+    checkNoText(element, path.empty() ? name : path + '/' + name);
+    const std::string& type = element.getAttribute("type");
+    const std::string& value = element.getAttribute("value");
+    if (std::ranges::find(parameterTypes(), type) == parameterTypes().end()) {
+      const std::string near = nearestName(type, parameterTypes());
+      refuse(what + " has the unknown type \"" + type + "\"; allowed are " + types +
+             (near.empty() ? "." : "; did you mean \"" + near + "\"?"));
+    }
+    try {
+      ParameterEntry entry = parseValue(type, value);
+      // Lists that Teuchos has written mark the defaults among their values.
+      const bool isDefault = element.hasAttribute("isDefault") && element.getAttribute("isDefault") == "true";
+      entry.setAnyValue(entry.getAny(false), isDefault);
+      list.setEntry(name, entry);
+    } catch (const InputError& error) {
+      refuse(what + " of type " + type + " has the value \"" + value + "\", which " + error.what() + '.');
+    }
+  }
+
+  std::string where_;
+};
+
+} // namespace
+
+ParameterList readParameterFile(const std::string& path, const Comm& comm) {
+  std::string text, where = path;
+  collectively(comm, [&] {
+    if (comm.getRank() == 0)
+      text = textOfFile(path);
+  });
+  for (std::string* part : {&where, &text}) {
+    auto length = static_cast<int>(part->size());
+    Teuchos::broadcast(comm, 0, 1, &length);
+    part->resize(static_cast<std::size_t>(length));
+    if (length > 0)
+      Teuchos::broadcast(comm, 0, length, part->data());
+  }
+  ParameterList list;
+  collectively(comm, [&] { list = parseParameters(text, where); });
+  return list;
+}
+
+ParameterList parseParameters(const std::string& text, const std::string& where) {
+  const XMLObject root = parsedXml(text, where);
+  if (root.getTag() != "ParameterList")
+    throw InputError(where + ": the root element is <" + root.getTag() + ">, but must be <ParameterList>.");
+  ParameterList list(root.hasAttribute("name") ? root.getAttribute("name") : "");
+  ListBuilder(where).fill(list, root, "");
+  return list;
+}
+
+} // namespace epafi::scene
