@@ -11,6 +11,7 @@
 #include "epafi/output/HistoryTable.hpp"
 #include "epafi/output/Report.hpp"
 #include "epafi/scene/ParameterFile.hpp"
+#include "epafi/scene/ParameterOverride.hpp"
 #include "epafi/scene/SceneReader.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -58,9 +59,9 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   Teuchos::ParameterList given = scene::readParameterFile(options.scene, *comm);
   const Teuchos::ParameterList schema = driverSchema();
   for (const std::string& text : options.overrides)
-    scene::applyOverride(given, schema, text);
+    scene::applyOverride(given, text, schema);
   const Teuchos::ParameterList list = validated(given, schema, options.scene);
-  const scene::Scene scene = scene::readScene(list, given, options.scene);
+  const scene::Scene scene = scene::readScene(given, options.scene);
   if (speaks)
     std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n' << std::flush;
 

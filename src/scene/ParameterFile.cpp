@@ -2,238 +2,187 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
 
-#include <Teuchos_Array.hpp>
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_StringInputSource.hpp>
 #include <Teuchos_XMLObject.hpp>
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
-#include <set>
-#include <sstream>
-#include <vector>
+#include <system_error>
 
 namespace epafi::scene {
 namespace {
 
+using Teuchos::ParameterEntry;
 using Teuchos::ParameterList;
 using Teuchos::XMLObject;
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+std::string textOfFile(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr std::uintmax_t mostBytes = 64u << 20;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (path.empty() || !fs::exists(status))
+    throw InputError("the parameter file \"" + path + "\" does not exist.");
+  if (fs::is_directory(status))
+    throw InputError(path + " is a directory, but must be an XML file.");
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw InputError(path + " cannot be opened for reading; check its permissions.");
+  if (fs::is_regular_file(status) && fs::file_size(path, error) > mostBytes)
+    throw InputError(path + " is larger than 64 MiB, which no parameter file should be.");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad())
+    throw InputError(path + " could not be read to its end.");
+  if (text.size() > mostBytes)
+    throw InputError(path + " is larger than 64 MiB, which no parameter file should be.");
+  return text;
 }
 
-/// The whole text as a number, or false.
-template <class Number>
-bool parse(const std::string& text, Number& value) {
-  const std::string word = trimmed(text);
-  const char* first = word.data();
-  const char* last = first + word.size();
-  if (word.size() > 1 && *first == '+')
-    ++first;
-  const auto [end, error] = std::from_chars(first, last, value);
-  return error == std::errc() && end == last && std::isfinite(static_cast<double>(value));
+/// Teuchos reports "… XML parse error at line 2: reason" after lines that mean nothing to a user.
+[[noreturn]] void refuseMalformed(const std::string& where, const std::string& report) {
+  const std::string mark = "XML parse error at line ";
+  const auto found = report.rfind(mark);
+  if (found == std::string::npos)
+    throw InputError(where + ": this is not an XML file that can be read.");
+  std::string reason = report.substr(found + mark.size());
+  reason = reason.substr(0, reason.find('\n'));
+  const auto colon = reason.find(": ");
+  if (colon == std::string::npos)
+    throw InputError(where + ": malformed XML in line " + reason + '.');
+  throw InputError(where + ", line " + reason.substr(0, colon) + ": malformed XML, " +
+                   reason.substr(colon + 2) + '.');
 }
 
-bool parse(const std::string& text, bool& value) {
-  const std::string word = trimmed(text);
-  value = word == "true" || word == "1";
-  return value || word == "false" || word == "0";
-}
-
-/// "{a, b, …}" as numbers, or false.
-template <class Number>
-bool parse(const std::string& text, Teuchos::Array<Number>& values) {
-  const std::string word = trimmed(text);
-  if (word.size() < 2 || word.front() != '{' || word.back() != '}')
-    return false;
-  values.clear();
-  std::istringstream items(word.substr(1, word.size() - 2));
-  if (trimmed(items.str()).empty())
-    return true;
-  std::string item;
-  while (std::getline(items, item, ',')) {
-    Number value{};
-    if (!parse(item, value))
-      return false;
-    values.push_back(value);
+XMLObject parsedXml(const std::string& text, const std::string& where) {
+  const std::string byteOrderMark = "\xEF\xBB\xBF";
+  const bool hasMark = text.starts_with(byteOrderMark);
+  const std::string content = hasMark ? text.substr(byteOrderMark.size()) : text;
+  if (content.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw InputError(where + " is empty, but must hold a <ParameterList>.");
+  if (content.find('\0') != std::string::npos)
+    throw InputError(where + " is a binary file, but must be an XML file.");
+  try {
+    Teuchos::StringInputSource source(content);
+    return source.getObject();
+  } catch (const std::exception& error) {
+    const std::string report = error.what();
+    if (report.find("empty XML") != std::string::npos)
+      throw InputError(where + " holds no XML element, but must hold a <ParameterList>.");
+    refuseMalformed(where, report);
   }
-  return word[word.size() - 2] != ',';
 }
 
-template <class Value>
-bool setParsed(ParameterList& list, const std::string& name, const std::string& text) {
-  Value value{};
-  if (!parse(text, value))
-    return false;
-  list.set(name, value);
-  return true;
-}
+/// Turns XML elements into lists; `where` and the list's path stand in the messages.
+class ListBuilder {
+public:
+  explicit ListBuilder(std::string where) : where_(std::move(where)) {}
 
-/// Sets `name` from its text; false where the text is not of the type. \throws InputError for an unknown type.
-bool setTyped(ParameterList& list, const std::string& name, const std::string& type, const std::string& text,
-              const std::string& what) {
-  if (type == "double" || type == "float")
-    return setParsed<double>(list, name, text);
-  if (type == "int")
-    return setParsed<int>(list, name, text);
-  if (type == "bool")
-    return setParsed<bool>(list, name, text);
-  if (type == "Array(double)")
-    return setParsed<Teuchos::Array<double>>(list, name, text);
-  if (type == "Array(int)")
-    return setParsed<Teuchos::Array<int>>(list, name, text);
-  if (type == "string") {
-    list.set(name, text);
-    return true;
-  }
-  throw InputError(what + " has the unknown type '" + type +
-                   "'; known are: double, int, bool, string, Array(double), Array(int)");
-}
-
-void fill(ParameterList& list, const XMLObject& element, const std::string& where, const std::string& path) {
-  const std::string place = path.empty() ? "the top level" : "list '" + path + "'";
-  std::set<std::string> names;
-  for (int i = 0; i < element.numChildren(); ++i) {
-    const XMLObject child = element.getChild(i);
-    const std::string tag = child.getTag();
-    if (tag != "Parameter" && tag != "ParameterList")
-      throw InputError(where + ": unknown element <" + tag + "> in " + place + "; known are <Parameter> and <ParameterList>");
-    if (!child.hasAttribute("name"))
-      throw InputError(where + ": a <" + tag + "> in " + place + " has no name");
-    const std::string name = child.getAttribute("name");
-    if (!names.insert(name).second)
-      throw InputError(where + ": '" + name + "' stands twice in " + place + "; keep one");
-    if (tag == "ParameterList") {
-      fill(list.sublist(name), child, where, path.empty() ? name : path + "/" + name);
-      continue;
+  void fill(ParameterList& list, const XMLObject& element, const std::string& path) const {
+    checkNoText(element, path);
+    for (int i = 0; i < element.numChildren(); ++i) {
+      const XMLObject& child = element.getChild(i);
+      if (child.getTag() == "ParameterList")
+        addList(list, child, path);
+      else if (child.getTag() == "Parameter")
+        addParameter(list, child, path);
+      else
+        refuse("<" + child.getTag() + "> in " + named(path) +
+               " is unknown; allowed are <ParameterList> and <Parameter>.");
     }
-    const std::string what = where + ": parameter '" + name + "' in " + place;
-    for (const char* attribute : {"type", "value"})
-      if (!child.hasAttribute(attribute))
-        throw InputError(what + " has no " + attribute);
-    const std::string type = child.getAttribute("type"), text = child.getAttribute("value");
-    if (!setTyped(list, name, type, text, what))
-      throw InputError(what + " has the value '" + text + "', which is not a finite value of type " + type);
   }
-}
 
-/// The last line of a library's error text: the part that says what is wrong.
-std::string lastLine(const std::string& text) {
-  std::string line, last;
-  for (std::istringstream lines(text); std::getline(lines, line);)
-    if (!trimmed(line).empty())
-      last = trimmed(line);
-  return last;
-}
+private:
+  [[noreturn]] void refuse(const std::string& sentence) const { throw InputError(where_ + ": " + sentence); }
 
-std::string typeOf(const Teuchos::ParameterEntry& entry) {
-  if (entry.isType<double>())
-    return "double";
-  if (entry.isType<int>())
-    return "int";
-  if (entry.isType<bool>())
-    return "bool";
-  if (entry.isType<Teuchos::Array<double>>())
-    return "Array(double)";
-  if (entry.isType<Teuchos::Array<int>>())
-    return "Array(int)";
-  return "string";
-}
+  static std::string named(const std::string& path) {
+    return path.empty() ? "the top list" : "list \"" + path + '"';
+  }
 
-/// The entry of the schema under a name, or of the pattern that stands for any name.
-const Teuchos::ParameterEntry* findEntry(const ParameterList& schema, const std::string& name) {
-  if (schema.isParameter(name))
-    return &schema.getEntry(name);
-  for (auto entry = schema.begin(); entry != schema.end(); ++entry)
-    if (schema.name(entry).front() == '<' && schema.entry(entry).isList())
-      return &schema.entry(entry);
-  return nullptr;
-}
+  void checkNoText(const XMLObject& element, const std::string& path) const {
+    for (int i = 0; i < element.numContentLines(); ++i)
+      if (const std::string& line = element.getContentLine(i);
+          line.find_first_not_of(" \t\r\n") != std::string::npos)
+        refuse("the text \"" + line + "\" in " + named(path) + " stands outside of any tag.");
+  }
 
-std::string suggestion(const ParameterList& schema, const std::string& name) {
-  std::vector<std::string> names;
-  for (auto entry = schema.begin(); entry != schema.end(); ++entry)
-    names.push_back(schema.name(entry));
-  const std::string near = nearestName(name, names);
-  return near.empty() ? "" : "; did you mean '" + near + "'?";
-}
+  std::string nameOf(const XMLObject& element, const ParameterList& list, const std::string& path) const {
+    if (!element.hasAttribute("name"))
+      refuse("a <" + element.getTag() + "> in " + named(path) + " has no name; give it name=\"...\".");
+    const std::string& name = element.getAttribute("name");
+    if (list.isParameter(name))
+      refuse("\"" + name + "\" appears twice in " + named(path) + "; remove or rename one of them.");
+    return name;
+  }
+
+  void addList(ParameterList& list, const XMLObject& element, const std::string& path) const {
+    const std::string name = nameOf(element, list, path);
+    fill(list.sublist(name), element, path.empty() ? name : path + '/' + name);
+  }
+
+  void addParameter(ParameterList& list, const XMLObject& element, const std::string& path) const {
+    const std::string name = nameOf(element, list, path);
+    const std::string what = "parameter \"" + name + "\" in " + named(path);
+    std::string types;
+    for (const std::string& type : parameterTypes())
+      types += (types.empty() ? "" : ", ") + type;
+    for (const char* const attribute : {"type", "value"})
+      if (!element.hasAttribute(attribute))
+        refuse(what + " has no " + attribute + "; give it " + attribute + "=\"...\".");
+    if (element.numChildren() > 0)
+      refuse(what + " holds <" + element.getChild(0).getTag() + ">, but must hold nothing.");
+    checkNoText(element, path.empty() ? name : path + '/' + name);
+    const std::string& type = element.getAttribute("type");
+    const std::string& value = element.getAttribute("value");
+    if (std::ranges::find(parameterTypes(), type) == parameterTypes().end()) {
+      const std::string near = nearestName(type, parameterTypes());
+      refuse(what + " has the unknown type \"" + type + "\"; allowed are " + types +
+             (near.empty() ? "." : "; did you mean \"" + near + "\"?"));
+    }
+    try {
+      ParameterEntry entry = parseValue(type, value);
+      // Lists that Teuchos has written mark the defaults among their values.
+      const bool isDefault = element.hasAttribute("isDefault") && element.getAttribute("isDefault") == "true";
+      entry.setAnyValue(entry.getAny(false), isDefault);
+      list.setEntry(name, entry);
+    } catch (const InputError& error) {
+      refuse(what + " of type " + type + " has the value \"" + value + "\", which " + error.what() + '.');
+    }
+  }
+
+  std::string where_;
+};
 
 } // namespace
 
-ParameterList parseParameters(const std::string& xml, const std::string& where) {
-  if (trimmed(xml).empty())
-    throw InputError(where + ": the file is empty; it must hold a <ParameterList>");
-  XMLObject root;
-  try {
-    root = Teuchos::StringInputSource(xml).getObject();
-    if (root.isEmpty())
-      throw InputError("no element found");
-  } catch (const std::exception& error) {
-    throw InputError(where + ": malformed XML: " + lastLine(error.what()));
-  }
-  if (root.getTag() != "ParameterList")
-    throw InputError(where + ": the outermost element is <" + root.getTag() + "> but must be <ParameterList>");
-  ParameterList list(root.hasAttribute("name") ? root.getAttribute("name") : "Epafi");
-  fill(list, root, where, "");
-  return list;
-}
-
 ParameterList readParameterFile(const std::string& path, const Comm& comm) {
-  std::string text;
+  std::string text, where = path;
   collectively(comm, [&] {
-    if (comm.getRank() != 0)
-      return;
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-      throw InputError(path + ": no such file, or it may not be read");
-    std::ostringstream content;
-    content << file.rdbuf();
-    if (!file.good() && !file.eof())
-      throw InputError(path + ": it may not be read; is it a directory?");
-    text = content.str();
+    if (comm.getRank() == 0)
+      text = textOfFile(path);
   });
-  int size = static_cast<int>(text.size());
-  Teuchos::broadcast(comm, 0, 1, &size);
-  text.resize(static_cast<std::size_t>(size));
-  if (size > 0)
-    Teuchos::broadcast(comm, 0, size, text.data());
+  for (std::string* part : {&where, &text}) {
+    auto length = static_cast<int>(part->size());
+    Teuchos::broadcast(comm, 0, 1, &length);
+    part->resize(static_cast<std::size_t>(length));
+    if (length > 0)
+      Teuchos::broadcast(comm, 0, length, part->data());
+  }
   ParameterList list;
-  collectively(comm, [&] { list = parseParameters(text, path); });
+  collectively(comm, [&] { list = parseParameters(text, where); });
   return list;
 }
 
-void applyOverride(ParameterList& list, const ParameterList& schema, const std::string& text) {
-  const std::string what = "--set \"" + text + "\"";
-  const auto equals = text.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw InputError(what + " is not of the form List/Sub list/Parameter=value");
-  std::istringstream path(text.substr(0, equals));
-  std::vector<std::string> names;
-  for (std::string name; std::getline(path, name, '/');)
-    names.push_back(trimmed(name));
-  ParameterList* target = &list;
-  const ParameterList* valid = &schema;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const bool isLast = i + 1 == names.size();
-    const Teuchos::ParameterEntry* entry = findEntry(*valid, names[i]);
-    if (entry == nullptr || entry->isList() == isLast)
-      throw InputError(what + ": unknown " + (isLast ? "parameter '" : "list '") + names[i] + "'" +
-                       suggestion(*valid, names[i]));
-    if (isLast) {
-      const std::string value = text.substr(equals + 1);
-      if (!setTyped(*target, names[i], typeOf(*entry), value, what))
-        throw InputError(what + ": '" + value + "' is not a finite value of type " + typeOf(*entry));
-      return;
-    }
-    if (target->isParameter(names[i]) && !target->isSublist(names[i]))
-      throw InputError(what + ": '" + names[i] + "' is a parameter, not a list");
-    target = &target->sublist(names[i]);
-    valid = &Teuchos::getValue<ParameterList>(*entry);
-  }
+ParameterList parseParameters(const std::string& text, const std::string& where) {
+  const XMLObject root = parsedXml(text, where);
+  if (root.getTag() != "ParameterList")
+    throw InputError(where + ": the root element is <" + root.getTag() + ">, but must be <ParameterList>.");
+  ParameterList list(root.hasAttribute("name") ? root.getAttribute("name") : "");
+  ListBuilder(where).fill(list, root, "");
+  return list;
 }
 
 } // namespace epafi::scene

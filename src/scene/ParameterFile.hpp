@@ -1,7 +1,7 @@
 #pragma once
 
-/// XML files of parameters, read so that nothing is taken for something else: every value must be what its type says, to the
-/// last letter.
+/// Parameter lists from XML text, read strictly: what does not parse completely is an error, never a silent
+/// zero.
 
 #include "epafi/base/Types.hpp"
 
@@ -11,16 +11,22 @@
 
 namespace epafi::scene {
 
-/// Reads a Teuchos XML parameter list. One rank reads the file; all get the list. Collective.
-/// \throws InputError, the same on all ranks, one sentence: missing or unreadable file, malformed XML, values that are not of
-///         their type (2.5 as an int, NaN, trailing letters), names given twice.
+/// Reads a file of nested `<ParameterList>` and `<Parameter name= type= value=>` elements, in the file's
+/// order. Rank 0 reads the file and broadcasts its text.
+///
+/// \throws InputError (the same on all ranks) if the file is missing, is a directory, is empty or larger than
+/// 64 MiB, and as
+///         parseParameters().
+/// Collective; only rank 0's `path` counts.
 Teuchos::ParameterList readParameterFile(const std::string& path, const Comm& comm);
 
-/// The same from text; `where` stands for the file in messages. Not collective.
-Teuchos::ParameterList parseParameters(const std::string& xml, const std::string& where);
-
-/// Sets one parameter from "List/Sub list/Parameter=value". Its type is that of the schema, or, where the schema has a name of
-/// the user's choice (<body>), of the pattern. \throws InputError that quotes the override. Not collective.
-void applyOverride(Teuchos::ParameterList& list, const Teuchos::ParameterList& schema, const std::string& text);
+/// The parameter list that an XML text spells out. Types are those of parameterTypes().
+///
+/// \param where  the file's name, with which messages begin
+/// \throws InputError if the text is no well-formed XML (with the line), holds other elements than those
+/// above, lacks an
+///         attribute, names a list or parameter twice, or a value is not completely one of its type.
+/// Not collective.
+Teuchos::ParameterList parseParameters(const std::string& text, const std::string& where);
 
 } // namespace epafi::scene

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What an XML scene says, as plain validated values. Lengths, deflections, loads and conductivities share one consistent
-/// system of units of the user's choice; nothing in Epafi depends on which.
+/// What an XML scene says, as plain validated values. Lengths, deflections, loads and conductivities share
+/// one consistent system of units of the user's choice; nothing in Epafi depends on which.
 
 #include <array>
 #include <limits>
@@ -34,7 +34,8 @@ struct Load {
   double value = 0;
 };
 
-/// Conductivity of the elements whose centre lies in a rectangle; where several overlap, the last one in the file holds.
+/// Conductivity of the elements whose centre lies in a rectangle; where several overlap, the last one in the
+/// file holds.
 struct Region {
   std::string name;
   Rectangle box;
@@ -61,7 +62,8 @@ struct Body {
   Decomposition decomposition;
 };
 
-/// Non-penetration u_second − u_first ≥ −gap on a pair of coinciding edges; one inequality a node, end points included.
+/// Non-penetration u_second − u_first ≥ −gap on a pair of coinciding edges; one inequality a node, end points
+/// included.
 struct ContactPair {
   std::string name;
   int first = 0; ///< index into Scene::bodies

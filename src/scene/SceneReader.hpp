@@ -1,6 +1,6 @@
 #pragma once
 
-/// From a parameter list to a Scene.
+/// From a parameter list to a scene.
 
 #include "epafi/scene/Scene.hpp"
 
@@ -10,11 +10,13 @@
 
 namespace epafi::scene {
 
-/// \param list   a list validated against sceneSchema() (further sublists, Solver and Output, are passed over)
-/// \param given  the list as the user gave it: tells which entries of a body's Decomposition override the scene's
-/// \param where  the file, for messages
-/// \throws InputError, one sentence: sizes that are not positive, boxes that miss their body, unknown bodies, edges that are
-///         both supported and in contact, contact pairs that share an edge, cuts finer than the mesh. Not collective.
-Scene readScene(const Teuchos::ParameterList& list, const Teuchos::ParameterList& given, const std::string& where);
+/// Reads a scene, bodies and pairs in the list's order. The list is checked against sceneSchema() here,
+/// whether or not it was before; the lists `Solver` and `Output` in it are left to others. A body inherits
+/// from the top level's Decomposition what its own does not give.
+///
+/// \param where  with what messages begin (a file, usually)
+/// \throws InputError with one sentence naming file, list, parameter, value and what is allowed.
+/// Not collective; the same on all ranks if called with the same list.
+Scene readScene(const Teuchos::ParameterList& list, const std::string& where);
 
 } // namespace epafi::scene

@@ -1,0 +1,61 @@
+#include "epafi/base/ParameterValidators.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+namespace epafi {
+
+using Teuchos::ParameterEntry;
+
+void AllowedValues::printDoc(const std::string& docString, std::ostream& out) const {
+  out << docString << " Allowed: " << allowed() << '\n';
+}
+
+void AllowedValues::validate(const ParameterEntry& entry, const std::string& parameter,
+                             const std::string& list) const {
+  if (!admits(entry))
+    throw InputError("parameter \"" + parameter + "\" in list \"" + list + "\" is " + valueText(entry) +
+                     ", but must be " + allowed());
+}
+
+bool Range::admits(const ParameterEntry& entry) const {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (entry.isType<int>())
+    value = Teuchos::getValue<int>(entry);
+  else if (entry.isType<double>())
+    value = Teuchos::getValue<double>(entry);
+  return std::isfinite(value) && value <= maximum_ && (openBelow_ ? value > minimum_ : value >= minimum_);
+}
+
+std::string Range::allowed() const {
+  const bool isBelowOpen = !std::isfinite(minimum_) || minimum_ == std::numeric_limits<int>::lowest();
+  const bool isAboveOpen = !std::isfinite(maximum_) || maximum_ == std::numeric_limits<int>::max();
+  std::string text;
+  if (!isBelowOpen)
+    text = (openBelow_ ? "> " : "≥ ") + valueText(minimum_);
+  if (!isAboveOpen)
+    text += (isBelowOpen ? "≤ " : " and ≤ ") + valueText(maximum_);
+  return text;
+}
+
+Choice::Choice(const std::vector<std::string>& words)
+    : words_(Teuchos::rcp(new Teuchos::Array<std::string>(words))) {}
+
+bool Choice::admits(const ParameterEntry& entry) const {
+  return entry.isType<std::string>() &&
+         std::find(words_->begin(), words_->end(), Teuchos::getValue<std::string>(entry)) != words_->end();
+}
+
+std::string Choice::allowed() const {
+  std::string text = words_->size() > 1 ? "one of " : "";
+  for (const std::string& word : *words_)
+    text += (word == words_->front() ? "\"" : ", \"") + word + '"';
+  return text;
+}
+
+} // namespace epafi

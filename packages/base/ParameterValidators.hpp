@@ -1,0 +1,53 @@
+#pragma once
+
+/// What a schema entry allows beyond its type. Teuchos's own validators let NaN pass, know no open intervals,
+/// and their header is no valid C++20.
+
+#include <Teuchos_ParameterEntryValidator.hpp>
+
+#include <string>
+#include <vector>
+
+namespace epafi {
+
+/// A validator that can say in words what it allows.
+class AllowedValues : public Teuchos::ParameterEntryValidator {
+public:
+  [[nodiscard]] virtual bool admits(const Teuchos::ParameterEntry& entry) const = 0;
+  /// What is allowed, to follow the words "must be"; empty if everything finite is.
+  [[nodiscard]] virtual std::string allowed() const = 0;
+
+  [[nodiscard]] const std::string getXMLTypeName() const override { return "EpafiAllowedValues"; }
+  [[nodiscard]] ValidStringsList validStringValues() const override { return Teuchos::null; }
+  void printDoc(const std::string& docString, std::ostream& out) const override;
+  /// \throws InputError if the value is not allowed.
+  void validate(const Teuchos::ParameterEntry& entry, const std::string& parameter,
+                const std::string& list) const override;
+};
+
+/// An int or double in [minimum, maximum], or in (minimum, maximum] with `openBelow`; never NaN or infinite.
+class Range final : public AllowedValues {
+public:
+  Range(double minimum, double maximum, bool openBelow)
+      : minimum_(minimum), maximum_(maximum), openBelow_(openBelow) {}
+  [[nodiscard]] bool admits(const Teuchos::ParameterEntry& entry) const override;
+  [[nodiscard]] std::string allowed() const override;
+
+private:
+  double minimum_, maximum_;
+  bool openBelow_;
+};
+
+/// One word out of a few.
+class Choice final : public AllowedValues {
+public:
+  explicit Choice(const std::vector<std::string>& words);
+  [[nodiscard]] bool admits(const Teuchos::ParameterEntry& entry) const override;
+  [[nodiscard]] std::string allowed() const override;
+  [[nodiscard]] ValidStringsList validStringValues() const override { return words_; }
+
+private:
+  ValidStringsList words_;
+};
+
+} // namespace epafi

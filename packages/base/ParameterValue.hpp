@@ -1,0 +1,29 @@
+#pragma once
+
+/// The types that a parameter can have in Epafi's files, their values as text, and text as values.
+
+#include <Teuchos_ParameterEntry.hpp>
+
+#include <string>
+#include <vector>
+
+namespace epafi {
+
+/// int, double, bool, string, Array(int) and Array(double): the types of parameters in XML files.
+const std::vector<std::string>& parameterTypes();
+
+/// Name of the entry's type as an XML file spells it; of a type that is none of parameterTypes(), the C++
+/// name.
+std::string typeName(const Teuchos::ParameterEntry& entry);
+
+/// The value as a reader would write it: 0.1, "text", {1, 2}. Real numbers have as many digits as tell them
+/// apart.
+std::string valueText(const Teuchos::ParameterEntry& entry);
+std::string valueText(double value);
+
+/// The value of a given type that a text spells out. The whole text must be the value, blanks around it
+/// aside. \param type  one of parameterTypes() \throws InputError that says what is wrong with the text, to
+/// follow the words "the value … ": "is not a number".
+Teuchos::ParameterEntry parseValue(const std::string& type, const std::string& text);
+
+} // namespace epafi

@@ -1,0 +1,58 @@
+#pragma once
+
+/// Values out of a validated list, with error sentences that name file, list, parameter and value.
+
+#include "epafi/scene/Scene.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace epafi::scene {
+
+/// A list of a scene and the place where it stands. Keeps references: list and file name must outlive it.
+/// Every function throws InputError; none is collective.
+class ListReader {
+public:
+  /// \param list  validated against its schema: all parameters are there and have their types
+  /// \param file  with what messages begin
+  /// \param path  names of the lists around and of this one, "Bodies/left"
+  ListReader(const Teuchos::ParameterList& list, const std::string& file, std::string path)
+      : list_(list), file_(file), path_(std::move(path)) {}
+
+  [[nodiscard]] ListReader inside(const std::string& name) const;
+  /// Names of the entries, in the file's order.
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// Whether the parameter is given rather than a default.
+  [[nodiscard]] bool has(const std::string& name) const { return !list_.getEntry(name).isDefault(); }
+  /// Whether an array or a word is given and is not empty.
+  [[nodiscard]] bool hasEntries(const std::string& name) const;
+  /// Refuses a parameter that is not given, or given as an empty word or array.
+  void require(const std::string& name) const;
+
+  [[nodiscard]] double real(const std::string& name) const { return list_.get<double>(name); }
+  [[nodiscard]] int integer(const std::string& name) const { return list_.get<int>(name); }
+  [[nodiscard]] const std::string& word(const std::string& name) const {
+    return list_.get<std::string>(name);
+  }
+  /// A required edge.
+  [[nodiscard]] Edge edge(const std::string& name) const;
+  /// {x0, x1, y0, y1}, of positive size.
+  [[nodiscard]] Rectangle rectangle(const std::string& name) const;
+  /// {nx, ny}, each ≥ 1.
+  [[nodiscard]] std::array<int, 2> counts(const std::string& name) const;
+
+  /// Throws: 'file: parameter "name" in list "path" is value, but `objection`.'
+  [[noreturn]] void refuseValue(const std::string& name, const std::string& objection) const;
+  /// Throws: 'file: list "path" `objection`.'
+  [[noreturn]] void refuseList(const std::string& objection) const;
+
+private:
+  const Teuchos::ParameterList& list_;
+  const std::string& file_;
+  std::string path_;
+};
+
+} // namespace epafi::scene

@@ -1,0 +1,81 @@
+#include "Problems.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/qp/Bounds.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace epafi;
+using qp::Bounds;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(BoundsTest, ProjectsOntoTheNearestFeasibleValue) {
+  const Bounds::Interval interval{-1, 2};
+
+  EXPECT_EQ(interval.project(-3), -1);
+  EXPECT_EQ(interval.project(0.5), 0.5);
+  EXPECT_EQ(interval.project(7), 2);
+}
+
+TEST(BoundsTest, SplitsTheGradientInFreeAndChoppedPart) {
+  const Bounds::Interval interval{0, 1};
+
+  EXPECT_EQ(interval.freeGradient(0.5, -3), -3);
+  EXPECT_EQ(interval.choppedGradient(0.5, -3), 0);
+  EXPECT_EQ(interval.freeGradient(0, -3), 0);
+  EXPECT_EQ(interval.choppedGradient(0, -3), -3) << "descent leads inside";
+  EXPECT_EQ(interval.choppedGradient(0, 3), 0) << "descent leads outside";
+  EXPECT_EQ(interval.choppedGradient(1, 3), 3);
+  EXPECT_EQ(interval.choppedGradient(1, -3), 0);
+}
+
+TEST(BoundsTest, FixedEntriesHaveNoProjectedGradient) {
+  const Bounds::Interval fixed{2, 2};
+
+  for (const double g : {-1.0, 0.0, 1.0}) {
+    EXPECT_EQ(fixed.freeGradient(2, g), 0);
+    EXPECT_EQ(fixed.choppedGradient(2, g), 0);
+  }
+}
+
+TEST(BoundsTest, ReducedFreeGradientKeepsTheStepFeasible) {
+  const Bounds::Interval interval{0, 1};
+  const double step = 0.5;
+
+  for (const double x : {0.1, 0.5, 0.9})
+    for (const double g : {-10.0, -0.1, 0.1, 10.0}) {
+      const double end = x - step * interval.reducedFreeGradient(x, g, step);
+      EXPECT_GE(end, -1e-15);
+      EXPECT_LE(end, 1 + 1e-15);
+    }
+}
+
+TEST(BoundsTest, LongestFeasibleStepEndsOnTheBound) {
+  const Bounds::Interval interval{-2, 3};
+
+  EXPECT_DOUBLE_EQ(1 - interval.maxFeasibleStep(1, 4) * 4, -2);
+  EXPECT_DOUBLE_EQ(1 - interval.maxFeasibleStep(1, -4) * -4, 3);
+  EXPECT_EQ(interval.maxFeasibleStep(1, 0), infinity);
+  EXPECT_EQ((Bounds::Interval{-infinity, infinity}).maxFeasibleStep(1, 5), infinity);
+}
+
+TEST(BoundsTest, CrossingBoundsAreRefusedOnAllRanks) {
+  const auto map = test::linearMap(5);
+  const auto lower = test::makeVector(map, [](int i) { return i == 3 ? 2.0 : 0.0; });
+  const auto upper = test::makeVector(map, [](int) { return 1.0; });
+
+  EXPECT_THROW(Bounds(lower, upper).check(*map->getComm()), InputError);
+  EXPECT_NO_THROW(Bounds(upper, upper).check(*map->getComm()));
+}
+
+TEST(BoundsTest, NanBoundsAreRefused) {
+  const auto map = test::linearMap(5);
+  const auto lower = test::makeVector(map, [](int i) { return i == 0 ? std::nan("") : 0.0; });
+
+  EXPECT_THROW(Bounds(lower).check(*map->getComm()), InputError);
+}
+
+} // namespace

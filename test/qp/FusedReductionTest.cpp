@@ -1,0 +1,43 @@
+#include "epafi/qp/FusedReduction.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Core.hpp>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+using namespace epafi;
+
+TEST(FusedReductionTest, AddsTheSumsAndTakesTheMinimum) {
+  const auto comm = Tpetra::getDefaultComm();
+  const int rank = comm->getRank(), size = comm->getSize();
+  qp::FusedReduction reduction(comm, 3);
+
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    reduction.clear();
+    reduction.sums()[0] = 1;
+    reduction.sums()[1] = rank;
+    reduction.sums()[2] = -2.0 * rank;
+    reduction.minimum() = 10.0 - rank;
+
+    reduction.reduce();
+
+    EXPECT_EQ(reduction.sums()[0], size);
+    EXPECT_EQ(reduction.sums()[1], size * (size - 1) / 2);
+    EXPECT_EQ(reduction.sums()[2], -size * (size - 1));
+    EXPECT_EQ(reduction.minimum(), 10.0 - (size - 1));
+  }
+}
+
+TEST(FusedReductionTest, StartsAtZeroAndInfinity) {
+  qp::FusedReduction reduction(Tpetra::getDefaultComm(), 1);
+
+  reduction.reduce();
+
+  EXPECT_EQ(reduction.sums()[0], 0);
+  EXPECT_EQ(reduction.minimum(), std::numeric_limits<double>::infinity());
+}
+
+} // namespace

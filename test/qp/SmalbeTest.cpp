@@ -1,0 +1,149 @@
+#include "Problems.hpp"
+
+#include "epafi/qp/Smalbe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace epafi;
+using qp::Status;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Problem {
+  Eigen::MatrixXd a, g; ///< g: orthonormal rows
+  Eigen::VectorXd b, lower;
+};
+
+struct Answer {
+  Eigen::VectorXd x;
+  qp::SolveReport report;
+};
+
+Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameters& parameters = {}, double norm = 1.0) {
+  const auto map = test::linearMap(static_cast<int>(problem.b.size()));
+  const RCP<const qp::EqualityConstraint> g = rcp(new test::DenseEquality(map, problem.g));
+  const qp::Bounds bounds(test::makeVector(map, problem.lower));
+  Vector x(map);
+  const qp::SmalbeTolerances tolerances{tolerance, problem.b.norm(), tolerance, 1.0};
+  const auto report = qp::solveEqualityBoundProblem(rcp(new test::DenseOperator(map, problem.a)), g,
+                                                    *test::makeVector(map, problem.b), bounds, x, tolerances, parameters,
+                                                    {}, norm);
+  return {test::gather(x), report};
+}
+
+Problem randomProblem(int n, int rows, double condition, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  Problem problem{test::randomSpd(n, condition, random), test::randomOrthogonal(n, random).topRows(rows),
+                  Eigen::VectorXd(n), Eigen::VectorXd::Constant(n, -0.3)};
+  for (int i = 0; i < n; ++i) {
+    problem.b[i] = normal(random);
+    if (i % 3 == 0)
+      problem.lower[i] = -infinity;
+  }
+  return problem;
+}
+
+/// ‖g^P‖ with the best multiplier of Gx = 0, from scratch: least squares of g + Gᵀμ over the free entries.
+double projectedGradient(const Problem& problem, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd g = problem.a * x - problem.b;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (x[i] > problem.lower[i])
+      free.push_back(i);
+  const Eigen::MatrixXd columns = problem.g(Eigen::all, free).transpose();
+  const Eigen::VectorXd mu = columns.colPivHouseholderQr().solve(-g(free));
+  const Eigen::VectorXd full = g + problem.g.transpose() * mu;
+  double squared = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double p = x[i] > problem.lower[i] ? full[i] : std::min(full[i], 0.0);
+    squared += p * p;
+  }
+  return std::sqrt(squared);
+}
+
+TEST(SmalbeTest, SolvesTwoUnknownsByHand) {
+  // min ½(x² + y²) − 3x − y over x + y = 0 (as an orthonormal row), x ≥ −∞, y ≥ −0.5: y = −0.5, x = 0.5.
+  Problem problem{Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Constant(1, 2, 1 / std::sqrt(2.0)), Eigen::Vector2d(3, 1),
+                  Eigen::Vector2d(-infinity, -0.5)};
+
+  const Answer answer = solve(problem, 1e-10);
+
+  EXPECT_EQ(answer.report.status, Status::converged);
+  EXPECT_NEAR(answer.x[0], 0.5, 1e-9);
+  EXPECT_NEAR(answer.x[1], -0.5, 1e-9);
+}
+
+TEST(SmalbeTest, EndsWithAKktPointOnRandomProblems) {
+  std::mt19937 random(3);
+  for (int repeat = 0; repeat < 30; ++repeat) {
+    const int n = 5 + repeat;
+    const Problem problem = randomProblem(n, 1 + repeat % 4, repeat % 2 == 0 ? 10 : 1e3, random);
+
+    const Answer answer = solve(problem, 1e-9);
+
+    EXPECT_EQ(answer.report.status, Status::converged) << repeat << ": " << answer.report.reason;
+    EXPECT_LE(projectedGradient(problem, answer.x), 1.01e-9 * problem.b.norm() + 1e-14) << repeat;
+    EXPECT_TRUE((answer.x.array() >= problem.lower.array()).all());
+  }
+}
+
+TEST(SmalbeTest, MeetsTheEqualityToRoundOffWhateverTheTolerance) {
+  std::mt19937 random(5);
+  for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
+    const Problem problem = randomProblem(20, 3, 100, random);
+
+    const Answer answer = solve(problem, tolerance);
+
+    EXPECT_EQ(answer.report.status, Status::converged);
+    EXPECT_LE((problem.g * answer.x).norm(), 1e-13 * (1 + answer.x.norm())) << "tolerance " << tolerance;
+  }
+}
+
+TEST(SmalbeTest, PenaltyAndBalanceOverManyOrdersGiveTheSameAnswer) {
+  std::mt19937 random(7);
+  const Problem problem = randomProblem(16, 2, 50, random);
+  const Answer reference = solve(problem, 1e-10);
+  for (const double penalty : {1e-2, 1.0, 1e2})
+    for (const double balance : {1e-2, 1.0, 1e2}) {
+      qp::SmalbeParameters parameters;
+      parameters.penalty = penalty;
+      parameters.balance = balance;
+      parameters.maxOuterIterations = 5000;
+
+      const Answer answer = solve(problem, 1e-10, parameters);
+
+      EXPECT_EQ(answer.report.status, Status::converged) << "ρ " << penalty << ", M " << balance;
+      EXPECT_LE((answer.x - reference.x).norm(), 1e-6 * reference.x.norm()) << "ρ " << penalty << ", M " << balance;
+    }
+}
+
+TEST(SmalbeTest, ScalingTheObjectiveKeepsTheSteps) {
+  std::mt19937 random(11);
+  const Problem problem = randomProblem(18, 2, 50, random);
+  const Answer plain = solve(problem, 1e-8);
+  for (const double factor : {1e-12, 1e12}) {
+    Problem scaled = problem;
+    scaled.a *= factor;
+    scaled.b *= factor;
+
+    const Answer answer = solve(scaled, 1e-8, {}, factor);
+
+    EXPECT_NEAR(answer.report.counts.hessianMultiplications, plain.report.counts.hessianMultiplications, 1);
+    EXPECT_LE((answer.x - plain.x).norm(), 1e-9 * plain.x.norm());
+  }
+}
+
+TEST(SmalbeTest, StopsAtTheOuterLimit) {
+  std::mt19937 random(13);
+  const Problem problem = randomProblem(20, 3, 1e4, random);
+  qp::SmalbeParameters parameters;
+  parameters.maxOuterIterations = 1;
+
+  EXPECT_EQ(solve(problem, 1e-13, parameters).report.status, Status::maxIterations);
+}
+
+} // namespace
