@@ -230,7 +230,8 @@ void addInteger(ParameterList& schema, const std::string& name, int defaultValue
 
 void addChoice(ParameterList& schema, const std::string& name, const std::string& defaultValue,
                const std::string& doc, const std::vector<std::string>& choices) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Choice(choices)));
+  // Unlike ParameterList::set, this lets an empty default pass the validator.
+  schema.setEntry(name, ParameterEntry(defaultValue, false, false, doc, Teuchos::rcp(new Choice(choices))));
 }
 
 std::string describeParameters(const ParameterList& schema) {
