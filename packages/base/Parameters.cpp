@@ -190,7 +190,7 @@ ParameterList checkedList(const ParameterList& given, const ParameterList& schem
 void describeList(std::ostream& out, const ParameterList& schema, const std::string& path,
                   const std::string& doc) {
   if (!path.empty())
-    out << "## " << path << "\n\n";
+    out << "## `" << path << "`\n\n"; // in backticks: <body> is no HTML
   if (!doc.empty())
     out << doc << "\n\n";
   bool hasParameters = false;

@@ -180,10 +180,10 @@ TEST(ParametersTest, RefusesThePatternItselfAsAMisspeltName) {
 
 TEST(ParametersTest, DescribesEveryParameterForPeople) {
   const std::string text = describeParameters(schema());
-  for (const char* const part :
-       {"## Solver", "## Bodies/<body>", "| Tolerance | double | `1e-06` | > 0 and ≤ 1 | Where to stop. |",
-        "| Steps | int | `100` | ≥ 1 and ≤ 1000 | How many steps. |", "one of \"mprgp\", \"smalbe\"",
-        "One body."})
+  for (const char* const part : {"## `Solver`", "## `Bodies/<body>`",
+                                 "| Tolerance | double | `1e-06` | > 0 and ≤ 1 | Where to stop. |",
+                                 "| Steps | int | `100` | ≥ 1 and ≤ 1000 | How many steps. |",
+                                 "one of \"mprgp\", \"smalbe\"", "One body."})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
 }
 

@@ -43,11 +43,14 @@ TEST(BodyReaderTest, ReadsRegionsSupportsAndLoads) {
 
 TEST(BodyReaderTest, TakesDefaultsForWhatMayBeLeftOut) {
   ParameterList list = twoBodies();
-  bodyOf(list, "left").remove("Elements");
-  bodyOf(list, "right").set("Elements", counts({8, 8}));
   const scene::Body left = scene::readScene(list, "a.xml").bodies[0];
-  EXPECT_EQ(left.elements, (std::array<int, 2>{8, 8}));
+  EXPECT_EQ(left.conductivity, 1.0);
   EXPECT_EQ(left.decomposition.counts, (std::array<int, 2>{2, 2}));
+}
+
+TEST(BodyReaderTest, RefusesABodyWithoutElements) {
+  expectSays(sceneRefusal([](ParameterList& list) { bodyOf(list, "right").remove("Elements"); }),
+             {"a.xml: ", "\"Bodies/right\"", "\"Elements\"", "must be given"});
 }
 
 TEST(BodyReaderTest, RefusesABodyWithoutRectangle) {

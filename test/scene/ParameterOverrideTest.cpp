@@ -19,7 +19,7 @@ ParameterList schema() {
 
 ParameterList overridden(const std::string& assignment) {
   ParameterList list = twoBodies();
-  applyOverride(list, assignment, schema());
+  applyOverride(list, schema(), assignment);
   return list;
 }
 
@@ -56,44 +56,44 @@ TEST(ParameterOverrideTest, IsReadLikeAValueOfTheFile) {
 }
 
 TEST(ParameterOverrideTest, RefusesATextWithoutEqualsSign) {
-  expectSays(refusalOf("Solver/Tolerance"), {"override \"Solver/Tolerance\"", "no \"=\"", "Parameter=value"});
+  expectSays(refusalOf("Solver/Tolerance"), {"--set \"Solver/Tolerance\"", "no \"=\"", "Parameter=value"});
 }
 
 TEST(ParameterOverrideTest, RefusesAnEmptyName) {
   for (const char* const text : {"=1", "Solver/=1", "/Title=1", "Solver//Tolerance=1"})
-    expectSays(refusalOf(text), {"override \"" + std::string(text) + '"', "empty name"});
+    expectSays(refusalOf(text), {"--set \"" + std::string(text) + '"', "empty name"});
 }
 
 TEST(ParameterOverrideTest, RefusesUnknownNamesAndSuggestsTheNearest) {
   expectSays(refusalOf("Solver/Tolerence=1e-3"),
-             {"override \"Solver/Tolerence=1e-3\"", "list \"Solver\"", "did you mean \"Tolerance\"?"});
+             {"--set \"Solver/Tolerence=1e-3\"", "list \"Solver\"", "did you mean \"Tolerance\"?"});
   expectSays(refusalOf("Solvre/Tolerance=1e-3"),
-             {"override \"Solvre/", "\"Solvre\"", "did you mean \"Solver\"?"});
+             {"--set \"Solvre/", "\"Solvre\"", "did you mean \"Solver\"?"});
   expectSays(refusalOf("Bodies/left/Elemnts={1, 1}"), {"\"Bodies/left\"", "did you mean \"Elements\"?"});
 }
 
 TEST(ParameterOverrideTest, RefusesAValueOfAnotherType) {
   expectSays(refusalOf("Solver/Tolerance=small"),
-             {"override \"Solver/Tolerance=small\"", "\"small\"", "not a number", "type double"});
+             {"--set \"Solver/Tolerance=small\"", "\"small\"", "not a number", "type double"});
   expectSays(refusalOf("Decomposition/Parts=2.5"), {"\"2.5\"", "not a whole number", "type int"});
   expectSays(refusalOf("Bodies/left/Elements=8"), {"\"8\"", "not an array", "type Array(int)"});
-  expectSays(refusalOf("Solver/Tolerance="), {"override \"Solver/Tolerance=\"", "not a number"});
+  expectSays(refusalOf("Solver/Tolerance="), {"--set \"Solver/Tolerance=\"", "not a number"});
 }
 
 TEST(ParameterOverrideTest, RefusesAValueOutOfRange) {
   expectSays(refusalOf("Solver/Tolerance=-1"),
-             {"override \"Solver/Tolerance=-1\"", "\"Tolerance\" in list \"Solver\" is -1", "> 0 and ≤ 1"});
+             {"--set \"Solver/Tolerance=-1\"", "\"Tolerance\" in list \"Solver\" is -1", "> 0 and ≤ 1"});
 }
 
 TEST(ParameterOverrideTest, RefusesAListAsParameter) {
-  expectSays(refusalOf("Solver=1"), {"override \"Solver=1\"", "\"Solver\"", "must be a list"});
-  expectSays(refusalOf("Title/x=1"), {"override \"Title/x=1\"", "\"Title\"", "must be a parameter"});
-  expectSays(refusalOf("Bodies/left=1"), {"override \"Bodies/left=1\"", "<body>"});
+  expectSays(refusalOf("Solver=1"), {"--set \"Solver=1\"", "\"Solver\"", "must be a list"});
+  expectSays(refusalOf("Title/x=1"), {"--set \"Title/x=1\"", "\"Title\"", "must be a parameter"});
+  expectSays(refusalOf("Bodies/left=1"), {"--set \"Bodies/left=1\"", "<body>"});
 }
 
 TEST(ParameterOverrideTest, LeavesTheListAloneWhenItRefuses) {
   ParameterList list = twoBodies();
-  refusal([&] { applyOverride(list, "Bodies/third/Elements=8", schema()); });
+  refusal([&] { applyOverride(list, schema(), "Bodies/third/Elements=8"); });
   EXPECT_FALSE(list.sublist("Bodies").isSublist("third"));
 }
 

@@ -34,7 +34,10 @@ TEST(SceneReaderTest, KeepsBodiesInTheOrderOfTheFile) {
   ParameterList list;
   double x = 0;
   for (const char* const name : {"zeta", "alpha", "mu"}) {
-    list.sublist("Bodies").sublist(name).set("Rectangle", numbers({x, x + 1, 0, 1}));
+    list.sublist("Bodies")
+        .sublist(name)
+        .set("Rectangle", numbers({x, x + 1, 0, 1}))
+        .set("Elements", counts({2, 2}));
     x += 1;
   }
   const Scene scene = readScene(list, "a.xml");
