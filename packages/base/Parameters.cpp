@@ -190,7 +190,7 @@ ParameterList checkedList(const ParameterList& given, const ParameterList& schem
 void describeList(std::ostream& out, const ParameterList& schema, const std::string& path,
                   const std::string& doc) {
   if (!path.empty())
-    out << "## " << path << "\n\n";
+    out << "## `" << path << "`\n\n"; // in backticks: <body> is no HTML
   if (!doc.empty())
     out << doc << "\n\n";
   bool hasParameters = false;
@@ -230,7 +230,8 @@ void addInteger(ParameterList& schema, const std::string& name, int defaultValue
 
 void addChoice(ParameterList& schema, const std::string& name, const std::string& defaultValue,
                const std::string& doc, const std::vector<std::string>& choices) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Choice(choices)));
+  // Unlike ParameterList::set, this lets an empty default pass the validator.
+  schema.setEntry(name, ParameterEntry(defaultValue, false, false, doc, Teuchos::rcp(new Choice(choices))));
 }
 
 std::string describeParameters(const ParameterList& schema) {

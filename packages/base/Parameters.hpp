@@ -15,10 +15,10 @@
 
 namespace epafi {
 
-/// Checks `given` against `schema` and returns it with every missing parameter set to its default. Entries keep the order of
-/// `given`, those that were missing follow and are marked as default (ParameterEntry::isDefault). Whole numbers are turned
-/// into real ones where the schema asks for these. The result carries values only, no documentation or validators. Not
-/// collective.
+/// Checks `given` against `schema` and returns it with every missing parameter set to its default. Entries
+/// keep the order of `given`, those that were missing follow and are marked as default
+/// (ParameterEntry::isDefault). Whole numbers are turned into real ones where the schema asks for these. The
+/// result carries values only, no documentation or validators. Not collective.
 ///
 /// \param where  what stands before the list's name in messages (a file, usually).
 /// \throws InputError naming list, parameter, value and what is allowed: unknown name (the nearest one is
@@ -36,7 +36,8 @@ void addReal(Teuchos::ParameterList& schema, const std::string& name, double def
 void addInteger(Teuchos::ParameterList& schema, const std::string& name, int defaultValue,
                 const std::string& doc, int minimum = 0, int maximum = std::numeric_limits<int>::max());
 
-/// Schema entry of one word out of `choices`. The default itself is always allowed; an empty one stands for "not given".
+/// Schema entry of one word out of `choices`. The default itself is always allowed; an empty one stands for
+/// "not given".
 void addChoice(Teuchos::ParameterList& schema, const std::string& name, const std::string& defaultValue,
                const std::string& doc, const std::vector<std::string>& choices);
 

@@ -113,6 +113,7 @@ Body readBody(const std::string& name, const ListReader& list) {
   Body body;
   body.name = name;
   body.rectangle = list.rectangle("Rectangle");
+  list.require("Elements");
   body.elements = list.counts("Elements");
   checkMesh(list, body);
   body.conductivity = list.real("Conductivity");

@@ -89,7 +89,7 @@ public:
         addList(list, child, path);
       else if (child.getTag() == "Parameter")
         addParameter(list, child, path);
-      else
+      else if (child.getTag() != "Validators" || !path.empty()) // Teuchos ends the lists it writes with one
         refuse("<" + child.getTag() + "> in " + named(path) +
                " is unknown; allowed are <ParameterList> and <Parameter>.");
     }

@@ -20,7 +20,8 @@ namespace epafi::scene {
 /// Collective; only rank 0's `path` counts.
 Teuchos::ParameterList readParameterFile(const std::string& path, const Comm& comm);
 
-/// The parameter list that an XML text spells out. Types are those of parameterTypes().
+/// The parameter list that an XML text spells out. Types are those of parameterTypes(). Lists that Teuchos
+/// wrote are read too; its element `<Validators>` at the top is passed over.
 ///
 /// \param where  the file's name, with which messages begin
 /// \throws InputError if the text is no well-formed XML (with the line), holds other elements than those

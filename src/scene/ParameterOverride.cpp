@@ -54,8 +54,8 @@ void setAt(ParameterList& list, const std::vector<std::string>& path, const Para
 
 } // namespace
 
-void applyOverride(ParameterList& list, const std::string& assignment, const ParameterList& schema) {
-  const std::string where = "override \"" + assignment + '"';
+void applyOverride(ParameterList& list, const ParameterList& schema, const std::string& assignment) {
+  const std::string where = "--set \"" + assignment + '"';
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos)
     throw InputError(where + " has no \"=\"; write \"List/Sub list/Parameter=value\".");

@@ -16,7 +16,7 @@ namespace epafi::scene {
 /// the value is
 ///         not of the schema's type and range. The list is left as it was then.
 /// Not collective; the same on all ranks if called with the same arguments.
-void applyOverride(Teuchos::ParameterList& list, const std::string& assignment,
-                   const Teuchos::ParameterList& schema);
+void applyOverride(Teuchos::ParameterList& list, const Teuchos::ParameterList& schema,
+                   const std::string& assignment);
 
 } // namespace epafi::scene

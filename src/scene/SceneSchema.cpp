@@ -42,8 +42,8 @@ void describeBody(ParameterList& bodies) {
   ParameterList& list = bodies.sublist("<body>", false, "One body, under a name of your choice.");
   addChoice(list, "Physics", "membrane", "What the body is: a membrane, -div(k grad u) = f.", {"membrane"});
   list.set("Rectangle", Array<double>(), "Must be given. The body's extent {x0, x1, y0, y1}.");
-  list.set("Elements", Array<int>(body.elements.begin(), body.elements.end()),
-           "Number of elements {nx, ny} in x and y, each at least 1.");
+  list.set("Elements", Array<int>(),
+           "Must be given. Number of elements {nx, ny} in x and y, each at least 1.");
   addReal(list, "Conductivity", body.conductivity,
           "Conductivity (tension) of the body outside of its regions.", 0.0,
           std::numeric_limits<double>::infinity(), true);

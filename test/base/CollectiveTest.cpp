@@ -1,0 +1,112 @@
+#include "epafi/base/Collective.hpp"
+
+#include "Refusal.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Core.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using namespace epafi;
+
+class CollectiveTest : public testing::Test {
+protected:
+  RCP<const Comm> comm = Tpetra::getDefaultComm();
+  int lastRank = comm->getSize() - 1;
+};
+
+TEST_F(CollectiveTest, ReturnsWhereNothingFails) {
+  int calls = 0;
+  collectively(*comm, [&] { ++calls; });
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(CollectiveTest, ThrowsAnInputErrorOfOneRankOnAllRanks) {
+  const std::string message = test::refusal([&] {
+    collectively(*comm, [&] {
+      if (comm->getRank() == lastRank)
+        throw InputError("wrong on rank " + std::to_string(lastRank));
+    });
+  });
+  EXPECT_EQ(message, "wrong on rank " + std::to_string(lastRank));
+}
+
+TEST_F(CollectiveTest, KeepsTheKindOfASolvabilityError) {
+  for (const auto kind : {SolvabilityError::Kind::noSolution, SolvabilityError::Kind::notUnique}) {
+    try {
+      collectively(*comm, [&] {
+        if (comm->getRank() == lastRank)
+          throw SolvabilityError(kind, "body right floats");
+      });
+      FAIL() << "nothing was thrown";
+    } catch (const SolvabilityError& error) {
+      EXPECT_EQ(error.kind(), kind);
+      EXPECT_STREQ(error.what(), "body right floats");
+    }
+  }
+}
+
+TEST_F(CollectiveTest, TurnsOtherExceptionsIntoAnErrorWithTheirText) {
+  try {
+    collectively(*comm, [&] {
+      if (comm->getRank() == lastRank)
+        throw std::out_of_range("index 7");
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const InputError&) {
+    FAIL() << "not the user's mistake";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "index 7");
+  }
+}
+
+TEST_F(CollectiveTest, NamesTheRankOfAnExceptionThatHasNoText) {
+  try {
+    collectively(*comm, [&] {
+      if (comm->getRank() == lastRank)
+        throw 1;
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("rank " + std::to_string(lastRank)), std::string::npos);
+  }
+}
+
+TEST_F(CollectiveTest, AgreesOnTheLowestRankIfSeveralFail) {
+  EXPECT_EQ(test::refusal([&] {
+              collectively(*comm, [&] {
+                throw InputError(std::string(1000, static_cast<char>('a' + comm->getRank())));
+              });
+            }),
+            std::string(1000, 'a'));
+}
+
+TEST_F(CollectiveTest, PassesAnEmptyText) {
+  EXPECT_EQ(test::refusal([&] { collectively(*comm, [] { throw InputError(""); }); }), "");
+}
+
+TEST_F(CollectiveTest, ReducesOverTheRanks) {
+  const double ranks = comm->getSize();
+  EXPECT_EQ(sumOverRanks(*comm, 1.0), ranks);
+  EXPECT_EQ(sumOverRanks(*comm, GlobalOrdinal{2}), 2 * comm->getSize());
+  EXPECT_EQ(maxOverRanks(*comm, 1.0 * comm->getRank()), ranks - 1);
+  EXPECT_EQ(minOverRanks(*comm, -1.0 * comm->getRank()), 1 - ranks);
+  std::array<double, 2> values = {1, -3};
+  sumOverRanks(*comm, values);
+  EXPECT_EQ(values[0], ranks);
+  EXPECT_EQ(values[1], -3 * ranks);
+}
+
+TEST_F(CollectiveTest, GathersUnevenPiecesInTheOrderOfTheRanks) {
+  const std::vector<double> mine(static_cast<std::size_t>(comm->getRank()),
+                                 comm->getRank()); // none on rank 0
+  std::vector<double> expected;
+  for (int rank = 0; rank < comm->getSize(); ++rank)
+    expected.insert(expected.end(), static_cast<std::size_t>(rank), rank);
+  EXPECT_EQ(gatherOnAll(*comm, mine), expected);
+}
+
+} // namespace

@@ -1,0 +1,190 @@
+#include "epafi/base/Parameters.hpp"
+
+#include "Arrays.hpp"
+#include "Refusal.hpp"
+
+#include <Teuchos_XMLParameterListHelpers.hpp>
+
+#include <limits>
+#include <sstream>
+
+namespace {
+
+using namespace epafi;
+using test::counts;
+using test::expectSays;
+using test::numbers;
+using test::refusal;
+using Teuchos::Array;
+using Teuchos::ParameterList;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+
+ParameterList schema() {
+  ParameterList list;
+  list.set("Title", "", "A few words.");
+  ParameterList& solver = list.sublist("Solver", false, "How to solve.");
+  addReal(solver, "Tolerance", 1e-6, "Where to stop.", 0.0, 1.0, true);
+  addReal(solver, "Shift", 0.0, "Any real number.");
+  addInteger(solver, "Steps", 100, "How many steps.", 1, 1000);
+  addChoice(solver, "Method", "", "Which method.", {"mprgp", "smalbe"});
+  solver.set("Verbose", false, "Whether to talk.");
+  solver.set("Range", numbers({}), "Two numbers.");
+  ParameterList& body = list.sublist("Bodies").sublist("<body>", false, "One body.");
+  addReal(body, "Conductivity", 1.0, "Material.", 0.0, infinity, true);
+  return list;
+}
+
+template <class Value>
+std::string refusalOf(const std::string& name, const Value& value) {
+  ParameterList given;
+  given.sublist("Solver").set(name, value);
+  return refusal([&] { validated(given, schema(), "a.xml"); });
+}
+
+TEST(ParametersTest, FillsInDefaultsAndMarksThemSo) {
+  const ParameterList list = validated(ParameterList(), schema(), "a.xml");
+  EXPECT_EQ(list.sublist("Solver").get<double>("Tolerance"), 1e-6);
+  EXPECT_EQ(list.sublist("Solver").get<int>("Steps"), 100);
+  EXPECT_TRUE(list.sublist("Solver").getEntry("Steps").isDefault());
+  EXPECT_EQ(list.sublist("Bodies").numParams(), 0);
+}
+
+TEST(ParametersTest, KeepsWhatIsGivenInItsOrder) {
+  ParameterList given;
+  for (const char* const name : {"zeta", "alpha", "mu"})
+    given.sublist("Bodies").sublist(name);
+  given.sublist("Solver").set("Steps", 7);
+  const ParameterList list = validated(given, schema(), "a.xml");
+  EXPECT_EQ(list.sublist("Solver").get<int>("Steps"), 7);
+  EXPECT_FALSE(list.sublist("Solver").getEntry("Steps").isDefault());
+  std::string order;
+  for (auto body = list.sublist("Bodies").begin(); body != list.sublist("Bodies").end(); ++body)
+    order += list.sublist("Bodies").name(body) + ' ';
+  EXPECT_EQ(order, "zeta alpha mu ");
+  EXPECT_EQ(list.sublist("Bodies").sublist("alpha").get<double>("Conductivity"), 1.0);
+}
+
+TEST(ParametersTest, ChangesNothingWhenAppliedTwice) {
+  ParameterList given;
+  given.sublist("Bodies").sublist("left").set("Conductivity", 2.0);
+  const ParameterList once = validated(given, schema(), "a.xml"), twice = validated(once, schema(), "a.xml");
+  EXPECT_TRUE(Teuchos::haveSameValues(once, twice));
+  EXPECT_TRUE(twice.sublist("Solver").getEntry("Tolerance").isDefault());
+}
+
+TEST(ParametersTest, GivesAListThatTeuchosCanWrite) {
+  std::ostringstream out;
+  EXPECT_NO_THROW(Teuchos::writeParameterListToXmlOStream(validated(ParameterList(), schema(), ""), out));
+  EXPECT_NE(out.str().find("Tolerance"), std::string::npos);
+}
+
+TEST(ParametersTest, TakesWholeNumbersForRealOnes) {
+  ParameterList given;
+  given.sublist("Solver").set("Shift", 3).set("Range", counts({1, 2}));
+  const ParameterList list = validated(given, schema(), "a.xml");
+  EXPECT_EQ(list.sublist("Solver").get<double>("Shift"), 3.0);
+  EXPECT_EQ(list.sublist("Solver").get<Array<double>>("Range"), numbers({1.0, 2.0}));
+}
+
+TEST(ParametersTest, RefusesAnUnknownParameterAndSuggestsTheNearest) {
+  expectSays(refusalOf("Tolerence", 1e-3),
+             {"a.xml: ", "\"Tolerence\"", "list \"Solver\"", "0.001", "did you mean \"Tolerance\"?"});
+}
+
+TEST(ParametersTest, ListsWhatIsAllowedWhereNoNameIsNear) {
+  expectSays(refusalOf("Xqwzj", 1),
+             {"a.xml: ", "\"Xqwzj\"", "list \"Solver\"", "\"Tolerance\", \"Shift\", \"Steps\""});
+}
+
+TEST(ParametersTest, RefusesAnUnknownListAndSuggestsTheNearest) {
+  ParameterList given;
+  given.sublist("Bodys");
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+             {"a.xml: ", "list \"Bodys\"", "the top list", "did you mean \"Bodies\"?"});
+}
+
+TEST(ParametersTest, NamesTheWholePathOfAList) {
+  ParameterList given;
+  given.sublist("Bodies").sublist("left").set("Conductivity", -1.0);
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+             {"a.xml: ", "parameter \"Conductivity\" in list \"Bodies/left\" is -1, but must be > 0."});
+}
+
+TEST(ParametersTest, RefusesAParameterWhereListsOfTheUsersAreExpected) {
+  ParameterList given;
+  given.sublist("Bodies").set("left", 1);
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+             {"a.xml: ", "\"left\"", "list \"Bodies\"", "one for each <body>"});
+}
+
+TEST(ParametersTest, RefusesAListWhereAParameterIsExpected) {
+  ParameterList given;
+  given.sublist("Solver").sublist("Steps");
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+             {"a.xml: ", "\"Steps\" in list \"Solver\" is a list", "type int"});
+}
+
+TEST(ParametersTest, RefusesAParameterWhereAListIsExpected) {
+  ParameterList given;
+  given.set("Solver", "fast");
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+             {"a.xml: ", "\"Solver\" in the top list is a parameter", "\"fast\"", "must be a list"});
+}
+
+TEST(ParametersTest, RefusesAnotherType) {
+  expectSays(refusalOf("Steps", 2.5),
+             {"a.xml: ", "\"Steps\"", "\"Solver\"", "2.5 of type double", "type int"});
+  expectSays(refusalOf("Steps", true), {"true of type bool", "type int"});
+  expectSays(refusalOf("Tolerance", "1e-3"), {"\"1e-3\" of type string", "type double"});
+  expectSays(refusalOf("Verbose", 1), {"1 of type int", "type bool"});
+  expectSays(refusalOf("Range", 1.0), {"1 of type double", "type Array(double)"});
+  expectSays(refusalOf("Method", 3), {"3 of type int", "type string"});
+}
+
+TEST(ParametersTest, RefusesValuesOutOfRange) {
+  expectSays(refusalOf("Tolerance", 0.0), {"a.xml: ", "\"Tolerance\"", "\"Solver\"", "is 0", "> 0 and ≤ 1"});
+  expectSays(refusalOf("Tolerance", 1.5), {"is 1.5", "> 0 and ≤ 1"});
+  expectSays(refusalOf("Steps", 0), {"is 0", "≥ 1 and ≤ 1000"});
+  expectSays(refusalOf("Steps", -2147483647), {"is -2147483647", "≥ 1 and ≤ 1000"});
+}
+
+TEST(ParametersTest, RefusesWhatIsNotFinite) {
+  expectSays(refusalOf("Tolerance", notANumber), {"a.xml: ", "\"Tolerance\"", "\"Solver\"", "nan", "finite"});
+  expectSays(refusalOf("Shift", notANumber), {"nan", "finite"});
+  expectSays(refusalOf("Shift", -infinity), {"-inf", "finite"});
+  expectSays(refusalOf("Range", numbers({0.0, notANumber})), {"{0, nan}", "finite"});
+}
+
+TEST(ParametersTest, RefusesAWordThatIsNoChoice) {
+  expectSays(refusalOf("Method", "mprpg"), {"a.xml: ", "\"Method\"", "\"Solver\"", "is \"mprpg\"",
+                                            "one of \"mprgp\", \"smalbe\"", "did you mean \"mprgp\"?"});
+}
+
+TEST(ParametersTest, RefusesListNamesThatCannotNameAGroupOfAFile) {
+  for (const char* const name : {"", ".", "a/b"}) {
+    ParameterList given;
+    given.sublist("Bodies").sublist(name);
+    expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+               {"a.xml: ", "list \"Bodies\"", "<body>", "\"/\""});
+  }
+}
+
+TEST(ParametersTest, RefusesThePatternItselfAsAMisspeltName) {
+  ParameterList given;
+  given.sublist("<Solver>");
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+             {"\"<Solver>\"", "did you mean \"Solver\"?"});
+}
+
+TEST(ParametersTest, DescribesEveryParameterForPeople) {
+  const std::string text = describeParameters(schema());
+  for (const char* const part : {"## `Solver`", "## `Bodies/<body>`",
+                                 "| Tolerance | double | `1e-06` | > 0 and ≤ 1 | Where to stop. |",
+                                 "| Steps | int | `100` | ≥ 1 and ≤ 1000 | How many steps. |",
+                                 "one of \"mprgp\", \"smalbe\"", "One body."})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+}
+
+} // namespace

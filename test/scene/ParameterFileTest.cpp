@@ -1,0 +1,183 @@
+#include "epafi/scene/ParameterFile.hpp"
+
+#include "../base/Arrays.hpp"
+#include "../base/Refusal.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Core.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+using namespace epafi;
+using scene::parseParameters;
+using scene::readParameterFile;
+using test::counts;
+using test::expectSays;
+using test::numbers;
+using test::refusal;
+using Teuchos::ParameterList;
+
+/// A list "Outer/Inner" around the given elements.
+std::string nested(const std::string& elements) {
+  return "<ParameterList name=\"Epafi\"><ParameterList name=\"Outer\"><ParameterList name=\"Inner\">" +
+         elements + "</ParameterList></ParameterList></ParameterList>";
+}
+
+std::string parameter(const std::string& type, const std::string& value) {
+  return "<Parameter name=\"p\" type=\"" + type + "\" value=\"" + value + "\"/>";
+}
+
+std::string refusalOf(const std::string& text) {
+  return refusal([&] { parseParameters(text, "a.xml"); });
+}
+
+TEST(ParameterFileTest, ReadsEveryTypeInTheOrderOfTheFile) {
+  const ParameterList list = parseParameters(
+      "<?xml version=\"1.0\"?>\n<!-- a comment -->\n<ParameterList name=\"Epafi\">"
+      "<Parameter name=\"z\" type=\"int\" value=\"3\"/><Parameter name=\"y\" type=\"double\" value=\"1e-3\"/>"
+      "<Parameter name=\"x\" type=\"bool\" value=\"true\"/><Parameter name=\"w\" type=\"string\" "
+      "value=\"Επαφή &lt; 1\"/>"
+      "<Parameter name=\"v\" type=\"Array(int)\" value=\"{1, 2}\"/>"
+      "<Parameter name=\"u\" type=\"Array(double)\" value=\"{0.5}\"/><ParameterList "
+      "name=\"t\"/></ParameterList>",
+      "a.xml");
+  EXPECT_EQ(list.name(), "Epafi");
+  EXPECT_EQ(list.get<int>("z"), 3);
+  EXPECT_EQ(list.get<double>("y"), 1e-3);
+  EXPECT_EQ(list.get<bool>("x"), true);
+  EXPECT_EQ(list.get<std::string>("w"), "Επαφή < 1");
+  EXPECT_EQ(list.get<Teuchos::Array<int>>("v"), counts({1, 2}));
+  EXPECT_EQ(list.get<Teuchos::Array<double>>("u"), numbers({0.5}));
+  EXPECT_TRUE(list.isSublist("t"));
+  std::string order;
+  for (auto entry = list.begin(); entry != list.end(); ++entry)
+    order += list.name(entry);
+  EXPECT_EQ(order, "zyxwvut");
+}
+
+TEST(ParameterFileTest, NamesTheLineOfMalformedXml) {
+  expectSays(refusalOf("<ParameterList>\n<Parameter name=\"x\" type=double/>\n</ParameterList>"),
+             {"a.xml, line 2: malformed XML", "quoted"});
+  expectSays(refusalOf("<ParameterList>\n</Foo>"), {"a.xml, line 2: ", "Foo"});
+  expectSays(refusalOf("<ParameterList>"), {"a.xml, line 1: ", "file ended before closing"});
+  expectSays(refusalOf("hello"), {"a.xml, line 1: "});
+  expectSays(refusalOf("<ParameterList/><ParameterList/>"), {"a.xml, line 1: ", "more than one root"});
+  expectSays(refusalOf("<ParameterList>\n\n<!-- open </ParameterList>"), {"a.xml, line 3"});
+}
+
+TEST(ParameterFileTest, RefusesATextWithoutXml) {
+  for (const std::string text : {"", " \n\t"})
+    expectSays(refusalOf(text), {"a.xml is empty", "<ParameterList>"});
+  expectSays(refusalOf("<!-- nothing -->"), {"a.xml", "<ParameterList>"});
+  expectSays(refusalOf(std::string("\0\1\2", 3)), {"a.xml is a binary file"});
+}
+
+TEST(ParameterFileTest, RefusesAnotherRootElement) {
+  expectSays(refusalOf("<Scene/>"), {"a.xml: ", "<Scene>", "<ParameterList>"});
+}
+
+TEST(ParameterFileTest, RefusesOtherElements) {
+  expectSays(refusalOf(nested("<Paramter/>")), {"a.xml: ", "<Paramter>", "\"Outer/Inner\"", "<Parameter>"});
+  expectSays(refusalOf(nested("some words")), {"a.xml: ", "some words", "\"Outer/Inner\""});
+  expectSays(refusalOf(nested("<Parameter name=\"p\" type=\"int\" value=\"1\"><x/></Parameter>")),
+             {"\"p\"", "<x>"});
+}
+
+TEST(ParameterFileTest, RefusesAMissingAttribute) {
+  expectSays(refusalOf(nested("<Parameter type=\"int\" value=\"1\"/>")),
+             {"a.xml: ", "\"Outer/Inner\"", "no name"});
+  expectSays(refusalOf(nested("<Parameter name=\"p\" value=\"1\"/>")), {"a.xml: ", "\"p\"", "no type"});
+  expectSays(refusalOf(nested("<Parameter name=\"p\" type=\"int\"/>")), {"a.xml: ", "\"p\"", "no value"});
+  expectSays(refusalOf(nested("<ParameterList/>")), {"\"Outer/Inner\"", "no name"});
+}
+
+TEST(ParameterFileTest, RefusesAnUnknownType) {
+  expectSays(refusalOf(nested(parameter("dubble", "1"))),
+             {"a.xml: ", "\"p\"", "\"Outer/Inner\"", "\"dubble\"",
+              "int, double, bool, string, Array(int), Array(double)", "did you mean \"double\"?"});
+}
+
+TEST(ParameterFileTest, RefusesARealNumberThatDoesNotParse) {
+  for (const std::string value : {"abc", "1,5", "1.5 2.5", "", "1e"})
+    expectSays(refusalOf(nested(parameter("double", value))),
+               {"a.xml: ", "\"p\"", "\"Outer/Inner\"", "type double", '"' + value + '"', "is not a number"});
+  for (const std::string value : {"nan", "inf", "-inf"})
+    expectSays(refusalOf(nested(parameter("double", value))),
+               {"\"p\"", '"' + value + '"', "not a finite number"});
+}
+
+TEST(ParameterFileTest, RefusesAWholeNumberThatDoesNotParse) {
+  for (const std::string value : {"2.5", "two", "", "3000000000"})
+    expectSays(refusalOf(nested(parameter("int", value))),
+               {"a.xml: ", "\"p\"", "\"Outer/Inner\"", "type int", '"' + value + '"', "a whole number"});
+}
+
+TEST(ParameterFileTest, RefusesABoolThatDoesNotParse) {
+  expectSays(refusalOf(nested(parameter("bool", "yes"))), {"a.xml: ", "\"p\"", "\"yes\"", "true nor false"});
+}
+
+TEST(ParameterFileTest, RefusesAnArrayThatDoesNotParse) {
+  expectSays(refusalOf(nested(parameter("Array(double)", "{0, x, 1}"))),
+             {"a.xml: ", "\"p\"", "entry 2", "\"x\""});
+  expectSays(refusalOf(nested(parameter("Array(double)", "{0, nan}"))), {"\"p\"", "entry 2", "finite"});
+  expectSays(refusalOf(nested(parameter("Array(int)", "{4, 4.5}"))), {"\"p\"", "entry 2", "whole number"});
+  expectSays(refusalOf(nested(parameter("Array(int)", "4, 4"))), {"\"p\"", "\"4, 4\"", "not an array"});
+}
+
+TEST(ParameterFileTest, RefusesNamesThatAppearTwice) {
+  const std::string one = parameter("int", "1"), list = "<ParameterList name=\"p\"/>";
+  for (const std::string& text : {one + one, list + list, one + list})
+    expectSays(refusalOf(nested(text)), {"a.xml: ", "\"p\"", "twice", "\"Outer/Inner\""});
+}
+
+/// A file that rank 0 alone writes, under a name that no other run of this test uses.
+class ParameterFileOnDiskTest : public testing::Test {
+protected:
+  void TearDown() override {
+    comm->barrier();
+    if (comm->getRank() == 0)
+      std::filesystem::remove(path);
+  }
+  void write(const std::string& text) const {
+    if (comm->getRank() == 0)
+      std::ofstream(path, std::ios::binary) << text;
+  }
+
+  RCP<const Comm> comm = Tpetra::getDefaultComm();
+  // Ranks other than 0 have another process id, thus another path, which must not matter.
+  std::string path =
+      (std::filesystem::temp_directory_path() / ("epafi_parameters_" + std::to_string(getpid()) + ".xml"))
+          .string();
+};
+
+TEST_F(ParameterFileOnDiskTest, ReachesAllRanksThoughOneReadsIt) {
+  write(nested(parameter("double", "0.5")));
+  const ParameterList list = readParameterFile(path, *comm);
+  EXPECT_EQ(list.sublist("Outer").sublist("Inner").get<double>("p"), 0.5);
+}
+
+TEST_F(ParameterFileOnDiskTest, RefusesWrongContentOnAllRanksNamingTheFile) {
+  write(nested(parameter("double", "abc")));
+  expectSays(refusal([&] { readParameterFile(path, *comm); }), {"epafi_parameters_", ".xml: ", "\"abc\""});
+}
+
+TEST_F(ParameterFileOnDiskTest, RefusesAnEmptyFileOnAllRanks) {
+  write("");
+  expectSays(refusal([&] { readParameterFile(path, *comm); }), {"epafi_parameters_", "is empty"});
+}
+
+TEST_F(ParameterFileOnDiskTest, RefusesAMissingFileOnAllRanks) {
+  expectSays(refusal([&] { readParameterFile(path, *comm); }), {"epafi_parameters_", "does not exist"});
+  expectSays(refusal([&] { readParameterFile("", *comm); }), {"does not exist"});
+}
+
+TEST_F(ParameterFileOnDiskTest, RefusesADirectoryOnAllRanks) {
+  expectSays(refusal([&] { readParameterFile("/tmp", *comm); }), {"/tmp is a directory"});
+}
+
+} // namespace

@@ -1,0 +1,47 @@
+#pragma once
+
+/// Small lists that tests change in one place.
+
+#include "../base/Arrays.hpp"
+#include "../base/Refusal.hpp"
+#include "epafi/scene/SceneReader.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <string>
+
+namespace epafi::test {
+
+/// Two unit squares of 4×4 elements, `left` supported on its left, in contact along x = 1.
+inline Teuchos::ParameterList twoBodies() {
+  Teuchos::ParameterList list("Epafi");
+  double x = 0;
+  for (const char* const name : {"left", "right"}) {
+    auto& body = list.sublist("Bodies").sublist(name);
+    body.set("Rectangle", numbers({x, x + 1, 0, 1})).set("Elements", counts({4, 4}));
+    x += 1;
+  }
+  list.sublist("Bodies").sublist("left").sublist("Supports").sublist("wall").set("Edge", "left");
+  auto& pair = list.sublist("Contact").sublist("interface");
+  pair.set("First Body", "left").set("First Edge", "right");
+  pair.set("Second Body", "right").set("Second Edge", "left");
+  return list;
+}
+
+inline Teuchos::ParameterList& bodyOf(Teuchos::ParameterList& list, const std::string& name) {
+  return list.sublist("Bodies").sublist(name);
+}
+
+inline Teuchos::ParameterList& pairOf(Teuchos::ParameterList& list) {
+  return list.sublist("Contact").sublist("interface");
+}
+
+/// What readScene says against twoBodies() after `change`.
+template <class Change>
+std::string sceneRefusal(const Change& change) {
+  Teuchos::ParameterList list = twoBodies();
+  change(list);
+  return refusal([&] { scene::readScene(list, "a.xml"); });
+}
+
+} // namespace epafi::test
