@@ -4,8 +4,8 @@
 
 #include <Teuchos_CommHelpers.hpp>
 
+#include <algorithm>
 #include <string>
-#include <vector>
 
 namespace epafi {
 namespace {
@@ -88,6 +88,26 @@ double maxOverRanks(const Comm& comm, double value) {
 double minOverRanks(const Comm& comm, double value) {
   double result = 0;
   Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, 1, &value, &result);
+  return result;
+}
+
+std::vector<double> gatherOnAll(const Comm& comm, std::span<const double> values) {
+  // Blocks of equal length, padded: Teuchos gathers no others.
+  const auto ranks = static_cast<std::size_t>(comm.getSize());
+  const auto mine = static_cast<int>(values.size());
+  int longest = 0;
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, 1, &mine, &longest);
+  const auto block = static_cast<std::size_t>(longest) + 1;
+  std::vector<double> padded(block), all(block * ranks);
+  padded[0] = mine;
+  std::copy(values.begin(), values.end(), padded.begin() + 1);
+  Teuchos::gatherAll(comm, static_cast<int>(block), padded.data(), static_cast<int>(all.size()), all.data());
+
+  std::vector<double> result;
+  for (std::size_t rank = 0; rank < ranks; ++rank) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(rank * block) + 1;
+    result.insert(result.end(), first, first + static_cast<std::ptrdiff_t>(all[rank * block]));
+  }
   return result;
 }
 

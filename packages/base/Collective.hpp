@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace epafi {
 
@@ -24,5 +25,8 @@ double sumOverRanks(const Comm& comm, double value);
 GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value);
 double maxOverRanks(const Comm& comm, double value);
 double minOverRanks(const Comm& comm, double value);
+
+/// The values of all ranks, rank after rank, on every rank. For data of the coarse problem's size only. Collective.
+std::vector<double> gatherOnAll(const Comm& comm, std::span<const double> values);
 
 } // namespace epafi

@@ -1,0 +1,130 @@
+#include "epafi/fetidp/CoarseProblem.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Eigen/QR>
+#include <Tpetra_Map.hpp>
+
+#include <set>
+#include <vector>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::DecomposedProblem;
+using decomposition::SparseMatrix;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// All ranks' entries (i, j, value) on every rank.
+Triplets gatherTriplets(const Comm& comm, const std::vector<double>& mine) {
+  const std::vector<double> all = gatherOnAll(comm, mine);
+  Triplets triplets;
+  triplets.reserve(all.size() / 3);
+  for (std::size_t k = 0; k < all.size(); k += 3)
+    triplets.emplace_back(static_cast<int>(all[k]), static_cast<int>(all[k + 1]), all[k + 2]);
+  return triplets;
+}
+
+SparseMatrix assemble(const Comm& comm, int size, std::span<const SubdomainSolver> subdomains) {
+  SparseMatrix local(size, size);
+  Triplets blocks;
+  for (const SubdomainSolver& subdomain : subdomains) {
+    const auto indices = subdomain.crosspointIndices();
+    for (std::size_t j = 0; j < indices.size(); ++j)
+      for (std::size_t i = 0; i < indices.size(); ++i)
+        blocks.emplace_back(static_cast<int>(indices[i]), static_cast<int>(indices[j]),
+                            subdomain.schurComplement()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+  }
+  local.setFromTriplets(blocks.begin(), blocks.end());
+  std::vector<double> mine;
+  mine.reserve(3 * static_cast<std::size_t>(local.nonZeros()));
+  for (int column = 0; column < size; ++column)
+    for (SparseMatrix::InnerIterator entry(local, column); entry; ++entry)
+      mine.insert(mine.end(), {static_cast<double>(entry.row()), static_cast<double>(column), entry.value()});
+  const Triplets all = gatherTriplets(comm, mine);
+  SparseMatrix result(size, size);
+  result.setFromTriplets(all.begin(), all.end());
+  return result;
+}
+
+/// R at the crosspoints, size × kernelDimension, and the body of each coarse unknown that floats (−1 elsewhere).
+struct CoarseKernel {
+  Eigen::MatrixXd modes;
+  std::vector<int> body;
+};
+
+CoarseKernel gatherKernel(const DecomposedProblem& problem, int size) {
+  std::vector<double> mine;
+  for (const auto& subdomain : problem.subdomains)
+    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
+      for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
+        const auto column = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset + mode;
+        mine.insert(mine.end(), {static_cast<double>(subdomain.crosspointIndices[i]), static_cast<double>(column),
+                                 subdomain.kernel(subdomain.crosspointUnknowns[i], mode)});
+      }
+  CoarseKernel kernel{Eigen::MatrixXd::Zero(size, problem.kernelDimension),
+                      std::vector<int>(static_cast<std::size_t>(size), -1)};
+  for (const auto& entry : gatherTriplets(*problem.comm, mine)) {
+    kernel.modes(entry.row(), entry.col()) = entry.value(); // copies of a crosspoint agree
+    for (std::size_t body = 0; body < problem.bodies.size(); ++body)
+      if (entry.col() >= problem.bodies[body].kernelOffset &&
+          entry.col() < problem.bodies[body].kernelOffset + problem.bodies[body].kernelDimension)
+        kernel.body[static_cast<std::size_t>(entry.row())] = static_cast<int>(body);
+  }
+  return kernel;
+}
+
+/// As many crosspoint values of the body as it has modes, such that R there is well conditioned: QR with pivoting.
+std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, const CoarseKernel& kernel) {
+  std::vector<int> candidates;
+  for (std::size_t i = 0; i < kernel.body.size(); ++i)
+    if (kernel.body[i] == index)
+      candidates.push_back(static_cast<int>(i));
+  Eigen::MatrixXd transposed(body.kernelDimension, static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t j = 0; j < candidates.size(); ++j)
+    transposed.col(static_cast<Eigen::Index>(j)) =
+        kernel.modes.row(candidates[j]).segment(body.kernelOffset, body.kernelDimension).transpose();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
+  if (qr.rank() < body.kernelDimension)
+    throw Error("the crosspoints of the floating body '" + body.name + "' do not hold its " +
+                std::to_string(body.kernelDimension) + " rigid modes; choose more crosspoints");
+  std::vector<int> fixed;
+  for (int k = 0; k < body.kernelDimension; ++k)
+    fixed.push_back(candidates[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
+  return fixed;
+}
+
+} // namespace
+
+CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainSolver> subdomains,
+                             const std::string& directSolver)
+    : comm_(problem.comm), size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())), rhs_(size_) {
+  SparseMatrix matrix = assemble(*comm_, size_, subdomains);
+  if (problem.kernelDimension > 0) {
+    const CoarseKernel kernel = gatherKernel(problem, size_);
+    const double scale = matrix.norm();
+    if ((matrix * kernel.modes).norm() > 1e-8 * scale * kernel.modes.norm())
+      throw Error("the kernel of the floating bodies is not a kernel of the coarse problem; check the rigid modes");
+    for (std::size_t body = 0; body < problem.bodies.size(); ++body)
+      if (problem.bodies[body].kernelDimension > 0)
+        for (const int unknown : fixingUnknowns(problem.bodies[body], static_cast<int>(body), kernel)) {
+          const double diagonal = matrix.coeff(unknown, unknown);
+          matrix.coeffRef(unknown, unknown) += diagonal > 0 ? diagonal : 1.0; // τ; a lone subdomain has S = 0
+        }
+  }
+  matrix.makeCompressed();
+  factor_ = direct::factorize(matrix, directSolver, "the coarse problem");
+}
+
+void CoarseProblem::solve(Eigen::VectorXd& z) const {
+  if (size_ == 0)
+    return;
+  sumOverRanks(*comm_, {z.data(), static_cast<std::size_t>(size_)});
+  rhs_ = z;
+  factor_->solve(rhs_, z);
+}
+
+std::size_t CoarseProblem::factorBytes() const { return factor_->bytes(); }
+
+} // namespace epafi::fetidp

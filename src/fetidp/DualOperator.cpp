@@ -1,0 +1,21 @@
+#include "epafi/fetidp/DualOperator.hpp"
+
+#include <utility>
+
+namespace epafi::fetidp {
+
+DualOperator::DualOperator(const decomposition::DecomposedProblem& problem, std::shared_ptr<GeneralizedInverse> inverse)
+    : map_(problem.multiplierMap), inverse_(std::move(inverse)), input_(problem), output_(problem), result_(map_) {}
+
+void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
+                         double beta) const {
+  for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
+    const std::span<const double> lambda = input_.toSubdomains(*x.getVector(column));
+    inverse_->applyDual(lambda, output_.values());
+    output_.sumToOwners(result_);
+    y.getVectorNonConst(column)->update(alpha, result_, beta); // beta = 0 overwrites, NaN included
+    ++applications_;
+  }
+}
+
+} // namespace epafi::fetidp

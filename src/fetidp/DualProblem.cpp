@@ -1,0 +1,160 @@
+#include "epafi/fetidp/DualProblem.hpp"
+
+#include "epafi/fetidp/ProjectedOperator.hpp"
+#include "epafi/fetidp/Solvability.hpp"
+#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/ConjugateGradient.hpp"
+
+#include <Tpetra_Map.hpp>
+
+#include <limits>
+#include <utility>
+
+namespace epafi::fetidp {
+
+std::string toString(Algorithm algorithm) {
+  switch (algorithm) {
+  case Algorithm::direct:
+    return "Direct";
+  case Algorithm::conjugateGradient:
+    return "CG";
+  case Algorithm::mprgp:
+    return "MPRGP";
+  case Algorithm::smalbe:
+    return "SMALBE-M";
+  }
+  return "Unknown";
+}
+
+SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem) {
+  SubdomainVectors loads;
+  loads.reserve(problem.subdomains.size());
+  for (const auto& subdomain : problem.subdomains)
+    loads.push_back(subdomain.load);
+  return loads;
+}
+
+DualProblem::DualProblem(const decomposition::DecomposedProblem& problem, std::shared_ptr<GeneralizedInverse> inverse,
+                         const DualParameters& parameters)
+    : problem_(problem), inverse_(std::move(inverse)), parameters_(parameters) {
+  choose();
+  kernelEntries_ = kernelConstraint(problem_);
+  if (algorithm_ == Algorithm::direct)
+    return;
+  dualOperator_ = rcp(new DualOperator(problem_, inverse_));
+  hessian_ = dualOperator_;
+  if (algorithm_ == Algorithm::smalbe) {
+    requireContactForEveryMotion(problem_, kernelEntries_);
+    const RCP<const NaturalCoarseSpace> space = rcp(new NaturalCoarseSpace(problem_, kernelEntries_));
+    coarseSpace_ = space;
+    hessian_ = rcp(new ProjectedOperator(dualOperator_, space));
+  }
+  if (algorithm_ != Algorithm::conjugateGradient)
+    norm_ = qp::estimateNorm(*hessian_, parameters_.norm);
+}
+
+void DualProblem::choose() {
+  if (problem_.dualDimension() == 0) {
+    algorithm_ = Algorithm::direct;
+    reason_ = "one piece without contact: one factorisation solves it, nothing to iterate";
+  } else if (problem_.numInequalities == 0) {
+    algorithm_ = Algorithm::conjugateGradient;
+    reason_ = "no contact: the multipliers only glue subdomains, a linear problem";
+  } else if (problem_.kernelDimension == 0) {
+    algorithm_ = Algorithm::mprgp;
+    reason_ = "contact, and every body is held by supports: bound constraints only";
+  } else {
+    algorithm_ = Algorithm::smalbe;
+    std::string names;
+    for (const auto& body : problem_.bodies)
+      if (body.kernelDimension > 0)
+        names += (names.empty() ? "" : ", ") + body.name;
+    reason_ = "contact with floating bodies (" + names + "): bounds and equilibrium constraints";
+  }
+}
+
+DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
+  const SubdomainVectors load = loadsOf(problem_);
+  const Eigen::VectorXd resultants = kernelLoad(problem_, load);
+  requireFeasibleGaps(problem_);
+  requireUniqueSolution(problem_, kernelEntries_, resultants);
+
+  DualSolution solution;
+  solution.lambda = rcp(new Vector(problem_.multiplierMap));
+  if (algorithm_ == Algorithm::direct) {
+    solution.report.status = qp::Status::converged;
+    solution.report.reason = "solved directly";
+    return solution;
+  }
+  const RCP<Vector> rhs = rightHandSide(load);
+  if (algorithm_ == Algorithm::smalbe)
+    solveSemicoercive(rhs, resultants, start, observer, solution);
+  else
+    solveCoercive(rhs, start, observer, solution);
+  return solution;
+}
+
+/// d̃ = B̄ K̄⁺ f̄ − c.
+RCP<Vector> DualProblem::rightHandSide(const SubdomainVectors& load) {
+  SubdomainVectors u;
+  inverse_->apply(load, u);
+  MultiplierExchange exchange(problem_);
+  inverse_->constraint(u, exchange.values());
+  const RCP<Vector> rhs = rcp(new Vector(problem_.multiplierMap));
+  exchange.sumToOwners(*rhs);
+  rhs->update(-1.0, *problem_.gap, 1.0);
+  return rhs;
+}
+
+/// 0 for multipliers of contact, `free` for those of gluing.
+RCP<Vector> DualProblem::lowerBounds(double free) const {
+  const RCP<Vector> lower = rcp(new Vector(problem_.multiplierMap));
+  const auto values = lower->getDataNonConst();
+  for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
+    if (problem_.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) >= problem_.numInequalities)
+      values[i] = free;
+  return lower;
+}
+
+void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
+                                DualSolution& solution) {
+  solution.reference = rhs->norm2();
+  if (start != nullptr)
+    solution.lambda->assign(*start);
+  if (algorithm_ == Algorithm::conjugateGradient) {
+    solution.report = qp::solveUnconstrained(hessian_, rhs, solution.lambda, parameters_.tolerance,
+                                             parameters_.mprgp.maxMultiplications, observer);
+    return;
+  }
+  const qp::Bounds bounds(lowerBounds(-std::numeric_limits<double>::infinity()));
+  solution.report = qp::solveBoundProblem(hessian_, *rhs, bounds, *solution.lambda, parameters_.tolerance,
+                                          parameters_.mprgp, norm_.norm, observer);
+}
+
+/// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
+void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad, const Vector* start,
+                                    qp::Observer* observer, DualSolution& solution) {
+  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad);
+  Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
+  coarseSpace_->feasiblePoint(e, feasible);
+  dualOperator_->apply(feasible, *rhs, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
+  coarseSpace_->project(*rhs);                                        // Pd
+  solution.reference = rhs->norm2();
+
+  const RCP<Vector> lower = lowerBounds(-std::numeric_limits<double>::infinity());
+  lower->update(-1.0, feasible, 1.0); // −λ̃_I
+  Vector mu(problem_.multiplierMap);
+  if (start != nullptr)
+    mu.update(1.0, *start, -1.0, feasible, 0.0);
+
+  const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference, parameters_.equilibriumTolerance,
+                                        feasible.norm2()};
+  solution.report =
+      qp::solveEqualityBoundProblem(hessian_, coarseSpace_, *rhs, qp::Bounds(lower), mu, tolerances, parameters_.smalbe,
+                                    parameters_.mprgp, norm_.norm, observer);
+  solution.lambda->update(1.0, mu, 1.0, feasible, 0.0);
+  const Eigen::VectorXd imbalance = coarseSpace_->product(*solution.lambda) - e;
+  solution.equilibrium = e.norm() > 0 ? imbalance.norm() / e.norm() : imbalance.norm();
+}
+
+} // namespace epafi::fetidp

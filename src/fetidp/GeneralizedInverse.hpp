@@ -1,0 +1,52 @@
+#pragma once
+
+/// K̄⁺: the inverse, or a generalised inverse, of the stiffness matrix after the crosspoints are merged; and B̄ around it.
+
+#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/fetidp/CoarseProblem.hpp"
+#include "epafi/fetidp/SubdomainSolver.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// Values of this rank's subdomains, n_s each.
+using SubdomainVectors = std::vector<Eigen::VectorXd>;
+
+/// Names of the direct solvers (see direct::availableSolvers).
+struct DirectSolvers {
+  std::string subdomains = "KLU2";
+  std::string coarse = "KLU2";
+};
+
+class GeneralizedInverse {
+public:
+  /// Factorises the subdomains and the coarse problem. Keeps a reference to `problem`. Collective; throws alike on all ranks.
+  GeneralizedInverse(const decomposition::DecomposedProblem& problem, const DirectSolvers& solvers);
+
+  /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap): the sum of `result` over the ranks is Fλ.
+  /// One message of the coarse problem's size. Collective.
+  void applyDual(std::span<const double> lambda, std::span<double> result);
+
+  /// u = K̄⁺ b. Crosspoint entries of b are contributions, summed over the subdomains; those of u agree. Collective.
+  void apply(const SubdomainVectors& b, SubdomainVectors& u);
+
+  /// b −= B̄ᵀ λ (λ on the ghost map). Not collective.
+  void subtractForces(std::span<const double> lambda, SubdomainVectors& b) const;
+  /// result = this rank's part of B̄ u (on the ghost map). Not collective.
+  void constraint(const SubdomainVectors& u, std::span<double> result) const;
+
+  /// Bytes of this rank's factors.
+  [[nodiscard]] std::size_t factorBytes() const;
+  [[nodiscard]] int coarseSize() const { return coarseProblem_->size(); }
+
+private:
+  std::vector<SubdomainSolver> subdomains_;
+  std::unique_ptr<CoarseProblem> coarseProblem_;
+  Eigen::VectorXd coarse_; ///< work
+};
+
+} // namespace epafi::fetidp

@@ -1,0 +1,61 @@
+#pragma once
+
+/// Equilibrium of the floating bodies: G̃ = Rᵀ B̄ᵀ, ẽ = Rᵀ f̄, made orthonormal: G = T̃ G̃ with GGᵀ = I, e = T̃ ẽ; the
+/// projectors Q = GᵀG on Im Gᵀ and P = I − Q on Ker G; the feasible λ̃ = Gᵀe.
+///
+/// The kernel R of a body satisfies the gluing, so that G̃ has entries in the rows of contact only, each touching at most two
+/// bodies: it is kept sparse, by rows of B. T̃ is the inverse of the Cholesky factor of G̃G̃ᵀ (k × k on every rank).
+
+#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/qp/EqualityConstraint.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// One entry of G̃ᵀ in a row that this rank owns.
+struct KernelEntry {
+  int row;  ///< local index in multiplierMap
+  int mode; ///< column of R
+  double value;
+};
+
+/// G̃ᵀ by rows, this rank's. Collective.
+std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem& problem);
+
+/// ẽ = Rᵀ f̄ for the given loads, on every rank. Collective.
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load);
+
+class NaturalCoarseSpace final : public qp::EqualityConstraint {
+public:
+  /// \param entries  see kernelConstraint
+  /// Precondition: G̃ has full row rank (see Solvability.hpp, which says so in the user's words). Collective.
+  /// \throws Error if it has not.
+  NaturalCoarseSpace(const decomposition::DecomposedProblem& problem, std::vector<KernelEntry> entries);
+
+  [[nodiscard]] int size() const override { return static_cast<int>(cholesky_.rows()); }
+  void addLocalProduct(const Vector& x, std::span<double> gx) const override;
+  void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override;
+
+  /// Gx on every rank. Collective.
+  [[nodiscard]] Eigen::VectorXd product(const Vector& x) const;
+  /// x ← Px = x − Gᵀ(Gx). One message of k numbers. Collective.
+  void project(Vector& x) const;
+  /// e = T̃ ẽ. Not collective.
+  [[nodiscard]] Eigen::VectorXd normalized(const Eigen::VectorXd& kernelLoad) const;
+  /// λ̃ = Gᵀe, the shortest λ with Gλ = e. Not collective.
+  void feasiblePoint(const Eigen::VectorXd& e, Vector& lambda) const;
+
+private:
+  RCP<const Comm> comm_;
+  std::vector<KernelEntry> entries_;
+  Eigen::MatrixXd cholesky_; ///< L with G̃G̃ᵀ = LLᵀ, lower triangle
+  mutable Eigen::VectorXd work_, sums_;
+};
+
+} // namespace epafi::fetidp

@@ -1,0 +1,133 @@
+#include "epafi/fetidp/Recovery.hpp"
+
+#include "epafi/base/Collective.hpp"
+
+#include <Eigen/QR>
+#include <Tpetra_Map.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::DecomposedProblem;
+
+/// c − B̄u on the owners' multipliers.
+void slackOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse, const SubdomainVectors& u,
+             Vector& slack) {
+  MultiplierExchange exchange(problem);
+  inverse.constraint(u, exchange.values());
+  exchange.sumToOwners(slack);
+  slack.update(1.0, *problem.gap, -1.0);
+}
+
+/// α: where a contact force acts the gap is closed, G̃ᵀα = c − B̄u there; least squares over those rows.
+Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
+                            const Vector& lambda, const Vector& slack) {
+  const Eigen::Index k = problem.kernelDimension;
+  const auto force = lambda.getData(), gap = slack.getData();
+  std::map<int, Eigen::VectorXd> rows;
+  for (const KernelEntry& entry : entries)
+    if (force[entry.row] > 0)
+      rows.try_emplace(entry.row, Eigen::VectorXd::Zero(k)).first->second[entry.mode] += entry.value;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(k, k + 1); // [G̃_A G̃_Aᵀ, G̃_A slack_A]
+  for (const auto& [row, vector] : rows) {
+    normal.leftCols(k) += vector * vector.transpose();
+    normal.col(k) += vector * gap[row];
+  }
+  sumOverRanks(*problem.comm, {normal.data(), static_cast<std::size_t>(normal.size())});
+  return normal.leftCols(k).completeOrthogonalDecomposition().solve(normal.col(k));
+}
+
+/// ½uᵀKu − fᵀu over all subdomains.
+double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
+  double energy = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    const auto& subdomain = problem.subdomains[s];
+    energy += 0.5 * u[s].dot(subdomain.stiffness * u[s]) - subdomain.load.dot(u[s]) + subdomain.energyOffset;
+  }
+  return sumOverRanks(*problem.comm, energy);
+}
+
+/// Values at all positions of a subdomain: the unknowns' and the prescribed ones.
+Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, const Eigen::VectorXd& u) {
+  Eigen::VectorXd all = subdomain.prescribed;
+  for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
+    all[subdomain.unknownPosition[i]] = u[static_cast<Eigen::Index>(i)];
+  return all;
+}
+
+/// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual problem.
+void assess(const DecomposedProblem& problem, const DualSolution& dual, double operatorNorm, double largestValue,
+            ContactSolution& solution) {
+  const auto force = solution.multiplier->getData(), slack = solution.slack->getData();
+  const auto gap = problem.gap->getData();
+  const auto active = solution.active->getDataNonConst();
+  double sums[4] = {0, 0, 0, 0}; // ‖g^P‖², λᵀg, force, active nodes
+  double violation = 0, largestGap = 0;
+  for (Teuchos_Ordinal i = 0; i < force.size(); ++i) {
+    const bool isContact =
+        problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem.numInequalities;
+    const double projected = isContact && !(force[i] > 0) ? std::min(slack[i], 0.0) : slack[i];
+    sums[0] += projected * projected;
+    violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]));
+    largestGap = std::max(largestGap, std::abs(gap[i]));
+    if (!isContact)
+      continue;
+    sums[1] += force[i] * slack[i];
+    sums[2] += force[i];
+    active[i] = operatorNorm * force[i] > slack[i] ? 1.0 : 0.0; // λ − (c − Bu)/‖F‖ > 0
+    sums[3] += active[i];
+  }
+  const Comm& comm = *problem.comm;
+  sumOverRanks(comm, sums);
+  violation = maxOverRanks(comm, violation);
+  const double scale = maxOverRanks(comm, std::max(largestGap, largestValue));
+  const auto relative = [](double value, double reference) { return reference > 0 ? value / reference : value; };
+  solution.relativeProjectedGradient = relative(std::sqrt(sums[0]), dual.reference);
+  solution.feasibility = relative(violation, scale);
+  solution.complementarity = relative(std::abs(sums[1]), std::abs(solution.energy));
+  solution.equilibrium = dual.equilibrium;
+  solution.contactForce = sums[2];
+  solution.activeContactNodes = static_cast<GlobalOrdinal>(sums[3]);
+}
+
+} // namespace
+
+ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& inverse,
+                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual, double operatorNorm) {
+  ContactSolution solution;
+  solution.multiplier = rcp(new Vector(*dual.lambda, Teuchos::Copy));
+  solution.slack = rcp(new Vector(problem.multiplierMap));
+  solution.active = rcp(new Vector(problem.multiplierMap));
+
+  SubdomainVectors forces = loadsOf(problem), u;
+  MultiplierExchange exchange(problem);
+  inverse.subtractForces(exchange.toSubdomains(*dual.lambda), forces); // f̄ − B̄ᵀλ
+  inverse.apply(forces, u);                                            // K̄⁺(f̄ − B̄ᵀλ)
+  slackOf(problem, inverse, u, *solution.slack);
+  if (problem.kernelDimension > 0) {
+    const Eigen::VectorXd alpha = rigidMotion(problem, kernelEntries, *dual.lambda, *solution.slack);
+    for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
+      const auto& subdomain = problem.subdomains[s];
+      const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
+      if (subdomain.kernel.cols() > 0)
+        u[s] += subdomain.kernel * alpha.segment(offset, subdomain.kernel.cols());
+    }
+    slackOf(problem, inverse, u, *solution.slack);
+  }
+
+  double largest = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    solution.displacement.push_back(atAllPositions(problem.subdomains[s], u[s]));
+    if (solution.displacement.back().size() > 0)
+      largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
+  }
+  solution.energy = energyOf(problem, u);
+  assess(problem, dual, operatorNorm, largest, solution);
+  return solution;
+}
+
+} // namespace epafi::fetidp

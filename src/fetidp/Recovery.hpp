@@ -1,0 +1,17 @@
+#pragma once
+
+/// From λ back to the scene: u = K̄⁺(f̄ − B̄ᵀλ) + Rα, with α from the rows of the active contact constraints; and how accurate
+/// it is, computed afresh from u and λ.
+
+#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/fetidp/DualProblem.hpp"
+
+namespace epafi::fetidp {
+
+/// \param dual          λ and its reference
+/// \param operatorNorm  ‖F‖ or ‖PFP‖, the scale between forces and gaps in the test for an active contact
+/// Collective.
+ContactSolution recover(const decomposition::DecomposedProblem& problem, GeneralizedInverse& inverse,
+                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual, double operatorNorm);
+
+} // namespace epafi::fetidp

@@ -1,0 +1,39 @@
+#pragma once
+
+/// Does the contact problem have a solution, and only one?
+///
+/// A rigid motion α of the floating bodies that the contact allows satisfies G̃ᵀα ≤ 0. A minimiser exists if and only if
+/// ẽᵀα ≤ 0 for all of them, that is, if ẽ lies in the cone of the columns of G̃ (Farkas); it is unique if ẽ lies in the
+/// interior of that cone.
+
+#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/fetidp/NaturalCoarseSpace.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// Resultants smaller than this part of a body's total load count as zero.
+inline constexpr double resultantTolerance = 1e-9;
+
+/// Throws SolvabilityError, the same on all ranks, that names the body and the reason if
+///  - a rigid motion of the floating bodies meets no contact at all (no solution, or not unique),
+///  - the load pulls a floating body off its contacts (no solution),
+///  - the load on it has no resultant against its contacts (not unique).
+/// \param entries  this rank's rows of G̃ᵀ;  \param kernelLoad  ẽ
+/// Collective.
+void requireUniqueSolution(const decomposition::DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
+                           const Eigen::VectorXd& kernelLoad);
+
+/// What can be said before any load is known: throws SolvabilityError (not unique) if a rigid motion of the floating bodies
+/// meets no contact at all. Collective.
+void requireContactForEveryMotion(const decomposition::DecomposedProblem& problem,
+                                  const std::vector<KernelEntry>& entries);
+
+/// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap contradict
+/// each other. Collective.
+void requireFeasibleGaps(const decomposition::DecomposedProblem& problem);
+
+} // namespace epafi::fetidp
