@@ -18,14 +18,44 @@ bool isFree(const fem::BodyModel& model, GlobalOrdinal node) {
   return false;
 }
 
-/// Middle node of every interface of this piece with a higher part that has no free crosspoint.
-void addInterfacePoints(const Layout& layout, const Piece& piece, std::vector<Key>& extra) {
-  struct Interface {
-    bool hasCrosspoint = false;
-    std::vector<GlobalOrdinal> freeNodes;
-  };
-  const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(piece.body)];
-  std::map<int, Interface> interfaces; // by the other part
+bool isHeld(const fem::BodyModel& model, GlobalOrdinal node) {
+  for (int component = 0; component < model.components(); ++component)
+    if (!model.prescribed(node, component))
+      return false;
+  return true;
+}
+
+/// Points that hold a body's rigid modes: one for a scalar field, two in the plane, three in space.
+std::size_t pointsNeeded(const fem::BodyModel& model) {
+  return static_cast<std::size_t>(model.components());
+}
+
+/// Whether supports alone make each subdomain of the whole problem regular; the same on every rank.
+/// Collective.
+std::vector<char> findHeld(const Layout& layout, const std::vector<Piece>& pieces, const Comm& comm) {
+  std::vector<double> heldNodes(static_cast<std::size_t>(layout.numSubdomains), 0.0);
+  for (const Piece& piece : pieces)
+    for (const GlobalOrdinal node : piece.assembled.nodes)
+      if (isHeld(*layout.models[static_cast<std::size_t>(piece.body)], node))
+        heldNodes[static_cast<std::size_t>(piece.number)] += 1;
+  sumOverRanks(comm, heldNodes);
+  std::vector<char> held;
+  for (int number = 0; number < layout.numSubdomains; ++number) {
+    const auto& model = *layout.models[static_cast<std::size_t>(bodyOf(layout, number))];
+    held.push_back(heldNodes[held.size()] >= static_cast<double>(pointsNeeded(model)) ? 1 : 0);
+  }
+  return held;
+}
+
+/// The free nodes that a piece shares with one other part.
+struct Interface {
+  std::size_t numCrosspoints = 0;
+  std::vector<GlobalOrdinal> nodes;
+};
+
+/// The interfaces of a piece with higher parts, by part.
+std::map<int, Interface> findInterfaces(const fem::BodyModel& model, const Piece& piece) {
+  std::map<int, Interface> interfaces;
   for (std::size_t i = 0; i < piece.sharing.size(); ++i) {
     const GlobalOrdinal node = piece.assembled.nodes[i];
     if (piece.sharing[i].size() < 2 || !isFree(model, node))
@@ -33,13 +63,42 @@ void addInterfacePoints(const Layout& layout, const Piece& piece, std::vector<Ke
     for (const int other : piece.sharing[i])
       if (other > piece.part) {
         Interface& interface = interfaces[other];
-        interface.freeNodes.push_back(node);
-        interface.hasCrosspoint = interface.hasCrosspoint || piece.isCrosspoint[i] != 0;
+        interface.nodes.push_back(node);
+        interface.numCrosspoints += piece.isCrosspoint[i] != 0 ? 1 : 0;
       }
   }
-  for (const auto& [other, interface] : interfaces)
-    if (!interface.hasCrosspoint)
-      extra.emplace_back(piece.body, interface.freeNodes[interface.freeNodes.size() / 2]);
+  return interfaces;
+}
+
+/// Marks the end points and meeting points of interfaces.
+void markCorners(const fem::Mesh& mesh, Piece& piece, std::vector<Key>& corners) {
+  piece.isCrosspoint.assign(piece.assembled.nodes.size(), 0);
+  for (std::size_t i = 0; i < piece.sharing.size(); ++i) {
+    const std::size_t copies = piece.sharing[i].size();
+    if (copies >= 3 || (copies == 2 && mesh.isBoundaryNode(piece.assembled.nodes[i]))) {
+      piece.isCrosspoint[i] = 1;
+      corners.emplace_back(piece.body, piece.assembled.nodes[i]);
+    }
+  }
+}
+
+/// Further crosspoints for the interfaces of a piece with higher parts: where one of the two sides leans on
+/// the other and too few free crosspoints join them, free nodes evenly spaced among the shared ones (a single
+/// one: in the middle). The lower part's rank decides, so that both sides hear of the same nodes.
+void addInterfacePoints(const Layout& layout, const Piece& piece, const std::vector<char>& held,
+                        std::vector<Key>& extra) {
+  const auto b = static_cast<std::size_t>(piece.body);
+  const int firstSubdomain = layout.bodies[b].firstSubdomain;
+  const std::size_t needed = pointsNeeded(*layout.models[b]);
+  for (const auto& [other, interface] : findInterfaces(*layout.models[b], piece)) {
+    const bool bothHeld = held[static_cast<std::size_t>(piece.number)] != 0 &&
+                          held[static_cast<std::size_t>(firstSubdomain + other)] != 0;
+    if (bothHeld || interface.numCrosspoints >= needed)
+      continue;
+    const std::size_t missing = needed - interface.numCrosspoints, available = interface.nodes.size();
+    for (std::size_t k = 0; k < missing; ++k)
+      extra.emplace_back(piece.body, interface.nodes[(2 * k + 1) * available / (2 * missing)]);
+  }
 }
 
 /// Node nearest to the centre of the points of a piece.
@@ -82,21 +141,14 @@ std::vector<Key> gatherKeys(const Comm& comm, const std::vector<Key>& mine) {
 } // namespace
 
 CrosspointNumbering::CrosspointNumbering(const Layout& layout, std::vector<Piece>& pieces, const Comm& comm) {
+  const std::vector<char> held = findHeld(layout, pieces, comm);
   std::vector<Key> mine;
   for (Piece& piece : pieces) {
-    const BodyLayout& body = layout.bodies[static_cast<std::size_t>(piece.body)];
-    piece.isCrosspoint.assign(piece.assembled.nodes.size(), 0);
-    for (std::size_t i = 0; i < piece.sharing.size(); ++i) {
-      const std::size_t copies = piece.sharing[i].size();
-      if (copies >= 3 || (copies == 2 && body.mesh->isBoundaryNode(piece.assembled.nodes[i]))) {
-        piece.isCrosspoint[i] = 1;
-        mine.emplace_back(piece.body, piece.assembled.nodes[i]);
-      }
-    }
-    addInterfacePoints(layout, piece, mine);
-    const bool floats = layout.models[static_cast<std::size_t>(piece.body)]->kernelDimension() > 0;
-    if (floats && body.partition->numParts() == 1)
-      mine.emplace_back(piece.body, middleNode(*body.mesh, piece));
+    const auto b = static_cast<std::size_t>(piece.body);
+    markCorners(*layout.bodies[b].mesh, piece, mine);
+    addInterfacePoints(layout, piece, held, mine);
+    if (layout.models[b]->kernelDimension() > 0 && layout.bodies[b].partition->numParts() == 1)
+      mine.emplace_back(piece.body, middleNode(*layout.bodies[b].mesh, piece));
   }
   nodes_ = gatherKeys(comm, mine);
 

@@ -2,11 +2,13 @@
 
 /// Choice and numbering of the crosspoints.
 ///
-/// A node is a crosspoint if three or more subdomains share it, or two share it on the body's boundary: the end points and
-/// the meeting points of interfaces. On a grid these are all subdomain corners but the four of the body. More are chosen
-/// where these do not suffice:
-///  - an interface of two subdomains without a free crosspoint (a closed loop, or ends that are supported) gets the free
-///    node in its middle: each subdomain is then regular, and K̄ has no kernel but the bodies' own;
+/// A node is a crosspoint if three or more subdomains share it, or two share it on the body's boundary: the
+/// end points and the meeting points of interfaces. On a grid these are all subdomain corners but the four of
+/// the body. More are chosen where these do not suffice:
+///  - an interface without a free crosspoint (a closed loop, or supported ends) gets the free node in its
+///  middle, unless
+///    supports alone hold both its sides: each subdomain is then regular, and K̄ has no kernel but the bodies'
+///    own;
 ///  - a floating body in one piece gets the node nearest to its centre.
 
 #include "epafi/decomposition/Pieces.hpp"
@@ -26,7 +28,8 @@ public:
   /// Number of free unknowns at crosspoints.
   [[nodiscard]] GlobalOrdinal numUnknowns() const { return numUnknowns_; }
   /// Coarse index of a crosspoint's free component.
-  [[nodiscard]] GlobalOrdinal index(int body, GlobalOrdinal node, const fem::BodyModel& model, int component) const;
+  [[nodiscard]] GlobalOrdinal index(int body, GlobalOrdinal node, const fem::BodyModel& model,
+                                    int component) const;
 
 private:
   using Key = std::pair<int, GlobalOrdinal>; ///< body, node

@@ -17,62 +17,51 @@
 namespace epafi::decomposition {
 namespace {
 
-BodyLayout layoutBody(const scene::Body& body, int firstSubdomain, const Comm& comm) {
-  BodyLayout layout;
-  layout.name = body.name;
-  layout.firstSubdomain = firstSubdomain;
-  layout.mesh = std::make_unique<fem::RectangleMesh>(body.rectangle, body.elements);
+void requireCut(const scene::Body& body) {
   const scene::Decomposition& cut = body.decomposition;
+  const std::string where = "body '" + body.name + "' has ";
   if (cut.method == scene::Decomposition::Method::metis) {
-    layout.partition = std::make_unique<GraphPartition>(*layout.mesh, cut.parts, comm);
-    return layout;
+    const GlobalOrdinal numElements = static_cast<GlobalOrdinal>(body.elements[0]) * body.elements[1];
+    if (cut.parts < 1 || cut.parts > numElements)
+      throw InputError(where + std::to_string(numElements) + " elements and cannot be cut into " +
+                       std::to_string(cut.parts) + " parts; choose between 1 and " +
+                       std::to_string(numElements));
+    return;
   }
   for (std::size_t d = 0; d < 2; ++d)
     if (cut.counts[d] < 1 || cut.counts[d] > body.elements[d])
-      throw InputError("body '" + body.name + "' has " + std::to_string(body.elements[d]) +
-                       " elements in one direction and cannot be cut into " + std::to_string(cut.counts[d]) +
-                       " subdomains there");
-  layout.partition = std::make_unique<GridPartition>(*layout.mesh, cut.counts);
-  return layout;
+      throw InputError(where + std::to_string(body.elements[d]) + " elements in " + (d == 0 ? "x" : "y") +
+                       " and cannot be cut into " + std::to_string(cut.counts[d]) +
+                       " subdomains there; choose between 1 and " + std::to_string(body.elements[d]));
 }
 
-/// Parts of the body that share a node, ascending.
-std::vector<int> sharingParts(const BodyLayout& body, GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) {
-  body.mesh->nodeElements(node, elements);
-  std::vector<int> parts;
-  for (const GlobalOrdinal element : elements)
-    parts.push_back(body.partition->partOf(element));
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-  return parts;
+/// Collective.
+std::unique_ptr<Partition> makePartition(const scene::Body& body, const fem::RectangleMesh& mesh,
+                                         const Comm& comm) {
+  if (body.decomposition.method == scene::Decomposition::Method::metis)
+    return std::make_unique<GraphPartition>(mesh, body.decomposition.parts, comm);
+  return std::make_unique<GridPartition>(mesh, body.decomposition.counts);
 }
 
-std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
-  const auto first = [&](GlobalOrdinal rank) { return static_cast<int>(rank * layout.numSubdomains / comm.getSize()); };
-  std::vector<Piece> pieces;
-  std::vector<GlobalOrdinal> elements;
-  for (int number = first(comm.getRank()); number < first(comm.getRank() + 1); ++number) {
-    Piece piece;
-    piece.number = number;
-    while (piece.body + 1 < static_cast<int>(layout.bodies.size()) &&
-           layout.bodies[static_cast<std::size_t>(piece.body) + 1].firstSubdomain <= number)
-      ++piece.body;
-    const BodyLayout& body = layout.bodies[static_cast<std::size_t>(piece.body)];
-    piece.part = number - body.firstSubdomain;
-    piece.assembled =
-        fem::assemble(*layout.models[static_cast<std::size_t>(piece.body)], body.partition->elementsOf(piece.part));
-    for (const GlobalOrdinal node : piece.assembled.nodes)
-      piece.sharing.push_back(sharingParts(body, node, elements));
-    pieces.push_back(std::move(piece));
+/// Collective.
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
+  std::vector<BodyLayout> bodies;
+  int firstSubdomain = 0;
+  for (const scene::Body& body : scene.bodies) {
+    auto mesh = std::make_unique<fem::RectangleMesh>(body.rectangle, body.elements);
+    auto partition = makePartition(body, *mesh, comm);
+    const int numParts = partition->numParts();
+    bodies.push_back({body.name, std::move(mesh), std::move(partition), firstSubdomain});
+    firstSubdomain += numParts;
   }
-  return pieces;
+  return bodies;
 }
 
 RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm) {
   std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(indices), 0,
-                     comm));
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                     Teuchos::arrayViewFromVector(indices), 0, comm));
 }
 
 /// Splits the unknowns of a piece in remainder and crosspoints.
@@ -118,8 +107,8 @@ std::vector<GlobalOrdinal> ownedCrosspoints(const Layout& layout, const Crosspoi
   return owned;
 }
 
-std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout, const std::vector<Piece>& pieces,
-                                 const Comm& comm) {
+std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout,
+                                 const std::vector<Piece>& pieces, const Comm& comm) {
   std::vector<Body> bodies;
   int offset = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -155,16 +144,17 @@ void attachRows(const std::vector<Rows>& groups, const RCP<const Comm>& comm, De
 } // namespace
 
 Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) {
+  collectively(*comm, [&] { std::for_each(scene.bodies.begin(), scene.bodies.end(), requireCut); });
   Decomposition result;
-  int numSubdomains = 0;
-  for (const scene::Body& body : scene.bodies) {
-    result.bodies.push_back(layoutBody(body, numSubdomains, *comm));
-    numSubdomains += result.bodies.back().partition->numParts();
-  }
-  result.contacts = layoutContacts(scene, result.bodies);
-  Layout layout{result.bodies, {}, numSubdomains};
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    layout.models.push_back(std::make_unique<fem::MembraneModel>(scene.bodies[b], *result.bodies[b].mesh));
+  result.bodies = layoutBodies(scene, *comm);
+  Layout layout{result.bodies, {}, 0};
+  collectively(*comm, [&] {
+    result.contacts = layoutContacts(scene, result.bodies);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      layout.models.push_back(std::make_unique<fem::MembraneModel>(scene.bodies[b], *result.bodies[b].mesh));
+      layout.numSubdomains += result.bodies[b].partition->numParts();
+    }
+  });
 
   std::vector<Piece> pieces;
   collectively(*comm, [&] { pieces = assemblePieces(layout, *comm); });
@@ -173,7 +163,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   DecomposedProblem& problem = result.problem;
   problem.comm = comm;
   problem.components = layout.models.empty() ? 1 : layout.models.front()->components();
-  problem.numSubdomains = numSubdomains;
+  problem.numSubdomains = layout.numSubdomains;
   problem.bodies = describeBodies(scene, layout, pieces, *comm);
   for (const Body& body : problem.bodies)
     problem.kernelDimension += body.kernelDimension;

@@ -35,13 +35,14 @@ Sides findSides(const Layout& layout, const std::vector<Piece>& pieces) {
     const Piece& piece = pieces[p];
     const int components = layout.models[static_cast<std::size_t>(piece.body)]->components();
     for (std::size_t i = 0; i < piece.assembled.nodes.size(); ++i) {
-      const std::vector<int>& parts = piece.sharing[i];
+      const std::span<const int> parts = piece.sharing[i];
       if (parts.size() < 2 || piece.isCrosspoint[i] != 0)
         continue;
       const GlobalOrdinal node = firstKey[static_cast<std::size_t>(piece.body)] + piece.assembled.nodes[i];
       const auto place = std::find(parts.begin(), parts.end(), piece.part) - parts.begin();
       for (int c = 0; c < components; ++c) {
-        const int unknown = piece.assembled.unknownOf[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
+        const int unknown =
+            piece.assembled.unknownOf[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
         if (unknown < 0)
           continue;
         const auto key = [&](std::ptrdiff_t link) { return (node * maxCopies + link) * components + c; };
@@ -59,13 +60,14 @@ RCP<const Map> mapOfKeys(const std::vector<RowSide>& sides, const RCP<const Comm
   std::vector<GlobalOrdinal> keys;
   for (const RowSide& side : sides)
     keys.push_back(side.key);
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), Teuchos::arrayViewFromVector(keys), 0, comm));
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                     Teuchos::arrayViewFromVector(keys), 0, comm));
 }
 
 } // namespace
 
-Rows gluingRows(const Layout& layout, const std::vector<Piece>& pieces, GlobalOrdinal firstRow, const RCP<const Comm>& comm,
-                GlobalOrdinal& numRows) {
+Rows gluingRows(const Layout& layout, const std::vector<Piece>& pieces, GlobalOrdinal firstRow,
+                const RCP<const Comm>& comm, GlobalOrdinal& numRows) {
   const Sides sides = findSides(layout, pieces);
 
   // Rows before those of each subdomain; one number a subdomain on every rank.
@@ -91,7 +93,8 @@ Rows gluingRows(const Layout& layout, const std::vector<Piece>& pieces, GlobalOr
   known.doImport(numbers, plan, Tpetra::INSERT);
   const auto values = known.getData();
   for (std::size_t k = 0; k < sides.higher.size(); ++k)
-    rows.entries.push_back({sides.higher[k].piece, firstRow + static_cast<GlobalOrdinal>(values[static_cast<Teuchos_Ordinal>(k)]),
+    rows.entries.push_back({sides.higher[k].piece,
+                            firstRow + static_cast<GlobalOrdinal>(values[static_cast<Teuchos_Ordinal>(k)]),
                             sides.higher[k].unknown, -1.0});
   return rows;
 }

@@ -7,7 +7,10 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <span>
 #include <string>
 
 namespace epafi::decomposition {
@@ -32,8 +35,8 @@ std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
   idx_t numConstraints = 1, numParts = parts, cut = 0;
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
   const int status =
-      METIS_PartGraphKway(&numVertices, &numConstraints, start.data(), neighbours.data(), nullptr, nullptr, nullptr,
-                          &numParts, nullptr, nullptr, options, &cut, part.data());
+      METIS_PartGraphKway(&numVertices, &numConstraints, start.data(), neighbours.data(), nullptr, nullptr,
+                          nullptr, &numParts, nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK)
     throw InputError("METIS could not cut a mesh of " + std::to_string(numVertices) + " elements into " +
                      std::to_string(parts) + " parts (its status " + std::to_string(status) + ")");
@@ -62,7 +65,8 @@ Pieces findPieces(const fem::Mesh& mesh, const std::vector<int>& part) {
       ++pieces.size.back();
       mesh.elementNeighbours(element, adjacent);
       for (const GlobalOrdinal other : adjacent)
-        if (pieces.of[static_cast<std::size_t>(other)] < 0 && part[static_cast<std::size_t>(other)] == part[seed]) {
+        if (pieces.of[static_cast<std::size_t>(other)] < 0 &&
+            part[static_cast<std::size_t>(other)] == part[seed]) {
           pieces.of[static_cast<std::size_t>(other)] = piece;
           stack.push_back(other);
         }
@@ -71,7 +75,8 @@ Pieces findPieces(const fem::Mesh& mesh, const std::vector<int>& part) {
   return pieces;
 }
 
-/// Gives every piece that is not the largest of its part to the neighbouring part with which it shares most edges.
+/// Gives every piece that is not the largest of its part to the neighbouring part with which it shares most
+/// edges.
 void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
   for (;;) {
     const Pieces pieces = findPieces(mesh, part);
@@ -79,7 +84,8 @@ void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
     for (std::size_t element = 0; element < part.size(); ++element) {
       const int piece = pieces.of[element];
       const auto [entry, isNew] = largest.try_emplace(part[element], piece);
-      if (!isNew && pieces.size[static_cast<std::size_t>(piece)] > pieces.size[static_cast<std::size_t>(entry->second)])
+      if (!isNew &&
+          pieces.size[static_cast<std::size_t>(piece)] > pieces.size[static_cast<std::size_t>(entry->second)])
         entry->second = piece;
     }
     if (largest.size() == pieces.size.size())
@@ -136,8 +142,10 @@ std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
   const auto first = [](GlobalOrdinal k, int n, int m) { return k * n / m; };
   const GlobalOrdinal column = part % counts_[0], row = part / counts_[0];
   std::vector<GlobalOrdinal> elements;
-  for (GlobalOrdinal j = first(row, elements_[1], counts_[1]); j < first(row + 1, elements_[1], counts_[1]); ++j)
-    for (GlobalOrdinal i = first(column, elements_[0], counts_[0]); i < first(column + 1, elements_[0], counts_[0]); ++i)
+  for (GlobalOrdinal j = first(row, elements_[1], counts_[1]); j < first(row + 1, elements_[1], counts_[1]);
+       ++j)
+    for (GlobalOrdinal i = first(column, elements_[0], counts_[0]);
+         i < first(column + 1, elements_[0], counts_[0]); ++i)
       elements.push_back(i + j * elements_[0]);
   return elements;
 }
@@ -147,7 +155,11 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
   collectively(comm, [&] {
     if (parts < 1 || parts > mesh.numElements())
       throw InputError("a mesh of " + std::to_string(mesh.numElements()) + " elements cannot be cut into " +
-                       std::to_string(parts) + " parts; choose between 1 and " + std::to_string(mesh.numElements()));
+                       std::to_string(parts) + " parts; choose between 1 and " +
+                       std::to_string(mesh.numElements()));
+    if (mesh.numElements() > std::numeric_limits<idx_t>::max() / mesh.nodesPerElement())
+      throw InputError("a mesh of " + std::to_string(mesh.numElements()) +
+                       " elements is too large for METIS's 32-bit indices; cut the body as a grid");
     if (comm.getRank() != 0)
       return;
     if (parts > 1) {
@@ -158,14 +170,21 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
   });
   Teuchos::broadcast(comm, 0, 1, &numParts_);
   Teuchos::broadcast(comm, 0, static_cast<int>(part_.size()), part_.data());
+
+  start_.assign(static_cast<std::size_t>(numParts_) + 1, 0);
+  for (const int p : part_)
+    ++start_[static_cast<std::size_t>(p) + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  members_.resize(part_.size());
+  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  for (std::size_t element = 0; element < part_.size(); ++element)
+    members_[next[static_cast<std::size_t>(part_[element])]++] = static_cast<int>(element);
 }
 
 std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
-  std::vector<GlobalOrdinal> elements;
-  for (std::size_t element = 0; element < part_.size(); ++element)
-    if (part_[element] == part)
-      elements.push_back(static_cast<GlobalOrdinal>(element));
-  return elements;
+  const auto p = static_cast<std::size_t>(part);
+  const std::span<const int> members(members_.data() + start_[p], members_.data() + start_[p + 1]);
+  return {members.begin(), members.end()};
 }
 
 } // namespace epafi::decomposition

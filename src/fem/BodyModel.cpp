@@ -11,13 +11,14 @@ MembraneModel::MembraneModel(const scene::Body& body, const RectangleMesh& mesh)
   for (std::size_t a = 0; a < body.supports.size(); ++a)
     for (std::size_t b = a + 1; b < body.supports.size(); ++b) {
       const GlobalOrdinal last = mesh.numEdgeNodes(body.supports[a].edge) - 1;
-      const bool meet = mesh.positionOnEdge(body.supports[b].edge, mesh.edgeNode(body.supports[a].edge, 0)) >= 0 ||
-                        mesh.positionOnEdge(body.supports[b].edge, mesh.edgeNode(body.supports[a].edge, last)) >= 0;
+      const bool meet =
+          mesh.positionOnEdge(body.supports[b].edge, mesh.edgeNode(body.supports[a].edge, 0)) >= 0 ||
+          mesh.positionOnEdge(body.supports[b].edge, mesh.edgeNode(body.supports[a].edge, last)) >= 0;
       if (meet && body.supports[a].value != body.supports[b].value)
-        throw InputError("the supports '" + body.supports[a].name + "' and '" + body.supports[b].name + "' of body '" +
-                         body.name + "' meet in a corner with different values (" +
-                         std::to_string(body.supports[a].value) + " and " + std::to_string(body.supports[b].value) +
-                         "); give both the same value");
+        throw InputError("the supports '" + body.supports[a].name + "' and '" + body.supports[b].name +
+                         "' of body '" + body.name + "' meet in a corner with different values (" +
+                         std::to_string(body.supports[a].value) + " and " +
+                         std::to_string(body.supports[b].value) + "); give both the same value");
     }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The physics of one body: element matrices and loads, supports, and the rigid modes that the supports leave free. What
-/// comes after `fem` sees only this interface and never knows which physics it is.
+/// The physics of one body: element matrices and loads, supports, and the rigid modes that the supports leave
+/// free. What comes after `fem` sees only this interface and never knows which physics it is.
 
 #include "epafi/fem/Mesh.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
@@ -40,7 +40,9 @@ public:
   [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
   [[nodiscard]] int components() const override { return 1; }
   [[nodiscard]] int kernelDimension() const override { return body_.supports.empty() ? 1 : 0; }
-  [[nodiscard]] double kernelValue(GlobalOrdinal /*node*/, int /*component*/, int /*mode*/) const override { return 1.0; }
+  [[nodiscard]] double kernelValue(GlobalOrdinal /*node*/, int /*component*/, int /*mode*/) const override {
+    return 1.0;
+  }
   [[nodiscard]] std::optional<double> prescribed(GlobalOrdinal node, int component) const override;
   void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const override;
 

@@ -11,7 +11,9 @@ GlobalOrdinal RectangleMesh::numNodes() const {
   return static_cast<GlobalOrdinal>(elements_[0] + 1) * (elements_[1] + 1);
 }
 
-GlobalOrdinal RectangleMesh::numElements() const { return static_cast<GlobalOrdinal>(elements_[0]) * elements_[1]; }
+GlobalOrdinal RectangleMesh::numElements() const {
+  return static_cast<GlobalOrdinal>(elements_[0]) * elements_[1];
+}
 
 Point RectangleMesh::point(GlobalOrdinal node) const {
   const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
@@ -20,8 +22,8 @@ Point RectangleMesh::point(GlobalOrdinal node) const {
     const double t = static_cast<double>(k) / n;
     return (1 - t) * a + t * b;
   };
-  return {between(rectangle_.x0, rectangle_.x1, i, elements_[0]), between(rectangle_.y0, rectangle_.y1, j, elements_[1]),
-          0.0};
+  return {between(rectangle_.x0, rectangle_.x1, i, elements_[0]),
+          between(rectangle_.y0, rectangle_.y1, j, elements_[1]), 0.0};
 }
 
 void RectangleMesh::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const {
@@ -36,8 +38,10 @@ void RectangleMesh::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal>
 void RectangleMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
   const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
-  for (GlobalOrdinal ej = std::max<GlobalOrdinal>(j - 1, 0); ej <= std::min<GlobalOrdinal>(j, elements_[1] - 1); ++ej)
-    for (GlobalOrdinal ei = std::max<GlobalOrdinal>(i - 1, 0); ei <= std::min<GlobalOrdinal>(i, elements_[0] - 1); ++ei)
+  for (GlobalOrdinal ej = std::max<GlobalOrdinal>(j - 1, 0);
+       ej <= std::min<GlobalOrdinal>(j, elements_[1] - 1); ++ej)
+    for (GlobalOrdinal ei = std::max<GlobalOrdinal>(i - 1, 0);
+         ei <= std::min<GlobalOrdinal>(i, elements_[0] - 1); ++ei)
       elements.push_back(ei + ej * elements_[0]);
 }
 

@@ -14,9 +14,9 @@ namespace epafi::fem {
 
 /// The arrays of decomposition::Subdomain that physics fills; see there for shapes.
 struct AssembledSubdomain {
-  std::vector<GlobalOrdinal> nodes;  ///< ascending
-  std::vector<int> unknownPosition;  ///< n_s
-  std::vector<int> unknownOf;        ///< unknown at each position, −1 where supported
+  std::vector<GlobalOrdinal> nodes; ///< ascending
+  std::vector<int> unknownPosition; ///< n_s
+  std::vector<int> unknownOf;       ///< unknown at each position, −1 where supported
   Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness;
   Eigen::VectorXd load;
   Eigen::VectorXd prescribed;
