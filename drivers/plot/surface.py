@@ -80,7 +80,8 @@ def frame(axes, corners):
     axes.set_xlabel("x [length]", labelpad=14)
     axes.set_ylabel("y [length]", labelpad=8)
     axes.set_zlabel("u [length]", labelpad=9)
-    axes.locator_params(axis="y", nbins=5)
+    for axis, length in zip("xy", plane):
+        axes.locator_params(axis=axis, nbins=3 if length < 0.45 else 5 if length < 0.8 else 8)
     axes.locator_params(axis="z", nbins=5)
     axes.view_init(elev=24, azim=-62)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):

@@ -5,6 +5,7 @@
 
 #include <Teuchos_CommHelpers.hpp>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -47,6 +48,25 @@ void writeOnThisRank(const fs::path& file, const std::string& text) {
                 ". Check the free space and the permissions of its directory.");
 }
 
+/// 0, or the error number.
+int reserveOnThisRank(const fs::path& file, std::uintmax_t bytes) {
+#ifdef __linux__
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0)
+    return errno;
+  int result = 0;
+  do
+    result = ::fallocate(descriptor, 0, 0, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  while (result == EINTR);
+  ::close(descriptor);
+  return result == EOPNOTSUPP || result == ENOSYS ? 0 : result;
+#else
+  static_cast<void>(file);
+  static_cast<void>(bytes);
+  return 0;
+#endif
+}
+
 } // namespace
 
 void prepareTarget(const fs::path& file, const Comm& comm) {
@@ -64,6 +84,15 @@ fs::path temporaryBeside(const fs::path& file, const Comm& comm) {
   std::ostringstream name;
   name << '.' << file.filename().string() << '.' << std::hex << number << ".partial";
   return directoryOf(file) / name.str();
+}
+
+void reserveSpace(const fs::path& temporary, std::uintmax_t bytes, const Comm& comm) {
+  collectively(comm, [&] {
+    const int error = comm.getRank() == 0 ? reserveOnThisRank(temporary, bytes) : 0;
+    if (error != 0)
+      throw Error("There is no room for the " + std::to_string(bytes) + " bytes of '" + temporary.string() +
+                  "': " + std::strerror(error) + ". Free some space or choose another directory.");
+  });
 }
 
 void publish(const fs::path& temporary, const fs::path& file, const Comm& comm) {

@@ -5,6 +5,7 @@
 
 #include "epafi/base/Types.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -19,6 +20,11 @@ void prepareTarget(const std::filesystem::path& file, const Comm& comm);
 /// A new name beside `file` (same directory, hidden, ends in ".partial"), the same on all ranks. Makes no
 /// file. Collective.
 std::filesystem::path temporaryBeside(const std::filesystem::path& file, const Comm& comm);
+
+/// Makes sure that the file system has room for the first `bytes` bytes of the file `temporary`, which
+/// exists; the file grows to that size. Does nothing on file systems that cannot reserve. Collective (rank 0
+/// does it). \throws Error naming the file if there is no room.
+void reserveSpace(const std::filesystem::path& temporary, std::uintmax_t bytes, const Comm& comm);
 
 /// Renames `temporary` to `file`, which replaces an older `file` in one step; removes `temporary` if that
 /// fails. Collective. \throws Error naming the file.

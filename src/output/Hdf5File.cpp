@@ -7,6 +7,7 @@
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +15,11 @@ namespace epafi::output {
 namespace {
 
 static_assert(std::is_same_v<hid_t, std::int64_t>, "Hdf5File stores HDF5's identifiers as std::int64_t");
+
+/// Room for what HDF5 writes beside the tables: a few times what an empty file, and a group, dataset or
+/// attribute take.
+constexpr std::uintmax_t bytesOfFile = 16384;
+constexpr std::uintmax_t bytesOfObject = 2048;
 
 /// Keeps HDF5 from printing its errors, for as long as it lives; what the application had set comes back.
 class QuietHdf5 {
@@ -90,6 +96,11 @@ hid_t memoryType() {
     return H5T_NATIVE_SCHAR;
 }
 
+/// Room for an object and for the groups above it that may have to be made.
+std::uintmax_t bytesOfPath(const std::string& path) {
+  return bytesOfObject * static_cast<std::uintmax_t>(1 + std::count(path.begin(), path.end(), '/'));
+}
+
 hid_t createFile(const std::filesystem::path& temporary, MPI_Comm comm) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   checked(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), temporary, "choosing parallel access");
@@ -143,6 +154,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& com
   const QuietHdf5 quiet;
   try {
     collectively(*comm, [&] { file_ = createFile(temporary_, rawComm(*comm)); });
+    reserve(bytesOfFile);
   } catch (...) {
     abandon();
     throw;
@@ -152,6 +164,11 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& com
 Hdf5File::~Hdf5File() {
   if (file_ >= 0)
     abandon();
+}
+
+void Hdf5File::reserve(std::uintmax_t bytes) {
+  reserveSpace(temporary_, reserved_ + bytes, *comm_);
+  reserved_ += bytes;
 }
 
 void Hdf5File::flush() {
@@ -176,6 +193,7 @@ void Hdf5File::abandon() noexcept {
 }
 
 void Hdf5File::createGroup(const std::string& group) {
+  reserve(bytesOfPath(group));
   const QuietHdf5 quiet;
   collectively(*comm_, [&] {
     const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
@@ -199,6 +217,9 @@ void Hdf5File::write(const std::string& dataset, GlobalOrdinal rows, int columns
                   std::to_string(range.first + range.count) + " of " + std::to_string(rows) + " × " +
                   std::to_string(columns) + ", and all ranks together " + std::to_string(written) + " rows.");
   });
+  const int width = columns == 0 ? 1 : columns;
+  reserve(static_cast<std::uintmax_t>(rows) * static_cast<std::uintmax_t>(width) * sizeof(T) +
+          bytesOfPath(dataset));
   const QuietHdf5 quiet;
   hid_t id = -1;
   collectively(*comm_, [&] { id = createDataset(file_, path_, dataset, memoryType<T>(), rows, columns); });
@@ -219,6 +240,7 @@ template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowR
 
 void Hdf5File::writeAttribute(const std::string& object, const std::string& name, Identifier type,
                               const void* value) {
+  reserve(bytesOfObject + H5Tget_size(type));
   collectively(*comm_, [&] {
     const std::string what = "writing attribute '" + name + "' of '" + object + "'";
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);

@@ -19,8 +19,10 @@ namespace epafi::output {
 /// All methods, construction and destruction are collective over the communicator given, with the same
 /// arguments on all ranks (slab ranges and values apart). Their errors are agreed on by all ranks, so that
 /// all leave together. Code between the calls must keep to that rule: an exception on some ranks only would
-/// leave the others waiting. A rank may hold no rows. The communicator must be an MPI one or a serial one in
-/// a program that has initialised MPI.
+/// leave the others waiting. A rank may hold no rows. HDF5 itself leaves ranks waiting for each other when
+/// one of them cannot write, so room for all that comes is reserved before HDF5 hears of it: a full disk is
+/// an error before anything is written. (A disk that breaks is not covered, nor one whose file system cannot
+/// reserve.) The communicator must be an MPI one or a serial one in a program that has initialised MPI.
 class Hdf5File {
 public:
   /// Opens the temporary.
@@ -56,6 +58,7 @@ private:
   using Identifier = std::int64_t; ///< HDF5's hid_t
 
   void writeAttribute(const std::string& object, const std::string& name, Identifier type, const void* value);
+  void reserve(std::uintmax_t bytes);
   void flush();
   void abandon() noexcept;
 
@@ -63,6 +66,7 @@ private:
   std::filesystem::path temporary_;
   RCP<const Comm> comm_;
   Identifier file_ = -1;
+  std::uintmax_t reserved_ = 0; ///< bytes of the file that the file system has promised
 };
 
 } // namespace epafi::output
