@@ -2,15 +2,18 @@
 
 #include "epafi/qp/BoundProblem.hpp"
 
+#include <BelosCGIter.hpp>
 #include <BelosLinearProblem.hpp>
-#include <BelosPseudoBlockCGSolMgr.hpp>
-#include <BelosStatusTest.hpp>
+#include <BelosOutputManager.hpp>
+#include <BelosStatusTestCombo.hpp>
+#include <BelosStatusTestGenResNorm.hpp>
+#include <BelosStatusTestMaxIters.hpp>
 #include <BelosTpetraAdapter.hpp>
 #include <Teuchos_ParameterList.hpp>
+#include <Trilinos_version.h>
 #include <Tpetra_Operator.hpp>
 #include <Tpetra_Vector.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace epafi::qp {
@@ -33,21 +36,26 @@ private:
   mutable int count_ = 0;
 };
 
+using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
+using Iteration = Belos::Iteration<double, MultiVector, Operator>;
+using Test = Belos::StatusTest<double, MultiVector, Operator>;
+using ResidualTest = Belos::StatusTestGenResNorm<double, MultiVector, Operator>;
+
 /// A status test that never stops the iteration; it tells the observer of every step.
-class ObservingTest final : public Belos::StatusTest<double, MultiVector, Operator> {
+class ObservingTest final : public Test {
 public:
   ObservingTest(Observer& observer, const CountingOperator& a, double reference)
       : observer_(observer), a_(a), reference_(reference) {}
 
-  Belos::StatusType checkStatus(Belos::Iteration<double, MultiVector, Operator>* solver) override {
+  Belos::StatusType checkStatus(Iteration* iteration) override {
     std::vector<double> norms(1, 0.0);
-    const auto residual = solver->getNativeResiduals(&norms);
+    const auto residual = iteration->getNativeResiduals(&norms);
     if (!residual.is_null())
       residual->norm2(Teuchos::arrayViewFromVector(norms));
     StepRecord record;
-    record.iteration = solver->getNumIters();
+    record.iteration = iteration->getNumIters();
     record.kind = record.iteration == 0 ? StepKind::start : StepKind::conjugateGradient;
-    record.projectedGradient = reference_ > 0 ? norms[0] / reference_ : norms[0];
+    record.projectedGradient = norms[0] / reference_;
     record.hessianMultiplications = a_.count();
     observer_.step(record);
     return Belos::Failed;
@@ -62,6 +70,31 @@ private:
   double reference_;
 };
 
+/// Belos's CG iteration from the problem's present solution. Returns the number of steps.
+int iterate(const RCP<Problem>& problem, double tolerance, int maxSteps, const RCP<Test>& observing) {
+  const RCP<ResidualTest> converged = rcp(new ResidualTest(tolerance, 1));
+  converged->defineScaleForm(Belos::NormOfRHS, Belos::TwoNorm);
+  const RCP<Test> limit = rcp(new Belos::StatusTestMaxIters<double, MultiVector, Operator>(maxSteps));
+  using Combo = Belos::StatusTestCombo<double, MultiVector, Operator>;
+  const RCP<Combo> stop = rcp(new Combo(Combo::OR, observing, Teuchos::rcp_implicit_cast<Test>(converged)));
+  stop->addStatusTest(limit);
+  const auto printer = rcp(new Belos::OutputManager<double>(Belos::Errors));
+  Teuchos::ParameterList parameters;
+  Belos::CGIter<double, MultiVector, Operator> iteration(problem, printer, stop, converged, parameters);
+
+  problem->setLSIndex({0});
+  const RCP<MultiVector> residual = rcp(new MultiVector(*problem->getInitResVec(), Teuchos::Copy));
+#if TRILINOS_MAJOR_MINOR_VERSION >= 160000
+  iteration.initializeCG(rcp(new Belos::CGIterationState<double, MultiVector>(residual)), residual);
+#else
+  Belos::CGIterationState<double, MultiVector> state;
+  state.R = residual;
+  iteration.initializeCG(state);
+#endif
+  iteration.iterate();
+  return iteration.getNumIters();
+}
+
 } // namespace
 
 SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vector>& b, const RCP<Vector>& x,
@@ -70,31 +103,19 @@ SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vec
   HistoryRecorder recorder(report.history, observer);
   const double reference = b->norm2();
   const RCP<const CountingOperator> counting = rcp(new CountingOperator(a));
-  const RCP<ObservingTest> test = rcp(new ObservingTest(recorder, *counting, reference));
   const Vector start(*x, Teuchos::Copy);
-
-  using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
-  const RCP<Problem> problem = rcp(new Problem(counting, x, b));
-  problem->setProblem();
-  const RCP<Teuchos::ParameterList> list = Teuchos::parameterList();
-  list->set("Convergence Tolerance", std::max(tolerance, 1e-15));
-  list->set("Maximum Iterations", maxMultiplications);
-  list->set("Implicit Residual Scaling", "Norm of RHS");
-  list->set("Residual Scaling", "Norm of RHS");
-  list->set("Verbosity", static_cast<int>(Belos::Errors));
-  Belos::PseudoBlockCGSolMgr<double, MultiVector, Operator> solver(problem, list);
-  solver.setDebugStatusTest(test);
-
+  if (reference == 0)
+    x->putScalar(0.0);
+  report.status = Status::converged;
   try {
+    const RCP<Problem> problem = rcp(new Problem(counting, x, b));
+    problem->setProblem();
     if (reference > 0)
-      solver.solve();
-    else
-      x->putScalar(0.0);
-    report.status = Status::converged;
+      report.counts.conjugateGradient = iterate(problem, tolerance, maxMultiplications,
+                                                rcp(new ObservingTest(recorder, *counting, reference)));
   } catch (const Belos::BelosError&) { // pᵀAp ≤ 0, or a norm that is NaN: the certificate below tells which
     report.status = Status::indefiniteOperator;
   }
-  report.counts.conjugateGradient = reference > 0 ? solver.getNumIters() : 0;
 
   Vector residual(b->getMap()); // the certificate: b − Ax afresh
   counting->apply(*x, residual, Teuchos::NO_TRANS, 1.0, 0.0);

@@ -48,6 +48,12 @@ void Mprgp::start(const Vector& b, const Vector& x0) {
   }
 }
 
+void Mprgp::moveTo(const Vector& x) {
+  x_.assign(x);
+  bounds_.project(x_);
+  refreshGradient();
+}
+
 void Mprgp::refreshGradient() {
   applyHessian(x_, g_);
   g_.update(-1.0, b_, 1.0);

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Parameters.hpp"
 #include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/EqualityRestoration.hpp"
 #include "epafi/qp/PenalizedOperator.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ public:
     constraintNorm_ = std::sqrt(squared);
     isFinal_ = projectedGradient <= tolerances_.gradient * tolerances_.gradientReference &&
                constraintNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
-    return isFinal_ || (!finalOnly_ && projectedGradient <= std::min(balance_ * constraintNorm_, forcing_));
+    return isFinal_ || projectedGradient <= std::min(balance_ * constraintNorm_, forcing_);
   }
 
   void describe(StepRecord& record) const override {
@@ -40,12 +41,10 @@ public:
         tolerances_.constraintReference > 0 ? constraintNorm_ / tolerances_.constraintReference : constraintNorm_;
   }
 
-  [[nodiscard]] bool isFinal() const { return isFinal_; }
+  [[nodiscard]] bool isFinal() const { return isFinal_; } ///< both final tolerances hold
   [[nodiscard]] double constraintNorm() const { return constraintNorm_; }
   [[nodiscard]] std::span<const double> constraintValue() const { return gx_; }
   void reduceBalance(double factor) { balance_ *= factor; }
-  /// From now on only the final tolerances count.
-  void setFinalOnly(bool finalOnly) { finalOnly_ = finalOnly; }
 
 private:
   RCP<const EqualityConstraint> g_;
@@ -53,13 +52,13 @@ private:
   double balance_, forcing_;
   std::vector<double> gx_;
   double constraintNorm_ = 0;
-  bool isFinal_ = false, finalOnly_ = false;
+  bool isFinal_ = false;
 };
 
 /// The outer loop of the paper.
-Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, const SmalbeParameters& parameters,
-               double penalty, Observer* observer) {
-  constexpr int maxFreshStarts = 5;
+Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, const Bounds& bounds,
+               const SmalbeParameters& parameters, double penalty, Observer* observer) {
+  constexpr int maxFreshStarts = 10;
   Vector shift(inner.solution().getMap());
   double previousLagrangian = 0;
   int freshStarts = 0;
@@ -67,14 +66,8 @@ Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, co
     const Status status = inner.run(rule, observer); // ‖g^P‖ ≤ min(M‖Gx‖, η)
     if (status != Status::converged)
       return status;
-    if (rule.isFinal()) {
-      if (inner.gradientIsFresh())
-        return Status::converged;
-      if (++freshStarts > maxFreshStarts)
-        return Status::stagnated;
-      inner.refreshGradient(); // the certificate; if it fails the iteration goes on
-      continue;
-    }
+    if (rule.isFinal() && inner.gradientIsFresh())
+      return Status::converged;
     const double residual = rule.constraintNorm();
     const double lagrangian = inner.objective();
     if (inner.counts().outer > 0 && lagrangian < previousLagrangian + 0.5 * penalty * residual * residual)
@@ -85,6 +78,14 @@ Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, co
     g.addTransposedProduct(rule.constraintValue(), penalty, shift);
     inner.shiftLinearTerm(shift, penalty * residual * residual);
     ++inner.counts().outer;
+
+    if (rule.isFinal()) { // the certificate: Gx = 0 to round-off and a fresh gradient; if it fails the iteration goes on
+      if (++freshStarts > maxFreshStarts)
+        return Status::stagnated;
+      shift.assign(inner.solution());
+      restoreEquality(g, bounds, rule.constraintValue(), shift);
+      inner.moveTo(shift);
+    }
   }
   return Status::maxIterations;
 }
@@ -128,7 +129,7 @@ SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<co
   AdaptiveRule rule(g, tolerances, parameters.balance * operatorNorm, parameters.forcing * tolerances.gradientReference);
   Mprgp solver(hessian, bounds, inner, std::max(operatorNorm, penalty)); // ‖A + ρGᵀG‖ where Im Gᵀ ⊂ Ker A
   solver.start(b, x);
-  report.status = iterate(solver, rule, *g, parameters, penalty, &recorder);
+  report.status = iterate(solver, rule, *g, bounds, parameters, penalty, &recorder);
   x.assign(solver.solution());
 
   const auto relative = [](double value, double reference) { return reference > 0 ? value / reference : value; };

@@ -5,7 +5,8 @@
 ///
 /// Outer loop on the multiplier μ of Gx = 0 with the penalty ρ fixed; the inner loop is MPRGP on the augmented Lagrangian
 ///   L(x, μ, ρ) = ½xᵀ(A + ρGᵀG)x − bᵀx + μᵀGx,
-/// stopped at ‖g^P‖ ≤ min(M‖Gx‖, η).
+/// stopped at ‖g^P‖ ≤ min(M‖Gx‖, η). When both tolerances are met, x is moved within its face onto Gx = 0 (to round-off) and
+/// the gradient computed afresh must still meet its tolerance.
 
 #include "epafi/qp/EqualityConstraint.hpp"
 #include "epafi/qp/Mprgp.hpp"
@@ -13,9 +14,9 @@
 namespace epafi::qp {
 
 struct SmalbeParameters {
-  double penalty = 1.0;          ///< ρ as a multiple of ‖A‖
+  double penalty = 7.0;          ///< ρ as a multiple of ‖A‖
   double balance = 1.0;          ///< M at the start, as a multiple of ‖A‖
-  double balanceReduction = 0.1; ///< factor on M when L grew too little
+  double balanceReduction = 0.5; ///< factor on M when L grew too little
   double forcing = 0.1;          ///< η as a multiple of ‖b‖
   int maxOuterIterations = 200;
 

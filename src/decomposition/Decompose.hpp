@@ -38,7 +38,8 @@ struct Decomposition {
 };
 
 /// Cuts the scene into subdomains, gives each rank a contiguous run of them and assembles them.
-/// Collective. \throws InputError (the same on all ranks) if contact edges do not match, or if a contact edge is supported.
+/// Collective. \throws InputError (the same on all ranks) if contact edges do not match, or if a contact edge
+/// is supported.
 Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm);
 
 } // namespace epafi::decomposition

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The waist of the house: everything that FETI-DP ever sees of a contact problem. It comes from `decompose` (a scene) or
-/// from an application that fills it itself; nothing in it knows the physics.
+/// The waist of the house: everything that FETI-DP ever sees of a contact problem. It comes from `decompose`
+/// (a scene) or from an application that fills it itself; nothing in it knows the physics.
 
 #include "epafi/base/Types.hpp"
 
@@ -16,39 +16,42 @@ namespace epafi::decomposition {
 /// Sparse symmetric matrix of one subdomain, both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// One entry of B in a subdomain: row (local index in DecomposedProblem::multiplierGhostMap), column (unknown), value.
+/// One entry of B in a subdomain: row (local index in DecomposedProblem::multiplierGhostMap), column
+/// (unknown), value.
 struct ConstraintEntry {
   int multiplier = 0;
   int unknown = 0;
   double coefficient = 0;
 };
 
-/// One subdomain Ω^s. Its *unknowns* are the free values v of its nodes (components a node, supported ones left out),
-/// numbered 0 … n_s − 1 in the order of its nodes.
+/// One subdomain Ω^s. Its *unknowns* are the free values v of its nodes (components a node, supported ones
+/// left out), numbered 0 … n_s − 1 in the order of its nodes.
 struct Subdomain {
-  int body = 0;   ///< index into DecomposedProblem::bodies
-  int number = 0; ///< number of the subdomain in the whole problem
-  std::vector<GlobalOrdinal> nodes;        ///< all its nodes, as numbered in the body, ascending
-  std::vector<int> unknownPosition;        ///< n_s: position (node of `nodes` × components + component) of an unknown
-  std::vector<int> remainderUnknowns;      ///< v_r: unknowns that are not crosspoint values, ascending
-  std::vector<int> crosspointUnknowns;     ///< v_c: unknowns that are crosspoint values, ascending
+  int body = 0;                     ///< index into DecomposedProblem::bodies
+  int number = 0;                   ///< number of the subdomain in the whole problem
+  std::vector<GlobalOrdinal> nodes; ///< all its nodes, as numbered in the body, ascending
+  std::vector<int>
+      unknownPosition; ///< n_s: position (node of `nodes` × components + component) of an unknown
+  std::vector<int> remainderUnknowns;           ///< v_r: unknowns that are not crosspoint values, ascending
+  std::vector<int> crosspointUnknowns;          ///< v_c: unknowns that are crosspoint values, ascending
   std::vector<GlobalOrdinal> crosspointIndices; ///< L_c: global index of each v_c in crosspointMap
-  std::vector<ConstraintEntry> constraint; ///< B^s
-  SparseMatrix stiffness;                  ///< K^s, n_s × n_s
-  Eigen::VectorXd load;                    ///< f^s, n_s, supports' prescribed values already moved to the right
-  Eigen::VectorXd prescribed;              ///< value at each position; 0 at the free ones
-  double energyOffset = 0;                 ///< energy that prescribed values alone contribute
-  Eigen::MatrixXd kernel;                  ///< R^s, n_s × kernelDimension of its body
+  std::vector<ConstraintEntry> constraint;      ///< B^s
+  SparseMatrix stiffness;                       ///< K^s, n_s × n_s
+  Eigen::VectorXd load;       ///< f^s, n_s, supports' prescribed values already moved to the right
+  Eigen::VectorXd prescribed; ///< value at each position; 0 at the free ones
+  double energyOffset = 0;    ///< energy that prescribed values alone contribute
+  Eigen::MatrixXd kernel;     ///< R^s, n_s × kernelDimension of its body
 };
 
 struct Body {
   std::string name;
-  int kernelDimension = 0; ///< rigid modes that its supports leave free; > 0 means that the body floats
-  int kernelOffset = 0;    ///< column of its first mode in R
+  int kernelDimension = 0;  ///< rigid modes that its supports leave free; > 0 means that the body floats
+  int kernelOffset = 0;     ///< column of its first mode in R
   double loadMagnitude = 0; ///< Σ|f_i| over its unknowns, the yardstick for "no resultant"
 };
 
-/// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are cheap.
+/// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are
+/// cheap.
 struct DecomposedProblem {
   DecomposedProblem() = default;
   DecomposedProblem(const DecomposedProblem&) = delete;
@@ -58,23 +61,23 @@ struct DecomposedProblem {
   ~DecomposedProblem() = default;
 
   RCP<const Comm> comm;
-  int components = 1; ///< unknowns a node: 1 membrane, 2 or 3 elasticity
+  int components = 1;                ///< unknowns a node: 1 membrane, 2 or 3 elasticity
   std::vector<Body> bodies;          ///< all bodies, on every rank
   std::vector<Subdomain> subdomains; ///< those of this rank; may be none
 
-  RCP<const Map> remainderMap;       ///< all v_r, each owned by its subdomain's rank
-  RCP<const Map> crosspointMap;      ///< all v_c^g, each owned by one rank
-  RCP<const Map> multiplierMap;      ///< λ = (λ_I, λ_E): indices 0 … n_I − 1 are non-penetration, the rest gluing
+  RCP<const Map> remainderMap;  ///< all v_r, each owned by its subdomain's rank
+  RCP<const Map> crosspointMap; ///< all v_c^g, each owned by one rank
+  RCP<const Map> multiplierMap; ///< λ = (λ_I, λ_E): indices 0 … n_I − 1 are non-penetration, the rest gluing
   RCP<const Map> multiplierGhostMap; ///< multipliers that touch this rank's subdomains
   RCP<Vector> gap;                   ///< c on multiplierMap (0 in the gluing rows)
 
   // Numbers of the whole problem.
   int numSubdomains = 0;
-  int kernelDimension = 0;             ///< columns of R
-  GlobalOrdinal numInequalities = 0;   ///< n_I
-  GlobalOrdinal numEqualities = 0;     ///< n_E
-  GlobalOrdinal primalDimension = 0;   ///< every copy of every node × components, supported ones too
-  GlobalOrdinal numCrosspoints = 0;    ///< crosspoint nodes, supported ones too
+  int kernelDimension = 0;           ///< columns of R
+  GlobalOrdinal numInequalities = 0; ///< n_I
+  GlobalOrdinal numEqualities = 0;   ///< n_E
+  GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
+  GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too
   [[nodiscard]] GlobalOrdinal dualDimension() const { return numInequalities + numEqualities; }
 };
 

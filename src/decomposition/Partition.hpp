@@ -19,8 +19,8 @@ public:
   [[nodiscard]] virtual std::vector<GlobalOrdinal> elementsOf(int part) const = 0;
 };
 
-/// Cuts a rectangle into counts[0] × counts[1] rectangles of as equal numbers of elements as possible. Stores nothing of
-/// global size.
+/// Cuts a rectangle into counts[0] × counts[1] rectangles of as equal numbers of elements as possible. Stores
+/// nothing of global size.
 class GridPartition final : public Partition {
 public:
   /// Precondition: 1 ≤ counts ≤ number of elements in each direction.
@@ -34,12 +34,13 @@ private:
   std::array<int, 2> counts_;
 };
 
-/// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the body is kept
-/// on each rank (one int an element): the one place where something of the mesh's size is replicated.
+/// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the
+/// body is kept on each rank (two ints an element): the one place where something of the mesh's size is
+/// replicated.
 class GraphPartition final : public Partition {
 public:
-  /// METIS runs on rank 0, its result is broadcast; the same mesh and count give the same parts on any number of ranks.
-  /// The number of parts may differ from the one asked for where METIS leaves parts empty.
+  /// METIS runs on rank 0, its result is broadcast; the same mesh and count give the same parts on any number
+  /// of ranks. The number of parts may differ from the one asked for where METIS leaves parts empty.
   /// Collective. \throws InputError if METIS refuses.
   GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm);
   [[nodiscard]] int numParts() const override { return numParts_; }
@@ -51,6 +52,8 @@ public:
 private:
   int numParts_ = 0;
   std::vector<int> part_;
+  std::vector<std::size_t> start_; ///< of each part in members_
+  std::vector<int> members_;       ///< elements, part by part, ascending in each
 };
 
 } // namespace epafi::decomposition

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A mesh of one body as the decomposition sees it. Nodes and elements are numbered from 0; every query is local (no
-/// communication) and cheap, so that each rank asks only about its own part of the body.
+/// A mesh of one body as the decomposition sees it. Nodes and elements are numbered from 0; every query is
+/// local (no communication) and cheap, so that each rank asks only about its own part of the body.
 
 #include "epafi/base/Types.hpp"
 

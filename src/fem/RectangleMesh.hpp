@@ -1,7 +1,7 @@
 #pragma once
 
-/// Structured mesh of Q1 quadrilaterals on a rectangle. Nodes are numbered row by row from the lower left corner:
-/// node (i,j) is i + j(n_x + 1); element (i,j) is i + j n_x. Nothing of the mesh's size is stored.
+/// Structured mesh of Q1 quadrilaterals on a rectangle. Nodes are numbered row by row from the lower left
+/// corner: node (i,j) is i + j(n_x + 1); element (i,j) is i + j n_x. Nothing of the mesh's size is stored.
 
 #include "epafi/fem/Mesh.hpp"
 #include "epafi/scene/Scene.hpp"
@@ -10,7 +10,8 @@ namespace epafi::fem {
 
 class RectangleMesh final : public Mesh {
 public:
-  /// Precondition: elements ≥ 1 in both directions, rectangle of positive size (the scene's validation sees to both).
+  /// Precondition: elements ≥ 1 in both directions, rectangle of positive size (the scene's validation sees
+  /// to both).
   RectangleMesh(const scene::Rectangle& rectangle, std::array<int, 2> elements);
 
   [[nodiscard]] GlobalOrdinal numNodes() const override;

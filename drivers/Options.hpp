@@ -1,0 +1,24 @@
+#pragma once
+
+/// The command line of `epafi`.
+
+#include <string>
+#include <vector>
+
+namespace epafi::drivers {
+
+struct Options {
+  std::string scene;                  ///< XML file
+  std::vector<std::string> overrides; ///< --set
+  std::string output;                 ///< --output DIR; empty: no files
+  std::string report;                 ///< --report FILE; empty: only DIR/report.xml
+  bool printParameters = false, quiet = false, help = false, version = false;
+};
+
+/// \throws InputError for an unknown option or a missing value. Not collective (all ranks see the same arguments).
+Options parseOptions(int argc, const char* const* argv);
+
+/// What --help prints.
+std::string usage();
+
+} // namespace epafi::drivers

@@ -1,0 +1,39 @@
+#pragma once
+
+/// One scene from its parameter list to its solution, report and files: what the driver, the studies and the system tests
+/// share.
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/scene/Scene.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace epafi::drivers {
+
+/// The schema of a whole XML file: the scene, and the sublist Solver.
+Teuchos::ParameterList driverSchema();
+
+/// A solved scene. Heap members keep their addresses: the solver refers to the problem.
+struct SceneRun {
+  scene::Scene scene;
+  std::unique_ptr<decomposition::Decomposition> decomposition;
+  std::unique_ptr<ContactSolver> solver;
+  fetidp::ContactSolution solution;
+  Teuchos::ParameterList report; ///< complete but for Time/Output and Time/Total
+  double started = 0;            ///< wall time at the start
+};
+
+/// Decomposes, assembles and solves. \param solverParameters  the list Solver, validated or not
+/// Collective. \throws InputError, SolvabilityError or Error, the same on all ranks.
+SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
+                    qp::Observer* observer = nullptr);
+
+/// The report in lines for people.
+std::string summary(const SceneRun& run);
+
+} // namespace epafi::drivers

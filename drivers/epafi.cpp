@@ -1,0 +1,118 @@
+/// `epafi SCENE.xml`: one contact problem from its XML scene to fields, report and exit code.
+
+#include "Options.hpp"
+#include "Progress.hpp"
+#include "SceneRun.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Parameters.hpp"
+#include "epafi/output/FieldWriter.hpp"
+#include "epafi/output/HistoryTable.hpp"
+#include "epafi/output/Report.hpp"
+#include "epafi/scene/ParameterFile.hpp"
+#include "epafi/scene/SceneReader.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Teuchos_Time.hpp>
+#include <Tpetra_Core.hpp>
+
+#include <iostream>
+#include <optional>
+
+namespace {
+
+using namespace epafi;
+using namespace epafi::drivers;
+
+enum ExitCode : int { solved = 0, notConverged = 1, wrongInput = 2, notSolvable = 3 };
+
+/// Writes what was asked for; returns the lines that say where.
+std::string writeFiles(const Options& options, SceneRun& run, const Comm& comm) {
+  std::string lines;
+  const double start = Teuchos::Time::wallTime();
+  const std::filesystem::path directory = options.output;
+  if (!options.output.empty()) {
+    const std::string name = std::filesystem::path(options.scene).stem().string();
+    const auto files =
+        output::writeFields(directory, name, *run.decomposition, run.solution, run.solver->report().history);
+    output::writeHistory(run.solver->report().history, directory / "history.csv", comm);
+    lines += "  fields      " + files.hdf5.string() + " and " + files.xdmf.string() + "\n  history     " +
+             (directory / "history.csv").string() + "\n";
+  }
+  const double now = Teuchos::Time::wallTime();
+  run.report.sublist("Time").set("Output", maxOverRanks(comm, now - start));
+  run.report.sublist("Time").set("Total", maxOverRanks(comm, now - run.started));
+  for (const std::filesystem::path& file : {options.output.empty() ? "" : directory / "report.xml",
+                                            std::filesystem::path(options.report)})
+    if (!file.empty()) {
+      output::writeReport(run.report, file, comm);
+      lines += "  report      " + file.string() + "\n";
+    }
+  return lines;
+}
+
+int solve(const Options& options, const RCP<const Comm>& comm) {
+  const bool speaks = comm->getRank() == 0 && !options.quiet;
+  const double start = Teuchos::Time::wallTime();
+  Teuchos::ParameterList given = scene::readParameterFile(options.scene, *comm);
+  const Teuchos::ParameterList schema = driverSchema();
+  for (const std::string& text : options.overrides)
+    scene::applyOverride(given, schema, text);
+  const Teuchos::ParameterList list = validated(given, schema, options.scene);
+  const scene::Scene scene = scene::readScene(list, given, options.scene);
+  if (speaks)
+    std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n' << std::flush;
+
+  std::optional<Progress> progress;
+  if (speaks)
+    progress.emplace(std::cout, 5.0);
+  SceneRun run = solveScene(scene, list.sublist("Solver"), comm, progress ? &*progress : nullptr);
+  run.started = start;
+  const std::string files = writeFiles(options, run, *comm);
+  if (speaks)
+    std::cout << summary(run) << files << std::flush;
+  return run.solver->report().status == qp::Status::converged ? solved : notConverged;
+}
+
+int run(int argc, char** argv, const RCP<const Comm>& comm) {
+  const bool isFirst = comm->getRank() == 0;
+  try {
+    const Options options = parseOptions(argc, argv);
+    if (options.help || options.version || options.printParameters) {
+      if (isFirst)
+        std::cout << (options.help      ? usage()
+                      : options.version ? std::string("epafi " EPAFI_VERSION "\n")
+                                        : describeParameters(driverSchema()))
+                  << std::flush;
+      return solved;
+    }
+    return solve(options, comm);
+  } catch (const InputError& error) {
+    if (isFirst)
+      std::cerr << "epafi: " << error.what() << '\n';
+    return wrongInput;
+  } catch (const SolvabilityError& error) {
+    if (isFirst)
+      std::cerr << "epafi: " << error.what() << '\n';
+    return notSolvable;
+  } catch (const Error& error) { // agreed on by all ranks
+    if (isFirst)
+      std::cerr << "epafi: " << error.what() << '\n';
+    return notConverged;
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Tpetra::ScopeGuard scope(&argc, &argv);
+  const RCP<const Comm> comm = Tpetra::getDefaultComm();
+  try {
+    return run(argc, argv, comm);
+  } catch (const std::exception& error) { // on this rank alone, perhaps: the others must not wait for it
+    std::cerr << "epafi: rank " << comm->getRank() << " failed: " << error.what() << std::endl;
+    MPI_Abort(MPI_COMM_WORLD, notConverged);
+  }
+  return notConverged;
+}

@@ -1,0 +1,1 @@
+"""What epafi-plot draws, one picture a module."""

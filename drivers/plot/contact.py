@@ -1,0 +1,50 @@
+"""What happens along a contact line: gap, multiplier, active set."""
+
+import matplotlib.pyplot as pyplot
+import numpy
+
+from . import style
+
+
+def spans(arclength, active):
+    """Intervals of the closed nodes, each reaching half way to its open neighbours."""
+    middles = (arclength[:-1] + arclength[1:]) / 2
+    left = numpy.concatenate([arclength[:1], middles])
+    right = numpy.concatenate([middles, arclength[-1:]])
+    changes = numpy.diff(numpy.concatenate([[0], active.astype(int), [0]]))
+    starts, ends = numpy.flatnonzero(changes == 1), numpy.flatnonzero(changes == -1) - 1
+    return [(left[a], right[b]) for a, b in zip(starts, ends)]
+
+
+def figure(run, pair):
+    s = pair.arclength()
+    closed = spans(s, pair.active) if len(s) > 1 else []
+    dots = dict(marker="o", markersize=3.6) if len(s) <= 130 else {}
+    picture, (gap, multiplier, active) = pyplot.subplots(
+        3, 1, sharex=True, figsize=(8.2, 7.4), gridspec_kw=dict(height_ratios=[3, 3, 1], hspace=0.14))
+    for axes in (gap, multiplier, active):
+        for a, b in closed:
+            axes.axvspan(a, b, color=style.VERMILLION, alpha=0.10, linewidth=0)
+
+    gap.plot(s, pair.gap, color=style.BLUE, linewidth=1.6, clip_on=False, label="remaining gap", **dots)
+    if pair.initial_gap is not None and numpy.any(pair.initial_gap != 0):
+        gap.plot(s, pair.initial_gap, color=style.GREY, linewidth=1.2, linestyle="--", label="initial gap")
+        gap.legend(loc="best")
+    gap.set_ylabel("gap c − Bu [length]")
+
+    multiplier.axhline(0, color=style.GREY, linewidth=0.8)
+    multiplier.plot(s, pair.multiplier, color=style.VERMILLION, linewidth=1.6, clip_on=False, **dots)
+    multiplier.set_ylabel("multiplier λ [force a node]")
+
+    active.step(s, pair.active.astype(float), where="mid", color=style.BLACK, linewidth=1.4)
+    active.set_yticks([0, 1], ["open", "closed"])
+    active.set_ylim(-0.25, 1.25)
+    active.set_ylabel("active set")
+    active.set_xlabel("arclength along the contact line [length]")
+    active.set_xlim(s[0], s[-1] if s[-1] > s[0] else s[0] + 1)
+    picture.align_ylabels([gap, multiplier, active])
+    gap.set_title(f"Contact {pair.name}: {int(pair.active.sum())} of {len(s)} nodes closed, "
+                  f"total force {pair.multiplier.sum():.4g} — {run.title}")
+    for axes in (gap, multiplier):
+        axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 4))
+    return picture

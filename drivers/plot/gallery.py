@@ -1,0 +1,57 @@
+"""Finds the files and draws every picture that they allow."""
+
+from . import contact, convergence, subdomains, surface, table, tables
+from .errors import PlotError
+from .run import read_run
+from .style import Canvas
+
+
+def draw(source, output, extension, dpi):
+    """Yields the path of each picture once it is written."""
+    files = find(source)
+    for file in files:
+        canvas = Canvas(output if output is not None else file.parent, extension, dpi)
+        if file.suffix == ".csv":
+            yield from draw_table(file, canvas)
+        else:
+            yield from draw_run(file, canvas)
+
+
+def find(source):
+    if not source.exists():
+        raise PlotError(f"'{source}' does not exist; name an HDF5 file, a CSV table or a directory that holds such.")
+    if not source.is_dir():
+        return [source]
+    found = [file for file in sorted(source.glob("*.h5")) if not file.name.startswith(".")]
+    found += [source / name for name in ("tables.csv", "history.csv") if (source / name).is_file()]
+    if "history.csv" in [file.name for file in found] and any(file.suffix == ".h5" for file in found):
+        found = [file for file in found if file.name != "history.csv"]  # the HDF5 file holds the same history
+    if not found:
+        raise PlotError(f"directory '{source}' holds neither *.h5 nor tables.csv; name the directory of a run or study.")
+    return found
+
+
+def draw_run(file, canvas):
+    run = read_run(file)
+    stem = file.stem
+    yield canvas.save(surface.figure(run), f"{stem}_deflection")
+    yield canvas.save(subdomains.figure(run), f"{stem}_decomposition")
+    for pair in run.contacts:
+        if len(pair.points) > 0:
+            yield canvas.save(contact.figure(run, pair), f"{stem}_contact_{pair.group}")
+    if convergence.can_draw(run.history):
+        yield canvas.save(convergence.figure(run.history, run.title), f"{stem}_convergence")
+
+
+def draw_table(file, canvas):
+    rows = table.read(file)
+    if table.has(rows, tables.COLUMNS):
+        yield canvas.save(tables.figure(rows), file.stem)
+    elif table.has(rows, convergence.COLUMNS):
+        history = convergence.history_of_table(file, rows)
+        if not convergence.can_draw(history):
+            raise PlotError(f"'{file}' holds no step with a residual to draw.")
+        yield canvas.save(convergence.figure(history, file.stem), f"{file.stem}_convergence")
+    else:
+        raise PlotError(f"'{file}' has neither the columns of tables.csv ({', '.join(tables.COLUMNS)}) "
+                        f"nor those of history.csv ({', '.join(convergence.COLUMNS)}).")

@@ -1,0 +1,102 @@
+/// `epafi-study STUDY`: measurements as tables and pictures.
+
+#include "TablesStudy.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Core.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+namespace {
+
+using namespace epafi;
+
+constexpr const char* usage =
+    "Usage: epafi-study STUDY [--output DIR] [--quick]\n"
+    "Writes DIR/<study>.csv, a table to read and a picture (DIR is . by default); --quick ends within a minute.\n\n"
+    "  tables   Tables 1 and 2 of the paper: dimensions and iterations, ours beside the paper's\n";
+
+struct Request {
+  std::string study;
+  std::filesystem::path directory = ".";
+  bool quick = false, help = false;
+};
+
+Request parse(int argc, char** argv) {
+  Request request;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--help" || word == "-h") {
+      request.help = true;
+    } else if (word == "--quick") {
+      request.quick = true;
+    } else if (word == "--output") {
+      if (++i >= argc)
+        throw InputError("option --output needs a directory");
+      request.directory = argv[i];
+    } else if (word.rfind('-', 0) == 0) {
+      throw InputError("unknown option " + word + "; known are --output DIR, --quick and --help");
+    } else if (!request.study.empty()) {
+      throw InputError("two studies are given, '" + request.study + "' and '" + word + "'; run them one at a time");
+    } else {
+      request.study = word;
+    }
+  }
+  if (!request.help && request.study != "tables")
+    throw InputError(request.study.empty() ? "no study is named; the studies are: tables"
+                                           : "unknown study '" + request.study + "'; the studies are: tables");
+  return request;
+}
+
+/// Draws the CSV with the plotting program that stands beside this one. Called after MPI has ended.
+bool draw(const std::filesystem::path& csv) {
+  const auto plot = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "epafi-plot";
+  const std::string command =
+      "'" + plot.string() + "' '" + csv.string() + "' --output '" + csv.parent_path().string() + "'";
+  return std::system(command.c_str()) == 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Request request;
+  int exitCode = 0;
+  bool drawsPicture = false;
+  {
+    Tpetra::ScopeGuard scope(&argc, &argv);
+    const auto comm = Tpetra::getDefaultComm();
+    try {
+      request = parse(argc, argv);
+      if (request.help) {
+        if (comm->getRank() == 0)
+          std::cout << usage;
+        return 0;
+      }
+      collectively(*comm, [&] {
+        std::error_code error;
+        std::filesystem::create_directories(request.directory, error);
+        if (error)
+          throw InputError("the directory " + request.directory.string() + " cannot be made: " + error.message());
+      });
+      exitCode = drivers::studyTables(request.directory, request.quick, comm) ? 0 : 1;
+      drawsPicture = comm->getRank() == 0;
+    } catch (const InputError& error) {
+      if (comm->getRank() == 0)
+        std::cerr << "epafi-study: " << error.what() << '\n';
+      return 2;
+    } catch (const Error& error) {
+      if (comm->getRank() == 0)
+        std::cerr << "epafi-study: " << error.what() << '\n';
+      return 1;
+    }
+  }
+  if (drawsPicture && !draw(std::filesystem::absolute(request.directory) / (request.study + ".csv")))
+    std::cerr << "epafi-study: the picture was not drawn (see above); the table is complete\n";
+  return exitCode;
+}

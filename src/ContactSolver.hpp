@@ -1,0 +1,66 @@
+#pragma once
+
+/// The facade: a decomposed contact problem in, its solution with a certificate out.
+///
+///     ContactSolver solver(parameters);
+///     solver.setup(problem);                  // factorises; once a matrix
+///     ContactSolution a = solver.solve();     // for the loads and gaps that the problem holds
+///     problem.subdomains[0].load *= 2;        // new loads, new gaps: no new setup
+///     ContactSolution b = solver.solve();
+
+#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/fetidp/DualProblem.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <memory>
+
+namespace epafi {
+
+/// Seconds of the parts of a run, the largest over the ranks.
+struct SolverTimes {
+  double setup = 0, solve = 0, recovery = 0;
+};
+
+class ContactSolver {
+public:
+  /// All parameters with defaults, ranges and meaning.
+  static Teuchos::ParameterList validParameters();
+
+  /// \throws InputError if the list is not valid. Not collective.
+  explicit ContactSolver(const Teuchos::ParameterList& parameters);
+
+  /// Factorises the subdomains and the coarse problem, chooses the algorithm, estimates ‖F‖. Keeps a reference to `problem`,
+  /// which must outlive the solver; the loads and gaps in it may change between solves, its matrices may not.
+  /// Collective. \throws InputError, SolvabilityError or Error, the same on all ranks.
+  void setup(const decomposition::DecomposedProblem& problem);
+
+  /// Solves for the loads and gaps that the problem holds now. A solution that misses the tolerance is returned as well:
+  /// ask `report().status`.
+  /// \param start     λ of an earlier solve to start from, or null
+  /// \param observer  told of every step, or null
+  /// Collective. Precondition: `setup` was called. \throws SolvabilityError, the same on all ranks.
+  fetidp::ContactSolution solve(const Vector* start = nullptr, qp::Observer* observer = nullptr);
+
+  /// Of the last solve.
+  [[nodiscard]] const qp::SolveReport& report() const { return report_; }
+  [[nodiscard]] const SolverTimes& times() const { return times_; }
+  [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return *dual_; }
+  [[nodiscard]] double tolerance() const { return dualParameters_.tolerance; }
+  /// Names of the direct solvers in use.
+  [[nodiscard]] const fetidp::DirectSolvers& directSolvers() const { return directSolvers_; }
+
+  /// The report of the last solve as a list: Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status. Collective.
+  [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
+
+private:
+  fetidp::DualParameters dualParameters_;
+  fetidp::DirectSolvers directSolvers_;
+  const decomposition::DecomposedProblem* problem_ = nullptr;
+  std::shared_ptr<fetidp::GeneralizedInverse> inverse_;
+  std::unique_ptr<fetidp::DualProblem> dual_;
+  qp::SolveReport report_;
+  SolverTimes times_;
+};
+
+} // namespace epafi

@@ -1,0 +1,25 @@
+#pragma once
+
+/// The rows of B_I: u_first − u_second ≤ gap at every node of a contact pair.
+
+#include "epafi/decomposition/Pieces.hpp"
+
+#include <vector>
+
+namespace epafi::decomposition {
+
+/// Numbers the rows pair after pair, along the first body's edge. \throws InputError if the edges of a pair
+/// do not coincide node by node (to 1e-10 of their length), if one of them is supported, or if two pairs
+/// share an edge of a body (a common corner is fine). Not collective (every rank finds the same).
+std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies);
+
+/// This rank's entries and the rows it owns: those whose first node lies, at its lowest subdomain, on this
+/// rank. A node that several subdomains share has its entry in the lowest-numbered one; supported nodes have
+/// none.
+Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
+                 const std::vector<Piece>& pieces);
+
+/// The right-hand side c of a contact row: its gap, less what supported nodes contribute.
+double contactGap(const Layout& layout, const std::vector<ContactLayout>& contacts, GlobalOrdinal row);
+
+} // namespace epafi::decomposition

@@ -1,0 +1,190 @@
+#include "epafi/decomposition/Partition.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <metis.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <span>
+#include <string>
+
+namespace epafi::decomposition {
+namespace {
+
+/// METIS on the dual graph of the mesh; the part of every element.
+std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
+  std::vector<idx_t> start{0}, neighbours;
+  std::vector<GlobalOrdinal> adjacent;
+  auto numVertices = static_cast<idx_t>(mesh.numElements());
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    mesh.elementNeighbours(element, adjacent);
+    for (const GlobalOrdinal other : adjacent)
+      neighbours.push_back(static_cast<idx_t>(other));
+    start.push_back(static_cast<idx_t>(neighbours.size()));
+  }
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_NUMBERING] = 0;
+  options[METIS_OPTION_SEED] = 1;
+  options[METIS_OPTION_CONTIG] = 1;
+  idx_t numConstraints = 1, numParts = parts, cut = 0;
+  std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
+  const int status =
+      METIS_PartGraphKway(&numVertices, &numConstraints, start.data(), neighbours.data(), nullptr, nullptr,
+                          nullptr, &numParts, nullptr, nullptr, options, &cut, part.data());
+  if (status != METIS_OK)
+    throw InputError("METIS could not cut a mesh of " + std::to_string(numVertices) + " elements into " +
+                     std::to_string(parts) + " parts (its status " + std::to_string(status) + ")");
+  return {part.begin(), part.end()};
+}
+
+/// Connected pieces of the parts: the piece of every element, pieces numbered from 0, and their sizes.
+struct Pieces {
+  std::vector<int> of;
+  std::vector<std::size_t> size;
+};
+
+Pieces findPieces(const fem::Mesh& mesh, const std::vector<int>& part) {
+  Pieces pieces{std::vector<int>(part.size(), -1), {}};
+  std::vector<GlobalOrdinal> stack, adjacent;
+  for (std::size_t seed = 0; seed < part.size(); ++seed) {
+    if (pieces.of[seed] >= 0)
+      continue;
+    const auto piece = static_cast<int>(pieces.size.size());
+    pieces.size.push_back(0);
+    pieces.of[seed] = piece;
+    stack.assign(1, static_cast<GlobalOrdinal>(seed));
+    while (!stack.empty()) {
+      const GlobalOrdinal element = stack.back();
+      stack.pop_back();
+      ++pieces.size.back();
+      mesh.elementNeighbours(element, adjacent);
+      for (const GlobalOrdinal other : adjacent)
+        if (pieces.of[static_cast<std::size_t>(other)] < 0 &&
+            part[static_cast<std::size_t>(other)] == part[seed]) {
+          pieces.of[static_cast<std::size_t>(other)] = piece;
+          stack.push_back(other);
+        }
+    }
+  }
+  return pieces;
+}
+
+/// Gives every piece that is not the largest of its part to the neighbouring part with which it shares most
+/// edges.
+void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
+  for (;;) {
+    const Pieces pieces = findPieces(mesh, part);
+    std::map<int, int> largest; // piece of each part
+    for (std::size_t element = 0; element < part.size(); ++element) {
+      const int piece = pieces.of[element];
+      const auto [entry, isNew] = largest.try_emplace(part[element], piece);
+      if (!isNew &&
+          pieces.size[static_cast<std::size_t>(piece)] > pieces.size[static_cast<std::size_t>(entry->second)])
+        entry->second = piece;
+    }
+    if (largest.size() == pieces.size.size())
+      return;
+    std::map<int, std::map<int, int>> edges; // stray piece → neighbouring part → shared edges
+    std::vector<GlobalOrdinal> adjacent;
+    for (std::size_t element = 0; element < part.size(); ++element) {
+      const int piece = pieces.of[element];
+      if (largest[part[element]] == piece)
+        continue;
+      mesh.elementNeighbours(static_cast<GlobalOrdinal>(element), adjacent);
+      for (const GlobalOrdinal other : adjacent)
+        if (part[static_cast<std::size_t>(other)] != part[element])
+          ++edges[piece][part[static_cast<std::size_t>(other)]];
+    }
+    if (edges.empty())
+      return; // the body itself has pieces: each keeps its part's number
+    const auto& [stray, shared] = *edges.begin();
+    const auto target = std::max_element(shared.begin(), shared.end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    for (std::size_t element = 0; element < part.size(); ++element)
+      if (pieces.of[element] == stray)
+        part[element] = target->first;
+  }
+}
+
+/// Numbers the parts that have elements from 0, in the old order; returns how many there are.
+int renumber(std::vector<int>& part) {
+  std::map<int, int> number;
+  for (const int p : part)
+    number.try_emplace(p, 0);
+  int next = 0;
+  for (auto& [old, fresh] : number)
+    fresh = next++;
+  for (int& p : part)
+    p = number[p];
+  return next;
+}
+
+} // namespace
+
+GridPartition::GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> counts)
+    : elements_(mesh.elements()), counts_(counts) {}
+
+int GridPartition::partOf(GlobalOrdinal element) const {
+  // Part k of m takes the elements floor(k n / m) … floor((k + 1) n / m) − 1 in each direction.
+  const auto locate = [](GlobalOrdinal i, int n, int m) { return ((i + 1) * m - 1) / n; };
+  const GlobalOrdinal column = locate(element % elements_[0], elements_[0], counts_[0]);
+  const GlobalOrdinal row = locate(element / elements_[0], elements_[1], counts_[1]);
+  return static_cast<int>(column + row * counts_[0]);
+}
+
+std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
+  const auto first = [](GlobalOrdinal k, int n, int m) { return k * n / m; };
+  const GlobalOrdinal column = part % counts_[0], row = part / counts_[0];
+  std::vector<GlobalOrdinal> elements;
+  for (GlobalOrdinal j = first(row, elements_[1], counts_[1]); j < first(row + 1, elements_[1], counts_[1]);
+       ++j)
+    for (GlobalOrdinal i = first(column, elements_[0], counts_[0]);
+         i < first(column + 1, elements_[0], counts_[0]); ++i)
+      elements.push_back(i + j * elements_[0]);
+  return elements;
+}
+
+GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm)
+    : part_(static_cast<std::size_t>(mesh.numElements()), 0) {
+  collectively(comm, [&] {
+    if (parts < 1 || parts > mesh.numElements())
+      throw InputError("a mesh of " + std::to_string(mesh.numElements()) + " elements cannot be cut into " +
+                       std::to_string(parts) + " parts; choose between 1 and " +
+                       std::to_string(mesh.numElements()));
+    if (mesh.numElements() > std::numeric_limits<idx_t>::max() / mesh.nodesPerElement())
+      throw InputError("a mesh of " + std::to_string(mesh.numElements()) +
+                       " elements is too large for METIS's 32-bit indices; cut the body as a grid");
+    if (comm.getRank() != 0)
+      return;
+    if (parts > 1) {
+      part_ = cutByMetis(mesh, parts);
+      makeConnected(mesh, part_);
+    }
+    numParts_ = renumber(part_);
+  });
+  Teuchos::broadcast(comm, 0, 1, &numParts_);
+  Teuchos::broadcast(comm, 0, static_cast<int>(part_.size()), part_.data());
+
+  start_.assign(static_cast<std::size_t>(numParts_) + 1, 0);
+  for (const int p : part_)
+    ++start_[static_cast<std::size_t>(p) + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  members_.resize(part_.size());
+  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  for (std::size_t element = 0; element < part_.size(); ++element)
+    members_[next[static_cast<std::size_t>(part_[element])]++] = static_cast<int>(element);
+}
+
+std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
+  const auto p = static_cast<std::size_t>(part);
+  const std::span<const int> members(members_.data() + start_[p], members_.data() + start_[p + 1]);
+  return {members.begin(), members.end()};
+}
+
+} // namespace epafi::decomposition

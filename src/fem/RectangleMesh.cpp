@@ -1,0 +1,107 @@
+#include "epafi/fem/RectangleMesh.hpp"
+
+#include <algorithm>
+
+namespace epafi::fem {
+
+RectangleMesh::RectangleMesh(const scene::Rectangle& rectangle, std::array<int, 2> elements)
+    : rectangle_(rectangle), elements_(elements) {}
+
+GlobalOrdinal RectangleMesh::numNodes() const {
+  return static_cast<GlobalOrdinal>(elements_[0] + 1) * (elements_[1] + 1);
+}
+
+GlobalOrdinal RectangleMesh::numElements() const {
+  return static_cast<GlobalOrdinal>(elements_[0]) * elements_[1];
+}
+
+Point RectangleMesh::point(GlobalOrdinal node) const {
+  const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
+  // Interpolated from both ends, so that the last node lies on the far edge to the last digit.
+  const auto between = [](double a, double b, GlobalOrdinal k, int n) {
+    const double t = static_cast<double>(k) / n;
+    return (1 - t) * a + t * b;
+  };
+  return {between(rectangle_.x0, rectangle_.x1, i, elements_[0]),
+          between(rectangle_.y0, rectangle_.y1, j, elements_[1]), 0.0};
+}
+
+void RectangleMesh::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const {
+  const GlobalOrdinal i = element % elements_[0], j = element / elements_[0];
+  const GlobalOrdinal row = elements_[0] + 1, lowerLeft = i + j * row;
+  nodes[0] = lowerLeft;
+  nodes[1] = lowerLeft + 1;
+  nodes[2] = lowerLeft + row + 1;
+  nodes[3] = lowerLeft + row;
+}
+
+void RectangleMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
+  elements.clear();
+  const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
+  for (GlobalOrdinal ej = std::max<GlobalOrdinal>(j - 1, 0);
+       ej <= std::min<GlobalOrdinal>(j, elements_[1] - 1); ++ej)
+    for (GlobalOrdinal ei = std::max<GlobalOrdinal>(i - 1, 0);
+         ei <= std::min<GlobalOrdinal>(i, elements_[0] - 1); ++ei)
+      elements.push_back(ei + ej * elements_[0]);
+}
+
+void RectangleMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
+  elements.clear();
+  const GlobalOrdinal i = element % elements_[0], j = element / elements_[0];
+  if (j > 0)
+    elements.push_back(element - elements_[0]);
+  if (i > 0)
+    elements.push_back(element - 1);
+  if (i + 1 < elements_[0])
+    elements.push_back(element + 1);
+  if (j + 1 < elements_[1])
+    elements.push_back(element + elements_[0]);
+}
+
+bool RectangleMesh::isBoundaryNode(GlobalOrdinal node) const {
+  const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
+  return i == 0 || j == 0 || i == elements_[0] || j == elements_[1];
+}
+
+scene::Rectangle RectangleMesh::elementBox(GlobalOrdinal element) const {
+  std::array<GlobalOrdinal, 4> nodes{};
+  elementNodes(element, nodes);
+  const Point lower = point(nodes[0]), upper = point(nodes[2]);
+  return {lower[0], upper[0], lower[1], upper[1]};
+}
+
+GlobalOrdinal RectangleMesh::numEdgeNodes(scene::Edge edge) const {
+  return (edge == scene::Edge::left || edge == scene::Edge::right ? elements_[1] : elements_[0]) + 1;
+}
+
+GlobalOrdinal RectangleMesh::edgeNode(scene::Edge edge, GlobalOrdinal k) const {
+  const GlobalOrdinal row = elements_[0] + 1;
+  switch (edge) {
+  case scene::Edge::left:
+    return k * row;
+  case scene::Edge::right:
+    return k * row + elements_[0];
+  case scene::Edge::bottom:
+    return k;
+  case scene::Edge::top:
+    return elements_[1] * row + k;
+  }
+  return -1;
+}
+
+GlobalOrdinal RectangleMesh::positionOnEdge(scene::Edge edge, GlobalOrdinal node) const {
+  const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
+  switch (edge) {
+  case scene::Edge::left:
+    return i == 0 ? j : -1;
+  case scene::Edge::right:
+    return i == elements_[0] ? j : -1;
+  case scene::Edge::bottom:
+    return j == 0 ? i : -1;
+  case scene::Edge::top:
+    return j == elements_[1] ? i : -1;
+  }
+  return -1;
+}
+
+} // namespace epafi::fem

@@ -1,0 +1,36 @@
+#pragma once
+
+/// Files that appear complete or not at all: written under a temporary name in their own directory, then
+/// renamed.
+
+#include "epafi/base/Types.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace epafi::output {
+
+/// Makes sure that `file` can be written: creates its directory and those above it, and checks that it may be
+/// written to. Collective. \throws InputError naming the directory if it cannot be made or written to, or if
+/// `file` is a directory.
+void prepareTarget(const std::filesystem::path& file, const Comm& comm);
+
+/// A new name beside `file` (same directory, hidden, ends in ".partial"), the same on all ranks. Makes no
+/// file. Collective.
+std::filesystem::path temporaryBeside(const std::filesystem::path& file, const Comm& comm);
+
+/// Renames `temporary` to `file`, which replaces an older `file` in one step; removes `temporary` if that
+/// fails. Collective. \throws Error naming the file.
+void publish(const std::filesystem::path& temporary, const std::filesystem::path& file, const Comm& comm);
+
+/// Writes a text file from rank 0, through prepareTarget, a temporary and publish.
+///
+/// \param text  makes the text; called on rank 0 only, must not call anything collective.
+/// Collective. \throws InputError (prepareTarget), Error if writing fails or `text` throws; then no file is
+/// left behind
+///             and an older file of that name is untouched.
+void writeTextFile(const std::filesystem::path& file, const std::function<std::string()>& text,
+                   const Comm& comm);
+
+} // namespace epafi::output

@@ -1,0 +1,179 @@
+#include "epafi/output/BodyFields.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include <algorithm>
+
+namespace epafi::output {
+namespace {
+
+using decomposition::BodyLayout;
+using decomposition::Decomposition;
+using decomposition::Subdomain;
+
+/// The parts that hold a node, ascending, without repetition.
+void partsOf(const BodyLayout& layout, GlobalOrdinal node, std::vector<GlobalOrdinal>& elements,
+             std::vector<int>& parts) {
+  layout.mesh->nodeElements(node, elements);
+  parts.clear();
+  for (const GlobalOrdinal element : elements)
+    parts.push_back(layout.partition->partOf(element));
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+}
+
+/// Whether each node of a subdomain has unknowns, and crosspoint unknowns among them.
+struct NodeKinds {
+  std::vector<char> free, crosspoint;
+
+  NodeKinds(const Subdomain& subdomain, int components)
+      : free(subdomain.nodes.size(), 0), crosspoint(subdomain.nodes.size(), 0) {
+    for (const int position : subdomain.unknownPosition)
+      free[static_cast<std::size_t>(position / components)] = 1;
+    for (const int unknown : subdomain.crosspointUnknowns) {
+      const int position = subdomain.unknownPosition[static_cast<std::size_t>(unknown)];
+      crosspoint[static_cast<std::size_t>(position / components)] = 1;
+    }
+  }
+};
+
+/// Values that this rank's subdomains send: node, u (components) and 1 for a crosspoint, row by row.
+struct NodeValues {
+  std::vector<GlobalOrdinal> nodes;
+  std::vector<double> values;
+};
+
+void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
+                     const Eigen::VectorXd& displacement, int components, NodeValues& result) {
+  const int ownPart = subdomain.number - layout.firstSubdomain;
+  const NodeKinds kinds(subdomain, components);
+  std::vector<GlobalOrdinal> elements;
+  std::vector<int> parts;
+  for (std::size_t k = 0; k < subdomain.nodes.size(); ++k) {
+    const GlobalOrdinal node = subdomain.nodes[k];
+    partsOf(layout, node, elements, parts);
+    if (parts.empty() || parts.front() != ownPart)
+      continue;
+    result.nodes.push_back(node);
+    for (int component = 0; component < components; ++component)
+      result.values.push_back(displacement[static_cast<Eigen::Index>(k) * components + component]);
+    const bool wouldBe = parts.size() > 2 || (parts.size() == 2 && layout.mesh->isBoundaryNode(node));
+    const bool isCrosspoint = kinds.free[k] != 0 ? kinds.crosspoint[k] != 0 : wouldBe;
+    result.values.push_back(isCrosspoint ? 1 : 0);
+  }
+}
+
+NodeValues valuesOfSubdomains(const Decomposition& decomposition, const fetidp::ContactSolution& solution,
+                              int body) {
+  const auto& problem = decomposition.problem;
+  if (solution.displacement.size() != problem.subdomains.size())
+    throw Error("The solution has displacements of " + std::to_string(solution.displacement.size()) +
+                " subdomains on a rank that has " + std::to_string(problem.subdomains.size()) + ".");
+  NodeValues result;
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    const Subdomain& subdomain = problem.subdomains[s];
+    if (subdomain.body != body)
+      continue;
+    const auto expected = static_cast<Eigen::Index>(subdomain.nodes.size()) * problem.components;
+    if (solution.displacement[s].size() != expected)
+      throw Error("The displacement of subdomain " + std::to_string(subdomain.number) + " has " +
+                  std::to_string(solution.displacement[s].size()) + " values instead of " +
+                  std::to_string(expected) + ".");
+    appendSubdomain(decomposition.bodies[static_cast<std::size_t>(body)], subdomain, solution.displacement[s],
+                    problem.components, result);
+  }
+  return result;
+}
+
+/// Moves the values to the slab of nodes `range`, one column each.
+MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal numNodes, const RowRange& range,
+                   const RCP<const Comm>& comm) {
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const Teuchos::ArrayView<const GlobalOrdinal> nodes(sent.nodes.data(),
+                                                      static_cast<Teuchos::Ordinal>(sent.nodes.size()));
+  const auto source = rcp(new Map(invalid, nodes, 0, comm));
+  if (source->getGlobalNumElements() != static_cast<Tpetra::global_size_t>(numNodes))
+    throw Error("The subdomains of a body hold " + std::to_string(source->getGlobalNumElements()) +
+                " of its " + std::to_string(numNodes) + " nodes.");
+  const auto target = rcp(
+      new Map(static_cast<Tpetra::global_size_t>(numNodes), static_cast<std::size_t>(range.count), 0, comm));
+  MultiVector from(source, columns);
+  for (std::size_t column = 0; column < columns; ++column) {
+    const auto data = from.getDataNonConst(column);
+    for (Teuchos::Ordinal row = 0; row < data.size(); ++row)
+      data[row] = sent.values[static_cast<std::size_t>(row) * columns + column];
+  }
+  MultiVector to(target, columns);
+  to.doImport(from, Import(source, target), Tpetra::INSERT);
+  return to;
+}
+
+void appendPoint(const fem::Mesh& mesh, GlobalOrdinal node, std::vector<double>& table) {
+  const fem::Point point = mesh.point(node);
+  table.insert(table.end(), point.begin(), point.end());
+}
+
+void fillNodes(const fem::Mesh& mesh, const MultiVector& values, int components, BodyFields& fields) {
+  const auto crosspoint = values.getData(static_cast<std::size_t>(components));
+  fields.u.resize(static_cast<std::size_t>(fields.nodes.count * components));
+  for (int component = 0; component < components; ++component) {
+    const auto data = values.getData(static_cast<std::size_t>(component));
+    for (Teuchos::Ordinal row = 0; row < data.size(); ++row)
+      fields.u[static_cast<std::size_t>(row * components + component)] = data[row];
+  }
+  for (GlobalOrdinal row = 0; row < fields.nodes.count; ++row) {
+    const GlobalOrdinal node = fields.nodes.first + row;
+    appendPoint(mesh, node, fields.points);
+    if (crosspoint[static_cast<Teuchos::Ordinal>(row)] > 0)
+      appendPoint(mesh, node, fields.crosspointPoints);
+  }
+}
+
+void fillCells(const BodyLayout& layout, BodyFields& fields) {
+  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(fields.nodesPerCell));
+  for (GlobalOrdinal row = 0; row < fields.cells.count; ++row) {
+    const GlobalOrdinal cell = fields.cells.first + row;
+    layout.mesh->elementNodes(cell, nodes);
+    fields.corners.insert(fields.corners.end(), nodes.begin(), nodes.end());
+    fields.subdomain.push_back(layout.firstSubdomain + layout.partition->partOf(cell));
+  }
+}
+
+void numberCrosspoints(const Comm& comm, BodyFields& fields) {
+  fields.crosspoints.count = static_cast<GlobalOrdinal>(fields.crosspointPoints.size() / 3);
+  GlobalOrdinal upToHere = 0;
+  Teuchos::scan(comm, Teuchos::REDUCE_SUM, 1, &fields.crosspoints.count, &upToHere);
+  fields.crosspoints.first = upToHere - fields.crosspoints.count;
+  fields.numCrosspoints = sumOverRanks(comm, fields.crosspoints.count);
+}
+
+} // namespace
+
+BodyFields gatherBodyFields(const Decomposition& decomposition, const fetidp::ContactSolution& solution,
+                            int body) {
+  const auto& problem = decomposition.problem;
+  const BodyLayout& layout = decomposition.bodies[static_cast<std::size_t>(body)];
+  NodeValues sent;
+  collectively(*problem.comm, [&] { sent = valuesOfSubdomains(decomposition, solution, body); });
+
+  BodyFields fields;
+  fields.numNodes = layout.mesh->numNodes();
+  fields.nodes = evenShare(fields.numNodes, *problem.comm);
+  fields.numCells = layout.mesh->numElements();
+  fields.cells = evenShare(fields.numCells, *problem.comm);
+  fields.nodesPerCell = layout.mesh->nodesPerElement();
+  const auto columns = static_cast<std::size_t>(problem.components) + 1;
+  const MultiVector values = toSlab(sent, columns, fields.numNodes, fields.nodes, problem.comm);
+  fillNodes(*layout.mesh, values, problem.components, fields);
+  fillCells(layout, fields);
+  numberCrosspoints(*problem.comm, fields);
+  return fields;
+}
+
+} // namespace epafi::output

@@ -1,0 +1,39 @@
+#pragma once
+
+/// The fields of one body, each rank holding a contiguous slab of its nodes and of its cells.
+
+#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/output/Slab.hpp"
+
+#include <vector>
+
+namespace epafi::output {
+
+/// Tables are stored row by row; n nodes, n_e cells, m crosspoints in the whole body.
+struct BodyFields {
+  GlobalOrdinal numNodes = 0; ///< n
+  RowRange nodes;             ///< this rank's nodes
+  std::vector<double> points; ///< n × 3
+  std::vector<double> u;      ///< n × components
+
+  GlobalOrdinal numCells = 0; ///< n_e
+  int nodesPerCell = 0;
+  RowRange cells;                 ///< this rank's cells
+  std::vector<long long> corners; ///< n_e × nodesPerCell, node numbers
+  std::vector<int> subdomain;     ///< n_e, numbered over the whole problem
+
+  GlobalOrdinal numCrosspoints = 0;     ///< m
+  RowRange crosspoints;                 ///< this rank's crosspoints
+  std::vector<double> crosspointPoints; ///< m × 3
+};
+
+/// Brings the fields of body `body` from the subdomains to the slabs. Each node's u is that of the
+/// lowest-numbered subdomain that holds it (copies agree up to the solver's tolerance). Crosspoints are the
+/// nodes with crosspoint unknowns, and, among the nodes without any unknown (supported), those that would be:
+/// shared by three parts, or by two on the body's boundary. Collective. \throws Error (the same on all ranks)
+/// if the solution does not fit the decomposition.
+BodyFields gatherBodyFields(const decomposition::Decomposition& decomposition,
+                            const fetidp::ContactSolution& solution, int body);
+
+} // namespace epafi::output

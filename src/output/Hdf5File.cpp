@@ -1,0 +1,265 @@
+#include "epafi/output/Hdf5File.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/output/AtomicFile.hpp"
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <hdf5.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace epafi::output {
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>, "Hdf5File stores HDF5's identifiers as std::int64_t");
+
+/// Keeps HDF5 from printing its errors, for as long as it lives; what the application had set comes back.
+class QuietHdf5 {
+public:
+  QuietHdf5() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// An HDF5 identifier that closes itself.
+class Handle {
+public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  ~Handle() {
+    if (id_ >= 0)
+      close_(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+private:
+  hid_t id_;
+  Close close_;
+};
+
+/// Descriptions on HDF5's error stack: what its call failed to do, and the innermost cause.
+std::string hdf5Reason() {
+  std::pair<std::string, std::string> ends;
+  const auto collect = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
+    auto& [outer, inner] = *static_cast<std::pair<std::string, std::string>*>(data);
+    inner = error->desc != nullptr ? error->desc : "";
+    if (outer.empty())
+      outer = inner;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, collect, &ends);
+  if (ends.first.empty())
+    return "HDF5 gives no reason";
+  return ends.first == ends.second ? ends.first : ends.first + " (" + ends.second + ")";
+}
+
+/// `result` if it is no HDF5 error; works for identifiers and return codes.
+template <class Result>
+Result checked(Result result, const std::filesystem::path& file, const std::string& what) {
+  if (result < 0)
+    throw Error("File '" + file.string() + "': " + what + " failed: " + hdf5Reason() + ".");
+  return result;
+}
+
+MPI_Comm rawComm(const Comm& comm) {
+  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
+  return mpi != nullptr ? (*mpi->getRawMpiComm())() : MPI_COMM_SELF;
+}
+
+template <class T>
+hid_t memoryType() {
+  if constexpr (std::is_same_v<T, double>)
+    return H5T_NATIVE_DOUBLE;
+  else if constexpr (std::is_same_v<T, int>)
+    return H5T_NATIVE_INT;
+  else if constexpr (std::is_same_v<T, long long>)
+    return H5T_NATIVE_LLONG;
+  else
+    return H5T_NATIVE_SCHAR;
+}
+
+hid_t createFile(const std::filesystem::path& temporary, MPI_Comm comm) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  checked(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), temporary, "choosing parallel access");
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+#if H5_VERSION_GE(1, 10, 7)
+  // The temporary is ours alone, and some file systems know no locks.
+  H5Pset_file_locking(access, false, true);
+#endif
+  return checked(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), temporary, "creating it");
+}
+
+hid_t createDataset(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type,
+                    GlobalOrdinal rows, int columns) {
+  const hsize_t extent[2] = {static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
+  const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, extent, nullptr), H5Sclose);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links, 1);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER); // every row is written
+  return checked(H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT), path,
+                 "making dataset '" + name + "'");
+}
+
+void writeRows(hid_t dataset, const std::filesystem::path& path, const std::string& name, hid_t type,
+               int columns, const RowRange& range, const void* values) {
+  const int rank = columns == 0 ? 1 : 2;
+  const hsize_t start[2] = {static_cast<hsize_t>(range.first), 0};
+  const hsize_t count[2] = {static_cast<hsize_t>(range.count), static_cast<hsize_t>(columns)};
+  const Handle fileSpace(H5Dget_space(dataset), H5Sclose);
+  const Handle memorySpace(H5Screate_simple(rank, count, nullptr), H5Sclose);
+  if (range.count == 0) {
+    H5Sselect_none(fileSpace);
+    H5Sselect_none(memorySpace);
+  } else {
+    H5Sselect_hyperslab(fileSpace, H5S_SELECT_SET, start, nullptr, count, nullptr);
+  }
+  const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
+  const double nothing = 0; // HDF5 wants an address even of no rows
+  const void* source = range.count == 0 ? &nothing : values;
+  checked(H5Dwrite(dataset, type, memorySpace, fileSpace, transfer, source), path,
+          "writing dataset '" + name + "'");
+}
+
+} // namespace
+
+Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm)
+    : path_(path), comm_(comm) {
+  prepareTarget(path, *comm);
+  temporary_ = temporaryBeside(path, *comm);
+  const QuietHdf5 quiet;
+  try {
+    collectively(*comm, [&] { file_ = createFile(temporary_, rawComm(*comm)); });
+  } catch (...) {
+    abandon();
+    throw;
+  }
+}
+
+Hdf5File::~Hdf5File() {
+  if (file_ >= 0)
+    abandon();
+}
+
+void Hdf5File::flush() {
+  collectively(*comm_, [&] { checked(H5Fflush(file_, H5F_SCOPE_LOCAL), path_, "completing it"); });
+}
+
+void Hdf5File::abandon() noexcept {
+  const QuietHdf5 quiet;
+  if (file_ >= 0) {
+    try {
+      flush();
+      H5Fclose(file_);
+    } catch (...) {
+      // H5Fclose would fail too and leave an identifier of freed memory, which HDF5 would close once more at
+      // the end of MPI. So HDF5 keeps the file until then; it has no name any more.
+    }
+  }
+  file_ = -1;
+  std::error_code ignored;
+  if (comm_->getRank() == 0)
+    std::filesystem::remove(temporary_, ignored);
+}
+
+void Hdf5File::createGroup(const std::string& group) {
+  const QuietHdf5 quiet;
+  collectively(*comm_, [&] {
+    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    const Handle made(H5Gcreate2(file_, group.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    checked<hid_t>(made, path_, "making group '" + group + "'");
+  });
+}
+
+template <class T>
+void Hdf5File::write(const std::string& dataset, GlobalOrdinal rows, int columns, const RowRange& range,
+                     std::span<const T> values) {
+  const GlobalOrdinal written = sumOverRanks(*comm_, range.count);
+  collectively(*comm_, [&] {
+    const auto expected = static_cast<std::size_t>(range.count * (columns == 0 ? 1 : columns));
+    if (columns < 0 || range.first < 0 || range.count < 0 || range.first + range.count > rows ||
+        values.size() != expected || written != rows)
+      throw Error("File '" + path_.string() + "', dataset '" + dataset + "': rank " +
+                  std::to_string(comm_->getRank()) + " hands over " + std::to_string(values.size()) +
+                  " values for rows " + std::to_string(range.first) + " to " +
+                  std::to_string(range.first + range.count) + " of " + std::to_string(rows) + " × " +
+                  std::to_string(columns) + ", and all ranks together " + std::to_string(written) + " rows.");
+  });
+  const QuietHdf5 quiet;
+  hid_t id = -1;
+  collectively(*comm_, [&] { id = createDataset(file_, path_, dataset, memoryType<T>(), rows, columns); });
+  const Handle owned(id, H5Dclose);
+  collectively(*comm_, [&] {
+    if (rows > 0)
+      writeRows(id, path_, dataset, memoryType<T>(), columns, range, values.data());
+  });
+}
+
+template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowRange&,
+                              std::span<const double>);
+template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowRange&, std::span<const int>);
+template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowRange&,
+                              std::span<const long long>);
+template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowRange&,
+                              std::span<const signed char>);
+
+void Hdf5File::writeAttribute(const std::string& object, const std::string& name, Identifier type,
+                              const void* value) {
+  collectively(*comm_, [&] {
+    const std::string what = "writing attribute '" + name + "' of '" + object + "'";
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle made(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                        H5P_DEFAULT, H5P_DEFAULT),
+                      H5Aclose);
+    checked<hid_t>(made, path_, what);
+    checked(H5Awrite(made, type, value), path_, what);
+  });
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const QuietHdf5 quiet;
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, value.size() + 1);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  writeAttribute(object, name, type, value.c_str());
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, double value) {
+  const QuietHdf5 quiet;
+  writeAttribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5File::attribute(const std::string& object, const std::string& name, long long value) {
+  const QuietHdf5 quiet;
+  writeAttribute(object, name, H5T_NATIVE_LLONG, &value);
+}
+
+void Hdf5File::close() {
+  if (file_ < 0)
+    throw Error("File '" + path_.string() + "' is closed already.");
+  const QuietHdf5 quiet;
+  try {
+    flush();
+    collectively(*comm_, [&] { checked(H5Fclose(std::exchange(file_, -1)), path_, "closing it"); });
+  } catch (...) {
+    abandon();
+    throw;
+  }
+  publish(temporary_, path_, *comm_);
+}
+
+} // namespace epafi::output

@@ -1,0 +1,68 @@
+#pragma once
+
+/// One HDF5 file that all ranks write together.
+
+#include "epafi/base/Types.hpp"
+#include "epafi/output/Slab.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace epafi::output {
+
+/// An HDF5 file that appears under its name only when `close` has succeeded; until then it has a temporary
+/// name in the same directory. If the object is destroyed before that, the temporary is removed and an older
+/// file stays as it was.
+///
+/// All methods, construction and destruction are collective over the communicator given, with the same
+/// arguments on all ranks (slab ranges and values apart). Their errors are agreed on by all ranks, so that
+/// all leave together. Code between the calls must keep to that rule: an exception on some ranks only would
+/// leave the others waiting. A rank may hold no rows. The communicator must be an MPI one or a serial one in
+/// a program that has initialised MPI.
+class Hdf5File {
+public:
+  /// Opens the temporary.
+  /// \throws InputError if the directory cannot be made or written to, Error if HDF5 refuses.
+  Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  /// Makes a group and those above it that are missing. \throws Error (also if it is there already).
+  void createGroup(const std::string& group);
+
+  /// Writes a dataset of `rows` rows: two-dimensional, rows × columns, or one-dimensional if columns is 0.
+  /// Each rank hands over its rows, row by row. Groups above it are made. T is double, int, long long or
+  /// signed char. Precondition: the ranges of the ranks do not overlap; that they add up to `rows` is
+  /// checked. \throws Error if a range does not fit, if the dataset is there already, or if writing fails.
+  template <class T>
+  void write(const std::string& dataset, GlobalOrdinal rows, int columns, const RowRange& range,
+             std::span<const T> values);
+
+  /// Attribute of a group or dataset that exists ("/" is the file itself). \throws Error.
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name, long long value);
+
+  /// Completes the file and gives it its name. Nothing may be written afterwards. \throws Error; the file is
+  /// not there then.
+  void close();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+  using Identifier = std::int64_t; ///< HDF5's hid_t
+
+  void writeAttribute(const std::string& object, const std::string& name, Identifier type, const void* value);
+  void flush();
+  void abandon() noexcept;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  RCP<const Comm> comm_;
+  Identifier file_ = -1;
+};
+
+} // namespace epafi::output

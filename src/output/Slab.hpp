@@ -1,0 +1,35 @@
+#pragma once
+
+/// Rows of a table that lies in contiguous pieces on the ranks: how everything goes to a file without ever
+/// being whole on one rank.
+
+#include "epafi/base/Types.hpp"
+
+#include <Teuchos_Comm.hpp>
+
+#include <algorithm>
+
+namespace epafi::output {
+
+/// Rows [first, first + count) of a table.
+struct RowRange {
+  GlobalOrdinal first = 0;
+  GlobalOrdinal count = 0;
+};
+
+/// This rank's share of `rows` rows: contiguous, in the order of the ranks, sizes differ by at most one. Not
+/// collective.
+inline RowRange evenShare(GlobalOrdinal rows, const Comm& comm) {
+  const GlobalOrdinal ranks = comm.getSize();
+  const GlobalOrdinal rank = comm.getRank();
+  const GlobalOrdinal least = rows / ranks;
+  const GlobalOrdinal longer = rows % ranks;
+  return {rank * least + std::min(rank, longer), least + (rank < longer ? 1 : 0)};
+}
+
+/// All rows on rank 0, none elsewhere; for short tables that every rank holds whole. Not collective.
+inline RowRange onFirstRank(GlobalOrdinal rows, const Comm& comm) {
+  return {0, comm.getRank() == 0 ? rows : 0};
+}
+
+} // namespace epafi::output

@@ -1,0 +1,97 @@
+#include "epafi/output/Xdmf.hpp"
+
+#include <sstream>
+
+namespace epafi::output {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char letter : text) {
+    switch (letter) {
+    case '&':
+      result += "&amp;";
+      break;
+    case '<':
+      result += "&lt;";
+      break;
+    case '>':
+      result += "&gt;";
+      break;
+    case '"':
+      result += "&quot;";
+      break;
+    default:
+      result += letter;
+    }
+  }
+  return result;
+}
+
+/// Writes the document's elements with the name of the HDF5 file at hand.
+class Writer {
+public:
+  explicit Writer(const std::string& hdf5File) : hdf5File_(escaped(hdf5File)) {}
+
+  void grid(const XdmfGrid& grid) {
+    text_ << "      <Grid Name=\"" << escaped(grid.name) << "\" GridType=\"Uniform\">\n";
+    if (grid.cells.rows > 0) {
+      text_ << "        <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"" << grid.cells.rows
+            << "\">\n";
+      item(grid.cells);
+      text_ << "        </Topology>\n";
+    } else {
+      text_ << "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << grid.points.rows
+            << "\" NodesPerElement=\"1\"/>\n";
+    }
+    text_ << "        <Geometry GeometryType=\"XYZ\">\n";
+    item(grid.points);
+    text_ << "        </Geometry>\n";
+    for (const XdmfAttribute& field : grid.attributes)
+      attribute(field);
+    text_ << "      </Grid>\n";
+  }
+
+  [[nodiscard]] std::string text() const { return text_.str(); }
+
+private:
+  void attribute(const XdmfAttribute& field) {
+    const int columns = field.data.columns;
+    const char* kind = columns <= 1 ? "Scalar" : columns == 3 ? "Vector" : "Matrix";
+    const char* center = field.center == XdmfAttribute::Center::node ? "Node" : "Cell";
+    text_ << "        <Attribute Name=\"" << escaped(field.name) << "\" AttributeType=\"" << kind
+          << "\" Center=\"" << center << "\">\n";
+    item(field.data);
+    text_ << "        </Attribute>\n";
+  }
+
+  void item(const XdmfData& data) {
+    text_ << "          <DataItem Format=\"HDF\" Dimensions=\"" << data.rows;
+    if (data.columns > 0)
+      text_ << ' ' << data.columns;
+    text_ << "\" NumberType=\"" << (data.type == XdmfData::Type::real8 ? "Float" : "Int") << "\" Precision=\""
+          << (data.type == XdmfData::Type::integer4 ? 4 : 8) << "\">" << hdf5File_ << ':'
+          << escaped(data.dataset) << "</DataItem>\n";
+  }
+
+  std::string hdf5File_;
+  std::ostringstream text_;
+};
+
+} // namespace
+
+std::string xdmfDocument(const std::string& hdf5File, const std::vector<XdmfGrid>& grids) {
+  Writer writer(hdf5File);
+  for (const XdmfGrid& grid : grids)
+    writer.grid(grid);
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<Xdmf Version=\"2.0\">\n"
+         "  <Domain>\n"
+         "    <Grid Name=\"scene\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" +
+         writer.text() +
+         "    </Grid>\n"
+         "  </Domain>\n"
+         "</Xdmf>\n";
+}
+
+} // namespace epafi::output

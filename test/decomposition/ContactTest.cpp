@@ -1,0 +1,172 @@
+#include "Gathered.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace epafi::decomposition {
+namespace {
+
+using scene::Edge;
+
+/// What `decompose` says to a wrong scene; empty if it accepts it.
+std::string refusal(const scene::Scene& scene) {
+  try {
+    decompose(scene, world());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool mentions(const std::string& text, const std::vector<std::string>& words) {
+  return std::all_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return text.find(word) != std::string::npos; });
+}
+
+/// Entry of row k of the contact in the given body, over all ranks: {coefficient, node}; {0, 0} if it has
+/// none.
+std::array<double, 2> entryOf(const DecomposedProblem& p, GlobalOrdinal row, int body) {
+  std::vector<double> found{0, 0};
+  for (const Subdomain& s : p.subdomains)
+    for (const ConstraintEntry& entry : s.constraint)
+      if (s.body == body && p.multiplierGhostMap->getGlobalElement(entry.multiplier) == row) {
+        found[0] += entry.coefficient;
+        found[1] += nodeKey(s, entry.unknown, 1) - 1e6 * (body + 1);
+      }
+  sumOverRanks(*p.comm, found);
+  return {found[0], found[1]};
+}
+
+/// c on every rank.
+std::vector<double> gapOf(const DecomposedProblem& p) {
+  std::vector<double> all(static_cast<std::size_t>(p.dualDimension()), 0.0);
+  const auto indices = localIndices(*p.multiplierMap);
+  const auto values = p.gap->getData();
+  for (Teuchos_Ordinal k = 0; k < values.size(); ++k)
+    all[static_cast<std::size_t>(indices[static_cast<decltype(indices.size())>(k)])] = values[k];
+  sumOverRanks(*p.comm, all);
+  return all;
+}
+
+TEST(ContactTest, RowsJoinOppositeNodesFromBottomToTop) {
+  for (const auto& cut : {grid(1, 1), grid(2, 2), metis(3)}) {
+    scene::Scene scene = twoMembranes(false, 4, cut);
+    scene.contacts.front().gap = 0.25;
+    const auto result = decompose(scene, world());
+    ASSERT_EQ(result.contacts.size(), 1u);
+    EXPECT_EQ(result.contacts[0].numRows, 5);
+    for (GlobalOrdinal k = 0; k < 5; ++k) {
+      EXPECT_EQ(entryOf(result.problem, k, 0),
+                (std::array<double, 2>{1.0, 5.0 * static_cast<double>(k) + 4}));
+      EXPECT_EQ(entryOf(result.problem, k, 1), (std::array<double, 2>{-1.0, 5.0 * static_cast<double>(k)}));
+    }
+    const std::vector<double> gap = gapOf(result.problem);
+    for (std::size_t row = 0; row < gap.size(); ++row)
+      EXPECT_EQ(gap[row], row < 5 ? 0.25 : 0.0);
+  }
+}
+
+TEST(ContactTest, ASharedNodesEntryAndRowBelongToItsLowestSubdomain) {
+  const auto result = decompose(twoMembranes(false, 4, grid(2, 2)), world());
+  const DecomposedProblem& p = result.problem;
+  std::vector<int> holders;
+  for (const Subdomain& s : p.subdomains)
+    for (const ConstraintEntry& entry : s.constraint)
+      if (p.multiplierGhostMap->getGlobalElement(entry.multiplier) == 2) { // the middle node, a crosspoint
+        EXPECT_TRUE(s.number == 1 || s.number == 4) << s.number;
+        EXPECT_EQ(entry.coefficient, s.number == 1 ? 1.0 : -1.0);
+        holders.push_back(s.number);
+      }
+  EXPECT_EQ(sumOverRanks(*p.comm, static_cast<GlobalOrdinal>(holders.size())), 2);
+  const bool holdsFirst = std::find(holders.begin(), holders.end(), 1) != holders.end();
+  EXPECT_EQ(p.multiplierMap->isNodeGlobalElement(2), holdsFirst);
+}
+
+TEST(ContactTest, SupportedNodesLeaveTheRowAndEnterTheGap) {
+  scene::Scene scene = twoMembranes(false, 4, grid(2, 2));
+  scene.contacts.front().gap = 0.5;
+  scene.bodies[0].supports = {{"foot", Edge::bottom, 0.125}};
+  scene.bodies[1].supports = {{"foot", Edge::bottom, -1.0}, {"head", Edge::top, 2.0}};
+  const auto result = decompose(scene, world());
+  const std::vector<double> gap = gapOf(result.problem);
+  EXPECT_EQ(gap[0], 0.5 - 0.125 - 1.0); // both supported: the row stays, empty
+  EXPECT_EQ(entryOf(result.problem, 0, 0)[0], 0);
+  EXPECT_EQ(entryOf(result.problem, 0, 1)[0], 0);
+  EXPECT_EQ(gap[1], 0.5);
+  EXPECT_EQ(gap[4], 0.5 + 2.0); // the second one supported
+  EXPECT_EQ(entryOf(result.problem, 4, 0)[0], 1);
+  EXPECT_EQ(entryOf(result.problem, 4, 1)[0], 0);
+}
+
+TEST(ContactTest, TwoPairsOfABodyMayShareACorner) {
+  scene::Scene scene = twoMembranes(true, 3, grid(2, 2));
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[2].name = "above";
+  scene.bodies[2].rectangle = {0, 1, 1, 2};
+  scene.bodies[2].supports = {{"roof", Edge::top, 0.0}};
+  scene.contacts.push_back({"ceiling", 0, Edge::top, 2, Edge::bottom, 0.5});
+  const auto result = decompose(scene, world());
+  EXPECT_EQ(result.contacts[1].firstRow, 4);
+  EXPECT_EQ(result.problem.numInequalities, 8);
+  EXPECT_EQ(entryOf(result.problem, 3, 0)[1], 15); // upper right node of the first body, in both pairs
+  EXPECT_EQ(entryOf(result.problem, 7, 0)[1], 15);
+}
+
+TEST(ContactTest, NonMatchingNodesAreRefusedWithBothNumbers) {
+  scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
+  scene.bodies[1].elements = {4, 6};
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "left", "right", "5", "7"})) << refusal(scene);
+}
+
+TEST(ContactTest, EdgesThatDoNotCoincideAreRefusedWithTheFirstDifference) {
+  scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
+  scene.bodies[1].rectangle = {1, 2, 0, 1.5};
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "coincide", "0.25", "0.375"})) << refusal(scene);
+  scene = twoMembranes(true, 4, grid(2, 2));
+  scene.bodies[1].rectangle = {1 + 1e-6, 2, 0, 1};
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "coincide"}));
+  scene.bodies[1].rectangle = {1 + 1e-13, 2, 0, 1};
+  EXPECT_EQ(refusal(scene), "");
+}
+
+TEST(ContactTest, SupportedContactEdgesAreRefused) {
+  scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
+  scene.bodies[1].supports = {{"glue", Edge::left, 0.0}};
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "glue", "right"})) << refusal(scene);
+}
+
+TEST(ContactTest, AnEdgeServesOnePairOnly) {
+  scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
+  scene.contacts.push_back(scene.contacts.front());
+  scene.contacts.back().name = "again";
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "again", "twice"})) << refusal(scene);
+  scene = twoMembranes(true, 4, grid(2, 2));
+  scene.contacts.front().second = 0;
+  scene.contacts.front().secondEdge = Edge::right;
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "twice"})) << refusal(scene);
+}
+
+TEST(ContactTest, UnknownBodiesAndImpossibleCutsAreRefused) {
+  scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
+  scene.contacts.front().second = 2;
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "2 bodies"})) << refusal(scene);
+  EXPECT_TRUE(mentions(refusal(twoMembranes(true, 4, grid(5, 1))), {"left", "5", "4"}));
+  EXPECT_TRUE(mentions(refusal(twoMembranes(true, 4, grid(0, 1))), {"left", "0"}));
+  EXPECT_TRUE(mentions(refusal(twoMembranes(true, 4, metis(17))), {"left", "17", "16"}));
+}
+
+TEST(ContactTest, SupportsThatDisagreeAreRefusedOnAllRanks) {
+  const scene::Scene scene = oneBody(4, 4, grid(2, 2), {{"wall", Edge::left, 0.0}, {"roof", Edge::top, 1.0}});
+  EXPECT_TRUE(mentions(refusal(scene), {"wall", "roof", "plate"})) << refusal(scene);
+}
+
+} // namespace
+} // namespace epafi::decomposition

@@ -1,0 +1,166 @@
+#include "Gathered.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+#include <Tpetra_Core.hpp>
+
+#include <limits>
+
+namespace epafi::decomposition {
+namespace {
+
+using scene::Edge;
+
+/// Column of each unknown of this rank's subdomains in the whole problem.
+std::vector<std::vector<Eigen::Index>> mergedColumns(const DecomposedProblem& problem) {
+  const auto numRemainders = static_cast<Eigen::Index>(problem.remainderMap->getGlobalNumElements());
+  auto next = static_cast<Eigen::Index>(problem.remainderMap->getMinGlobalIndex());
+  std::vector<std::vector<Eigen::Index>> columns;
+  for (const Subdomain& s : problem.subdomains) {
+    std::vector<Eigen::Index> column(s.unknownPosition.size(), -1);
+    for (const int unknown : s.remainderUnknowns)
+      column[static_cast<std::size_t>(unknown)] = next++;
+    for (std::size_t k = 0; k < s.crosspointUnknowns.size(); ++k)
+      column[static_cast<std::size_t>(s.crosspointUnknowns[k])] =
+          numRemainders + static_cast<Eigen::Index>(s.crosspointIndices[k]);
+    columns.push_back(column);
+  }
+  return columns;
+}
+
+Eigen::Index mergedSize(const DecomposedProblem& problem) {
+  return static_cast<Eigen::Index>(problem.remainderMap->getGlobalNumElements() +
+                                   problem.crosspointMap->getGlobalNumElements());
+}
+
+void sum(const Comm& comm, Eigen::MatrixXd& matrix) {
+  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
+
+} // namespace
+
+RCP<const Comm> world() {
+  return Tpetra::getDefaultComm();
+}
+
+scene::Decomposition grid(int nx, int ny) {
+  return {scene::Decomposition::Method::grid, {nx, ny}, 1};
+}
+
+scene::Decomposition metis(int parts) {
+  return {scene::Decomposition::Method::metis, {1, 1}, parts};
+}
+
+scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
+                     const std::vector<scene::Support>& supports) {
+  scene::Body body;
+  body.name = "plate";
+  body.elements = {n, m};
+  body.supports = supports;
+  body.decomposition = cut;
+  body.loads = {{"all", {0, 1, 0, 1}, -1.0}};
+  return {"one body", {body}, {}};
+}
+
+scene::Scene twoMembranes(bool coercive, int elements, const scene::Decomposition& cut) {
+  scene::Scene scene = oneBody(elements, elements, cut, {{"wall", Edge::left, 0.0}});
+  scene.bodies.push_back(scene.bodies.front());
+  scene.bodies.front().name = "left";
+  scene.bodies.back().name = "right";
+  scene.bodies.back().rectangle = {1, 2, 0, 1};
+  scene.bodies.back().supports.clear();
+  if (coercive)
+    scene.bodies.back().supports = {{"wall", Edge::right, 0.0}};
+  scene.contacts = {{"interface", 0, Edge::right, 1, Edge::left, 0.0}};
+  return scene;
+}
+
+double nodeKey(const Subdomain& subdomain, int unknown, int components) {
+  const int position = subdomain.unknownPosition[static_cast<std::size_t>(unknown)];
+  return 1e6 * (subdomain.body + 1) +
+         static_cast<double>(subdomain.nodes[static_cast<std::size_t>(position / components)]);
+}
+
+Eigen::MatrixXd mergedStiffness(const DecomposedProblem& problem) {
+  const Eigen::Index n = mergedSize(problem);
+  Eigen::MatrixXd merged = Eigen::MatrixXd::Zero(n, n);
+  const auto columns = mergedColumns(problem);
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    const SparseMatrix& k = problem.subdomains[s].stiffness;
+    for (int j = 0; j < k.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry)
+        merged(columns[s][static_cast<std::size_t>(entry.row())], columns[s][static_cast<std::size_t>(j)]) +=
+            entry.value();
+  }
+  sum(*problem.comm, merged);
+  return merged;
+}
+
+Eigen::MatrixXd mergedConstraint(const DecomposedProblem& problem) {
+  Eigen::MatrixXd merged =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.dualDimension()), mergedSize(problem));
+  const auto columns = mergedColumns(problem);
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+    for (const ConstraintEntry& entry : problem.subdomains[s].constraint)
+      merged(static_cast<Eigen::Index>(problem.multiplierGhostMap->getGlobalElement(entry.multiplier)),
+             columns[s][static_cast<std::size_t>(entry.unknown)]) += entry.coefficient;
+  sum(*problem.comm, merged);
+  return merged;
+}
+
+double smallestPivot(const DecomposedProblem& problem) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Subdomain& s : problem.subdomains) {
+    const auto n = static_cast<Eigen::Index>(s.remainderUnknowns.size());
+    if (n == 0)
+      continue;
+    std::vector<Eigen::Triplet<double>> pick;
+    for (Eigen::Index k = 0; k < n; ++k)
+      pick.emplace_back(s.remainderUnknowns[static_cast<std::size_t>(k)], k, 1.0);
+    SparseMatrix select(s.stiffness.rows(), n);
+    select.setFromTriplets(pick.begin(), pick.end());
+    const SparseMatrix krr = select.transpose() * s.stiffness * select;
+    const Eigen::SimplicialLDLT<SparseMatrix> factor(krr);
+    if (factor.info() != Eigen::Success)
+      return -1;
+    const double largest = Eigen::VectorXd(krr.diagonal()).maxCoeff();
+    smallest = std::min(smallest, factor.vectorD().minCoeff() / largest);
+  }
+  return smallest;
+}
+
+int kernelDimension(const Eigen::MatrixXd& symmetric) {
+  if (symmetric.rows() == 0)
+    return 0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
+  const double threshold = 1e-10 * solver.eigenvalues().maxCoeff();
+  return static_cast<int>((solver.eigenvalues().array() < threshold).count());
+}
+
+std::vector<Case> smallCases() {
+  const scene::Support left{"left", Edge::left, 0.0}, right{"right", Edge::right, 0.0},
+      top{"top", Edge::top, 0.0}, bottom{"bottom", Edge::bottom, 0.0};
+  std::vector<Case> cases;
+  for (const bool coercive : {true, false}) {
+    const std::string kind = coercive ? "coercive " : "semicoercive ";
+    cases.push_back({kind + "2x2", twoMembranes(coercive, 8, grid(2, 2))});
+    cases.push_back({kind + "1x1", twoMembranes(coercive, 4, grid(1, 1))});
+    cases.push_back({kind + "3x1", twoMembranes(coercive, 7, grid(3, 1))});
+    for (const int parts : {1, 3, 7, 16})
+      cases.push_back({kind + "metis " + std::to_string(parts), twoMembranes(coercive, 9, metis(parts))});
+  }
+  cases.push_back({"strip of single elements", oneBody(7, 1, grid(7, 1), {})});
+  cases.push_back({"strip held at its foot", oneBody(1, 5, grid(1, 5), {bottom})});
+  cases.push_back({"strip held along both sides", oneBody(6, 1, grid(6, 1), {bottom, top})});
+  cases.push_back({"interface with supported ends", oneBody(6, 4, grid(2, 1), {bottom, top})});
+  cases.push_back({"rows with supported ends", oneBody(4, 6, grid(1, 3), {left, right})});
+  cases.push_back({"one element a subdomain", oneBody(4, 4, grid(4, 4), {left})});
+  cases.push_back({"one element a part", oneBody(3, 3, metis(9), {})});
+  cases.push_back({"held all around", oneBody(6, 6, metis(5), {left, right, top, bottom})});
+  return cases;
+}
+
+} // namespace epafi::decomposition

@@ -1,0 +1,51 @@
+#pragma once
+
+/// Small decomposed problems and what the tests look at: the matrices of the whole problem, dense, on every
+/// rank.
+
+#include "epafi/decomposition/Decompose.hpp"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace epafi::decomposition {
+
+/// The communicator of all ranks.
+RCP<const Comm> world();
+
+/// The paper's membranes with any cut: Ω² stands on Ω¹'s right side.
+scene::Scene twoMembranes(bool coercive, int elements, const scene::Decomposition& cut);
+
+scene::Decomposition grid(int nx, int ny);
+scene::Decomposition metis(int parts);
+
+/// One square body of n × m elements, without contact.
+scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
+                     const std::vector<scene::Support>& supports);
+
+/// A node of the whole problem as one number: unique over bodies.
+double nodeKey(const Subdomain& subdomain, int unknown, int components);
+
+/// K̄ of the whole problem: remainder unknowns first, crosspoint unknowns last. Collective.
+Eigen::MatrixXd mergedStiffness(const DecomposedProblem& problem);
+
+/// B of the whole problem over the columns of mergedStiffness. Collective.
+Eigen::MatrixXd mergedConstraint(const DecomposedProblem& problem);
+
+/// Smallest pivot of every K_rr of this rank's subdomains over its largest diagonal entry; ≤ 0 if one is
+/// singular.
+double smallestPivot(const DecomposedProblem& problem);
+
+/// Number of eigenvalues below 1e-10 of the largest.
+int kernelDimension(const Eigen::MatrixXd& symmetric);
+
+/// The scenes on which every structural property is checked.
+struct Case {
+  std::string name;
+  scene::Scene scene;
+};
+std::vector<Case> smallCases();
+
+} // namespace epafi::decomposition

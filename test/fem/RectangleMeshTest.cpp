@@ -1,0 +1,88 @@
+#include "epafi/fem/RectangleMesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace epafi::fem {
+namespace {
+
+using scene::Edge;
+
+const RectangleMesh mesh({-1, 2, 0.5, 1.5}, {3, 2});
+
+bool contains(const std::vector<GlobalOrdinal>& list, GlobalOrdinal value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+TEST(RectangleMeshTest, NumbersNodesAndElementsRowByRow) {
+  EXPECT_EQ(mesh.numNodes(), 12);
+  EXPECT_EQ(mesh.numElements(), 6);
+  EXPECT_EQ(mesh.point(0), (Point{-1, 0.5, 0}));
+  EXPECT_EQ(mesh.point(11), (Point{2, 1.5, 0}));
+  std::array<GlobalOrdinal, 4> nodes{};
+  mesh.elementNodes(4, nodes);
+  EXPECT_EQ(nodes, (std::array<GlobalOrdinal, 4>{5, 6, 10, 9}));
+}
+
+TEST(RectangleMeshTest, NodesKnowExactlyTheElementsThatKnowThem) {
+  std::vector<GlobalOrdinal> elements;
+  std::array<GlobalOrdinal, 4> nodes{};
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
+    mesh.nodeElements(node, elements);
+    for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+      mesh.elementNodes(element, nodes);
+      EXPECT_EQ(std::find(nodes.begin(), nodes.end(), node) != nodes.end(), contains(elements, element));
+    }
+    EXPECT_EQ(mesh.isBoundaryNode(node), elements.size() < 4) << node;
+  }
+}
+
+TEST(RectangleMeshTest, NeighboursShareTwoNodes) {
+  std::vector<GlobalOrdinal> neighbours;
+  std::array<GlobalOrdinal, 4> a{}, b{};
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    mesh.elementNeighbours(element, neighbours);
+    mesh.elementNodes(element, a);
+    for (GlobalOrdinal other = 0; other < mesh.numElements(); ++other) {
+      mesh.elementNodes(other, b);
+      const auto common = std::count_if(
+          a.begin(), a.end(), [&](GlobalOrdinal n) { return std::find(b.begin(), b.end(), n) != b.end(); });
+      EXPECT_EQ(contains(neighbours, other), common == 2) << element << ' ' << other;
+    }
+  }
+}
+
+TEST(RectangleMeshTest, EdgesRunUpwardsOrToTheRight) {
+  for (const Edge edge : {Edge::left, Edge::right, Edge::bottom, Edge::top}) {
+    const bool upright = edge == Edge::left || edge == Edge::right;
+    EXPECT_EQ(mesh.numEdgeNodes(edge), upright ? 3 : 4);
+    for (GlobalOrdinal k = 0; k < mesh.numEdgeNodes(edge); ++k) {
+      const GlobalOrdinal node = mesh.edgeNode(edge, k);
+      EXPECT_EQ(mesh.positionOnEdge(edge, node), k);
+      EXPECT_TRUE(mesh.isBoundaryNode(node));
+      const Point p = mesh.point(node);
+      EXPECT_NEAR(upright ? p[1] : p[0],
+                  upright ? 0.5 + 0.5 * static_cast<double>(k) : -1.0 + static_cast<double>(k), 1e-15);
+    }
+  }
+  EXPECT_EQ(mesh.positionOnEdge(Edge::left, 5), -1);
+}
+
+TEST(RectangleMeshTest, EndPointsAreExactWhateverTheSpacing) {
+  const RectangleMesh fine({0.1, 0.7, -0.3, 0.9}, {7, 49});
+  EXPECT_EQ(fine.point(fine.numNodes() - 1), (Point{0.7, 0.9, 0}));
+}
+
+TEST(RectangleMeshTest, ElementBoxesFillTheRectangle) {
+  double area = 0;
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    const scene::Rectangle box = mesh.elementBox(element);
+    area += (box.x1 - box.x0) * (box.y1 - box.y0);
+  }
+  EXPECT_NEAR(area, 3.0, 1e-14);
+}
+
+} // namespace
+} // namespace epafi::fem

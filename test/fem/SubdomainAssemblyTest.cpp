@@ -1,0 +1,103 @@
+#include "Scenes.hpp"
+
+#include "epafi/fem/SubdomainAssembly.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace epafi::fem {
+namespace {
+
+using scene::Edge;
+
+AssembledSubdomain assembleAll(const scene::Body& body, const RectangleMesh& mesh) {
+  return assemble(MembraneModel(body, mesh), allElements(mesh.numElements()));
+}
+
+TEST(SubdomainAssemblyTest, StiffnessIsSymmetricToTheLastDigit) {
+  scene::Body body = plainBody();
+  body.rectangle = {0.1, 1.7, 0.3, 0.9};
+  body.regions = {{"stiff", {0, 1, 0, 0.5}, 0.1}};
+  body.supports = {{"wall", Edge::top, 0.7}};
+  const RectangleMesh mesh(body.rectangle, body.elements);
+  const Eigen::MatrixXd k = assembleAll(body, mesh).stiffness;
+  EXPECT_EQ(k, k.transpose());
+}
+
+TEST(SubdomainAssemblyTest, ConstantsAreTheKernelOfAFloatingSubdomain) {
+  const scene::Body body = plainBody();
+  const RectangleMesh mesh(body.rectangle, body.elements);
+  const auto part = assemble(MembraneModel(body, mesh), std::vector<GlobalOrdinal>{5, 1, 2});
+  EXPECT_EQ(part.nodes, (std::vector<GlobalOrdinal>{1, 2, 3, 6, 7, 8, 11, 12}));
+  ASSERT_EQ(part.kernel.rows(), 8);
+  ASSERT_EQ(part.kernel.cols(), 1);
+  EXPECT_LT((part.stiffness * part.kernel).norm(), 1e-13);
+}
+
+TEST(SubdomainAssemblyTest, ASupportedBodyHasNoKernel) {
+  scene::Body body = plainBody();
+  body.supports = {{"wall", Edge::left, 0}};
+  const RectangleMesh mesh(body.rectangle, body.elements);
+  const auto all = assembleAll(body, mesh);
+  EXPECT_EQ(all.kernel.cols(), 0);
+  EXPECT_EQ(all.nodes.size(), 20u);
+  EXPECT_EQ(all.unknownPosition.size(), 16u);
+  for (std::size_t i = 0; i < all.unknownPosition.size(); ++i)
+    EXPECT_EQ(all.unknownOf[static_cast<std::size_t>(all.unknownPosition[i])], static_cast<int>(i));
+}
+
+TEST(SubdomainAssemblyTest, LinearFieldsBetweenSupportsAreExact) {
+  scene::Body body = plainBody();
+  body.rectangle = {0, 2, 0, 1};
+  body.supports = {{"left", Edge::left, 1.0}, {"right", Edge::right, 5.0}};
+  body.conductivity = 3;
+  const RectangleMesh mesh(body.rectangle, body.elements);
+  const auto all = assembleAll(body, mesh);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(all.stiffness);
+  const Eigen::VectorXd u = factor.solve(all.load);
+  for (std::size_t i = 0; i < all.unknownPosition.size(); ++i) {
+    const double x = mesh.point(all.nodes[static_cast<std::size_t>(all.unknownPosition[i])])[0];
+    EXPECT_NEAR(u[static_cast<Eigen::Index>(i)], 1 + 2 * x, 1e-13);
+  }
+  // ½∫κ|∇u|² = ½·3·4·2, the part of the supports included.
+  EXPECT_NEAR(0.5 * u.dot(all.stiffness * u) - all.load.dot(u) + all.energyOffset, 12.0, 1e-12);
+}
+
+TEST(SubdomainAssemblyTest, LoadsSumToForceTimesArea) {
+  scene::Body body = plainBody();
+  body.loads = {{"cuts elements", {0.3, 1.1, -5, 0.37}, -2.0}, {"overlaps it", {1.0, 1.9, 0.1, 0.9}, 0.5}};
+  const RectangleMesh mesh(body.rectangle, body.elements);
+  EXPECT_NEAR(assembleAll(body, mesh).load.sum(), -2.0 * 0.8 * 0.37 + 0.5 * 0.9 * 0.8, 1e-14);
+}
+
+TEST(SubdomainAssemblyTest, LoadsOnSupportsCountInTheEnergyOnly) {
+  scene::Body body = plainBody();
+  body.elements = {1, 1};
+  body.supports = {{"left", Edge::left, 3.0}, {"right", Edge::right, 3.0}};
+  body.loads = {{"all", {0, 2, 0, 1}, -1.0}};
+  const RectangleMesh mesh(body.rectangle, body.elements);
+  const auto all = assembleAll(body, mesh);
+  EXPECT_EQ(all.stiffness.rows(), 0);
+  EXPECT_NEAR(all.energyOffset, 6.0, 1e-14); // −∫fu with u = 3
+}
+
+TEST(SubdomainAssemblyTest, AQuarterOfAMillionElementsAreAssembledInSeconds) {
+  scene::Body body = plainBody();
+  body.elements = {512, 512};
+  body.supports = {{"left", Edge::left, 0.0}};
+  body.loads = {{"strip", {0, 2, 0.75, 1}, -1.0}};
+  const RectangleMesh mesh(body.rectangle, body.elements);
+  const auto start = std::chrono::steady_clock::now();
+  const auto all = assembleAll(body, mesh);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(all.stiffness.rows(), 512 * 513);
+  RecordProperty("seconds", std::to_string(seconds.count()));
+#ifdef NDEBUG
+  EXPECT_LT(seconds.count(), 3.0); // 0.3 s on an idle core in 2026; the tests share cores
+#endif
+}
+
+} // namespace
+} // namespace epafi::fem

@@ -1,0 +1,56 @@
+// The XDMF text for a grid small enough to read.
+
+#include "epafi/output/Xdmf.hpp"
+
+#include <gtest/gtest.h>
+
+namespace epafi::output {
+namespace {
+
+using Type = XdmfData::Type;
+using Center = XdmfAttribute::Center;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(XdmfTest, MeshGridNamesItsDatasetsWithTheirDimensionsAndTypes) {
+  const XdmfGrid grid{"left",
+                      {"/bodies/left/points", 9, 3},
+                      {"/bodies/left/cells", 4, 4, Type::integer8},
+                      {{"u", Center::node, {"/bodies/left/u", 9, 1}},
+                       {"subdomain", Center::cell, {"/bodies/left/subdomain", 4, 0, Type::integer4}}}};
+  const std::string text = xdmfDocument("run.h5", {grid});
+  EXPECT_TRUE(contains(text, "TopologyType=\"Quadrilateral\" NumberOfElements=\"4\""));
+  EXPECT_TRUE(
+      contains(text, "Dimensions=\"9 3\" NumberType=\"Float\" Precision=\"8\">run.h5:/bodies/left/points<"));
+  EXPECT_TRUE(
+      contains(text, "Dimensions=\"4 4\" NumberType=\"Int\" Precision=\"8\">run.h5:/bodies/left/cells<"));
+  EXPECT_TRUE(
+      contains(text, "Dimensions=\"9 1\" NumberType=\"Float\" Precision=\"8\">run.h5:/bodies/left/u<"));
+  EXPECT_TRUE(
+      contains(text, "Dimensions=\"4\" NumberType=\"Int\" Precision=\"4\">run.h5:/bodies/left/subdomain<"));
+}
+
+TEST(XdmfTest, GridWithoutCellsIsACloudOfPoints) {
+  const std::string text = xdmfDocument("run.h5", {{"pair", {"/contact/pair/points", 5, 3}, {}, {}}});
+  EXPECT_TRUE(contains(text, "TopologyType=\"Polyvertex\" NumberOfElements=\"5\""));
+}
+
+TEST(XdmfTest, KindOfAttributeFollowsTheNumberOfColumns) {
+  const auto kind = [](int columns) {
+    return xdmfDocument("run.h5", {{"a", {"/p", 5, 3}, {}, {{"u", Center::node, {"/u", 5, columns}}}}});
+  };
+  EXPECT_TRUE(contains(kind(1), "AttributeType=\"Scalar\""));
+  EXPECT_TRUE(contains(kind(2), "AttributeType=\"Matrix\""));
+  EXPECT_TRUE(contains(kind(3), "AttributeType=\"Vector\""));
+}
+
+TEST(XdmfTest, NamesAreEscaped) {
+  const std::string text = xdmfDocument("a&b.h5", {{"<\"x\">", {"/p", 1, 3}, {}, {}}});
+  EXPECT_TRUE(contains(text, "Name=\"&lt;&quot;x&quot;&gt;\""));
+  EXPECT_TRUE(contains(text, ">a&amp;b.h5:/p<"));
+}
+
+} // namespace
+} // namespace epafi::output

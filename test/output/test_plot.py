@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""test_plot.py EPAFI_PLOT: pictures from a small synthetic run, and one sentence where there is nothing to draw."""
+
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+import h5py  # noqa: E402
+import model_problem  # noqa: E402
+
+PROGRAM = sys.argv[1]
+TABLE = """problem,H_inverse,H_over_h,primal_dimension,dual_dimension,corners,cg_iterations,paper_cg_iterations
+coercive,2,4,200,33,10,14,19
+coercive,4,4,800,161,42,18,24
+semicoercive,2,4,200,33,10,20,
+semicoercive,4,4,800,161,42,22,28
+"""
+HISTORY = """iteration,outer,step,projected_gradient,constraint_residual,objective,active_bounds,hessian_multiplications
+0,0,s,1,0.5,0,3,1
+1,0,c,0.1,0.25,-1,3,2
+"""
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, env={"PATH": "/usr/bin:/bin"})
+
+
+def size_of_png(file):
+    head = file.read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", file
+    return struct.unpack(">II", head[16:24])
+
+
+class Plot(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = tempfile.TemporaryDirectory()
+        cls.sample = pathlib.Path(cls.shared.name) / "sample.h5"
+        model_problem.write(cls.sample, n=8, parts=2, outer=3)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.shared.cleanup()
+
+    def setUp(self):
+        self.place = tempfile.TemporaryDirectory()
+        self.directory = pathlib.Path(self.place.name)
+
+    def tearDown(self):
+        self.place.cleanup()
+
+    def pictures(self, *arguments):
+        """The pictures that a good run names, all of which exist, and nothing unfinished beside them."""
+        result = run(*arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        found = [pathlib.Path(line) for line in result.stdout.splitlines()]
+        for picture in found:
+            self.assertGreater(picture.stat().st_size, 5000, picture)
+            self.assertEqual(list(picture.parent.glob(f".{picture.stem}*")), [])
+        return found
+
+    def refused(self, *arguments):
+        result = run(*arguments)
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        return result.stderr
+
+    def test_a_run_gives_four_pictures(self):
+        found = self.pictures(self.sample, "--output", self.directory / "new" / "place", "--dpi", 60)
+        self.assertEqual([picture.name for picture in found],
+                         ["sample_deflection.png", "sample_decomposition.png", "sample_contact_middle.png",
+                          "sample_convergence.png"])
+        for picture in found:
+            width, height = size_of_png(picture)
+            self.assertTrue(300 < width < 900 and 200 < height < 900, (picture, width, height))
+
+    def test_a_directory_is_searched_and_pictures_lie_beside_their_source(self):
+        shutil.copy(self.sample, self.directory / "run.h5")
+        (self.directory / "tables.csv").write_text(TABLE)
+        (self.directory / ".hidden.partial.h5").write_text("unfinished")
+        found = self.pictures(self.directory, "--format", "svg")
+        self.assertEqual([picture.name for picture in found],
+                         ["run_deflection.svg", "run_decomposition.svg", "run_contact_middle.svg",
+                          "run_convergence.svg", "tables.svg"])
+        self.assertEqual({picture.parent for picture in found}, {self.directory})
+
+    def test_pictures_can_be_pdf(self):
+        (self.directory / "tables.csv").write_text(TABLE)
+        found = self.pictures(self.directory / "tables.csv", "--format", "pdf")
+        self.assertEqual(found[0].read_bytes()[:5], b"%PDF-")
+
+    def test_a_history_table_alone_gives_the_convergence(self):
+        (self.directory / "history.csv").write_text(HISTORY)
+        self.assertEqual([picture.name for picture in self.pictures(self.directory)], ["history_convergence.png"])
+
+    def test_a_run_without_contact_or_history_is_drawn_too(self):
+        shutil.copy(self.sample, self.directory / "run.h5")
+        with h5py.File(self.directory / "run.h5", "a") as content:
+            del content["contact"], content["history"]
+        self.assertEqual([picture.name for picture in self.pictures(self.directory)],
+                         ["run_deflection.png", "run_decomposition.png"])
+
+    def test_cells_in_any_order_are_drawn_too(self):
+        shutil.copy(self.sample, self.directory / "run.h5")
+        with h5py.File(self.directory / "run.h5", "a") as content:
+            for body in content["bodies"].values():
+                for name in ("cells", "subdomain"):
+                    body[name][...] = body[name][:][::-1]
+        self.assertEqual(len(self.pictures(self.directory)), 4)
+
+    def test_what_cannot_be_drawn_is_refused_in_one_sentence(self):
+        (self.directory / "text.h5").write_text("no HDF5")
+        (self.directory / "other.csv").write_text("a,b\n1,2\n")
+        with h5py.File(self.directory / "foreign.h5", "w") as content:
+            content["x"] = [1, 2]
+        for name in ("missing.h5", "text.h5", "foreign.h5", "other.csv"):
+            self.assertIn(name, self.refused(self.directory / name))
+        empty = self.directory / "empty"
+        empty.mkdir()
+        self.assertIn(str(empty), self.refused(empty))
+        self.assertIn("text.h5", self.refused(self.sample, "--output", self.directory / "text.h5"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
