@@ -42,7 +42,8 @@ Options parseOptions(int argc, const char* const* argv) {
       throw InputError("unknown option " + word + (near.empty() ? "" : "; did you mean " + near + "?") +
                        " (see epafi --help)");
     } else if (!options.scene.empty()) {
-      throw InputError("two scenes are given, '" + options.scene + "' and '" + word + "'; epafi solves one at a time");
+      throw InputError("two scenes are given, '" + options.scene + "' and '" + word +
+                       "'; epafi solves one at a time");
     } else {
       options.scene = word;
     }

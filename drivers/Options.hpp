@@ -15,7 +15,8 @@ struct Options {
   bool printParameters = false, quiet = false, help = false, version = false;
 };
 
-/// \throws InputError for an unknown option or a missing value. Not collective (all ranks see the same arguments).
+/// \throws InputError for an unknown option or a missing value. Not collective (all ranks see the same
+/// arguments).
 Options parseOptions(int argc, const char* const* argv);
 
 /// What --help prints.

@@ -18,8 +18,8 @@ Teuchos::ParameterList driverSchema() {
   return schema;
 }
 
-SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
-                    qp::Observer* observer) {
+SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
+                    const RCP<const Comm>& comm, qp::Observer* observer) {
   SceneRun run;
   run.started = Teuchos::Time::wallTime();
   run.scene = scene;
@@ -67,25 +67,27 @@ std::string summary(const SceneRun& run) {
     return std::to_string(list.isType<int>(name) ? list.get<int>(name) : list.get<GlobalOrdinal>(name));
   };
   std::ostringstream text;
-  text << "  problem     " << count(problem, "Primal Dimension") << " primal unknowns in " << count(problem, "Subdomains")
-       << " subdomains on " << count(problem, "Ranks") << " ranks, " << count(problem, "Crosspoints") << " crosspoints\n"
-       << "              " << count(problem, "Dual Dimension") << " multipliers: "
-       << count(problem, "Inequality Multipliers") << " of contact, " << count(problem, "Equality Multipliers")
-       << " of gluing\n";
+  text << "  problem     " << count(problem, "Primal Dimension") << " primal unknowns in "
+       << count(problem, "Subdomains") << " subdomains on " << count(problem, "Ranks") << " ranks, "
+       << count(problem, "Crosspoints") << " crosspoints\n"
+       << "              " << count(problem, "Dual Dimension")
+       << " multipliers: " << count(problem, "Inequality Multipliers") << " of contact, "
+       << count(problem, "Equality Multipliers") << " of gluing\n";
   std::string floating;
   for (const auto& body : run.decomposition->problem.bodies)
     if (body.kernelDimension > 0)
       floating += (floating.empty() ? "" : ", ") + body.name;
   text << "  floating    " << (floating.empty() ? "no body" : floating) << '\n'
-       << "  algorithm   " << algorithm.get<std::string>("Name") << ": " << algorithm.get<std::string>("Reason") << '\n'
-       << "              preconditioner " << algorithm.get<std::string>("Preconditioner") << ", subdomains by "
-       << algorithm.get<std::string>("Subdomain Solver") << ", coarse problem by "
+       << "  algorithm   " << algorithm.get<std::string>("Name") << ": "
+       << algorithm.get<std::string>("Reason") << '\n'
+       << "              preconditioner " << algorithm.get<std::string>("Preconditioner")
+       << ", subdomains by " << algorithm.get<std::string>("Subdomain Solver") << ", coarse problem by "
        << algorithm.get<std::string>("Coarse Solver") << '\n'
        << "  iterations  " << count(iterations, "Hessian Multiplications") << " products with F (and "
-       << count(iterations, "Norm Estimate Multiplications") << " to estimate its norm): "
-       << count(iterations, "CG Steps") << " CG + " << count(iterations, "Expansion Steps") << " expansion + "
-       << count(iterations, "Proportioning Steps") << " proportioning steps, " << count(iterations, "Outer")
-       << " outer\n";
+       << count(iterations, "Norm Estimate Multiplications")
+       << " to estimate its norm): " << count(iterations, "CG Steps") << " CG + "
+       << count(iterations, "Expansion Steps") << " expansion + " << count(iterations, "Proportioning Steps")
+       << " proportioning steps, " << count(iterations, "Outer") << " outer\n";
   text << std::scientific << std::setprecision(2) << "  accuracy    projected gradient "
        << accuracy.get<double>("Relative Projected Gradient") << " (asked " << run.solver->tolerance()
        << "), feasibility " << accuracy.get<double>("Feasibility") << ", complementarity "
@@ -97,15 +99,16 @@ std::string summary(const SceneRun& run) {
     text << ", contact force " << accuracy.get<double>("Contact Force") << " on "
          << count(accuracy, "Active Contact Nodes") << " closed nodes";
   text << "\n  time        assembly " << seconds(time.get<double>("Assembly")) << ", setup "
-       << seconds(time.get<double>("Setup")) << ", solve " << seconds(time.get<double>("Solve")) << ", recovery "
-       << seconds(time.get<double>("Recovery"));
+       << seconds(time.get<double>("Setup")) << ", solve " << seconds(time.get<double>("Solve"))
+       << ", recovery " << seconds(time.get<double>("Recovery"));
   if (time.isParameter("Output"))
     text << ", output " << seconds(time.get<double>("Output"));
   if (time.isParameter("Total"))
     text << "; total " << seconds(time.get<double>("Total"));
-  text << "\n  memory      " << bytes(memory.get<double>("Peak Bytes")) << " at most over all ranks, of which factors "
-       << bytes(memory.get<double>("Factor Bytes")) << '\n'
-       << "  status      " << status.get<std::string>("Status") << ": " << status.get<std::string>("Reason") << '\n';
+  text << "\n  memory      " << bytes(memory.get<double>("Peak Bytes"))
+       << " at most over all ranks, of which factors " << bytes(memory.get<double>("Factor Bytes")) << '\n'
+       << "  status      " << status.get<std::string>("Status") << ": " << status.get<std::string>("Reason")
+       << '\n';
   return text.str();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// One scene from its parameter list to its solution, report and files: what the driver, the studies and the system tests
-/// share.
+/// One scene from its parameter list to its solution, report and files: what the driver, the studies and the
+/// system tests share.
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/decomposition/Decompose.hpp"
@@ -30,8 +30,8 @@ struct SceneRun {
 
 /// Decomposes, assembles and solves. \param solverParameters  the list Solver, validated or not
 /// Collective. \throws InputError, SolvabilityError or Error, the same on all ranks.
-SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
-                    qp::Observer* observer = nullptr);
+SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
+                    const RCP<const Comm>& comm, qp::Observer* observer = nullptr);
 
 /// The report in lines for people.
 std::string summary(const SceneRun& run);

@@ -44,8 +44,8 @@ std::string writeFiles(const Options& options, SceneRun& run, const Comm& comm) 
   const double now = Teuchos::Time::wallTime();
   run.report.sublist("Time").set("Output", maxOverRanks(comm, now - start));
   run.report.sublist("Time").set("Total", maxOverRanks(comm, now - run.started));
-  for (const std::filesystem::path& file : {options.output.empty() ? "" : directory / "report.xml",
-                                            std::filesystem::path(options.report)})
+  for (const std::filesystem::path& file :
+       {options.output.empty() ? "" : directory / "report.xml", std::filesystem::path(options.report)})
     if (!file.empty()) {
       output::writeReport(run.report, file, comm);
       lines += "  report      " + file.string() + "\n";
@@ -59,11 +59,12 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   Teuchos::ParameterList given = scene::readParameterFile(options.scene, *comm);
   const Teuchos::ParameterList schema = driverSchema();
   for (const std::string& text : options.overrides)
-    scene::applyOverride(given, text, schema);
+    scene::applyOverride(given, schema, text);
   const Teuchos::ParameterList list = validated(given, schema, options.scene);
   const scene::Scene scene = scene::readScene(given, options.scene);
   if (speaks)
-    std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n' << std::flush;
+    std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
+              << std::flush;
 
   std::optional<Progress> progress;
   if (speaks)

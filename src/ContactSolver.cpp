@@ -21,7 +21,9 @@ double peakBytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-double longest(const Comm& comm, double since) { return maxOverRanks(comm, Teuchos::Time::wallTime() - since); }
+double longest(const Comm& comm, double since) {
+  return maxOverRanks(comm, Teuchos::Time::wallTime() - since);
+}
 
 } // namespace
 
@@ -30,7 +32,8 @@ Teuchos::ParameterList ContactSolver::validParameters() {
   const fetidp::DirectSolvers direct;
   Teuchos::ParameterList list("Solver");
   addReal(list, "Tolerance", dual.tolerance,
-          "The iteration stops when the projected gradient is this small relative to the right-hand side of the dual "
+          "The iteration stops when the projected gradient is this small relative to the right-hand side of "
+          "the dual "
           "problem.",
           0.0, 1.0, true);
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
@@ -39,7 +42,8 @@ Teuchos::ParameterList ContactSolver::validParameters() {
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());
   list.sublist("Norm Estimate").setParameters(qp::NormEstimateParameters::validParameters());
   Teuchos::ParameterList& solvers = list.sublist("Direct Solvers");
-  addChoice(solvers, "Subdomains", direct.subdomains, "Amesos2 solver of the subdomains.", direct::availableSolvers());
+  addChoice(solvers, "Subdomains", direct.subdomains, "Amesos2 solver of the subdomains.",
+            direct::availableSolvers());
   addChoice(solvers, "Coarse Problem", direct.coarse, "Amesos2 solver of the coarse problem.",
             direct::availableSolvers());
   return list;

@@ -30,14 +30,14 @@ public:
   /// \throws InputError if the list is not valid. Not collective.
   explicit ContactSolver(const Teuchos::ParameterList& parameters);
 
-  /// Factorises the subdomains and the coarse problem, chooses the algorithm, estimates ‖F‖. Keeps a reference to `problem`,
-  /// which must outlive the solver; the loads and gaps in it may change between solves, its matrices may not.
-  /// Collective. \throws InputError, SolvabilityError or Error, the same on all ranks.
+  /// Factorises the subdomains and the coarse problem, chooses the algorithm, estimates ‖F‖. Keeps a
+  /// reference to `problem`, which must outlive the solver; the loads and gaps in it may change between
+  /// solves, its matrices may not. Collective. \throws InputError, SolvabilityError or Error, the same on all
+  /// ranks.
   void setup(const decomposition::DecomposedProblem& problem);
 
-  /// Solves for the loads and gaps that the problem holds now. A solution that misses the tolerance is returned as well:
-  /// ask `report().status`.
-  /// \param start     λ of an earlier solve to start from, or null
+  /// Solves for the loads and gaps that the problem holds now. A solution that misses the tolerance is
+  /// returned as well: ask `report().status`. \param start     λ of an earlier solve to start from, or null
   /// \param observer  told of every step, or null
   /// Collective. Precondition: `setup` was called. \throws SolvabilityError, the same on all ranks.
   fetidp::ContactSolution solve(const Vector* start = nullptr, qp::Observer* observer = nullptr);
@@ -50,7 +50,8 @@ public:
   /// Names of the direct solvers in use.
   [[nodiscard]] const fetidp::DirectSolvers& directSolvers() const { return directSolvers_; }
 
-  /// The report of the last solve as a list: Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status. Collective.
+  /// The report of the last solve as a list: Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status.
+  /// Collective.
   [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
 
 private:

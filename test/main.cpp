@@ -1,4 +1,5 @@
-// Every test program runs on any number of ranks: rank 0 prints, and a failure on one rank fails the program on all.
+// Every test program runs on any number of ranks: rank 0 prints, and a failure on one rank fails the program
+// on all.
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Core.hpp>

@@ -19,7 +19,8 @@ using namespace epafi;
 
 constexpr const char* usage =
     "Usage: epafi-study STUDY [--output DIR] [--quick]\n"
-    "Writes DIR/<study>.csv, a table to read and a picture (DIR is . by default); --quick ends within a minute.\n\n"
+    "Writes DIR/<study>.csv, a table to read and a picture (DIR is . by default); --quick ends within a "
+    "minute.\n\n"
     "  tables   Tables 1 and 2 of the paper: dimensions and iterations, ours beside the paper's\n";
 
 struct Request {
@@ -43,14 +44,16 @@ Request parse(int argc, char** argv) {
     } else if (word.rfind('-', 0) == 0) {
       throw InputError("unknown option " + word + "; known are --output DIR, --quick and --help");
     } else if (!request.study.empty()) {
-      throw InputError("two studies are given, '" + request.study + "' and '" + word + "'; run them one at a time");
+      throw InputError("two studies are given, '" + request.study + "' and '" + word +
+                       "'; run them one at a time");
     } else {
       request.study = word;
     }
   }
   if (!request.help && request.study != "tables")
-    throw InputError(request.study.empty() ? "no study is named; the studies are: tables"
-                                           : "unknown study '" + request.study + "'; the studies are: tables");
+    throw InputError(request.study.empty()
+                         ? "no study is named; the studies are: tables"
+                         : "unknown study '" + request.study + "'; the studies are: tables");
   return request;
 }
 
@@ -82,7 +85,8 @@ int main(int argc, char** argv) {
         std::error_code error;
         std::filesystem::create_directories(request.directory, error);
         if (error)
-          throw InputError("the directory " + request.directory.string() + " cannot be made: " + error.message());
+          throw InputError("the directory " + request.directory.string() +
+                           " cannot be made: " + error.message());
       });
       exitCode = drivers::studyTables(request.directory, request.quick, comm) ? 0 : 1;
       drawsPicture = comm->getRank() == 0;

@@ -10,11 +10,11 @@
 
 namespace epafi {
 
-/// Runs `work` on every rank. If it throws anywhere, every rank throws the error of the lowest failing rank, with the same
-/// type (InputError, SolvabilityError, or Error for all else) and the same text.
+/// Runs `work` on every rank. If it throws anywhere, every rank throws the error of the lowest failing rank,
+/// with the same type (InputError, SolvabilityError, or Error for all else) and the same text.
 ///
-/// \param work  must contain no collective call itself, or only ones that all ranks reach before any can throw.
-/// Collective.
+/// \param work  must contain no collective call itself, or only ones that all ranks reach before any can
+/// throw. Collective.
 void collectively(const Comm& comm, const std::function<void()>& work);
 
 /// Sums `values` over the ranks, in place. Collective.
@@ -26,7 +26,8 @@ GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value);
 double maxOverRanks(const Comm& comm, double value);
 double minOverRanks(const Comm& comm, double value);
 
-/// The values of all ranks, rank after rank, on every rank. For data of the coarse problem's size only. Collective.
+/// The values of all ranks, rank after rank, on every rank. For data of the coarse problem's size only.
+/// Collective.
 std::vector<double> gatherOnAll(const Comm& comm, std::span<const double> values);
 
 } // namespace epafi

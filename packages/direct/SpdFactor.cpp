@@ -15,8 +15,8 @@ namespace {
 
 using AmesosSolver = Amesos2::Solver<CrsMatrix, MultiVector>;
 
-/// The matrix as Amesos2 wants it: a Tpetra matrix on a communicator of this rank alone. By symmetry the columns of A are
-/// its rows.
+/// The matrix as Amesos2 wants it: a Tpetra matrix on a communicator of this rank alone. By symmetry the
+/// columns of A are its rows.
 RCP<CrsMatrix> toTpetra(const SparseMatrix& matrix) {
   const auto n = static_cast<std::size_t>(matrix.rows());
   const RCP<const Comm> self = rcp(new Teuchos::SerialComm<int>());
@@ -91,21 +91,23 @@ std::vector<std::string> availableSolvers() {
   return names;
 }
 
-std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver, const std::string& what) {
+std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver,
+                                     const std::string& what) {
   const std::vector<std::string> names = availableSolvers();
   if (std::find(names.begin(), names.end(), solver) == names.end()) {
     std::string known;
     for (const std::string& name : names)
       known += (known.empty() ? "" : ", ") + name;
-    throw InputError("the direct solver '" + solver + "' is not known to this build of Trilinos; use one of: " + known);
+    throw InputError("the direct solver '" + solver +
+                     "' is not known to this build of Trilinos; use one of: " + known);
   }
   if (matrix.rows() == 0)
     return std::make_unique<EmptyFactor>();
   try {
     return std::make_unique<AmesosFactor>(matrix, solver);
   } catch (const std::exception& error) {
-    throw Error("the matrix of " + what + " (" + std::to_string(matrix.rows()) + " unknowns) could not be factorised by " +
-                solver + ": " + error.what());
+    throw Error("the matrix of " + what + " (" + std::to_string(matrix.rows()) +
+                " unknowns) could not be factorised by " + solver + ": " + error.what());
   }
 }
 

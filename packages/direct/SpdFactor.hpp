@@ -1,6 +1,7 @@
 #pragma once
 
-/// Sparse factorisation of a symmetric positive definite matrix that lies on one rank: one subdomain, or the coarse problem.
+/// Sparse factorisation of a symmetric positive definite matrix that lies on one rank: one subdomain, or the
+/// coarse problem.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -34,14 +35,16 @@ protected:
   SpdFactor() = default;
 };
 
-/// Names that `factorize` takes with this build of Trilinos. Amesos2's Tacho is left out: it crashes on matrices of some
-/// thousand unknowns in Trilinos 13.2.
+/// Names that `factorize` takes with this build of Trilinos. Amesos2's Tacho is left out: it crashes on
+/// matrices of some thousand unknowns in Trilinos 13.2.
 std::vector<std::string> availableSolvers();
 
 /// Factorises A by the Amesos2 solver called `solver`.
 /// Precondition: A square, SPD, both triangles stored. n = 0 is allowed.
-/// \throws InputError for an unknown name (lists the known ones); Error if the factorisation fails, with `what` (the
+/// \throws InputError for an unknown name (lists the known ones); Error if the factorisation fails, with
+/// `what` (the
 ///         matrix's name for people, such as "subdomain 3") and n.
-std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver, const std::string& what);
+std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver,
+                                     const std::string& what);
 
 } // namespace epafi::direct

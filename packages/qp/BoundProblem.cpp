@@ -7,7 +7,8 @@ bool RelativeGradientRule::isSatisfied(double projectedGradient, std::span<const
 }
 
 void RelativeGradientRule::describe(StepRecord& record) const {
-  record.projectedGradient = reference_ > 0 ? record.projectedGradient / reference_ : record.projectedGradient;
+  record.projectedGradient =
+      reference_ > 0 ? record.projectedGradient / reference_ : record.projectedGradient;
 }
 
 void HistoryRecorder::step(const StepRecord& record) {

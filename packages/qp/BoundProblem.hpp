@@ -28,9 +28,10 @@ private:
   Observer* next_;
 };
 
-/// Runs `solver` until `rule` holds for a gradient computed afresh: when the updated gradient says "converged", one further
-/// product confirms it; should it not, the iteration goes on from the fresh gradient. Returns `stagnated` if five fresh
-/// gradients in turn refuse what the updated ones promised: round-off allows no more. Collective.
+/// Runs `solver` until `rule` holds for a gradient computed afresh: when the updated gradient says
+/// "converged", one further product confirms it; should it not, the iteration goes on from the fresh
+/// gradient. Returns `stagnated` if five fresh gradients in turn refuse what the updated ones promised:
+/// round-off allows no more. Collective.
 Status runToCertificate(Mprgp& solver, StoppingRule& rule, Observer* observer);
 
 /// Solves to ‖g^P‖ ≤ tolerance · ‖b‖, starting from the projection of x.

@@ -1,13 +1,13 @@
 #pragma once
 
-/// The box l ≤ x ≤ u, and what MPRGP asks of it: the projection, the longest feasible step, and the split of a gradient
-/// into its free and its chopped part.
+/// The box l ≤ x ≤ u, and what MPRGP asks of it: the projection, the longest feasible step, and the split of
+/// a gradient into its free and its chopped part.
 ///
 /// For the gradient g at a feasible x (Dostál, *Optimal Quadratic Programming Algorithms*, 2009, ch. 5):
 ///   free gradient          φ_i = g_i where l_i < x_i < u_i, else 0
-///   chopped gradient       β_i = min(g_i, 0) at a lower bound, max(g_i, 0) at an upper one, 0 where l_i = u_i, else 0
-///   reduced free gradient  φ̃_i = φ_i, cut so that x − ᾱφ̃ stays feasible
-///   projected gradient     g^P = φ + β; it vanishes exactly at a solution
+///   chopped gradient       β_i = min(g_i, 0) at a lower bound, max(g_i, 0) at an upper one, 0 where l_i =
+///   u_i, else 0 reduced free gradient  φ̃_i = φ_i, cut so that x − ᾱφ̃ stays feasible projected gradient g^P =
+///   φ + β; it vanishes exactly at a solution
 
 #include "epafi/base/Types.hpp"
 #include "epafi/qp/LocalData.hpp"
@@ -44,7 +44,8 @@ public:
     }
   };
 
-  /// \param lower, upper  vectors on the unknowns' map, −∞ and +∞ for "no bound"; null where no entry has one. Shared, never
+  /// \param lower, upper  vectors on the unknowns' map, −∞ and +∞ for "no bound"; null where no entry has
+  /// one. Shared, never
   ///                      changed.
   explicit Bounds(RCP<const Vector> lower, RCP<const Vector> upper = Teuchos::null);
 

@@ -10,9 +10,9 @@
 #include <BelosStatusTestMaxIters.hpp>
 #include <BelosTpetraAdapter.hpp>
 #include <Teuchos_ParameterList.hpp>
-#include <Trilinos_version.h>
 #include <Tpetra_Operator.hpp>
 #include <Tpetra_Vector.hpp>
+#include <Trilinos_version.h>
 
 #include <cmath>
 
@@ -25,7 +25,8 @@ public:
   explicit CountingOperator(RCP<const Operator> a) : a_(std::move(a)) {}
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return a_->getDomainMap(); }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return a_->getRangeMap(); }
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha, double beta) const override {
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
+             double beta) const override {
     a_->apply(x, y, mode, alpha, beta);
     ++count_;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The equality constraint Gx = 0 as SMALBE sees it: a few rows, known on every rank, that are orthonormal: GGᵀ = I.
+/// The equality constraint Gx = 0 as SMALBE sees it: a few rows, known on every rank, that are orthonormal:
+/// GGᵀ = I.
 
 #include "epafi/base/Types.hpp"
 

@@ -25,7 +25,8 @@ void fillWeights(const Bounds& bounds, const Vector& x, double unbounded, Vector
 
 } // namespace
 
-void restoreEquality(const EqualityConstraint& g, const Bounds& bounds, std::span<const double> gx, Vector& x) {
+void restoreEquality(const EqualityConstraint& g, const Bounds& bounds, std::span<const double> gx,
+                     Vector& x) {
   const int k = g.size();
   const auto numRows = static_cast<std::size_t>(k);
   const Comm& comm = *x.getMap()->getComm();

@@ -9,8 +9,8 @@
 namespace epafi::qp {
 namespace {
 
-/// Adds all entries but the last, of which it takes the smaller one. Ranks combine whole messages: they are a few dozen
-/// bytes long, far below what an MPI library would cut into pieces.
+/// Adds all entries but the last, of which it takes the smaller one. Ranks combine whole messages: they are a
+/// few dozen bytes long, far below what an MPI library would cut into pieces.
 class SumsAndMinimum final : public Teuchos::ValueTypeReductionOp<int, double> {
 public:
   void reduce(const int count, const double in[], double inout[]) const override {
@@ -37,7 +37,8 @@ void FusedReduction::reduce() {
     return;
   mine_ = values_;
   const SumsAndMinimum operation;
-  Teuchos::reduceAll<int, double>(*comm_, operation, static_cast<int>(values_.size()), mine_.data(), values_.data());
+  Teuchos::reduceAll<int, double>(*comm_, operation, static_cast<int>(values_.size()), mine_.data(),
+                                  values_.data());
 }
 
 } // namespace epafi::qp

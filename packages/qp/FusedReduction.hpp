@@ -1,7 +1,7 @@
 #pragma once
 
-/// Several sums and one minimum over all ranks in a single message: a CG step of MPRGP needs its dot products and the
-/// longest feasible step together.
+/// Several sums and one minimum over all ranks in a single message: a CG step of MPRGP needs its dot products
+/// and the longest feasible step together.
 
 #include "epafi/base/Types.hpp"
 

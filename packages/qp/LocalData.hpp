@@ -1,7 +1,7 @@
 #pragma once
 
-/// This rank's entries of a Tpetra vector as a span, for the fused loops of the solvers. A span is valid while its vector
-/// lives; hold it only for the length of a loop. Not collective.
+/// This rank's entries of a Tpetra vector as a span, for the fused loops of the solvers. A span is valid
+/// while its vector lives; hold it only for the length of a loop. Not collective.
 
 #include "epafi/base/Types.hpp"
 

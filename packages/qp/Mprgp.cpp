@@ -12,12 +12,15 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
   const MprgpParameters defaults;
   Teuchos::ParameterList list("MPRGP");
   addReal(list, "Proportioning Constant", defaults.proportioningConstant,
-          "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no longer than Γ "
+          "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
+          "longer than Γ "
           "times the free one.",
           0.0, 1e6, true);
   addReal(list, "Expansion Step", defaults.expansionStep,
-          "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0, true);
-  addInteger(list, "Maximum Multiplications", defaults.maxMultiplications, "Products with the operator at most.", 1);
+          "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
+          true);
+  addInteger(list, "Maximum Multiplications", defaults.maxMultiplications,
+             "Products with the operator at most.", 1);
   return list;
 }
 
@@ -32,8 +35,9 @@ MprgpParameters MprgpParameters::from(const Teuchos::ParameterList& list) {
 Mprgp::Mprgp(RCP<const Operator> a, Bounds bounds, const MprgpParameters& parameters, double operatorNorm)
     : a_(std::move(a)), bounds_(std::move(bounds)), parameters_(parameters),
       stepLength_(operatorNorm > 0 ? parameters.expansionStep / operatorNorm : 1.0),
-      comm_(a_->getDomainMap()->getComm()), x_(a_->getDomainMap()), b_(a_->getDomainMap()), g_(a_->getDomainMap()),
-      p_(a_->getDomainMap()), ap_(a_->getDomainMap()), stepReduction_(comm_, 2), measureReduction_(comm_, 5) {}
+      comm_(a_->getDomainMap()->getComm()), x_(a_->getDomainMap()), b_(a_->getDomainMap()),
+      g_(a_->getDomainMap()), p_(a_->getDomainMap()), ap_(a_->getDomainMap()), stepReduction_(comm_, 2),
+      measureReduction_(comm_, 5) {}
 
 void Mprgp::start(const Vector& b, const Vector& x0) {
   b_.assign(b);
@@ -109,9 +113,9 @@ bool Mprgp::isProportional() const {
 
 void Mprgp::conjugateGradientStep(const StepSizes& sizes, StoppingRule& rule) {
   ++counts_.conjugateGradient;
-  move(sizes.slope / sizes.curvature, sizes);                       // x −= α_cg p, g −= α_cg Ap
-  measure(rule);                                                    // φ, β and φᵀAp
-  setDirectionToFreeGradient(freeTimesImage_ / sizes.curvature);    // p = φ − (φᵀAp / pᵀAp) p
+  move(sizes.slope / sizes.curvature, sizes);                    // x −= α_cg p, g −= α_cg Ap
+  measure(rule);                                                 // φ, β and φᵀAp
+  setDirectionToFreeGradient(freeTimesImage_ / sizes.curvature); // p = φ − (φᵀAp / pᵀAp) p
 }
 
 void Mprgp::expansionStep(const StepSizes& sizes, StoppingRule& rule) {
@@ -195,7 +199,8 @@ void Mprgp::storeHalfStep() {
   }
 }
 
-/// x = P(x^½ − ᾱφ), g = Ax − b, f = ½xᵀ(g − b). Returns |xᵀb| + |xᵀAx|, the size against which round-off counts.
+/// x = P(x^½ − ᾱφ), g = Ax − b, f = ½xᵀ(g − b). Returns |xᵀb| + |xᵀAx|, the size against which round-off
+/// counts.
 double Mprgp::projectHalfStep() {
   const auto x = localDataNonConst(x_);
   const auto half = localData(p_), free = localData(ap_);

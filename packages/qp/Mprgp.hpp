@@ -1,8 +1,8 @@
 #pragma once
 
 /// MPRGP: modified proportioning with reduced gradient projections, for min ½xᵀAx − bᵀx, l ≤ x ≤ u.
-/// Dostál, Schöberl, *Comput. Optim. Appl.* 30 (2005) 23–43; Dostál, *Optimal Quadratic Programming Algorithms* (2009),
-/// algorithm 5.8.
+/// Dostál, Schöberl, *Comput. Optim. Appl.* 30 (2005) 23–43; Dostál, *Optimal Quadratic Programming
+/// Algorithms* (2009), algorithm 5.8.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/qp/Bounds.hpp"
@@ -25,8 +25,8 @@ struct MprgpParameters {
   static MprgpParameters from(const Teuchos::ParameterList& list);
 };
 
-/// Says when an MPRGP run is over. May take part in the reduction that every step makes anyway: `numSums` further numbers
-/// are summed over the ranks at no extra message.
+/// Says when an MPRGP run is over. May take part in the reduction that every step makes anyway: `numSums`
+/// further numbers are summed over the ranks at no extra message.
 class StoppingRule {
 public:
   virtual ~StoppingRule() = default;
@@ -48,8 +48,8 @@ public:
 ///   proportioning  1 product, 2 reductions
 /// All work vectors are allocated by the constructor, none in a step.
 ///
-/// Preconditions: A symmetric positive semidefinite on the unknowns' map; ᾱ ≤ 2/‖A‖ for the convergence proof. An expansion
-/// that raises the objective (the norm was underestimated) is repeated with half of ᾱ.
+/// Preconditions: A symmetric positive semidefinite on the unknowns' map; ᾱ ≤ 2/‖A‖ for the convergence
+/// proof. An expansion that raises the objective (the norm was underestimated) is repeated with half of ᾱ.
 class Mprgp {
 public:
   /// \param a             A, n × n; kept, not copied
@@ -67,7 +67,8 @@ public:
   /// Goes on from the projection of x, with g = Ax − b computed afresh (one product). Collective.
   void moveTo(const Vector& x);
 
-  /// Recomputes g = Ax − b and f (one product): what round-off has added to the updated gradient is gone. Collective.
+  /// Recomputes g = Ax − b and f (one product): what round-off has added to the updated gradient is gone.
+  /// Collective.
   void refreshGradient();
 
   /// Subtracts `shift` from b without touching x: g grows by it. \param objectiveShift  shiftᵀx. Collective.
@@ -109,7 +110,7 @@ private:
   RCP<const Comm> comm_;
 
   Vector x_, b_, g_, p_, ap_;
-  FusedReduction stepReduction_;    ///< pᵀAp, gᵀp; α_f
+  FusedReduction stepReduction_; ///< pᵀAp, gᵀp; α_f
   FusedReduction measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, entries at a bound, the rule's sums
   double objective_ = 0;
   double projectedGradient_ = 0;                ///< ‖g^P‖

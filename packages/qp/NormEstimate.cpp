@@ -30,7 +30,8 @@ void fillFromIndices(Vector& x) {
 
 void requireFinite(double value) {
   if (!std::isfinite(value))
-    throw Error("the operator returned a value that is not finite while its norm was estimated; check its entries");
+    throw Error(
+        "the operator returned a value that is not finite while its norm was estimated; check its entries");
 }
 
 struct RitzPair {
@@ -44,7 +45,8 @@ RitzPair largestRitzPair(std::vector<double> diagonal, std::vector<double> offDi
   std::vector<double> work(static_cast<std::size_t>(std::max(1, 2 * n - 2)));
   offDiagonal.resize(static_cast<std::size_t>(n));
   int info = 0;
-  Teuchos::LAPACK<int, double>().STEQR('I', n, diagonal.data(), offDiagonal.data(), vectors.data(), n, work.data(), &info);
+  Teuchos::LAPACK<int, double>().STEQR('I', n, diagonal.data(), offDiagonal.data(), vectors.data(), n,
+                                       work.data(), &info);
   if (info != 0)
     throw Error("the eigenvalues of the Lanczos matrix could not be computed");
   return {diagonal.back(), vectors.back()};
@@ -63,7 +65,7 @@ NormEstimate lanczos(const Operator& a, const NormEstimateParameters& parameters
   double beta = 0;
   const auto dimension = static_cast<int>(std::min<Tpetra::global_size_t>(v.getGlobalLength(), 100000));
   while (estimate.multiplications < std::min(parameters.maxIterations, dimension)) {
-    a.apply(v, w);                   // w = A v_k − β_{k−1} v_{k−1}
+    a.apply(v, w); // w = A v_k − β_{k−1} v_{k−1}
     ++estimate.multiplications;
     if (beta > 0)
       w.update(-beta, previous, 1.0);
@@ -97,7 +99,8 @@ NormEstimate power(const Operator& a, const NormEstimateParameters& parameters) 
     ++estimate.multiplications;
     const double quotient = w.dot(v);
     requireFinite(quotient);
-    const bool settled = std::abs(quotient - estimate.lowerBound) <= 0.1 * parameters.accuracy * std::abs(quotient);
+    const bool settled =
+        std::abs(quotient - estimate.lowerBound) <= 0.1 * parameters.accuracy * std::abs(quotient);
     estimate.lowerBound = std::max(quotient, 0.0);
     if (settled)
       break;
@@ -113,11 +116,13 @@ NormEstimate power(const Operator& a, const NormEstimateParameters& parameters) 
 Teuchos::ParameterList NormEstimateParameters::validParameters() {
   const NormEstimateParameters defaults;
   Teuchos::ParameterList list("Norm Estimate");
-  addChoice(list, "Method", "lanczos", "How the largest eigenvalue of the operator is estimated.", {"lanczos", "power"});
+  addChoice(list, "Method", "lanczos", "How the largest eigenvalue of the operator is estimated.",
+            {"lanczos", "power"});
   addInteger(list, "Maximum Iterations", defaults.maxIterations, "Products with the operator at most.", 1);
-  addReal(list, "Accuracy", defaults.accuracy, "Relative distance of the bound at which the estimate stops.", 0.0, 1.0, true);
-  addReal(list, "Safety", defaults.safety, "Factor on the power method's value, which approaches the norm from below.", 1.0,
-          100.0);
+  addReal(list, "Accuracy", defaults.accuracy, "Relative distance of the bound at which the estimate stops.",
+          0.0, 1.0, true);
+  addReal(list, "Safety", defaults.safety,
+          "Factor on the power method's value, which approaches the norm from below.", 1.0, 100.0);
   return list;
 }
 
@@ -131,7 +136,8 @@ NormEstimateParameters NormEstimateParameters::from(const Teuchos::ParameterList
 }
 
 NormEstimate estimateNorm(const Operator& a, const NormEstimateParameters& parameters) {
-  return parameters.method == NormEstimateParameters::Method::lanczos ? lanczos(a, parameters) : power(a, parameters);
+  return parameters.method == NormEstimateParameters::Method::lanczos ? lanczos(a, parameters)
+                                                                      : power(a, parameters);
 }
 
 } // namespace epafi::qp

@@ -13,9 +13,9 @@ namespace epafi::qp {
 struct NormEstimateParameters {
   enum class Method { lanczos, power };
   Method method = Method::lanczos;
-  int maxIterations = 30;       ///< products with A at most
-  double accuracy = 0.02;       ///< stop when the bound is this close (relative)
-  double safety = 1.05;         ///< factor on a power method's value, which approaches ‖A‖ from below
+  int maxIterations = 30; ///< products with A at most
+  double accuracy = 0.02; ///< stop when the bound is this close (relative)
+  double safety = 1.05;   ///< factor on a power method's value, which approaches ‖A‖ from below
 
   static Teuchos::ParameterList validParameters();
   /// From a validated list.
@@ -28,11 +28,11 @@ struct NormEstimate {
   int multiplications = 0; ///< products with A
 };
 
-/// Lanczos: largest Ritz value θ plus the residual norm of its Ritz vector, so that an eigenvalue lies within the bound;
-/// stops when that bound is within `accuracy` of θ. Power method: last Rayleigh quotient times `safety`.
-/// The start vector depends on global indices alone, so that every number of ranks gives the same estimate.
-/// Precondition: A symmetric positive semidefinite on its domain map. Memory: three vectors. Collective.
-/// \throws Error if A returns NaN or infinity.
+/// Lanczos: largest Ritz value θ plus the residual norm of its Ritz vector, so that an eigenvalue lies within
+/// the bound; stops when that bound is within `accuracy` of θ. Power method: last Rayleigh quotient times
+/// `safety`. The start vector depends on global indices alone, so that every number of ranks gives the same
+/// estimate. Precondition: A symmetric positive semidefinite on its domain map. Memory: three vectors.
+/// Collective. \throws Error if A returns NaN or infinity.
 NormEstimate estimateNorm(const Operator& a, const NormEstimateParameters& parameters);
 
 } // namespace epafi::qp

@@ -13,8 +13,12 @@ namespace epafi::qp {
 PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const EqualityConstraint> g, double penalty)
     : a_(std::move(a)), g_(std::move(g)), penalty_(penalty), gx_(static_cast<std::size_t>(g_->size())) {}
 
-RCP<const Map> PenalizedOperator::getDomainMap() const { return a_->getDomainMap(); }
-RCP<const Map> PenalizedOperator::getRangeMap() const { return a_->getRangeMap(); }
+RCP<const Map> PenalizedOperator::getDomainMap() const {
+  return a_->getDomainMap();
+}
+RCP<const Map> PenalizedOperator::getRangeMap() const {
+  return a_->getRangeMap();
+}
 
 void PenalizedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
                               double beta) const {

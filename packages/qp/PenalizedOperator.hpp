@@ -18,10 +18,10 @@ public:
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override;
   [[nodiscard]] RCP<const Map> getRangeMap() const override;
-  /// y = alpha (A + ρGᵀG) x + beta y; one message of G's size beside those of A. Mode must be no-transpose or transpose
-  /// (the operator is symmetric). Collective.
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS, double alpha = 1.0,
-             double beta = 0.0) const override;
+  /// y = alpha (A + ρGᵀG) x + beta y; one message of G's size beside those of A. Mode must be no-transpose or
+  /// transpose (the operator is symmetric). Collective.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
+             double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
 
 private:

@@ -16,7 +16,8 @@ namespace {
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Gx‖, η), or both final tolerances. Its sums are Gx itself.
 class AdaptiveRule final : public StoppingRule {
 public:
-  AdaptiveRule(RCP<const EqualityConstraint> g, const SmalbeTolerances& tolerances, double balance, double forcing)
+  AdaptiveRule(RCP<const EqualityConstraint> g, const SmalbeTolerances& tolerances, double balance,
+               double forcing)
       : g_(std::move(g)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
         gx_(static_cast<std::size_t>(g_->size())) {}
 
@@ -37,8 +38,9 @@ public:
   void describe(StepRecord& record) const override {
     if (tolerances_.gradientReference > 0)
       record.projectedGradient /= tolerances_.gradientReference;
-    record.constraintResidual =
-        tolerances_.constraintReference > 0 ? constraintNorm_ / tolerances_.constraintReference : constraintNorm_;
+    record.constraintResidual = tolerances_.constraintReference > 0
+                                    ? constraintNorm_ / tolerances_.constraintReference
+                                    : constraintNorm_;
   }
 
   [[nodiscard]] bool isFinal() const { return isFinal_; } ///< both final tolerances hold
@@ -79,7 +81,8 @@ Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, co
     inner.shiftLinearTerm(shift, penalty * residual * residual);
     ++inner.counts().outer;
 
-    if (rule.isFinal()) { // the certificate: Gx = 0 to round-off and a fresh gradient; if it fails the iteration goes on
+    if (rule.isFinal()) { // the certificate: Gx = 0 to round-off and a fresh gradient; if it fails the
+                          // iteration goes on
       if (++freshStarts > maxFreshStarts)
         return Status::stagnated;
       shift.assign(inner.solution());
@@ -101,8 +104,8 @@ Teuchos::ParameterList SmalbeParameters::validParameters() {
   addReal(list, "Balance Reduction", defaults.balanceReduction,
           "Factor on M when the augmented Lagrangian grew by less than ρ/2‖Gλ‖².", 0.0, 1.0, true);
   addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
-  addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations, "Updates of the multiplier of Gλ = 0 at most.",
-             1);
+  addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
+             "Updates of the multiplier of Gλ = 0 at most.", 1);
   return list;
 }
 
@@ -116,23 +119,26 @@ SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   return parameters;
 }
 
-SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<const EqualityConstraint>& g, const Vector& b,
-                                      const Bounds& bounds, Vector& x, const SmalbeTolerances& tolerances,
-                                      const SmalbeParameters& parameters, const MprgpParameters& inner,
-                                      double operatorNorm, Observer* observer) {
+SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<const EqualityConstraint>& g,
+                                      const Vector& b, const Bounds& bounds, Vector& x,
+                                      const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
+                                      const MprgpParameters& inner, double operatorNorm, Observer* observer) {
   bounds.check(*b.getMap()->getComm());
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
 
   const double penalty = parameters.penalty * operatorNorm;
   const RCP<const Operator> hessian = rcp(new PenalizedOperator(a, g, penalty));
-  AdaptiveRule rule(g, tolerances, parameters.balance * operatorNorm, parameters.forcing * tolerances.gradientReference);
+  AdaptiveRule rule(g, tolerances, parameters.balance * operatorNorm,
+                    parameters.forcing * tolerances.gradientReference);
   Mprgp solver(hessian, bounds, inner, std::max(operatorNorm, penalty)); // ‖A + ρGᵀG‖ where Im Gᵀ ⊂ Ker A
   solver.start(b, x);
   report.status = iterate(solver, rule, *g, bounds, parameters, penalty, &recorder);
   x.assign(solver.solution());
 
-  const auto relative = [](double value, double reference) { return reference > 0 ? value / reference : value; };
+  const auto relative = [](double value, double reference) {
+    return reference > 0 ? value / reference : value;
+  };
   report.reason = explain(report.status);
   report.counts = solver.counts();
   report.relativeProjectedGradient = relative(solver.projectedGradient(), tolerances.gradientReference);

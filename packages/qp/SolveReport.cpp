@@ -27,7 +27,8 @@ std::string explain(Status status) {
   case Status::converged:
     return "the tolerance is reached, confirmed by a gradient computed afresh";
   case Status::maxIterations:
-    return "the limit of operator products was reached before the tolerance; raise 'Maximum Multiplications' or the tolerance";
+    return "the limit of operator products was reached before the tolerance; raise 'Maximum Multiplications' "
+           "or the tolerance";
   case Status::stagnated:
     return "round-off allows no smaller residual (attainable accuracy reached); raise the tolerance";
   case Status::indefiniteOperator:

@@ -1,13 +1,22 @@
 #pragma once
 
-/// What a solver says when it stops: a status, a reason, counts of steps by kind, and the history of the iteration.
+/// What a solver says when it stops: a status, a reason, counts of steps by kind, and the history of the
+/// iteration.
 
 #include <string>
 #include <vector>
 
 namespace epafi::qp {
 
-enum class Status { converged, maxIterations, stagnated, indefiniteOperator, infeasible, notUnique, notFinite };
+enum class Status {
+  converged,
+  maxIterations,
+  stagnated,
+  indefiniteOperator,
+  infeasible,
+  notUnique,
+  notFinite
+};
 
 /// "Converged", "MaxIterations", …
 std::string toString(Status status);
@@ -15,8 +24,8 @@ std::string toString(Status status);
 /// One sentence that says what the status means and what to do.
 std::string explain(Status status);
 
-/// Kinds of steps and their letters in every log: c (conjugate gradient), e (expansion), p (proportioning), and s for the
-/// start of an inner solve.
+/// Kinds of steps and their letters in every log: c (conjugate gradient), e (expansion), p (proportioning),
+/// and s for the start of an inner solve.
 enum class StepKind : char { start = 's', conjugateGradient = 'c', expansion = 'e', proportioning = 'p' };
 
 /// One line of the history.
@@ -24,10 +33,10 @@ struct StepRecord {
   int iteration = 0; ///< counts from 0 over all outer iterations
   int outer = 0;     ///< outer iteration (SMALBE), 0 for MPRGP alone
   StepKind kind = StepKind::start;
-  double projectedGradient = 0;  ///< ‖g^P‖ relative to the stopping reference
-  double constraintResidual = 0; ///< ‖Gλ‖ relative to its reference; 0 without equality constraints
-  double objective = 0;          ///< value of the function minimised (augmented Lagrangian in SMALBE)
-  long long activeBounds = 0;    ///< entries at a bound
+  double projectedGradient = 0;   ///< ‖g^P‖ relative to the stopping reference
+  double constraintResidual = 0;  ///< ‖Gλ‖ relative to its reference; 0 without equality constraints
+  double objective = 0;           ///< value of the function minimised (augmented Lagrangian in SMALBE)
+  long long activeBounds = 0;     ///< entries at a bound
   int hessianMultiplications = 0; ///< products with the operator so far
 };
 

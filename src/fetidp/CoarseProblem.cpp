@@ -33,8 +33,9 @@ SparseMatrix assemble(const Comm& comm, int size, std::span<const SubdomainSolve
     const auto indices = subdomain.crosspointIndices();
     for (std::size_t j = 0; j < indices.size(); ++j)
       for (std::size_t i = 0; i < indices.size(); ++i)
-        blocks.emplace_back(static_cast<int>(indices[i]), static_cast<int>(indices[j]),
-                            subdomain.schurComplement()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+        blocks.emplace_back(
+            static_cast<int>(indices[i]), static_cast<int>(indices[j]),
+            subdomain.schurComplement()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
   local.setFromTriplets(blocks.begin(), blocks.end());
   std::vector<double> mine;
@@ -48,7 +49,8 @@ SparseMatrix assemble(const Comm& comm, int size, std::span<const SubdomainSolve
   return result;
 }
 
-/// R at the crosspoints, size × kernelDimension, and the body of each coarse unknown that floats (−1 elsewhere).
+/// R at the crosspoints, size × kernelDimension, and the body of each coarse unknown that floats (−1
+/// elsewhere).
 struct CoarseKernel {
   Eigen::MatrixXd modes;
   std::vector<int> body;
@@ -60,8 +62,9 @@ CoarseKernel gatherKernel(const DecomposedProblem& problem, int size) {
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
       for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
         const auto column = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset + mode;
-        mine.insert(mine.end(), {static_cast<double>(subdomain.crosspointIndices[i]), static_cast<double>(column),
-                                 subdomain.kernel(subdomain.crosspointUnknowns[i], mode)});
+        mine.insert(mine.end(),
+                    {static_cast<double>(subdomain.crosspointIndices[i]), static_cast<double>(column),
+                     subdomain.kernel(subdomain.crosspointUnknowns[i], mode)});
       }
   CoarseKernel kernel{Eigen::MatrixXd::Zero(size, problem.kernelDimension),
                       std::vector<int>(static_cast<std::size_t>(size), -1)};
@@ -75,7 +78,8 @@ CoarseKernel gatherKernel(const DecomposedProblem& problem, int size) {
   return kernel;
 }
 
-/// As many crosspoint values of the body as it has modes, such that R there is well conditioned: QR with pivoting.
+/// As many crosspoint values of the body as it has modes, such that R there is well conditioned: QR with
+/// pivoting.
 std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, const CoarseKernel& kernel) {
   std::vector<int> candidates;
   for (std::size_t i = 0; i < kernel.body.size(); ++i)
@@ -99,13 +103,15 @@ std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, cons
 
 CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainSolver> subdomains,
                              const std::string& directSolver)
-    : comm_(problem.comm), size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())), rhs_(size_) {
+    : comm_(problem.comm), size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())),
+      rhs_(size_) {
   SparseMatrix matrix = assemble(*comm_, size_, subdomains);
   if (problem.kernelDimension > 0) {
     const CoarseKernel kernel = gatherKernel(problem, size_);
     const double scale = matrix.norm();
     if ((matrix * kernel.modes).norm() > 1e-8 * scale * kernel.modes.norm())
-      throw Error("the kernel of the floating bodies is not a kernel of the coarse problem; check the rigid modes");
+      throw Error(
+          "the kernel of the floating bodies is not a kernel of the coarse problem; check the rigid modes");
     for (std::size_t body = 0; body < problem.bodies.size(); ++body)
       if (problem.bodies[body].kernelDimension > 0)
         for (const int unknown : fixingUnknowns(problem.bodies[body], static_cast<int>(body), kernel)) {
@@ -125,6 +131,8 @@ void CoarseProblem::solve(Eigen::VectorXd& z) const {
   factor_->solve(rhs_, z);
 }
 
-std::size_t CoarseProblem::factorBytes() const { return factor_->bytes(); }
+std::size_t CoarseProblem::factorBytes() const {
+  return factor_->bytes();
+}
 
 } // namespace epafi::fetidp

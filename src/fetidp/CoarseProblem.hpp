@@ -1,11 +1,12 @@
 #pragma once
 
-/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. It is the one thing of global size that every rank
-/// holds; all ranks factorise and solve it alike, which saves a message.
+/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. It is the one thing of global size that
+/// every rank holds; all ranks factorise and solve it alike, which saves a message.
 ///
-/// Where a body floats, S_cc is singular with the known kernel R_c (R at the crosspoints). A generalised inverse is then
-/// S_cc⁺ = (S_cc + τEEᵀ)⁻¹, where E picks as many crosspoint values of every floating body as it has rigid modes, so that
-/// EᵀR_c is regular: S S⁺ S = S exactly (Brzobohatý et al., *Int. J. Numer. Meth. Engng* 88 (2011), fixing nodes).
+/// Where a body floats, S_cc is singular with the known kernel R_c (R at the crosspoints). A generalised
+/// inverse is then S_cc⁺ = (S_cc + τEEᵀ)⁻¹, where E picks as many crosspoint values of every floating body as
+/// it has rigid modes, so that EᵀR_c is regular: S S⁺ S = S exactly (Brzobohatý et al., *Int. J. Numer. Meth.
+/// Engng* 88 (2011), fixing nodes).
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/direct/SpdFactor.hpp"
@@ -27,8 +28,8 @@ public:
                 const std::string& directSolver);
 
   [[nodiscard]] int size() const { return size_; }
-  /// x = S_cc⁺ Σ_ranks z: sums z over the ranks (one message), then solves. z and x have size() entries; x may be z.
-  /// Collective.
+  /// x = S_cc⁺ Σ_ranks z: sums z over the ranks (one message), then solves. z and x have size() entries; x
+  /// may be z. Collective.
   void solve(Eigen::VectorXd& z) const;
   [[nodiscard]] std::size_t factorBytes() const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The solution in the terms of the scene: displacement of every subdomain, forces and gaps of every contact row.
+/// The solution in the terms of the scene: displacement of every subdomain, forces and gaps of every contact
+/// row.
 
 #include "epafi/base/Types.hpp"
 
@@ -13,9 +14,10 @@ namespace epafi::fetidp {
 struct ContactSolution {
   /// u of each of this rank's subdomains, at all positions (nodes × components, supported ones included).
   std::vector<Eigen::VectorXd> displacement;
-  RCP<Vector> multiplier; ///< λ on multiplierMap; a positive λ_I is the force that pushes the bodies apart at a node
-  RCP<Vector> slack;      ///< c − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E
-  RCP<Vector> active;     ///< 1 where contact is closed, 0 elsewhere, on multiplierMap
+  RCP<Vector>
+      multiplier; ///< λ on multiplierMap; a positive λ_I is the force that pushes the bodies apart at a node
+  RCP<Vector> slack; ///< c − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E
+  RCP<Vector> active; ///< 1 where contact is closed, 0 elsewhere, on multiplierMap
 
   // How accurate it is, recomputed from u and λ alone; all relative, without units.
   double relativeProjectedGradient = 0;
@@ -23,8 +25,8 @@ struct ContactSolution {
   double complementarity = 0; ///< |λ_Iᵀ(c − Bu)| relative to the energy
   double equilibrium = 0;     ///< ‖Gλ − e‖ relative to ‖e‖ (0 without floating bodies)
 
-  double energy = 0;          ///< ½uᵀKu − fᵀu
-  double contactForce = 0;    ///< Σ λ_I
+  double energy = 0;       ///< ½uᵀKu − fᵀu
+  double contactForce = 0; ///< Σ λ_I
   GlobalOrdinal activeContactNodes = 0;
 };
 

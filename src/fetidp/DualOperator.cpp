@@ -4,8 +4,10 @@
 
 namespace epafi::fetidp {
 
-DualOperator::DualOperator(const decomposition::DecomposedProblem& problem, std::shared_ptr<GeneralizedInverse> inverse)
-    : map_(problem.multiplierMap), inverse_(std::move(inverse)), input_(problem), output_(problem), result_(map_) {}
+DualOperator::DualOperator(const decomposition::DecomposedProblem& problem,
+                           std::shared_ptr<GeneralizedInverse> inverse)
+    : map_(problem.multiplierMap), inverse_(std::move(inverse)), input_(problem), output_(problem),
+      result_(map_) {}
 
 void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                          double beta) const {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// F = B̄ K̄⁺ B̄ᵀ, the dual operator (paper, section on FETI-DP; design of the block form in SubdomainSolver.hpp).
+/// F = B̄ K̄⁺ B̄ᵀ, the dual operator (paper, section on FETI-DP; design of the block form in
+/// SubdomainSolver.hpp).
 
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
@@ -19,10 +20,11 @@ public:
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
-  /// y = alpha F x + beta y. Costs a column: one sparse solve a subdomain, two neighbour exchanges, one message of the
-  /// coarse problem's size. The operator is symmetric, so that `mode` does not matter. Collective.
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS, double alpha = 1.0,
-             double beta = 0.0) const override;
+  /// y = alpha F x + beta y. Costs a column: one sparse solve a subdomain, two neighbour exchanges, one
+  /// message of the coarse problem's size. The operator is symmetric, so that `mode` does not matter.
+  /// Collective.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
+             double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
   [[nodiscard]] int applications() const { return applications_; }
 

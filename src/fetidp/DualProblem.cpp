@@ -34,8 +34,8 @@ SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem) {
   return loads;
 }
 
-DualProblem::DualProblem(const decomposition::DecomposedProblem& problem, std::shared_ptr<GeneralizedInverse> inverse,
-                         const DualParameters& parameters)
+DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
+                         std::shared_ptr<GeneralizedInverse> inverse, const DualParameters& parameters)
     : problem_(problem), inverse_(std::move(inverse)), parameters_(parameters) {
   choose();
   kernelEntries_ = kernelConstraint(problem_);
@@ -132,8 +132,8 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
-void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad, const Vector* start,
-                                    qp::Observer* observer, DualSolution& solution) {
+void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad,
+                                    const Vector* start, qp::Observer* observer, DualSolution& solution) {
   const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad);
   Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
   coarseSpace_->feasiblePoint(e, feasible);
@@ -147,11 +147,11 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorX
   if (start != nullptr)
     mu.update(1.0, *start, -1.0, feasible, 0.0);
 
-  const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference, parameters_.equilibriumTolerance,
-                                        feasible.norm2()};
+  const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference,
+                                        parameters_.equilibriumTolerance, feasible.norm2()};
   solution.report =
-      qp::solveEqualityBoundProblem(hessian_, coarseSpace_, *rhs, qp::Bounds(lower), mu, tolerances, parameters_.smalbe,
-                                    parameters_.mprgp, norm_.norm, observer);
+      qp::solveEqualityBoundProblem(hessian_, coarseSpace_, *rhs, qp::Bounds(lower), mu, tolerances,
+                                    parameters_.smalbe, parameters_.mprgp, norm_.norm, observer);
   solution.lambda->update(1.0, mu, 1.0, feasible, 0.0);
   const Eigen::VectorXd imbalance = coarseSpace_->product(*solution.lambda) - e;
   solution.equilibrium = e.norm() > 0 ? imbalance.norm() / e.norm() : imbalance.norm();

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The problem in the multipliers, min ½λᵀFλ − λᵀd̃ with λ_I ≥ 0 (and Gλ = e where bodies float), and the least algorithm
-/// that solves it:
+/// The problem in the multipliers, min ½λᵀFλ − λᵀd̃ with λ_I ≥ 0 (and Gλ = e where bodies float), and the
+/// least algorithm that solves it:
 ///   no multiplier at all   direct solve, nothing to iterate
 ///   no contact             conjugate gradients on F (Belos)
 ///   contact, all supported MPRGP
@@ -34,9 +34,9 @@ struct DualParameters {
 
 /// λ and how it came about.
 struct DualSolution {
-  RCP<Vector> lambda;      ///< on multiplierMap, λ_I ≥ 0
-  double reference = 0;    ///< ‖d̃‖ or ‖Pd‖, what residuals are relative to
-  double equilibrium = 0;  ///< ‖Gλ − e‖ / ‖e‖
+  RCP<Vector> lambda;     ///< on multiplierMap, λ_I ≥ 0
+  double reference = 0;   ///< ‖d̃‖ or ‖Pd‖, what residuals are relative to
+  double equilibrium = 0; ///< ‖Gλ − e‖ / ‖e‖
   qp::SolveReport report;
 };
 
@@ -65,7 +65,8 @@ private:
   void choose();
   RCP<Vector> rightHandSide(const SubdomainVectors& load);
   RCP<Vector> lowerBounds(double free) const;
-  void solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer, DualSolution& solution);
+  void solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
+                     DualSolution& solution);
   void solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad, const Vector* start,
                          qp::Observer* observer, DualSolution& solution);
 

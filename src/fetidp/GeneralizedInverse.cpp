@@ -6,7 +6,8 @@
 
 namespace epafi::fetidp {
 
-GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem, const DirectSolvers& solvers) {
+GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
+                                       const DirectSolvers& solvers) {
   collectively(*problem.comm, [&] {
     subdomains_.reserve(problem.subdomains.size());
     for (const auto& subdomain : problem.subdomains)
@@ -23,7 +24,7 @@ void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<dou
     subdomain.applyFlexibility(lambda, result, coarse_); // Σ B_r K_rr⁻¹ B_rᵀ λ and z = Σ L_cᵀ Wᵀ λ
   coarseProblem_->solve(coarse_);                        // S_cc⁺ z
   for (const SubdomainSolver& subdomain : subdomains_)
-    subdomain.applyCoupling(coarse_, result);            // + Σ W L_c S_cc⁺ z
+    subdomain.applyCoupling(coarse_, result); // + Σ W L_c S_cc⁺ z
 }
 
 void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u) {

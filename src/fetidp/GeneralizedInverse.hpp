@@ -1,6 +1,7 @@
 #pragma once
 
-/// K̄⁺: the inverse, or a generalised inverse, of the stiffness matrix after the crosspoints are merged; and B̄ around it.
+/// K̄⁺: the inverse, or a generalised inverse, of the stiffness matrix after the crosspoints are merged; and B̄
+/// around it.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/CoarseProblem.hpp"
@@ -24,14 +25,16 @@ struct DirectSolvers {
 
 class GeneralizedInverse {
 public:
-  /// Factorises the subdomains and the coarse problem. Keeps a reference to `problem`. Collective; throws alike on all ranks.
+  /// Factorises the subdomains and the coarse problem. Keeps a reference to `problem`. Collective; throws
+  /// alike on all ranks.
   GeneralizedInverse(const decomposition::DecomposedProblem& problem, const DirectSolvers& solvers);
 
-  /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap): the sum of `result` over the ranks is Fλ.
-  /// One message of the coarse problem's size. Collective.
+  /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap): the sum of `result` over the
+  /// ranks is Fλ. One message of the coarse problem's size. Collective.
   void applyDual(std::span<const double> lambda, std::span<double> result);
 
-  /// u = K̄⁺ b. Crosspoint entries of b are contributions, summed over the subdomains; those of u agree. Collective.
+  /// u = K̄⁺ b. Crosspoint entries of b are contributions, summed over the subdomains; those of u agree.
+  /// Collective.
   void apply(const SubdomainVectors& b, SubdomainVectors& u);
 
   /// b −= B̄ᵀ λ (λ on the ghost map). Not collective.

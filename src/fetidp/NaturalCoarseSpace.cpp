@@ -72,7 +72,8 @@ NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& p
   sumOverRanks(*comm_, {gram.data(), static_cast<std::size_t>(gram.size())});
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   if (factor.info() != Eigen::Success)
-    throw Error("the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
+    throw Error(
+        "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
   cholesky_ = factor.matrixL();
 }
 
@@ -81,7 +82,7 @@ void NaturalCoarseSpace::addLocalProduct(const Vector& x, std::span<double> gx) 
   work_.setZero();
   for (const KernelEntry& entry : entries_)
     work_[entry.mode] += entry.value * values[static_cast<std::size_t>(entry.row)]; // G̃x
-  cholesky_.triangularView<Eigen::Lower>().solveInPlace(work_);                      // L⁻¹
+  cholesky_.triangularView<Eigen::Lower>().solveInPlace(work_);                     // L⁻¹
   for (std::size_t k = 0; k < gx.size(); ++k)
     gx[k] += work_[static_cast<Eigen::Index>(k)];
 }

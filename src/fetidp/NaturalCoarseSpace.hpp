@@ -1,10 +1,11 @@
 #pragma once
 
-/// Equilibrium of the floating bodies: G̃ = Rᵀ B̄ᵀ, ẽ = Rᵀ f̄, made orthonormal: G = T̃ G̃ with GGᵀ = I, e = T̃ ẽ; the
-/// projectors Q = GᵀG on Im Gᵀ and P = I − Q on Ker G; the feasible λ̃ = Gᵀe.
+/// Equilibrium of the floating bodies: G̃ = Rᵀ B̄ᵀ, ẽ = Rᵀ f̄, made orthonormal: G = T̃ G̃ with GGᵀ = I, e = T̃ ẽ;
+/// the projectors Q = GᵀG on Im Gᵀ and P = I − Q on Ker G; the feasible λ̃ = Gᵀe.
 ///
-/// The kernel R of a body satisfies the gluing, so that G̃ has entries in the rows of contact only, each touching at most two
-/// bodies: it is kept sparse, by rows of B. T̃ is the inverse of the Cholesky factor of G̃G̃ᵀ (k × k on every rank).
+/// The kernel R of a body satisfies the gluing, so that G̃ has entries in the rows of contact only, each
+/// touching at most two bodies: it is kept sparse, by rows of B. T̃ is the inverse of the Cholesky factor of
+/// G̃G̃ᵀ (k × k on every rank).
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"

@@ -10,7 +10,8 @@ namespace epafi::fetidp {
 namespace {
 
 /// Least squares on the columns of the passive set; zero elsewhere.
-Eigen::VectorXd solveOn(const std::vector<Eigen::Index>& passive, const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+Eigen::VectorXd solveOn(const std::vector<Eigen::Index>& passive, const Eigen::MatrixXd& a,
+                        const Eigen::VectorXd& b) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
   const Eigen::VectorXd values = a(Eigen::all, passive).colPivHouseholderQr().solve(b);
   for (std::size_t k = 0; k < passive.size(); ++k)

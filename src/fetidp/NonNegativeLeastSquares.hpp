@@ -7,11 +7,13 @@
 namespace epafi::fetidp {
 
 struct NonNegativeSolution {
-  Eigen::VectorXd x;        ///< n, ≥ 0
-  Eigen::VectorXd residual; ///< m, b − Ax; Aᵀ residual ≤ 0, so that it separates b from the cone of A's columns
+  Eigen::VectorXd x; ///< n, ≥ 0
+  Eigen::VectorXd
+      residual; ///< m, b − Ax; Aᵀ residual ≤ 0, so that it separates b from the cone of A's columns
 };
 
-/// \param a  m × n with few rows. Ends after a finite number of steps (each a least-squares problem of at most m columns).
+/// \param a  m × n with few rows. Ends after a finite number of steps (each a least-squares problem of at
+/// most m columns).
 NonNegativeSolution nonNegativeLeastSquares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 } // namespace epafi::fetidp

@@ -4,7 +4,8 @@
 
 namespace epafi::fetidp {
 
-ProjectedOperator::ProjectedOperator(RCP<const Operator> dualOperator, RCP<const NaturalCoarseSpace> coarseSpace)
+ProjectedOperator::ProjectedOperator(RCP<const Operator> dualOperator,
+                                     RCP<const NaturalCoarseSpace> coarseSpace)
     : dualOperator_(std::move(dualOperator)), coarseSpace_(std::move(coarseSpace)),
       projected_(dualOperator_->getDomainMap()), image_(dualOperator_->getRangeMap()) {}
 

@@ -17,8 +17,8 @@ public:
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return dualOperator_->getDomainMap(); }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return dualOperator_->getRangeMap(); }
   /// y = alpha PFP x + beta y: one product with F and two messages of k numbers. Symmetric. Collective.
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS, double alpha = 1.0,
-             double beta = 0.0) const override;
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
+             double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
 
 private:

@@ -59,9 +59,10 @@ Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, const 
   return all;
 }
 
-/// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual problem.
-void assess(const DecomposedProblem& problem, const DualSolution& dual, double operatorNorm, double largestValue,
-            ContactSolution& solution) {
+/// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
+/// problem.
+void assess(const DecomposedProblem& problem, const DualSolution& dual, double operatorNorm,
+            double largestValue, ContactSolution& solution) {
   const auto force = solution.multiplier->getData(), slack = solution.slack->getData();
   const auto gap = problem.gap->getData();
   const auto active = solution.active->getDataNonConst();
@@ -85,7 +86,9 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
   sumOverRanks(comm, sums);
   violation = maxOverRanks(comm, violation);
   const double scale = maxOverRanks(comm, std::max(largestGap, largestValue));
-  const auto relative = [](double value, double reference) { return reference > 0 ? value / reference : value; };
+  const auto relative = [](double value, double reference) {
+    return reference > 0 ? value / reference : value;
+  };
   solution.relativeProjectedGradient = relative(std::sqrt(sums[0]), dual.reference);
   solution.feasibility = relative(violation, scale);
   solution.complementarity = relative(std::abs(sums[1]), std::abs(solution.energy));
@@ -97,7 +100,8 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
 } // namespace
 
 ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& inverse,
-                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual, double operatorNorm) {
+                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual,
+                        double operatorNorm) {
   ContactSolution solution;
   solution.multiplier = rcp(new Vector(*dual.lambda, Teuchos::Copy));
   solution.slack = rcp(new Vector(problem.multiplierMap));

@@ -1,7 +1,7 @@
 #pragma once
 
-/// From λ back to the scene: u = K̄⁺(f̄ − B̄ᵀλ) + Rα, with α from the rows of the active contact constraints; and how accurate
-/// it is, computed afresh from u and λ.
+/// From λ back to the scene: u = K̄⁺(f̄ − B̄ᵀλ) + Rα, with α from the rows of the active contact constraints;
+/// and how accurate it is, computed afresh from u and λ.
 
 #include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
@@ -12,6 +12,7 @@ namespace epafi::fetidp {
 /// \param operatorNorm  ‖F‖ or ‖PFP‖, the scale between forces and gaps in the test for an active contact
 /// Collective.
 ContactSolution recover(const decomposition::DecomposedProblem& problem, GeneralizedInverse& inverse,
-                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual, double operatorNorm);
+                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual,
+                        double operatorNorm);
 
 } // namespace epafi::fetidp

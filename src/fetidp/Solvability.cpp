@@ -69,12 +69,14 @@ double loadOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
   double load = 0;
   for (const auto& body : problem.bodies)
     if (body.kernelDimension > 0)
-      load += body.loadMagnitude * motion.segment(body.kernelOffset, body.kernelDimension).lpNorm<Eigen::Infinity>();
+      load += body.loadMagnitude *
+              motion.segment(body.kernelOffset, body.kernelDimension).lpNorm<Eigen::Infinity>();
   return load;
 }
 
 [[noreturn]] void refuse(SolvabilityError::Kind kind, const std::string& text) {
-  throw SolvabilityError(kind, (kind == SolvabilityError::Kind::noSolution ? "no solution: " : "not unique: ") + text);
+  throw SolvabilityError(
+      kind, (kind == SolvabilityError::Kind::noSolution ? "no solution: " : "not unique: ") + text);
 }
 
 std::string number(double value) {
@@ -95,7 +97,8 @@ void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& d
   const Eigen::MatrixXd q = qr.householderQ();
   const Eigen::MatrixXd free = q.rightCols(k - qr.rank()); // G̃ᵀ free = 0
   Eigen::VectorXd motion = free * (free.transpose() * kernelLoad);
-  const bool isPulled = motion.norm() > 0 && std::abs(kernelLoad.dot(motion)) > resultantTolerance * loadOf(problem, motion);
+  const bool isPulled =
+      motion.norm() > 0 && std::abs(kernelLoad.dot(motion)) > resultantTolerance * loadOf(problem, motion);
   if (!isPulled)
     motion = free.col(0);
   const std::string who = bodiesOf(problem, motion);
@@ -116,7 +119,8 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
   const Eigen::MatrixXd directions = contactDirections(problem, entries);
   refuseFreeMotion(problem, directions, kernelLoad);
 
-  const Eigen::VectorXd motion = nonNegativeLeastSquares(directions, kernelLoad).residual; // allowed, and pulled along
+  const Eigen::VectorXd motion =
+      nonNegativeLeastSquares(directions, kernelLoad).residual; // allowed, and pulled along
   if (motion.norm() > 0 && kernelLoad.dot(motion) > resultantTolerance * loadOf(problem, motion))
     refuse(SolvabilityError::Kind::noSolution,
            "the load pulls " + bodiesOf(problem, motion) + " away from its contacts (resultant " +
@@ -135,7 +139,8 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
   if (load == 0 || loose.norm() > 0.1 * margin)
     refuse(SolvabilityError::Kind::notUnique,
            "the load does not press " + bodiesOf(problem, load == 0 || loose.norm() == 0 ? all : loose) +
-               " onto its contacts (zero resultant), so that it may come to rest anywhere; add a load or a support");
+               " onto its contacts (zero resultant), so that it may come to rest anywhere; add a load or a "
+               "support");
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
@@ -156,10 +161,11 @@ void requireFeasibleGaps(const DecomposedProblem& problem) {
     const auto gaps = problem.gap->getData();
     for (Teuchos_Ordinal i = 0; i < sums.size(); ++i)
       if (sums[i] == 0 && gaps[i] < 0)
-        throw SolvabilityError(SolvabilityError::Kind::noSolution,
-                               "no solution: contact row " +
-                                   std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
-                                   " joins two supported nodes that overlap by " + number(-gaps[i]));
+        throw SolvabilityError(
+            SolvabilityError::Kind::noSolution,
+            "no solution: contact row " +
+                std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
+                " joins two supported nodes that overlap by " + number(-gaps[i]));
   });
 }
 

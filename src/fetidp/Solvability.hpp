@@ -2,9 +2,9 @@
 
 /// Does the contact problem have a solution, and only one?
 ///
-/// A rigid motion α of the floating bodies that the contact allows satisfies G̃ᵀα ≤ 0. A minimiser exists if and only if
-/// ẽᵀα ≤ 0 for all of them, that is, if ẽ lies in the cone of the columns of G̃ (Farkas); it is unique if ẽ lies in the
-/// interior of that cone.
+/// A rigid motion α of the floating bodies that the contact allows satisfies G̃ᵀα ≤ 0. A minimiser exists if
+/// and only if ẽᵀα ≤ 0 for all of them, that is, if ẽ lies in the cone of the columns of G̃ (Farkas); it is
+/// unique if ẽ lies in the interior of that cone.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
@@ -24,16 +24,16 @@ inline constexpr double resultantTolerance = 1e-9;
 ///  - the load on it has no resultant against its contacts (not unique).
 /// \param entries  this rank's rows of G̃ᵀ;  \param kernelLoad  ẽ
 /// Collective.
-void requireUniqueSolution(const decomposition::DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
-                           const Eigen::VectorXd& kernelLoad);
+void requireUniqueSolution(const decomposition::DecomposedProblem& problem,
+                           const std::vector<KernelEntry>& entries, const Eigen::VectorXd& kernelLoad);
 
-/// What can be said before any load is known: throws SolvabilityError (not unique) if a rigid motion of the floating bodies
-/// meets no contact at all. Collective.
+/// What can be said before any load is known: throws SolvabilityError (not unique) if a rigid motion of the
+/// floating bodies meets no contact at all. Collective.
 void requireContactForEveryMotion(const decomposition::DecomposedProblem& problem,
                                   const std::vector<KernelEntry>& entries);
 
-/// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap contradict
-/// each other. Collective.
+/// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap
+/// contradict each other. Collective.
 void requireFeasibleGaps(const decomposition::DecomposedProblem& problem);
 
 } // namespace epafi::fetidp

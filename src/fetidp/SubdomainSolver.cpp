@@ -8,7 +8,8 @@ namespace {
 using decomposition::SparseMatrix;
 
 /// The block of a sparse matrix with the given rows and columns; both lists ascending.
-SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows, const std::vector<int>& columns) {
+SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
+                   const std::vector<int>& columns) {
   std::vector<int> position(static_cast<std::size_t>(matrix.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i)
     position[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
@@ -78,10 +79,11 @@ void SubdomainSolver::condense() {
   for (const Entry& entry : remainderConstraint_)
     coupling_.row(entry.row) -= entry.coefficient * psi.row(entry.column);
 
-  schurComplement_ = Eigen::MatrixXd(block(subdomain_->stiffness, subdomain_->crosspointUnknowns,
-                                           subdomain_->crosspointUnknowns));
+  schurComplement_ = Eigen::MatrixXd(
+      block(subdomain_->stiffness, subdomain_->crosspointUnknowns, subdomain_->crosspointUnknowns));
   schurComplement_ -= remainderToCrosspoint_.transpose() * psi;
-  schurComplement_ = (0.5 * (schurComplement_ + schurComplement_.transpose())).eval(); // symmetric to the last digit
+  schurComplement_ =
+      (0.5 * (schurComplement_ + schurComplement_.transpose())).eval(); // symmetric to the last digit
 }
 
 void SubdomainSolver::applyFlexibility(std::span<const double> lambda, std::span<double> result,
@@ -150,6 +152,8 @@ void SubdomainSolver::addConstraint(const Eigen::VectorXd& u, std::span<double> 
     result[static_cast<std::size_t>(entry.multiplier)] += entry.coefficient * u[entry.unknown];
 }
 
-std::size_t SubdomainSolver::factorBytes() const { return factor_->bytes(); }
+std::size_t SubdomainSolver::factorBytes() const {
+  return factor_->bytes();
+}
 
 } // namespace epafi::fetidp

@@ -4,8 +4,8 @@
 ///
 /// With the unknowns split in remainder (r) and crosspoints (c), B = [B_r B_c] and
 ///   W = B_c − B_r K_rr⁻¹ K_rc,   S = K_cc − K_cr K_rr⁻¹ K_rc,
-/// the dual operator is F = Σ B_r K_rr⁻¹ B_rᵀ + (Σ W L_c) S_cc⁺ (Σ W L_c)ᵀ with S_cc = Σ L_cᵀ S L_c: one sparse solve a
-/// subdomain and product.
+/// the dual operator is F = Σ B_r K_rr⁻¹ B_rᵀ + (Σ W L_c) S_cc⁺ (Σ W L_c)ᵀ with S_cc = Σ L_cᵀ S L_c: one
+/// sparse solve a subdomain and product.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/direct/SpdFactor.hpp"
@@ -22,14 +22,16 @@ namespace epafi::fetidp {
 /// Numbers of a subdomain: n_r remainder and n_c crosspoint unknowns, n_b multipliers that touch it.
 class SubdomainSolver {
 public:
-  /// Factorises K_rr by `directSolver` and computes W and S. Keeps a reference to `subdomain`, which must outlive it.
-  /// Not collective. \throws Error if the factorisation fails.
+  /// Factorises K_rr by `directSolver` and computes W and S. Keeps a reference to `subdomain`, which must
+  /// outlive it. Not collective. \throws Error if the factorisation fails.
   SubdomainSolver(const decomposition::Subdomain& subdomain, const std::string& directSolver);
 
   /// S, n_c × n_c, symmetric positive semidefinite.
   [[nodiscard]] const Eigen::MatrixXd& schurComplement() const { return schurComplement_; }
   /// Global coarse index of each crosspoint unknown.
-  [[nodiscard]] std::span<const GlobalOrdinal> crosspointIndices() const { return subdomain_->crosspointIndices; }
+  [[nodiscard]] std::span<const GlobalOrdinal> crosspointIndices() const {
+    return subdomain_->crosspointIndices;
+  }
 
   /// result += B_r K_rr⁻¹ B_rᵀ λ and coarse += L_cᵀ Wᵀ λ.
   /// \param lambda, result  this rank's multipliers (ghost map)
@@ -60,12 +62,12 @@ private:
   void condense();
 
   const decomposition::Subdomain* subdomain_;
-  std::unique_ptr<direct::SpdFactor> factor_; ///< K_rr
+  std::unique_ptr<direct::SpdFactor> factor_;         ///< K_rr
   decomposition::SparseMatrix remainderToCrosspoint_; ///< K_rc, n_r × n_c
-  std::vector<int> multipliers_;              ///< the n_b multipliers, as indices of the ghost map
-  std::vector<Entry> remainderConstraint_;    ///< B_r
-  Eigen::MatrixXd coupling_;                  ///< W, n_b × n_c
-  Eigen::MatrixXd schurComplement_;           ///< S
+  std::vector<int> multipliers_;                      ///< the n_b multipliers, as indices of the ghost map
+  std::vector<Entry> remainderConstraint_;            ///< B_r
+  Eigen::MatrixXd coupling_;                          ///< W, n_b × n_c
+  Eigen::MatrixXd schurComplement_;                   ///< S
   Eigen::VectorXd remainder_, solution_, local_, localCoarse_; ///< work: n_r, n_r, n_b, n_c
 };
 

@@ -8,7 +8,8 @@
 
 namespace epafi::fetidp {
 
-/// The operator as Thyra::LinearOpBase; shares it. Domain and range are vector spaces on the operator's maps. Collective.
+/// The operator as Thyra::LinearOpBase; shares it. Domain and range are vector spaces on the operator's maps.
+/// Collective.
 RCP<const Thyra::LinearOpBase<double>> asThyra(const RCP<const Operator>& tpetraOperator);
 
 } // namespace epafi::fetidp

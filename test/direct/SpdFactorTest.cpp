@@ -1,5 +1,5 @@
-#include "epafi/base/Errors.hpp"
 #include "epafi/direct/SpdFactor.hpp"
+#include "epafi/base/Errors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,12 +9,12 @@ namespace {
 using namespace epafi;
 using qp::Status;
 
-qp::SolveReport solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance,
-                      int limit = 1000) {
+qp::SolveReport solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+                      double tolerance, int limit = 1000) {
   const auto map = test::linearMap(static_cast<int>(b.size()));
   const RCP<Vector> solution = test::makeVector(map, x);
-  const auto report =
-      qp::solveUnconstrained(rcp(new test::DenseOperator(map, a)), test::makeVector(map, b), solution, tolerance, limit);
+  const auto report = qp::solveUnconstrained(rcp(new test::DenseOperator(map, a)), test::makeVector(map, b),
+                                             solution, tolerance, limit);
   x = test::gather(*solution);
   return report;
 }
@@ -56,13 +56,15 @@ TEST(ConjugateGradientTest, SaysThatTheLimitWasReached) {
 TEST(ConjugateGradientTest, NamesAnIndefiniteOperator) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
 
-  EXPECT_EQ(solve(-Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 2, 3), x, 1e-9).status, Status::indefiniteOperator);
+  EXPECT_EQ(solve(-Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 2, 3), x, 1e-9).status,
+            Status::indefiniteOperator);
 }
 
 TEST(ConjugateGradientTest, KeepsTheStartWhenTheOperatorReturnsNan) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
 
-  EXPECT_EQ(solve(Eigen::Matrix3d::Constant(std::nan("")), Eigen::Vector3d(1, 2, 3), x, 1e-9).status, Status::notFinite);
+  EXPECT_EQ(solve(Eigen::Matrix3d::Constant(std::nan("")), Eigen::Vector3d(1, 2, 3), x, 1e-9).status,
+            Status::notFinite);
   EXPECT_TRUE(x.allFinite());
 }
 

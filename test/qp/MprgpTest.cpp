@@ -35,7 +35,8 @@ Answer solve(const Problem& problem, double tolerance = 1e-10, double norm = 1.0
   const auto a = rcp(new test::DenseOperator(map, problem.a));
   const Bounds bounds(test::makeVector(map, problem.lower), test::makeVector(map, problem.upper));
   const auto x = start.size() > 0 ? test::makeVector(map, start) : rcp(new Vector(map));
-  const auto report = qp::solveBoundProblem(a, *test::makeVector(map, problem.b), bounds, *x, tolerance, {}, norm, observer);
+  const auto report =
+      qp::solveBoundProblem(a, *test::makeVector(map, problem.b), bounds, *x, tolerance, {}, norm, observer);
   return {test::gather(*x), report, a->applications};
 }
 
@@ -58,7 +59,8 @@ double projectedGradient(const Problem& problem, const Eigen::VectorXd& x) {
 Problem randomProblem(int n, double condition, std::mt19937& random) {
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<int> kind(0, 4);
-  Problem problem{test::randomSpd(n, condition, random), Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  Problem problem{test::randomSpd(n, condition, random), Eigen::VectorXd(n), Eigen::VectorXd(n),
+                  Eigen::VectorXd(n)};
   for (int i = 0; i < n; ++i) {
     problem.b[i] = normal(random);
     const double centre = normal(random);
@@ -105,7 +107,8 @@ TEST(MprgpTest, AgreesWithEnumerationOfActiveSets) {
     problem.lower.setConstant(-0.1);
     double best = infinity;
     Eigen::VectorXd oracle;
-    for (int set = 0; set < (1 << n); ++set) { // free entries solve their equations, the others sit at the bound
+    for (int set = 0; set < (1 << n);
+         ++set) { // free entries solve their equations, the others sit at the bound
       Eigen::VectorXd x = problem.lower;
       std::vector<int> free;
       for (int i = 0; i < n; ++i)
@@ -154,7 +157,8 @@ TEST(MprgpTest, IsConjugateGradientsWithoutBounds) {
   EXPECT_EQ(answer.report.counts.expansion, 0);
   EXPECT_EQ(answer.report.counts.proportioning, 0);
   for (std::size_t k = 0; k < residuals.size(); ++k)
-    EXPECT_NEAR(answer.report.history[k].projectedGradient, residuals[k], 1e-9 * residuals[k] + 1e-13) << "step " << k;
+    EXPECT_NEAR(answer.report.history[k].projectedGradient, residuals[k], 1e-9 * residuals[k] + 1e-13)
+        << "step " << k;
 }
 
 TEST(MprgpTest, CountsEveryProductAndEveryStep) {
@@ -249,8 +253,8 @@ TEST(MprgpTest, AllActiveAndNoneActiveAndZeroLoad) {
 }
 
 TEST(MprgpTest, NamesAnIndefiniteOperator) {
-  Problem problem{Eigen::Vector3d(1, -1, 1).asDiagonal(), Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::Constant(-infinity),
-                  Eigen::Vector3d::Constant(infinity)};
+  Problem problem{Eigen::Vector3d(1, -1, 1).asDiagonal(), Eigen::Vector3d(1, 1, 1),
+                  Eigen::Vector3d::Constant(-infinity), Eigen::Vector3d::Constant(infinity)};
   problem.a(1, 1) = -5;
 
   EXPECT_EQ(solve(problem).report.status, Status::indefiniteOperator);
@@ -275,8 +279,9 @@ TEST(MprgpTest, StopsAtTheLimitOfProducts) {
   qp::MprgpParameters parameters;
   parameters.maxMultiplications = 5;
 
-  const auto report = qp::solveBoundProblem(rcp(new test::DenseOperator(map, problem.a)), *test::makeVector(map, problem.b),
-                                            bounds, x, 1e-12, parameters, 1.0);
+  const auto report =
+      qp::solveBoundProblem(rcp(new test::DenseOperator(map, problem.a)), *test::makeVector(map, problem.b),
+                            bounds, x, 1e-12, parameters, 1.0);
 
   EXPECT_EQ(report.status, Status::maxIterations);
   EXPECT_LE(report.counts.hessianMultiplications, 7);
@@ -302,23 +307,24 @@ TEST(MprgpTest, LeavesBoundsAndRightHandSideAlone) {
   const auto upper = test::makeVector(map, problem.upper);
   Vector x(map);
 
-  qp::solveBoundProblem(rcp(new test::DenseOperator(map, problem.a)), *b, Bounds(lower, upper), x, 1e-10, {}, 1.0);
+  qp::solveBoundProblem(rcp(new test::DenseOperator(map, problem.a)), *b, Bounds(lower, upper), x, 1e-10, {},
+                        1.0);
 
   EXPECT_EQ(test::gather(*b), problem.b);
   EXPECT_EQ(test::gather(*lower), problem.lower);
   EXPECT_EQ(test::gather(*upper), problem.upper);
 }
 
-/// A string over a flat obstacle: −u'' = −f on (0, L), u = 0 at both ends, u ≥ −d. Touches where fL²/8 > d; with
-/// s = √(2d/f): u = fx²/2 − fsx on [0, s], −d between.
+/// A string over a flat obstacle: −u'' = −f on (0, L), u = 0 at both ends, u ≥ −d. Touches where fL²/8 > d;
+/// with s = √(2d/f): u = fx²/2 − fsx on [0, s], −d between.
 TEST(MprgpTest, StringOverAnObstacleConvergesToTheClosedForm) {
   const double f = 10, d = 0.5, length = 1, s = std::sqrt(2 * d / f);
   std::vector<double> errors;
   for (const int elements : {20, 40, 80, 160}) {
     const int n = elements - 1;
     const double h = length / elements;
-    Problem problem{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Constant(n, -f * h), Eigen::VectorXd::Constant(n, -d),
-                    Eigen::VectorXd::Constant(n, infinity)};
+    Problem problem{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Constant(n, -f * h),
+                    Eigen::VectorXd::Constant(n, -d), Eigen::VectorXd::Constant(n, infinity)};
     for (int i = 0; i < n; ++i) {
       problem.a(i, i) = 2 / h;
       if (i > 0)
@@ -334,7 +340,8 @@ TEST(MprgpTest, StringOverAnObstacleConvergesToTheClosedForm) {
     errors.push_back(error);
   }
   EXPECT_LE(errors.back(), 2e-4);
-  EXPECT_GE(errors.front() / errors.back(), 16) << "second order, up to where the contact's end falls in its element";
+  EXPECT_GE(errors.front() / errors.back(), 16)
+      << "second order, up to where the contact's end falls in its element";
 }
 
 } // namespace

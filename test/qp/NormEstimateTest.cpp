@@ -43,7 +43,8 @@ TEST_P(NormEstimateTest, ScalesWithTheOperator) {
   const double unit = qp::estimateNorm(test::DenseOperator(map, matrix), parameters()).norm;
 
   for (const double factor : {1e-9, 1e9})
-    EXPECT_NEAR(qp::estimateNorm(test::DenseOperator(map, factor * matrix), parameters()).norm / factor, unit, 1e-10);
+    EXPECT_NEAR(qp::estimateNorm(test::DenseOperator(map, factor * matrix), parameters()).norm / factor, unit,
+                1e-10);
 }
 
 TEST_P(NormEstimateTest, IsZeroForTheZeroOperator) {
@@ -60,7 +61,8 @@ TEST_P(NormEstimateTest, ThrowsWhenTheOperatorReturnsNan) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, NormEstimateTest,
-                         testing::Values(NormEstimateParameters::Method::lanczos, NormEstimateParameters::Method::power),
+                         testing::Values(NormEstimateParameters::Method::lanczos,
+                                         NormEstimateParameters::Method::power),
                          [](const auto& info) {
                            return info.param == NormEstimateParameters::Method::lanczos ? "lanczos" : "power";
                          });

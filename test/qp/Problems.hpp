@@ -21,7 +21,9 @@
 namespace epafi::test {
 
 /// n entries, spread as evenly as Tpetra does; some ranks own none if n is small.
-inline RCP<const Map> linearMap(int n) { return rcp(new Map(static_cast<std::size_t>(n), 0, Tpetra::getDefaultComm())); }
+inline RCP<const Map> linearMap(int n) {
+  return rcp(new Map(static_cast<std::size_t>(n), 0, Tpetra::getDefaultComm()));
+}
 
 /// Entry i is values(i).
 inline RCP<Vector> makeVector(const RCP<const Map>& map, const std::function<double(int)>& values) {
@@ -43,17 +45,20 @@ inline Eigen::VectorXd gather(const Vector& x) {
   const auto values = qp::localData(x);
   for (std::size_t i = 0; i < values.size(); ++i)
     mine[static_cast<Eigen::Index>(x.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)))] = values[i];
-  Teuchos::reduceAll(*x.getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(n), mine.data(), all.data());
+  Teuchos::reduceAll(*x.getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(n), mine.data(),
+                     all.data());
   return all;
 }
 
 /// A dense matrix, known on every rank, as an operator.
 class DenseOperator final : public Operator {
 public:
-  DenseOperator(RCP<const Map> map, Eigen::MatrixXd matrix) : map_(std::move(map)), matrix_(std::move(matrix)) {}
+  DenseOperator(RCP<const Map> map, Eigen::MatrixXd matrix)
+      : map_(std::move(map)), matrix_(std::move(matrix)) {}
   RCP<const Map> getDomainMap() const override { return map_; }
   RCP<const Map> getRangeMap() const override { return map_; }
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double alpha, double beta) const override {
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, double alpha,
+             double beta) const override {
     for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
       const Eigen::VectorXd image = matrix_ * gather(*x.getVector(column));
       y.getVectorNonConst(column)->update(alpha, *makeVector(map_, image), beta);

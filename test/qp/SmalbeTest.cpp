@@ -23,15 +23,16 @@ struct Answer {
   qp::SolveReport report;
 };
 
-Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameters& parameters = {}, double norm = 1.0) {
+Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameters& parameters = {},
+             double norm = 1.0) {
   const auto map = test::linearMap(static_cast<int>(problem.b.size()));
   const RCP<const qp::EqualityConstraint> g = rcp(new test::DenseEquality(map, problem.g));
   const qp::Bounds bounds(test::makeVector(map, problem.lower));
   Vector x(map);
   const qp::SmalbeTolerances tolerances{tolerance, problem.b.norm(), tolerance, 1.0};
   const auto report = qp::solveEqualityBoundProblem(rcp(new test::DenseOperator(map, problem.a)), g,
-                                                    *test::makeVector(map, problem.b), bounds, x, tolerances, parameters,
-                                                    {}, norm);
+                                                    *test::makeVector(map, problem.b), bounds, x, tolerances,
+                                                    parameters, {}, norm);
   return {test::gather(x), report};
 }
 
@@ -67,8 +68,8 @@ double projectedGradient(const Problem& problem, const Eigen::VectorXd& x) {
 
 TEST(SmalbeTest, SolvesTwoUnknownsByHand) {
   // min ½(x² + y²) − 3x − y over x + y = 0 (as an orthonormal row), x ≥ −∞, y ≥ −0.5: y = −0.5, x = 0.5.
-  Problem problem{Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Constant(1, 2, 1 / std::sqrt(2.0)), Eigen::Vector2d(3, 1),
-                  Eigen::Vector2d(-infinity, -0.5)};
+  Problem problem{Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Constant(1, 2, 1 / std::sqrt(2.0)),
+                  Eigen::Vector2d(3, 1), Eigen::Vector2d(-infinity, -0.5)};
 
   const Answer answer = solve(problem, 1e-10);
 
@@ -117,7 +118,8 @@ TEST(SmalbeTest, PenaltyAndBalanceOverManyOrdersGiveTheSameAnswer) {
       const Answer answer = solve(problem, 1e-10, parameters);
 
       EXPECT_EQ(answer.report.status, Status::converged) << "ρ " << penalty << ", M " << balance;
-      EXPECT_LE((answer.x - reference.x).norm(), 1e-6 * reference.x.norm()) << "ρ " << penalty << ", M " << balance;
+      EXPECT_LE((answer.x - reference.x).norm(), 1e-6 * reference.x.norm())
+          << "ρ " << penalty << ", M " << balance;
     }
 }
 
