@@ -67,7 +67,7 @@ TEST_P(SpdFactorTest, TakesAMatrixWithoutRows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllSolvers, SpdFactorTest, testing::ValuesIn(direct::availableSolvers()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& solver) { return solver.param; });
 
 TEST(SpdFactorNames, RefusesAnUnknownSolverAndListsTheKnownOnes) {
   try {

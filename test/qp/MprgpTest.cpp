@@ -98,41 +98,43 @@ TEST(MprgpTest, EndsWithAKktPointOnRandomProblemsWithMixedBounds) {
   }
 }
 
+/// The solution of a problem with lower bounds only, found by trying all active sets.
+Eigen::VectorXd enumerateActiveSets(const Problem& problem) {
+  const auto n = problem.b.size();
+  double best = infinity;
+  Eigen::VectorXd solution;
+  for (unsigned set = 0; set < (1U << n); ++set) {
+    Eigen::MatrixXd a = problem.a;
+    Eigen::VectorXd b = problem.b;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if ((set >> i & 1U) != 0) { // held at its bound; the others solve their equations
+        a.row(i).setZero();
+        a(i, i) = 1;
+        b[i] = problem.lower[i];
+      }
+    const Eigen::VectorXd x = a.partialPivLu().solve(b);
+    const double value = 0.5 * x.dot(problem.a * x) - problem.b.dot(x);
+    if ((x.array() >= problem.lower.array() - 1e-12).all() && value < best) {
+      best = value;
+      solution = x;
+    }
+  }
+  return solution;
+}
+
 TEST(MprgpTest, AgreesWithEnumerationOfActiveSets) {
   std::mt19937 random(11);
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const int n = 1 + repeat % 7;
-    Problem problem = randomProblem(n, 10, random);
+    Problem problem = randomProblem(1 + repeat % 7, 10, random);
     problem.upper.setConstant(infinity);
     problem.lower.setConstant(-0.1);
-    double best = infinity;
-    Eigen::VectorXd oracle;
-    for (int set = 0; set < (1 << n);
-         ++set) { // free entries solve their equations, the others sit at the bound
-      Eigen::VectorXd x = problem.lower;
-      std::vector<int> free;
-      for (int i = 0; i < n; ++i)
-        if ((set >> i & 1) != 0)
-          free.push_back(i);
-      const Eigen::VectorXd rhs = problem.b - problem.a * [&] {
-        Eigen::VectorXd held = problem.lower;
-        for (const int i : free)
-          held[i] = 0;
-        return held;
-      }();
-      const Eigen::VectorXd values = problem.a(free, free).llt().solve(rhs(free));
-      x(free) = values;
-      const double value = 0.5 * x.dot(problem.a * x) - problem.b.dot(x);
-      if ((x.array() >= problem.lower.array() - 1e-12).all() && value < best) {
-        best = value;
-        oracle = x;
-      }
-    }
+    const Eigen::VectorXd oracle = enumerateActiveSets(problem);
 
     const Answer answer = solve(problem, 1e-12);
 
     EXPECT_LE((answer.x - oracle).norm(), 1e-9) << repeat;
-    EXPECT_NEAR(answer.report.objective, best, 1e-11 * (1 + std::abs(best)));
+    const double value = 0.5 * oracle.dot(problem.a * oracle) - problem.b.dot(oracle);
+    EXPECT_NEAR(answer.report.objective, value, 1e-11 * (1 + std::abs(value)));
   }
 }
 

@@ -63,8 +63,9 @@ TEST_P(NormEstimateTest, ThrowsWhenTheOperatorReturnsNan) {
 INSTANTIATE_TEST_SUITE_P(Methods, NormEstimateTest,
                          testing::Values(NormEstimateParameters::Method::lanczos,
                                          NormEstimateParameters::Method::power),
-                         [](const auto& info) {
-                           return info.param == NormEstimateParameters::Method::lanczos ? "lanczos" : "power";
+                         [](const auto& method) {
+                           return method.param == NormEstimateParameters::Method::lanczos ? "lanczos"
+                                                                                          : "power";
                          });
 
 } // namespace
