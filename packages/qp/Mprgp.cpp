@@ -86,8 +86,8 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
       return Status::maxIterations;
 
     if (!isProportional()) {
-      if (!proportioningStep(rule))
-        return Status::indefiniteOperator;
+      if (const Status status = proportioningStep(rule); status != Status::converged)
+        return status;
       record(rule, StepKind::proportioning, observer);
       continue;
     }
@@ -137,19 +137,21 @@ void Mprgp::expansionStep(const StepSizes& sizes, StoppingRule& rule) {
   setDirectionToFreeGradient(0.0); // p = φ
 }
 
-bool Mprgp::proportioningStep(StoppingRule& rule) {
+/// Returns converged if the step could be made.
+Status Mprgp::proportioningStep(StoppingRule& rule) {
   ++counts_.proportioning;
   setDirectionToChoppedGradient(); // p = β
   applyHessian(p_, ap_);
   const StepSizes sizes = stepSizes();
-  const bool bounded = std::isfinite(sizes.feasible);
-  if (!(sizes.curvature > 0) && !bounded)
-    return false;
+  if (!std::isfinite(sizes.curvature))
+    return Status::notFinite;
+  if (sizes.curvature <= 0 && !std::isfinite(sizes.feasible))
+    return Status::indefiniteOperator;
   const double exact = sizes.curvature > 0 ? sizes.slope / sizes.curvature : sizes.feasible;
   move(std::min(exact, sizes.feasible), sizes);
   measure(rule);
   setDirectionToFreeGradient(0.0); // p = φ
-  return true;
+  return Status::converged;
 }
 
 void Mprgp::applyHessian(const Vector& x, Vector& ax) {

@@ -94,7 +94,7 @@ private:
   [[nodiscard]] bool isProportional() const;
   void conjugateGradientStep(const StepSizes& sizes, StoppingRule& rule);
   void expansionStep(const StepSizes& sizes, StoppingRule& rule);
-  bool proportioningStep(StoppingRule& rule);
+  Status proportioningStep(StoppingRule& rule);
   void move(double step, const StepSizes& sizes);
   void storeHalfStep();
   double projectHalfStep();

@@ -78,7 +78,7 @@ NormEstimate lanczos(const Operator& a, const NormEstimateParameters& parameters
     const RitzPair ritz = largestRitzPair(diagonal, offDiagonal);
     const double residual = beta * std::abs(ritz.lastComponent); // ‖A y − θ y‖ of the Ritz vector y
     estimate.lowerBound = std::max(ritz.value, 0.0);
-    estimate.norm = estimate.lowerBound + residual;
+    estimate.norm = std::max(estimate.lowerBound + residual, parameters.safety * estimate.lowerBound);
     if (residual <= parameters.accuracy * estimate.lowerBound || beta <= 1e-14 * estimate.norm)
       break;
     offDiagonal.push_back(beta);
@@ -121,8 +121,11 @@ Teuchos::ParameterList NormEstimateParameters::validParameters() {
   addInteger(list, "Maximum Iterations", defaults.maxIterations, "Products with the operator at most.", 1);
   addReal(list, "Accuracy", defaults.accuracy, "Relative distance of the bound at which the estimate stops.",
           0.0, 1.0, true);
-  addReal(list, "Safety", defaults.safety,
-          "Factor on the power method's value, which approaches the norm from below.", 1.0, 100.0);
+  addReal(
+      list, "Safety", defaults.safety,
+      "The estimate is at least this factor times the largest Rayleigh quotient seen, which approaches the "
+      "norm from below.",
+      1.0, 100.0);
   return list;
 }
 

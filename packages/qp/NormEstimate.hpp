@@ -15,7 +15,7 @@ struct NormEstimateParameters {
   Method method = Method::lanczos;
   int maxIterations = 30; ///< products with A at most
   double accuracy = 0.02; ///< stop when the bound is this close (relative)
-  double safety = 1.05;   ///< factor on a power method's value, which approaches ‖A‖ from below
+  double safety = 1.05;   ///< the estimate is at least this times the largest Rayleigh quotient
 
   static Teuchos::ParameterList validParameters();
   /// From a validated list.
@@ -28,9 +28,11 @@ struct NormEstimate {
   int multiplications = 0; ///< products with A
 };
 
-/// Lanczos: largest Ritz value θ plus the residual norm of its Ritz vector, so that an eigenvalue lies within
-/// the bound; stops when that bound is within `accuracy` of θ. Power method: last Rayleigh quotient times
-/// `safety`. The start vector depends on global indices alone, so that every number of ranks gives the same
+/// Lanczos: largest Ritz value θ plus the residual norm r of its Ritz vector, but at least `safety` · θ: an
+/// eigenvalue lies within r of θ, yet it need not be the largest one. Stops when r ≤ `accuracy` · θ. Power
+/// method: `safety` times the last Rayleigh quotient. No estimate from a few products is certain; MPRGP finds
+/// out and halves its step where one was too small. The start vector depends on global indices alone, so that
+/// every number of ranks gives the same
 /// estimate. Precondition: A symmetric positive semidefinite on its domain map. Memory: three vectors.
 /// Collective. \throws Error if A returns NaN or infinity.
 NormEstimate estimateNorm(const Operator& a, const NormEstimateParameters& parameters);
