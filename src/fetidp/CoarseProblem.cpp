@@ -6,7 +6,6 @@
 #include <Eigen/QR>
 #include <Tpetra_Map.hpp>
 
-#include <set>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -99,6 +98,31 @@ std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, cons
   return fixed;
 }
 
+/// Diagonal of K̄_cc, before anything is eliminated: the yardstick for round-off in S_cc, which vanishes where
+/// a lone subdomain floats.
+Eigen::VectorXd crosspointStiffness(const DecomposedProblem& problem, int size) {
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(size);
+  for (const auto& subdomain : problem.subdomains)
+    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i) {
+      const int unknown = subdomain.crosspointUnknowns[i];
+      diagonal[static_cast<Eigen::Index>(subdomain.crosspointIndices[i])] +=
+          subdomain.stiffness.coeff(unknown, unknown);
+    }
+  sumOverRanks(*problem.comm, {diagonal.data(), static_cast<std::size_t>(size)});
+  return diagonal;
+}
+
+/// Throws unless S_cc R_c = 0 to round-off, row by row. Not collective; the same on all ranks.
+void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const Eigen::VectorXd& stiffness) {
+  const Eigen::MatrixXd forces = matrix * kernel.modes;
+  const double largest = kernel.modes.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < forces.rows(); ++i)
+    if (!(forces.row(i).lpNorm<Eigen::Infinity>() <= 1e-8 * stiffness[i] * largest)) // also NaN
+      throw Error(
+          "the rigid modes of the floating bodies are no kernel of the coarse problem; check stiffness and "
+          "kernel");
+}
+
 } // namespace
 
 CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainSolver> subdomains,
@@ -108,16 +132,12 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   SparseMatrix matrix = assemble(*comm_, size_, subdomains);
   if (problem.kernelDimension > 0) {
     const CoarseKernel kernel = gatherKernel(problem, size_);
-    const double scale = matrix.norm();
-    if ((matrix * kernel.modes).norm() > 1e-8 * scale * kernel.modes.norm())
-      throw Error(
-          "the kernel of the floating bodies is not a kernel of the coarse problem; check the rigid modes");
+    const Eigen::VectorXd stiffness = crosspointStiffness(problem, size_);
+    requireKernel(matrix, kernel, stiffness);
     for (std::size_t body = 0; body < problem.bodies.size(); ++body)
       if (problem.bodies[body].kernelDimension > 0)
-        for (const int unknown : fixingUnknowns(problem.bodies[body], static_cast<int>(body), kernel)) {
-          const double diagonal = matrix.coeff(unknown, unknown);
-          matrix.coeffRef(unknown, unknown) += diagonal > 0 ? diagonal : 1.0; // τ; a lone subdomain has S = 0
-        }
+        for (const int unknown : fixingUnknowns(problem.bodies[body], static_cast<int>(body), kernel))
+          matrix.coeffRef(unknown, unknown) += stiffness[unknown]; // τ
   }
   matrix.makeCompressed();
   factor_ = direct::factorize(matrix, directSolver, "the coarse problem");
