@@ -16,6 +16,16 @@ def spans(arclength, active):
     return [(left[a], right[b]) for a, b in zip(starts, ends)]
 
 
+def show_noise_as_zero(axes, pair, run):
+    """Where the contact is closed all along, the gap is what the solver's tolerance leaves: draw it on the scale of u."""
+    least = 0.01 * max(float(numpy.abs(body.u).max()) for body in run.bodies)
+    largest = float(numpy.abs(pair.gap).max())
+    if largest < least:
+        axes.set_ylim(-least, least)
+        axes.text(0.98, 0.92, f"largest |c − Bu| = {largest:.1e}", transform=axes.transAxes, ha="right", va="top",
+                  fontsize=10, color="#555555")
+
+
 def figure(run, pair):
     s = pair.arclength()
     closed = spans(s, pair.active) if len(s) > 1 else []
@@ -31,6 +41,7 @@ def figure(run, pair):
         gap.plot(s, pair.initial_gap, color=style.GREY, linewidth=1.2, linestyle="--", label="initial gap")
         gap.legend(loc="best")
     gap.set_ylabel("gap c − Bu [length]")
+    show_noise_as_zero(gap, pair, run)
 
     multiplier.axhline(0, color=style.GREY, linewidth=0.8)
     multiplier.plot(s, pair.multiplier, color=style.VERMILLION, linewidth=1.6, clip_on=False, **dots)

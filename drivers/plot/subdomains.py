@@ -6,6 +6,7 @@ import numpy
 from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.transforms import ScaledTranslation
 
 from . import style
 
@@ -123,4 +124,5 @@ def legend(picture, axes, run, crosspoints):
         handles.append(Line2D([], [], color=style.BLACK, marker="o", markersize=5, linestyle="none", label="crosspoint"))
     if run.contacts:
         handles.append(Line2D([], [], color=style.VERMILLION, linewidth=3.4, label="contact line"))
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=len(handles))
+    below = axes.transAxes + ScaledTranslation(0, -0.55, picture.dpi_scale_trans)  # clear of the label, however flat the axes
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=below, ncol=len(handles))

@@ -1,0 +1,51 @@
+#include "WholeRun.hpp"
+
+#include "epafi/scene/ModelProblem.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace epafi;
+
+/// All ranks together, and each rank for itself.
+void expectTheAnswerOfOneRank(const scene::Scene& scene) {
+  const drivers::SceneRun alone = test::solve(scene, 1e-12, test::thisRankOnly());
+
+  const drivers::SceneRun together = test::solve(scene, 1e-12);
+
+  EXPECT_EQ(together.solver->report().status, qp::Status::converged);
+  for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {
+    const Eigen::VectorXd expected = test::deflection(alone, body);
+    EXPECT_LE((test::deflection(together, body) - expected).lpNorm<Eigen::Infinity>(),
+              1e-10 * expected.lpNorm<Eigen::Infinity>())
+        << scene.bodies[static_cast<std::size_t>(body)].name;
+  }
+  const qp::StepCounts &here = together.solver->report().counts, &there = alone.solver->report().counts;
+  EXPECT_NEAR(here.conjugateGradient, there.conjugateGradient, 1);
+  EXPECT_NEAR(here.expansion, there.expansion, 1);
+  EXPECT_NEAR(here.proportioning, there.proportioning, 1);
+  EXPECT_EQ(here.outer, there.outer);
+}
+
+TEST(RanksTest, CoerciveMembranesAreTheSame) {
+  expectTheAnswerOfOneRank(scene::modelProblem(true, 4, 32));
+  expectTheAnswerOfOneRank(scene::modelProblem(true, 8, 64));
+}
+
+TEST(RanksTest, SemicoerciveMembranesAreTheSame) {
+  expectTheAnswerOfOneRank(scene::modelProblem(false, 4, 32));
+  expectTheAnswerOfOneRank(scene::modelProblem(false, 8, 64));
+}
+
+TEST(RanksTest, MetisPartsAreTheSame) {
+  expectTheAnswerOfOneRank(test::cutByMetis(scene::modelProblem(true, 1, 32), 7));
+  expectTheAnswerOfOneRank(test::cutByMetis(scene::modelProblem(false, 1, 32), 7));
+}
+
+TEST(RanksTest, OneSubdomainABodyIsFewerThanTheRanksAndTheSame) {
+  expectTheAnswerOfOneRank(scene::modelProblem(true, 1, 16));
+  expectTheAnswerOfOneRank(scene::modelProblem(false, 1, 16));
+}
+
+} // namespace
