@@ -2,7 +2,7 @@
 
 namespace epafi::qp {
 
-bool RelativeGradientRule::isSatisfied(double projectedGradient, std::span<const double> /*sums*/) {
+bool RelativeGradientRule::isSatisfied(double projectedGradient, std::span<const AccurateSum> /*sums*/) {
   return projectedGradient <= tolerance_ * reference_;
 }
 
@@ -34,7 +34,7 @@ SolveReport solveBoundProblem(const RCP<const Operator>& a, const Vector& b, con
   bounds.check(*b.getMap()->getComm());
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
-  const double reference = b.norm2();
+  const double reference = accurateNorm(b);
   RelativeGradientRule rule(tolerance, reference);
   Mprgp solver(a, bounds, parameters, operatorNorm);
   solver.start(b, x);

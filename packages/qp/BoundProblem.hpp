@@ -10,7 +10,7 @@ namespace epafi::qp {
 class RelativeGradientRule final : public StoppingRule {
 public:
   RelativeGradientRule(double tolerance, double reference) : tolerance_(tolerance), reference_(reference) {}
-  bool isSatisfied(double projectedGradient, std::span<const double> sums) override;
+  bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override;
   void describe(StepRecord& record) const override;
 
 private:

@@ -1,7 +1,5 @@
 #include "epafi/qp/EqualityRestoration.hpp"
 
-#include "epafi/base/Collective.hpp"
-
 #include <Teuchos_LAPACK.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -33,6 +31,7 @@ void restoreEquality(const EqualityConstraint& g, const Bounds& bounds, std::spa
   Vector weights(x.getMap()), column(x.getMap());
   fillWeights(bounds, x, x.normInf(), weights);
 
+  std::vector<AccurateSum> sums(numRows * numRows);
   std::vector<double> gram(numRows * numRows, 0.0), unit(numRows, 0.0); // GWGᵀ
   for (std::size_t j = 0; j < numRows; ++j) {
     unit.assign(numRows, 0.0);
@@ -40,9 +39,12 @@ void restoreEquality(const EqualityConstraint& g, const Bounds& bounds, std::spa
     column.putScalar(0.0);
     g.addTransposedProduct(unit, 1.0, column);
     column.elementWiseMultiply(1.0, weights, column, 0.0);
-    g.addLocalProduct(column, std::span(gram).subspan(j * numRows, numRows));
+    g.addLocalProduct(column, std::span(sums).subspan(j * numRows, numRows));
   }
-  sumOverRanks(comm, gram);
+  sumOverRanks(comm, sums);
+  for (std::size_t j = 0; j < numRows; ++j)
+    g.finishProduct(std::span(sums).subspan(j * numRows, numRows),
+                    std::span(gram).subspan(j * numRows, numRows));
 
   std::vector<double> solution(gx.begin(), gx.end());
   int info = 0;

@@ -13,7 +13,7 @@ namespace epafi::qp {
 /// x += δ with G(x + δ) = 0, δ = −WGᵀ(GWGᵀ)⁻¹Gx, where W holds each entry's distance to its nearer bound:
 /// entries at a bound stay there, and a δ that is small beside that distance keeps the others feasible. Does
 /// nothing where the free entries do not suffice or δ would cross a bound. \param gx  Gx, on every rank.
-/// Cost: k + 1 small messages for k rows. Collective.
+/// Cost: one message of 2k² numbers for k rows. Collective.
 void restoreEquality(const EqualityConstraint& g, const Bounds& bounds, std::span<const double> gx,
                      Vector& x);
 

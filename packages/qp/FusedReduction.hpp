@@ -3,6 +3,7 @@
 /// Several sums and one minimum over all ranks in a single message: a CG step of MPRGP needs its dot products
 /// and the longest feasible step together.
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Types.hpp"
 
 #include <span>
@@ -16,18 +17,20 @@ public:
   FusedReduction(RCP<const Comm> comm, int numSums);
 
   /// The rank's own contributions to the sums before `reduce`, the sums over all ranks after it.
-  [[nodiscard]] std::span<double> sums() { return {values_.data(), values_.size() - 1}; }
-  /// The rank's own candidate for the minimum before `reduce`, the minimum after it.
-  [[nodiscard]] double& minimum() { return values_.back(); }
+  [[nodiscard]] std::span<AccurateSum> sums() { return {values_.data(), values_.size() - 1}; }
+  [[nodiscard]] double sum(int index) const { return values_[static_cast<std::size_t>(index)].value(); }
+  /// The rank's own candidate for the minimum before `reduce`; the minimum after it.
+  void setMinimum(double candidate) { values_.back() = AccurateSum(candidate); }
+  [[nodiscard]] double minimum() const { return values_.back().value(); }
 
   /// Sets the sums to zero and the minimum to infinity.
   void clear();
-  /// One reduction of numSums + 1 numbers. Collective.
+  /// One message of 2(numSums + 1) numbers. Collective.
   void reduce();
 
 private:
   RCP<const Comm> comm_;
-  std::vector<double> values_, mine_;
+  std::vector<AccurateSum> values_; ///< the sums, then the minimum
 };
 
 } // namespace epafi::qp

@@ -61,7 +61,7 @@ void Mprgp::moveTo(const Vector& x) {
 void Mprgp::refreshGradient() {
   applyHessian(x_, g_);
   g_.update(-1.0, b_, 1.0);
-  objective_ = 0.5 * (x_.dot(g_) - x_.dot(b_));
+  objective_ = 0.5 * (accurateDot(x_, g_) - accurateDot(x_, b_));
   gradientIsFresh_ = true;
 }
 
@@ -164,17 +164,18 @@ Mprgp::StepSizes Mprgp::stepSizes() {
   const auto x = localData(x_), g = localData(g_), p = localData(p_), ap = localData(ap_);
   const Bounds::Local bounds = bounds_.local();
   stepReduction_.clear();
-  double curvature = 0, slope = 0, feasible = stepReduction_.minimum();
+  AccurateSum curvature, slope;
+  double feasible = stepReduction_.minimum();
   for (std::size_t i = 0; i < p.size(); ++i) {
-    curvature += p[i] * ap[i];
-    slope += g[i] * p[i];
+    curvature.add(p[i] * ap[i]);
+    slope.add(g[i] * p[i]);
     feasible = std::min(feasible, bounds[i].maxFeasibleStep(x[i], p[i]));
   }
   stepReduction_.sums()[0] = curvature;
   stepReduction_.sums()[1] = slope;
-  stepReduction_.minimum() = feasible;
+  stepReduction_.setMinimum(feasible);
   stepReduction_.reduce();
-  return {stepReduction_.sums()[0], stepReduction_.sums()[1], stepReduction_.minimum()};
+  return {stepReduction_.sum(0), stepReduction_.sum(1), stepReduction_.minimum()};
 }
 
 /// x −= αp, g −= αAp, f follows: f(x − αp) = f − α gᵀp + ½α² pᵀAp.
@@ -214,17 +215,14 @@ double Mprgp::projectHalfStep() {
   stepReduction_.clear();
   const auto g = localDataNonConst(g_);
   const auto b = localData(b_);
-  double quadratic = 0, linear = 0;
+  const auto sums = stepReduction_.sums();
   for (std::size_t i = 0; i < x.size(); ++i) {
-    quadratic += x[i] * g[i];
-    linear += x[i] * b[i];
+    sums[0].add(x[i] * g[i]);
+    sums[1].add(x[i] * b[i]);
     g[i] -= b[i];
   }
-  stepReduction_.sums()[0] = quadratic;
-  stepReduction_.sums()[1] = linear;
   stepReduction_.reduce();
-  quadratic = stepReduction_.sums()[0];
-  linear = stepReduction_.sums()[1];
+  const double quadratic = stepReduction_.sum(0), linear = stepReduction_.sum(1);
   objective_ = 0.5 * quadratic - linear;
   gradientIsFresh_ = true;
   return std::abs(quadratic) + std::abs(linear);
@@ -235,27 +233,27 @@ void Mprgp::measure(StoppingRule& rule) {
   const auto x = localData(x_), g = localData(g_), ap = localData(ap_);
   const Bounds::Local bounds = bounds_.local();
   measureReduction_.clear();
-  const std::span<double> sums = measureReduction_.sums();
+  const std::span<AccurateSum> sums = measureReduction_.sums();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Bounds::Interval interval = bounds[i];
     if (interval.isFree(x[i])) {
       const double free = g[i];
-      sums[0] += free * free;
-      sums[2] += free * interval.reducedFreeGradient(x[i], free, stepLength_);
-      sums[3] += free * ap[i];
+      sums[0].add(free * free);
+      sums[2].add(free * interval.reducedFreeGradient(x[i], free, stepLength_));
+      sums[3].add(free * ap[i]);
     } else {
       const double chopped = interval.choppedGradient(x[i], g[i]);
-      sums[1] += chopped * chopped;
-      sums[4] += 1;
+      sums[1].add(chopped * chopped);
+      sums[4].add(1);
     }
   }
   rule.addLocalSums(x_, sums.subspan(5));
   measureReduction_.reduce();
-  freeSquared_ = sums[0];
-  choppedSquared_ = sums[1];
-  reducedTimesFree_ = sums[2];
-  freeTimesImage_ = sums[3];
-  activeBounds_ = static_cast<long long>(sums[4]);
+  freeSquared_ = sums[0].value();
+  choppedSquared_ = sums[1].value();
+  reducedTimesFree_ = sums[2].value();
+  freeTimesImage_ = sums[3].value();
+  activeBounds_ = static_cast<long long>(sums[4].value());
   projectedGradient_ = std::sqrt(freeSquared_ + choppedSquared_);
 }
 

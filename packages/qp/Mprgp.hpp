@@ -32,10 +32,10 @@ public:
   virtual ~StoppingRule() = default;
   [[nodiscard]] virtual int numSums() const { return 0; }
   /// Adds this rank's contributions for the iterate x. Not collective.
-  virtual void addLocalSums(const Vector& /*x*/, std::span<double> /*sums*/) {}
+  virtual void addLocalSums(const Vector& /*x*/, std::span<AccurateSum> /*sums*/) {}
   /// \param projectedGradient  ‖g^P‖
   /// \param sums               the sums over all ranks
-  virtual bool isSatisfied(double projectedGradient, std::span<const double> sums) = 0;
+  virtual bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) = 0;
   /// Fills the rule's part of the record (relative quantities).
   virtual void describe(StepRecord& record) const = 0;
 };

@@ -1,5 +1,6 @@
 #include "epafi/qp/NormEstimate.hpp"
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
@@ -56,7 +57,7 @@ NormEstimate lanczos(const Operator& a, const NormEstimateParameters& parameters
   Vector v(a.getDomainMap()), previous(a.getDomainMap()), w(a.getDomainMap());
   NormEstimate estimate;
   fillFromIndices(v);
-  const double startNorm = v.norm2();
+  const double startNorm = accurateNorm(v);
   if (startNorm == 0)
     return estimate;
   v.scale(1.0 / startNorm);
@@ -69,10 +70,10 @@ NormEstimate lanczos(const Operator& a, const NormEstimateParameters& parameters
     ++estimate.multiplications;
     if (beta > 0)
       w.update(-beta, previous, 1.0);
-    const double alpha = w.dot(v);
+    const double alpha = accurateDot(w, v);
     requireFinite(alpha);
     w.update(-alpha, v, 1.0);
-    beta = w.norm2();
+    beta = accurateNorm(w);
     diagonal.push_back(alpha);
 
     const RitzPair ritz = largestRitzPair(diagonal, offDiagonal);
@@ -92,19 +93,19 @@ NormEstimate power(const Operator& a, const NormEstimateParameters& parameters) 
   Vector v(a.getDomainMap()), w(a.getDomainMap());
   NormEstimate estimate;
   fillFromIndices(v);
-  double norm = v.norm2();
+  double norm = accurateNorm(v);
   while (norm > 0 && estimate.multiplications < parameters.maxIterations) {
     v.scale(1.0 / norm);
     a.apply(v, w);
     ++estimate.multiplications;
-    const double quotient = w.dot(v);
+    const double quotient = accurateDot(w, v);
     requireFinite(quotient);
     const bool settled =
         std::abs(quotient - estimate.lowerBound) <= 0.1 * parameters.accuracy * std::abs(quotient);
     estimate.lowerBound = std::max(quotient, 0.0);
     if (settled)
       break;
-    norm = w.norm2();
+    norm = accurateNorm(w);
     v.assign(w);
   }
   estimate.norm = parameters.safety * estimate.lowerBound;

@@ -28,6 +28,7 @@ private:
   RCP<const Operator> a_;
   RCP<const EqualityConstraint> g_;
   double penalty_;
+  mutable std::vector<AccurateSum> sums_;
   mutable std::vector<double> gx_;
 };
 

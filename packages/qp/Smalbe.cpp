@@ -22,10 +22,10 @@ public:
         gx_(static_cast<std::size_t>(g_->size())) {}
 
   [[nodiscard]] int numSums() const override { return g_->size(); }
-  void addLocalSums(const Vector& x, std::span<double> sums) override { g_->addLocalProduct(x, sums); }
+  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override { g_->addLocalProduct(x, sums); }
 
-  bool isSatisfied(double projectedGradient, std::span<const double> sums) override {
-    std::copy(sums.begin(), sums.end(), gx_.begin());
+  bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override {
+    g_->finishProduct(sums, gx_);
     double squared = 0;
     for (const double value : gx_)
       squared += value * value;

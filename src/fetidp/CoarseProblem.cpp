@@ -25,23 +25,17 @@ Triplets gatherTriplets(const Comm& comm, const std::vector<double>& mine) {
   return triplets;
 }
 
+/// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from.
 SparseMatrix assemble(const Comm& comm, int size, std::span<const SubdomainSolver> subdomains) {
-  SparseMatrix local(size, size);
-  Triplets blocks;
+  std::vector<double> mine;
   for (const SubdomainSolver& subdomain : subdomains) {
     const auto indices = subdomain.crosspointIndices();
     for (std::size_t j = 0; j < indices.size(); ++j)
       for (std::size_t i = 0; i < indices.size(); ++i)
-        blocks.emplace_back(
-            static_cast<int>(indices[i]), static_cast<int>(indices[j]),
-            subdomain.schurComplement()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+        mine.insert(mine.end(), {static_cast<double>(indices[i]), static_cast<double>(indices[j]),
+                                 subdomain.schurComplement()(static_cast<Eigen::Index>(i),
+                                                             static_cast<Eigen::Index>(j))});
   }
-  local.setFromTriplets(blocks.begin(), blocks.end());
-  std::vector<double> mine;
-  mine.reserve(3 * static_cast<std::size_t>(local.nonZeros()));
-  for (int column = 0; column < size; ++column)
-    for (SparseMatrix::InnerIterator entry(local, column); entry; ++entry)
-      mine.insert(mine.end(), {static_cast<double>(entry.row()), static_cast<double>(column), entry.value()});
   const Triplets all = gatherTriplets(comm, mine);
   SparseMatrix result(size, size);
   result.setFromTriplets(all.begin(), all.end());
@@ -101,14 +95,17 @@ std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, cons
 /// Diagonal of K̄_cc, before anything is eliminated: the yardstick for round-off in S_cc, which vanishes where
 /// a lone subdomain floats.
 Eigen::VectorXd crosspointStiffness(const DecomposedProblem& problem, int size) {
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(size);
+  std::vector<AccurateSum> sums(static_cast<std::size_t>(size));
   for (const auto& subdomain : problem.subdomains)
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i) {
       const int unknown = subdomain.crosspointUnknowns[i];
-      diagonal[static_cast<Eigen::Index>(subdomain.crosspointIndices[i])] +=
-          subdomain.stiffness.coeff(unknown, unknown);
+      sums[static_cast<std::size_t>(subdomain.crosspointIndices[i])].add(
+          subdomain.stiffness.coeff(unknown, unknown));
     }
-  sumOverRanks(*problem.comm, {diagonal.data(), static_cast<std::size_t>(size)});
+  sumOverRanks(*problem.comm, sums);
+  Eigen::VectorXd diagonal(size);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    diagonal[static_cast<Eigen::Index>(i)] = sums[i].value();
   return diagonal;
 }
 
@@ -143,12 +140,13 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   factor_ = direct::factorize(matrix, directSolver, "the coarse problem");
 }
 
-void CoarseProblem::solve(Eigen::VectorXd& z) const {
+void CoarseProblem::solve(std::span<AccurateSum> z, Eigen::VectorXd& x) const {
   if (size_ == 0)
     return;
-  sumOverRanks(*comm_, {z.data(), static_cast<std::size_t>(size_)});
-  rhs_ = z;
-  factor_->solve(rhs_, z);
+  sumOverRanks(*comm_, z);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    rhs_[static_cast<Eigen::Index>(i)] = z[i].value();
+  factor_->solve(rhs_, x);
 }
 
 std::size_t CoarseProblem::factorBytes() const {

@@ -8,6 +8,7 @@
 /// it has rigid modes, so that EᵀR_c is regular: S S⁺ S = S exactly (Brzobohatý et al., *Int. J. Numer. Meth.
 /// Engng* 88 (2011), fixing nodes).
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/direct/SpdFactor.hpp"
 #include "epafi/fetidp/SubdomainSolver.hpp"
@@ -28,9 +29,9 @@ public:
                 const std::string& directSolver);
 
   [[nodiscard]] int size() const { return size_; }
-  /// x = S_cc⁺ Σ_ranks z: sums z over the ranks (one message), then solves. z and x have size() entries; x
-  /// may be z. Collective.
-  void solve(Eigen::VectorXd& z) const;
+  /// x = S_cc⁺ Σ_ranks z: sums z over the ranks, in place (one message), then solves. Both have size()
+  /// entries. Collective.
+  void solve(std::span<AccurateSum> z, Eigen::VectorXd& x) const;
   [[nodiscard]] std::size_t factorBytes() const;
 
 private:

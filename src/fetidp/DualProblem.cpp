@@ -1,5 +1,6 @@
 #include "epafi/fetidp/DualProblem.hpp"
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/fetidp/ProjectedOperator.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/BoundProblem.hpp"
@@ -118,7 +119,7 @@ RCP<Vector> DualProblem::lowerBounds(double free) const {
 
 void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
                                 DualSolution& solution) {
-  solution.reference = rhs->norm2();
+  solution.reference = accurateNorm(*rhs);
   if (start != nullptr)
     solution.lambda->assign(*start);
   if (algorithm_ == Algorithm::conjugateGradient) {
@@ -139,7 +140,7 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorX
   coarseSpace_->feasiblePoint(e, feasible);
   dualOperator_->apply(feasible, *rhs, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
   coarseSpace_->project(*rhs);                                        // Pd
-  solution.reference = rhs->norm2();
+  solution.reference = accurateNorm(*rhs);
 
   const RCP<Vector> lower = lowerBounds(-std::numeric_limits<double>::infinity());
   lower->update(-1.0, feasible, 1.0); // −λ̃_I
@@ -148,7 +149,7 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorX
     mu.update(1.0, *start, -1.0, feasible, 0.0);
 
   const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference,
-                                        parameters_.equilibriumTolerance, feasible.norm2()};
+                                        parameters_.equilibriumTolerance, accurateNorm(feasible)};
   solution.report =
       qp::solveEqualityBoundProblem(hessian_, coarseSpace_, *rhs, qp::Bounds(lower), mu, tolerances,
                                     parameters_.smalbe, parameters_.mprgp, norm_.norm, observer);

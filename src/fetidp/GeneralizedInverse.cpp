@@ -15,23 +15,24 @@ GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& p
   });
   coarseProblem_ = std::make_unique<CoarseProblem>(problem, subdomains_, solvers.coarse);
   coarse_.resize(coarseProblem_->size());
+  coarseSums_.resize(static_cast<std::size_t>(coarse_.size()));
 }
 
 void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result) {
   std::fill(result.begin(), result.end(), 0.0);
-  coarse_.setZero();
+  std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
   for (SubdomainSolver& subdomain : subdomains_)
-    subdomain.applyFlexibility(lambda, result, coarse_); // Σ B_r K_rr⁻¹ B_rᵀ λ and z = Σ L_cᵀ Wᵀ λ
-  coarseProblem_->solve(coarse_);                        // S_cc⁺ z
+    subdomain.applyFlexibility(lambda, coarseSums_); // B_r K_rr⁻¹ B_rᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
+  coarseProblem_->solve(coarseSums_, coarse_);       // x_c = S_cc⁺ z
   for (const SubdomainSolver& subdomain : subdomains_)
-    subdomain.applyCoupling(coarse_, result); // + Σ W L_c S_cc⁺ z
+    subdomain.applyCoupling(coarse_, result); // Σ B_r K_rr⁻¹ B_rᵀ λ + W L_c x_c
 }
 
 void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u) {
-  coarse_.setZero();
+  std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
   for (std::size_t s = 0; s < subdomains_.size(); ++s)
-    subdomains_[s].eliminate(b[s], coarse_);
-  coarseProblem_->solve(coarse_);
+    subdomains_[s].eliminate(b[s], coarseSums_);
+  coarseProblem_->solve(coarseSums_, coarse_);
   u.resize(subdomains_.size());
   for (std::size_t s = 0; s < subdomains_.size(); ++s)
     subdomains_[s].substitute(coarse_, u[s]);

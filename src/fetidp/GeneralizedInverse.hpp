@@ -49,7 +49,8 @@ public:
 private:
   std::vector<SubdomainSolver> subdomains_;
   std::unique_ptr<CoarseProblem> coarseProblem_;
-  Eigen::VectorXd coarse_; ///< work
+  std::vector<AccurateSum> coarseSums_; ///< work
+  Eigen::VectorXd coarse_;              ///< work
 };
 
 } // namespace epafi::fetidp

@@ -1,6 +1,5 @@
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
-#include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/qp/LocalData.hpp"
@@ -10,6 +9,7 @@
 #include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -44,32 +44,41 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
 }
 
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(problem.kernelDimension);
+  std::vector<AccurateSum> sums(static_cast<std::size_t>(problem.kernelDimension));
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
-    const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
-    if (subdomain.kernel.cols() > 0)
-      result.segment(offset, subdomain.kernel.cols()) += subdomain.kernel.transpose() * load[s];
+    const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
+    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
+      sums[static_cast<std::size_t>(offset + mode)].add(subdomain.kernel.col(mode).dot(load[s]));
   }
-  sumOverRanks(*problem.comm, {result.data(), static_cast<std::size_t>(result.size())});
+  sumOverRanks(*problem.comm, sums);
+  Eigen::VectorXd result(problem.kernelDimension);
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    result[static_cast<Eigen::Index>(k)] = sums[k].value();
   return result;
 }
 
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,
                                        std::vector<KernelEntry> entries)
-    : comm_(problem.comm), entries_(std::move(entries)), work_(problem.kernelDimension),
-      sums_(problem.kernelDimension) {
+    : comm_(problem.comm), entries_(std::move(entries)),
+      sums_(static_cast<std::size_t>(problem.kernelDimension)), work_(problem.kernelDimension),
+      product_(problem.kernelDimension) {
   // G̃G̃ᵀ from the rows of G̃ᵀ.
   const auto numRows = numLocal(*problem.multiplierMap);
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(problem.kernelDimension, problem.kernelDimension);
+  const auto numModes = static_cast<std::size_t>(problem.kernelDimension);
+  std::vector<AccurateSum> sums(numModes * numModes);
   std::vector<std::vector<KernelEntry>> rows(numRows);
   for (const KernelEntry& entry : entries_)
     rows[static_cast<std::size_t>(entry.row)].push_back(entry);
   for (const auto& row : rows)
     for (const KernelEntry& a : row)
       for (const KernelEntry& b : row)
-        gram(a.mode, b.mode) += a.value * b.value;
-  sumOverRanks(*comm_, {gram.data(), static_cast<std::size_t>(gram.size())});
+        sums[static_cast<std::size_t>(a.mode) + numModes * static_cast<std::size_t>(b.mode)].add(a.value *
+                                                                                                 b.value);
+  sumOverRanks(*comm_, sums);
+  Eigen::MatrixXd gram(problem.kernelDimension, problem.kernelDimension);
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    gram.data()[k] = sums[k].value();
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   if (factor.info() != Eigen::Success)
     throw Error(
@@ -77,14 +86,18 @@ NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& p
   cholesky_ = factor.matrixL();
 }
 
-void NaturalCoarseSpace::addLocalProduct(const Vector& x, std::span<double> gx) const {
+/// G̃x; L⁻¹ waits for the sum, so that the order of the terms does not matter.
+void NaturalCoarseSpace::addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const {
   const std::span<const double> values = qp::localData(x);
-  work_.setZero();
   for (const KernelEntry& entry : entries_)
-    work_[entry.mode] += entry.value * values[static_cast<std::size_t>(entry.row)]; // G̃x
-  cholesky_.triangularView<Eigen::Lower>().solveInPlace(work_);                     // L⁻¹
+    sums[static_cast<std::size_t>(entry.mode)].add(entry.value * values[static_cast<std::size_t>(entry.row)]);
+}
+
+void NaturalCoarseSpace::finishProduct(std::span<const AccurateSum> sums, std::span<double> gx) const {
   for (std::size_t k = 0; k < gx.size(); ++k)
-    gx[k] += work_[static_cast<Eigen::Index>(k)];
+    gx[k] = sums[k].value();
+  Eigen::Map<Eigen::VectorXd> product(gx.data(), static_cast<Eigen::Index>(gx.size()));
+  cholesky_.triangularView<Eigen::Lower>().solveInPlace(product); // L⁻¹ G̃x
 }
 
 void NaturalCoarseSpace::addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const {
@@ -96,20 +109,17 @@ void NaturalCoarseSpace::addTransposedProduct(std::span<const double> mu, double
     values[static_cast<std::size_t>(entry.row)] += entry.value * work_[entry.mode]; // G̃ᵀ
 }
 
-Eigen::VectorXd NaturalCoarseSpace::product(const Vector& x) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(size());
-  const std::span<double> values(result.data(), static_cast<std::size_t>(result.size()));
-  addLocalProduct(x, values);
-  sumOverRanks(*comm_, values);
-  return result;
+const Eigen::VectorXd& NaturalCoarseSpace::product(const Vector& x) const {
+  std::fill(sums_.begin(), sums_.end(), AccurateSum());
+  addLocalProduct(x, sums_);
+  sumOverRanks(*comm_, sums_);
+  finishProduct(sums_, {product_.data(), sums_.size()});
+  return product_;
 }
 
 void NaturalCoarseSpace::project(Vector& x) const {
-  sums_.setZero();
-  const std::span<double> gx(sums_.data(), static_cast<std::size_t>(sums_.size()));
-  addLocalProduct(x, gx);
-  sumOverRanks(*comm_, gx);
-  addTransposedProduct(gx, -1.0, x);
+  const Eigen::VectorXd& gx = product(x);
+  addTransposedProduct({gx.data(), sums_.size()}, -1.0, x);
 }
 
 Eigen::VectorXd NaturalCoarseSpace::normalized(const Eigen::VectorXd& kernelLoad) const {

@@ -40,11 +40,12 @@ public:
   NaturalCoarseSpace(const decomposition::DecomposedProblem& problem, std::vector<KernelEntry> entries);
 
   [[nodiscard]] int size() const override { return static_cast<int>(cholesky_.rows()); }
-  void addLocalProduct(const Vector& x, std::span<double> gx) const override;
+  void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const override;
+  void finishProduct(std::span<const AccurateSum> sums, std::span<double> gx) const override;
   void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override;
 
-  /// Gx on every rank. Collective.
-  [[nodiscard]] Eigen::VectorXd product(const Vector& x) const;
+  /// Gx on every rank, valid until the next call. Collective.
+  [[nodiscard]] const Eigen::VectorXd& product(const Vector& x) const;
   /// x ← Px = x − Gᵀ(Gx). One message of k numbers. Collective.
   void project(Vector& x) const;
   /// e = T̃ ẽ. Not collective.
@@ -56,7 +57,8 @@ private:
   RCP<const Comm> comm_;
   std::vector<KernelEntry> entries_;
   Eigen::MatrixXd cholesky_; ///< L with G̃G̃ᵀ = LLᵀ, lower triangle
-  mutable Eigen::VectorXd work_, sums_;
+  mutable std::vector<AccurateSum> sums_;
+  mutable Eigen::VectorXd work_, product_;
 };
 
 } // namespace epafi::fetidp

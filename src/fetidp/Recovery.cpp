@@ -1,5 +1,6 @@
 #include "epafi/fetidp/Recovery.hpp"
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 
 #include <Eigen/QR>
@@ -32,23 +33,28 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<
   for (const KernelEntry& entry : entries)
     if (force[entry.row] > 0)
       rows.try_emplace(entry.row, Eigen::VectorXd::Zero(k)).first->second[entry.mode] += entry.value;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(k, k + 1); // [G̃_A G̃_Aᵀ, G̃_A slack_A]
-  for (const auto& [row, vector] : rows) {
-    normal.leftCols(k) += vector * vector.transpose();
-    normal.col(k) += vector * gap[row];
-  }
-  sumOverRanks(*problem.comm, {normal.data(), static_cast<std::size_t>(normal.size())});
+  Eigen::MatrixXd normal(k, k + 1); // [G̃_A G̃_Aᵀ, G̃_A slack_A]
+  std::vector<AccurateSum> sums(static_cast<std::size_t>(normal.size()));
+  for (const auto& [row, vector] : rows)
+    for (Eigen::Index i = 0; i < k; ++i)
+      for (Eigen::Index j = 0; j <= k; ++j)
+        sums[static_cast<std::size_t>(i + k * j)].add(vector[i] * (j < k ? vector[j] : gap[row]));
+  sumOverRanks(*problem.comm, sums);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    normal.data()[i] = sums[i].value();
   return normal.leftCols(k).completeOrthogonalDecomposition().solve(normal.col(k));
 }
 
 /// ½uᵀKu − fᵀu over all subdomains.
 double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
-  double energy = 0;
+  AccurateSum energy;
   for (std::size_t s = 0; s < u.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
-    energy += 0.5 * u[s].dot(subdomain.stiffness * u[s]) - subdomain.load.dot(u[s]) + subdomain.energyOffset;
+    energy.add(0.5 * u[s].dot(subdomain.stiffness * u[s]) - subdomain.load.dot(u[s]) +
+               subdomain.energyOffset);
   }
-  return sumOverRanks(*problem.comm, energy);
+  sumOverRanks(*problem.comm, {&energy, 1});
+  return energy.value();
 }
 
 /// Values at all positions of a subdomain: the unknowns' and the prescribed ones.
@@ -66,21 +72,21 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
   const auto force = solution.multiplier->getData(), slack = solution.slack->getData();
   const auto gap = problem.gap->getData();
   const auto active = solution.active->getDataNonConst();
-  double sums[4] = {0, 0, 0, 0}; // ‖g^P‖², λᵀg, force, active nodes
+  AccurateSum sums[4]; // ‖g^P‖², λᵀg, force, active nodes
   double violation = 0, largestGap = 0;
   for (Teuchos_Ordinal i = 0; i < force.size(); ++i) {
     const bool isContact =
         problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem.numInequalities;
     const double projected = isContact && !(force[i] > 0) ? std::min(slack[i], 0.0) : slack[i];
-    sums[0] += projected * projected;
+    sums[0].add(projected * projected);
     violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]));
     largestGap = std::max(largestGap, std::abs(gap[i]));
     if (!isContact)
       continue;
-    sums[1] += force[i] * slack[i];
-    sums[2] += force[i];
+    sums[1].add(force[i] * slack[i]);
+    sums[2].add(force[i]);
     active[i] = operatorNorm * force[i] > slack[i] ? 1.0 : 0.0; // λ − (c − Bu)/‖F‖ > 0
-    sums[3] += active[i];
+    sums[3].add(active[i]);
   }
   const Comm& comm = *problem.comm;
   sumOverRanks(comm, sums);
@@ -89,12 +95,12 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
   const auto relative = [](double value, double reference) {
     return reference > 0 ? value / reference : value;
   };
-  solution.relativeProjectedGradient = relative(std::sqrt(sums[0]), dual.reference);
+  solution.relativeProjectedGradient = relative(std::sqrt(sums[0].value()), dual.reference);
   solution.feasibility = relative(violation, scale);
-  solution.complementarity = relative(std::abs(sums[1]), std::abs(solution.energy));
+  solution.complementarity = relative(std::abs(sums[1].value()), std::abs(solution.energy));
   solution.equilibrium = dual.equilibrium;
-  solution.contactForce = sums[2];
-  solution.activeContactNodes = static_cast<GlobalOrdinal>(sums[3]);
+  solution.contactForce = sums[2].value();
+  solution.activeContactNodes = static_cast<GlobalOrdinal>(sums[3].value());
 }
 
 } // namespace

@@ -58,6 +58,7 @@ void SubdomainSolver::splitConstraint() {
   std::sort(multipliers_.begin(), multipliers_.end());
   multipliers_.erase(std::unique(multipliers_.begin(), multipliers_.end()), multipliers_.end());
   local_.resize(static_cast<Eigen::Index>(multipliers_.size()));
+  flexibility_.resizeLike(local_);
 
   coupling_ = Eigen::MatrixXd::Zero(local_.size(), localCoarse_.size());
   for (const auto& entry : subdomain_->constraint) {
@@ -86,60 +87,66 @@ void SubdomainSolver::condense() {
       (0.5 * (schurComplement_ + schurComplement_.transpose())).eval(); // symmetric to the last digit
 }
 
-void SubdomainSolver::applyFlexibility(std::span<const double> lambda, std::span<double> result,
-                                       Eigen::VectorXd& coarse) {
+void SubdomainSolver::applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse) {
   for (std::size_t i = 0; i < multipliers_.size(); ++i)
     local_[static_cast<Eigen::Index>(i)] = lambda[static_cast<std::size_t>(multipliers_[i])];
 
   localCoarse_.noalias() = coupling_.transpose() * local_; // Wᵀ λ
-  const auto indices = crosspointIndices();
-  for (std::size_t i = 0; i < indices.size(); ++i)
-    coarse[static_cast<Eigen::Index>(indices[i])] += localCoarse_[static_cast<Eigen::Index>(i)];
+  addToCoarse(coarse);
 
+  flexibility_.setZero();
   if (remainderConstraint_.empty())
     return;
   remainder_.setZero();
   for (const Entry& entry : remainderConstraint_) // B_rᵀ λ
     remainder_[entry.column] += entry.coefficient * local_[entry.row];
   factor_->solve(remainder_, solution_);
-  for (const Entry& entry : remainderConstraint_)
-    result[static_cast<std::size_t>(multipliers_[static_cast<std::size_t>(entry.row)])] +=
-        entry.coefficient * solution_[entry.column];
+  for (const Entry& entry : remainderConstraint_) // B_r K_rr⁻¹ B_rᵀ λ
+    flexibility_[entry.row] += entry.coefficient * solution_[entry.column];
 }
 
 void SubdomainSolver::applyCoupling(const Eigen::VectorXd& coarse, std::span<double> result) const {
-  const auto indices = crosspointIndices();
-  for (std::size_t j = 0; j < indices.size(); ++j) {
-    const double value = coarse[static_cast<Eigen::Index>(indices[j])];
-    for (std::size_t i = 0; i < multipliers_.size(); ++i)
-      result[static_cast<std::size_t>(multipliers_[i])] +=
-          coupling_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * value;
-  }
+  takeFromCoarse(coarse);
+  local_ = flexibility_;
+  local_.noalias() += coupling_ * localCoarse_; // + W x_c
+  for (std::size_t i = 0; i < multipliers_.size(); ++i)
+    result[static_cast<std::size_t>(multipliers_[i])] += local_[static_cast<Eigen::Index>(i)];
 }
 
-void SubdomainSolver::eliminate(const Eigen::VectorXd& b, Eigen::VectorXd& coarse) {
+/// coarse += L_cᵀ localCoarse_.
+void SubdomainSolver::addToCoarse(std::span<AccurateSum> coarse) const {
+  const auto indices = crosspointIndices();
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    coarse[static_cast<std::size_t>(indices[i])].add(localCoarse_[static_cast<Eigen::Index>(i)]);
+}
+
+/// localCoarse_ = L_c x_c.
+void SubdomainSolver::takeFromCoarse(const Eigen::VectorXd& coarse) const {
+  const auto indices = crosspointIndices();
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    localCoarse_[static_cast<Eigen::Index>(i)] = coarse[static_cast<Eigen::Index>(indices[i])];
+}
+
+void SubdomainSolver::eliminate(const Eigen::VectorXd& b, std::span<AccurateSum> coarse) {
   for (Eigen::Index i = 0; i < remainder_.size(); ++i)
     remainder_[i] = b[subdomain_->remainderUnknowns[static_cast<std::size_t>(i)]];
   factor_->solve(remainder_, solution_);
-  localCoarse_.noalias() = remainderToCrosspoint_.transpose() * solution_; // K_cr y
-  const auto indices = crosspointIndices();
-  for (std::size_t i = 0; i < indices.size(); ++i)
-    coarse[static_cast<Eigen::Index>(indices[i])] +=
-        b[subdomain_->crosspointUnknowns[i]] - localCoarse_[static_cast<Eigen::Index>(i)];
+  for (Eigen::Index i = 0; i < localCoarse_.size(); ++i)
+    localCoarse_[i] = b[subdomain_->crosspointUnknowns[static_cast<std::size_t>(i)]];
+  localCoarse_.noalias() -= remainderToCrosspoint_.transpose() * solution_; // b_c − K_cr y
+  addToCoarse(coarse);
 }
 
 void SubdomainSolver::substitute(const Eigen::VectorXd& coarse, Eigen::VectorXd& u) {
   u.resize(subdomain_->stiffness.rows());
-  const auto indices = crosspointIndices();
-  for (std::size_t i = 0; i < indices.size(); ++i)
-    localCoarse_[static_cast<Eigen::Index>(i)] = coarse[static_cast<Eigen::Index>(indices[i])];
+  takeFromCoarse(coarse);
   const Eigen::VectorXd y = solution_;
   remainder_.noalias() = remainderToCrosspoint_ * localCoarse_;
   factor_->solve(remainder_, solution_);
   for (Eigen::Index i = 0; i < remainder_.size(); ++i)
     u[subdomain_->remainderUnknowns[static_cast<std::size_t>(i)]] = y[i] - solution_[i];
-  for (std::size_t i = 0; i < indices.size(); ++i)
-    u[subdomain_->crosspointUnknowns[i]] = localCoarse_[static_cast<Eigen::Index>(i)];
+  for (Eigen::Index i = 0; i < localCoarse_.size(); ++i)
+    u[subdomain_->crosspointUnknowns[static_cast<std::size_t>(i)]] = localCoarse_[i];
 }
 
 void SubdomainSolver::subtractForces(std::span<const double> lambda, Eigen::VectorXd& b) const {

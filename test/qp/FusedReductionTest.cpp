@@ -17,16 +17,16 @@ TEST(FusedReductionTest, AddsTheSumsAndTakesTheMinimum) {
 
   for (int repeat = 0; repeat < 3; ++repeat) {
     reduction.clear();
-    reduction.sums()[0] = 1;
-    reduction.sums()[1] = rank;
-    reduction.sums()[2] = -2.0 * rank;
-    reduction.minimum() = 10.0 - rank;
+    reduction.sums()[0].add(1);
+    reduction.sums()[1].add(rank);
+    reduction.sums()[2].add(-2.0 * rank);
+    reduction.setMinimum(10.0 - rank);
 
     reduction.reduce();
 
-    EXPECT_EQ(reduction.sums()[0], size);
-    EXPECT_EQ(reduction.sums()[1], size * (size - 1) / 2);
-    EXPECT_EQ(reduction.sums()[2], -size * (size - 1));
+    EXPECT_EQ(reduction.sum(0), size);
+    EXPECT_EQ(reduction.sum(1), size * (size - 1) / 2);
+    EXPECT_EQ(reduction.sum(2), -size * (size - 1));
     EXPECT_EQ(reduction.minimum(), 10.0 - (size - 1));
   }
 }
@@ -36,7 +36,7 @@ TEST(FusedReductionTest, StartsAtZeroAndInfinity) {
 
   reduction.reduce();
 
-  EXPECT_EQ(reduction.sums()[0], 0);
+  EXPECT_EQ(reduction.sum(0), 0);
   EXPECT_EQ(reduction.minimum(), std::numeric_limits<double>::infinity());
 }
 

@@ -78,13 +78,13 @@ class DenseEquality final : public qp::EqualityConstraint {
 public:
   DenseEquality(RCP<const Map> map, Eigen::MatrixXd rows) : map_(std::move(map)), rows_(std::move(rows)) {}
   int size() const override { return static_cast<int>(rows_.rows()); }
-  void addLocalProduct(const Vector& x, std::span<double> gx) const override {
+  void addLocalProduct(const Vector& x, std::span<AccurateSum> gx) const override {
     const auto values = qp::localData(x);
     for (std::size_t i = 0; i < values.size(); ++i)
       for (std::size_t k = 0; k < gx.size(); ++k)
-        gx[k] += rows_(static_cast<Eigen::Index>(k),
-                       static_cast<Eigen::Index>(map_->getGlobalElement(static_cast<LocalOrdinal>(i)))) *
-                 values[i];
+        gx[k].add(rows_(static_cast<Eigen::Index>(k),
+                        static_cast<Eigen::Index>(map_->getGlobalElement(static_cast<LocalOrdinal>(i)))) *
+                  values[i]);
   }
   void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override {
     const auto values = qp::localDataNonConst(y);

@@ -1,0 +1,45 @@
+#pragma once
+
+/// Sums that do not depend on the order of their terms: every term is added without error to a pair of
+/// doubles (Knuth's TwoSum; Ogita, Rump, Oishi, *SIAM J. Sci. Comput.* 26 (2005)), as if in twice the
+/// precision, and rounded once at the end. What is built on them is the same on any number of ranks, to the
+/// last digit.
+
+#include "epafi/base/Types.hpp"
+
+#include <span>
+
+namespace epafi {
+
+class AccurateSum {
+public:
+  AccurateSum() = default;
+  explicit AccurateSum(double value) : high_(value) {}
+  /// Seven additions; infinity and NaN make the value NaN.
+  void add(double term) {
+    const double sum = high_ + term;
+    const double rest = sum - high_;
+    low_ += (high_ - (sum - rest)) + (term - rest); // what the first addition lost, exactly
+    high_ = sum;
+  }
+  void add(const AccurateSum& other) {
+    add(other.high_);
+    low_ += other.low_;
+  }
+  [[nodiscard]] double value() const { return high_ + low_; }
+
+private:
+  double high_ = 0, low_ = 0;
+};
+
+/// Sums over the ranks, in place; one message. Collective.
+void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums);
+
+/// The same for all values but the last one, of which the smallest is taken; one message. Collective.
+void sumAndMinimumOverRanks(const Comm& comm, std::span<AccurateSum> sumsAndMinimum);
+
+/// xᵀy and ‖x‖. Collective.
+double accurateDot(const Vector& x, const Vector& y);
+double accurateNorm(const Vector& x);
+
+} // namespace epafi
