@@ -1,0 +1,247 @@
+#!/usr/bin/python3
+"""test_driver.py EPAFI SOURCE_DIR MPIRUN ARGUMENTS...: the program as its users meet it: exit codes, messages, files; on one
+rank and on several, always within a time limit, so that a rank that waits for ever is a failure."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+PROGRAM, SOURCE, LAUNCH = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+SOLVED, NOT_CONVERGED, WRONG_INPUT, NOT_SOLVABLE = range(4)
+LIMIT = 60  # seconds
+
+REPORT = {
+    "Problem": ["Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers", "Crosspoints",
+                "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"],
+    "Algorithm": ["Name", "Reason"],
+    "Iterations": ["Outer", "CG Steps", "Expansion Steps", "Proportioning Steps", "Hessian Multiplications",
+                   "Preconditioner Applications"],
+    "Accuracy": ["Relative Projected Gradient", "Feasibility", "Complementarity", "Energy", "Active Contact Nodes",
+                 "Contact Force"],
+    "Time": ["Assembly", "Setup", "Solve", "Recovery", "Output", "Total"],
+    "Memory": ["Peak Bytes", "Factor Bytes"],
+    "Status": ["Converged", "Reason"],
+}
+
+
+def scene(name):
+    return str(SOURCE / "xml" / f"{name}.xml")
+
+
+def epafi(*arguments, ranks=1):
+    launch = [*LAUNCH, str(ranks)] if ranks > 1 else []
+    return subprocess.run([*launch, PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=LIMIT,
+                          check=False)
+
+
+def said(run):
+    """The lines the program itself wrote to the error stream; mpirun adds a few about the exit code."""
+    return [line for line in run.stderr.splitlines() if line.startswith("epafi: ")]
+
+
+def read_report(file):
+    """{list: {parameter: value as text}}."""
+    root = xml.etree.ElementTree.parse(file).getroot()
+    return {part.get("name"): {p.get("name"): p.get("value") for p in part.findall("Parameter")}
+            for part in root.findall("ParameterList")}
+
+
+class Driver(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = pathlib.Path(place.name)
+
+    def expect(self, code, words, *arguments, ranks=1):
+        """The program ends with `code` and one sentence that holds all `words`."""
+        run = epafi(*arguments, ranks=ranks)
+        self.assertEqual(run.returncode, code, f"{arguments} on {ranks} ranks: {run.stdout}{run.stderr}")
+        sentences = said(run)
+        self.assertEqual(len(sentences), 1, run.stderr)
+        for word in words:
+            self.assertIn(word, sentences[0])
+
+    def changed(self, name, *replacements):
+        """A copy of a scene with parts of its text replaced."""
+        text = pathlib.Path(scene(name)).read_text(encoding="utf-8")
+        for old, new in replacements:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        file = self.place / "changed.xml"
+        file.write_text(text, encoding="utf-8")
+        return file
+
+
+class Solves(Driver):
+    def test_every_scene_on_one_and_three_ranks(self):
+        for file in sorted((SOURCE / "xml").glob("*.xml")):
+            energies = []
+            for ranks in (1, 3):
+                report = self.place / "report.xml"
+                run = epafi(file, "--report", report, "--output", self.place / "out", ranks=ranks)
+                self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
+                content = read_report(report)
+                for part, names in REPORT.items():
+                    for name in names:
+                        self.assertIn(name, content[part], f"{file.name}: {part}")
+                self.assertEqual(content["Status"]["Converged"], "true")
+                self.assertEqual(content["Problem"]["Ranks"], str(ranks))
+                self.assertLessEqual(float(content["Accuracy"]["Relative Projected Gradient"]), 1e-6)
+                energies.append(float(content["Accuracy"]["Energy"]))
+                for kind in ("h5", "xdmf"):
+                    self.assertTrue((self.place / "out" / f"{file.stem}.{kind}").exists())
+            self.assertAlmostEqual(energies[0], energies[1], delta=1e-9 * abs(energies[0]))
+
+    def test_more_ranks_than_subdomains(self):
+        self.assertEqual(epafi(scene("single_subdomain"), "--quiet", ranks=4).returncode, SOLVED)
+
+    def test_quiet_says_nothing(self):
+        run = epafi(scene("coercive"), "--quiet")
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (SOLVED, "", ""))
+
+    def test_the_log_says_what_was_done_and_why(self):
+        text = epafi(scene("semicoercive")).stdout
+        for word in ("SMALBE-M", "floating", "right", "preconditioner", "KLU2", "energy", "memory", "Converged"):
+            self.assertIn(word, text)
+
+    def test_printed_parameters_are_the_reference_page(self):
+        page = (SOURCE / "docs" / "parameters.md").read_text(encoding="utf-8")
+        self.assertEqual(epafi("--print-parameters", ranks=2).stdout, page)
+
+    def test_units_do_not_matter(self):
+        names = ("left/Loads/upper strip", "right/Loads/lower strip")
+        loads = {"left": -1.0, "right": -3.0}
+        counts = set()
+        for factor in (1e-9, 1.0, 1e9):
+            report = self.place / "report.xml"
+            changes = [f"--set=Bodies/{name}/Value={loads[name.split('/')[0]] * factor}" for name in names]
+            run = epafi(scene("coercive"), "--quiet", "--report", report, *changes)
+            self.assertEqual(run.returncode, SOLVED, run.stderr)
+            content = read_report(report)
+            counts.add(content["Iterations"]["Hessian Multiplications"])
+            self.assertAlmostEqual(float(content["Accuracy"]["Energy"]) / factor**2, -0.11914, delta=1e-4)
+        self.assertEqual(len(counts), 1, counts)
+
+
+class StopsBeforeTheTolerance(Driver):
+    def test_exit_code_one_and_a_report_that_says_so(self):
+        for ranks in (1, 3):
+            report = self.place / "report.xml"
+            run = epafi(scene("coercive"), "--set", "Solver/MPRGP/Maximum Multiplications=5", "--report", report,
+                        ranks=ranks)
+            self.assertEqual(run.returncode, NOT_CONVERGED)
+            self.assertIn("MaxIterations", run.stdout)
+            content = read_report(report)
+            self.assertEqual(content["Status"]["Converged"], "false")
+            self.assertGreater(float(content["Accuracy"]["Relative Projected Gradient"]), 1e-6)
+
+    def test_a_tolerance_below_round_off_ends_with_a_reason(self):
+        run = epafi(scene("coercive"), "--set", "Solver/Tolerance=1e-17")
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stdout)
+        self.assertIn("Stagnated", run.stdout)
+
+
+class RefusesWrongInput(Driver):
+    CASES = [
+        (["Bodies/left/Elments", "did you mean"], "Bodies/left/Elments={4,4}"),
+        (["Solver/Tolerance", "double", "small"], "Solver/Tolerance=small"),
+        (["Bodies/left", "Rectangle"], "Bodies/left/Rectangle={1,0,0,1}"),
+        (["Bodies/left", "Elements"], "Bodies/left/Elements={-4,4}"),
+        (["Bodies/left", "Elements"], "Bodies/left/Elements={32}"),
+        (["Conductivity", "-1"], "Bodies/left/Conductivity=-1"),
+        (["Conductivity", "nan"], "Bodies/left/Conductivity=nan"),
+        (["Value", "inf"], "Bodies/left/Loads/upper strip/Value=inf"),
+        (["Edge", "north"], "Bodies/left/Supports/wall/Edge=north"),
+        (["First Edge"], "Contact/interface/First Edge=inside"),
+        (["First Body", "middle"], "Contact/interface/First Body=middle"),
+        (["Contact/interface", "elements"], "Bodies/right/Elements={16,16}"),
+        (["Contact/interface"], "Contact/interface/First Edge=top"),
+        (["Contact/interface", "left"], "Bodies/left/Supports/wall/Edge=right"),
+        (["Grid"], "Decomposition/Grid={33,1}"),
+        (["Parts"], "Decomposition/Parts=0"),
+        (["Method"], "Decomposition/Method=random"),
+        (["Maximum Multiplications"], "Solver/MPRGP/Maximum Multiplications=0"),
+        (["Tolerance"], "Solver/Tolerance=0"),
+        (["Solver/Direct Solvers", "Tacho"], "Solver/Direct Solvers/Subdomains=Tacho"),
+        (["="], "Solver/Tolerance"),
+    ]
+
+    def test_parameters(self):
+        for words, change in self.CASES:
+            with self.subTest(change):
+                self.expect(WRONG_INPUT, words, scene("coercive"), "--set", change)
+
+    def test_parameters_on_three_ranks(self):
+        for words, change in self.CASES[::5]:
+            with self.subTest(change):
+                self.expect(WRONG_INPUT, words, scene("coercive"), "--set", change, ranks=3)
+
+    def test_files(self):
+        empty = self.place / "empty.xml"
+        empty.write_text("", encoding="utf-8")
+        for ranks in (1, 3):
+            self.expect(WRONG_INPUT, ["nowhere.xml"], self.place / "nowhere.xml", ranks=ranks)
+            self.expect(WRONG_INPUT, [str(self.place)], self.place, ranks=ranks)
+            self.expect(WRONG_INPUT, ["empty.xml"], empty, ranks=ranks)
+            self.expect(WRONG_INPUT, ["changed.xml", "line"],
+                        self.changed("coercive", ("</ParameterList>\n</ParameterList>", "</ParameterList>")), ranks=ranks)
+
+    def test_values_in_files(self):
+        for words, old, new in [
+                (["Value", "nan"], 'value="-1.0"', 'value="nan"'),
+                (["Value", "abc"], 'value="-1.0"', 'value="abc"'),
+                (["Elements", "double"], 'type="Array(int)" value="{32, 32}"', 'type="double" value="32"'),
+                (["Conductivty", "Conductivity"], '<Parameter name="Elements"',
+                 '<Parameter name="Conductivty" type="double" value="1"/><Parameter name="Elements"'),
+                (["left"], '<ParameterList name="right">', '<ParameterList name="left">')]:
+            with self.subTest(new):
+                self.expect(WRONG_INPUT, words, self.changed("coercive", (old, new)))
+
+    def test_options(self):
+        self.expect(WRONG_INPUT, ["--ouput", "--output"], scene("coercive"), "--ouput", "x")
+        self.expect(WRONG_INPUT, ["no scene"])
+        self.expect(WRONG_INPUT, ["--report"], scene("coercive"), "--report")
+        self.expect(WRONG_INPUT, ["two scenes"], scene("coercive"), scene("gap"), ranks=2)
+
+    def test_places_that_cannot_be_written(self):
+        blocked = self.place / "file"
+        blocked.write_text("", encoding="utf-8")
+        for ranks in (1, 3):
+            run = epafi(scene("coercive"), "--quiet", "--output", blocked / "out", ranks=ranks)
+            self.assertNotEqual(run.returncode, SOLVED)
+            self.assertEqual(len(said(run)), 1, run.stderr)
+            self.assertIn(str(blocked), said(run)[0])
+
+
+class RefusesProblemsWithoutASolution(Driver):
+    def test_a_floating_body_without_contact(self):
+        text = pathlib.Path(scene("semicoercive")).read_text(encoding="utf-8")
+        text = re.sub(r'  <ParameterList name="Contact">.*?\n  </ParameterList>\n', "", text, flags=re.S)
+        file = self.place / "free.xml"
+        file.write_text(text, encoding="utf-8")
+        for ranks in (1, 3):
+            self.expect(NOT_SOLVABLE, ["no solution", "'right'"], file, ranks=ranks)
+
+    def test_a_load_that_pulls_the_body_away(self):
+        for ranks in (1, 3):
+            self.expect(NOT_SOLVABLE, ["no solution", "'right'"], scene("semicoercive"), "--set",
+                        "Bodies/right/Loads/lower strip/Value=1", ranks=ranks)
+
+    def test_a_load_without_resultant(self):
+        for ranks in (1, 3):
+            self.expect(NOT_SOLVABLE, ["not unique", "'right'"], scene("semicoercive"), "--set",
+                        "Bodies/right/Loads/lower strip/Value=0", ranks=ranks)
+
+    def test_a_tiny_resultant_of_round_off_is_none(self):
+        self.expect(NOT_SOLVABLE, ["not unique", "'right'"], scene("semicoercive"),
+                    "--set", "Bodies/right/Loads/up/Value=0.3", "--set", "Bodies/right/Loads/up/Box={1,2,0,0.25}",
+                    "--set", "Bodies/right/Loads/down/Value=-0.1", "--set", "Bodies/right/Loads/down/Box={1,2,0.25,1}",
+                    "--set", "Bodies/right/Loads/lower strip/Value=0")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
