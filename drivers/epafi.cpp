@@ -108,7 +108,8 @@ int run(int argc, char** argv, const RCP<const Comm>& comm) {
 } // namespace
 
 int main(int argc, char** argv) {
-  Tpetra::ScopeGuard scope(&argc, &argv);
+  int programNameOnly = 1; // Kokkos would answer --help itself
+  Tpetra::ScopeGuard scope(&programNameOnly, &argv);
   const RCP<const Comm> comm = Tpetra::getDefaultComm();
   try {
     return run(argc, argv, comm);

@@ -72,7 +72,8 @@ int main(int argc, char** argv) {
   int exitCode = 0;
   bool drawsPicture = false;
   {
-    Tpetra::ScopeGuard scope(&argc, &argv);
+    int programNameOnly = 1; // Kokkos would answer --help itself
+    Tpetra::ScopeGuard scope(&programNameOnly, &argv);
     const auto comm = Tpetra::getDefaultComm();
     try {
       request = parse(argc, argv);

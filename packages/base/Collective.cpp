@@ -25,6 +25,13 @@ enum class Failure : int { none = 0, other = 1, input = 2, noSolution = 3, notUn
   }
 }
 
+template <class T>
+T reduced(const Comm& comm, Teuchos::EReductionType type, T value) {
+  T result{};
+  Teuchos::reduceAll(comm, type, 1, &value, &result);
+  return result;
+}
+
 } // namespace
 
 void collectively(const Comm& comm, const std::function<void()>& work) {
@@ -68,27 +75,19 @@ void sumOverRanks(const Comm& comm, std::span<double> values) {
 }
 
 double sumOverRanks(const Comm& comm, double value) {
-  double result = 0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 1, &value, &result);
-  return result;
+  return reduced(comm, Teuchos::REDUCE_SUM, value);
 }
 
 GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value) {
-  GlobalOrdinal result = 0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, 1, &value, &result);
-  return result;
+  return reduced(comm, Teuchos::REDUCE_SUM, value);
 }
 
 double maxOverRanks(const Comm& comm, double value) {
-  double result = 0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, 1, &value, &result);
-  return result;
+  return reduced(comm, Teuchos::REDUCE_MAX, value);
 }
 
 double minOverRanks(const Comm& comm, double value) {
-  double result = 0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, 1, &value, &result);
-  return result;
+  return reduced(comm, Teuchos::REDUCE_MIN, value);
 }
 
 std::vector<double> gatherOnAll(const Comm& comm, std::span<const double> values) {

@@ -112,6 +112,14 @@ class Solves(Driver):
         page = (SOURCE / "docs" / "parameters.md").read_text(encoding="utf-8")
         self.assertEqual(epafi("--print-parameters", ranks=2).stdout, page)
 
+    def test_help_is_ours_alone(self):
+        for ranks in (1, 2):
+            run = epafi("--help", ranks=ranks)
+            self.assertEqual(run.returncode, SOLVED)
+            self.assertTrue(run.stdout.startswith("Usage: epafi"), run.stdout)
+            self.assertEqual(run.stdout.count("Usage:"), 1)
+            self.assertLess(len(run.stdout.splitlines()), 25)
+
     def test_units_do_not_matter(self):
         names = ("left/Loads/upper strip", "right/Loads/lower strip")
         loads = {"left": -1.0, "right": -3.0}
