@@ -11,7 +11,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
 
 namespace epafi::drivers {
 
@@ -32,8 +31,5 @@ struct SceneRun {
 /// Collective. \throws InputError, SolvabilityError or Error, the same on all ranks.
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, qp::Observer* observer = nullptr);
-
-/// The report in lines for people.
-std::string summary(const SceneRun& run);
 
 } // namespace epafi::drivers

@@ -3,10 +3,12 @@
 #include "Options.hpp"
 #include "Progress.hpp"
 #include "SceneRun.hpp"
+#include "Summary.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
+#include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/HistoryTable.hpp"
 #include "epafi/output/Report.hpp"
@@ -20,6 +22,7 @@
 
 #include <iostream>
 #include <optional>
+#include <vector>
 
 namespace {
 
@@ -27,6 +30,18 @@ using namespace epafi;
 using namespace epafi::drivers;
 
 enum ExitCode : int { solved = 0, notConverged = 1, wrongInput = 2, notSolvable = 3 };
+
+/// DIR/report.xml and the file of --report, as far as they were asked for; not twice the same.
+std::vector<std::filesystem::path> reportsOf(const Options& options) {
+  std::vector<std::filesystem::path> files;
+  if (!options.output.empty())
+    files.push_back(std::filesystem::path(options.output) / "report.xml");
+  if (!options.report.empty() &&
+      (files.empty() ||
+       files[0].lexically_normal() != std::filesystem::path(options.report).lexically_normal()))
+    files.emplace_back(options.report);
+  return files;
+}
 
 /// Writes what was asked for; returns the lines that say where.
 std::string writeFiles(const Options& options, SceneRun& run, const Comm& comm) {
@@ -44,12 +59,10 @@ std::string writeFiles(const Options& options, SceneRun& run, const Comm& comm) 
   const double now = Teuchos::Time::wallTime();
   run.report.sublist("Time").set("Output", maxOverRanks(comm, now - start));
   run.report.sublist("Time").set("Total", maxOverRanks(comm, now - run.started));
-  for (const std::filesystem::path& file :
-       {options.output.empty() ? "" : directory / "report.xml", std::filesystem::path(options.report)})
-    if (!file.empty()) {
-      output::writeReport(run.report, file, comm);
-      lines += "  report      " + file.string() + "\n";
-    }
+  for (const std::filesystem::path& file : reportsOf(options)) {
+    output::writeReport(run.report, file, comm);
+    lines += "  report      " + file.string() + "\n";
+  }
   return lines;
 }
 
@@ -62,6 +75,8 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
     scene::applyOverride(given, schema, text);
   const Teuchos::ParameterList list = validated(given, schema, options.scene);
   const scene::Scene scene = scene::readScene(given, options.scene);
+  for (const auto& file : reportsOf(options))
+    output::prepareTarget(file, *comm); // better now than after an hour
   if (speaks)
     std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
               << std::flush;

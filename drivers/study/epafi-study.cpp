@@ -60,6 +60,7 @@ Request parse(int argc, char** argv) {
 /// Draws the CSV with the plotting program that stands beside this one. Called after MPI has ended.
 bool draw(const std::filesystem::path& csv) {
   const auto plot = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "epafi-plot";
+  std::cout << std::flush; // the table first
   const std::string command =
       "'" + plot.string() + "' '" + csv.string() + "' --output '" + csv.parent_path().string() + "'";
   return std::system(command.c_str()) == 0;

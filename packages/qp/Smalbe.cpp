@@ -1,5 +1,6 @@
 #include "epafi/qp/Smalbe.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/EqualityRestoration.hpp"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,26 @@ private:
   bool isFinal_ = false;
 };
 
+/// How far μ may go along `shift` before the inner solution x notices: while every entry that the shift
+/// touches is held at its bound, x stays the minimiser and L grows linearly in μ, until the first gradient
+/// there changes its sign. At least 1, the paper's step. Collective.
+double longestStep(const Bounds& bounds, const Vector& x, const Vector& g, const Vector& shift) {
+  const auto values = localData(x), gradient = localData(g), s = localData(shift);
+  const Bounds::Local local = bounds.local();
+  double longest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const Bounds::Interval interval = local[i];
+    if (s[i] == 0 || !(interval.lower < interval.upper))
+      continue;
+    if (interval.isFree(values[i]))
+      longest = 0;
+    else if ((values[i] <= interval.lower) == (s[i] < 0)) // the gradient moves towards 0
+      longest = std::min(longest, -gradient[i] / s[i]);
+  }
+  longest = minOverRanks(*x.getMap()->getComm(), longest);
+  return std::isfinite(longest) ? std::max(1.0, longest) : 1.0;
+}
+
 /// The outer loop of the paper.
 Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, const Bounds& bounds,
                const SmalbeParameters& parameters, double penalty, Observer* observer) {
@@ -76,9 +98,11 @@ Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, co
       rule.reduceBalance(parameters.balanceReduction); // L grew too little: M ← βM
     previousLagrangian = lagrangian;
 
-    shift.putScalar(0.0); // μ ← μ + ρGx
+    shift.putScalar(0.0); // μ ← μ + ρGx, or further
     g.addTransposedProduct(rule.constraintValue(), penalty, shift);
-    inner.shiftLinearTerm(shift, penalty * residual * residual);
+    const double step = longestStep(bounds, inner.solution(), inner.gradient(), shift);
+    shift.scale(step);
+    inner.shiftLinearTerm(shift, step * penalty * residual * residual);
     ++inner.counts().outer;
 
     if (rule.isFinal()) { // the certificate: Gx = 0 to round-off and a fresh gradient; if it fails the
@@ -139,7 +163,11 @@ SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<co
   const auto relative = [](double value, double reference) {
     return reference > 0 ? value / reference : value;
   };
-  report.reason = explain(report.status);
+  report.reason =
+      report.status == Status::maxIterations && solver.counts().outer >= parameters.maxOuterIterations
+          ? "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer "
+            "Iterations' or the tolerance"
+          : explain(report.status);
   report.counts = solver.counts();
   report.relativeProjectedGradient = relative(solver.projectedGradient(), tolerances.gradientReference);
   report.relativeConstraintResidual = relative(rule.constraintNorm(), tolerances.constraintReference);

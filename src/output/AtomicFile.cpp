@@ -32,11 +32,17 @@ void prepareOnThisRank(const fs::path& file) {
     throw InputError("Output directory '" + directory.string() + "' cannot be created: " +
                      (error ? error.message() : std::string("a file of that name is in the way")) +
                      ". Name a directory that can be written to.");
-  if (::access(directory.c_str(), W_OK | X_OK) != 0)
-    throw InputError("Output directory '" + directory.string() + "' cannot be written to: " +
-                     std::strerror(errno) + ". Name a directory that can be written to.");
   if (fs::is_directory(file, error))
     throw InputError("Output file '" + file.string() + "' is a directory. Remove it or choose another name.");
+  fs::path probe = directory / file.filename(); // permissions do not tell all
+  probe += ".probe";
+  errno = 0;
+  const bool isWritable = std::ofstream(probe).is_open();
+  const int reason = errno;
+  fs::remove(probe, error);
+  if (!isWritable)
+    throw InputError("Output directory '" + directory.string() + "' cannot be written to: " +
+                     std::strerror(reason) + ". Name a directory that can be written to.");
 }
 
 void writeOnThisRank(const fs::path& file, const std::string& text) {

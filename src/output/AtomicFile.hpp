@@ -12,9 +12,9 @@
 
 namespace epafi::output {
 
-/// Makes sure that `file` can be written: creates its directory and those above it, and checks that it may be
-/// written to. Collective. \throws InputError naming the directory if it cannot be made or written to, or if
-/// `file` is a directory.
+/// Makes sure that `file` can be written: creates its directory and those above it, and tries whether files
+/// can be made there. Collective. \throws InputError naming the directory if it cannot be made or written to,
+/// or if `file` is a directory.
 void prepareTarget(const std::filesystem::path& file, const Comm& comm);
 
 /// A new name beside `file` (same directory, hidden, ends in ".partial"), the same on all ranks. Makes no

@@ -139,13 +139,31 @@ TEST(SmalbeTest, ScalingTheObjectiveKeepsTheSteps) {
   }
 }
 
+TEST(SmalbeTest, ReachesAConstraintThatOnlyBoundEntriesCanMeetInFewOuterIterations) {
+  // min ½|x|² + 5x₁ + 4x₂, x₁ + x₂ = 0, x ≥ −ε. From x = −ε the multiplier has to grow to 5 before
+  // anything moves, while the residual is only ε.
+  const double epsilon = 1e-6;
+  Problem problem{Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Constant(1, 2, 1 / std::sqrt(2.0)),
+                  Eigen::Vector2d(-5, -4), Eigen::Vector2d::Constant(-epsilon)};
+
+  const Answer answer = solve(problem, 1e-10);
+
+  EXPECT_EQ(answer.report.status, Status::converged);
+  EXPECT_LE(answer.report.counts.outer, 30);
+  EXPECT_NEAR(answer.x[0], -epsilon, 1e-15);
+  EXPECT_NEAR(answer.x[1], epsilon, 1e-9);
+}
+
 TEST(SmalbeTest, StopsAtTheOuterLimit) {
   std::mt19937 random(13);
   const Problem problem = randomProblem(20, 3, 1e4, random);
   qp::SmalbeParameters parameters;
   parameters.maxOuterIterations = 1;
 
-  EXPECT_EQ(solve(problem, 1e-13, parameters).report.status, Status::maxIterations);
+  const qp::SolveReport report = solve(problem, 1e-13, parameters).report;
+
+  EXPECT_EQ(report.status, Status::maxIterations);
+  EXPECT_NE(report.reason.find("Maximum Outer Iterations"), std::string::npos) << report.reason;
 }
 
 } // namespace

@@ -77,4 +77,18 @@ INSTANTIATE_TEST_SUITE_P(Semicoercive, ClosedFormTest,
                          testing::Values(Column{false, -5, -1}, Column{false, 0, -1}, Column{false, 3, -0.25},
                                          Column{false, -1, -1}));
 
+TEST(SmallResultantTest, ABodyThatBarelyRestsOnItsContactIsSolvedInFewOuterIterations) {
+  // The load on the floating membrane nearly balances itself: the contact force is 1e-2 … 1e-7 of it.
+  for (const double rest : {1e-2, 1e-4, 1e-6, 1e-7}) {
+    scene::Scene scene = scene::modelProblem(false, 4, 32);
+    scene.bodies[1].loads = {{"down", {1, 2, 0, 0.25}, -1}, {"up", {1, 2, 0.75, 1}, 1 - 4 * rest}};
+
+    const drivers::SceneRun run = test::solve(scene, 1e-8);
+
+    EXPECT_EQ(run.solver->report().status, qp::Status::converged) << run.solver->report().reason;
+    EXPECT_NEAR(run.solution.contactForce, rest, 1e-12);
+    EXPECT_LE(run.solver->report().counts.outer, 40) << "rest " << rest;
+  }
+}
+
 } // namespace

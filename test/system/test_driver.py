@@ -219,10 +219,8 @@ class RefusesWrongInput(Driver):
         blocked = self.place / "file"
         blocked.write_text("", encoding="utf-8")
         for ranks in (1, 3):
-            run = epafi(scene("coercive"), "--quiet", "--output", blocked / "out", ranks=ranks)
-            self.assertNotEqual(run.returncode, SOLVED)
-            self.assertEqual(len(said(run)), 1, run.stderr)
-            self.assertIn(str(blocked), said(run)[0])
+            for option in ("--output", "--report"):
+                self.expect(WRONG_INPUT, [str(blocked)], scene("coercive"), option, blocked / "out", ranks=ranks)
 
 
 class RefusesProblemsWithoutASolution(Driver):

@@ -1,0 +1,131 @@
+#include "Summary.hpp"
+
+#include <iomanip>
+#include <sstream>
+
+namespace epafi::drivers {
+namespace {
+
+using Teuchos::ParameterList;
+
+/// "1.2 GB", "3.4 MB".
+std::string bytes(double value) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
+  if (value >= 1e9)
+    text << value / 1e9 << " GB";
+  else
+    text << value / 1e6 << " MB";
+  return text.str();
+}
+
+std::string seconds(const ParameterList& list, const char* name) {
+  const double value = list.get<double>(name);
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(value < 1 ? 3 : 2) << value << " s";
+  return text.str();
+}
+
+std::string scientific(const ParameterList& list, const char* name, int digits) {
+  std::ostringstream text;
+  text << std::scientific << std::setprecision(digits) << list.get<double>(name);
+  return text.str();
+}
+
+GlobalOrdinal count(const ParameterList& list, const char* name) {
+  return list.isType<int>(name) ? list.get<int>(name) : list.get<GlobalOrdinal>(name);
+}
+
+/// "1 rank", "2 ranks".
+std::string counted(GlobalOrdinal number, const std::string& noun) {
+  return std::to_string(number) + ' ' + noun + (number == 1 ? "" : "s");
+}
+
+std::string counted(const ParameterList& list, const char* name, const std::string& noun) {
+  return counted(count(list, name), noun);
+}
+
+/// Names of the floating bodies; empty if there are none.
+std::string floatingBodies(const SceneRun& run) {
+  std::string names;
+  for (const auto& body : run.decomposition->problem.bodies)
+    if (body.kernelDimension > 0)
+      names += (names.empty() ? "" : ", ") + body.name;
+  return names;
+}
+
+void describeProblem(std::ostream& text, const SceneRun& run) {
+  const ParameterList& problem = run.report.sublist("Problem");
+  text << "  problem     " << counted(problem, "Primal Dimension", "primal unknown") << " in "
+       << counted(problem, "Subdomains", "subdomain") << " on " << counted(problem, "Ranks", "rank") << ", "
+       << counted(problem, "Crosspoints", "crosspoint") << "\n              "
+       << counted(problem, "Dual Dimension", "multiplier") << ": " << count(problem, "Inequality Multipliers")
+       << " of contact, " << count(problem, "Equality Multipliers") << " of gluing\n";
+  for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {
+    const scene::Decomposition& asked = run.scene.bodies[b].decomposition;
+    const int parts = run.decomposition->bodies[b].partition->numParts();
+    if (asked.method == scene::Decomposition::Method::metis && asked.parts != parts)
+      text << "              METIS cut body '" << run.scene.bodies[b].name << "' into "
+           << counted(parts, "connected part") << ", not the " << asked.parts << " asked for\n";
+  }
+  const std::string floating = floatingBodies(run);
+  text << "  floating    " << (floating.empty() ? "no body" : floating) << '\n';
+}
+
+void describeSolution(std::ostream& text, const SceneRun& run) {
+  const ParameterList& algorithm = run.report.sublist("Algorithm");
+  const ParameterList& iterations = run.report.sublist("Iterations");
+  text << "  algorithm   " << algorithm.get<std::string>("Name") << ": "
+       << algorithm.get<std::string>("Reason") << "\n              preconditioner "
+       << algorithm.get<std::string>("Preconditioner") << ", subdomains by "
+       << algorithm.get<std::string>("Subdomain Solver") << ", coarse problem by "
+       << algorithm.get<std::string>("Coarse Solver") << "\n  iterations  "
+       << counted(iterations, "Hessian Multiplications", "product") << " with F (and "
+       << count(iterations, "Norm Estimate Multiplications")
+       << " to estimate its norm): " << count(iterations, "CG Steps") << " CG + "
+       << count(iterations, "Expansion Steps") << " expansion + " << count(iterations, "Proportioning Steps")
+       << " proportioning steps, " << count(iterations, "Outer") << " outer\n";
+}
+
+void describeAccuracy(std::ostream& text, const SceneRun& run) {
+  const ParameterList& accuracy = run.report.sublist("Accuracy");
+  text << "  accuracy    projected gradient " << scientific(accuracy, "Relative Projected Gradient", 2)
+       << " (asked " << run.solver->tolerance() << "), feasibility " << scientific(accuracy, "Feasibility", 2)
+       << ", complementarity " << scientific(accuracy, "Complementarity", 2);
+  if (!floatingBodies(run).empty())
+    text << ", equilibrium " << scientific(accuracy, "Equilibrium", 2);
+  text << "\n  solution    energy " << scientific(accuracy, "Energy", 9);
+  if (count(run.report.sublist("Problem"), "Inequality Multipliers") > 0)
+    text << ", contact force " << scientific(accuracy, "Contact Force", 9) << " on "
+         << counted(accuracy, "Active Contact Nodes", "closed node");
+  text << '\n';
+}
+
+void describeCosts(std::ostream& text, const SceneRun& run) {
+  const ParameterList& time = run.report.sublist("Time");
+  const ParameterList& memory = run.report.sublist("Memory");
+  text << "  time        assembly " << seconds(time, "Assembly") << ", setup " << seconds(time, "Setup")
+       << ", solve " << seconds(time, "Solve") << ", recovery " << seconds(time, "Recovery");
+  if (time.isParameter("Output"))
+    text << ", output " << seconds(time, "Output");
+  if (time.isParameter("Total"))
+    text << "; total " << seconds(time, "Total");
+  text << "\n  memory      " << bytes(memory.get<double>("Peak Bytes"))
+       << " at most over all ranks, of which factors " << bytes(memory.get<double>("Factor Bytes")) << '\n';
+}
+
+} // namespace
+
+std::string summary(const SceneRun& run) {
+  std::ostringstream text;
+  describeProblem(text, run);
+  describeSolution(text, run);
+  describeAccuracy(text, run);
+  describeCosts(text, run);
+  const ParameterList& status = run.report.sublist("Status");
+  text << "  status      " << status.get<std::string>("Status") << ": " << status.get<std::string>("Reason")
+       << '\n';
+  return text.str();
+}
+
+} // namespace epafi::drivers
