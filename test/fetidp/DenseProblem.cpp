@@ -54,6 +54,12 @@ void setLoad(scene::Body& body, double value) {
   body.loads = {{"all over", body.rectangle, value}};
 }
 
+void setHalves(scene::Body& body, double lower, double upper) {
+  scene::Rectangle low = body.rectangle, high = body.rectangle;
+  low.y1 = high.y0 = 0.5 * (body.rectangle.y0 + body.rectangle.y1);
+  body.loads = {{"lower half", low, lower}, {"upper half", high, upper}};
+}
+
 std::vector<ContactCase> contactCases() {
   std::vector<ContactCase> cases;
   for (const bool coercive : {true, false}) {
@@ -70,6 +76,12 @@ std::vector<ContactCase> contactCases() {
   }
   cases.push_back({"two of three float", threeMembranes(true, 4, grid(2, 1)), false});
   cases.push_back({"the middle one floats", threeMembranes(false, 4, metis(2)), false});
+  for (ContactCase& c : cases) {
+    setHalves(c.scene.bodies[0], 4.0, -5.0);
+    setHalves(c.scene.bodies[1], -3.0, 2.0);
+    if (c.scene.bodies.size() > 2)
+      setHalves(c.scene.bodies[2], 0.5, -1.0);
+  }
   return cases;
 }
 

@@ -28,6 +28,9 @@ scene::Scene threeMembranes(bool lastFloats, int elements, const scene::Decompos
 /// Constant load on a whole body, instead of what it carries.
 void setLoad(scene::Body& body, double value);
 
+/// Loads on the lower and the upper half of a body, instead of what it carries.
+void setHalves(scene::Body& body, double lower, double upper);
+
 /// A scene and its name. `coercive` means that no body floats.
 struct ContactCase {
   std::string name;
@@ -35,7 +38,8 @@ struct ContactCase {
   bool coercive = true;
 };
 
-/// Two and three bodies, held and floating, cut in all ways that a small mesh allows.
+/// Two and three bodies, held and floating, cut in all ways that a small mesh allows. The loads press
+/// floating bodies onto their contacts and open a part of these.
 std::vector<ContactCase> contactCases();
 
 /// The matrices over merged unknowns (remainder first, crosspoints last), on every rank.

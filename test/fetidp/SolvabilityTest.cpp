@@ -67,13 +67,6 @@ scene::Scene chain(double middle, double last) {
   return loaded(threeMembranes(true, 2, grid(1, 1)), {-1.0, middle, last});
 }
 
-/// Loads the two halves of a body, so that the resultant is the sum of both over 2.
-void setHalves(scene::Body& body, double lower, double upper) {
-  scene::Rectangle low = body.rectangle, high = body.rectangle;
-  low.y1 = high.y0 = 0.5;
-  body.loads = {{"lower", low, lower}, {"upper", high, upper}};
-}
-
 bool mentions(const Judgement& judgement, const std::string& words) {
   return judgement.text.find(words) != std::string::npos;
 }
