@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <string>
 
@@ -65,27 +64,9 @@ std::string bodiesOf(const DecomposedProblem& problem, const Eigen::VectorXd& mo
   return (count > 1 ? "the floating bodies " : "the floating body ") + names + "'";
 }
 
-/// Σ|f_i| of each floating body (0 for the others), for the loads that the problem holds now. Collective.
-std::vector<double> loadMagnitudes(const DecomposedProblem& problem) {
-  std::vector<double> magnitudes(problem.bodies.size(), 0.0);
-  for (const auto& subdomain : problem.subdomains)
-    if (subdomain.kernel.cols() > 0)
-      magnitudes[static_cast<std::size_t>(subdomain.body)] += subdomain.load.lpNorm<1>();
-  sumOverRanks(*problem.comm, magnitudes);
-  return magnitudes;
-}
-
-/// Σ|f| over the bodies that take part in a motion: what its resultant is compared with.
-double loadOf(const DecomposedProblem& problem, const std::vector<double>& magnitudes,
-              const Eigen::VectorXd& motion) {
-  double load = 0;
-  for (std::size_t b = 0; b < magnitudes.size(); ++b) {
-    const auto& body = problem.bodies[b];
-    if (body.kernelDimension > 0)
-      load +=
-          magnitudes[b] * motion.segment(body.kernelOffset, body.kernelDimension).lpNorm<Eigen::Infinity>();
-  }
-  return load;
+/// What the resultant along a motion is compared with: |R|ᵀ|f| of the motion's modes.
+double loadAlong(const Eigen::VectorXd& magnitudes, const Eigen::VectorXd& motion) {
+  return magnitudes.dot(motion.cwiseAbs());
 }
 
 [[noreturn]] void refuse(SolvabilityError::Kind kind, const std::string& text) {
@@ -101,7 +82,7 @@ std::string number(double value) {
 
 /// A motion that no contact hinders in either direction: ẽᵀα must vanish, and even then α is undetermined.
 void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& directions,
-                      const Eigen::VectorXd& kernelLoad, const std::vector<double>& magnitudes) {
+                      const Eigen::VectorXd& kernelLoad, const Eigen::VectorXd& magnitudes) {
   const Eigen::Index k = problem.kernelDimension;
   Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(k, std::max<Eigen::Index>(directions.cols(), 1));
   padded.leftCols(directions.cols()) = directions;
@@ -111,8 +92,8 @@ void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& d
   const Eigen::MatrixXd q = qr.householderQ();
   const Eigen::MatrixXd free = q.rightCols(k - qr.rank()); // G̃ᵀ free = 0
   Eigen::VectorXd motion = free * (free.transpose() * kernelLoad);
-  const bool isPulled = motion.norm() > 0 && std::abs(kernelLoad.dot(motion)) >
-                                                 resultantTolerance * loadOf(problem, magnitudes, motion);
+  const bool isPulled = motion.norm() > 0 &&
+                        std::abs(kernelLoad.dot(motion)) > resultantTolerance * loadAlong(magnitudes, motion);
   if (!isPulled)
     motion = free.col(0);
   const std::string who = bodiesOf(problem, motion);
@@ -131,12 +112,12 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
   if (problem.kernelDimension == 0)
     return;
   const Eigen::MatrixXd directions = contactDirections(problem, entries);
-  const std::vector<double> magnitudes = loadMagnitudes(problem);
+  const Eigen::VectorXd magnitudes = kernelLoadMagnitude(problem, loadsOf(problem));
   refuseFreeMotion(problem, directions, kernelLoad, magnitudes);
 
   const Eigen::VectorXd motion =
       nonNegativeLeastSquares(directions, kernelLoad).residual; // allowed, and pulled along
-  if (motion.norm() > 0 && kernelLoad.dot(motion) > resultantTolerance * loadOf(problem, magnitudes, motion))
+  if (motion.norm() > 0 && kernelLoad.dot(motion) > resultantTolerance * loadAlong(magnitudes, motion))
     refuse(SolvabilityError::Kind::noSolution,
            "the load pulls " + bodiesOf(problem, motion) + " away from its contacts (resultant " +
                number(kernelLoad.dot(motion) / motion.norm()) +
@@ -144,7 +125,7 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
 
   // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
   Eigen::VectorXd all = directions.rowwise().sum();
-  const double load = std::accumulate(magnitudes.begin(), magnitudes.end(), 0.0);
+  const double load = magnitudes.sum();
   if (all.norm() == 0)
     return; // the contacts oppose each other: any resultant is balanced
   const double margin = 10 * resultantTolerance * load / all.norm();
@@ -157,8 +138,9 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  refuseFreeMotion(problem, contactDirections(problem, entries), kernelLoad(problem, loadsOf(problem)),
-                   loadMagnitudes(problem));
+  const SubdomainVectors load = loadsOf(problem);
+  refuseFreeMotion(problem, contactDirections(problem, entries), kernelLoad(problem, load),
+                   kernelLoadMagnitude(problem, load));
 }
 
 void requireFeasibleGaps(const DecomposedProblem& problem) {
