@@ -171,7 +171,8 @@ TEST(ContactSolverTest, AMissedToleranceIsAStatusNotAnError) {
 
 TEST(ContactSolverTest, LoadsAndGapsThatAreNoNumbersAreRefused) {
   for (const bool coercive : {true, false})
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       Solved solved(membranes(coercive), 1e-6);
       DecomposedProblem& problem = solved.decomposition.problem;
       for (auto& subdomain : problem.subdomains)
