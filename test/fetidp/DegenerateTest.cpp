@@ -198,5 +198,20 @@ TEST(DegenerateTest, AChainOfFloatingBodiesIsHeldByItsLastLoad) {
   }
 }
 
+TEST(DegenerateTest, ABodyThatIsHardlyPressedIsHeldAllTheSame) {
+  for (const double resultant : {1e-4, 1e-6, 1e-8}) {
+    scene::Scene scene = strips(false, 1.0, 0.0, grid(2, 2));
+    setHalves(scene.bodies[1], 1.0 - resultant, -1.0 - resultant);
+    const Solved solved(scene, 1e-6);
+    EXPECT_EQ(solved.solver.report().status, qp::Status::converged) << resultant;
+    EXPECT_NEAR(solved.solution.contactForce, resultant, 1e-3 * resultant) << resultant;
+    EXPECT_LE(fieldError(fieldOf(solved.decomposition, solved.solution),
+                         solveUndecomposed(solved.decomposition).field),
+              1e-4)
+        << resultant << ' ' << solved.solver.report().counts.outer << ' '
+        << solved.solver.report().counts.hessianMultiplications;
+  }
+}
+
 } // namespace
 } // namespace epafi::fetidp

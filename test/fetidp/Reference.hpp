@@ -16,7 +16,7 @@ Teuchos::ParameterList toleranceOf(double tolerance);
 
 /// A scene, solved.
 struct Solved {
-  explicit Solved(const scene::Scene& scene, double tolerance = 1e-10);
+  explicit Solved(const scene::Scene& scene, double tolerance = 1e-11);
 
   decomposition::Decomposition decomposition;
   ContactSolver solver;
