@@ -37,7 +37,9 @@ Teuchos::ParameterList ContactSolver::validParameters() {
           "problem.",
           0.0, 1.0, true);
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
-          "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖.", 0.0, 1.0, true);
+          "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to the load where it is "
+          "balanced.",
+          0.0, 1.0, true);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());
   list.sublist("Norm Estimate").setParameters(qp::NormEstimateParameters::validParameters());
@@ -62,6 +64,7 @@ ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters) {
 
 void ContactSolver::setup(const decomposition::DecomposedProblem& problem) {
   const double start = Teuchos::Time::wallTime();
+  dual_.reset(); // should this setup fail, there is none
   problem_ = &problem;
   inverse_ = std::make_shared<fetidp::GeneralizedInverse>(problem, directSolvers_);
   dual_ = std::make_unique<fetidp::DualProblem>(problem, inverse_, dualParameters_);

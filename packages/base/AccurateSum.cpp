@@ -21,6 +21,7 @@ std::span<AccurateSum> blockOf(void* message, int block, MPI_Datatype type) {
   return {static_cast<AccurateSum*>(message) + static_cast<std::size_t>(block) * length, length};
 }
 
+// NOLINTBEGIN(readability-non-const-parameter): MPI prescribes the signature
 extern "C" void addSums(void* in, void* inout, int* count, MPI_Datatype* type) {
   for (int block = 0; block < *count; ++block) {
     const auto other = blockOf(in, block, *type), mine = blockOf(inout, block, *type);
@@ -38,6 +39,7 @@ extern "C" void addSumsTakeMinimum(void* in, void* inout, int* count, MPI_Dataty
       mine.back() = other.back();
   }
 }
+// NOLINTEND(readability-non-const-parameter)
 
 /// Combines `blocks` blocks of `length` values each over all ranks.
 void reduce(const Comm& comm, AccurateSum* values, int blocks, int length, MPI_User_function* function) {

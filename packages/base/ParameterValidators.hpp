@@ -17,6 +17,7 @@ public:
   /// What is allowed, to follow the words "must be"; empty if everything finite is.
   [[nodiscard]] virtual std::string allowed() const = 0;
 
+  // NOLINTNEXTLINE(readability-const-return-type): Teuchos declares it so
   [[nodiscard]] const std::string getXMLTypeName() const override { return "EpafiAllowedValues"; }
   [[nodiscard]] ValidStringsList validStringValues() const override { return Teuchos::null; }
   void printDoc(const std::string& docString, std::ostream& out) const override;

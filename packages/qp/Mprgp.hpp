@@ -75,6 +75,7 @@ public:
   void shiftLinearTerm(const Vector& shift, double objectiveShift);
 
   [[nodiscard]] const Vector& solution() const { return x_; }
+  /// g = Ax − b, as updated by the steps.
   [[nodiscard]] const Vector& gradient() const { return g_; }
   /// Norm of the projected gradient ‖g^P‖ at the last step.
   [[nodiscard]] double projectedGradient() const { return projectedGradient_; }

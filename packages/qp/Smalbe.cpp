@@ -79,6 +79,15 @@ double longestStep(const Bounds& bounds, const Vector& x, const Vector& g, const
   return std::isfinite(longest) ? std::max(1.0, longest) : 1.0;
 }
 
+/// Gives a warm start the multiplier that belongs to it; without, the first outer iterations would lead away
+/// from it. Collective.
+void startMultiplier(Mprgp& inner, const EqualityConstraint& g, const Bounds& bounds) {
+  const std::vector<double> multiplier = estimateMultiplier(g, bounds, inner.solution(), inner.gradient());
+  Vector shift(inner.solution().getMap());
+  g.addTransposedProduct(multiplier, 1.0, shift);
+  inner.shiftLinearTerm(shift, accurateDot(shift, inner.solution()));
+}
+
 /// The outer loop of the paper.
 Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, const Bounds& bounds,
                const SmalbeParameters& parameters, double penalty, Observer* observer) {
@@ -157,6 +166,8 @@ SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<co
                     parameters.forcing * tolerances.gradientReference);
   Mprgp solver(hessian, bounds, inner, std::max(operatorNorm, penalty)); // ‖A + ρGᵀG‖ where Im Gᵀ ⊂ Ker A
   solver.start(b, x);
+  if (solver.solution().normInf() > 0)
+    startMultiplier(solver, *g, bounds);
   report.status = iterate(solver, rule, *g, bounds, parameters, penalty, &recorder);
   x.assign(solver.solution());
 

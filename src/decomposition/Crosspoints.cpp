@@ -91,8 +91,9 @@ void addInterfacePoints(const Layout& layout, const Piece& piece, const std::vec
   const int firstSubdomain = layout.bodies[b].firstSubdomain;
   const std::size_t needed = pointsNeeded(*layout.models[b]);
   for (const auto& [other, interface] : findInterfaces(*layout.models[b], piece)) {
-    const bool bothHeld = held[static_cast<std::size_t>(piece.number)] != 0 &&
-                          held[static_cast<std::size_t>(firstSubdomain + other)] != 0;
+    const bool bothHeld =
+        held[static_cast<std::size_t>(piece.number)] != 0 &&
+        held[static_cast<std::size_t>(firstSubdomain) + static_cast<std::size_t>(other)] != 0;
     if (bothHeld || interface.numCrosspoints >= needed)
       continue;
     const std::size_t missing = needed - interface.numCrosspoints, available = interface.nodes.size();

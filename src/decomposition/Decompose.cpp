@@ -84,7 +84,7 @@ Subdomain makeSubdomain(const Layout& layout, const CrosspointNumbering& crosspo
   }
   subdomain.nodes = piece.assembled.nodes;
   subdomain.unknownPosition = std::move(piece.assembled.unknownPosition);
-  subdomain.stiffness = std::move(piece.assembled.stiffness);
+  subdomain.stiffness.swap(piece.assembled.stiffness); // Eigen 3.4 cannot move sparse matrices
   subdomain.load = std::move(piece.assembled.load);
   subdomain.prescribed = std::move(piece.assembled.prescribed);
   subdomain.energyOffset = piece.assembled.energyOffset;
@@ -107,21 +107,14 @@ std::vector<GlobalOrdinal> ownedCrosspoints(const Layout& layout, const Crosspoi
   return owned;
 }
 
-std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout,
-                                 const std::vector<Piece>& pieces, const Comm& comm) {
+std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout) {
   std::vector<Body> bodies;
   int offset = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const int modes = layout.models[b]->kernelDimension();
-    bodies.push_back({scene.bodies[b].name, modes, offset, 0.0});
+    bodies.push_back({scene.bodies[b].name, modes, offset});
     offset += modes;
   }
-  std::vector<double> loads(bodies.size(), 0.0);
-  for (const Piece& piece : pieces)
-    loads[static_cast<std::size_t>(piece.body)] += piece.assembled.load.lpNorm<1>();
-  sumOverRanks(comm, loads);
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    bodies[b].loadMagnitude = loads[b];
   return bodies;
 }
 
@@ -164,7 +157,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   problem.comm = comm;
   problem.components = layout.models.empty() ? 1 : layout.models.front()->components();
   problem.numSubdomains = layout.numSubdomains;
-  problem.bodies = describeBodies(scene, layout, pieces, *comm);
+  problem.bodies = describeBodies(scene, layout);
   for (const Body& body : problem.bodies)
     problem.kernelDimension += body.kernelDimension;
   problem.numCrosspoints = crosspoints.numNodes();

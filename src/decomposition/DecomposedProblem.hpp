@@ -45,9 +45,8 @@ struct Subdomain {
 
 struct Body {
   std::string name;
-  int kernelDimension = 0;  ///< rigid modes that its supports leave free; > 0 means that the body floats
-  int kernelOffset = 0;     ///< column of its first mode in R
-  double loadMagnitude = 0; ///< Σ|f_i| over its unknowns, the yardstick for "no resultant"
+  int kernelDimension = 0; ///< rigid modes that its supports leave free; > 0 means that the body floats
+  int kernelOffset = 0;    ///< column of its first mode in R
 };
 
 /// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are

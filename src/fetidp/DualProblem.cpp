@@ -1,6 +1,8 @@
 #include "epafi/fetidp/DualProblem.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/ProjectedOperator.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/BoundProblem.hpp"
@@ -8,6 +10,8 @@
 
 #include <Tpetra_Map.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -74,7 +78,31 @@ void DualProblem::choose() {
   }
 }
 
+namespace {
+
+/// Throws InputError on all ranks if a load or a gap is NaN or infinite. Collective.
+void requireFiniteData(const decomposition::DecomposedProblem& problem) {
+  collectively(*problem.comm, [&] {
+    for (const auto& subdomain : problem.subdomains)
+      if (!subdomain.load.allFinite())
+        throw InputError("the load of body '" +
+                         problem.bodies[static_cast<std::size_t>(subdomain.body)].name +
+                         "' has an entry in subdomain " + std::to_string(subdomain.number) +
+                         " that is not a finite number; check its loads and supports");
+    const auto gaps = problem.gap->getData();
+    for (Teuchos_Ordinal i = 0; i < gaps.size(); ++i)
+      if (!std::isfinite(gaps[i]))
+        throw InputError(
+            "the gap of contact row " +
+            std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
+            " is not a finite number; check the gaps");
+  });
+}
+
+} // namespace
+
 DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
+  requireFiniteData(problem_);
   const SubdomainVectors load = loadsOf(problem_);
   const Eigen::VectorXd resultants = kernelLoad(problem_, load);
   requireFeasibleGaps(problem_);
@@ -89,7 +117,7 @@ DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
   }
   const RCP<Vector> rhs = rightHandSide(load);
   if (algorithm_ == Algorithm::smalbe)
-    solveSemicoercive(rhs, resultants, start, observer, solution);
+    solveSemicoercive(rhs, load, start, observer, solution);
   else
     solveCoercive(rhs, start, observer, solution);
   return solution;
@@ -120,7 +148,7 @@ RCP<Vector> DualProblem::lowerBounds(double free) const {
 void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
                                 DualSolution& solution) {
   solution.reference = accurateNorm(*rhs);
-  if (start != nullptr)
+  if (start != nullptr && solution.reference > 0) // else λ = 0 solves it, and no other start gets there
     solution.lambda->assign(*start);
   if (algorithm_ == Algorithm::conjugateGradient) {
     solution.report = qp::solveUnconstrained(hessian_, rhs, solution.lambda, parameters_.tolerance,
@@ -133,9 +161,12 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
-void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad,
-                                    const Vector* start, qp::Observer* observer, DualSolution& solution) {
-  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad);
+void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVectors& load, const Vector* start,
+                                    qp::Observer* observer, DualSolution& solution) {
+  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad(problem_, load));
+  // e vanishes where a balanced load is held by contacts on both sides: then the load itself is the measure.
+  const double equilibriumReference =
+      std::max(e.norm(), coarseSpace_->normalized(kernelLoadMagnitude(problem_, load)).norm());
   Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
   coarseSpace_->feasiblePoint(e, feasible);
   dualOperator_->apply(feasible, *rhs, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
@@ -149,13 +180,14 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorX
     mu.update(1.0, *start, -1.0, feasible, 0.0);
 
   const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference,
-                                        parameters_.equilibriumTolerance, accurateNorm(feasible)};
+                                        parameters_.equilibriumTolerance, equilibriumReference};
   solution.report =
       qp::solveEqualityBoundProblem(hessian_, coarseSpace_, *rhs, qp::Bounds(lower), mu, tolerances,
                                     parameters_.smalbe, parameters_.mprgp, norm_.norm, observer);
   solution.lambda->update(1.0, mu, 1.0, feasible, 0.0);
   const Eigen::VectorXd imbalance = coarseSpace_->product(*solution.lambda) - e;
-  solution.equilibrium = e.norm() > 0 ? imbalance.norm() / e.norm() : imbalance.norm();
+  solution.equilibrium =
+      equilibriumReference > 0 ? imbalance.norm() / equilibriumReference : imbalance.norm();
 }
 
 } // namespace epafi::fetidp

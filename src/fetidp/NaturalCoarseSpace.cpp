@@ -43,19 +43,37 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
   return entries;
 }
 
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load) {
+namespace {
+
+/// Σ Rᵀ f over all subdomains, or Σ |R|ᵀ|f|.
+Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load,
+                           bool magnitudes) {
   std::vector<AccurateSum> sums(static_cast<std::size_t>(problem.kernelDimension));
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
     const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
-    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
-      sums[static_cast<std::size_t>(offset + mode)].add(subdomain.kernel.col(mode).dot(load[s]));
+    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
+      const auto r = subdomain.kernel.col(mode);
+      sums[static_cast<std::size_t>(offset + mode)].add(magnitudes ? r.cwiseAbs().dot(load[s].cwiseAbs())
+                                                                   : r.dot(load[s]));
+    }
   }
   sumOverRanks(*problem.comm, sums);
   Eigen::VectorXd result(problem.kernelDimension);
   for (std::size_t k = 0; k < sums.size(); ++k)
     result[static_cast<Eigen::Index>(k)] = sums[k].value();
   return result;
+}
+
+} // namespace
+
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load) {
+  return resultants(problem, load, false);
+}
+
+Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem,
+                                    const SubdomainVectors& load) {
+  return resultants(problem, load, true);
 }
 
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,

@@ -32,6 +32,10 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
 /// ẽ = Rᵀ f̄ for the given loads, on every rank. Collective.
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load);
 
+/// |R|ᵀ|f̄|: what ẽ would be if nothing in it cancelled, its yardstick. On every rank. Collective.
+Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem,
+                                    const SubdomainVectors& load);
+
 class NaturalCoarseSpace final : public qp::EqualityConstraint {
 public:
   /// \param entries  see kernelConstraint

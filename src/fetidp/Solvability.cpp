@@ -64,14 +64,9 @@ std::string bodiesOf(const DecomposedProblem& problem, const Eigen::VectorXd& mo
   return (count > 1 ? "the floating bodies " : "the floating body ") + names + "'";
 }
 
-/// Σ|f| over the bodies that take part in a motion: what its resultant is compared with.
-double loadOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
-  double load = 0;
-  for (const auto& body : problem.bodies)
-    if (body.kernelDimension > 0)
-      load += body.loadMagnitude *
-              motion.segment(body.kernelOffset, body.kernelDimension).lpNorm<Eigen::Infinity>();
-  return load;
+/// What the resultant along a motion is compared with: |R|ᵀ|f| of the motion's modes.
+double loadAlong(const Eigen::VectorXd& magnitudes, const Eigen::VectorXd& motion) {
+  return magnitudes.dot(motion.cwiseAbs());
 }
 
 [[noreturn]] void refuse(SolvabilityError::Kind kind, const std::string& text) {
@@ -87,7 +82,7 @@ std::string number(double value) {
 
 /// A motion that no contact hinders in either direction: ẽᵀα must vanish, and even then α is undetermined.
 void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& directions,
-                      const Eigen::VectorXd& kernelLoad) {
+                      const Eigen::VectorXd& kernelLoad, const Eigen::VectorXd& magnitudes) {
   const Eigen::Index k = problem.kernelDimension;
   Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(k, std::max<Eigen::Index>(directions.cols(), 1));
   padded.leftCols(directions.cols()) = directions;
@@ -97,8 +92,8 @@ void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& d
   const Eigen::MatrixXd q = qr.householderQ();
   const Eigen::MatrixXd free = q.rightCols(k - qr.rank()); // G̃ᵀ free = 0
   Eigen::VectorXd motion = free * (free.transpose() * kernelLoad);
-  const bool isPulled =
-      motion.norm() > 0 && std::abs(kernelLoad.dot(motion)) > resultantTolerance * loadOf(problem, motion);
+  const bool isPulled = motion.norm() > 0 &&
+                        std::abs(kernelLoad.dot(motion)) > resultantTolerance * loadAlong(magnitudes, motion);
   if (!isPulled)
     motion = free.col(0);
   const std::string who = bodiesOf(problem, motion);
@@ -117,11 +112,12 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
   if (problem.kernelDimension == 0)
     return;
   const Eigen::MatrixXd directions = contactDirections(problem, entries);
-  refuseFreeMotion(problem, directions, kernelLoad);
+  const Eigen::VectorXd magnitudes = kernelLoadMagnitude(problem, loadsOf(problem));
+  refuseFreeMotion(problem, directions, kernelLoad, magnitudes);
 
   const Eigen::VectorXd motion =
       nonNegativeLeastSquares(directions, kernelLoad).residual; // allowed, and pulled along
-  if (motion.norm() > 0 && kernelLoad.dot(motion) > resultantTolerance * loadOf(problem, motion))
+  if (motion.norm() > 0 && kernelLoad.dot(motion) > resultantTolerance * loadAlong(magnitudes, motion))
     refuse(SolvabilityError::Kind::noSolution,
            "the load pulls " + bodiesOf(problem, motion) + " away from its contacts (resultant " +
                number(kernelLoad.dot(motion) / motion.norm()) +
@@ -129,9 +125,7 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
 
   // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
   Eigen::VectorXd all = directions.rowwise().sum();
-  double load = 0;
-  for (const auto& body : problem.bodies)
-    load += body.kernelDimension > 0 ? body.loadMagnitude : 0.0;
+  const double load = magnitudes.sum();
   if (all.norm() == 0)
     return; // the contacts oppose each other: any resultant is balanced
   const double margin = 10 * resultantTolerance * load / all.norm();
@@ -144,7 +138,9 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  refuseFreeMotion(problem, contactDirections(problem, entries), kernelLoad(problem, loadsOf(problem)));
+  const SubdomainVectors load = loadsOf(problem);
+  refuseFreeMotion(problem, contactDirections(problem, entries), kernelLoad(problem, load),
+                   kernelLoadMagnitude(problem, load));
 }
 
 void requireFeasibleGaps(const DecomposedProblem& problem) {
@@ -156,11 +152,17 @@ void requireFeasibleGaps(const DecomposedProblem& problem) {
       magnitude[static_cast<std::size_t>(entry.multiplier)] += std::abs(entry.coefficient);
   Vector rowSum(problem.multiplierMap);
   exchange.sumToOwners(rowSum);
+  // The gaps are differences of prescribed values: what is round-off of these does not overlap.
+  double largest = problem.gap->normInf();
+  for (const auto& subdomain : problem.subdomains)
+    if (subdomain.prescribed.size() > 0)
+      largest = std::max(largest, subdomain.prescribed.lpNorm<Eigen::Infinity>());
+  const double roundOff = 1e-12 * maxOverRanks(*problem.comm, largest);
   collectively(*problem.comm, [&] {
     const auto sums = rowSum.getData();
     const auto gaps = problem.gap->getData();
     for (Teuchos_Ordinal i = 0; i < sums.size(); ++i)
-      if (sums[i] == 0 && gaps[i] < 0)
+      if (sums[i] == 0 && gaps[i] < -roundOff)
         throw SolvabilityError(
             SolvabilityError::Kind::noSolution,
             "no solution: contact row " +

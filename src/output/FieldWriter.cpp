@@ -119,7 +119,7 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
   if (name.empty() || name.find('/') != std::string::npos) // the same on all ranks
     throw InputError("'" + name + "' is no name for an output file; it must not be empty nor contain '/'.");
   const auto& problem = decomposition.problem;
-  const FieldFiles files{directory / (name + ".h5"), directory / (name + ".xdmf")};
+  FieldFiles files{directory / (name + ".h5"), directory / (name + ".xdmf")};
 
   std::vector<XdmfGrid> grids;
   Hdf5File file(files.hdf5, problem.comm);

@@ -48,7 +48,7 @@ public:
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
+  operator hid_t() const { return id_; } // NOLINT(google-explicit-constructor): stands for the identifier
 
 private:
   hid_t id_;

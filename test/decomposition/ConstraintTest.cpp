@@ -96,13 +96,5 @@ TEST(ConstraintTest, GluedSubdomainsAreTheUndividedBody) {
   }
 }
 
-TEST(ConstraintTest, LoadMagnitudeIsTheSameOnAllRanksAndForAllCuts) {
-  const auto whole = decompose(oneBody(6, 6, grid(1, 1), {}), world());
-  const auto parts = decompose(oneBody(6, 6, metis(5), {}), world());
-  ASSERT_EQ(whole.problem.bodies.size(), 1u);
-  EXPECT_NEAR(whole.problem.bodies[0].loadMagnitude, 1.0, 1e-13);
-  EXPECT_NEAR(parts.problem.bodies[0].loadMagnitude, 1.0, 1e-13);
-}
-
 } // namespace
 } // namespace epafi::decomposition

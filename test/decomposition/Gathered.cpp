@@ -14,7 +14,12 @@ namespace {
 
 using scene::Edge;
 
-/// Column of each unknown of this rank's subdomains in the whole problem.
+void sum(const Comm& comm, Eigen::MatrixXd& matrix) {
+  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
+
+} // namespace
+
 std::vector<std::vector<Eigen::Index>> mergedColumns(const DecomposedProblem& problem) {
   const auto numRemainders = static_cast<Eigen::Index>(problem.remainderMap->getGlobalNumElements());
   auto next = static_cast<Eigen::Index>(problem.remainderMap->getMinGlobalIndex());
@@ -35,12 +40,6 @@ Eigen::Index mergedSize(const DecomposedProblem& problem) {
   return static_cast<Eigen::Index>(problem.remainderMap->getGlobalNumElements() +
                                    problem.crosspointMap->getGlobalNumElements());
 }
-
-void sum(const Comm& comm, Eigen::MatrixXd& matrix) {
-  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
-}
-
-} // namespace
 
 RCP<const Comm> world() {
   return Tpetra::getDefaultComm();

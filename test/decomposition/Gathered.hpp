@@ -28,6 +28,12 @@ scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
 /// A node of the whole problem as one number: unique over bodies.
 double nodeKey(const Subdomain& subdomain, int unknown, int components);
 
+/// Column of each unknown of this rank's subdomains in the whole problem: remainder unknowns first,
+/// crosspoint unknowns last, one column for all copies of a crosspoint.
+std::vector<std::vector<Eigen::Index>> mergedColumns(const DecomposedProblem& problem);
+/// Number of those columns.
+Eigen::Index mergedSize(const DecomposedProblem& problem);
+
 /// K̄ of the whole problem: remainder unknowns first, crosspoint unknowns last. Collective.
 Eigen::MatrixXd mergedStiffness(const DecomposedProblem& problem);
 

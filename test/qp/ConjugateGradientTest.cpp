@@ -13,8 +13,8 @@ qp::SolveReport solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen:
                       double tolerance, int limit = 1000) {
   const auto map = test::linearMap(static_cast<int>(b.size()));
   const RCP<Vector> solution = test::makeVector(map, x);
-  const auto report = qp::solveUnconstrained(rcp(new test::DenseOperator(map, a)), test::makeVector(map, b),
-                                             solution, tolerance, limit);
+  auto report = qp::solveUnconstrained(rcp(new test::DenseOperator(map, a)), test::makeVector(map, b),
+                                       solution, tolerance, limit);
   x = test::gather(*solution);
   return report;
 }

@@ -24,11 +24,13 @@ struct Answer {
 };
 
 Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameters& parameters = {},
-             double norm = 1.0) {
+             double norm = 1.0, const Eigen::VectorXd& start = {}) {
   const auto map = test::linearMap(static_cast<int>(problem.b.size()));
   const RCP<const qp::EqualityConstraint> g = rcp(new test::DenseEquality(map, problem.g));
   const qp::Bounds bounds(test::makeVector(map, problem.lower));
   Vector x(map);
+  if (start.size() > 0)
+    x.assign(*test::makeVector(map, start));
   const qp::SmalbeTolerances tolerances{tolerance, problem.b.norm(), tolerance, 1.0};
   const auto report = qp::solveEqualityBoundProblem(rcp(new test::DenseOperator(map, problem.a)), g,
                                                     *test::makeVector(map, problem.b), bounds, x, tolerances,
@@ -164,6 +166,20 @@ TEST(SmalbeTest, StopsAtTheOuterLimit) {
 
   EXPECT_EQ(report.status, Status::maxIterations);
   EXPECT_NE(report.reason.find("Maximum Outer Iterations"), std::string::npos) << report.reason;
+}
+
+TEST(SmalbeTest, AStartAtTheSolutionStaysThere) {
+  std::mt19937 random(21);
+  for (int trial = 0; trial < 5; ++trial) {
+    const Problem problem = randomProblem(20, 3, 100, random);
+    const Answer cold = solve(problem, 1e-9);
+    ASSERT_EQ(cold.report.status, Status::converged);
+    const Answer warm = solve(problem, 1e-8, {}, 1.0, cold.x);
+    EXPECT_EQ(warm.report.status, Status::converged);
+    EXPECT_LE(warm.report.counts.hessianMultiplications, 3);
+    EXPECT_GT(cold.report.counts.hessianMultiplications, 10);
+    EXPECT_LE((warm.x - cold.x).norm(), 1e-6 * cold.x.norm());
+  }
 }
 
 } // namespace

@@ -1,0 +1,227 @@
+#include "Reference.hpp"
+
+#include "../base/Refusal.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/NaturalCoarseSpace.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace epafi::fetidp {
+namespace {
+
+scene::Scene membranes(bool coercive) {
+  scene::Scene scene = twoMembranes(coercive, 6, grid(2, 2));
+  setHalves(scene.bodies[0], 4.0, -5.0);
+  setHalves(scene.bodies[1], -3.0, 2.0);
+  return scene;
+}
+
+TEST(ContactSolverTest, SolvesAgainForNewLoadsAndGaps) {
+  for (const bool coercive : {true, false}) {
+    Solved solved(membranes(coercive));
+    DecomposedProblem& problem = solved.decomposition.problem;
+    const Field before = fieldOf(solved.decomposition, solved.solution);
+    for (auto& subdomain : problem.subdomains)
+      subdomain.load *= subdomain.body == 0 ? 3.0 : 1.5;
+    problem.gap->scale(0.0);
+    for (GlobalOrdinal row = 0; row < problem.numInequalities; ++row)
+      if (problem.multiplierMap->isNodeGlobalElement(row))
+        problem.gap->replaceGlobalValue(row, 0.01 * static_cast<double>(row));
+    const ContactSolution again = solved.solver.solve();
+    const PrimalSolution reference = solveUndecomposed(solved.decomposition);
+    const Field after = fieldOf(solved.decomposition, again);
+    EXPECT_LE(fieldError(after, reference.field), 1e-8);
+    EXPECT_GT(fieldError(after, before), 0.1); // it is another problem
+
+    ContactSolver fresh(toleranceOf(1e-11));
+    fresh.setup(problem);
+    EXPECT_LE(fieldError(after, fieldOf(solved.decomposition, fresh.solve())), 1e-13);
+  }
+}
+
+TEST(ContactSolverTest, SolvingTwiceGivesTheSameAnswer) {
+  for (const bool coercive : {true, false}) {
+    Solved solved(membranes(coercive));
+    const ContactSolution again = solved.solver.solve();
+    EXPECT_EQ(relativeError(gathered(*again.multiplier), gathered(*solved.solution.multiplier)), 0);
+  }
+}
+
+TEST(ContactSolverTest, ALoadMayAppearAfterSetup) {
+  scene::Scene scene = membranes(false);
+  const Field expected = [&] {
+    const Solved solved(scene);
+    return fieldOf(solved.decomposition, solved.solution);
+  }();
+  const auto loads = decompose(scene, world());
+  for (scene::Body& body : scene.bodies)
+    body.loads.clear();
+  auto decomposition = decompose(scene, world());
+  ContactSolver solver(toleranceOf(1e-10));
+  solver.setup(decomposition.problem); // not unique as yet
+  EXPECT_THROW(solver.solve(), SolvabilityError);
+  for (std::size_t s = 0; s < decomposition.problem.subdomains.size(); ++s)
+    decomposition.problem.subdomains[s].load = loads.problem.subdomains[s].load;
+  EXPECT_LE(fieldError(fieldOf(decomposition, solver.solve()), expected), 1e-9);
+}
+
+TEST(ContactSolverTest, AWarmStartFromTheSolutionTakesFewProducts) {
+  for (const bool coercive : {true, false}) {
+    Solved solved(membranes(coercive), 1e-8);
+    const int cold = solved.solver.report().counts.hessianMultiplications;
+    const ContactSolution again = solved.solver.solve(solved.solution.multiplier.get());
+    EXPECT_EQ(solved.solver.report().status, qp::Status::converged);
+    EXPECT_LE(solved.solver.report().counts.hessianMultiplications, 3);
+    EXPECT_GT(cold, 10);
+    EXPECT_LE(
+        fieldError(fieldOf(solved.decomposition, again), fieldOf(solved.decomposition, solved.solution)),
+        1e-7);
+  }
+}
+
+TEST(ContactSolverTest, AnyStartLeadsToTheSolution) {
+  for (const bool coercive : {true, false}) {
+    Solved solved(membranes(coercive));
+    const DecomposedProblem& problem = solved.decomposition.problem;
+    const auto start =
+        spread(problem.multiplierMap, randomVector(static_cast<Eigen::Index>(problem.dualDimension()), 3));
+    const Eigen::VectorXd kept = gathered(*start);
+    const ContactSolution again = solved.solver.solve(start.get());
+    EXPECT_EQ(solved.solver.report().status, qp::Status::converged);
+    EXPECT_LE(
+        fieldError(fieldOf(solved.decomposition, again), fieldOf(solved.decomposition, solved.solution)),
+        1e-8);
+    EXPECT_EQ(gathered(*start), kept);
+  }
+}
+
+TEST(ContactSolverTest, ChoosesTheLeastAlgorithm) {
+  const scene::Support wall{"wall", scene::Edge::left, 0.0};
+  const auto algorithmOf = [](const scene::Scene& scene) {
+    return Solved(scene, 1e-6).solver.dualProblem().algorithm();
+  };
+  EXPECT_EQ(algorithmOf(decomposition::oneBody(4, 4, grid(1, 1), {wall})), Algorithm::direct);
+  EXPECT_EQ(algorithmOf(decomposition::oneBody(4, 4, grid(2, 2), {wall})), Algorithm::conjugateGradient);
+  EXPECT_EQ(algorithmOf(membranes(true)), Algorithm::mprgp);
+  EXPECT_EQ(algorithmOf(membranes(false)), Algorithm::smalbe);
+}
+
+TEST(ContactSolverTest, BodiesWithoutContactAreSolvedToo) {
+  const scene::Support wall{"wall", scene::Edge::left, 0.5}, foot{"foot", scene::Edge::bottom, 0.5};
+  for (const auto& cut : {grid(1, 1), grid(2, 2), metis(3)}) {
+    const Solved solved(decomposition::oneBody(4, 5, cut, {wall, foot}));
+    const PrimalSolution reference = solveUndecomposed(solved.decomposition);
+    EXPECT_EQ(solved.solver.report().status, qp::Status::converged);
+    EXPECT_LE(fieldError(fieldOf(solved.decomposition, solved.solution), reference.field), 1e-9);
+    EXPECT_NEAR(solved.solution.energy, reference.energy, 1e-9 * std::abs(reference.energy));
+    EXPECT_EQ(solved.solution.contactForce, 0);
+  }
+}
+
+TEST(ContactSolverTest, SolveAsksForSetup) {
+  ContactSolver solver(ContactSolver::validParameters());
+  EXPECT_THROW(solver.solve(), Error);
+}
+
+TEST(ContactSolverTest, AFailedSetupLeavesNoHalfSolver) {
+  Solved solved(membranes(false), 1e-6);
+  scene::Scene adrift = membranes(false);
+  adrift.bodies.push_back(adrift.bodies[1]);
+  adrift.bodies.back().name = "adrift";
+  const auto decomposition = decompose(adrift, world());
+  EXPECT_THROW(solved.solver.setup(decomposition.problem), SolvabilityError);
+  EXPECT_THROW(solved.solver.solve(), Error); // not the old problem's answer
+  solved.solver.setup(solved.decomposition.problem);
+  EXPECT_EQ(gathered(*solved.solver.solve().multiplier), gathered(*solved.solution.multiplier));
+}
+
+TEST(ContactSolverTest, UnknownAndImpossibleParametersAreRefused) {
+  const auto complaint = [](const auto& change) {
+    Teuchos::ParameterList list;
+    change(list);
+    return test::refusal([&] { ContactSolver{list}; });
+  };
+  test::expectSays(complaint([](auto& list) { list.set("Tolerence", 1e-6); }), {"Tolerence", "Tolerance"});
+  test::expectSays(complaint([](auto& list) { list.set("Tolerance", -1.0); }), {"Tolerance", "-1"});
+  test::expectSays(complaint([](auto& list) { list.sublist("MPRGP").set("Expansion Step", 2.5); }),
+                   {"MPRGP", "Expansion Step", "2.5"});
+  test::expectSays(complaint([](auto& list) { list.sublist("Direct Solvers").set("Subdomains", "KLU3"); }),
+                   {"Subdomains", "KLU3", "KLU2"});
+}
+
+TEST(ContactSolverTest, AMissedToleranceIsAStatusNotAnError) {
+  for (const bool coercive : {true, false}) {
+    const auto decomposition = decompose(membranes(coercive), world());
+    Teuchos::ParameterList list;
+    list.sublist("MPRGP").set("Maximum Multiplications", 3);
+    ContactSolver solver(list);
+    solver.setup(decomposition.problem);
+    const ContactSolution solution = solver.solve();
+    EXPECT_EQ(solver.report().status, qp::Status::maxIterations);
+    EXPECT_FALSE(solver.reportList(solution).sublist("Status").get<bool>("Converged"));
+    EXPECT_GT(solution.relativeProjectedGradient, solver.tolerance());
+  }
+}
+
+TEST(ContactSolverTest, LoadsAndGapsThatAreNoNumbersAreRefused) {
+  for (const bool coercive : {true, false})
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      Solved solved(membranes(coercive), 1e-6);
+      DecomposedProblem& problem = solved.decomposition.problem;
+      for (auto& subdomain : problem.subdomains)
+        if (subdomain.number == 5)
+          subdomain.load[0] = bad; // on one rank; all ranks say so
+      test::expectSays(test::refusal([&] { solved.solver.solve(); }), {"load", "'right'", "subdomain 5"});
+      for (auto& subdomain : problem.subdomains)
+        subdomain.load.setConstant(subdomain.body == 0 ? 1.0 : -1.0);
+      if (problem.multiplierMap->isNodeGlobalElement(2))
+        problem.gap->replaceGlobalValue(2, bad);
+      test::expectSays(test::refusal([&] { solved.solver.solve(); }), {"gap", "contact row 2"});
+    }
+}
+
+TEST(ContactSolverTest, ReportsEverythingThatTheSolveKnows) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> contract{
+      {"Problem",
+       {"Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers", "Crosspoints",
+        "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"}},
+      {"Algorithm", {"Name", "Reason"}},
+      {"Iterations",
+       {"Outer", "CG Steps", "Expansion Steps", "Proportioning Steps", "Hessian Multiplications",
+        "Preconditioner Applications"}},
+      {"Accuracy",
+       {"Relative Projected Gradient", "Feasibility", "Complementarity", "Energy", "Active Contact Nodes",
+        "Contact Force"}},
+      {"Time", {"Setup", "Solve", "Recovery"}}, // who assembles and writes adds the rest
+      {"Memory", {"Peak Bytes", "Factor Bytes"}},
+      {"Status", {"Converged", "Reason"}}};
+  const Solved solved(membranes(false), 1e-6);
+  const Teuchos::ParameterList report = solved.solver.reportList(solved.solution);
+  for (const auto& [list, names] : contract) {
+    ASSERT_TRUE(report.isSublist(list)) << list;
+    for (const std::string& name : names)
+      EXPECT_TRUE(report.sublist(list).isParameter(name)) << list << ": " << name;
+  }
+  const Teuchos::ParameterList& problem = report.sublist("Problem");
+  EXPECT_EQ(problem.get<GlobalOrdinal>("Dual Dimension"),
+            problem.get<GlobalOrdinal>("Equality Multipliers") +
+                problem.get<GlobalOrdinal>("Inequality Multipliers"));
+  EXPECT_EQ(problem.get<GlobalOrdinal>("Inequality Multipliers"), 7);
+  EXPECT_EQ(problem.get<int>("Subdomains"), 8);
+  EXPECT_EQ(problem.get<int>("Floating Bodies"), 1);
+  EXPECT_EQ(problem.get<int>("Kernel Dimension"), 1);
+  EXPECT_EQ(problem.get<int>("Ranks"), world()->getSize());
+  EXPECT_TRUE(report.sublist("Status").get<bool>("Converged"));
+  EXPECT_GT(report.sublist("Memory").get<double>("Factor Bytes"), 0);
+  EXPECT_GE(report.sublist("Time").get<double>("Setup"), 0);
+}
+
+} // namespace
+} // namespace epafi::fetidp

@@ -1,0 +1,204 @@
+#include "Reference.hpp"
+
+#include "epafi/base/Collective.hpp"
+
+#include <Eigen/QR>
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+
+namespace epafi::fetidp {
+namespace {
+
+template <class Matrix>
+void sum(const Comm& comm, Matrix& matrix) {
+  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
+
+/// The problem over all nodes of all bodies, supported ones too (one unknown a node).
+struct PrimalProblem {
+  Eigen::MatrixXd stiffness, constraint; ///< K; B_I
+  Eigen::VectorXd load, gap, prescribed; ///< f; c; values of supported nodes, 0 elsewhere
+  Eigen::VectorXd copies;                ///< of each node in the subdomains
+  std::vector<Eigen::Index> firstNode;   ///< of each body; one more at the end
+  std::vector<Eigen::Index> unknowns;    ///< nodes that are free
+  double energyOffset = 0;
+};
+
+/// Where a subdomain's unknown lies among all nodes.
+Eigen::Index nodeOf(const PrimalProblem& primal, const decomposition::Subdomain& subdomain, int position) {
+  return primal.firstNode[static_cast<std::size_t>(subdomain.body)] +
+         static_cast<Eigen::Index>(subdomain.nodes[static_cast<std::size_t>(position)]);
+}
+
+std::vector<Eigen::Index> firstNodes(const decomposition::Decomposition& decomposition) {
+  std::vector<Eigen::Index> first{0};
+  for (const auto& body : decomposition.bodies)
+    first.push_back(first.back() + static_cast<Eigen::Index>(body.mesh->numNodes()));
+  return first;
+}
+
+void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdomain& subdomain,
+                  PrimalProblem& primal, Eigen::VectorXd& isFree) {
+  std::vector<Eigen::Index> node;
+  for (const int position : subdomain.unknownPosition)
+    node.push_back(nodeOf(primal, subdomain, position));
+  for (int j = 0; j < subdomain.stiffness.outerSize(); ++j)
+    for (decomposition::SparseMatrix::InnerIterator entry(subdomain.stiffness, j); entry; ++entry)
+      primal.stiffness(node[static_cast<std::size_t>(entry.row())], node[static_cast<std::size_t>(j)]) +=
+          entry.value();
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    primal.load[node[i]] += subdomain.load[static_cast<Eigen::Index>(i)];
+    isFree[node[i]] += 1;
+  }
+  for (Eigen::Index i = 0; i < subdomain.prescribed.size(); ++i) {
+    const Eigen::Index at = nodeOf(primal, subdomain, static_cast<int>(i));
+    primal.prescribed[at] += subdomain.prescribed[i];
+    primal.copies[at] += 1;
+  }
+  for (const auto& entry : subdomain.constraint) {
+    const GlobalOrdinal row = problem.multiplierGhostMap->getGlobalElement(entry.multiplier);
+    if (row < problem.numInequalities)
+      primal.constraint(static_cast<Eigen::Index>(row), node[static_cast<std::size_t>(entry.unknown)]) +=
+          entry.coefficient;
+  }
+  primal.energyOffset += subdomain.energyOffset;
+}
+
+PrimalProblem assemble(const decomposition::Decomposition& decomposition) {
+  const DecomposedProblem& problem = decomposition.problem;
+  PrimalProblem primal;
+  primal.firstNode = firstNodes(decomposition);
+  const Eigen::Index n = primal.firstNode.back();
+  primal.stiffness = Eigen::MatrixXd::Zero(n, n);
+  primal.constraint = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.numInequalities), n);
+  primal.load = primal.prescribed = primal.copies = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd isFree = Eigen::VectorXd::Zero(n);
+  for (const auto& subdomain : problem.subdomains)
+    addSubdomain(problem, subdomain, primal, isFree);
+  sum(*problem.comm, primal.stiffness);
+  sum(*problem.comm, primal.constraint);
+  for (Eigen::VectorXd* vector : {&primal.load, &primal.prescribed, &primal.copies, &isFree})
+    sum(*problem.comm, *vector);
+  primal.energyOffset = sumOverRanks(*problem.comm, primal.energyOffset);
+  primal.prescribed.array() /= primal.copies.array();
+  primal.gap = gathered(*problem.gap).head(primal.constraint.rows());
+  for (Eigen::Index node = 0; node < n; ++node)
+    if (isFree[node] > 0)
+      primal.unknowns.push_back(node);
+  return primal;
+}
+
+Field split(const PrimalProblem& primal, const Eigen::VectorXd& values) {
+  Field field;
+  for (std::size_t b = 0; b + 1 < primal.firstNode.size(); ++b)
+    field.push_back(values.segment(primal.firstNode[b], primal.firstNode[b + 1] - primal.firstNode[b]));
+  return field;
+}
+
+} // namespace
+
+Teuchos::ParameterList toleranceOf(double tolerance) {
+  Teuchos::ParameterList list = ContactSolver::validParameters();
+  list.set("Tolerance", tolerance);
+  list.set("Equilibrium Tolerance", tolerance);
+  return list;
+}
+
+Solved::Solved(const scene::Scene& scene, double tolerance)
+    : decomposition(decompose(scene, world())), solver(toleranceOf(tolerance)) {
+  solver.setup(decomposition.problem);
+  solution = solver.solve();
+}
+
+Field fieldOf(const decomposition::Decomposition& decomposition, const ContactSolution& solution) {
+  PrimalProblem primal;
+  primal.firstNode = firstNodes(decomposition);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(primal.firstNode.back()), copies = values;
+  for (std::size_t s = 0; s < solution.displacement.size(); ++s)
+    for (Eigen::Index i = 0; i < solution.displacement[s].size(); ++i) {
+      const Eigen::Index node = nodeOf(primal, decomposition.problem.subdomains[s], static_cast<int>(i));
+      values[node] += solution.displacement[s][i];
+      copies[node] += 1;
+    }
+  sum(*decomposition.problem.comm, values);
+  sum(*decomposition.problem.comm, copies);
+  return split(primal, values.cwiseQuotient(copies));
+}
+
+double largestJump(const decomposition::Decomposition& decomposition, const ContactSolution& solution) {
+  const Field mean = fieldOf(decomposition, solution);
+  double jump = 0;
+  for (std::size_t s = 0; s < solution.displacement.size(); ++s) {
+    const auto& subdomain = decomposition.problem.subdomains[s];
+    for (std::size_t i = 0; i < subdomain.nodes.size(); ++i)
+      jump = std::max(
+          jump,
+          std::abs(
+              solution.displacement[s][static_cast<Eigen::Index>(i)] -
+              mean[static_cast<std::size_t>(subdomain.body)][static_cast<Eigen::Index>(subdomain.nodes[i])]));
+  }
+  return maxOverRanks(*decomposition.problem.comm, jump);
+}
+
+double fieldError(const Field& a, const Field& b) {
+  double difference = 0, size = 0;
+  for (std::size_t body = 0; body < b.size(); ++body) {
+    difference = std::max(difference, (a[body] - b[body]).lpNorm<Eigen::Infinity>());
+    size = std::max(size, b[body].lpNorm<Eigen::Infinity>());
+  }
+  return size > 0 ? difference / size : difference;
+}
+
+PrimalSolution solveUndecomposed(const decomposition::Decomposition& decomposition) {
+  const PrimalProblem primal = assemble(decomposition);
+  const Eigen::MatrixXd k = primal.stiffness(primal.unknowns, primal.unknowns),
+                        b = primal.constraint(Eigen::all, primal.unknowns);
+  const Eigen::VectorXd f = primal.load(primal.unknowns);
+  const Eigen::Index n = k.rows(), m = b.rows();
+  const double unit = k.diagonal().mean(); // forces and gaps compared
+
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(n), force = Eigen::VectorXd::Zero(m);
+  std::vector<Eigen::Index> active;
+  for (Eigen::Index i = 0; i < m; ++i)
+    active.push_back(i);
+  for (int step = 0; step < 100; ++step) { // [K Bᵀ; B 0] on the active rows, then the rows that want to be
+    const auto a = static_cast<Eigen::Index>(active.size());
+    Eigen::MatrixXd saddle = Eigen::MatrixXd::Zero(n + a, n + a);
+    Eigen::VectorXd right(n + a);
+    saddle.topLeftCorner(n, n) = k / unit;
+    saddle.bottomLeftCorner(a, n) = b(active, Eigen::all);
+    saddle.topRightCorner(n, a) = b(active, Eigen::all).transpose();
+    right << f / unit, primal.gap(active);
+    const Eigen::VectorXd solution = saddle.completeOrthogonalDecomposition().solve(right);
+    u = solution.head(n);
+    force.setZero();
+    force(active) = unit * solution.tail(a);
+    std::vector<Eigen::Index> next;
+    for (Eigen::Index i = 0; i < m; ++i)
+      if (force[i] + unit * (b.row(i).dot(u) - primal.gap[i]) > 0)
+        next.push_back(i);
+    if (next == active)
+      break;
+    active = next;
+  }
+
+  PrimalSolution result;
+  result.force = force;
+  const Eigen::VectorXd slack = primal.gap - b * u;
+  result.energy = 0.5 * u.dot(k * u) - f.dot(u) + primal.energyOffset;
+  const double length =
+      std::max({u.lpNorm<Eigen::Infinity>(), primal.gap.size() > 0 ? primal.gap.norm() : 0.0, 1e-300});
+  result.violation = (k * u - f + b.transpose() * force).norm() / (unit * length);
+  for (Eigen::Index i = 0; i < m; ++i)
+    result.violation = std::max({result.violation, -force[i] / (unit * length), -slack[i] / length,
+                                 std::min(force[i] / unit, slack[i]) / length});
+  Eigen::VectorXd values = primal.prescribed;
+  values(primal.unknowns) = u;
+  result.field = split(primal, values);
+  return result;
+}
+
+} // namespace epafi::fetidp
