@@ -169,6 +169,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   rows.push_back(gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities));
 
   GlobalOrdinal positions = 0, remainders = 0;
+  problem.subdomains.reserve(pieces.size());
   for (Piece& piece : pieces) {
     positions += piece.assembled.prescribed.size();
     problem.subdomains.push_back(makeSubdomain(layout, crosspoints, piece));
