@@ -16,12 +16,12 @@ TEST(EdgeSegmentTest, RunsUpwardsOrToTheRight) {
 
 TEST(EdgeSegmentTest, CoincidesUpToATinyPartOfItsLength) {
   for (const double length : {1e-6, 1.0, 1e6}) {
-    const EdgeSegment edge{true, 2, 0, length};
+    const EdgeSegment edge{true, 2 * length, 0, length};
     const double little = 0.5e-10 * length, much = 2e-10 * length;
-    EXPECT_TRUE(coincide(edge, {true, 2 + little, -little, length + little}));
-    EXPECT_FALSE(coincide(edge, {true, 2 + much, 0, length}));
-    EXPECT_FALSE(coincide(edge, {true, 2, -much, length}));
-    EXPECT_FALSE(coincide(edge, {true, 2, 0, length + much}));
+    EXPECT_TRUE(coincide(edge, {true, 2 * length + little, -little, length + little}));
+    EXPECT_FALSE(coincide(edge, {true, 2 * length + much, 0, length}));
+    EXPECT_FALSE(coincide(edge, {true, 2 * length, -much, length}));
+    EXPECT_FALSE(coincide(edge, {true, 2 * length, 0, length + much}));
   }
 }
 
