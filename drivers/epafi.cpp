@@ -43,6 +43,17 @@ std::vector<std::filesystem::path> reportsOf(const Options& options) {
   return files;
 }
 
+/// What is printed instead of solving.
+std::string information(const Options& options) {
+  if (options.help)
+    return usage();
+  if (options.version)
+    return "epafi " EPAFI_VERSION "\n";
+  return describeParameters(driverSchema(),
+                            "All parameters of a scene file with type, default, allowed values and meaning, "
+                            "as `epafi --print-parameters` prints them.");
+}
+
 /// Writes what was asked for; returns the lines that say where.
 std::string writeFiles(const Options& options, SceneRun& run, const Comm& comm) {
   std::string lines;
@@ -98,10 +109,7 @@ int run(int argc, char** argv, const RCP<const Comm>& comm) {
     const Options options = parseOptions(argc, argv);
     if (options.help || options.version || options.printParameters) {
       if (isFirst)
-        std::cout << (options.help      ? usage()
-                      : options.version ? std::string("epafi " EPAFI_VERSION "\n")
-                                        : describeParameters(driverSchema()))
-                  << std::flush;
+        std::cout << information(options) << std::flush;
       return solved;
     }
     return solve(options, comm);

@@ -33,8 +33,7 @@ Teuchos::ParameterList ContactSolver::validParameters() {
   Teuchos::ParameterList list("Solver");
   addReal(list, "Tolerance", dual.tolerance,
           "The iteration stops when the projected gradient is this small relative to the right-hand side of "
-          "the dual "
-          "problem.",
+          "the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies.",
           0.0, 1.0, true);
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
           "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to the load where it is "

@@ -32,18 +32,21 @@ private:
   Kind kind_;
 };
 
-/// The candidate that is nearest to `word` in spelling, or an empty string if none is near.
-/// Used to suggest a name in error messages.
+/// The candidate that is nearest to `word` in spelling, or an empty string if none is near: if every one
+/// needs more edits than about a third of the word's letters. Used to suggest a name in error messages.
 template <class Names>
 std::string nearestName(const std::string& word, const Names& candidates);
 
-/// Number of single-letter edits (insert, delete, replace; case ignored) between two words.
+/// Number of edits between two words: insert, delete or replace a letter, swap two neighbours; case ignored.
 std::size_t editDistance(const std::string& a, const std::string& b);
+
+/// The text with a full stop at its end, unless it ends as a sentence already: `… did you mean "left"?`.
+std::string asSentence(const std::string& text);
 
 template <class Names>
 std::string nearestName(const std::string& word, const Names& candidates) {
   std::string best;
-  std::size_t bestDistance = word.size() / 2 + 2;
+  std::size_t bestDistance = (word.size() + 1) / 3 + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = editDistance(word, candidate);
     if (distance < bestDistance) {

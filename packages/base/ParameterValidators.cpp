@@ -29,17 +29,18 @@ bool Range::admits(const ParameterEntry& entry) const {
     value = Teuchos::getValue<int>(entry);
   else if (entry.isType<double>())
     value = Teuchos::getValue<double>(entry);
-  return std::isfinite(value) && value <= maximum_ && (openBelow_ ? value > minimum_ : value >= minimum_);
+  return std::isfinite(value) && (openBelow_ ? value > minimum_ : value >= minimum_) &&
+         (openAbove_ ? value < maximum_ : value <= maximum_);
 }
 
 std::string Range::allowed() const {
-  const bool isBelowOpen = !std::isfinite(minimum_) || minimum_ == std::numeric_limits<int>::lowest();
-  const bool isAboveOpen = !std::isfinite(maximum_) || maximum_ == std::numeric_limits<int>::max();
+  const bool hasNoMinimum = !std::isfinite(minimum_) || minimum_ == std::numeric_limits<int>::lowest();
+  const bool hasNoMaximum = !std::isfinite(maximum_) || maximum_ == std::numeric_limits<int>::max();
   std::string text;
-  if (!isBelowOpen)
+  if (!hasNoMinimum)
     text = (openBelow_ ? "> " : "≥ ") + valueText(minimum_);
-  if (!isAboveOpen)
-    text += (isBelowOpen ? "≤ " : " and ≤ ") + valueText(maximum_);
+  if (!hasNoMaximum)
+    text += (hasNoMinimum ? "" : " and ") + std::string(openAbove_ ? "< " : "≤ ") + valueText(maximum_);
   return text;
 }
 

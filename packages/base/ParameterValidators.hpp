@@ -6,6 +6,7 @@
 #include <Teuchos_ParameterEntryValidator.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace epafi {
@@ -26,17 +27,18 @@ public:
                 const std::string& list) const override;
 };
 
-/// An int or double in [minimum, maximum], or in (minimum, maximum] with `openBelow`; never NaN or infinite.
+/// An int or double between minimum and maximum; an end that is open is not allowed itself. Never NaN or
+/// infinite.
 class Range final : public AllowedValues {
 public:
-  Range(double minimum, double maximum, bool openBelow)
-      : minimum_(minimum), maximum_(maximum), openBelow_(openBelow) {}
+  Range(double minimum, double maximum, bool openBelow, bool openAbove)
+      : minimum_(minimum), maximum_(maximum), openBelow_(openBelow), openAbove_(openAbove) {}
   [[nodiscard]] bool admits(const Teuchos::ParameterEntry& entry) const override;
   [[nodiscard]] std::string allowed() const override;
 
 private:
   double minimum_, maximum_;
-  bool openBelow_;
+  bool openBelow_, openAbove_;
 };
 
 /// One word out of a few.
@@ -49,6 +51,34 @@ public:
 
 private:
   ValidStringsList words_;
+};
+
+/// Says what is allowed, and leaves the check to who reads the parameter.
+class Remark final : public AllowedValues {
+public:
+  explicit Remark(std::string allowed) : allowed_(std::move(allowed)) {}
+  [[nodiscard]] bool admits(const Teuchos::ParameterEntry&) const override { return true; }
+  [[nodiscard]] std::string allowed() const override { return allowed_; }
+
+private:
+  std::string allowed_;
+};
+
+/// Marks a parameter that must be given; what it may be, `inner` says.
+class Required final : public AllowedValues {
+public:
+  /// \param inner  may be null
+  explicit Required(Teuchos::RCP<const AllowedValues> inner) : inner_(std::move(inner)) {}
+  [[nodiscard]] bool admits(const Teuchos::ParameterEntry& entry) const override {
+    return inner_.is_null() || inner_->admits(entry);
+  }
+  [[nodiscard]] std::string allowed() const override { return inner_.is_null() ? "" : inner_->allowed(); }
+  [[nodiscard]] ValidStringsList validStringValues() const override {
+    return inner_.is_null() ? Teuchos::null : inner_->validStringValues();
+  }
+
+private:
+  Teuchos::RCP<const AllowedValues> inner_;
 };
 
 } // namespace epafi

@@ -4,8 +4,6 @@
 #include "epafi/base/ParameterValidators.hpp"
 #include "epafi/base/ParameterValue.hpp"
 
-#include <Teuchos_Array.hpp>
-
 #include <cmath>
 #include <sstream>
 
@@ -43,12 +41,12 @@ struct Place {
     return {file, path.empty() ? name : path + '/' + name};
   }
   [[noreturn]] void refuse(const std::string& sentence) const {
-    throw InputError(file.empty() ? sentence : file + ": " + sentence);
+    throw InputError((file.empty() ? "" : file + ": ") + asSentence(sentence));
   }
   [[noreturn]] void refuse(const std::string& parameter, const ParameterEntry& found,
                            const std::string& mustBe) const {
     refuse("parameter \"" + parameter + "\" in " + list() + " is " + valueText(found) + ", but must be " +
-           mustBe + '.');
+           mustBe);
   }
 };
 
@@ -63,11 +61,11 @@ struct Place {
   if (!near.empty())
     place.refuse(sentence + "did you mean \"" + near + "\"?");
   if (const std::string pattern = patternOf(schema); !pattern.empty())
-    place.refuse(sentence + "only lists, one for each " + pattern + ", are allowed here.");
+    place.refuse(sentence + "only lists, one for each " + pattern + ", are allowed here");
   sentence += known.empty() ? "nothing is allowed here" : "allowed are ";
   for (std::size_t i = 0; i < known.size(); ++i)
     sentence += (i == 0 ? "\"" : ", \"") + known[i] + '"';
-  place.refuse(sentence + '.');
+  place.refuse(sentence);
 }
 
 /// The bare value, without documentation and validator, so that the result can be written to a file.
@@ -118,9 +116,6 @@ void checkRange(const std::string& name, const ParameterEntry& entry, const Para
       const std::string near =
           nearestName(Teuchos::getValue<std::string>(entry), *valid.validator()->validStringValues());
       mustBe += near.empty() ? "" : "; did you mean \"" + near + "\"?";
-      if (!near.empty())
-        place.refuse("parameter \"" + name + "\" in " + place.list() + " is " + valueText(entry) +
-                     ", but must be " + mustBe);
     }
     place.refuse(name, entry, mustBe);
   }
@@ -130,11 +125,11 @@ ParameterEntry checkedParameter(const std::string& name, const ParameterEntry& g
                                 const ParameterEntry& valid, const Place& place) {
   if (given.isList())
     place.refuse("\"" + name + "\" in " + place.list() + " is a list, but must be a parameter of type " +
-                 typeName(valid) + '.');
+                 typeName(valid));
   ParameterEntry entry = converted(given, valid);
   if (typeName(entry) != typeName(valid))
     place.refuse("parameter \"" + name + "\" in " + place.list() + " is " + valueText(given) + " of type " +
-                 typeName(given) + ", but must be of type " + typeName(valid) + '.');
+                 typeName(given) + ", but must be of type " + typeName(valid));
   if (!isFinite(entry)) {
     const std::string allowed = allowedText(valid);
     place.refuse(name, entry,
@@ -145,16 +140,23 @@ ParameterEntry checkedParameter(const std::string& name, const ParameterEntry& g
   return entry;
 }
 
-ParameterList checkedList(const ParameterList& given, const ParameterList& schema, const Place& place);
+/// An empty word or array stands for "not given".
+bool isGiven(const ParameterList& list, const std::string& name) {
+  const ParameterEntry* entry = list.getEntryPtr(name);
+  return entry != nullptr && !entry->isDefault() && valueText(*entry) != "\"\"" && valueText(*entry) != "{}";
+}
+
+ParameterList checkedList(const ParameterList& given, const ParameterList& schema, const Place& place,
+                          Completeness completeness);
 
 void addChecked(ParameterList& result, const std::string& name, const ParameterEntry& entry,
-                const ParameterList& schema, const Place& place) {
+                const ParameterList& schema, const Place& place, Completeness completeness) {
   const ParameterEntry* valid = isPattern(name) ? nullptr : schema.getEntryPtr(name);
   const std::string pattern = patternOf(schema);
   if (valid == nullptr && entry.isList() && !pattern.empty()) {
     if (name.empty() || name == "." || name.find('/') != std::string::npos)
       place.refuse("list \"" + name + "\" in " + place.list() + " needs another name: the name of a " +
-                   pattern + " must not be empty, not be \".\" and not contain \"/\".");
+                   pattern + " must not be empty, not be \".\" and not contain \"/\"");
     valid = schema.getEntryPtr(pattern);
   }
   if (valid == nullptr)
@@ -164,23 +166,27 @@ void addChecked(ParameterList& result, const std::string& name, const ParameterE
   else if (entry.isList())
     result.sublist(name).setParameters(checkedList(Teuchos::getValue<ParameterList>(entry),
                                                    Teuchos::getValue<ParameterList>(*valid),
-                                                   place.inside(name)));
+                                                   place.inside(name), completeness));
   else
     place.refuse("\"" + name + "\" in " + place.list() + " is a parameter with value " + valueText(entry) +
-                 ", but must be a list.");
+                 ", but must be a list");
 }
 
-ParameterList checkedList(const ParameterList& given, const ParameterList& schema, const Place& place) {
+ParameterList checkedList(const ParameterList& given, const ParameterList& schema, const Place& place,
+                          Completeness completeness) {
   ParameterList result(given.name());
   for (const std::string& name : namesOf(given))
-    addChecked(result, name, given.getEntry(name), schema, place);
+    addChecked(result, name, given.getEntry(name), schema, place, completeness);
   for (const std::string& name : namesOf(schema)) {
     const ParameterEntry& valid = schema.getEntry(name);
+    if (completeness == Completeness::whole && isRequired(valid) && !isGiven(given, name))
+      place.refuse(place.list() + " lacks its parameter \"" + name + "\" of type " + typeName(valid) +
+                   ", which must be given");
     if (isPattern(name) || given.isParameter(name))
       continue;
     if (valid.isList())
-      result.sublist(name).setParameters(
-          checkedList(ParameterList(), Teuchos::getValue<ParameterList>(valid), place.inside(name)));
+      result.sublist(name).setParameters(checkedList(ParameterList(), Teuchos::getValue<ParameterList>(valid),
+                                                     place.inside(name), completeness));
     else
       result.setEntry(name, bare(valid, true));
   }
@@ -190,22 +196,21 @@ ParameterList checkedList(const ParameterList& given, const ParameterList& schem
 void describeList(std::ostream& out, const ParameterList& schema, const std::string& path,
                   const std::string& doc) {
   if (!path.empty())
-    out << "## `" << path << "`\n\n"; // in backticks: <body> is no HTML
+    out << "\n## `" << path << "`\n"; // in backticks: <body> is no HTML
   if (!doc.empty())
-    out << doc << "\n\n";
+    out << '\n' << doc << '\n';
   bool hasParameters = false;
   for (const std::string& name : namesOf(schema)) {
     const ParameterEntry& entry = schema.getEntry(name);
     if (entry.isList())
       continue;
     if (!hasParameters)
-      out << "| Parameter | Type | Default | Allowed | Meaning |\n| --- | --- | --- | --- | --- |\n";
+      out << "\n| Parameter | Type | Default | Allowed | Meaning |\n| --- | --- | --- | --- | --- |\n";
     hasParameters = true;
-    out << "| " << name << " | " << typeName(entry) << " | `" << valueText(entry) << "` | "
-        << allowedText(entry) << " | " << entry.docString() << " |\n";
+    out << "| " << name << " | " << typeName(entry) << " | "
+        << (isRequired(entry) ? "required" : '`' + valueText(entry) + '`') << " | " << allowedText(entry)
+        << " | " << entry.docString() << " |\n";
   }
-  if (hasParameters)
-    out << '\n';
   for (const std::string& name : namesOf(schema))
     if (const ParameterEntry& entry = schema.getEntry(name); entry.isList())
       describeList(out, Teuchos::getValue<ParameterList>(entry), path.empty() ? name : path + '/' + name,
@@ -214,18 +219,19 @@ void describeList(std::ostream& out, const ParameterList& schema, const std::str
 
 } // namespace
 
-ParameterList validated(const ParameterList& given, const ParameterList& schema, const std::string& where) {
-  return checkedList(given, schema, {where, ""});
+ParameterList validated(const ParameterList& given, const ParameterList& schema, const std::string& where,
+                        Completeness completeness) {
+  return checkedList(given, schema, {where, ""}, completeness);
 }
 
 void addReal(ParameterList& schema, const std::string& name, double defaultValue, const std::string& doc,
-             double minimum, double maximum, bool openBelow) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Range(minimum, maximum, openBelow)));
+             double minimum, double maximum, bool openBelow, bool openAbove) {
+  schema.set(name, defaultValue, doc, Teuchos::rcp(new Range(minimum, maximum, openBelow, openAbove)));
 }
 
 void addInteger(ParameterList& schema, const std::string& name, int defaultValue, const std::string& doc,
                 int minimum, int maximum) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Range(minimum, maximum, false)));
+  schema.set(name, defaultValue, doc, Teuchos::rcp(new Range(minimum, maximum, false, false)));
 }
 
 void addChoice(ParameterList& schema, const std::string& name, const std::string& defaultValue,
@@ -234,8 +240,31 @@ void addChoice(ParameterList& schema, const std::string& name, const std::string
   schema.setEntry(name, ParameterEntry(defaultValue, false, false, doc, Teuchos::rcp(new Choice(choices))));
 }
 
-std::string describeParameters(const ParameterList& schema) {
+void addArray(ParameterList& schema, const std::string& name, const Array<double>& defaultValue,
+              const std::string& doc, const std::string& allowed) {
+  schema.set(name, defaultValue, doc, Teuchos::rcp(new Remark(allowed)));
+}
+
+void addArray(ParameterList& schema, const std::string& name, const Array<int>& defaultValue,
+              const std::string& doc, const std::string& allowed) {
+  schema.set(name, defaultValue, doc, Teuchos::rcp(new Remark(allowed)));
+}
+
+void setRequired(ParameterList& schema, std::initializer_list<const char*> names) {
+  for (const char* const name : names) {
+    ParameterEntry& entry = schema.getEntry(name);
+    const auto inner = Teuchos::rcp_dynamic_cast<const AllowedValues>(entry.validator());
+    entry.setValidator(Teuchos::rcp(new Required(inner)));
+  }
+}
+
+bool isRequired(const ParameterEntry& schemaEntry) {
+  return dynamic_cast<const Required*>(schemaEntry.validator().get()) != nullptr;
+}
+
+std::string describeParameters(const ParameterList& schema, const std::string& introduction) {
   std::ostringstream out;
+  out << "# Parameters\n\n" << introduction << '\n';
   describeList(out, schema, "", "");
   return out.str();
 }

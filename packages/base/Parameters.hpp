@@ -4,8 +4,10 @@
 ///
 /// A list of valid parameters (the *schema*) is an ordinary Teuchos::ParameterList with defaults,
 /// documentation and validators. A sublist of the schema whose name stands in angle brackets, such as
-/// `<body>`, is the pattern of any number of sublists with names of the user's choice.
+/// `<body>`, is the pattern of any number of sublists with names of the user's choice. A parameter without a
+/// sensible default is marked by setRequired().
 
+#include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 
 #include <initializer_list>
@@ -15,22 +17,28 @@
 
 namespace epafi {
 
+/// Whether a list must hold the parameters that are required, or may be a part of one that does.
+enum class Completeness { whole, part };
+
 /// Checks `given` against `schema` and returns it with every missing parameter set to its default. Entries
 /// keep the order of `given`, those that were missing follow and are marked as default
-/// (ParameterEntry::isDefault). Whole numbers are turned into real ones where the schema asks for these. The
+/// (ParameterEntry::isDefault). What is marked so in `given`, or is an empty word or array, counts as not
+/// given. Whole numbers are turned into real ones where the schema asks for these. The
 /// result carries values only, no documentation or validators. Not collective.
 ///
 /// \param where  what stands before the list's name in messages (a file, usually).
 /// \throws InputError naming list, parameter, value and what is allowed: unknown name (the nearest one is
 /// suggested),
-///         wrong type, value out of range, NaN or infinity.
+///         wrong type, value out of range, NaN or infinity, a required parameter that is not given.
 Teuchos::ParameterList validated(const Teuchos::ParameterList& given, const Teuchos::ParameterList& schema,
-                                 const std::string& where);
+                                 const std::string& where, Completeness completeness = Completeness::whole);
 
-/// Schema entry of a real number in [minimum, maximum]; with `openBelow` the minimum itself is not allowed.
+/// Schema entry of a real number in [minimum, maximum]; with `openBelow` the minimum itself is not allowed,
+/// with `openAbove` the maximum.
 void addReal(Teuchos::ParameterList& schema, const std::string& name, double defaultValue,
              const std::string& doc, double minimum = -std::numeric_limits<double>::infinity(),
-             double maximum = std::numeric_limits<double>::infinity(), bool openBelow = false);
+             double maximum = std::numeric_limits<double>::infinity(), bool openBelow = false,
+             bool openAbove = false);
 
 /// Schema entry of a whole number in [minimum, maximum].
 void addInteger(Teuchos::ParameterList& schema, const std::string& name, int defaultValue,
@@ -41,8 +49,20 @@ void addInteger(Teuchos::ParameterList& schema, const std::string& name, int def
 void addChoice(Teuchos::ParameterList& schema, const std::string& name, const std::string& defaultValue,
                const std::string& doc, const std::vector<std::string>& choices);
 
-/// The whole schema as text for people: one paragraph a parameter with type, default, range and meaning, in
-/// Markdown.
-std::string describeParameters(const Teuchos::ParameterList& schema);
+/// Schema entry of an array. `allowed` says for people what its entries may be; the check is left to the
+/// reader.
+void addArray(Teuchos::ParameterList& schema, const std::string& name,
+              const Teuchos::Array<double>& defaultValue, const std::string& doc, const std::string& allowed);
+void addArray(Teuchos::ParameterList& schema, const std::string& name,
+              const Teuchos::Array<int>& defaultValue, const std::string& doc, const std::string& allowed);
+
+/// Marks parameters of the schema as required: validated() refuses a list without them, and their defaults
+/// mean nothing. Precondition: they are in the schema, with validators of this file if any.
+void setRequired(Teuchos::ParameterList& schema, std::initializer_list<const char*> names);
+bool isRequired(const Teuchos::ParameterEntry& schemaEntry);
+
+/// The whole schema as a page for people, in Markdown: a title, the introduction, and a table a list with
+/// type, default, range and meaning of every parameter. Ends with one newline.
+std::string describeParameters(const Teuchos::ParameterList& schema, const std::string& introduction);
 
 } // namespace epafi

@@ -18,9 +18,9 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
           0.0, 1e6, true);
   addReal(list, "Expansion Step", defaults.expansionStep,
           "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
-          true);
+          true, true);
   addInteger(list, "Maximum Multiplications", defaults.maxMultiplications,
-             "Products with the operator at most.", 1);
+             "Products with the operator at most, over all outer iterations together; limits CG too.", 1);
   return list;
 }
 

@@ -133,9 +133,9 @@ Teuchos::ParameterList SmalbeParameters::validParameters() {
   Teuchos::ParameterList list("SMALBE");
   addReal(list, "Penalty", defaults.penalty, "ρ as a multiple of ‖PFP‖.", 0.0, 1e12, true);
   addReal(list, "Balance", defaults.balance,
-          "M at the start as a multiple of ‖PFP‖: inner loops stop at ‖g^P‖ ≤ M‖Gλ‖.", 0.0, 1e12, true);
+          "M at the start as a multiple of ‖PFP‖: inner loops stop at ‖gᴾ‖ ≤ M‖Gλ‖.", 0.0, 1e12, true);
   addReal(list, "Balance Reduction", defaults.balanceReduction,
-          "Factor on M when the augmented Lagrangian grew by less than ρ/2‖Gλ‖².", 0.0, 1.0, true);
+          "Factor on M when the augmented Lagrangian grew by less than ρ/2‖Gλ‖².", 0.0, 1.0, true, true);
   addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
   addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
              "Updates of the multiplier of Gλ = 0 at most.", 1);

@@ -1,11 +1,10 @@
 #include "epafi/decomposition/ContactRows.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/scene/EdgeSegment.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <sstream>
 #include <utility>
 
 namespace epafi::decomposition {
@@ -21,21 +20,11 @@ void requireMatchingNodes(const scene::ContactPair& pair, const BodyLayout& firs
                      std::to_string(n) + " and " + std::to_string(m) +
                      "; give both edges the same number of elements");
   }
-  const auto nodeOf = [&](const BodyLayout& body, scene::Edge edge, GlobalOrdinal k) {
-    return body.mesh->point(body.mesh->edgeNode(edge, k));
-  };
-  const fem::Point a = nodeOf(first, pair.firstEdge, 0), b = nodeOf(first, pair.firstEdge, n - 1);
-  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
-  for (GlobalOrdinal k = 0; k < n; ++k) {
-    const fem::Point p = nodeOf(first, pair.firstEdge, k), q = nodeOf(second, pair.secondEdge, k);
-    if (std::hypot(p[0] - q[0], p[1] - q[1]) > 1e-10 * length) {
-      std::ostringstream text;
-      text << "contact pair '" << pair.name << "': " << edges << " do not coincide: node " << k
-           << " lies at (" << p[0] << ", " << p[1] << ") on the one and at (" << q[0] << ", " << q[1]
-           << ") on the other";
-      throw InputError(text.str());
-    }
-  }
+  const scene::EdgeSegment a = segmentOf(first.mesh->rectangle(), pair.firstEdge),
+                           b = segmentOf(second.mesh->rectangle(), pair.secondEdge);
+  if (!coincide(a, b))
+    throw InputError("contact pair '" + pair.name + "': " + edges + " do not coincide: one is " +
+                     toString(a) + ", the other " + toString(b));
 }
 
 void requireUnsupported(const scene::ContactPair& pair, const scene::Body& body, scene::Edge edge) {

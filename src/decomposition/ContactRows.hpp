@@ -9,7 +9,7 @@
 namespace epafi::decomposition {
 
 /// Numbers the rows pair after pair, along the first body's edge. \throws InputError if the edges of a pair
-/// do not coincide node by node (to 1e-10 of their length), if one of them is supported, or if two pairs
+/// do not coincide node by node (see scene::coincide), if one of them is supported, or if two pairs
 /// share an edge of a body (a common corner is fine). Not collective (every rank finds the same).
 std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies);
 

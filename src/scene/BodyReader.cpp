@@ -55,8 +55,7 @@ std::vector<Region> readRegions(const ListReader& list, const Body& body) {
   std::vector<Region> regions;
   for (const std::string& name : list.names()) {
     const ListReader region = list.inside(name);
-    region.require("Conductivity");
-    regions.push_back({name, boxInside(region, body), region.real("Conductivity")});
+    regions.push_back({name, boxInside(region, body), region.positive("Conductivity")});
   }
   return regions;
 }
@@ -82,7 +81,6 @@ std::vector<Load> readLoads(const ListReader& list, const Body& body) {
   std::vector<Load> loads;
   for (const std::string& name : list.names()) {
     const ListReader load = list.inside(name);
-    load.require("Value");
     loads.push_back(
         {name, load.hasEntries("Box") ? boxInside(load, body) : body.rectangle, load.real("Value")});
   }
@@ -113,10 +111,9 @@ Body readBody(const std::string& name, const ListReader& list) {
   Body body;
   body.name = name;
   body.rectangle = list.rectangle("Rectangle");
-  list.require("Elements");
   body.elements = list.counts("Elements");
   checkMesh(list, body);
-  body.conductivity = list.real("Conductivity");
+  body.conductivity = list.positive("Conductivity");
   body.regions = readRegions(list.inside("Regions"), body);
   body.supports = readSupports(list.inside("Supports"));
   body.loads = readLoads(list.inside("Loads"), body);

@@ -2,43 +2,17 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/ParameterValue.hpp"
+#include "epafi/scene/EdgeSegment.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <sstream>
 
 namespace epafi::scene {
 namespace {
 
-/// An edge as a segment: it runs from `from` to `to` at the distance `at` from the axis that it is parallel
-/// to.
-struct Segment {
-  bool isVertical;
-  double at, from, to;
-  int elements;
-};
-
-Segment segmentOf(const Body& body, Edge edge) {
-  const Rectangle& box = body.rectangle;
-  if (edge == Edge::left || edge == Edge::right)
-    return {true, edge == Edge::left ? box.x0 : box.x1, box.y0, box.y1, body.elements[1]};
-  return {false, edge == Edge::bottom ? box.y0 : box.y1, box.x0, box.x1, body.elements[0]};
-}
-
-std::string text(const Segment& segment) {
-  const std::string along = valueText(segment.from) + " to " + valueText(segment.to);
-  return (segment.isVertical ? "x = " : "y = ") + valueText(segment.at) + ", " +
-         (segment.isVertical ? "y" : "x") + " from " + along;
-}
-
-/// Equal up to rounding, measured by the length of an element.
-bool coincide(const Segment& a, const Segment& b) {
-  const double tolerance = 1e-6 * (a.to - a.from) / a.elements;
-  const auto isNear = [tolerance](double x, double y) { return std::abs(x - y) <= tolerance; };
-  return a.isVertical == b.isVertical && isNear(a.at, b.at) && isNear(a.from, b.from) && isNear(a.to, b.to);
-}
-
 int bodyIndex(const ListReader& pair, const std::string& parameter, const std::vector<Body>& bodies) {
-  pair.require(parameter);
   std::vector<std::string> names;
   std::string all;
   for (const Body& body : bodies) {
@@ -68,15 +42,50 @@ void checkFree(const ListReader& list, const std::string& parameter, const Body&
 
 void checkMatch(const ListReader& list, const Body& first, Edge firstEdge, const Body& second,
                 Edge secondEdge) {
-  const Segment a = segmentOf(first, firstEdge), b = segmentOf(second, secondEdge);
+  const EdgeSegment a = segmentOf(first.rectangle, firstEdge), b = segmentOf(second.rectangle, secondEdge);
   if (!coincide(a, b))
     list.refuseList("joins edges that do not coincide: \"" + toString(firstEdge) + "\" of body \"" +
-                    first.name + "\" is " + text(a) + ", but \"" + toString(secondEdge) + "\" of body \"" +
-                    second.name + "\" is " + text(b));
-  if (a.elements != b.elements)
-    list.refuseList("joins edges with different numbers of elements: " + std::to_string(a.elements) +
-                    " on body \"" + first.name + "\", but " + std::to_string(b.elements) + " on body \"" +
-                    second.name + '"');
+                    first.name + "\" is " + toString(a) + ", but \"" + toString(secondEdge) +
+                    "\" of body \"" + second.name + "\" is " + toString(b));
+  const int m = first.elements[a.isVertical ? 1 : 0], n = second.elements[b.isVertical ? 1 : 0];
+  if (m != n)
+    list.refuseList("joins edges with different numbers of elements: " + std::to_string(m) + " on body \"" +
+                    first.name + "\", but " + std::to_string(n) + " on body \"" + second.name + '"');
+}
+
+/// The prescribed deflection at the beginning or the end of an unsupported edge; none unless the edge that it
+/// meets there is supported.
+std::optional<double> prescribedAtEnd(const Body& body, Edge edge, bool isBeginning) {
+  const bool isVertical = edge == Edge::left || edge == Edge::right;
+  const Edge meeting =
+      isVertical ? (isBeginning ? Edge::bottom : Edge::top) : (isBeginning ? Edge::left : Edge::right);
+  for (const Support& support : body.supports)
+    if (support.edge == meeting)
+      return support.value;
+  return {};
+}
+
+/// Nodes that are supported on both sides, which only ends of an edge can be, must not overlap.
+void checkRoom(const ContactPair& pair, const Body& first, const Body& second) {
+  for (const bool isBeginning : {true, false}) {
+    const auto lower = prescribedAtEnd(first, pair.firstEdge, isBeginning);
+    const auto upper = prescribedAtEnd(second, pair.secondEdge, isBeginning);
+    if (!lower || !upper)
+      continue;
+    const double opening = pair.gap - *lower + *upper;
+    const double roundOff = 1e-12 * std::max({std::abs(pair.gap), std::abs(*lower), std::abs(*upper)});
+    if (opening >= -roundOff)
+      continue;
+    const EdgeSegment edge = segmentOf(first.rectangle, pair.firstEdge);
+    const std::string along = valueText(isBeginning ? edge.from : edge.to), across = valueText(edge.at);
+    std::ostringstream overlap;
+    overlap << -opening;
+    throw SolvabilityError(
+        SolvabilityError::Kind::noSolution,
+        "no solution: the contact pair '" + pair.name + "' joins two supported nodes that overlap by " +
+            overlap.str() + " at (" + (edge.isVertical ? across + ", " + along : along + ", " + across) +
+            "); change its gap or the supports of '" + first.name + "' and '" + second.name + "'");
+  }
 }
 
 } // namespace
@@ -99,6 +108,7 @@ std::vector<ContactPair> readContacts(const ListReader& list, const std::vector<
     checkFree(entry, "Second Edge", second, pair.second, pair.secondEdge, pairs);
     checkMatch(entry, first, pair.firstEdge, second, pair.secondEdge);
     pair.gap = entry.real("Gap");
+    checkRoom(pair, first, second);
     pairs.push_back(pair);
   }
   return pairs;

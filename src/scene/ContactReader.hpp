@@ -13,6 +13,7 @@ namespace epafi::scene {
 /// edge is
 ///         supported or in another pair, or if the two edges do not coincide or have different numbers of
 ///         elements.
+/// \throws SolvabilityError if two supported nodes overlap; names pair, place and depth.
 std::vector<ContactPair> readContacts(const ListReader& list, const std::vector<Body>& bodies);
 
 } // namespace epafi::scene

@@ -8,6 +8,16 @@
 #include <cmath>
 
 namespace epafi::scene {
+namespace {
+
+/// Squares of energies and forces made of such numbers neither underflow nor overflow.
+bool isModerate(double value) {
+  return std::abs(value) >= 1e-30 && std::abs(value) <= 1e30;
+}
+
+const std::string moderateMagnitude = "between 1e-30 and 1e30 in magnitude; choose other units";
+
+} // namespace
 
 ListReader ListReader::inside(const std::string& name) const {
   return {list_.sublist(name), file_, path_.empty() ? name : path_ + '/' + name};
@@ -25,14 +35,21 @@ bool ListReader::hasEntries(const std::string& name) const {
   return has(name) && value != "\"\"" && value != "{}";
 }
 
-void ListReader::require(const std::string& name) const {
-  if (!hasEntries(name))
-    refuseList("lacks its parameter \"" + name + "\" of type " + typeName(list_.getEntry(name)) +
-               ", which must be given");
+double ListReader::real(const std::string& name) const {
+  const auto value = list_.get<double>(name);
+  if (value != 0 && !isModerate(value))
+    refuseValue(name, "must be 0 or " + moderateMagnitude);
+  return value;
+}
+
+double ListReader::positive(const std::string& name) const {
+  const auto value = list_.get<double>(name);
+  if (!isModerate(value))
+    refuseValue(name, "must be " + moderateMagnitude);
+  return value;
 }
 
 Edge ListReader::edge(const std::string& name) const {
-  require(name);
   for (const Edge edge : {Edge::left, Edge::right, Edge::bottom, Edge::top})
     if (toString(edge) == word(name))
       return edge;
@@ -40,15 +57,17 @@ Edge ListReader::edge(const std::string& name) const {
 }
 
 Rectangle ListReader::rectangle(const std::string& name) const {
-  require(name);
   const auto& values = list_.get<Teuchos::Array<double>>(name);
   if (values.size() != 4)
     refuseValue(name, "must have 4 entries {x0, x1, y0, y1}, not " + std::to_string(values.size()));
+  for (const double value : values)
+    if (value != 0 && !isModerate(value))
+      refuseValue(name, "its entries must be 0 or " + moderateMagnitude);
   const Rectangle box{values[0], values[1], values[2], values[3]};
   if (!(box.x0 < box.x1) || !(box.y0 < box.y1))
     refuseValue(name, "must have a positive size, x0 < x1 and y0 < y1 in {x0, x1, y0, y1}");
-  if (!std::isfinite(box.x1 - box.x0) || !std::isfinite(box.y1 - box.y0))
-    refuseValue(name, "its size must be a finite number");
+  if (!isModerate(box.x1 - box.x0) || !isModerate(box.y1 - box.y0))
+    refuseValue(name, "its sides must be " + moderateMagnitude);
   return box;
 }
 
@@ -62,12 +81,13 @@ std::array<int, 2> ListReader::counts(const std::string& name) const {
 }
 
 void ListReader::refuseValue(const std::string& name, const std::string& objection) const {
-  throw InputError((file_.empty() ? "" : file_ + ": ") + "parameter \"" + name + "\" in list \"" + path_ +
-                   "\" is " + valueText(list_.getEntry(name)) + ", but " + objection + '.');
+  throw InputError((file_.empty() ? "" : file_ + ": ") +
+                   asSentence("parameter \"" + name + "\" in list \"" + path_ + "\" is " +
+                              valueText(list_.getEntry(name)) + ", but " + objection));
 }
 
 void ListReader::refuseList(const std::string& objection) const {
-  throw InputError((file_.empty() ? "" : file_ + ": ") + "list \"" + path_ + "\" " + objection + '.');
+  throw InputError((file_.empty() ? "" : file_ + ": ") + asSentence("list \"" + path_ + "\" " + objection));
 }
 
 } // namespace epafi::scene

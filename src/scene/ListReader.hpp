@@ -29,22 +29,23 @@ public:
   [[nodiscard]] bool has(const std::string& name) const { return !list_.getEntry(name).isDefault(); }
   /// Whether an array or a word is given and is not empty.
   [[nodiscard]] bool hasEntries(const std::string& name) const;
-  /// Refuses a parameter that is not given, or given as an empty word or array.
-  void require(const std::string& name) const;
 
-  [[nodiscard]] double real(const std::string& name) const { return list_.get<double>(name); }
+  /// A real number: 0, or of a magnitude that can be squared, 1e-30 … 1e30.
+  [[nodiscard]] double real(const std::string& name) const;
+  /// A number that the schema allows to be positive only, 1e-30 … 1e30.
+  [[nodiscard]] double positive(const std::string& name) const;
   [[nodiscard]] int integer(const std::string& name) const { return list_.get<int>(name); }
   [[nodiscard]] const std::string& word(const std::string& name) const {
     return list_.get<std::string>(name);
   }
-  /// A required edge.
+  /// A word that names an edge.
   [[nodiscard]] Edge edge(const std::string& name) const;
-  /// {x0, x1, y0, y1}, of positive size.
+  /// {x0, x1, y0, y1}, of positive size; coordinates as real(), sides 1e-30 … 1e30.
   [[nodiscard]] Rectangle rectangle(const std::string& name) const;
   /// {nx, ny}, each ≥ 1.
   [[nodiscard]] std::array<int, 2> counts(const std::string& name) const;
 
-  /// Throws: 'file: parameter "name" in list "path" is value, but `objection`.'
+  /// Throws: 'file: parameter "name" in list "path" is value, but `objection`.' No full stop follows a '?'.
   [[noreturn]] void refuseValue(const std::string& name, const std::string& objection) const;
   /// Throws: 'file: list "path" `objection`.'
   [[noreturn]] void refuseList(const std::string& objection) const;

@@ -96,7 +96,9 @@ public:
   }
 
 private:
-  [[noreturn]] void refuse(const std::string& sentence) const { throw InputError(where_ + ": " + sentence); }
+  [[noreturn]] void refuse(const std::string& sentence) const {
+    throw InputError(where_ + ": " + asSentence(sentence));
+  }
 
   static std::string named(const std::string& path) {
     return path.empty() ? "the top list" : "list \"" + path + '"';
@@ -140,7 +142,7 @@ private:
     if (std::ranges::find(parameterTypes(), type) == parameterTypes().end()) {
       const std::string near = nearestName(type, parameterTypes());
       refuse(what + " has the unknown type \"" + type + "\"; allowed are " + types +
-             (near.empty() ? "." : "; did you mean \"" + near + "\"?"));
+             (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
     }
     try {
       ParameterEntry entry = parseValue(type, value);

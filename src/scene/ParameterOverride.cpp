@@ -45,6 +45,37 @@ const ParameterEntry* schemaEntry(const ParameterList& schema, const std::vector
   return entry == nullptr || entry->isList() ? nullptr : entry;
 }
 
+std::string withoutDigits(std::string name) {
+  std::erase_if(name, [](char letter) { return letter >= '0' && letter <= '9'; });
+  return name;
+}
+
+/// A list of the user's choice that the scene does not have is a new one, unless its name looks misspelt.
+/// Names that differ in digits alone, as `load 1` and `load 2` do, are meant to differ.
+/// Precondition: the schema knows the path.
+void checkNewLists(const ParameterList& list, const ParameterList& schema,
+                   const std::vector<std::string>& path, const std::string& where) {
+  const ParameterList *inner = &list, *innerSchema = &schema;
+  std::string listName;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    listName += (i == 0 ? "" : "/") + path[i];
+    const ParameterEntry* found = inner->getEntryPtr(path[i]);
+    if (found == nullptr && innerSchema->getEntryPtr(path[i]) == nullptr) {
+      std::vector<std::string> siblings;
+      for (auto entry = inner->begin(); entry != inner->end(); ++entry)
+        if (withoutDigits(inner->name(entry)) != withoutDigits(path[i]))
+          siblings.push_back(inner->name(entry));
+      if (const std::string near = nearestName(path[i], siblings); !near.empty())
+        throw InputError(where + " names the list \"" + listName +
+                         "\", which the scene does not have; did you mean \"" + near + "\"?");
+    }
+    if (found == nullptr || !found->isList())
+      return;
+    inner = &Teuchos::getValue<ParameterList>(*found);
+    innerSchema = &Teuchos::getValue<ParameterList>(*schemaEntry(*innerSchema, path[i], true));
+  }
+}
+
 void setAt(ParameterList& list, const std::vector<std::string>& path, const ParameterEntry& value) {
   ParameterList* inner = &list;
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
@@ -80,7 +111,8 @@ void applyOverride(ParameterList& list, const ParameterList& schema, const std::
   // Alone in a list, the override meets all checks, and messages speak of it rather than of the file.
   ParameterList alone;
   setAt(alone, path, value);
-  validated(alone, schema, where);
+  validated(alone, schema, where, Completeness::part);
+  checkNewLists(list, schema, path, where);
 
   const ParameterList* inner = &list;
   for (std::size_t i = 0; i + 1 < path.size() && inner != nullptr; ++i) {

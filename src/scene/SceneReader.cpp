@@ -22,7 +22,6 @@ void inherit(ParameterList& body, const ParameterList& scene) {
 Scene readScene(const ParameterList& list, const std::string& where) {
   ParameterList own = list;
   own.remove("Solver", false);
-  own.remove("Output", false);
   ParameterList complete = validated(own, sceneSchema(), where);
 
   Scene scene;

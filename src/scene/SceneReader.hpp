@@ -11,11 +11,12 @@
 namespace epafi::scene {
 
 /// Reads a scene, bodies and pairs in the list's order. The list is checked against sceneSchema() here,
-/// whether or not it was before; the lists `Solver` and `Output` in it are left to others. A body inherits
+/// whether or not it was before; the list `Solver` in it is left to others. A body inherits
 /// from the top level's Decomposition what its own does not give.
 ///
 /// \param where  with what messages begin (a file, usually)
-/// \throws InputError with one sentence naming file, list, parameter, value and what is allowed.
+/// \throws InputError with one sentence naming file, list, parameter, value and what is allowed,
+///         SolvabilityError if supports overlap across a contact pair, so that there is no solution.
 /// Not collective; the same on all ranks if called with the same list.
 Scene readScene(const Teuchos::ParameterList& list, const std::string& where);
 

@@ -7,8 +7,7 @@
 namespace epafi::scene {
 
 /// The schema (see base/Parameters.hpp) of a scene: `Title`, `Bodies`, `Contact` and `Decomposition`. A whole
-/// file may hold the lists `Solver` and `Output` beside them, which other rooms describe. An empty word or
-/// array as default means that the parameter must be given, or what its documentation says.
+/// file may hold the list `Solver` beside them, which another room describes.
 Teuchos::ParameterList sceneSchema();
 
 /// The part of it that says how a body is cut into subdomains.

@@ -12,12 +12,33 @@ TEST(NearestNameTest, CountsSingleLetterEditsAndIgnoresCase) {
   EXPECT_EQ(editDistance("", "abc"), 3u);
   EXPECT_EQ(editDistance("Elements", "elements"), 0u);
   EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
+  EXPECT_EQ(editDistance("Gird", "Grid"), 1u) << "neighbours swapped";
+  EXPECT_EQ(editDistance("tlef", "left"), 2u);
 }
 
 TEST(NearestNameTest, FindsTheNameWithAMissingLetter) {
   const std::vector<std::string> names = {"Rectangle", "Elements", "Conductivity"};
   EXPECT_EQ(nearestName("Elemnts", names), "Elements");
+  EXPECT_EQ(nearestName("Elments", names), "Elements");
   EXPECT_EQ(nearestName("conductivty", names), "Conductivity");
+  EXPECT_EQ(nearestName("RECTANGLE", names), "Rectangle");
+}
+
+TEST(NearestNameTest, AllowsAnEditForAboutEveryThirdLetter) {
+  const std::vector<std::string> names = {"x", "left", "Bodies", "Contact"};
+  EXPECT_EQ(nearestName("X", names), "x") << "case does not count";
+  EXPECT_EQ(nearestName("y", names), "");
+  EXPECT_EQ(nearestName("letf", names), "left");
+  EXPECT_EQ(nearestName("loft", names), "left");
+  EXPECT_EQ(nearestName("soft", names), "");
+  EXPECT_EQ(nearestName("Bodys", names), "Bodies");
+  EXPECT_EQ(nearestName("Output", names), "");
+}
+
+TEST(AsSentenceTest, AddsAFullStopOnlyWhereNothingEndsTheSentence) {
+  EXPECT_EQ(epafi::asSentence("it is 1"), "it is 1.");
+  EXPECT_EQ(epafi::asSentence("it is so."), "it is so.");
+  EXPECT_EQ(epafi::asSentence("did you mean \"left\"?"), "did you mean \"left\"?");
 }
 
 TEST(NearestNameTest, SuggestsNothingWhereNothingIsNear) {

@@ -28,11 +28,17 @@ ParameterList schema() {
   addReal(solver, "Tolerance", 1e-6, "Where to stop.", 0.0, 1.0, true);
   addReal(solver, "Shift", 0.0, "Any real number.");
   addInteger(solver, "Steps", 100, "How many steps.", 1, 1000);
+  addReal(solver, "Factor", 0.5, "Between the two.", 0.0, 2.0, true, true);
   addChoice(solver, "Method", "", "Which method.", {"mprgp", "smalbe"});
   solver.set("Verbose", false, "Whether to talk.");
-  solver.set("Range", numbers({}), "Two numbers.");
+  addArray(solver, "Range", numbers({}), "Two numbers.", "a < b");
   ParameterList& body = list.sublist("Bodies").sublist("<body>", false, "One body.");
   addReal(body, "Conductivity", 1.0, "Material.", 0.0, infinity, true);
+  ParameterList& support = body.sublist("Supports").sublist("<support>", false, "One support.");
+  addChoice(support, "Edge", "", "Which edge.", {"left", "right"});
+  addArray(support, "Nodes", counts({}), "Which nodes.", "each ≥ 1");
+  addReal(support, "Value", 1.0, "How high.");
+  setRequired(support, {"Edge", "Nodes", "Value"});
   return list;
 }
 
@@ -146,6 +152,8 @@ TEST(ParametersTest, RefusesAnotherType) {
 TEST(ParametersTest, RefusesValuesOutOfRange) {
   expectSays(refusalOf("Tolerance", 0.0), {"a.xml: ", "\"Tolerance\"", "\"Solver\"", "is 0", "> 0 and ≤ 1"});
   expectSays(refusalOf("Tolerance", 1.5), {"is 1.5", "> 0 and ≤ 1"});
+  expectSays(refusalOf("Factor", 0.0), {"is 0", "> 0 and < 2"});
+  expectSays(refusalOf("Factor", 2.0), {"is 2", "> 0 and < 2"});
   expectSays(refusalOf("Steps", 0), {"is 0", "≥ 1 and ≤ 1000"});
   expectSays(refusalOf("Steps", -2147483647), {"is -2147483647", "≥ 1 and ≤ 1000"});
 }
@@ -178,12 +186,61 @@ TEST(ParametersTest, RefusesThePatternItselfAsAMisspeltName) {
              {"\"<Solver>\"", "did you mean \"Solver\"?"});
 }
 
+/// A list with one complete support, on which `change` works.
+template <class Change>
+ParameterList withSupport(const Change& change) {
+  ParameterList given;
+  ParameterList& support = given.sublist("Bodies").sublist("left").sublist("Supports").sublist("wall");
+  support.set("Edge", "left").set("Nodes", counts({1, 2})).set("Value", 0.0);
+  change(support);
+  return given;
+}
+
+TEST(ParametersTest, RefusesAListWithoutARequiredParameter) {
+  const ParameterList whole = withSupport([](ParameterList&) {});
+  EXPECT_NO_THROW(validated(whole, schema(), "a.xml"));
+  for (const char* const name : {"Edge", "Nodes", "Value"}) {
+    const ParameterList given = withSupport([&](ParameterList& support) { support.remove(name); });
+    expectSays(
+        refusal([&] { validated(given, schema(), "a.xml"); }),
+        {"a.xml: list \"Bodies/left/Supports/wall\" lacks", '"' + std::string(name) + '"', "must be given."});
+  }
+}
+
+TEST(ParametersTest, TakesAnEmptyWordOrArrayForNotGiven) {
+  ParameterList given = withSupport([](ParameterList& support) { support.set("Edge", ""); });
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }), {"lacks", "\"Edge\" of type string"});
+  given = withSupport([](ParameterList& support) { support.set("Nodes", counts({})); });
+  expectSays(refusal([&] { validated(given, schema(), "a.xml"); }),
+             {"lacks", "\"Nodes\" of type Array(int)"});
+}
+
+TEST(ParametersTest, LetsAPartOfAListLackWhatIsRequired) {
+  const ParameterList given = withSupport([](ParameterList& support) { support.remove("Value"); });
+  EXPECT_NO_THROW(validated(given, schema(), "a.xml", Completeness::part));
+}
+
+TEST(ParametersTest, ChecksTheRangeOfARequiredParameter) {
+  const ParameterList given = withSupport([](ParameterList& support) { support.set("Edge", "lfet"); });
+  const std::string message = refusal([&] { validated(given, schema(), "a.xml"); });
+  expectSays(message, {"\"Edge\"", "one of \"left\", \"right\"", "did you mean \"left\"?"});
+  EXPECT_TRUE(message.ends_with('?')) << message;
+}
+
 TEST(ParametersTest, DescribesEveryParameterForPeople) {
-  const std::string text = describeParameters(schema());
-  for (const char* const part : {"## `Solver`", "## `Bodies/<body>`",
-                                 "| Tolerance | double | `1e-06` | > 0 and ≤ 1 | Where to stop. |",
-                                 "| Steps | int | `100` | ≥ 1 and ≤ 1000 | How many steps. |",
-                                 "one of \"mprgp\", \"smalbe\"", "One body."})
+  const std::string text = describeParameters(schema(), "What there is.");
+  EXPECT_TRUE(text.starts_with("# Parameters\n\nWhat there is.\n\n| Parameter")) << text;
+  EXPECT_TRUE(text.ends_with(" |\n")) << text;
+  EXPECT_EQ(text.find("\n\n\n"), std::string::npos) << text;
+  for (const char* const part :
+       {"\n\n## `Solver`\n\nHow to solve.\n\n| Parameter", "## `Bodies/<body>`",
+        "| Tolerance | double | `1e-06` | > 0 and ≤ 1 | Where to stop. |",
+        "| Factor | double | `0.5` | > 0 and < 2 | Between the two. |",
+        "| Steps | int | `100` | ≥ 1 and ≤ 1000 | How many steps. |",
+        "| Range | Array(double) | `{}` | a < b |",
+        "| Edge | string | required | one of \"left\", \"right\" | Which edge. |",
+        "| Nodes | Array(int) | required | each ≥ 1 | Which nodes. |",
+        "| Value | double | required |  | How high. |", "one of \"mprgp\", \"smalbe\"", "One body."})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
 }
 

@@ -68,7 +68,48 @@ TEST(BodyReaderTest, RefusesARectangleWithoutSize) {
   expectSays(refusalOf("Rectangle", numbers({1, 1, 0, 1})),
              {"a.xml: ", "\"Rectangle\"", "{1, 1, 0, 1}", "x0 < x1"});
   expectSays(refusalOf("Rectangle", numbers({1, 2, 1, 0})), {"{1, 2, 1, 0}", "y0 < y1"});
-  expectSays(refusalOf("Rectangle", numbers({-1e308, 1e308, 0, 1})), {"\"Rectangle\"", "finite"});
+}
+
+TEST(BodyReaderTest, RefusesNumbersWhoseSquaresAreNone) {
+  const auto load = [](double value) {
+    return refusalIn("Loads", [&](ParameterList& list) { list.set("Value", value); });
+  };
+  const auto support = [](double value) {
+    return refusalIn("Supports", [&](ParameterList& list) { list.set("Edge", "top").set("Value", value); });
+  };
+  const std::string range = "0 or between 1e-30 and 1e30 in magnitude; choose other units.";
+  for (const double value : {1e-200, -9e-31, 2e30, -1e300, 5e-324}) {
+    expectSays(load(value), {"a.xml: parameter \"Value\" in list \"Bodies/right/Loads/new\"", range});
+    expectSays(support(value), {"a.xml: parameter \"Value\" in list \"Bodies/right/Supports/new\"", range});
+  }
+  expectSays(load(1e-200), {" is 1e-200, but"});
+  for (const double value : {1e-200, 1e200}) {
+    const std::string message = refusalOf("Conductivity", value);
+    expectSays(message, {"\"Conductivity\"", "\"Bodies/right\"", "between 1e-30 and 1e30", "other units"});
+    EXPECT_EQ(message.find("0 or"), std::string::npos) << message;
+  }
+}
+
+TEST(BodyReaderTest, RefusesRectanglesWhoseSquaresAreNone) {
+  for (const auto& box :
+       {numbers({-1e308, 1e308, 0, 1}), numbers({0, 1e-31, 0, 1}), numbers({1e-200, 1, 0, 1})})
+    expectSays(refusalOf("Rectangle", box), {"a.xml: ", "\"Rectangle\"", "\"Bodies/right\"", "its entries",
+                                             "0 or between", "other units."});
+  for (const auto& box : {numbers({-9e29, 9e29, 0, 1}), numbers({1e-30, 1.5e-30, 0, 1})})
+    expectSays(refusalOf("Rectangle", box), {"its sides", "between 1e-30 and 1e30", "choose other units."});
+  expectSays(refusalIn("Loads",
+                       [](ParameterList& load) {
+                         load.set("Box", numbers({1, 2, 0, 1e31})).set("Value", 1.0);
+                       }),
+             {"\"Box\"", "\"Bodies/right/Loads/new\"", "other units"});
+}
+
+TEST(BodyReaderTest, TakesZeroAndTheEndsOfTheRange) {
+  for (const double value : {0.0, -0.0, 1e-30, -1e30}) {
+    ParameterList list = twoBodies();
+    bodyOf(list, "right").sublist("Loads").sublist("new").set("Value", value);
+    EXPECT_EQ(scene::readScene(list, "a.xml").bodies[1].loads[0].value, value);
+  }
 }
 
 TEST(BodyReaderTest, RefusesARectangleWithNaN) {

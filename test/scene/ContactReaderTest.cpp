@@ -23,6 +23,7 @@ TEST(ContactReaderTest, RefusesAPairWithAParameterMissing) {
 TEST(ContactReaderTest, RefusesAnUnknownBodyAndSuggestsTheNearest) {
   expectSays(refusalOf("Second Body", "rigth"),
              {"a.xml: ", "\"Second Body\"", "\"Contact/interface\"", "\"rigth\"", "did you mean \"right\"?"});
+  EXPECT_TRUE(refusalOf("Second Body", "rigth").ends_with("?"));
   expectSays(refusalOf("First Body", "xyzxyzxyz"), {"\"xyzxyzxyz\"", "the bodies are \"left\", \"right\""});
 }
 
@@ -57,6 +58,11 @@ TEST(ContactReaderTest, RefusesAGapThatIsNotFinite) {
              {"a.xml: ", "\"Gap\"", "inf", "finite"});
 }
 
+TEST(ContactReaderTest, RefusesAGapWhoseSquareIsNoNumber) {
+  expectSays(refusalOf("Gap", 1e-200),
+             {"a.xml: parameter \"Gap\" in list \"Contact/interface\" is 1e-200", "choose other units."});
+}
+
 TEST(ContactReaderTest, RefusesEdgesThatDoNotCoincide) {
   expectSays(refusalOf("Second Edge", "right"), {"a.xml: ", "\"Contact/interface\"", "do not coincide",
                                                  "x = 1, y from 0 to 1", "x = 2, y from 0 to 1"});
@@ -69,10 +75,47 @@ TEST(ContactReaderTest, RefusesEdgesWithDifferentNumbersOfElements) {
              {"a.xml: ", "\"Contact/interface\"", "4 on body \"left\"", "5 on body \"right\""});
 }
 
+TEST(ContactReaderTest, ShowsInWhatEdgesDiffer) {
+  const auto change = [](ParameterList& list) {
+    bodyOf(list, "right").set("Rectangle", numbers({1.00000001, 2, 0, 1}));
+  };
+  expectSays(sceneRefusal(change), {"do not coincide", "is x = 1, y", "is x = 1.00000001, y"});
+}
+
 TEST(ContactReaderTest, ForgivesEdgesThatDifferByRounding) {
   ParameterList list = twoBodies();
   bodyOf(list, "right").set("Rectangle", numbers({1 + 1e-14, 2, -1e-14, 1}));
   EXPECT_EQ(scene::readScene(list, "a.xml").contacts.size(), 1u);
+}
+
+/// Supports along the top of both bodies, at the heights `lower` and `upper`.
+ParameterList twoRoofs(double lower, double upper, double gap) {
+  ParameterList list = twoBodies();
+  bodyOf(list, "left").sublist("Supports").remove("wall");
+  for (const auto& [name, height] : {std::pair{"left", lower}, {"right", upper}})
+    bodyOf(list, name).sublist("Supports").sublist("roof").set("Edge", "top").set("Value", height);
+  pairOf(list).set("Gap", gap);
+  return list;
+}
+
+TEST(ContactReaderTest, FindsNoSolutionWhereSupportedNodesOverlap) {
+  try {
+    scene::readScene(twoRoofs(0.5, 0.125, 0.25), "a.xml");
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const SolvabilityError& error) {
+    EXPECT_EQ(error.kind(), SolvabilityError::Kind::noSolution);
+    expectSays(error.what(),
+               {"no solution", "'interface'", "overlap by 0.125 at (1, 1)", "'left'", "'right'"});
+  }
+}
+
+TEST(ContactReaderTest, AllowsSupportedNodesThatTouch) {
+  EXPECT_NO_THROW(scene::readScene(twoRoofs(0.5, 0.125, 0.375), "a.xml"));
+  EXPECT_NO_THROW(scene::readScene(twoRoofs(0.3, 0.1, 0.2), "a.xml")) << "0.2 − 0.3 + 0.1 is 2.8e-17";
+  EXPECT_NO_THROW(scene::readScene(twoRoofs(0.4, 0.1, 0.3), "a.xml")) << "0.3 − 0.4 + 0.1 is −2.8e-17";
+  ParameterList list = twoRoofs(5, 0, 0);
+  bodyOf(list, "right").sublist("Supports").remove("roof");
+  EXPECT_NO_THROW(scene::readScene(list, "a.xml")) << "one node is free";
 }
 
 } // namespace

@@ -91,6 +91,24 @@ TEST(ParameterOverrideTest, RefusesAListAsParameter) {
   expectSays(refusalOf("Bodies/left=1"), {"--set \"Bodies/left=1\"", "<body>"});
 }
 
+TEST(ParameterOverrideTest, RefusesANewListWhoseNameLooksMisspelt) {
+  EXPECT_EQ(refusalOf("Bodies/lefd/Elements={8, 8}"),
+            "--set \"Bodies/lefd/Elements={8, 8}\" names the list \"Bodies/lefd\", which the scene does not "
+            "have; did you mean \"left\"?");
+  expectSays(refusalOf("Bodies/left/Supports/Wall/Value=1"),
+             {"\"Bodies/left/Supports/Wall\"", "did you mean \"wall\"?"});
+  expectSays(refusalOf("Contact/interfac/Gap=1"), {"\"Contact/interfac\"", "did you mean \"interface\"?"});
+}
+
+TEST(ParameterOverrideTest, AddsAListWhoseNameIsLikeNoOther) {
+  ParameterList list = overridden("Bodies/right/Loads/load 1/Value=1");
+  for (const char* const text : {"Bodies/right/Loads/load 2/Value=2", "Bodies/right/Loads/x/Value=0.25",
+                                 "Bodies/third/Elements={1, 1}"})
+    EXPECT_NO_THROW(applyOverride(list, schema(), text)) << text;
+  EXPECT_EQ(bodyOf(list, "right").sublist("Loads").sublist("load 2").get<double>("Value"), 2.0);
+  EXPECT_NO_THROW(applyOverride(list, schema(), "Bodies/right/Loads/load 2/Value=3")) << "there by now";
+}
+
 TEST(ParameterOverrideTest, LeavesTheListAloneWhenItRefuses) {
   ParameterList list = twoBodies();
   refusal([&] { applyOverride(list, schema(), "Bodies/third/Elements=8"); });

@@ -47,10 +47,9 @@ TEST(SceneReaderTest, KeepsBodiesInTheOrderOfTheFile) {
   EXPECT_EQ(scene.bodies[2].name, "mu");
 }
 
-TEST(SceneReaderTest, LeavesSolverAndOutputToOthers) {
+TEST(SceneReaderTest, LeavesTheSolverToOthers) {
   ParameterList list = twoBodies();
   list.sublist("Solver").set("Tolerance", 1e-3);
-  list.sublist("Output").set("Anything", "here");
   EXPECT_EQ(readScene(list, "a.xml").bodies.size(), 2u);
 }
 
@@ -61,6 +60,8 @@ TEST(SceneReaderTest, RefusesASceneWithoutBodies) {
 TEST(SceneReaderTest, RefusesAMisspeltListAtTheTop) {
   expectSays(sceneRefusal([](ParameterList& list) { list.sublist("Contcat"); }),
              {"a.xml: ", "\"Contcat\"", "did you mean \"Contact\"?"});
+  expectSays(sceneRefusal([](ParameterList& list) { list.sublist("Output").set("File", "x"); }),
+             {"a.xml: ", "\"Output\"", "unknown; allowed are \"Title\""});
 }
 
 TEST(SceneReaderTest, GivesEachBodyTheDecompositionOfTheScene) {
@@ -92,8 +93,8 @@ TEST(SceneReaderTest, InheritsAlsoInAListThatWasValidatedBefore) {
 TEST(SceneReaderTest, FindsMissingParametersInAListThatWasValidatedBefore) {
   ParameterList list = twoBodies();
   pairOf(list).remove("First Edge");
-  const ParameterList complete = validated(list, scene::sceneSchema(), "a.xml");
-  expectSays(refusal([&] { readScene(complete, "a.xml"); }),
+  const ParameterList partial = validated(list, scene::sceneSchema(), "a.xml", Completeness::part);
+  expectSays(refusal([&] { readScene(partial, "a.xml"); }),
              {"a.xml: ", "\"Contact/interface\"", "\"First Edge\""});
 }
 

@@ -111,6 +111,12 @@ class Solves(Driver):
     def test_printed_parameters_are_the_reference_page(self):
         page = (SOURCE / "docs" / "parameters.md").read_text(encoding="utf-8")
         self.assertEqual(epafi("--print-parameters", ranks=2).stdout, page)
+        self.assertTrue(page.startswith("# Parameters\n"))
+        self.assertTrue(page.endswith("|\n"))
+
+    def test_a_new_load_by_set(self):
+        run = epafi(scene("coercive"), "--quiet", "--set", "Bodies/right/Loads/x/Value=0.25")
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""))
 
     def test_help_is_ours_alone(self):
         for ranks in (1, 2):
@@ -121,10 +127,11 @@ class Solves(Driver):
             self.assertLess(len(run.stdout.splitlines()), 25)
 
     def test_units_do_not_matter(self):
+        # Powers of two round nothing, so that every step is the same, up to the ends of what a scene may hold.
         names = ("left/Loads/upper strip", "right/Loads/lower strip")
         loads = {"left": -1.0, "right": -3.0}
         counts = set()
-        for factor in (1e-9, 1.0, 1e9):
+        for factor in (2.0**-96, 2.0**-30, 1.0, 2.0**30, 2.0**96):
             report = self.place / "report.xml"
             changes = [f"--set=Bodies/{name}/Value={loads[name.split('/')[0]] * factor}" for name in names]
             run = epafi(scene("coercive"), "--quiet", "--report", report, *changes)
@@ -176,12 +183,29 @@ class RefusesWrongInput(Driver):
         (["Tolerance"], "Solver/Tolerance=0"),
         (["Solver/Direct Solvers", "Tacho"], "Solver/Direct Solvers/Subdomains=Tacho"),
         (["="], "Solver/Tolerance"),
+        (['parameter "Value" in list "Bodies/left/Loads/upper strip" is 1e-200', "choose other units."],
+         "Bodies/left/Loads/upper strip/Value=1e-200"),
+        (["Conductivity", "1e+31", "choose other units."], "Bodies/left/Conductivity=1e31"),
+        (["Rectangle", "choose other units."], "Bodies/left/Rectangle={0,1e-40,0,1}"),
+        (["do not coincide", "x = 1, y", "x = 1.00000001, y"], "Bodies/right/Rectangle={1.00000001,2,0,1}"),
+        (['names the list "Bodies/lefd", which the scene does not have; did you mean "left"?'],
+         "Bodies/lefd/Elements={32,32}"),
+        (['"Output"', "unknown; allowed are"], "Output/File=x"),
+        (["Expansion Step", "> 0 and < 2"], "Solver/MPRGP/Expansion Step=2"),
+        (["Balance Reduction", "> 0 and < 1"], "Solver/SMALBE/Balance Reduction=1"),
+        (['lacks its parameter "Rectangle"', "must be given"], "Bodies/third/Elements={1,1}"),
     ]
 
     def test_parameters(self):
         for words, change in self.CASES:
             with self.subTest(change):
                 self.expect(WRONG_INPUT, words, scene("coercive"), "--set", change)
+
+    def test_a_suggestion_ends_the_sentence(self):
+        for change in ("Contact/interface/First Body=lefft", "Bodies/left/Elments={4,4}", "Decomposition/Method=metsi",
+                       "Bodies/lefd/Elements={4,4}"):
+            run = epafi(scene("coercive"), "--set", change)
+            self.assertTrue(run.stderr.endswith('"?\n'), run.stderr)
 
     def test_parameters_on_three_ranks(self):
         for words, change in self.CASES[::5]:
@@ -241,6 +265,12 @@ class RefusesProblemsWithoutASolution(Driver):
         for ranks in (1, 3):
             self.expect(NOT_SOLVABLE, ["not unique", "'right'"], scene("semicoercive"), "--set",
                         "Bodies/right/Loads/lower strip/Value=0", ranks=ranks)
+
+    def test_supports_that_overlap(self):
+        for ranks in (1, 3):
+            self.expect(NOT_SOLVABLE, ["no solution", "'interface'", "overlap by 0.1 at (1, 0)"], scene("coercive"),
+                        "--set", "Bodies/left/Supports/wall/Edge=bottom", "--set", "Bodies/left/Supports/wall/Value=0.1",
+                        "--set", "Bodies/right/Supports/wall/Edge=bottom", ranks=ranks)
 
     def test_a_tiny_resultant_of_round_off_is_none(self):
         self.expect(NOT_SOLVABLE, ["not unique", "'right'"], scene("semicoercive"),
