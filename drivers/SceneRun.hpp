@@ -27,8 +27,10 @@ struct SceneRun {
   double started = 0;            ///< wall time at the start
 };
 
-/// Decomposes, assembles and solves. \param solverParameters  the list Solver, validated or not
-/// Collective. \throws InputError, SolvabilityError or Error, the same on all ranks.
+/// Decomposes, assembles and solves.
+/// \param solverParameters  the list Solver, validated or not
+/// Collective.
+/// \throws InputError, SolvabilityError or Error, the same on all ranks.
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, qp::Observer* observer = nullptr);
 

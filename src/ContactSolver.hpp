@@ -37,10 +37,11 @@ public:
   void setup(const decomposition::DecomposedProblem& problem);
 
   /// Solves for the loads and gaps that the problem holds now. A solution that misses the tolerance is
-  /// returned as well: ask `report().status`. \param start     λ of an earlier solve to start from, or null
+  /// returned as well: ask `report().status`.
+  /// \param start     λ of an earlier solve to start from, or null
   /// \param observer  told of every step, or null
-  /// Collective. Precondition: `setup` was called. \throws SolvabilityError or InputError (a load or gap that
-  /// is not finite), the same on all ranks.
+  /// Collective. Precondition: `setup` was called.
+  /// \throws SolvabilityError or InputError (a load or gap that is not finite), the same on all ranks.
   fetidp::ContactSolution solve(const Vector* start = nullptr, qp::Observer* observer = nullptr);
 
   /// Of the last solve.

@@ -22,8 +22,10 @@ std::string valueText(const Teuchos::ParameterEntry& entry);
 std::string valueText(double value);
 
 /// The value of a given type that a text spells out. The whole text must be the value, blanks around it
-/// aside. \param type  one of parameterTypes() \throws InputError that says what is wrong with the text, to
-/// follow the words "the value … ": "is not a number".
+/// aside.
+/// \param type  one of parameterTypes()
+/// \throws InputError that says what is wrong with the text, to follow the words "the value … ": "is not a
+///         number".
 Teuchos::ParameterEntry parseValue(const std::string& type, const std::string& text);
 
 } // namespace epafi

@@ -28,8 +28,8 @@ enum class Completeness { whole, part };
 ///
 /// \param where  what stands before the list's name in messages (a file, usually).
 /// \throws InputError naming list, parameter, value and what is allowed: unknown name (the nearest one is
-/// suggested),
-///         wrong type, value out of range, NaN or infinity, a required parameter that is not given.
+///         suggested), wrong type, value out of range, NaN or infinity, a required parameter that is not
+///         given.
 Teuchos::ParameterList validated(const Teuchos::ParameterList& given, const Teuchos::ParameterList& schema,
                                  const std::string& where, Completeness completeness = Completeness::whole);
 

@@ -42,8 +42,7 @@ std::vector<std::string> availableSolvers();
 /// Factorises A by the Amesos2 solver called `solver`.
 /// Precondition: A square, SPD, both triangles stored. n = 0 is allowed.
 /// \throws InputError for an unknown name (lists the known ones); Error if the factorisation fails, with
-/// `what` (the
-///         matrix's name for people, such as "subdomain 3") and n.
+///         `what` (the matrix's name for people, such as "subdomain 3") and n.
 std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver,
                                      const std::string& what);
 

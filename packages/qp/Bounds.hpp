@@ -45,8 +45,7 @@ public:
   };
 
   /// \param lower, upper  vectors on the unknowns' map, −∞ and +∞ for "no bound"; null where no entry has
-  /// one. Shared, never
-  ///                      changed.
+  ///        one. Shared, never changed.
   explicit Bounds(RCP<const Vector> lower, RCP<const Vector> upper = Teuchos::null);
 
   /// This rank's bounds by local index; cheap to make, valid while the bounds live.

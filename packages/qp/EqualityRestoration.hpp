@@ -14,13 +14,16 @@ namespace epafi::qp {
 
 /// x += δ with G(x + δ) = 0, δ = −WGᵀ(GWGᵀ)⁻¹Gx, where W holds each entry's distance to its nearer bound:
 /// entries at a bound stay there, and a δ that is small beside that distance keeps the others feasible. Does
-/// nothing where the free entries do not suffice or δ would cross a bound. \param gx  Gx, on every rank.
+/// nothing where the free entries do not suffice or δ would cross a bound.
+/// \param gx  Gx, on every rank.
 /// Cost: one message of 2k² numbers for k rows. Collective.
 void restoreEquality(const EqualityConstraint& g, const Bounds& bounds, std::span<const double> gx,
                      Vector& x);
 
 /// The multiplier μ that suits a start near the solution: ‖φ + (Gᵀμ)_F‖ smallest over the free entries F; 0
-/// where these do not determine it. \param gradient  Ax − b. Two small messages. Collective.
+/// where these do not determine it.
+/// \param gradient  Ax − b.
+/// Two small messages. Collective.
 std::vector<double> estimateMultiplier(const EqualityConstraint& g, const Bounds& bounds, const Vector& x,
                                        const Vector& gradient);
 

@@ -71,7 +71,9 @@ public:
   /// Collective.
   void refreshGradient();
 
-  /// Subtracts `shift` from b without touching x: g grows by it. \param objectiveShift  shiftᵀx. Collective.
+  /// Subtracts `shift` from b without touching x: g grows by it.
+  /// \param objectiveShift  shiftᵀx.
+  /// Collective.
   void shiftLinearTerm(const Vector& shift, double objectiveShift);
 
   [[nodiscard]] const Vector& solution() const { return x_; }

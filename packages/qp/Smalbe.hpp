@@ -35,8 +35,11 @@ struct SmalbeTolerances {
 
 /// Precondition: A symmetric positive semidefinite, positive definite on Ker G; G as EqualityConstraint says.
 /// \param x  in: start (projected onto the bounds; the multiplier starts from what suits it); out: the last
-/// iterate, feasible for the bounds \param operatorNorm  over-estimate of ‖A‖ Returns converged only if a
-/// gradient computed afresh bears it out. \throws InputError if the bounds cross. Collective.
+///        iterate, feasible for the bounds
+/// \param operatorNorm  over-estimate of ‖A‖
+/// Returns converged only if a gradient computed afresh bears it out.
+/// \throws InputError if the bounds cross.
+/// Collective.
 SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<const EqualityConstraint>& g,
                                       const Vector& b, const Bounds& bounds, Vector& x,
                                       const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,

@@ -22,7 +22,8 @@ inline constexpr double resultantTolerance = 1e-9;
 ///  - a rigid motion of the floating bodies meets no contact at all (no solution, or not unique),
 ///  - the load pulls a floating body off its contacts (no solution),
 ///  - the load on it has no resultant against its contacts (not unique).
-/// \param entries  this rank's rows of G̃ᵀ;  \param kernelLoad  ẽ
+/// \param entries  this rank's rows of G̃ᵀ;
+/// \param kernelLoad  ẽ
 /// Collective.
 void requireUniqueSolution(const decomposition::DecomposedProblem& problem,
                            const std::vector<KernelEntry>& entries, const Eigen::VectorXd& kernelLoad);

@@ -39,17 +39,22 @@ public:
   /// \param coarse  all coarse unknowns
   void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse);
   /// Second half: result += B_r K_rr⁻¹ B_rᵀ λ + W L_c x_c, in one addition an entry, so that the result does
-  /// not depend on which rank holds which subdomain. \param result  this rank's multipliers (ghost map)
+  /// not depend on which rank holds which subdomain.
+  /// \param result  this rank's multipliers (ghost map)
   void applyCoupling(const Eigen::VectorXd& coarse, std::span<double> result) const;
 
-  /// First half of K̄⁺: keeps y = K_rr⁻¹ b_r and adds L_cᵀ(b_c − K_cr y) to `coarse`. \param b  n_s values
+  /// First half of K̄⁺: keeps y = K_rr⁻¹ b_r and adds L_cᵀ(b_c − K_cr y) to `coarse`.
+  /// \param b  n_s values
   void eliminate(const Eigen::VectorXd& b, std::span<AccurateSum> coarse);
-  /// Second half: u_r = y − K_rr⁻¹ K_rc u_c, u_c = L_c x_c. \param u  n_s values, overwritten
+  /// Second half: u_r = y − K_rr⁻¹ K_rc u_c, u_c = L_c x_c.
+  /// \param u  n_s values, overwritten
   void substitute(const Eigen::VectorXd& coarse, Eigen::VectorXd& u);
 
-  /// b −= Bᵀ λ. \param b  n_s values
+  /// b −= Bᵀ λ.
+  /// \param b  n_s values
   void subtractForces(std::span<const double> lambda, Eigen::VectorXd& b) const;
-  /// result += B u. \param u  n_s values
+  /// result += B u.
+  /// \param u  n_s values
   void addConstraint(const Eigen::VectorXd& u, std::span<double> result) const;
 
   [[nodiscard]] std::size_t factorBytes() const;

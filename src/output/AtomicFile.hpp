@@ -33,9 +33,9 @@ void publish(const std::filesystem::path& temporary, const std::filesystem::path
 /// Writes a text file from rank 0, through prepareTarget, a temporary and publish.
 ///
 /// \param text  makes the text; called on rank 0 only, must not call anything collective.
-/// Collective. \throws InputError (prepareTarget), Error if writing fails or `text` throws; then no file is
-/// left behind
-///             and an older file of that name is untouched.
+/// Collective.
+/// \throws InputError (prepareTarget), Error if writing fails or `text` throws; then no file is left behind
+///         and an older file of that name is untouched.
 void writeTextFile(const std::filesystem::path& file, const std::function<std::string()>& text,
                    const Comm& comm);
 

@@ -15,8 +15,7 @@ namespace epafi::scene {
 /// order. Rank 0 reads the file and broadcasts its text.
 ///
 /// \throws InputError (the same on all ranks) if the file is missing, is a directory, is empty or larger than
-/// 64 MiB, and as
-///         parseParameters().
+///         64 MiB, and as parseParameters().
 /// Collective; only rank 0's `path` counts.
 Teuchos::ParameterList readParameterFile(const std::string& path, const Comm& comm);
 
@@ -25,8 +24,8 @@ Teuchos::ParameterList readParameterFile(const std::string& path, const Comm& co
 ///
 /// \param where  the file's name, with which messages begin
 /// \throws InputError if the text is no well-formed XML (with the line), holds other elements than those
-/// above, lacks an
-///         attribute, names a list or parameter twice, or a value is not completely one of its type.
+///         above, lacks an attribute, names a list or parameter twice, or a value is not completely one of
+///         its type.
 /// Not collective.
 Teuchos::ParameterList parseParameters(const std::string& text, const std::string& where);
 

@@ -1,6 +1,5 @@
-#include "Problems.hpp"
+#include "BoundProblems.hpp"
 
-#include "epafi/base/Errors.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 
 #include <gtest/gtest.h>
@@ -12,64 +11,12 @@ namespace {
 using namespace epafi;
 using qp::Bounds;
 using qp::Status;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A bound-constrained problem with dense copies.
-struct Problem {
-  Eigen::MatrixXd a;
-  Eigen::VectorXd b, lower, upper;
-
-  RCP<const Map> map() const { return test::linearMap(static_cast<int>(b.size())); }
-};
-
-struct Answer {
-  Eigen::VectorXd x;
-  qp::SolveReport report;
-  int applications;
-};
-
-Answer solve(const Problem& problem, double tolerance = 1e-10, double norm = 1.0,
-             const Eigen::VectorXd& start = Eigen::VectorXd(), qp::Observer* observer = nullptr) {
-  const auto map = problem.map();
-  const auto a = rcp(new test::DenseOperator(map, problem.a));
-  const Bounds bounds(test::makeVector(map, problem.lower), test::makeVector(map, problem.upper));
-  const auto x = start.size() > 0 ? test::makeVector(map, start) : rcp(new Vector(map));
-  const auto report =
-      qp::solveBoundProblem(a, *test::makeVector(map, problem.b), bounds, *x, tolerance, {}, norm, observer);
-  return {test::gather(*x), report, a->applications};
-}
-
-/// Norm of the projected gradient, from scratch.
-double projectedGradient(const Problem& problem, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd g = problem.a * x - problem.b;
-  double squared = 0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    double p = g[i];
-    if (x[i] <= problem.lower[i])
-      p = std::min(p, 0.0);
-    if (x[i] >= problem.upper[i])
-      p = problem.lower[i] < problem.upper[i] ? std::max(p, 0.0) : 0.0;
-    squared += p * p;
-  }
-  return std::sqrt(squared);
-}
-
-/// Random problem with entries bounded below, above, on both sides, on none, or fixed.
-Problem randomProblem(int n, double condition, std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  std::uniform_int_distribution<int> kind(0, 4);
-  Problem problem{test::randomSpd(n, condition, random), Eigen::VectorXd(n), Eigen::VectorXd(n),
-                  Eigen::VectorXd(n)};
-  for (int i = 0; i < n; ++i) {
-    problem.b[i] = normal(random);
-    const double centre = normal(random);
-    const int k = kind(random);
-    problem.lower[i] = k == 0 || k == 1 ? centre - 0.5 : k == 4 ? centre : -infinity;
-    problem.upper[i] = k == 0 || k == 2 ? centre + 0.5 : k == 4 ? centre : infinity;
-  }
-  return problem;
-}
+using test::Answer;
+using test::infinity;
+using test::Problem;
+using test::projectedGradient;
+using test::randomProblem;
+using test::solve;
 
 TEST(MprgpTest, SolvesTwoUnknownsByHand) {
   // min x² + y² − 2x + 2y over x, y ≥ 0: x = 1, y = 0 with force 2.
@@ -238,83 +185,6 @@ TEST(MprgpTest, AStartOutsideIsProjectedFirst) {
 
   EXPECT_EQ(answer.report.status, Status::converged);
   EXPECT_LE(projectedGradient(problem, answer.x), 1e-9 * problem.b.norm());
-}
-
-TEST(MprgpTest, AllActiveAndNoneActiveAndZeroLoad) {
-  const int n = 6;
-  Problem problem{Eigen::MatrixXd::Identity(n, n), Eigen::VectorXd::Constant(n, -1), Eigen::VectorXd::Zero(n),
-                  Eigen::VectorXd::Constant(n, infinity)};
-  EXPECT_EQ(solve(problem).x.norm(), 0) << "all active";
-  problem.b.setConstant(1);
-  EXPECT_NEAR((solve(problem).x - problem.b).norm(), 0, 1e-12) << "none active";
-  problem.b.setZero();
-  const Answer idle = solve(problem);
-  EXPECT_EQ(idle.report.status, Status::converged) << "zero load";
-  EXPECT_EQ(idle.x.norm(), 0);
-  EXPECT_EQ(idle.report.counts.hessianMultiplications, 0);
-}
-
-TEST(MprgpTest, NamesAnIndefiniteOperator) {
-  Problem problem{Eigen::Vector3d(1, -1, 1).asDiagonal(), Eigen::Vector3d(1, 1, 1),
-                  Eigen::Vector3d::Constant(-infinity), Eigen::Vector3d::Constant(infinity)};
-  problem.a(1, 1) = -5;
-
-  EXPECT_EQ(solve(problem).report.status, Status::indefiniteOperator);
-}
-
-TEST(MprgpTest, NamesNanFromTheOperator) {
-  Problem problem{Eigen::Matrix3d::Constant(std::nan("")), Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::Zero(),
-                  Eigen::Vector3d::Constant(infinity)};
-
-  const Answer answer = solve(problem);
-
-  EXPECT_EQ(answer.report.status, Status::notFinite);
-  EXPECT_TRUE(answer.x.allFinite());
-}
-
-TEST(MprgpTest, StopsAtTheLimitOfProducts) {
-  std::mt19937 random(31);
-  const Problem problem = randomProblem(40, 1e6, random);
-  const auto map = problem.map();
-  const Bounds bounds(test::makeVector(map, problem.lower), test::makeVector(map, problem.upper));
-  Vector x(map);
-  qp::MprgpParameters parameters;
-  parameters.maxMultiplications = 5;
-
-  const auto report =
-      qp::solveBoundProblem(rcp(new test::DenseOperator(map, problem.a)), *test::makeVector(map, problem.b),
-                            bounds, x, 1e-12, parameters, 1.0);
-
-  EXPECT_EQ(report.status, Status::maxIterations);
-  EXPECT_LE(report.counts.hessianMultiplications, 7);
-  const Eigen::VectorXd last = test::gather(x);
-  EXPECT_TRUE((last.array() >= problem.lower.array()).all()) << "the last iterate stays feasible";
-}
-
-TEST(MprgpTest, ReachesRoundOffOrSaysThatItCannot) {
-  std::mt19937 random(37);
-  const Problem problem = randomProblem(30, 1e6, random);
-
-  const Answer answer = solve(problem, 1e-18);
-
-  EXPECT_NE(answer.report.status, Status::converged);
-  EXPECT_LE(answer.report.relativeProjectedGradient, 1e-10);
-}
-
-TEST(MprgpTest, LeavesBoundsAndRightHandSideAlone) {
-  std::mt19937 random(41);
-  const Problem problem = randomProblem(10, 10, random);
-  const auto map = problem.map();
-  const auto b = test::makeVector(map, problem.b), lower = test::makeVector(map, problem.lower);
-  const auto upper = test::makeVector(map, problem.upper);
-  Vector x(map);
-
-  qp::solveBoundProblem(rcp(new test::DenseOperator(map, problem.a)), *b, Bounds(lower, upper), x, 1e-10, {},
-                        1.0);
-
-  EXPECT_EQ(test::gather(*b), problem.b);
-  EXPECT_EQ(test::gather(*lower), problem.lower);
-  EXPECT_EQ(test::gather(*upper), problem.upper);
 }
 
 /// A string over a flat obstacle: −u'' = −f on (0, L), u = 0 at both ends, u ≥ −d. Touches where fL²/8 > d;
