@@ -36,8 +36,7 @@ Teuchos::ParameterList ContactSolver::validParameters() {
           "the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies.",
           0.0, 1.0, true);
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
-          "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to the load where it is "
-          "balanced.",
+          "With floating bodies: largest imbalance ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖Pd‖/‖PFP‖.",
           0.0, 1.0, true);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());

@@ -117,7 +117,7 @@ DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
   }
   const RCP<Vector> rhs = rightHandSide(load);
   if (algorithm_ == Algorithm::smalbe)
-    solveSemicoercive(rhs, load, start, observer, solution);
+    solveSemicoercive(rhs, resultants, start, observer, solution);
   else
     solveCoercive(rhs, start, observer, solution);
   return solution;
@@ -161,22 +161,23 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
-void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVectors& load, const Vector* start,
-                                    qp::Observer* observer, DualSolution& solution) {
-  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad(problem_, load));
-  // e vanishes where a balanced load is held by contacts on both sides: then the load itself is the measure.
-  const double equilibriumReference =
-      std::max(e.norm(), coarseSpace_->normalized(kernelLoadMagnitude(problem_, load)).norm());
+void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad,
+                                    const Vector* start, qp::Observer* observer, DualSolution& solution) {
+  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad);
   Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
   coarseSpace_->feasiblePoint(e, feasible);
   dualOperator_->apply(feasible, *rhs, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
   coarseSpace_->project(*rhs);                                        // Pd
   solution.reference = accurateNorm(*rhs);
+  // e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd
+  // asks for.
+  const double equilibriumReference =
+      std::max(e.norm(), norm_.norm > 0 ? solution.reference / norm_.norm : 0.0);
 
   const RCP<Vector> lower = lowerBounds(-std::numeric_limits<double>::infinity());
   lower->update(-1.0, feasible, 1.0); // −λ̃_I
   Vector mu(problem_.multiplierMap);
-  if (start != nullptr)
+  if (start != nullptr && solution.reference > 0)
     mu.update(1.0, *start, -1.0, feasible, 0.0);
 
   const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference,

@@ -26,7 +26,7 @@ std::string toString(Algorithm algorithm);
 
 struct DualParameters {
   double tolerance = 1e-6;            ///< on ‖g^P‖ relative to ‖d̃‖ or ‖Pd‖
-  double equilibriumTolerance = 1e-6; ///< on ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖T̃|R|ᵀ|f̄|‖
+  double equilibriumTolerance = 1e-6; ///< on ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖Pd‖/‖PFP‖
   qp::MprgpParameters mprgp;
   qp::SmalbeParameters smalbe;
   qp::NormEstimateParameters norm;
@@ -36,7 +36,7 @@ struct DualParameters {
 struct DualSolution {
   RCP<Vector> lambda;     ///< on multiplierMap, λ_I ≥ 0
   double reference = 0;   ///< ‖d̃‖ or ‖Pd‖, what residuals are relative to
-  double equilibrium = 0; ///< ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖T̃|R|ᵀ|f̄|‖
+  double equilibrium = 0; ///< ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖Pd‖/‖PFP‖
   qp::SolveReport report;
 };
 
@@ -68,7 +68,7 @@ private:
   RCP<Vector> lowerBounds(double free) const;
   void solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
                      DualSolution& solution);
-  void solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVectors& load, const Vector* start,
+  void solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad, const Vector* start,
                          qp::Observer* observer, DualSolution& solution);
 
   const decomposition::DecomposedProblem& problem_;

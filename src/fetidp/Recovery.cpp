@@ -2,13 +2,12 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/RigidMotion.hpp"
 
-#include <Eigen/QR>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace epafi::fetidp {
 namespace {
@@ -22,27 +21,6 @@ void slackOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse
   inverse.constraint(u, exchange.values());
   exchange.sumToOwners(slack);
   slack.update(1.0, *problem.gap, -1.0);
-}
-
-/// α: where a contact force acts the gap is closed, G̃ᵀα = c − B̄u there; least squares over those rows.
-Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
-                            const Vector& lambda, const Vector& slack) {
-  const Eigen::Index k = problem.kernelDimension;
-  const auto force = lambda.getData(), gap = slack.getData();
-  std::map<int, Eigen::VectorXd> rows;
-  for (const KernelEntry& entry : entries)
-    if (force[entry.row] > 0)
-      rows.try_emplace(entry.row, Eigen::VectorXd::Zero(k)).first->second[entry.mode] += entry.value;
-  Eigen::MatrixXd normal(k, k + 1); // [G̃_A G̃_Aᵀ, G̃_A slack_A]
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(normal.size()));
-  for (const auto& [row, vector] : rows)
-    for (Eigen::Index i = 0; i < k; ++i)
-      for (Eigen::Index j = 0; j <= k; ++j)
-        sums[static_cast<std::size_t>(i + k * j)].add(vector[i] * (j < k ? vector[j] : gap[row]));
-  sumOverRanks(*problem.comm, sums);
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    normal.data()[i] = sums[i].value();
-  return normal.leftCols(k).completeOrthogonalDecomposition().solve(normal.col(k));
 }
 
 /// ½uᵀKu − fᵀu over all subdomains.
@@ -119,7 +97,8 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
   inverse.apply(forces, u);                                            // K̄⁺(f̄ − B̄ᵀλ)
   slackOf(problem, inverse, u, *solution.slack);
   if (problem.kernelDimension > 0) {
-    const Eigen::VectorXd alpha = rigidMotion(problem, kernelEntries, *dual.lambda, *solution.slack);
+    const Eigen::VectorXd alpha = rigidMotion(problem, kernelEntries, *dual.lambda, *solution.slack,
+                                              dual.report.status == qp::Status::converged);
     for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
       const auto& subdomain = problem.subdomains[s];
       const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;

@@ -10,6 +10,7 @@ namespace epafi::fetidp {
 
 /// \param dual          λ and its reference
 /// \param operatorNorm  ‖F‖ or ‖PFP‖, the scale between forces and gaps in the test for an active contact
+/// \throws SolvabilityError if floating bodies may come to rest in more than one place (see RigidMotion.hpp).
 /// Collective.
 ContactSolution recover(const decomposition::DecomposedProblem& problem, GeneralizedInverse& inverse,
                         const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual,

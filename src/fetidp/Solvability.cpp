@@ -51,19 +51,6 @@ Eigen::MatrixXd contactDirections(const DecomposedProblem& problem, const std::v
   return result;
 }
 
-/// Names of the bodies that take part in a rigid motion.
-std::string bodiesOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
-  std::string names;
-  int count = 0;
-  for (const auto& body : problem.bodies)
-    if (body.kernelDimension > 0 &&
-        motion.segment(body.kernelOffset, body.kernelDimension).norm() > 1e-6 * motion.norm()) {
-      names += (count > 0 ? "', '" : "'") + body.name;
-      ++count;
-    }
-  return (count > 1 ? "the floating bodies " : "the floating body ") + names + "'";
-}
-
 /// What the resultant along a motion is compared with: |R|ᵀ|f| of the motion's modes.
 double loadAlong(const Eigen::VectorXd& magnitudes, const Eigen::VectorXd& motion) {
   return magnitudes.dot(motion.cwiseAbs());
@@ -106,6 +93,18 @@ void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& d
 }
 
 } // namespace
+
+std::string bodiesOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
+  std::string names;
+  int count = 0;
+  for (const auto& body : problem.bodies)
+    if (body.kernelDimension > 0 &&
+        motion.segment(body.kernelOffset, body.kernelDimension).norm() > 1e-6 * motion.norm()) {
+      names += (count > 0 ? "', '" : "'") + body.name;
+      ++count;
+    }
+  return (count > 1 ? "the floating bodies " : "the floating body ") + names + "'";
+}
 
 void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
                            const Eigen::VectorXd& kernelLoad) {

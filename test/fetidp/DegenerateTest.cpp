@@ -184,6 +184,49 @@ TEST(DegenerateTest, ABalancedLoadIsHeldByTwoContacts) {
   }
 }
 
+TEST(DegenerateTest, ABodyThatRestsLooselyBetweenTwoOthersIsNotUnique) {
+  for (const double width : {1e-9, 1.0, 1e9}) {
+    scene::Scene scene = threeMembranes(false, 4, grid(2, 1));
+    for (scene::Body& body : scene.bodies)
+      setLoad(body, 0.0);
+    scene.contacts[0].gap = -width;    // at least this much above the first one,
+    scene.contacts[1].gap = 3 * width; // at most that much above the last one
+    try {
+      const Solved solved(scene);
+      ADD_FAILURE() << "one of many solutions was returned";
+    } catch (const SolvabilityError& error) {
+      EXPECT_EQ(error.kind(), SolvabilityError::Kind::notUnique);
+      EXPECT_NE(std::string(error.what()).find("'middle'"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(DegenerateTest, ABodyWithoutLoadMayBeHeldByItsNeighbours) {
+  for (const auto& cut : {grid(1, 1), grid(2, 1)}) {
+    scene::Scene scene = threeMembranes(false, 4, cut); // at rest: zero load, zero gaps
+    for (scene::Body& body : scene.bodies)
+      setLoad(body, 0.0);
+    const Solved rest(scene);
+    EXPECT_EQ(rest.solver.report().status, qp::Status::converged);
+    for (const Eigen::VectorXd& u : fieldOf(rest.decomposition, rest.solution))
+      EXPECT_EQ(u.norm(), 0);
+
+    setLoad(scene.bodies[0], 1.0); // squeezed
+    setLoad(scene.bodies[2], -1.0);
+    const Solved squeezed(scene);
+    EXPECT_EQ(squeezed.solver.report().status, qp::Status::converged);
+    EXPECT_LE(fieldError(fieldOf(squeezed.decomposition, squeezed.solution),
+                         solveUndecomposed(squeezed.decomposition).field),
+              1e-8);
+    scene.contacts[0].gap = -1.0; // without room: exactly one place
+    scene.contacts[1].gap = 1.0;
+    for (const std::size_t body : {0U, 2U})
+      setLoad(scene.bodies[body], 0.0);
+    const Solved lifted(scene);
+    expectClosedForm(lifted, 0.0, 1.0, 0.0);
+  }
+}
+
 TEST(DegenerateTest, AChainOfFloatingBodiesIsHeldByItsLastLoad) {
   for (const auto& cut : {grid(1, 1), grid(2, 1), metis(2)}) {
     scene::Scene scene = threeMembranes(true, 4, cut);
