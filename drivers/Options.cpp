@@ -16,12 +16,13 @@ Options parseOptions(int argc, const char* const* argv) {
       attached = word.substr(word.find('=') + 1);
       word.erase(word.find('='));
     }
-    const auto value = [&]() -> std::string {
-      if (hasAttached)
-        return attached;
-      if (i + 1 >= argc)
+    bool takesValue = false;
+    const auto value = [&] {
+      takesValue = true;
+      std::string text = hasAttached ? attached : i + 1 < argc ? argv[++i] : "";
+      if (text.empty())
         throw InputError("option " + word + " needs a value; see epafi --help");
-      return argv[++i];
+      return text;
     };
     if (word == "--set") {
       options.overrides.push_back(value());
@@ -47,6 +48,8 @@ Options parseOptions(int argc, const char* const* argv) {
     } else {
       options.scene = word;
     }
+    if (hasAttached && !takesValue)
+      throw InputError("option " + word + " takes no value; see epafi --help");
   }
   if (options.scene.empty() && !options.printParameters && !options.help && !options.version)
     throw InputError("no scene is given; call epafi SCENE.xml (see epafi --help)");

@@ -86,8 +86,14 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
     scene::applyOverride(given, schema, text);
   const Teuchos::ParameterList list = validated(given, schema, options.scene);
   const scene::Scene scene = scene::readScene(given, options.scene);
-  for (const auto& file : reportsOf(options))
+  for (const auto& file : reportsOf(options)) {
+    collectively(*comm, [&] {
+      std::error_code ignored;
+      if (std::filesystem::equivalent(file, options.scene, ignored))
+        throw InputError("the report " + file.string() + " would overwrite the scene; choose another name");
+    });
     output::prepareTarget(file, *comm); // better now than after an hour
+  }
   if (speaks)
     std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
               << std::flush;

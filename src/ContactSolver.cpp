@@ -11,6 +11,9 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace epafi {
 namespace {
 
@@ -36,7 +39,7 @@ Teuchos::ParameterList ContactSolver::validParameters() {
           "the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies.",
           0.0, 1.0, true);
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
-          "With floating bodies: largest imbalance ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖Pd‖/‖PFP‖.",
+          "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes.",
           0.0, 1.0, true);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());
@@ -81,8 +84,29 @@ fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* 
   const double recoveryStart = Teuchos::Time::wallTime();
   fetidp::ContactSolution solution =
       fetidp::recover(*problem_, *inverse_, dual_->kernelEntries(), dual, dual_->norm().norm);
+  confirm(solution);
   times_.recovery = longest(*problem_->comm, recoveryStart);
   return solution;
+}
+
+/// What the iteration claims must hold for the displacements too: round-off in the subdomain solves can undo it, and
+/// a right-hand side that is huge beside the displacements can make it worth little.
+void ContactSolver::confirm(const fetidp::ContactSolution& solution) {
+  if (report_.status != qp::Status::converged)
+    return;
+  const double tolerance = dualParameters_.tolerance;
+  std::ostringstream reason;
+  if (solution.relativeProjectedGradient > 2 * tolerance)
+    reason << "recomputed from the solution the projected gradient is " << solution.relativeProjectedGradient;
+  else if (solution.feasibility > std::max(1e-3, 1e3 * tolerance))
+    reason << "constraints are violated by " << solution.feasibility << " of the largest displacement";
+  else
+    return;
+  report_.status = qp::Status::stagnated;
+  report_.reason =
+      "the iteration met the tolerance, but " + reason.str() +
+      ": round-off in the subdomain solves allows no better; avoid very flat elements and very large "
+      "jumps of conductivity, or raise the tolerance";
 }
 
 Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& solution) const {

@@ -49,14 +49,14 @@ public:
   [[nodiscard]] const SolverTimes& times() const { return times_; }
   [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return *dual_; }
   [[nodiscard]] double tolerance() const { return dualParameters_.tolerance; }
-  /// Names of the direct solvers in use.
-  [[nodiscard]] const fetidp::DirectSolvers& directSolvers() const { return directSolvers_; }
 
   /// The report of the last solve as a list: Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status.
   /// Collective.
   [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
 
 private:
+  void confirm(const fetidp::ContactSolution& solution);
+
   fetidp::DualParameters dualParameters_;
   fetidp::DirectSolvers directSolvers_;
   const decomposition::DecomposedProblem* problem_ = nullptr;

@@ -2,12 +2,12 @@
 
 #include "SceneRun.hpp"
 
+#include "epafi/output/AtomicFile.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 
 #include <Teuchos_Comm.hpp>
 
 #include <array>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 
@@ -98,9 +98,11 @@ bool studyTables(const std::filesystem::path& directory, bool quick, const RCP<c
     markdown += rows.markdown;
     allConverged = allConverged && rows.converged;
   }
+  output::writeTextFile(
+      directory / "tables.csv", [&] { return csv; }, *comm);
+  output::writeTextFile(
+      directory / "tables.md", [&] { return markdown; }, *comm);
   if (comm->getRank() == 0) {
-    std::ofstream(directory / "tables.csv") << csv;
-    std::ofstream(directory / "tables.md") << markdown;
     std::cout << markdown << "written: " << (directory / "tables.csv").string() << " and "
               << (directory / "tables.md").string() << '\n';
   }

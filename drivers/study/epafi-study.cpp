@@ -102,7 +102,9 @@ int main(int argc, char** argv) {
       return 1;
     }
   }
-  if (drawsPicture && !draw(std::filesystem::absolute(request.directory) / (request.study + ".csv")))
+  if (drawsPicture && !draw(std::filesystem::absolute(request.directory) / (request.study + ".csv"))) {
     std::cerr << "epafi-study: the picture was not drawn (see above); the table is complete\n";
+    return 1;
+  }
   return exitCode;
 }

@@ -46,7 +46,6 @@ SolveReport solveBoundProblem(const RCP<const Operator>& a, const Vector& b, con
   report.relativeProjectedGradient =
       reference > 0 ? solver.projectedGradient() / reference : solver.projectedGradient();
   report.objective = solver.objective();
-  report.operatorNorm = operatorNorm;
   return report;
 }
 

@@ -99,8 +99,10 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
       conjugateGradientStep(sizes, rule);
       record(rule, StepKind::conjugateGradient, observer);
     } else {
-      expansionStep(sizes, rule);
+      const bool isDone = expansionStep(sizes, rule);
       record(rule, StepKind::expansion, observer);
+      if (!isDone)
+        return Status::stagnated;
     }
   }
   return Status::converged;
@@ -118,23 +120,26 @@ void Mprgp::conjugateGradientStep(const StepSizes& sizes, StoppingRule& rule) {
   setDirectionToFreeGradient(freeTimesImage_ / sizes.curvature); // p = φ − (φᵀAp / pᵀAp) p
 }
 
-void Mprgp::expansionStep(const StepSizes& sizes, StoppingRule& rule) {
+/// Returns false if no step, however short, keeps the objective from growing.
+bool Mprgp::expansionStep(const StepSizes& sizes, StoppingRule& rule) {
   ++counts_.expansion;
   move(sizes.feasible, sizes); // x^½ = x − α_f p
   storeHalfStep();
   const double halfObjective = objective_;
-  for (;;) {
+  bool isDone = false;
+  for (int halvings = 0; !isDone && halvings < 60; ++halvings) {
     const double size = projectHalfStep(); // x = P(x^½ − ᾱφ(x^½)),  g = Ax − b
     // By the bound on ᾱ the objective cannot grow; if it does beyond round-off, ‖A‖ was underestimated.
     const double roundOff = 1e-12 * (std::abs(halfObjective) + size);
-    if (objective_ <= halfObjective + roundOff || !std::isfinite(objective_) ||
-        counts_.hessianMultiplications >= parameters_.maxMultiplications)
-      break;
-    stepLength_ *= 0.5;
+    isDone = objective_ <= halfObjective + roundOff || !std::isfinite(objective_) ||
+             counts_.hessianMultiplications >= parameters_.maxMultiplications;
+    if (!isDone)
+      stepLength_ *= 0.5;
   }
   ap_.putScalar(0.0);
   measure(rule);
   setDirectionToFreeGradient(0.0); // p = φ
+  return isDone;
 }
 
 /// Returns converged if the step could be made.

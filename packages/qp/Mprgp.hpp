@@ -59,7 +59,7 @@ public:
   /// x becomes the projection of x0, g = Ax − b (no product if that is 0), f = ½xᵀ(g − b). Collective.
   void start(const Vector& b, const Vector& x0);
 
-  /// Runs until the rule is satisfied. Returns converged, maxIterations, indefiniteOperator or notFinite.
+  /// Runs until the rule is satisfied. Returns converged, maxIterations, stagnated, indefiniteOperator or notFinite.
   /// \param observer  told of every step; may be null
   /// Collective.
   Status run(StoppingRule& rule, Observer* observer);
@@ -83,7 +83,6 @@ public:
   [[nodiscard]] double projectedGradient() const { return projectedGradient_; }
   [[nodiscard]] double objective() const { return objective_; }
   [[nodiscard]] bool gradientIsFresh() const { return gradientIsFresh_; }
-  [[nodiscard]] double stepLength() const { return stepLength_; }
   [[nodiscard]] StepCounts& counts() { return counts_; }
 
 private:
@@ -97,7 +96,7 @@ private:
   StepSizes stepSizes();
   [[nodiscard]] bool isProportional() const;
   void conjugateGradientStep(const StepSizes& sizes, StoppingRule& rule);
-  void expansionStep(const StepSizes& sizes, StoppingRule& rule);
+  bool expansionStep(const StepSizes& sizes, StoppingRule& rule);
   Status proportioningStep(StoppingRule& rule);
   void move(double step, const StepSizes& sizes);
   void storeHalfStep();

@@ -183,7 +183,6 @@ SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<co
   report.relativeProjectedGradient = relative(solver.projectedGradient(), tolerances.gradientReference);
   report.relativeConstraintResidual = relative(rule.constraintNorm(), tolerances.constraintReference);
   report.objective = solver.objective();
-  report.operatorNorm = operatorNorm;
   return report;
 }
 

@@ -59,8 +59,7 @@ struct SolveReport {
   double relativeProjectedGradient = 0;
   double relativeConstraintResidual = 0;
   double objective = 0;
-  double operatorNorm = 0; ///< the estimate of ‖A‖ used
-  History history;         ///< every step, in order
+  History history; ///< every step, in order
 };
 
 /// Receives every step of a solver as it happens. Called on all ranks; must not throw.

@@ -6,6 +6,8 @@
 #include <Eigen/QR>
 #include <Tpetra_Map.hpp>
 
+#include <algorithm>
+#include <map>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -109,15 +111,23 @@ Eigen::VectorXd crosspointStiffness(const DecomposedProblem& problem, int size) 
   return diagonal;
 }
 
-/// Throws unless S_cc R_c = 0 to round-off, row by row. Not collective; the same on all ranks.
+/// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness at the crosspoints of the same body:
+/// round-off of its stiff parts reaches its soft ones. Not collective; the same on all ranks.
 void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const Eigen::VectorXd& stiffness) {
   const Eigen::MatrixXd forces = matrix * kernel.modes;
-  const double largest = kernel.modes.cwiseAbs().maxCoeff();
-  for (Eigen::Index i = 0; i < forces.rows(); ++i)
-    if (!(forces.row(i).lpNorm<Eigen::Infinity>() <= 1e-8 * stiffness[i] * largest)) // also NaN
+  const double largestMode = kernel.modes.cwiseAbs().maxCoeff();
+  std::map<int, double> stiffnessOf;
+  for (std::size_t i = 0; i < kernel.body.size(); ++i) {
+    double& largest = stiffnessOf[kernel.body[i]];
+    largest = std::max(largest, stiffness[static_cast<Eigen::Index>(i)]);
+  }
+  for (std::size_t i = 0; i < kernel.body.size(); ++i) {
+    const double force = forces.row(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>();
+    if (!(force <= 1e-8 * stiffnessOf[kernel.body[i]] * largestMode)) // also NaN
       throw Error(
-          "the rigid modes of the floating bodies are no kernel of the coarse problem; check stiffness and "
-          "kernel");
+          "the rigid modes of the floating bodies are no kernel of the coarse problem; check stiffness "
+          "and kernel");
+  }
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct ContactSolution {
   double feasibility = 0;     ///< largest violation of Bu ≤ c, relative to the largest |u| and |c|
   double complementarity = 0; ///< |λ_Iᵀ(c − Bu)| relative to the energy
   double equilibrium =
-      0; ///< ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖Pd‖/‖PFP‖ (0 without floating bodies)
+      0; ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes (0 without floating bodies)
 
   double energy = 0;       ///< ½uᵀKu − fᵀu
   double contactForce = 0; ///< Σ λ_I

@@ -117,13 +117,13 @@ DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
   }
   const RCP<Vector> rhs = rightHandSide(load);
   if (algorithm_ == Algorithm::smalbe)
-    solveSemicoercive(rhs, resultants, start, observer, solution);
+    solveSemicoercive(rhs, load, start, observer, solution);
   else
     solveCoercive(rhs, start, observer, solution);
   return solution;
 }
 
-/// d̃ = B̄ K̄⁺ f̄ − c.
+/// d̃ = B̄ K̄⁺ f̄ − c. Keeps the size of what it is the difference of, max |K̄⁺f̄| + max |c|.
 RCP<Vector> DualProblem::rightHandSide(const SubdomainVectors& load) {
   SubdomainVectors u;
   inverse_->apply(load, u);
@@ -132,6 +132,10 @@ RCP<Vector> DualProblem::rightHandSide(const SubdomainVectors& load) {
   const RCP<Vector> rhs = rcp(new Vector(problem_.multiplierMap));
   exchange.sumToOwners(*rhs);
   rhs->update(-1.0, *problem_.gap, 1.0);
+  double largest = 0;
+  for (const Eigen::VectorXd& values : u)
+    largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
+  termSize_ = maxOverRanks(*problem_.comm, largest) + problem_.gap->normInf();
   return rhs;
 }
 
@@ -145,10 +149,20 @@ RCP<Vector> DualProblem::lowerBounds(double free) const {
   return lower;
 }
 
+/// Residuals are relative to ‖d̃‖ or ‖Pd‖. One that is the round-off of its terms is set to zero, and their size
+/// becomes the measure; returns whether that is so. Collective.
+bool DualProblem::setReference(Vector& rhs, DualSolution& solution) const {
+  const bool vanishes = rhs.normInf() <= 1e-13 * termSize_;
+  if (vanishes)
+    rhs.putScalar(0.0);
+  solution.reference = vanishes ? termSize_ : accurateNorm(rhs);
+  return vanishes;
+}
+
 void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
                                 DualSolution& solution) {
-  solution.reference = accurateNorm(*rhs);
-  if (start != nullptr && solution.reference > 0) // else λ = 0 solves it, and no other start gets there
+  const bool vanishes = setReference(*rhs, solution);
+  if (start != nullptr && !vanishes) // else λ = 0 solves it, and no other start gets there
     solution.lambda->assign(*start);
   if (algorithm_ == Algorithm::conjugateGradient) {
     solution.report = qp::solveUnconstrained(hessian_, rhs, solution.lambda, parameters_.tolerance,
@@ -161,23 +175,26 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
-void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad,
-                                    const Vector* start, qp::Observer* observer, DualSolution& solution) {
-  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad);
+void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVectors& load, const Vector* start,
+                                    qp::Observer* observer, DualSolution& solution) {
+  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad(problem_, load));
   Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
   coarseSpace_->feasiblePoint(e, feasible);
   dualOperator_->apply(feasible, *rhs, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
   coarseSpace_->project(*rhs);                                        // Pd
-  solution.reference = accurateNorm(*rhs);
+  const bool vanishes = setReference(*rhs, solution);
   // e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd
   // asks for.
-  const double equilibriumReference =
-      std::max(e.norm(), norm_.norm > 0 ? solution.reference / norm_.norm : 0.0);
+  const double largest = coarseSpace_->normalized(kernelLoadMagnitude(problem_, load)).norm();
+  const bool isBalanced = e.norm() <= resultantTolerance * largest;
+  const double equilibriumReference = !isBalanced      ? e.norm()
+                                      : norm_.norm > 0 ? solution.reference / norm_.norm
+                                                       : 0.0;
 
   const RCP<Vector> lower = lowerBounds(-std::numeric_limits<double>::infinity());
   lower->update(-1.0, feasible, 1.0); // −λ̃_I
   Vector mu(problem_.multiplierMap);
-  if (start != nullptr && solution.reference > 0)
+  if (start != nullptr && !vanishes)
     mu.update(1.0, *start, -1.0, feasible, 0.0);
 
   const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference,

@@ -26,7 +26,7 @@ std::string toString(Algorithm algorithm);
 
 struct DualParameters {
   double tolerance = 1e-6;            ///< on ‖g^P‖ relative to ‖d̃‖ or ‖Pd‖
-  double equilibriumTolerance = 1e-6; ///< on ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖Pd‖/‖PFP‖
+  double equilibriumTolerance = 1e-6; ///< on ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes
   qp::MprgpParameters mprgp;
   qp::SmalbeParameters smalbe;
   qp::NormEstimateParameters norm;
@@ -34,9 +34,9 @@ struct DualParameters {
 
 /// λ and how it came about.
 struct DualSolution {
-  RCP<Vector> lambda;     ///< on multiplierMap, λ_I ≥ 0
-  double reference = 0;   ///< ‖d̃‖ or ‖Pd‖, what residuals are relative to
-  double equilibrium = 0; ///< ‖Gλ − e‖ relative to the larger of ‖e‖ and ‖Pd‖/‖PFP‖
+  RCP<Vector> lambda; ///< on multiplierMap, λ_I ≥ 0
+  double reference = 0; ///< ‖d̃‖ or ‖Pd‖, what residuals are relative to; the size of its terms if it vanishes
+  double equilibrium = 0; ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes
   qp::SolveReport report;
 };
 
@@ -68,7 +68,8 @@ private:
   RCP<Vector> lowerBounds(double free) const;
   void solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
                      DualSolution& solution);
-  void solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& kernelLoad, const Vector* start,
+  bool setReference(Vector& rhs, DualSolution& solution) const;
+  void solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVectors& load, const Vector* start,
                          qp::Observer* observer, DualSolution& solution);
 
   const decomposition::DecomposedProblem& problem_;
@@ -81,6 +82,7 @@ private:
   RCP<const NaturalCoarseSpace> coarseSpace_;
   RCP<const Operator> hessian_; ///< F or PFP
   qp::NormEstimate norm_;       ///< of the Hessian
+  double termSize_ = 0;         ///< of the terms of d̃
 };
 
 /// The loads that the problem holds, f^s for each of this rank's subdomains.

@@ -23,7 +23,8 @@ void slackOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse
   slack.update(1.0, *problem.gap, -1.0);
 }
 
-/// ½uᵀKu − fᵀu over all subdomains.
+/// ½uᵀKu − fᵀu over all subdomains. Of u before its rigid part Rα, which has no energy but −ẽᵀα: in the sum it would
+/// only bring round-off, the more the stiffer the body.
 double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   AccurateSum energy;
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -96,9 +97,11 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
   inverse.subtractForces(exchange.toSubdomains(*dual.lambda), forces); // f̄ − B̄ᵀλ
   inverse.apply(forces, u);                                            // K̄⁺(f̄ − B̄ᵀλ)
   slackOf(problem, inverse, u, *solution.slack);
+  solution.energy = energyOf(problem, u);
   if (problem.kernelDimension > 0) {
     const Eigen::VectorXd alpha = rigidMotion(problem, kernelEntries, *dual.lambda, *solution.slack,
                                               dual.report.status == qp::Status::converged);
+    solution.energy -= kernelLoad(problem, loadsOf(problem)).dot(alpha);
     for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
       const auto& subdomain = problem.subdomains[s];
       const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
@@ -114,7 +117,6 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
     if (solution.displacement.back().size() > 0)
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
   }
-  solution.energy = energyOf(problem, u);
   assess(problem, dual, operatorNorm, largest, solution);
   return solution;
 }

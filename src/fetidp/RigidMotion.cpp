@@ -89,16 +89,19 @@ Room roomOf(const DecomposedProblem& problem, const Rows& rows, const Vector& sl
   return room;
 }
 
-/// Shortest x with Cᵀx ≤ s, or nothing if there is none (Lawson, Hanson, *Solving Least Squares Problems*,
+/// Shortest x with Cᵀx ≤ s (to 1e-9), or nothing if there is none (Lawson, Hanson, *Solving Least Squares Problems*,
 /// 1974, ch. 23.4: least distance programming).
 std::optional<Eigen::VectorXd> shortest(const Eigen::MatrixXd& c, const Eigen::VectorXd& s) {
   const Eigen::Index n = c.rows();
   Eigen::MatrixXd e(n + 1, c.cols());
   e << -c, -s.transpose();
   const Eigen::VectorXd residual = nonNegativeLeastSquares(e, Eigen::VectorXd::Unit(n + 1, n)).residual;
-  if (residual[n] < 1e-14)
+  if (residual[n] <= 0)
     return std::nullopt;
-  return -residual.head(n) / residual[n];
+  const Eigen::VectorXd x = -residual.head(n) / residual[n]; // round-off of a residual 0 would give anything
+  if (!((c.transpose() * x - s).maxCoeff() <= 1e-9))
+    return std::nullopt;
+  return x;
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -51,10 +52,39 @@ Eigen::MatrixXd contactDirections(const DecomposedProblem& problem, const std::v
   return result;
 }
 
-/// What the resultant along a motion is compared with: |R|ᵀ|f| of the motion's modes.
-double loadAlong(const Eigen::VectorXd& magnitudes, const Eigen::VectorXd& motion) {
-  return magnitudes.dot(motion.cwiseAbs());
-}
+/// Is ẽ in the cone of the directions? With each body's mode measured by its own load (one of the lightest where a
+/// mode carries none) and the directions of length 1 again: neither changes the answer, but a heavy body does not
+/// hide a light one.
+struct ScaledCone {
+  Eigen::VectorXd unit;       ///< by which a mode's resultant is divided
+  Eigen::MatrixXd directions; ///< k × (a few)
+  Eigen::VectorXd resultant;  ///< k
+
+  ScaledCone(const Eigen::MatrixXd& contacts, const Eigen::VectorXd& kernelLoad,
+             const Eigen::VectorXd& magnitudes)
+      : unit(magnitudes) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double magnitude : magnitudes)
+      least = magnitude > 0 ? std::min(least, magnitude) : least;
+    for (double& value : unit)
+      value = value > 0 ? value : std::isfinite(least) ? least : 1.0;
+    directions = unit.cwiseInverse().asDiagonal() * contacts;
+    directions.colwise().normalize();
+    resultant = kernelLoad.cwiseQuotient(unit);
+  }
+
+  /// What of `target` no forces x ≥ 0 along the directions can balance: 0 where it is below `tolerance` or within
+  /// round-off of the forces that pass through.
+  [[nodiscard]] Eigen::VectorXd imbalance(const Eigen::VectorXd& target, double tolerance) const {
+    const NonNegativeSolution forces = nonNegativeLeastSquares(directions, target);
+    const Eigen::VectorXd passing = directions.cwiseAbs() * forces.x;
+    Eigen::VectorXd result = forces.residual;
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+      if (std::abs(result[i]) <= tolerance + 1e-12 * passing[i])
+        result[i] = 0;
+    return result;
+  }
+};
 
 [[noreturn]] void refuse(SolvabilityError::Kind kind, const std::string& text) {
   throw SolvabilityError(
@@ -79,8 +109,7 @@ void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& d
   const Eigen::MatrixXd q = qr.householderQ();
   const Eigen::MatrixXd free = q.rightCols(k - qr.rank()); // G̃ᵀ free = 0
   Eigen::VectorXd motion = free * (free.transpose() * kernelLoad);
-  const bool isPulled = motion.norm() > 0 &&
-                        std::abs(kernelLoad.dot(motion)) > resultantTolerance * loadAlong(magnitudes, motion);
+  const bool isPulled = motion.norm() > resultantTolerance * magnitudes.norm();
   if (!isPulled)
     motion = free.col(0);
   const std::string who = bodiesOf(problem, motion);
@@ -114,24 +143,26 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
   const Eigen::VectorXd magnitudes = kernelLoadMagnitude(problem, loadsOf(problem));
   refuseFreeMotion(problem, directions, kernelLoad, magnitudes);
 
-  const Eigen::VectorXd motion =
-      nonNegativeLeastSquares(directions, kernelLoad).residual; // allowed, and pulled along
-  if (motion.norm() > 0 && kernelLoad.dot(motion) > resultantTolerance * loadAlong(magnitudes, motion))
+  const ScaledCone cone(directions, kernelLoad, magnitudes);
+  const Eigen::VectorXd pulled = cone.imbalance(cone.resultant, resultantTolerance);
+  if (pulled.norm() > 0) {
+    const Eigen::VectorXd motion = pulled.cwiseQuotient(cone.unit); // allowed, and driven by the load
     refuse(SolvabilityError::Kind::noSolution,
-           "the load pulls " + bodiesOf(problem, motion) + " away from its contacts (resultant " +
+           "the load pulls " + bodiesOf(problem, pulled) + " away from its contacts (resultant " +
                number(kernelLoad.dot(motion) / motion.norm()) +
                " along a motion that no contact hinders); turn the load or add a support");
+  }
 
   // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
-  Eigen::VectorXd all = directions.rowwise().sum();
-  const double load = magnitudes.sum();
-  if (all.norm() == 0)
+  const Eigen::VectorXd all = cone.directions.rowwise().sum();
+  if (all.norm() <= 1e-12)
     return; // the contacts oppose each other: any resultant is balanced
-  const double margin = 10 * resultantTolerance * load / all.norm();
-  const Eigen::VectorXd loose = nonNegativeLeastSquares(directions, kernelLoad - margin * all).residual;
-  if (load == 0 || loose.norm() > 0.1 * margin)
+  const bool isLoaded = magnitudes.sum() > 0;
+  const Eigen::VectorXd loose =
+      isLoaded ? cone.imbalance(cone.resultant - 10 * resultantTolerance * all, resultantTolerance) : all;
+  if (loose.norm() > 0)
     refuse(SolvabilityError::Kind::notUnique,
-           "the load does not press " + bodiesOf(problem, load == 0 || loose.norm() == 0 ? all : loose) +
+           "the load does not press " + bodiesOf(problem, loose) +
                " onto its contacts (zero resultant), so that it may come to rest anywhere; add a load or a "
                "support");
 }

@@ -16,7 +16,7 @@
 
 namespace epafi::fetidp {
 
-/// Resultants smaller than this part of a body's total load count as zero.
+/// A body's resultant smaller than this part of the total load on it counts as zero.
 inline constexpr double resultantTolerance = 1e-9;
 
 /// Throws SolvabilityError, the same on all ranks, that names the body and the reason if

@@ -34,6 +34,8 @@ void prepareOnThisRank(const fs::path& file) {
                      ". Name a directory that can be written to.");
   if (fs::is_directory(file, error))
     throw InputError("Output file '" + file.string() + "' is a directory. Remove it or choose another name.");
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+    throw InputError("Output file '" + file.string() + "' is a device or a pipe. Choose another name.");
   fs::path probe = directory / file.filename(); // permissions do not tell all
   probe += ".probe";
   errno = 0;

@@ -14,7 +14,7 @@ namespace epafi::output {
 
 /// Makes sure that `file` can be written: creates its directory and those above it, and tries whether files
 /// can be made there. Collective. \throws InputError naming the directory if it cannot be made or written to,
-/// or if `file` is a directory.
+/// or if `file` is there and no regular file.
 void prepareTarget(const std::filesystem::path& file, const Comm& comm);
 
 /// A new name beside `file` (same directory, hidden, ends in ".partial"), the same on all ranks. Makes no
