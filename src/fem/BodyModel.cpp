@@ -4,6 +4,15 @@
 #include "epafi/fem/Q1Element.hpp"
 
 namespace epafi::fem {
+namespace {
+
+/// Whether x lies in [low, high]; the ends belong to it, round-off of x beside the element's size included.
+bool lies(double x, double low, double high, double elementSize) {
+  const double roundOff = 1e-9 * elementSize;
+  return low - roundOff <= x && x <= high + roundOff;
+}
+
+} // namespace
 
 MembraneModel::MembraneModel(const scene::Body& body, const RectangleMesh& mesh) : body_(body), mesh_(mesh) {
   const scene::Rectangle& r = mesh.rectangle();
@@ -34,7 +43,8 @@ void MembraneModel::element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, E
   const double x = 0.5 * (box.x0 + box.x1), y = 0.5 * (box.y0 + box.y1);
   double conductivity = body_.conductivity;
   for (const scene::Region& region : body_.regions)
-    if (region.box.x0 <= x && x <= region.box.x1 && region.box.y0 <= y && y <= region.box.y1)
+    if (lies(x, region.box.x0, region.box.x1, box.x1 - box.x0) &&
+        lies(y, region.box.y0, region.box.y1, box.y1 - box.y0))
       conductivity = region.conductivity;
   stiffness = conductivity * unitStiffness_;
   load.setZero(4);

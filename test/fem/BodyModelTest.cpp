@@ -65,5 +65,26 @@ TEST(BodyModelTest, TheLastRegionAroundAnElementsCentreHolds) {
   EXPECT_DOUBLE_EQ(conductivityOf(2), 2);
 }
 
+TEST(BodyModelTest, AnElementWhoseCentreLiesOnARegionsEdgeBelongsToItWhateverTheRoundOff) {
+  for (const double x : {0.0, 1.0, 7.0, 100.0}) { // centres x + 0.1, 0.3, … 0.9, the box ends at x + 0.7
+    scene::Body body = plainBody();
+    body.rectangle = {x, x + 1, 0, 1};
+    body.elements = {5, 1};
+    body.regions = {{"patch", {x + 0.3, x + 0.7, 0, 1}, 10}};
+    const RectangleMesh mesh(body.rectangle, body.elements);
+    const MembraneModel model(body, mesh);
+    std::vector<double> conductivity;
+    for (GlobalOrdinal element = 0; element < 5; ++element) {
+      Eigen::MatrixXd stiffness;
+      Eigen::VectorXd load;
+      model.element(element, stiffness, load);
+      conductivity.push_back(stiffness(0, 0));
+    }
+    for (const std::size_t inside : {1U, 2U, 3U})
+      EXPECT_NEAR(conductivity[inside], 10 * conductivity[0], 1e-9 * conductivity[inside]) << "x = " << x;
+    EXPECT_NEAR(conductivity[4], conductivity[0], 1e-9 * conductivity[0]);
+  }
+}
+
 } // namespace
 } // namespace epafi::fem
