@@ -1,13 +1,7 @@
 #include "epafi/scene/ContactReader.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/base/ParameterValue.hpp"
 #include "epafi/scene/EdgeSegment.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <sstream>
 
 namespace epafi::scene {
 namespace {
@@ -53,41 +47,6 @@ void checkMatch(const ListReader& list, const Body& first, Edge firstEdge, const
                     first.name + "\", but " + std::to_string(n) + " on body \"" + second.name + '"');
 }
 
-/// The prescribed deflection at the beginning or the end of an unsupported edge; none unless the edge that it
-/// meets there is supported.
-std::optional<double> prescribedAtEnd(const Body& body, Edge edge, bool isBeginning) {
-  const bool isVertical = edge == Edge::left || edge == Edge::right;
-  const Edge meeting =
-      isVertical ? (isBeginning ? Edge::bottom : Edge::top) : (isBeginning ? Edge::left : Edge::right);
-  for (const Support& support : body.supports)
-    if (support.edge == meeting)
-      return support.value;
-  return {};
-}
-
-/// Nodes that are supported on both sides, which only ends of an edge can be, must not overlap.
-void checkRoom(const ContactPair& pair, const Body& first, const Body& second) {
-  for (const bool isBeginning : {true, false}) {
-    const auto lower = prescribedAtEnd(first, pair.firstEdge, isBeginning);
-    const auto upper = prescribedAtEnd(second, pair.secondEdge, isBeginning);
-    if (!lower || !upper)
-      continue;
-    const double opening = pair.gap - *lower + *upper;
-    const double roundOff = 1e-12 * std::max({std::abs(pair.gap), std::abs(*lower), std::abs(*upper)});
-    if (opening >= -roundOff)
-      continue;
-    const EdgeSegment edge = segmentOf(first.rectangle, pair.firstEdge);
-    const std::string along = valueText(isBeginning ? edge.from : edge.to), across = valueText(edge.at);
-    std::ostringstream overlap;
-    overlap << -opening;
-    throw SolvabilityError(
-        SolvabilityError::Kind::noSolution,
-        "no solution: the contact pair '" + pair.name + "' joins two supported nodes that overlap by " +
-            overlap.str() + " at (" + (edge.isVertical ? across + ", " + along : along + ", " + across) +
-            "); change its gap or the supports of '" + first.name + "' and '" + second.name + "'");
-  }
-}
-
 } // namespace
 
 std::vector<ContactPair> readContacts(const ListReader& list, const std::vector<Body>& bodies) {
@@ -108,7 +67,6 @@ std::vector<ContactPair> readContacts(const ListReader& list, const std::vector<
     checkFree(entry, "Second Edge", second, pair.second, pair.secondEdge, pairs);
     checkMatch(entry, first, pair.firstEdge, second, pair.secondEdge);
     pair.gap = entry.real("Gap");
-    checkRoom(pair, first, second);
     pairs.push_back(pair);
   }
   return pairs;

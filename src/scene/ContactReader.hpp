@@ -12,7 +12,6 @@ namespace epafi::scene {
 /// \throws InputError if a body is unknown (the nearest name is suggested) or in contact with itself, if an
 ///         edge is supported or in another pair, or if the two edges do not coincide or have different
 ///         numbers of elements.
-/// \throws SolvabilityError if two supported nodes overlap; names pair, place and depth.
 std::vector<ContactPair> readContacts(const ListReader& list, const std::vector<Body>& bodies);
 
 } // namespace epafi::scene

@@ -3,6 +3,7 @@
 #include "epafi/base/Parameters.hpp"
 #include "epafi/scene/BodyReader.hpp"
 #include "epafi/scene/ContactReader.hpp"
+#include "epafi/scene/GapConsistency.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 namespace epafi::scene {
@@ -35,6 +36,7 @@ Scene readScene(const ParameterList& list, const std::string& where) {
   if (scene.bodies.empty())
     bodies.refuseList("has no bodies, but a scene needs at least one");
   scene.contacts = readContacts(ListReader(complete.sublist("Contact"), where, "Contact"), scene.bodies);
+  requireConsistentGaps(scene);
   return scene;
 }
 

@@ -16,7 +16,7 @@ namespace epafi::scene {
 ///
 /// \param where  with what messages begin (a file, usually)
 /// \throws InputError with one sentence naming file, list, parameter, value and what is allowed,
-///         SolvabilityError if supports overlap across a contact pair, so that there is no solution.
+///         SolvabilityError if gaps and supports contradict each other (see GapConsistency.hpp).
 /// Not collective; the same on all ranks if called with the same list.
 Scene readScene(const Teuchos::ParameterList& list, const std::string& where);
 

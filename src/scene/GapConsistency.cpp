@@ -1,0 +1,145 @@
+#include "epafi/scene/GapConsistency.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace epafi::scene {
+namespace {
+
+/// u_to − u_from ≤ bound, because of a contact pair or of a body's support.
+struct Constraint {
+  int from, to;
+  double bound;
+  int pair, body; ///< one of them, the other is −1
+};
+
+/// Corners of an edge, in the order in which edges run: 0 lower left, 1 lower right, 2 upper left, 3 upper right.
+std::array<int, 2> cornersOf(Edge edge) {
+  switch (edge) {
+  case Edge::left:
+    return {0, 2};
+  case Edge::right:
+    return {1, 3};
+  case Edge::bottom:
+    return {0, 1};
+  case Edge::top:
+    return {2, 3};
+  }
+  return {0, 0};
+}
+
+int nodeOf(std::size_t body, int corner) {
+  return 4 * static_cast<int>(body) + corner;
+}
+
+/// All of them; the last node is the ground, u = 0.
+std::vector<Constraint> constraintsOf(const Scene& scene) {
+  const int ground = nodeOf(scene.bodies.size(), 0);
+  std::vector<Constraint> constraints;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    for (const Support& support : scene.bodies[b].supports)
+      for (const int corner : cornersOf(support.edge)) {
+        constraints.push_back({ground, nodeOf(b, corner), support.value, -1, static_cast<int>(b)});
+        constraints.push_back({nodeOf(b, corner), ground, -support.value, -1, static_cast<int>(b)});
+      }
+  for (std::size_t p = 0; p < scene.contacts.size(); ++p) {
+    const ContactPair& pair = scene.contacts[p];
+    for (std::size_t end = 0; end < 2; ++end)
+      constraints.push_back({nodeOf(static_cast<std::size_t>(pair.second), cornersOf(pair.secondEdge)[end]),
+                             nodeOf(static_cast<std::size_t>(pair.first), cornersOf(pair.firstEdge)[end]),
+                             pair.gap, static_cast<int>(p), -1});
+  }
+  return constraints;
+}
+
+/// A cycle of constraints whose bounds have a negative sum beyond round-off; empty if there is none.
+std::vector<Constraint> negativeCycle(const std::vector<Constraint>& constraints, int numNodes) {
+  double largest = 0;
+  for (const Constraint& constraint : constraints)
+    largest = std::max(largest, std::abs(constraint.bound));
+  std::vector<double> value(static_cast<std::size_t>(numNodes), 0.0);
+  std::vector<const Constraint*> last(static_cast<std::size_t>(numNodes), nullptr);
+  const Constraint* tightened = nullptr;
+  for (int round = 0; round <= numNodes; ++round) {
+    tightened = nullptr;
+    for (const Constraint& constraint : constraints) {
+      const double bound = value[static_cast<std::size_t>(constraint.from)] + constraint.bound;
+      double& current = value[static_cast<std::size_t>(constraint.to)];
+      if (bound < current - 1e-12 * largest) {
+        current = bound;
+        last[static_cast<std::size_t>(constraint.to)] = &constraint;
+        tightened = &constraint;
+      }
+    }
+    if (tightened == nullptr)
+      return {};
+  }
+  for (int step = 0; step < numNodes; ++step) // back until we are on the cycle
+    tightened = last[static_cast<std::size_t>(tightened->from)];
+  std::vector<Constraint> cycle;
+  const Constraint* const first = tightened;
+  do {
+    cycle.push_back(*tightened);
+    tightened = last[static_cast<std::size_t>(tightened->from)];
+  } while (tightened != first);
+  return cycle;
+}
+
+/// "'a', 'b' and 'c'", each once.
+std::string listed(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::ostringstream text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text << (i == 0 ? "'" : i + 1 < names.size() ? ", '" : " and '") << names[i] << '\'';
+  return text.str();
+}
+
+std::string placeOf(const Scene& scene, int node) {
+  const Rectangle& r = scene.bodies[static_cast<std::size_t>(node / 4)].rectangle;
+  const int corner = node % 4;
+  std::ostringstream text;
+  text << '(' << valueText(corner % 2 == 0 ? r.x0 : r.x1) << ", " << valueText(corner < 2 ? r.y0 : r.y1)
+       << ')';
+  return text.str();
+}
+
+} // namespace
+
+void requireConsistentGaps(const Scene& scene) {
+  const int numNodes = nodeOf(scene.bodies.size(), 0) + 1;
+  const std::vector<Constraint> cycle = negativeCycle(constraintsOf(scene), numNodes);
+  if (cycle.empty())
+    return;
+  std::vector<std::string> pairs, bodies;
+  std::string place;
+  double sum = 0;
+  for (const Constraint& constraint : cycle) {
+    sum += constraint.bound;
+    if (constraint.pair >= 0) {
+      pairs.push_back(scene.contacts[static_cast<std::size_t>(constraint.pair)].name);
+      place = placeOf(scene, constraint.to);
+    } else {
+      bodies.push_back(scene.bodies[static_cast<std::size_t>(constraint.body)].name);
+    }
+  }
+  std::ostringstream text;
+  std::sort(pairs.begin(), pairs.end());
+  const bool isOne = pairs.front() == pairs.back();
+  text << "no solution: the " << (isOne ? "gap of the contact pair " : "gaps of the contact pairs ")
+       << listed(pairs);
+  if (!bodies.empty())
+    text << " and the supports of " << listed(bodies);
+  text << " contradict each other, nodes overlap by " << -sum << " at " << place
+       << "; change a gap or a support";
+  throw SolvabilityError(SolvabilityError::Kind::noSolution, text.str());
+}
+
+} // namespace epafi::scene
