@@ -9,7 +9,6 @@
 namespace {
 
 using namespace epafi;
-using qp::Bounds;
 using qp::Status;
 using test::Answer;
 using test::infinity;
