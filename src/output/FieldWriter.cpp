@@ -8,6 +8,8 @@
 #include "epafi/output/Names.hpp"
 #include "epafi/output/Xdmf.hpp"
 
+#include <numeric>
+
 namespace epafi::output {
 namespace {
 
@@ -50,6 +52,10 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   XdmfGrid grid;
   grid.name = name;
   grid.points = put(file, group + "/points", n, 3, fields.rows, fields.points);
+  std::vector<long long> vertices(
+      static_cast<std::size_t>(fields.rows.count)); // readers draw nothing without
+  std::iota(vertices.begin(), vertices.end(), fields.rows.first);
+  grid.cells = put(file, group + "/cells", n, 1, fields.rows, vertices);
   const auto column = [&](const std::string& field, const auto& values) {
     grid.attributes.push_back(
         {field, Center::node, put(file, group + "/" + field, n, 0, fields.rows, values)});

@@ -20,15 +20,12 @@ struct FieldFiles {
 ///
 /// Datasets (lengths, deflections and forces in the scene's units; each body's nodes appear once):
 ///  - `/bodies/<body>/points` n×3, `cells` n_e×4 (int64, node numbers, counter-clockwise), `u` n×components,
-///  `subdomain` n_e
-///    (int32, numbered over all bodies), `crosspoints` m×3 (where they lie, supported ones too);
-///  - `/contact/<pair>/points` n×3 (first body's edge), `initial_gap` c, `gap` c − Bu (what remains open),
-///  `multiplier` λ_I
-///    (force a node, positive pushes apart), `active` (int32, 1 where closed);
-///  - `/history/iteration`, `outer`, `step` (int8, the code of the letter s, c, e or p),
-///  `projected_gradient`,
-///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a
-///    step.
+///    `subdomain` n_e (int32, numbered over all bodies), `crosspoints` m×3 (where they lie, supported ones too);
+///  - `/contact/<pair>/points` n×3 (first body's edge), `cells` n×1 (each point one, for viewers),
+///    `initial_gap` c, `gap` c − Bu (what remains open), `multiplier` λ_I (force a node, positive pushes
+///    apart), `active` (int32, 1 where closed);
+///  - `/history/iteration`, `outer`, `step` (int8, the code of the letter s, c, e or p), `projected_gradient`,
+///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a step.
 /// Groups of bodies and pairs are named as safeNames says (Names.hpp); their attribute `name` is the scene's
 /// name. The file itself has attributes `program`, `format` (1), `components`, `energy` and `contact_force`.
 ///

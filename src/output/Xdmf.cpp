@@ -35,15 +35,11 @@ public:
 
   void grid(const XdmfGrid& grid) {
     text_ << "      <Grid Name=\"" << escaped(grid.name) << "\" GridType=\"Uniform\">\n";
-    if (grid.cells.rows > 0) {
-      text_ << "        <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"" << grid.cells.rows
-            << "\">\n";
-      item(grid.cells);
-      text_ << "        </Topology>\n";
-    } else {
-      text_ << "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" << grid.points.rows
-            << "\" NodesPerElement=\"1\"/>\n";
-    }
+    const char* const shape = grid.cells.columns == 1 ? "Polyvertex\" NodesPerElement=\"1" : "Quadrilateral";
+    text_ << "        <Topology TopologyType=\"" << shape << "\" NumberOfElements=\"" << grid.cells.rows
+          << "\">\n";
+    item(grid.cells);
+    text_ << "        </Topology>\n";
     text_ << "        <Geometry GeometryType=\"XYZ\">\n";
     item(grid.points);
     text_ << "        </Geometry>\n";

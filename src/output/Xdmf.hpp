@@ -25,11 +25,11 @@ struct XdmfAttribute {
   XdmfData data; ///< one column (or one dimension): scalar, three: vector, else matrix
 };
 
-/// A mesh of quadrilaterals, or points alone if `cells` has no rows.
+/// A mesh of quadrilaterals, or of points alone.
 struct XdmfGrid {
   std::string name;
   XdmfData points; ///< n × 3
-  XdmfData cells;  ///< n_e × 4
+  XdmfData cells;  ///< n_e × 4 corners, or n × 1 where each point is a cell
   std::vector<XdmfAttribute> attributes;
 };
 

@@ -89,6 +89,7 @@ TEST_F(FieldWriterTest, ContactRowsFollowTheFirstBodysEdge) {
     EXPECT_DOUBLE_EQ(points.values[3 * k], 1.0);
     EXPECT_DOUBLE_EQ(points.values[3 * k + 1], static_cast<double>(k) / 4);
   }
+  EXPECT_EQ(test::readTable(file, group + "/cells").values, (std::vector<double>{0, 1, 2, 3, 4}));
   EXPECT_EQ(test::readTable(file, group + "/multiplier").values, (std::vector<double>{1, 2, 3, 4, 5}));
   EXPECT_EQ(test::readTable(file, group + "/gap").values, (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
   EXPECT_EQ(test::readTable(file, group + "/active").values, (std::vector<double>{1, 0, 1, 0, 1}));

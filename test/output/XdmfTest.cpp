@@ -32,9 +32,13 @@ TEST(XdmfTest, MeshGridNamesItsDatasetsWithTheirDimensionsAndTypes) {
       contains(text, "Dimensions=\"4\" NumberType=\"Int\" Precision=\"4\">run.h5:/bodies/left/subdomain<"));
 }
 
-TEST(XdmfTest, GridWithoutCellsIsACloudOfPoints) {
-  const std::string text = xdmfDocument("run.h5", {{"pair", {"/contact/pair/points", 5, 3}, {}, {}}});
-  EXPECT_TRUE(contains(text, "TopologyType=\"Polyvertex\" NumberOfElements=\"5\""));
+TEST(XdmfTest, CellsOfOnePointAreACloudOfPoints) {
+  const std::string text = xdmfDocument(
+      "run.h5",
+      {{"pair", {"/contact/pair/points", 5, 3}, {"/contact/pair/cells", 5, 1, Type::integer8}, {}}});
+  EXPECT_TRUE(contains(text, "TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"5\">"));
+  EXPECT_TRUE(
+      contains(text, "Dimensions=\"5 1\" NumberType=\"Int\" Precision=\"8\">run.h5:/contact/pair/cells<"));
 }
 
 TEST(XdmfTest, KindOfAttributeFollowsTheNumberOfColumns) {
