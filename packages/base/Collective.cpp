@@ -32,6 +32,21 @@ T reduced(const Comm& comm, Teuchos::EReductionType type, T value) {
   return result;
 }
 
+/// The lowest rank where `holds`; the number of ranks if it holds nowhere.
+int lowestRank(const Comm& comm, bool holds) {
+  return reduced(comm, Teuchos::REDUCE_MIN, holds ? comm.getRank() : comm.getSize());
+}
+
+/// The text of rank `root` on every rank.
+std::string broadcastText(const Comm& comm, int root, std::string text) {
+  int size = static_cast<int>(text.size());
+  Teuchos::broadcast(comm, root, 1, &size);
+  text.resize(static_cast<std::size_t>(size));
+  if (size > 0)
+    Teuchos::broadcast(comm, root, size, text.data());
+  return text;
+}
+
 } // namespace
 
 void collectively(const Comm& comm, const std::function<void()>& work) {
@@ -53,18 +68,17 @@ void collectively(const Comm& comm, const std::function<void()>& work) {
     text = "an unknown error occurred on rank " + std::to_string(comm.getRank());
   }
 
-  const int candidate = mine == Failure::none ? comm.getSize() : comm.getRank();
-  int first = 0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_MIN, 1, &candidate, &first);
+  const int first = lowestRank(comm, mine != Failure::none);
   if (first == comm.getSize())
     return;
+  int kind = static_cast<int>(mine);
+  Teuchos::broadcast(comm, first, 1, &kind);
+  raise(static_cast<Failure>(kind), broadcastText(comm, first, text));
+}
 
-  int message[2] = {static_cast<int>(mine), static_cast<int>(text.size())};
-  Teuchos::broadcast(comm, first, 2, message);
-  text.resize(static_cast<std::size_t>(message[1]));
-  if (message[1] > 0)
-    Teuchos::broadcast(comm, first, message[1], text.data());
-  raise(static_cast<Failure>(message[0]), text);
+std::string agreedText(const Comm& comm, const std::string& text) {
+  const int first = lowestRank(comm, !text.empty());
+  return first == comm.getSize() ? std::string() : broadcastText(comm, first, text);
 }
 
 void sumOverRanks(const Comm& comm, std::span<double> values) {

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace epafi {
@@ -16,6 +17,9 @@ namespace epafi {
 /// \param work  must contain no collective call itself, or only ones that all ranks reach before any can
 /// throw. Collective.
 void collectively(const Comm& comm, const std::function<void()>& work);
+
+/// The text of the lowest rank whose text is not empty, on every rank; empty if all are. Collective.
+std::string agreedText(const Comm& comm, const std::string& text);
 
 /// Sums `values` over the ranks, in place. Collective.
 void sumOverRanks(const Comm& comm, std::span<double> values);

@@ -2,21 +2,6 @@
 
 namespace epafi::qp {
 
-bool RelativeGradientRule::isSatisfied(double projectedGradient, std::span<const AccurateSum> /*sums*/) {
-  return projectedGradient <= tolerance_ * reference_;
-}
-
-void RelativeGradientRule::describe(StepRecord& record) const {
-  record.projectedGradient =
-      reference_ > 0 ? record.projectedGradient / reference_ : record.projectedGradient;
-}
-
-void HistoryRecorder::step(const StepRecord& record) {
-  history_.push_back(record);
-  if (next_ != nullptr)
-    next_->step(record);
-}
-
 Status runToCertificate(Mprgp& solver, StoppingRule& rule, Observer* observer) {
   constexpr int maxFreshStarts = 5;
   for (int freshStarts = 0; freshStarts <= maxFreshStarts; ++freshStarts) {
@@ -28,24 +13,30 @@ Status runToCertificate(Mprgp& solver, StoppingRule& rule, Observer* observer) {
   return Status::stagnated;
 }
 
-SolveReport solveBoundProblem(const RCP<const Operator>& a, const Vector& b, const Bounds& bounds, Vector& x,
-                              double tolerance, const MprgpParameters& parameters, double operatorNorm,
-                              Observer* observer) {
-  bounds.check(*b.getMap()->getComm());
-  SolveReport report;
-  HistoryRecorder recorder(report.history, observer);
-  const double reference = accurateNorm(b);
-  RelativeGradientRule rule(tolerance, reference);
-  Mprgp solver(a, bounds, parameters, operatorNorm);
-  solver.start(b, x);
-  report.status = runToCertificate(solver, rule, &recorder);
-  x.assign(solver.solution());
-
+void describeEnd(Mprgp& solver, SolveReport& report) {
   report.reason = explain(report.status);
   report.counts = solver.counts();
-  report.relativeProjectedGradient =
-      reference > 0 ? solver.projectedGradient() / reference : solver.projectedGradient();
   report.objective = solver.objective();
+  report.operatorNorm = solver.operatorNorm();
+  if (solver.gradientIsFresh()) {
+    report.gradient = rcp(new Vector(solver.scaledGradient(), Teuchos::Copy));
+    report.gradient->scale(1.0 / solver.gradientScale());
+  }
+  if (report.status == Status::indefiniteOperator || report.status == Status::unbounded)
+    report.certificate = solver.certificate();
+}
+
+SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, const GradientTolerance& tolerance,
+                              const MprgpParameters& parameters, Observer* observer) {
+  SolveReport report;
+  HistoryRecorder recorder(report.history, observer);
+  GradientRule rule(tolerance.relative, tolerance.reference, tolerance.absolute);
+  Mprgp solver(problem.hessian, problem.set, parameters, problem.operatorNorm, problem.preconditioner);
+  solver.start(*problem.linearTerm, x);
+  report.status = runToCertificate(solver, rule, &recorder);
+  x.assign(solver.solution());
+  describeEnd(solver, report);
+  report.relativeProjectedGradient = relativeTo(tolerance.reference, solver.projectedGradient());
   return report;
 }
 

@@ -1,31 +1,22 @@
 #pragma once
 
-/// min ½xᵀAx − bᵀx, l ≤ x ≤ u from start to certificate.
+/// min ½xᵀAx − bᵀx over a convex set, from start to certificate.
 
 #include "epafi/qp/Mprgp.hpp"
 
 namespace epafi::qp {
 
-/// Stops when ‖g^P‖ ≤ tolerance · reference. A reference of 0 (no load) asks for ‖g^P‖ = 0.
-class RelativeGradientRule final : public StoppingRule {
-public:
-  RelativeGradientRule(double tolerance, double reference) : tolerance_(tolerance), reference_(reference) {}
-  bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override;
-  void describe(StepRecord& record) const override;
-
-private:
-  double tolerance_, reference_;
+struct BoundProblem {
+  RCP<const Operator> hessian;        ///< A, n × n
+  RCP<const Vector> linearTerm;       ///< b
+  RCP<const ConvexSet> set;           ///< Ω
+  RCP<const Operator> preconditioner; ///< M ≈ A⁻¹, or null
+  double operatorNorm = 1;            ///< over-estimate of ‖A‖ (see estimateNorm)
 };
 
-/// Keeps every step and passes it on.
-class HistoryRecorder final : public Observer {
-public:
-  HistoryRecorder(History& history, Observer* next) : history_(history), next_(next) {}
-  void step(const StepRecord& record) override;
-
-private:
-  History& history_;
-  Observer* next_;
+/// Stop at ‖g^P‖ ≤ max(relative · reference, absolute).
+struct GradientTolerance {
+  double relative = 1e-6, reference = 1, absolute = 0;
 };
 
 /// Runs `solver` until `rule` holds for a gradient computed afresh: when the updated gradient says
@@ -34,12 +25,14 @@ private:
 /// round-off allows no more. Collective.
 Status runToCertificate(Mprgp& solver, StoppingRule& rule, Observer* observer);
 
-/// Solves to ‖g^P‖ ≤ tolerance · ‖b‖, starting from the projection of x.
+/// Solves by MPRGP, starting from the projection of x.
 /// \param x  in: start; out: always the last feasible iterate
-/// \param operatorNorm  over-estimate of ‖A‖ (see estimateNorm)
-/// \throws InputError if the bounds cross. Collective.
-SolveReport solveBoundProblem(const RCP<const Operator>& a, const Vector& b, const Bounds& bounds, Vector& x,
-                              double tolerance, const MprgpParameters& parameters, double operatorNorm,
-                              Observer* observer = nullptr);
+/// Precondition: the set is not empty. Collective.
+SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, const GradientTolerance& tolerance,
+                              const MprgpParameters& parameters, Observer* observer = nullptr);
+
+/// Fills what MPRGP and SMALBE report alike: the reason, the norm, a fresh gradient, a certificate. Not collective but for
+/// the certificate.
+void describeEnd(Mprgp& solver, SolveReport& report);
 
 } // namespace epafi::qp

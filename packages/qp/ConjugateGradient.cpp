@@ -1,6 +1,6 @@
 #include "epafi/qp/ConjugateGradient.hpp"
 
-#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/SolveReport.hpp"
 
 #include <BelosCGIter.hpp>
 #include <BelosLinearProblem.hpp>

@@ -1,30 +1,73 @@
 #pragma once
 
-/// The equality constraint Gx = 0 as SMALBE sees it: a few rows, known on every rank, that are orthonormal:
-/// GGᵀ = I.
+/// The equality constraint Bx = c as SMALBE sees it. Residuals r = Bx − c and multipliers μ are spans of the entries
+/// that this rank keeps.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Types.hpp"
 
 #include <span>
+#include <vector>
 
 namespace epafi::qp {
 
 class EqualityConstraint {
 public:
+  EqualityConstraint() = default;
+  EqualityConstraint(const EqualityConstraint&) = default;
+  EqualityConstraint& operator=(const EqualityConstraint&) = default;
+  EqualityConstraint(EqualityConstraint&&) = default;
+  EqualityConstraint& operator=(EqualityConstraint&&) = default;
   virtual ~EqualityConstraint() = default;
-  /// Number of rows, the same on all ranks.
-  [[nodiscard]] virtual int size() const = 0;
-  /// Adds this rank's contribution to the product with x; `finishProduct` makes Gx of the sums over the
-  /// ranks. Not collective.
-  virtual void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const = 0;
-  /// gx = Gx from the sums over the ranks. Both have size() entries. Not collective.
-  virtual void finishProduct(std::span<const AccurateSum> sums, std::span<double> gx) const {
-    for (std::size_t k = 0; k < gx.size(); ++k)
-      gx[k] = sums[k].value();
-  }
-  /// y += factor · Gᵀμ; μ is the same on all ranks. Not collective.
+
+  /// Entries of r and μ that this rank keeps.
+  [[nodiscard]] virtual std::size_t numEntries() const = 0;
+  /// Whether these are all rows, the same on every rank.
+  [[nodiscard]] virtual bool isReplicated() const = 0;
+  /// Over-estimate of ‖B‖.
+  [[nodiscard]] virtual double norm() const = 0;
+
+  /// r = Bx − c in two halves around a sum over the ranks that the caller makes anyway. The first adds this rank's
+  /// contributions to `numSums()` sums; all ranks call it together.
+  [[nodiscard]] virtual int numSums() const = 0;
+  virtual void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const = 0;
+  /// The second fills r and returns ‖r‖. Precondition: `addLocalSums` was called last with the same x. Not collective.
+  virtual double finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const = 0;
+
+  /// Bx. Collective.
+  virtual void product(const Vector& x, std::span<double> bx) const = 0;
+  /// y += factor · Bᵀμ. Collective.
   virtual void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const = 0;
+  /// Whether c = 0, on all ranks alike; if not, c: this rank's entries.
+  [[nodiscard]] virtual bool isHomogeneous() const { return true; }
+  [[nodiscard]] virtual std::span<const double> rightHandSide() const { return {}; }
+  /// aᵀb over all rows. Collective.
+  [[nodiscard]] virtual double dot(std::span<const double> a, std::span<const double> b) const = 0;
+};
+
+/// A few rows, known on every rank, that are orthonormal: BBᵀ = I. A product takes part in the messages that a solver
+/// sends anyway.
+class ReplicatedEquality : public EqualityConstraint {
+public:
+  /// Number of rows.
+  [[nodiscard]] virtual int size() const = 0;
+  /// Adds this rank's contribution to the product with x; `finishProduct` makes Bx of the sums over the
+  /// ranks. All ranks call it together.
+  virtual void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const = 0;
+  /// bx = Bx from the sums over the ranks. Both have size() entries. Not collective.
+  virtual void finishProduct(std::span<const AccurateSum> sums, std::span<double> bx) const;
+
+  [[nodiscard]] std::size_t numEntries() const final { return static_cast<std::size_t>(size()); }
+  [[nodiscard]] bool isReplicated() const final { return true; }
+  [[nodiscard]] double norm() const final { return 1; }
+  [[nodiscard]] int numSums() const final { return size(); }
+  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const final { addLocalProduct(x, sums); }
+  double finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const final;
+  void product(const Vector& x, std::span<double> bx) const final;
+  [[nodiscard]] double dot(std::span<const double> a, std::span<const double> b) const final;
+
+private:
+  mutable std::vector<AccurateSum> sums_; ///< work space of `product`
 };
 
 } // namespace epafi::qp

@@ -1,65 +1,60 @@
 #pragma once
 
-/// MPRGP: modified proportioning with reduced gradient projections, for min ½xᵀAx − bᵀx, l ≤ x ≤ u.
+/// MPRGP: modified proportioning with reduced gradient projections, for min ½xᵀAx − bᵀx over a convex set Ω.
 /// Dostál, Schöberl, *Comput. Optim. Appl.* 30 (2005) 23–43; Dostál, *Optimal Quadratic Programming
-/// Algorithms* (2009), algorithm 5.8.
+/// Algorithms* (2009), algorithm 5.8. Expansion by projected CG: Kružík, Horák, Čermák, Pospíšil, Pecha,
+/// *Adv. Eng. Softw.* 149 (2020). Preconditioning in face: Kružík, Horák, arXiv 2507.00617 (2025).
 
 #include "epafi/base/Types.hpp"
-#include "epafi/qp/Bounds.hpp"
+#include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/FusedReduction.hpp"
+#include "epafi/qp/MprgpParameters.hpp"
+#include "epafi/qp/ProgressWatch.hpp"
 #include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/StoppingRule.hpp"
 
-#include <Teuchos_ParameterList.hpp>
+#include <Teuchos_Describable.hpp>
 #include <Tpetra_Operator.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <optional>
+
+namespace Teuchos {
+class Time;
+} // namespace Teuchos
+
 namespace epafi::qp {
-
-struct MprgpParameters {
-  double proportioningConstant = 1.0; ///< Γ > 0
-  double expansionStep = 1.9;         ///< ᾱ‖A‖, in (0, 2)
-  int maxMultiplications = 10000;     ///< products with A at most
-
-  static Teuchos::ParameterList validParameters();
-  /// From a validated list.
-  static MprgpParameters from(const Teuchos::ParameterList& list);
-};
-
-/// Says when an MPRGP run is over. May take part in the reduction that every step makes anyway: `numSums`
-/// further numbers are summed over the ranks at no extra message.
-class StoppingRule {
-public:
-  virtual ~StoppingRule() = default;
-  [[nodiscard]] virtual int numSums() const { return 0; }
-  /// Adds this rank's contributions for the iterate x. Not collective.
-  virtual void addLocalSums(const Vector& /*x*/, std::span<AccurateSum> /*sums*/) {}
-  /// \param projectedGradient  ‖g^P‖
-  /// \param sums               the sums over all ranks
-  virtual bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) = 0;
-  /// Fills the rule's part of the record (relative quantities).
-  virtual void describe(StepRecord& record) const = 0;
-};
 
 /// The iteration, with its state (x, g, p) kept between runs: SMALBE goes on from where the last run stopped.
 ///
-/// Costs of a step in products with A, messages (beside those inside A), and vectors streamed:
-///   CG             1 product, 2 reductions, 15 vectors read and 3 written
-///   expansion      2 products, 3 reductions (its first product found the CG step too long)
+/// Inside, the objective is divided by ‖A‖ (as estimated at the start), so that gradients have the units of x and no
+/// threshold has any: g = (Ax − b)/‖A‖. What the public functions return is in the user's units.
+///
+/// Costs of a step in products with A, messages (beside those inside A and the preconditioner), and vectors streamed
+/// (l and u counted as two):
+///   CG             1 product, 2 reductions, 23 vectors read and 3 written
+///   expansion      2 products, 3 reductions (its first product found the CG step too long); 1 product more if the
+///                  trial raises the objective and is repeated, or if its length is 'optimal'
 ///   proportioning  1 product, 2 reductions
+/// With a preconditioner: 1 application for each direction, 1 reduction and 4 vectors more a CG step.
 /// All work vectors are allocated by the constructor, none in a step.
 ///
-/// Preconditions: A symmetric positive semidefinite on the unknowns' map; ᾱ ≤ 2/‖A‖ for the convergence
-/// proof. An expansion that raises the objective (the norm was underestimated) is repeated with half of ᾱ.
-class Mprgp {
+/// Preconditions: A symmetric positive semidefinite on the unknowns' map; the preconditioner symmetric positive
+/// definite. An operator norm that was estimated too small is corrected as soon as a step shows it.
+class Mprgp : public Teuchos::Describable {
 public:
-  /// \param a             A, n × n; kept, not copied
-  /// \param operatorNorm  over-estimate of ‖A‖, > 0 unless A = 0
-  Mprgp(RCP<const Operator> a, Bounds bounds, const MprgpParameters& parameters, double operatorNorm);
+  /// \param a               A, n × n; kept, not copied
+  /// \param set             Ω; kept
+  /// \param operatorNorm    over-estimate of ‖A‖, > 0 unless A = 0
+  /// \param preconditioner  M ≈ A⁻¹ on the unknowns' map, restricted to the free set where it is used; null for none
+  Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters, double operatorNorm,
+        RCP<const Operator> preconditioner = Teuchos::null);
 
-  /// x becomes the projection of x0, g = Ax − b (no product if that is 0), f = ½xᵀ(g − b). Collective.
-  void start(const Vector& b, const Vector& x0);
+  /// x becomes the projection of x0, g = Ax − b (no product if that is 0), f = ½xᵀAx − bᵀx + constant. Collective.
+  void start(const Vector& b, const Vector& x0, double constant = 0);
 
-  /// Runs until the rule is satisfied. Returns converged, maxIterations, stagnated, indefiniteOperator or notFinite.
+  /// Runs until the rule is satisfied. Returns converged, or why it went no further: maxIterations, timeLimit,
+  /// stagnated, indefiniteOperator, indefinitePreconditioner, unbounded or notFinite. x is feasible and finite in any case.
   /// \param observer  told of every step; may be null
   /// Collective.
   Status run(StoppingRule& rule, Observer* observer);
@@ -72,56 +67,99 @@ public:
   void refreshGradient();
 
   /// Subtracts `shift` from b without touching x: g grows by it.
-  /// \param objectiveShift  shiftᵀx.
+  /// \param objectiveShift  what the objective is to grow by; the part that is not shiftᵀx is a constant of the new
+  ///                        objective.
   /// Collective.
   void shiftLinearTerm(const Vector& shift, double objectiveShift);
 
+  /// The operator has changed (a new penalty): b and the constant of the objective are given anew, g and f recomputed
+  /// (one product). \param operatorNorm  of the changed operator. Collective.
+  void restart(const Vector& b, double constant, double operatorNorm);
+
   [[nodiscard]] const Vector& solution() const { return x_; }
-  /// g = Ax − b, as updated by the steps.
-  [[nodiscard]] const Vector& gradient() const { return g_; }
-  /// Norm of the projected gradient ‖g^P‖ at the last step.
-  [[nodiscard]] double projectedGradient() const { return projectedGradient_; }
-  [[nodiscard]] double objective() const { return objective_; }
+  /// (Ax − b) · gradientScale(), as updated by the steps.
+  [[nodiscard]] const Vector& scaledGradient() const { return g_; }
+  [[nodiscard]] double gradientScale() const { return scale_; }
+  /// Norm of the projected gradient ‖g^P‖ at the last step, and its parts ‖φ‖ and ‖β‖.
+  [[nodiscard]] double projectedGradient() const { return projectedGradient_ / scale_; }
+  [[nodiscard]] double freeGradient() const;
+  [[nodiscard]] double choppedGradient() const;
+  [[nodiscard]] double objective() const { return objective_ / scale_; }
   [[nodiscard]] bool gradientIsFresh() const { return gradientIsFresh_; }
   [[nodiscard]] StepCounts& counts() { return counts_; }
+  /// ‖A‖, corrected if need be.
+  [[nodiscard]] double operatorNorm() const { return norm_ / scale_; }
+  /// After indefiniteOperator or unbounded: the direction d that shows it, of length 1, x + αd being the way down.
+  [[nodiscard]] RCP<Vector> certificate() const;
+
+  [[nodiscard]] std::string description() const override;
 
 private:
+  /// What one product with p tells.
   struct StepSizes {
     double curvature = 0; ///< pᵀAp
     double slope = 0;     ///< gᵀp
+    double squared = 0;   ///< pᵀp
     double feasible = 0;  ///< α_f: largest α with x − αp feasible
   };
+  /// A trial point of an expansion against x^½.
+  struct Trial {
+    double objective = 0;
+    double size = 0;     ///< |xᵀAx| + |xᵀb|, against which round-off counts
+    double squared = 0;  ///< dᵀd of d = x − x^½
+    double gradient = 0; ///< dᵀφ(x^½)
+  };
 
-  void applyHessian(const Vector& x, Vector& ax);
-  StepSizes stepSizes();
+  // The loop's questions.
+  std::optional<Status> ending(StoppingRule& rule);
   [[nodiscard]] bool isProportional() const;
-  void conjugateGradientStep(const StepSizes& sizes, StoppingRule& rule);
-  bool expansionStep(const StepSizes& sizes, StoppingRule& rule);
-  Status proportioningStep(StoppingRule& rule);
-  void move(double step, const StepSizes& sizes);
-  void storeHalfStep();
-  double projectHalfStep();
+  [[nodiscard]] std::optional<Status> endingOf(const StepSizes& sizes) const;
+  [[nodiscard]] bool fits(const StepSizes& sizes, StepKind intent) const;
+  // Its steps.
+  std::optional<Status> setDirection(StepKind intent);
+  void step(const StepSizes& sizes, StepKind kind);
+  std::optional<Status> expansionStep(const StepSizes& sizes);
+  std::optional<Status> safeTrial(Trial trial);
+  // Passes over the vectors.
+  void applyHessian(const Vector& x, Vector& ax);
+  void precondition();
+  StepSizes stepSizes();
+  void move(double length, const StepSizes& sizes);
+  double expansionLength(const StepSizes& sizes);
+  Trial tryAlong(const Vector& direction, double length);
+  void accept(const Trial& trial);
+  void correctNorm(double rayleighQuotient);
   void measure(StoppingRule& rule);
-  void setDirectionToFreeGradient(double conjugation);
-  void setDirectionToChoppedGradient();
   void record(const StoppingRule& rule, StepKind kind, Observer* observer);
 
-  RCP<const Operator> a_;
-  Bounds bounds_;
+  RCP<const Operator> a_, preconditioner_;
+  RCP<const ConvexSet> set_;
   MprgpParameters parameters_;
-  double stepLength_; ///< ᾱ
+  double scale_; ///< 1/‖A‖ as estimated at the start
+  double norm_;  ///< of scale · A: 1 until it is corrected
   RCP<const Comm> comm_;
+  RCP<Teuchos::Time> hessianTimer_, preconditionerTimer_;
 
-  Vector x_, b_, g_, p_, ap_;
-  FusedReduction stepReduction_; ///< pᵀAp, gᵀp; α_f
-  FusedReduction measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, entries at a bound, the rule's sums
-  double objective_ = 0;
-  double projectedGradient_ = 0;                ///< ‖g^P‖
+  Vector x_, b_, g_, p_, ap_;    ///< g scaled, b and Ap not
+  RCP<Vector> residual_, z_;     ///< for the preconditioner: φ or φ + β, and M times it
+  RCP<Vector> lastX_, lastG_;    ///< for Barzilai–Borwein: after the last expansion
+  FusedReduction stepReduction_; ///< pᵀAp, gᵀp, pᵀp; α_f; also every other pair of sums
+  FusedReduction measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, xᵀx, active entries, time is up; the rule's sums
+  double objective_ = 0, constant_ = 0; ///< f, and what is in it beside ½xᵀAx − bᵀx
+  double linearNorm_ = 0;               ///< ‖b‖, scaled
+  double projectedGradient_ = 0;
   double freeSquared_ = 0, choppedSquared_ = 0; ///< φᵀφ, βᵀβ
   double reducedTimesFree_ = 0;                 ///< φ̃ᵀφ
-  double freeTimesImage_ = 0;                   ///< φᵀAp, for the next conjugation
-  long long activeBounds_ = 0;
+  double directionTimesImage_ = 0;              ///< φᵀAp or zᵀAp, for the next conjugation
+  double curvature_ = 0;                        ///< pᵀAp of the last step
+  double solutionNorm_ = 0;                     ///< ‖x‖
+  long long active_ = 0;
+  bool conjugate_ = false; ///< whether the next direction is made conjugate to p
   bool gradientIsFresh_ = false;
+  bool timeIsUp_ = false;
+  double deadline_ = 0;
+  int refreshes_ = 0;
+  ProgressWatch progress_{150};
   StepCounts counts_;
 };
 

@@ -3,32 +3,25 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace epafi::qp {
 
-PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const EqualityConstraint> g, double penalty)
-    : a_(std::move(a)), g_(std::move(g)), penalty_(penalty), sums_(static_cast<std::size_t>(g_->size())),
-      gx_(sums_.size()) {}
-
-RCP<const Map> PenalizedOperator::getDomainMap() const {
-  return a_->getDomainMap();
-}
-RCP<const Map> PenalizedOperator::getRangeMap() const {
-  return a_->getRangeMap();
-}
+PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const Map> map, RCP<const EqualityConstraint> b,
+                                     double penalty)
+    : a_(std::move(a)), map_(std::move(map)), b_(std::move(b)), penalty_(penalty), bx_(b_->numEntries()) {}
 
 void PenalizedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
                               double beta) const {
-  a_->apply(x, y, mode, alpha, beta);
-  const Comm& comm = *getDomainMap()->getComm();
+  if (a_.is_null() && beta == 0)
+    y.putScalar(0.0);
+  else if (a_.is_null())
+    y.scale(beta);
+  else
+    a_->apply(x, y, mode, alpha, beta);
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-    std::fill(sums_.begin(), sums_.end(), AccurateSum());
-    g_->addLocalProduct(*x.getVector(column), sums_);
-    sumOverRanks(comm, sums_);
-    g_->finishProduct(sums_, gx_);
-    g_->addTransposedProduct(gx_, alpha * penalty_, *y.getVectorNonConst(column));
+    b_->product(*x.getVector(column), bx_);
+    b_->addTransposedProduct(bx_, alpha * penalty_, *y.getVectorNonConst(column));
   }
 }
 

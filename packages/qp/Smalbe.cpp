@@ -6,124 +6,200 @@
 #include "epafi/qp/EqualityRestoration.hpp"
 #include "epafi/qp/PenalizedOperator.hpp"
 
+#include <Tpetra_Map.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <string>
 #include <utility>
-#include <vector>
 
 namespace epafi::qp {
 namespace {
 
-/// The inner loop's rule: ‖g^P‖ ≤ min(M‖Gx‖, η), or both final tolerances. Its sums are Gx itself.
+/// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
 class AdaptiveRule final : public StoppingRule {
 public:
-  AdaptiveRule(RCP<const EqualityConstraint> g, const SmalbeTolerances& tolerances, double balance,
-               double forcing)
-      : g_(std::move(g)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
-        gx_(static_cast<std::size_t>(g_->size())) {}
+  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance, double forcing)
+      : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
+        residual_(equality_->numEntries()) {}
 
-  [[nodiscard]] int numSums() const override { return g_->size(); }
-  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override { g_->addLocalProduct(x, sums); }
+  [[nodiscard]] int numSums() const override { return equality_->numSums(); }
+  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override { equality_->addLocalSums(x, sums); }
 
   bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override {
-    g_->finishProduct(sums, gx_);
-    double squared = 0;
-    for (const double value : gx_)
-      squared += value * value;
-    constraintNorm_ = std::sqrt(squared);
+    residualNorm_ = equality_->finishResidual(sums, residual_);
     isFinal_ = projectedGradient <= tolerances_.gradient * tolerances_.gradientReference &&
-               constraintNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
-    return isFinal_ || projectedGradient <= std::min(balance_ * constraintNorm_, forcing_);
+               residualNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
+    return isFinal_ || projectedGradient <= std::min(balance_ * residualNorm_, forcing_);
   }
 
   void describe(StepRecord& record) const override {
-    if (tolerances_.gradientReference > 0)
-      record.projectedGradient /= tolerances_.gradientReference;
-    record.constraintResidual = tolerances_.constraintReference > 0
-                                    ? constraintNorm_ / tolerances_.constraintReference
-                                    : constraintNorm_;
+    record.projectedGradient = relativeTo(tolerances_.gradientReference, record.projectedGradient);
+    record.constraintResidual = relativeTo(tolerances_.constraintReference, residualNorm_);
   }
 
   [[nodiscard]] bool isFinal() const { return isFinal_; } ///< both final tolerances hold
-  [[nodiscard]] double constraintNorm() const { return constraintNorm_; }
-  [[nodiscard]] std::span<const double> constraintValue() const { return gx_; }
+  [[nodiscard]] double residualNorm() const { return residualNorm_; }
+  [[nodiscard]] std::span<const double> residual() const { return residual_; }
   void reduceBalance(double factor) { balance_ *= factor; }
 
 private:
-  RCP<const EqualityConstraint> g_;
+  RCP<const EqualityConstraint> equality_;
   SmalbeTolerances tolerances_;
   double balance_, forcing_;
-  std::vector<double> gx_;
-  double constraintNorm_ = 0;
+  std::vector<double> residual_;
+  double residualNorm_ = 0;
   bool isFinal_ = false;
 };
 
-/// How far μ may go along `shift` before the inner solution x notices: while every entry that the shift
-/// touches is held at its bound, x stays the minimiser and L grows linearly in μ, until the first gradient
-/// there changes its sign. At least 1, the paper's step. Collective.
-double longestStep(const Bounds& bounds, const Vector& x, const Vector& g, const Vector& shift) {
-  const auto values = localData(x), gradient = localData(g), s = localData(shift);
-  const Bounds::Local local = bounds.local();
-  double longest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const Bounds::Interval interval = local[i];
-    if (s[i] == 0 || !(interval.lower < interval.upper))
-      continue;
-    if (interval.isFree(values[i]))
-      longest = 0;
-    else if ((values[i] <= interval.lower) == (s[i] < 0)) // the gradient moves towards 0
-      longest = std::min(longest, -gradient[i] / s[i]);
-  }
-  longest = minOverRanks(*x.getMap()->getComm(), longest);
-  return std::isfinite(longest) ? std::max(1.0, longest) : 1.0;
+/// The outer iteration with its state μ, ρ, M.
+class OuterIteration {
+public:
+  OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
+                 const SmalbeParameters& parameters, const MprgpParameters& inner);
+  /// The loop of the paper.
+  Status run(const Vector& start, Observer* observer);
+
+  [[nodiscard]] Mprgp& inner() { return inner_; }
+  [[nodiscard]] const AdaptiveRule& rule() const { return rule_; }
+  [[nodiscard]] double penalty() const { return penalty_; }
+
+private:
+  void startMultiplier();
+  void growPenalty();
+  void updateMultiplier();
+  bool restore();
+  [[nodiscard]] double normOfLagrangian() const;
+  [[nodiscard]] double constantOfLagrangian() const;
+  void linearTermOfLagrangian(Vector& b) const;
+
+  const EqualityBoundProblem& problem_;
+  const SmalbeParameters& parameters_;
+  const EqualityConstraint& equality_;
+  double penalty_; ///< ρ
+  std::vector<double>& multiplier_;
+  RCP<PenalizedOperator> hessian_;
+  AdaptiveRule rule_;
+  Mprgp inner_;
+  Vector work_;
+  int restorations_ = 0;
+};
+
+OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
+                               const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
+                               const MprgpParameters& inner)
+    : problem_(problem), parameters_(parameters), equality_(*problem.equality),
+      penalty_(parameters.penalty * (problem.operatorNorm > 0 ? problem.operatorNorm : 1.0) /
+               (equality_.norm() * equality_.norm())),
+      multiplier_(multiplier),
+      hessian_(rcp(new PenalizedOperator(problem.hessian, problem.hessian->getDomainMap(), problem.equality, penalty_))),
+      rule_(problem.equality, tolerances, parameters.balance * problem.operatorNorm / equality_.norm(),
+            parameters.forcing * tolerances.gradientReference),
+      inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
+      work_(problem.hessian->getDomainMap()) {
+  multiplier_.assign(equality_.numEntries(), 0.0);
 }
 
-/// Gives a warm start the multiplier that belongs to it; without, the first outer iterations would lead away
-/// from it. Collective.
-void startMultiplier(Mprgp& inner, const EqualityConstraint& g, const Bounds& bounds) {
-  const std::vector<double> multiplier = estimateMultiplier(g, bounds, inner.solution(), inner.gradient());
-  Vector shift(inner.solution().getMap());
-  g.addTransposedProduct(multiplier, 1.0, shift);
-  inner.shiftLinearTerm(shift, accurateDot(shift, inner.solution()));
+/// ‖A + ρBᵀB‖ at most.
+double OuterIteration::normOfLagrangian() const {
+  return problem_.operatorNorm + penalty_ * equality_.norm() * equality_.norm();
 }
 
-/// The outer loop of the paper.
-Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, const Bounds& bounds,
-               const SmalbeParameters& parameters, double penalty, Observer* observer) {
-  constexpr int maxFreshStarts = 10;
-  Vector shift(inner.solution().getMap());
+/// −μᵀc + ρ/2‖c‖².
+double OuterIteration::constantOfLagrangian() const {
+  const auto c = equality_.rightHandSide();
+  return equality_.isHomogeneous() ? 0.0 : 0.5 * penalty_ * equality_.dot(c, c) - equality_.dot(multiplier_, c);
+}
+
+/// b − Bᵀμ + ρBᵀc.
+void OuterIteration::linearTermOfLagrangian(Vector& b) const {
+  b.assign(*problem_.linearTerm);
+  std::vector<double> combined(multiplier_);
+  const auto c = equality_.rightHandSide();
+  for (std::size_t i = 0; i < c.size(); ++i)
+    combined[i] -= penalty_ * c[i];
+  equality_.addTransposedProduct(combined, -1.0, b);
+}
+
+Status OuterIteration::run(const Vector& start, Observer* observer) {
+  linearTermOfLagrangian(work_);
+  inner_.start(work_, start, constantOfLagrangian());
+  if (inner_.solution().normInf() > 0)
+    startMultiplier();
+
   double previousLagrangian = 0;
-  int freshStarts = 0;
-  while (inner.counts().outer < parameters.maxOuterIterations) {
-    const Status status = inner.run(rule, observer); // ‖g^P‖ ≤ min(M‖Gx‖, η)
+  while (inner_.counts().outer < parameters_.maxOuterIterations) {
+    const Status status = inner_.run(rule_, observer); // ‖g^P‖ ≤ min(M‖Bx − c‖, η)
     if (status != Status::converged)
       return status;
-    if (rule.isFinal() && inner.gradientIsFresh())
+    if (rule_.isFinal() && inner_.gradientIsFresh())
       return Status::converged;
-    const double residual = rule.constraintNorm();
-    const double lagrangian = inner.objective();
-    if (inner.counts().outer > 0 && lagrangian < previousLagrangian + 0.5 * penalty * residual * residual)
-      rule.reduceBalance(parameters.balanceReduction); // L grew too little: M ← βM
+    const double residual = rule_.residualNorm();
+    const double lagrangian = inner_.objective();
+    const bool grewTooLittle =
+        inner_.counts().outer > 0 && lagrangian < previousLagrangian + 0.5 * penalty_ * residual * residual;
     previousLagrangian = lagrangian;
-
-    shift.putScalar(0.0); // μ ← μ + ρGx, or further
-    g.addTransposedProduct(rule.constraintValue(), penalty, shift);
-    const double step = longestStep(bounds, inner.solution(), inner.gradient(), shift);
-    shift.scale(step);
-    inner.shiftLinearTerm(shift, step * penalty * residual * residual);
-    ++inner.counts().outer;
-
-    if (rule.isFinal()) { // the certificate: Gx = 0 to round-off and a fresh gradient; if it fails the
-                          // iteration goes on
-      if (++freshStarts > maxFreshStarts)
-        return Status::stagnated;
-      shift.assign(inner.solution());
-      restoreEquality(g, bounds, rule.constraintValue(), shift);
-      inner.moveTo(shift);
-    }
+    updateMultiplier(); // μ ← μ + ρ(Bx − c), or further
+    if (grewTooLittle && parameters_.update == SmalbeParameters::Update::balance)
+      rule_.reduceBalance(parameters_.balanceReduction); // M ← βM
+    else if (grewTooLittle)
+      growPenalty(); // ρ ← βρ
+    ++inner_.counts().outer;
+    if (rule_.isFinal() && !restore())
+      return Status::stagnated;
   }
   return Status::maxIterations;
+}
+
+/// Gives a warm start the multiplier that belongs to it; without, the first outer iterations would lead away from it.
+void OuterIteration::startMultiplier() {
+  if (!equality_.isReplicated())
+    return;
+  Vector gradient(inner_.scaledGradient(), Teuchos::Copy);
+  gradient.scale(1.0 / inner_.gradientScale());
+  const std::vector<double> change = estimateMultiplier(equality_, *problem_.set, inner_.solution(), gradient);
+  work_.putScalar(0.0);
+  equality_.addTransposedProduct(change, 1.0, work_);
+  const double constant = equality_.isHomogeneous() ? 0.0 : equality_.dot(change, equality_.rightHandSide());
+  inner_.shiftLinearTerm(work_, accurateDot(work_, inner_.solution()) - constant);
+  for (std::size_t i = 0; i < change.size(); ++i)
+    multiplier_[i] += change[i];
+}
+
+void OuterIteration::growPenalty() {
+  penalty_ *= parameters_.penaltyGrowth;
+  hessian_->setPenalty(penalty_);
+  linearTermOfLagrangian(work_);
+  inner_.restart(work_, constantOfLagrangian(), normOfLagrangian());
+}
+
+/// μ may go further than the paper's step ρ(Bx − c) where the inner solution x does not notice: while every entry that
+/// the shift touches is held at its bound, x stays the minimiser and L grows linearly in μ, until the first multiplier
+/// there changes its sign.
+void OuterIteration::updateMultiplier() {
+  work_.putScalar(0.0);
+  equality_.addTransposedProduct(rule_.residual(), penalty_ * inner_.gradientScale(), work_);
+  const double longest = minOverRanks(
+      *work_.getMap()->getComm(), problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
+  const double step = std::isfinite(longest) ? std::max(1.0, longest) : 1.0;
+  work_.scale(step / inner_.gradientScale());
+  const double residual = rule_.residualNorm();
+  inner_.shiftLinearTerm(work_, step * penalty_ * residual * residual);
+  for (std::size_t i = 0; i < multiplier_.size(); ++i)
+    multiplier_[i] += step * penalty_ * rule_.residual()[i];
+}
+
+/// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on. Returns false after too
+/// many trials.
+bool OuterIteration::restore() {
+  constexpr int maxRestorations = 10;
+  if (++restorations_ > maxRestorations)
+    return false;
+  work_.assign(inner_.solution());
+  if (equality_.isReplicated())
+    restoreEquality(equality_, *problem_.set, rule_.residual(), work_);
+  inner_.moveTo(work_);
+  return true;
 }
 
 } // namespace
@@ -131,58 +207,51 @@ Status iterate(Mprgp& inner, AdaptiveRule& rule, const EqualityConstraint& g, co
 Teuchos::ParameterList SmalbeParameters::validParameters() {
   const SmalbeParameters defaults;
   Teuchos::ParameterList list("SMALBE");
-  addReal(list, "Penalty", defaults.penalty, "ρ as a multiple of ‖PFP‖.", 0.0, 1e12, true);
+  addChoice(list, "Update", "balance",
+            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M (SMALBE-M) or the "
+            "penalty ρ (SMALBE-ρ).",
+            {"balance", "penalty"});
+  addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0, 1e12, true);
   addReal(list, "Balance", defaults.balance,
-          "M at the start as a multiple of ‖PFP‖: inner loops stop at ‖gᴾ‖ ≤ M‖Gλ‖.", 0.0, 1e12, true);
-  addReal(list, "Balance Reduction", defaults.balanceReduction,
-          "Factor on M when the augmented Lagrangian grew by less than ρ/2‖Gλ‖².", 0.0, 1.0, true, true);
+          "M‖B‖ at the start as a multiple of ‖A‖: inner loops stop at ‖gᴾ‖ ≤ M‖Bx − c‖.", 0.0, 1e12, true);
+  addReal(list, "Balance Reduction", defaults.balanceReduction, "Factor on M, with Update 'balance'.", 0.0, 1.0, true, true);
+  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty'.", 1.0, 1e6, true);
   addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
   addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
-             "Updates of the multiplier of Gλ = 0 at most.", 1);
+             "Updates of the multiplier of the equality constraints at most.", 1);
   return list;
 }
 
 SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   SmalbeParameters parameters;
+  parameters.update = list.get<std::string>("Update") == "penalty" ? Update::penalty : Update::balance;
   parameters.penalty = list.get<double>("Penalty");
   parameters.balance = list.get<double>("Balance");
   parameters.balanceReduction = list.get<double>("Balance Reduction");
+  parameters.penaltyGrowth = list.get<double>("Penalty Growth");
   parameters.forcing = list.get<double>("Forcing");
   parameters.maxOuterIterations = list.get<int>("Maximum Outer Iterations");
   return parameters;
 }
 
-SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<const EqualityConstraint>& g,
-                                      const Vector& b, const Bounds& bounds, Vector& x,
+SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x, std::vector<double>& multiplier,
                                       const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
-                                      const MprgpParameters& inner, double operatorNorm, Observer* observer) {
-  bounds.check(*b.getMap()->getComm());
+                                      const MprgpParameters& inner, Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
+  OuterIteration outer(problem, multiplier, tolerances, parameters, inner);
+  report.status = outer.run(x, &recorder);
 
-  const double penalty = parameters.penalty * operatorNorm;
-  const RCP<const Operator> hessian = rcp(new PenalizedOperator(a, g, penalty));
-  AdaptiveRule rule(g, tolerances, parameters.balance * operatorNorm,
-                    parameters.forcing * tolerances.gradientReference);
-  Mprgp solver(hessian, bounds, inner, std::max(operatorNorm, penalty)); // ‖A + ρGᵀG‖ where Im Gᵀ ⊂ Ker A
-  solver.start(b, x);
-  if (solver.solution().normInf() > 0)
-    startMultiplier(solver, *g, bounds);
-  report.status = iterate(solver, rule, *g, bounds, parameters, penalty, &recorder);
+  Mprgp& solver = outer.inner();
   x.assign(solver.solution());
-
-  const auto relative = [](double value, double reference) {
-    return reference > 0 ? value / reference : value;
-  };
-  report.reason =
-      report.status == Status::maxIterations && solver.counts().outer >= parameters.maxOuterIterations
-          ? "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer "
-            "Iterations' or the tolerance"
-          : explain(report.status);
-  report.counts = solver.counts();
-  report.relativeProjectedGradient = relative(solver.projectedGradient(), tolerances.gradientReference);
-  report.relativeConstraintResidual = relative(rule.constraintNorm(), tolerances.constraintReference);
-  report.objective = solver.objective();
+  describeEnd(solver, report);
+  if (report.status == Status::maxIterations && report.counts.outer >= parameters.maxOuterIterations)
+    report.reason = "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer Iterations' or "
+                    "the tolerance";
+  report.relativeProjectedGradient = relativeTo(tolerances.gradientReference, solver.projectedGradient());
+  for (std::size_t i = 0; i < multiplier.size(); ++i) // the gradient is that of L: μ + ρ(Bx − c) is what it belongs to
+    multiplier[i] += outer.penalty() * outer.rule().residual()[i];
+  report.relativeConstraintResidual = relativeTo(tolerances.constraintReference, outer.rule().residualNorm());
   return report;
 }
 

@@ -1,25 +1,34 @@
 #pragma once
 
-/// SMALBE-M: semimonotonic augmented Lagrangians for min ½xᵀAx − bᵀx, Gx = 0, l ≤ x ≤ u, with GGᵀ = I.
+/// SMALBE: semimonotonic augmented Lagrangians for min ½xᵀAx − bᵀx, Bx = c, x in Ω.
 /// Dostál, *Computing* 78 (2006) 311–328; Dostál, *Optimal Quadratic Programming Algorithms* (2009),
-/// algorithm 6.2.
+/// algorithm 6.2 (SMALBE-M, the balance M adapts) and section 6.11 (SMALBE-ρ, the penalty ρ adapts).
 ///
-/// Outer loop on the multiplier μ of Gx = 0 with the penalty ρ fixed; the inner loop is MPRGP on the
-/// augmented Lagrangian
-///   L(x, μ, ρ) = ½xᵀ(A + ρGᵀG)x − bᵀx + μᵀGx,
-/// stopped at ‖g^P‖ ≤ min(M‖Gx‖, η). When both tolerances are met, x is moved within its face onto Gx = 0 (to
-/// round-off) and the gradient computed afresh must still meet its tolerance.
+/// Outer loop on the multiplier μ of Bx = c; the inner loop is MPRGP on the augmented Lagrangian
+///   L(x, μ, ρ) = ½xᵀAx − bᵀx + μᵀ(Bx − c) + ρ/2 ‖Bx − c‖²,
+/// stopped at ‖g^P‖ ≤ min(M‖Bx − c‖, η). When both tolerances are met, x is moved within its face onto Bx = c (to
+/// round-off, where the rows are replicated) and the gradient computed afresh must still meet its tolerance.
 
+#include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
-#include "epafi/qp/Mprgp.hpp"
+#include "epafi/qp/MprgpParameters.hpp"
+#include "epafi/qp/SolveReport.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <vector>
 
 namespace epafi::qp {
 
 struct SmalbeParameters {
-  double penalty = 7.0;          ///< ρ as a multiple of ‖A‖
-  double balance = 1.0;          ///< M at the start, as a multiple of ‖A‖
-  double balanceReduction = 0.5; ///< factor on M when L grew too little
-  double forcing = 0.1;          ///< η as a multiple of ‖b‖
+  /// What changes when the augmented Lagrangian grew too little.
+  enum class Update { balance, penalty };
+  Update update = Update::balance;
+  double penalty = 1.0;          ///< ρ‖B‖² as a multiple of ‖A‖
+  double balance = 0.3;          ///< M‖B‖ at the start, as a multiple of ‖A‖
+  double balanceReduction = 0.5; ///< factor on M (SMALBE-M)
+  double penaltyGrowth = 10;     ///< factor on ρ (SMALBE-ρ)
+  double forcing = 0.1;          ///< η as a multiple of the gradient's reference
   int maxOuterIterations = 200;
 
   static Teuchos::ParameterList validParameters();
@@ -27,23 +36,29 @@ struct SmalbeParameters {
   static SmalbeParameters from(const Teuchos::ParameterList& list);
 };
 
-/// What to stop at: ‖g^P‖ ≤ gradient · gradientReference and ‖Gx‖ ≤ constraint · constraintReference.
+/// What to stop at: ‖g^P‖ ≤ gradient · gradientReference and ‖Bx − c‖ ≤ constraint · constraintReference.
 struct SmalbeTolerances {
   double gradient = 1e-6, gradientReference = 1;
   double constraint = 1e-6, constraintReference = 1;
 };
 
-/// Precondition: A symmetric positive semidefinite, positive definite on Ker G; G as EqualityConstraint says.
-/// \param x  in: start (projected onto the bounds; the multiplier starts from what suits it); out: the last
-///        iterate, feasible for the bounds
-/// \param operatorNorm  over-estimate of ‖A‖
-/// Returns converged only if a gradient computed afresh bears it out.
-/// \throws InputError if the bounds cross.
+/// The problem, as SMALBE needs it.
+struct EqualityBoundProblem {
+  RCP<const Operator> hessian;               ///< A, n × n, positive definite on Ker B
+  RCP<const Vector> linearTerm;              ///< b
+  RCP<const ConvexSet> set;                  ///< Ω
+  RCP<const EqualityConstraint> equality;    ///< Bx = c
+  RCP<const Operator> preconditioner;        ///< of A + ρBᵀB, or null
+  double operatorNorm = 1;                   ///< over-estimate of ‖A‖
+};
+
+/// \param x           in: start (projected onto Ω; the multiplier starts from what suits it); out: the last iterate,
+///                    in Ω
+/// \param multiplier  out: μ, in the constraint's own entries
+/// Returns converged only if a gradient computed afresh bears it out. Precondition: Ω is not empty.
 /// Collective.
-SolveReport solveEqualityBoundProblem(const RCP<const Operator>& a, const RCP<const EqualityConstraint>& g,
-                                      const Vector& b, const Bounds& bounds, Vector& x,
+SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x, std::vector<double>& multiplier,
                                       const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
-                                      const MprgpParameters& inner, double operatorNorm,
-                                      Observer* observer = nullptr);
+                                      const MprgpParameters& inner, Observer* observer = nullptr);
 
 } // namespace epafi::qp

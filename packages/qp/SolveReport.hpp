@@ -1,7 +1,9 @@
 #pragma once
 
-/// What a solver says when it stops: a status, a reason, counts of steps by kind, and the history of the
-/// iteration.
+/// What a solver says when it stops: a status, a reason, counts of steps by kind, KKT residuals, a certificate where
+/// there is no solution, and the history of the iteration.
+
+#include "epafi/base/Types.hpp"
 
 #include <string>
 #include <vector>
@@ -11,9 +13,12 @@ namespace epafi::qp {
 enum class Status {
   converged,
   maxIterations,
-  stagnated,
-  indefiniteOperator,
+  timeLimit,
+  stagnated,          ///< attainable accuracy reached
+  indefiniteOperator, ///< a direction of negative curvature was met
+  indefinitePreconditioner,
   infeasible,
+  unbounded, ///< the objective falls without end
   notUnique,
   notFinite
 };
@@ -34,7 +39,7 @@ struct StepRecord {
   int outer = 0;     ///< outer iteration (SMALBE), 0 for MPRGP alone
   StepKind kind = StepKind::start;
   double projectedGradient = 0;   ///< ‖g^P‖ relative to the stopping reference
-  double constraintResidual = 0;  ///< ‖Gλ‖ relative to its reference; 0 without equality constraints
+  double constraintResidual = 0;  ///< ‖Bx − c‖ relative to its reference; 0 without equality constraints
   double objective = 0;           ///< value of the function minimised (augmented Lagrangian in SMALBE)
   long long activeBounds = 0;     ///< entries at a bound
   int hessianMultiplications = 0; ///< products with the operator so far
@@ -50,6 +55,18 @@ struct StepCounts {
   int proportioning = 0;
   int hessianMultiplications = 0;
   int preconditionerApplications = 0;
+  int safeguards = 0;      ///< expansions repeated because the objective grew
+  int normCorrections = 0; ///< times that ‖A‖ turned out to be larger than estimated
+};
+
+/// The conditions of Karush, Kuhn and Tucker at the point returned, recomputed from scratch. The gradients are those
+/// of the Lagrangian, g = Ax − b + Bᵀμ; all are relative: gradients to the stopping reference, Bx − c to its own.
+struct KktResiduals {
+  double stationarity = 0;    ///< ‖φ‖, the gradient where no bound holds
+  double dualFeasibility = 0; ///< ‖β‖, multipliers of bounds that have the wrong sign
+  double feasibility = 0;     ///< largest violation of a bound (not relative)
+  double complementarity = 0; ///< largest min(|g_i|, ‖A‖ · distance to the bound that −g_i points to)
+  double equality = 0;        ///< ‖Bx − c‖
 };
 
 struct SolveReport {
@@ -59,7 +76,13 @@ struct SolveReport {
   double relativeProjectedGradient = 0;
   double relativeConstraintResidual = 0;
   double objective = 0;
-  History history; ///< every step, in order
+  double operatorNorm = 0; ///< ‖A‖ as known at the end
+  KktResiduals kkt;        ///< filled by QpSolver
+  /// Of length 1, or null. indefiniteOperator: d with dᵀAd < 0. unbounded: d with Ad = 0, Bd = 0, dᵀb > 0, along which
+  /// the set has no end. infeasible: y on the rows of B with yᵀ(Bx − c) > 0 for every x within the bounds.
+  RCP<Vector> certificate;
+  RCP<Vector> gradient; ///< of the Lagrangian at x, from a fresh product with A; null if the last one is not fresh
+  History history;      ///< every step, in order
 };
 
 /// Receives every step of a solver as it happens. Called on all ranks; must not throw.
@@ -67,6 +90,17 @@ class Observer {
 public:
   virtual ~Observer() = default;
   virtual void step(const StepRecord& record) = 0;
+};
+
+/// Keeps every step and passes it on.
+class HistoryRecorder final : public Observer {
+public:
+  HistoryRecorder(History& history, Observer* next) : history_(history), next_(next) {}
+  void step(const StepRecord& record) override;
+
+private:
+  History& history_;
+  Observer* next_;
 };
 
 } // namespace epafi::qp

@@ -6,6 +6,7 @@
 #include "epafi/fetidp/ProjectedOperator.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/Box.hpp"
 #include "epafi/qp/ConjugateGradient.hpp"
 
 #include <Tpetra_Map.hpp>
@@ -169,9 +170,10 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
                                              parameters_.mprgp.maxMultiplications, observer);
     return;
   }
-  const qp::Bounds bounds(lowerBounds(-std::numeric_limits<double>::infinity()));
-  solution.report = qp::solveBoundProblem(hessian_, *rhs, bounds, *solution.lambda, parameters_.tolerance,
-                                          parameters_.mprgp, norm_.norm, observer);
+  const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lowerBounds(-std::numeric_limits<double>::infinity())));
+  solution.report =
+      qp::solveBoundProblem({hessian_, rhs, set, Teuchos::null, norm_.norm}, *solution.lambda,
+                            {parameters_.tolerance, accurateNorm(*rhs), 0.0}, parameters_.mprgp, observer);
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
@@ -199,9 +201,11 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVecto
 
   const qp::SmalbeTolerances tolerances{parameters_.tolerance, solution.reference,
                                         parameters_.equilibriumTolerance, equilibriumReference};
+  const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lower));
+  std::vector<double> multiplier;
   solution.report =
-      qp::solveEqualityBoundProblem(hessian_, coarseSpace_, *rhs, qp::Bounds(lower), mu, tolerances,
-                                    parameters_.smalbe, parameters_.mprgp, norm_.norm, observer);
+      qp::solveEqualityBoundProblem({hessian_, rhs, set, coarseSpace_, Teuchos::null, norm_.norm}, mu, multiplier,
+                                    tolerances, parameters_.smalbe, parameters_.mprgp, observer);
   solution.lambda->update(1.0, mu, 1.0, feasible, 0.0);
   const Eigen::VectorXd imbalance = coarseSpace_->product(*solution.lambda) - e;
   solution.equilibrium =

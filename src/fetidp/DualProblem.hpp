@@ -9,7 +9,7 @@
 
 #include "epafi/fetidp/DualOperator.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
-#include "epafi/qp/Mprgp.hpp"
+#include "epafi/qp/MprgpParameters.hpp"
 #include "epafi/qp/NormEstimate.hpp"
 #include "epafi/qp/Smalbe.hpp"
 #include "epafi/qp/SolveReport.hpp"

@@ -36,7 +36,7 @@ Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, cons
 Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem,
                                     const SubdomainVectors& load);
 
-class NaturalCoarseSpace final : public qp::EqualityConstraint {
+class NaturalCoarseSpace final : public qp::ReplicatedEquality {
 public:
   /// \param entries  see kernelConstraint
   /// Precondition: G̃ has full row rank (see Solvability.hpp, which says so in the user's words). Collective.
@@ -48,6 +48,7 @@ public:
   void finishProduct(std::span<const AccurateSum> sums, std::span<double> gx) const override;
   void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override;
 
+  using qp::ReplicatedEquality::product;
   /// Gx on every rank, valid until the next call. Collective.
   [[nodiscard]] const Eigen::VectorXd& product(const Vector& x) const;
   /// x ← Px = x − Gᵀ(Gx). One message of k numbers. Collective.

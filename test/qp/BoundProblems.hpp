@@ -5,6 +5,7 @@
 #include "Problems.hpp"
 
 #include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/Box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,10 +34,12 @@ inline Answer solve(const Problem& problem, double tolerance = 1e-10, double nor
                     const Eigen::VectorXd& start = Eigen::VectorXd(), qp::Observer* observer = nullptr) {
   const auto map = problem.map();
   const auto a = rcp(new DenseOperator(map, problem.a));
-  const qp::Bounds bounds(makeVector(map, problem.lower), makeVector(map, problem.upper));
+  const RCP<const qp::ConvexSet> box =
+      rcp(new qp::Box(makeVector(map, problem.lower), makeVector(map, problem.upper)));
+  const auto b = makeVector(map, problem.b);
   const auto x = start.size() > 0 ? makeVector(map, start) : rcp(new Vector(map));
   const auto report =
-      qp::solveBoundProblem(a, *makeVector(map, problem.b), bounds, *x, tolerance, {}, norm, observer);
+      qp::solveBoundProblem({a, b, box, Teuchos::null, norm}, *x, {tolerance, accurateNorm(*b)}, {}, observer);
   return {gather(*x), report, a->applications};
 }
 

@@ -74,7 +74,7 @@ private:
 };
 
 /// Orthonormal rows, known on every rank.
-class DenseEquality final : public qp::EqualityConstraint {
+class DenseEquality final : public qp::ReplicatedEquality {
 public:
   DenseEquality(RCP<const Map> map, Eigen::MatrixXd rows) : map_(std::move(map)), rows_(std::move(rows)) {}
   int size() const override { return static_cast<int>(rows_.rows()); }

@@ -1,5 +1,6 @@
 #include "Problems.hpp"
 
+#include "epafi/qp/Box.hpp"
 #include "epafi/qp/Smalbe.hpp"
 
 #include <gtest/gtest.h>
@@ -27,14 +28,15 @@ Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameter
              double norm = 1.0, const Eigen::VectorXd& start = {}) {
   const auto map = test::linearMap(static_cast<int>(problem.b.size()));
   const RCP<const qp::EqualityConstraint> g = rcp(new test::DenseEquality(map, problem.g));
-  const qp::Bounds bounds(test::makeVector(map, problem.lower));
+  const RCP<const qp::ConvexSet> box = rcp(new qp::Box(test::makeVector(map, problem.lower)));
   Vector x(map);
   if (start.size() > 0)
     x.assign(*test::makeVector(map, start));
   const qp::SmalbeTolerances tolerances{tolerance, problem.b.norm(), tolerance, 1.0};
-  const auto report = qp::solveEqualityBoundProblem(rcp(new test::DenseOperator(map, problem.a)), g,
-                                                    *test::makeVector(map, problem.b), bounds, x, tolerances,
-                                                    parameters, {}, norm);
+  std::vector<double> multiplier;
+  const auto report = qp::solveEqualityBoundProblem({rcp(new test::DenseOperator(map, problem.a)),
+                                                     test::makeVector(map, problem.b), box, g, Teuchos::null, norm},
+                                                    x, multiplier, tolerances, parameters, {});
   return {test::gather(x), report};
 }
 

@@ -1,27 +1,27 @@
 #include "Problems.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/Bounds.hpp"
+#include "epafi/qp/Box.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
 using namespace epafi;
-using qp::Bounds;
+using qp::Box;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-TEST(BoundsTest, ProjectsOntoTheNearestFeasibleValue) {
-  const Bounds::Interval interval{-1, 2};
+TEST(BoxTest, ProjectsOntoTheNearestFeasibleValue) {
+  const Box::Interval interval{-1, 2};
 
   EXPECT_EQ(interval.project(-3), -1);
   EXPECT_EQ(interval.project(0.5), 0.5);
   EXPECT_EQ(interval.project(7), 2);
 }
 
-TEST(BoundsTest, SplitsTheGradientInFreeAndChoppedPart) {
-  const Bounds::Interval interval{0, 1};
+TEST(BoxTest, SplitsTheGradientInFreeAndChoppedPart) {
+  const Box::Interval interval{0, 1};
 
   EXPECT_EQ(interval.freeGradient(0.5, -3), -3);
   EXPECT_EQ(interval.choppedGradient(0.5, -3), 0);
@@ -32,8 +32,8 @@ TEST(BoundsTest, SplitsTheGradientInFreeAndChoppedPart) {
   EXPECT_EQ(interval.choppedGradient(1, -3), 0);
 }
 
-TEST(BoundsTest, FixedEntriesHaveNoProjectedGradient) {
-  const Bounds::Interval fixed{2, 2};
+TEST(BoxTest, FixedEntriesHaveNoProjectedGradient) {
+  const Box::Interval fixed{2, 2};
 
   for (const double g : {-1.0, 0.0, 1.0}) {
     EXPECT_EQ(fixed.freeGradient(2, g), 0);
@@ -41,8 +41,8 @@ TEST(BoundsTest, FixedEntriesHaveNoProjectedGradient) {
   }
 }
 
-TEST(BoundsTest, ReducedFreeGradientKeepsTheStepFeasible) {
-  const Bounds::Interval interval{0, 1};
+TEST(BoxTest, ReducedFreeGradientKeepsTheStepFeasible) {
+  const Box::Interval interval{0, 1};
   const double step = 0.5;
 
   for (const double x : {0.1, 0.5, 0.9})
@@ -53,29 +53,30 @@ TEST(BoundsTest, ReducedFreeGradientKeepsTheStepFeasible) {
     }
 }
 
-TEST(BoundsTest, LongestFeasibleStepEndsOnTheBound) {
-  const Bounds::Interval interval{-2, 3};
+TEST(BoxTest, LongestFeasibleStepEndsOnTheBound) {
+  const Box::Interval interval{-2, 3};
 
   EXPECT_DOUBLE_EQ(1 - interval.maxFeasibleStep(1, 4) * 4, -2);
   EXPECT_DOUBLE_EQ(1 - interval.maxFeasibleStep(1, -4) * -4, 3);
   EXPECT_EQ(interval.maxFeasibleStep(1, 0), infinity);
-  EXPECT_EQ((Bounds::Interval{-infinity, infinity}).maxFeasibleStep(1, 5), infinity);
+  EXPECT_EQ((Box::Interval{-infinity, infinity}).maxFeasibleStep(1, 5), infinity);
 }
 
-TEST(BoundsTest, CrossingBoundsAreRefusedOnAllRanks) {
+TEST(BoxTest, CrossingBoundsAreNamedOnAllRanks) {
   const auto map = test::linearMap(5);
   const auto lower = test::makeVector(map, [](int i) { return i == 3 ? 2.0 : 0.0; });
   const auto upper = test::makeVector(map, [](int) { return 1.0; });
 
-  EXPECT_THROW(Bounds(lower, upper).check(*map->getComm()), InputError);
-  EXPECT_NO_THROW(Bounds(upper, upper).check(*map->getComm()));
+  EXPECT_NE(Box(lower, upper).emptiness(*map).find("entry 3"), std::string::npos);
+  EXPECT_EQ(Box(upper, upper).emptiness(*map), "");
+  EXPECT_EQ(Box().emptiness(*map), "");
 }
 
-TEST(BoundsTest, NanBoundsAreRefused) {
+TEST(BoxTest, NanBoundsAreRefused) {
   const auto map = test::linearMap(5);
   const auto lower = test::makeVector(map, [](int i) { return i == 0 ? std::nan("") : 0.0; });
 
-  EXPECT_THROW(Bounds(lower).check(*map->getComm()), InputError);
+  EXPECT_THROW(std::ignore = Box(lower).emptiness(*map), InputError);
 }
 
 } // namespace

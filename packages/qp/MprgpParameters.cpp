@@ -1,0 +1,82 @@
+#include "epafi/qp/MprgpParameters.hpp"
+
+#include "epafi/base/Parameters.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace epafi::qp {
+namespace {
+
+constexpr std::array<std::pair<const char*, Expansion>, 4> expansions{{
+    {"projected CG", Expansion::projectedCg},
+    {"fixed step", Expansion::fixedStep},
+    {"optimal", Expansion::optimal},
+    {"Barzilai-Borwein", Expansion::barzilaiBorwein},
+}};
+
+constexpr std::array<std::pair<const char*, Release>, 2> releases{{
+    {"projected gradient", Release::projectedGradient},
+    {"chopped gradient", Release::choppedGradient},
+}};
+
+template <class Choices>
+std::vector<std::string> namesOf(const Choices& choices) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices)
+    names.emplace_back(choice.first);
+  return names;
+}
+
+/// The value that goes with a name; the list was validated, so there is one.
+template <class Choices>
+auto valueOf(const Choices& choices, const std::string& name) {
+  for (const auto& choice : choices)
+    if (name == choice.first)
+      return choice.second;
+  return choices.front().second;
+}
+
+} // namespace
+
+Teuchos::ParameterList MprgpParameters::validParameters() {
+  const MprgpParameters defaults;
+  Teuchos::ParameterList list("MPRGP");
+  addReal(list, "Proportioning Constant", defaults.proportioningConstant,
+          "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
+          "longer than Γ "
+          "times the free one.",
+          0.0, 1e6, true);
+  addChoice(list, "Expansion", expansions.front().first,
+            "Where a CG step that would leave the feasible set goes instead: the projection of the full CG step, or "
+            "from the boundary along the free gradient with a fixed, an optimal, or a Barzilai–Borwein step length. "
+            "One that raises the objective is repeated with the fixed step.",
+            namesOf(expansions));
+  addReal(list, "Expansion Step", defaults.expansionStep,
+          "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
+          true, true);
+  addChoice(list, "Release", releases.front().first,
+            "Direction that leaves a face which is no longer proportional: the projected gradient (preconditioned if "
+            "there is a preconditioner), or the chopped gradient alone.",
+            namesOf(releases));
+  addInteger(list, "Maximum Multiplications", defaults.maxMultiplications,
+             "Products with the operator at most, over all outer iterations together; limits CG too.", 1);
+  addReal(list, "Time Limit", defaults.timeLimit,
+          "Seconds after which the iteration stops with the iterate it has; 0 for no limit.", 0.0, 1e9);
+  return list;
+}
+
+MprgpParameters MprgpParameters::from(const Teuchos::ParameterList& list) {
+  MprgpParameters parameters;
+  parameters.proportioningConstant = list.get<double>("Proportioning Constant");
+  parameters.expansion = valueOf(expansions, list.get<std::string>("Expansion"));
+  parameters.expansionStep = list.get<double>("Expansion Step");
+  parameters.release = valueOf(releases, list.get<std::string>("Release"));
+  parameters.maxMultiplications = list.get<int>("Maximum Multiplications");
+  parameters.timeLimit = list.get<double>("Time Limit");
+  return parameters;
+}
+
+} // namespace epafi::qp

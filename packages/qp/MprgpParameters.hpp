@@ -1,0 +1,36 @@
+#pragma once
+
+/// What MPRGP can be told. No parameter has units: lengths of steps are multiples of 1/‖A‖.
+
+#include <Teuchos_ParameterList.hpp>
+
+namespace epafi::qp {
+
+/// Where a conjugate gradient step that would leave the set goes from its feasible half step x^½ = x − α_f p.
+enum class Expansion {
+  fixedStep,      ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
+  projectedCg,    ///< P(x − α_cg p) (MPPCG; Kružík, Horák, Čermák, Pospíšil, Pecha 2020)
+  optimal,        ///< P(x^½ − α φ), α the exact minimiser along φ; one more product
+  barzilaiBorwein ///< P(x^½ − α φ), α = sᵀs/sᵀy of the change of x and g since the last expansion
+};
+
+/// The direction that leaves a face which is no longer proportional.
+enum class Release {
+  choppedGradient,  ///< β alone (Dostál, Schöberl 2005)
+  projectedGradient ///< the projected gradient φ + β, preconditioned if there is a preconditioner
+};
+
+struct MprgpParameters {
+  double proportioningConstant = 1.0; ///< Γ > 0
+  Expansion expansion = Expansion::projectedCg;
+  double expansionStep = 1.9; ///< ᾱ‖A‖, in (0, 2)
+  Release release = Release::projectedGradient;
+  int maxMultiplications = 10000; ///< products with A at most
+  double timeLimit = 0;           ///< seconds; 0 for none
+
+  static Teuchos::ParameterList validParameters();
+  /// From a validated list.
+  static MprgpParameters from(const Teuchos::ParameterList& list);
+};
+
+} // namespace epafi::qp

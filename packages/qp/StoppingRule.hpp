@@ -1,0 +1,49 @@
+#pragma once
+
+/// When an iteration is over.
+
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/qp/SolveReport.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace epafi::qp {
+
+/// Says when an MPRGP run is over. May take part in the reduction that every step makes anyway: `numSums`
+/// further numbers are summed over the ranks at no extra message.
+class StoppingRule {
+public:
+  virtual ~StoppingRule() = default;
+  [[nodiscard]] virtual int numSums() const { return 0; }
+  /// Adds this rank's contributions for the iterate x. All ranks call it together.
+  virtual void addLocalSums(const Vector& /*x*/, std::span<AccurateSum> /*sums*/) {}
+  /// \param projectedGradient  ‖g^P‖
+  /// \param sums               the sums over all ranks
+  virtual bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) = 0;
+  /// Fills the rule's part of the record (relative quantities).
+  virtual void describe(StepRecord& record) const = 0;
+};
+
+/// value/reference, or the value itself where the reference vanishes.
+inline double relativeTo(double reference, double value) {
+  return reference > 0 ? value / reference : value;
+}
+
+/// Stops when ‖g^P‖ ≤ max(relative · reference, absolute). A reference of 0 (no load) asks for ‖g^P‖ ≤ absolute.
+class GradientRule final : public StoppingRule {
+public:
+  GradientRule(double relative, double reference, double absolute = 0)
+      : limit_(std::max(relative * reference, absolute)), reference_(reference) {}
+  bool isSatisfied(double projectedGradient, std::span<const AccurateSum> /*sums*/) override {
+    return projectedGradient <= limit_;
+  }
+  void describe(StepRecord& record) const override {
+    record.projectedGradient = relativeTo(reference_, record.projectedGradient);
+  }
+
+private:
+  double limit_, reference_;
+};
+
+} // namespace epafi::qp
