@@ -73,6 +73,29 @@ private:
   Eigen::MatrixXd matrix_;
 };
 
+/// A dense m × n matrix, known on every rank, as an operator with a transposed apply.
+class DenseRows final : public Operator {
+public:
+  DenseRows(RCP<const Map> domain, RCP<const Map> range, Eigen::MatrixXd matrix)
+      : domain_(std::move(domain)), range_(std::move(range)), matrix_(std::move(matrix)) {}
+  RCP<const Map> getDomainMap() const override { return domain_; }
+  RCP<const Map> getRangeMap() const override { return range_; }
+  bool hasTransposeApply() const override { return true; }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
+             double beta) const override {
+    const bool isTransposed = mode != Teuchos::NO_TRANS;
+    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
+      const Eigen::VectorXd in = gather(*x.getVector(column));
+      const Eigen::VectorXd image = isTransposed ? Eigen::VectorXd(matrix_.transpose() * in) : matrix_ * in;
+      y.getVectorNonConst(column)->update(alpha, *makeVector(isTransposed ? domain_ : range_, image), beta);
+    }
+  }
+
+private:
+  RCP<const Map> domain_, range_;
+  Eigen::MatrixXd matrix_;
+};
+
 /// Orthonormal rows, known on every rank.
 class DenseEquality final : public qp::ReplicatedEquality {
 public:
