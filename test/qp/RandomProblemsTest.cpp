@@ -28,13 +28,18 @@ unsigned stride() {
   return Tpetra::getDefaultComm()->getSize() == 1 ? 1 : 20;
 }
 
-/// The smallest tolerance that double precision allows, but no smaller one than 1e-9.
-double attainableTolerance(const DenseProgram& program, const OracleAnswer& oracle) {
-  const double load = program.linear.norm();
+/// What is asked for: 1e-9, or what double precision allows. The number of products grows with the condition number κ,
+/// from √κ in a face to κ in an iteration that changes faces without an end, as a degenerate one does; so beyond
+/// κ = 1e7 the tolerance grows with κ, from 1e6 on if degenerate.
+double attainableTolerance(const RandomProgram& random, const OracleAnswer& oracle) {
+  const DenseProgram& program = random.program;
+  const double load = program.linear.norm(), size = program.hessian.norm();
   const double length = static_cast<double>(oracle.x.norm());
-  const double reference = load > 0 ? load : program.hessian.norm() * length;
+  const double reference = load > 0 ? load : size * length;
   const double roundOff = program.roundOff(oracle.x.cast<double>(), oracle.multiplier.cast<double>());
-  return reference > 0 ? std::max(1e-9, 100 * roundOff / reference) : 1e-9;
+  const double condition = size > 0 ? size / random.smallestEigenvalue : 1;
+  const double asked = 1e-9 * std::max(1.0, condition / (random.isDegenerate ? 1e6 : 1e7));
+  return reference > 0 ? std::max(asked, 100 * roundOff / reference) : asked;
 }
 
 /// Three of four with the default parameters; a start of noise every third time.
@@ -63,7 +68,7 @@ void expectSolved(unsigned seed) {
   SCOPED_TRACE("seed " + std::to_string(seed) + ": " + random.kind);
   const OracleAnswer oracle =
       random.isSingular ? solveByProximalSteps(program) : solveByDualActiveSet(program);
-  const double tolerance = attainableTolerance(program, oracle);
+  const double tolerance = attainableTolerance(random, oracle);
 
   const QpAnswer answer =
       solveQp(program, callFor(seed, tolerance, program.size(), static_cast<double>(oracle.x.norm())));

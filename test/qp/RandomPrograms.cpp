@@ -181,6 +181,7 @@ RandomProgram randomSolvableProgram(unsigned seed) {
     drawDefinite(n, condition, result, draw);
   const Eigen::VectorXd x = Eigen::VectorXd::NullaryExpr(n, [&] { return draw.gridNormal(); });
   const auto activity = static_cast<Activity>(draw.integer(0, static_cast<int>(Activity::count) - 1));
+  result.isDegenerate = activity == Activity::degenerate;
   const Eigen::VectorXd multiplier = drawBounds(activity, x, program, draw);
   const std::string rows = drawRows(x, program, draw);
   if (isZero)

@@ -10,6 +10,7 @@ namespace epafi::test {
 
 struct RandomProgram {
   DenseProgram program;
+  bool isDegenerate = false;     ///< active bounds without a force
   bool isSingular = false;       ///< A is semidefinite: the solution need not be unique
   double smallestEigenvalue = 1; ///< of A, but for its kernel
   std::string kind;              ///< in words, for a message
