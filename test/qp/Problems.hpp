@@ -21,8 +21,8 @@
 namespace epafi::test {
 
 /// n entries, spread as evenly as Tpetra does; some ranks own none if n is small.
-inline RCP<const Map> linearMap(int n) {
-  return rcp(new Map(static_cast<std::size_t>(n), 0, Tpetra::getDefaultComm()));
+inline RCP<const Map> linearMap(int n, const RCP<const Comm>& comm = Tpetra::getDefaultComm()) {
+  return rcp(new Map(static_cast<std::size_t>(n), 0, comm));
 }
 
 /// Entry i is values(i).

@@ -9,8 +9,8 @@
 
 namespace epafi::test {
 
-qp::QuadraticProgram toQuadraticProgram(const DenseProgram& program) {
-  const RCP<const Map> map = linearMap(static_cast<int>(program.size()));
+qp::QuadraticProgram toQuadraticProgram(const DenseProgram& program, const RCP<const Comm>& comm) {
+  const RCP<const Map> map = linearMap(static_cast<int>(program.size()), comm);
   qp::QuadraticProgram problem;
   problem.hessian = rcp(new DenseOperator(map, program.hessian));
   problem.linearTerm = makeVector(map, program.linear);
@@ -20,7 +20,7 @@ qp::QuadraticProgram toQuadraticProgram(const DenseProgram& program) {
     problem.set = rcp(new qp::Box(hasLower ? makeVector(map, program.lower) : RCP<Vector>(),
                                   hasUpper ? makeVector(map, program.upper) : RCP<Vector>()));
   if (program.numRows() > 0) {
-    const RCP<const Map> range = linearMap(static_cast<int>(program.numRows()));
+    const RCP<const Map> range = linearMap(static_cast<int>(program.numRows()), comm);
     problem.constraintMatrix = rcp(new DenseRows(map, range, program.rows));
     problem.constraintValues = makeVector(range, program.values);
   }
@@ -28,7 +28,7 @@ qp::QuadraticProgram toQuadraticProgram(const DenseProgram& program) {
 }
 
 QpAnswer solveQp(const DenseProgram& program, const QpCall& call) {
-  qp::QuadraticProgram problem = toQuadraticProgram(program);
+  qp::QuadraticProgram problem = toQuadraticProgram(program, call.comm);
   const auto hessian = Teuchos::rcp_dynamic_cast<const DenseOperator>(problem.hessian);
   if (call.change)
     call.change(problem);

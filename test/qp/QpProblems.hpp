@@ -29,12 +29,14 @@ struct QpCall {
   Teuchos::ParameterList parameters = Teuchos::ParameterList();
   Eigen::VectorXd start = {}; ///< 0 if empty
   qp::Observer* observer = nullptr;
+  RCP<const Comm> comm = Tpetra::getDefaultComm();
   /// Last changes to the problem, such as a preconditioner or another operator.
   std::function<void(qp::QuadraticProgram&)> change = {};
 };
 
 /// The program as QpSolver takes it; bounds are left out where no entry has one, B where it has no rows.
-qp::QuadraticProgram toQuadraticProgram(const DenseProgram& program);
+qp::QuadraticProgram toQuadraticProgram(const DenseProgram& program,
+                                        const RCP<const Comm>& comm = Tpetra::getDefaultComm());
 
 QpAnswer solveQp(const DenseProgram& program, const QpCall& call = {});
 
