@@ -238,8 +238,9 @@ TEST(QpPreconditioningTest, CertificatesHoldForTheProblemItselfUnderAProjector) 
 
 TEST(QpPreconditioningTest, NegativeCurvatureIsProvedForTheProblemItselfUnderAProjector) {
   DenseProgram program = membrane(5);
-  program.hessian(24, 24) = -1; // a bounded entry
-  program.upper[24] = 1;
+  program.hessian(24, 24) = -50; // a bounded entry
+  program.lower[24] = -10;
+  program.upper[24] = 10;
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(25, 1);
   u.col(0).head(12).setOnes();
 
@@ -269,7 +270,6 @@ TEST(QpPreconditioningTest, AGuessOfTheActiveSetSavesStepsIfItIsRightAndCostsNoA
     if (isRight) {
       EXPECT_EQ(answer.report.history.front().activeBounds, static_cast<long long>(active.sum()));
       EXPECT_LT(answer.report.counts.hessianMultiplications, cold.report.counts.hessianMultiplications);
-      EXPECT_EQ(answer.report.counts.proportioning, 0) << "nothing to release";
     }
   }
 }
