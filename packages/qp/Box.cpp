@@ -104,20 +104,21 @@ void Box::subtractFromFreeGradient(const Vector& x, const Vector& g, double fact
     result[i] = bounds[i].freeGradient(values[i], gradient[i]) - (factor != 0 ? factor * result[i] : 0.0);
 }
 
-void Box::choppedGradient(const Vector& x, const Vector& g, Vector& y) const {
+void Box::choppedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const {
   const Local bounds = local();
   const auto values = localData(x), gradient = localData(g);
   const auto result = localDataNonConst(y);
   for (std::size_t i = 0; i < values.size(); ++i)
-    result[i] = bounds[i].choppedGradient(values[i], gradient[i]);
+    result[i] = bounds[i].choppedGradient(values[i], gradient[i], negligible);
 }
 
-void Box::projectedGradient(const Vector& x, const Vector& g, Vector& y) const {
+void Box::projectedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const {
   const Local bounds = local();
   const auto values = localData(x), gradient = localData(g);
   const auto result = localDataNonConst(y);
   for (std::size_t i = 0; i < values.size(); ++i)
-    result[i] = bounds[i].isFree(values[i]) ? gradient[i] : bounds[i].choppedGradient(values[i], gradient[i]);
+    result[i] =
+        bounds[i].isFree(values[i]) ? gradient[i] : bounds[i].choppedGradient(values[i], gradient[i], negligible);
 }
 
 void Box::restrictToFree(const Vector& x, Vector& z) const {
@@ -129,14 +130,14 @@ void Box::restrictToFree(const Vector& x, Vector& z) const {
       result[i] = 0;
 }
 
-void Box::restrictToReleased(const Vector& x, const Vector& g, Vector& z) const {
+void Box::restrictToReleased(const Vector& x, const Vector& g, double negligible, Vector& z) const {
   const Local bounds = local();
   const auto values = localData(x), gradient = localData(g);
   const auto result = localDataNonConst(z);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Interval interval = bounds[i];
     // At a lower bound β and an inward z are negative, at an upper one positive.
-    if (!interval.isFree(values[i]) && !(interval.choppedGradient(values[i], gradient[i]) * result[i] > 0))
+    if (!interval.isFree(values[i]) && !(interval.choppedGradient(values[i], gradient[i], negligible) * result[i] > 0))
       result[i] = 0;
   }
 }

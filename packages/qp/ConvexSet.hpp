@@ -57,14 +57,14 @@ public:
                                              double step) const = 0;
   /// y = φ − factor · y; with factor 0 the old y is not read.
   virtual void subtractFromFreeGradient(const Vector& x, const Vector& g, double factor, Vector& y) const = 0;
-  /// y = β.
-  virtual void choppedGradient(const Vector& x, const Vector& g, Vector& y) const = 0;
-  /// y = g^P.
-  virtual void projectedGradient(const Vector& x, const Vector& g, Vector& y) const = 0;
+  /// y = β, without what is no larger than `negligible`: a multiplier that is zero but for round-off releases nothing.
+  virtual void choppedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const = 0;
+  /// y = g^P, likewise.
+  virtual void projectedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const = 0;
   /// z becomes 0 on the active set.
   virtual void restrictToFree(const Vector& x, Vector& z) const = 0;
-  /// As restrictToFree, but z stays where β ≠ 0 and x − αz enters the set for small α > 0.
-  virtual void restrictToReleased(const Vector& x, const Vector& g, Vector& z) const = 0;
+  /// As restrictToFree, but z stays where β is not negligible and x − αz enters the set for small α > 0.
+  virtual void restrictToReleased(const Vector& x, const Vector& g, double negligible, Vector& z) const = 0;
   /// y_i = 1 where x is free, else 0.
   virtual void freeIndicator(const Vector& x, Vector& y) const = 0;
   /// y_i = a lower bound of how far x_i may move either way with the set kept, at most `atMost`; 0 on the active set.

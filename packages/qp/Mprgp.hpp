@@ -72,9 +72,10 @@ public:
   /// Collective.
   void shiftLinearTerm(const Vector& shift, double objectiveShift);
 
-  /// The operator has changed (a new penalty): b and the constant of the objective are given anew, g and f recomputed
-  /// (one product). \param operatorNorm  of the changed operator. Collective.
-  void restart(const Vector& b, double constant, double operatorNorm);
+  /// The operator has changed (a new penalty): g and f are given what they grow by at x, b and the constant of the
+  /// objective are given anew. No product. \param operatorNorm  of the changed operator. Collective.
+  void changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b, double constant,
+                     double operatorNorm);
 
   [[nodiscard]] const Vector& solution() const { return x_; }
   /// (Ax − b) · gradientScale(), as updated by the steps.

@@ -37,12 +37,14 @@ void Mprgp::moveTo(const Vector& x) {
   refreshGradient();
 }
 
-void Mprgp::restart(const Vector& b, double constant, double operatorNorm) {
+void Mprgp::changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b, double constant,
+                          double operatorNorm) {
+  g_.update(scale_, gradientChange, 1.0);
+  objective_ += scale_ * objectiveChange;
   b_.assign(b);
   linearNorm_ = scale_ * accurateNorm(b_);
   constant_ = scale_ * constant;
-  norm_ = operatorNorm * scale_;
-  refreshGradient();
+  norm_ = std::max(norm_, scale_ * operatorNorm);
 }
 
 void Mprgp::refreshGradient() {
@@ -75,26 +77,27 @@ void Mprgp::precondition() {
 /// set lets it move, or β alone.
 std::optional<Status> Mprgp::setDirection(StepKind intent) {
   const bool isInFace = intent == StepKind::conjugateGradient;
+  const double negligible = 1e-12 * projectedGradient_;
   if (!isInFace && parameters_.release == Release::choppedGradient) {
-    set_->choppedGradient(x_, g_, p_);
+    set_->choppedGradient(x_, g_, negligible, p_);
     return std::nullopt;
   }
   if (preconditioner_.is_null()) {
     if (isInFace)
       set_->subtractFromFreeGradient(x_, g_, conjugate_ ? directionTimesImage_ / curvature_ : 0.0, p_);
     else
-      set_->projectedGradient(x_, g_, p_);
+      set_->projectedGradient(x_, g_, negligible, p_);
     return std::nullopt;
   }
   if (isInFace)
     set_->subtractFromFreeGradient(x_, g_, 0.0, *residual_);
   else
-    set_->projectedGradient(x_, g_, *residual_);
+    set_->projectedGradient(x_, g_, negligible, *residual_);
   precondition();
   if (isInFace)
     set_->restrictToFree(x_, *z_);
   else
-    set_->restrictToReleased(x_, g_, *z_);
+    set_->restrictToReleased(x_, g_, negligible, *z_);
   const auto r = localData(*residual_), z = localData(*z_), ap = localData(ap_);
   AccurateSum rz, zap;
   for (std::size_t i = 0; i < z.size(); ++i) {

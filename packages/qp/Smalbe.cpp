@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -65,7 +66,14 @@ public:
   [[nodiscard]] double penalty() const { return penalty_; }
 
 private:
+  /// Where an inner loop ended.
+  struct Progress {
+    double lagrangian = 0;
+    double residual = std::numeric_limits<double>::infinity();
+  };
   void startMultiplier();
+  bool toleratesRoundOff(const Progress& previous);
+  void adapt(const Progress& previous, const Progress& now);
   void growPenalty();
   void updateMultiplier();
   bool restore();
@@ -82,7 +90,7 @@ private:
   AdaptiveRule rule_;
   Mprgp inner_;
   Vector work_;
-  int restorations_ = 0;
+  int restorations_ = 0, idle_ = 0, slow_ = 0;
 };
 
 OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
@@ -127,28 +135,46 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
   if (inner_.solution().normInf() > 0)
     startMultiplier();
 
-  double previousLagrangian = 0;
+  Progress previous;
   while (inner_.counts().outer < parameters_.maxOuterIterations) {
     const Status status = inner_.run(rule_, observer); // ‖g^P‖ ≤ min(M‖Bx − c‖, η)
-    if (status != Status::converged)
+    if (status != Status::converged && !(status == Status::stagnated && toleratesRoundOff(previous)))
       return status;
     if (rule_.isFinal() && inner_.gradientIsFresh())
       return Status::converged;
-    const double residual = rule_.residualNorm();
-    const double lagrangian = inner_.objective();
-    const bool grewTooLittle =
-        inner_.counts().outer > 0 && lagrangian < previousLagrangian + 0.5 * penalty_ * residual * residual;
-    previousLagrangian = lagrangian;
+    const Progress now{inner_.objective(), rule_.residualNorm()};
     updateMultiplier(); // μ ← μ + ρ(Bx − c), or further
-    if (grewTooLittle && parameters_.update == SmalbeParameters::Update::balance)
-      rule_.reduceBalance(parameters_.balanceReduction); // M ← βM
-    else if (grewTooLittle)
-      growPenalty(); // ρ ← βρ
+    adapt(previous, now);
+    previous = now;
     ++inner_.counts().outer;
-    if (rule_.isFinal() && !restore())
+    if ((rule_.isFinal() || status == Status::stagnated) && !restore())
       return Status::stagnated;
   }
   return Status::maxIterations;
+}
+
+/// What MPRGP cannot improve any further is good enough for the next multiplier, as long as these make progress.
+bool OuterIteration::toleratesRoundOff(const Progress& previous) {
+  constexpr int maxIdle = 3;
+  idle_ = rule_.residualNorm() > 0.9 * previous.residual ? idle_ + 1 : 0;
+  return idle_ <= maxIdle;
+}
+
+/// M ← βM, or ρ ← βρ, when L grew by less than ρ/2‖Bx − c‖²; and, with both at hand, ρ ← βρ as well when ‖Bx − c‖ has
+/// twice in a row not been halved.
+void OuterIteration::adapt(const Progress& previous, const Progress& now) {
+  const bool isFirst = inner_.counts().outer == 0;
+  const double roundOff = 1e-14 * std::abs(now.lagrangian);
+  const bool grewTooLittle =
+      !isFirst && now.lagrangian < previous.lagrangian + 0.5 * penalty_ * now.residual * now.residual - roundOff;
+  slow_ = !isFirst && now.residual > 0.5 * previous.residual ? slow_ + 1 : 0;
+  if (grewTooLittle && parameters_.update != SmalbeParameters::Update::penalty)
+    rule_.reduceBalance(parameters_.balanceReduction);
+  const bool isSlow = parameters_.update == SmalbeParameters::Update::both && slow_ >= 2;
+  if (isSlow || (grewTooLittle && parameters_.update == SmalbeParameters::Update::penalty)) {
+    growPenalty();
+    slow_ = 0;
+  }
 }
 
 /// Gives a warm start the multiplier that belongs to it; without, the first outer iterations would lead away from it.
@@ -166,11 +192,16 @@ void OuterIteration::startMultiplier() {
     multiplier_[i] += change[i];
 }
 
+/// ρ ← βρ at the present x and μ.
 void OuterIteration::growPenalty() {
-  penalty_ *= parameters_.penaltyGrowth;
+  const double growth = (parameters_.penaltyGrowth - 1) * penalty_;
+  const double residual = rule_.residualNorm();
+  Vector change(work_.getMap()); // of the gradient: growth · Bᵀ(Bx − c)
+  equality_.addTransposedProduct(rule_.residual(), growth, change);
+  penalty_ += growth;
   hessian_->setPenalty(penalty_);
   linearTermOfLagrangian(work_);
-  inner_.restart(work_, constantOfLagrangian(), normOfLagrangian());
+  inner_.changeHessian(change, 0.5 * growth * residual * residual, work_, constantOfLagrangian(), normOfLagrangian());
 }
 
 /// μ may go further than the paper's step ρ(Bx − c) where the inner solution x does not notice: while every entry that
@@ -207,15 +238,15 @@ bool OuterIteration::restore() {
 Teuchos::ParameterList SmalbeParameters::validParameters() {
   const SmalbeParameters defaults;
   Teuchos::ParameterList list("SMALBE");
-  addChoice(list, "Update", "balance",
+  addChoice(list, "Update", "both",
             "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M (SMALBE-M) or the "
-            "penalty ρ (SMALBE-ρ).",
-            {"balance", "penalty"});
+            "penalty ρ (SMALBE-ρ). 'both' is 'balance', and ρ grows where ‖Bx − c‖ falls slowly.",
+            {"both", "balance", "penalty"});
   addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0, 1e12, true);
   addReal(list, "Balance", defaults.balance,
           "M‖B‖ at the start as a multiple of ‖A‖: inner loops stop at ‖gᴾ‖ ≤ M‖Bx − c‖.", 0.0, 1e12, true);
-  addReal(list, "Balance Reduction", defaults.balanceReduction, "Factor on M, with Update 'balance'.", 0.0, 1.0, true, true);
-  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty'.", 1.0, 1e6, true);
+  addReal(list, "Balance Reduction", defaults.balanceReduction, "Factor on M, with Update 'balance' or 'both'.", 0.0, 1.0, true, true);
+  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty' or 'both'.", 1.0, 1e6, true);
   addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
   addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
              "Updates of the multiplier of the equality constraints at most.", 1);
@@ -224,7 +255,10 @@ Teuchos::ParameterList SmalbeParameters::validParameters() {
 
 SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   SmalbeParameters parameters;
-  parameters.update = list.get<std::string>("Update") == "penalty" ? Update::penalty : Update::balance;
+  const auto& update = list.get<std::string>("Update");
+  parameters.update = update == "both"      ? Update::both
+                      : update == "penalty" ? Update::penalty
+                                            : Update::balance;
   parameters.penalty = list.get<double>("Penalty");
   parameters.balance = list.get<double>("Balance");
   parameters.balanceReduction = list.get<double>("Balance Reduction");

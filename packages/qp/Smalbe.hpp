@@ -21,9 +21,10 @@
 namespace epafi::qp {
 
 struct SmalbeParameters {
-  /// What changes when the augmented Lagrangian grew too little.
-  enum class Update { balance, penalty };
-  Update update = Update::balance;
+  /// What changes when the augmented Lagrangian grew too little. `both`: the balance, and the penalty where the
+  /// residual of the constraint falls slowly.
+  enum class Update { both, balance, penalty };
+  Update update = Update::both;
   double penalty = 1.0;          ///< ρ‖B‖² as a multiple of ‖A‖
   double balance = 0.3;          ///< M‖B‖ at the start, as a multiple of ‖A‖
   double balanceReduction = 0.5; ///< factor on M (SMALBE-M)
