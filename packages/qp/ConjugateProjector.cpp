@@ -1,6 +1,7 @@
 #include "epafi/qp/ConjugateProjector.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <Teuchos_LAPACK.hpp>
@@ -18,10 +19,10 @@ public:
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return projector_.hessian()->getRangeMap(); }
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha, double beta) const override {
-    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-      projector_.apply(*x.getVector(column), product_);
-      y.getVectorNonConst(column)->update(alpha, product_, beta);
-    }
+    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+      projector_.apply(in, product_);
+      out.update(alpha, product_, beta);
+    });
   }
 
 private:

@@ -1,6 +1,7 @@
 #include "epafi/qp/MatrixEquality.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/qp/LocalData.hpp"
 
@@ -127,10 +128,10 @@ public:
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return b_->getRangeMap(); }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return b_->getRangeMap(); }
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha, double beta) const override {
-    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-      b_->apply(*x.getVector(column), transposed_, Teuchos::TRANS);
-      b_->apply(transposed_, *y.getVectorNonConst(column), Teuchos::NO_TRANS, alpha, beta);
-    }
+    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+      b_->apply(in, transposed_, Teuchos::TRANS);
+      b_->apply(transposed_, out, Teuchos::NO_TRANS, alpha, beta);
+    });
   }
 
 private:

@@ -2,9 +2,7 @@
 
 #include "epafi/qp/LocalData.hpp"
 #include "epafi/qp/Mprgp.hpp"
-
-#include <Teuchos_Time.hpp>
-#include <Teuchos_TimeMonitor.hpp>
+#include "epafi/qp/Timing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,14 +59,14 @@ void Mprgp::shiftLinearTerm(const Vector& shift, double objectiveShift) {
 }
 
 void Mprgp::applyHessian(const Vector& x, Vector& ax) {
-  const Teuchos::TimeMonitor timing(*hessianTimer_);
+  const Timing timing(*hessianTimer_);
   a_->apply(x, ax);
   ++counts_.hessianMultiplications;
 }
 
 /// z = M r for r = `residual_`.
 void Mprgp::precondition() {
-  const Teuchos::TimeMonitor timing(*preconditionerTimer_);
+  const Timing timing(*preconditionerTimer_);
   preconditioner_->apply(*residual_, *z_);
   ++counts_.preconditionerApplications;
 }
@@ -113,7 +111,10 @@ std::optional<Status> Mprgp::setDirection(StepKind intent) {
   if (!(stepReduction_.sum(0) > 0)) // rᵀMr ≤ 0: no descent, M is not positive definite
     return Status::indefinitePreconditioner;
   const bool conjugates = isInFace && conjugate_;
-  p_.update(1.0, *z_, conjugates ? -scale_ * stepReduction_.sum(1) / curvature_ : 0.0);
+  const double conjugation = conjugates ? scale_ * stepReduction_.sum(1) / curvature_ : 0.0;
+  const auto p = localDataNonConst(p_);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p[i] = z[i] - (conjugates ? conjugation * p[i] : 0.0);
   return std::nullopt;
 }
 
@@ -148,7 +149,7 @@ void Mprgp::correctNorm(double rayleighQuotient) {
 /// x −= αp, g −= αAp, f follows: f(x − αp) = f − α gᵀp + ½α² pᵀAp. Streams x, g, p, Ap, l, u.
 void Mprgp::move(double length, const StepSizes& sizes) {
   set_->move(length, p_, x_); // feasible already but for the last digit
-  g_.update(-length * scale_, ap_, 1.0);
+  addScaled(-length * scale_, ap_, g_);
   objective_ += length * (0.5 * length * sizes.curvature - sizes.slope);
   gradientIsFresh_ = false;
 }
@@ -227,7 +228,10 @@ std::optional<Status> Mprgp::safeTrial(Trial trial) {
 /// The point P(x − length · direction) goes into p, its gradient into g. The direction may be p itself. Ap, which holds
 /// φ(x^½), is left alone.
 Mprgp::Trial Mprgp::tryAlong(const Vector& direction, double length) {
-  p_.update(1.0, x_, -length, direction, 0.0);
+  const auto start = localData(x_), along = localData(direction);
+  const auto trialPoint = localDataNonConst(p_);
+  for (std::size_t i = 0; i < trialPoint.size(); ++i)
+    trialPoint[i] = start[i] - length * along[i];
   set_->project(p_);
   applyHessian(p_, g_);
   const auto trial = localData(p_), half = localData(x_), b = localData(b_), free = localData(ap_);
