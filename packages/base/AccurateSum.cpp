@@ -86,8 +86,8 @@ static_assert(sizeof(AccurateSum) == 2 * sizeof(double));
 
 void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums) {
   if (comm.getSize() > 1 && !sums.empty())
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), mpiObjects().sum, mpiObjects().add,
-                  rawCommunicator(comm));
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), mpiObjects().sum,
+                  mpiObjects().add, rawCommunicator(comm));
 }
 
 /// A message of `length` sums is one element of this type: MPI must not cut off the minimum.

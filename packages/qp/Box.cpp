@@ -31,20 +31,23 @@ std::string Box::emptiness(const Map& map) const {
   collectively(*map.getComm(), [&] {
     for (const RCP<const Vector>& bound : {lower_, upper_})
       if (!bound.is_null() && !bound->getMap()->isCompatible(map))
-        throw InputError("the bounds are not on the map of the unknowns; give them as vectors on the domain map of the "
-                         "Hessian");
+        throw InputError(
+            "the bounds are not on the map of the unknowns; give them as vectors on the domain map of the "
+            "Hessian");
   });
   collectively(*map.getComm(), [&] {
     const Local bounds = local();
-    const std::size_t size = lower_.is_null() && upper_.is_null() ? 0 : (lower_.is_null() ? upper_ : lower_)->getLocalLength();
+    const std::size_t size =
+        lower_.is_null() && upper_.is_null() ? 0 : (lower_.is_null() ? upper_ : lower_)->getLocalLength();
     for (std::size_t i = 0; i < size; ++i) {
       const Interval interval = bounds[i];
       std::ostringstream where;
-      where << "entry " << map.getGlobalElement(static_cast<LocalOrdinal>(i)) << ": lower " << interval.lower << ", upper "
-            << interval.upper;
+      where << "entry " << map.getGlobalElement(static_cast<LocalOrdinal>(i)) << ": lower " << interval.lower
+            << ", upper " << interval.upper;
       if (std::isnan(interval.lower) || std::isnan(interval.upper))
         throw InputError("a bound is not a number, " + where.str() + "; use infinity for 'no bound'");
-      if (found.empty() && (interval.lower > interval.upper || interval.lower == infinity || interval.upper == -infinity))
+      if (found.empty() &&
+          (interval.lower > interval.upper || interval.lower == infinity || interval.upper == -infinity))
         found = "the bounds leave no value for " + where.str();
     }
   });
@@ -117,8 +120,8 @@ void Box::projectedGradient(const Vector& x, const Vector& g, double negligible,
   const auto values = localData(x), gradient = localData(g);
   const auto result = localDataNonConst(y);
   for (std::size_t i = 0; i < values.size(); ++i)
-    result[i] =
-        bounds[i].isFree(values[i]) ? gradient[i] : bounds[i].choppedGradient(values[i], gradient[i], negligible);
+    result[i] = bounds[i].isFree(values[i]) ? gradient[i]
+                                            : bounds[i].choppedGradient(values[i], gradient[i], negligible);
 }
 
 void Box::restrictToFree(const Vector& x, Vector& z) const {
@@ -137,7 +140,8 @@ void Box::restrictToReleased(const Vector& x, const Vector& g, double negligible
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Interval interval = bounds[i];
     // At a lower bound β and an inward z are negative, at an upper one positive.
-    if (!interval.isFree(values[i]) && !(interval.choppedGradient(values[i], gradient[i], negligible) * result[i] > 0))
+    if (!interval.isFree(values[i]) &&
+        !(interval.choppedGradient(values[i], gradient[i], negligible) * result[i] > 0))
       result[i] = 0;
   }
 }
@@ -166,8 +170,9 @@ void Box::activate(const Vector& active, Vector& x) const {
     if (chosen[i] == 0)
       continue;
     const Interval interval = bounds[i];
-    const double nearer =
-        std::abs(values[i] - interval.lower) <= std::abs(values[i] - interval.upper) ? interval.lower : interval.upper;
+    const double nearer = std::abs(values[i] - interval.lower) <= std::abs(values[i] - interval.upper)
+                              ? interval.lower
+                              : interval.upper;
     if (std::isfinite(nearer))
       values[i] = nearer;
   }

@@ -78,7 +78,8 @@ public:
   void distanceToBoundary(const Vector& x, double atMost, Vector& y) const override;
   void activate(const Vector& active, Vector& x) const override;
   [[nodiscard]] double complementarity(const Vector& x, const Vector& g, double scale) const override;
-  [[nodiscard]] double longestMultiplierStep(const Vector& x, const Vector& g, const Vector& s) const override;
+  [[nodiscard]] double longestMultiplierStep(const Vector& x, const Vector& g,
+                                             const Vector& s) const override;
   [[nodiscard]] bool recedesAlong(const Vector& d) const override;
 
 private:

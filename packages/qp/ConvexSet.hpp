@@ -76,7 +76,8 @@ public:
   [[nodiscard]] virtual double complementarity(const Vector& x, const Vector& g, double scale) const = 0;
   /// Largest α with which the fixed x stays the minimiser over Ω when its gradient moves along s, from g to g + αs:
   /// until the first multiplier changes its sign. 0 if s touches a free entry.
-  [[nodiscard]] virtual double longestMultiplierStep(const Vector& x, const Vector& g, const Vector& s) const = 0;
+  [[nodiscard]] virtual double longestMultiplierStep(const Vector& x, const Vector& g,
+                                                     const Vector& s) const = 0;
   /// Whether x − αd stays in the set for every α > 0, at every feasible x.
   [[nodiscard]] virtual bool recedesAlong(const Vector& d) const = 0;
 };

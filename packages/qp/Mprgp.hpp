@@ -47,8 +47,8 @@ public:
   /// \param set             Ω; kept
   /// \param operatorNorm    over-estimate of ‖A‖, > 0 unless A = 0
   /// \param preconditioner  M ≈ A⁻¹ on the unknowns' map, restricted to the free set where it is used; null for none
-  Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters, double operatorNorm,
-        RCP<const Operator> preconditioner = Teuchos::null);
+  Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters,
+        double operatorNorm, RCP<const Operator> preconditioner = Teuchos::null);
 
   /// x becomes the projection of x0, g = Ax − b (no product if that is 0), f = ½xᵀAx − bᵀx + constant. Collective.
   void start(const Vector& b, const Vector& x0, double constant = 0);

@@ -35,8 +35,8 @@ void Mprgp::moveTo(const Vector& x) {
   refreshGradient();
 }
 
-void Mprgp::changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b, double constant,
-                          double operatorNorm) {
+void Mprgp::changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b,
+                          double constant, double operatorNorm) {
   g_.update(scale_, gradientChange, 1.0);
   objective_ += scale_ * objectiveChange;
   b_.assign(b);
@@ -222,7 +222,8 @@ std::optional<Status> Mprgp::safeTrial(Trial trial) {
     trial = tryAlong(ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0));
   }
   refreshGradient();
-  return counts_.hessianMultiplications >= parameters_.maxMultiplications ? Status::maxIterations : Status::stagnated;
+  return counts_.hessianMultiplications >= parameters_.maxMultiplications ? Status::maxIterations
+                                                                          : Status::stagnated;
 }
 
 /// The point P(x − length · direction) goes into p, its gradient into g. The direction may be p itself. Ap, which holds
@@ -253,7 +254,8 @@ Mprgp::Trial Mprgp::tryAlong(const Vector& direction, double length) {
   sums[3] = gradient;
   stepReduction_.reduce();
   const double xax = scale_ * stepReduction_.sum(0), xb = scale_ * stepReduction_.sum(1);
-  return {0.5 * xax - xb + constant_, std::abs(xax) + std::abs(xb), stepReduction_.sum(2), stepReduction_.sum(3)};
+  return {0.5 * xax - xb + constant_, std::abs(xax) + std::abs(xb), stepReduction_.sum(2),
+          stepReduction_.sum(3)};
 }
 
 void Mprgp::accept(const Trial& trial) {
@@ -263,8 +265,7 @@ void Mprgp::accept(const Trial& trial) {
 
 /// All that the loop asks of the split gradient, in one pass and one message. Streams x, g, Ap, l, u.
 void Mprgp::measure(StoppingRule& rule) {
-  const GradientSums mine =
-      set_->measure(x_, g_, ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0));
+  const GradientSums mine = set_->measure(x_, g_, ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0));
   measureReduction_.clear();
   const std::span<AccurateSum> sums = measureReduction_.sums();
   sums[0] = mine.freeSquared;

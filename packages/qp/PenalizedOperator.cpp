@@ -9,8 +9,8 @@
 
 namespace epafi::qp {
 
-PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const Map> map, RCP<const EqualityConstraint> b,
-                                     double penalty)
+PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const Map> map,
+                                     RCP<const EqualityConstraint> b, double penalty)
     : a_(std::move(a)), map_(std::move(map)), b_(std::move(b)), penalty_(penalty), bx_(b_->numEntries()) {}
 
 void PenalizedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,

@@ -20,12 +20,15 @@ namespace {
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
 class AdaptiveRule final : public StoppingRule {
 public:
-  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance, double forcing)
+  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance,
+               double forcing)
       : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
         residual_(equality_->numEntries()) {}
 
   [[nodiscard]] int numSums() const override { return equality_->numSums(); }
-  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override { equality_->addLocalSums(x, sums); }
+  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override {
+    equality_->addLocalSums(x, sums);
+  }
 
   bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override {
     residualNorm_ = equality_->finishResidual(sums, residual_);
@@ -56,8 +59,9 @@ private:
 /// The outer iteration with its state μ, ρ, M.
 class OuterIteration {
 public:
-  OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
-                 const SmalbeParameters& parameters, const MprgpParameters& inner);
+  OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
+                 const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
+                 const MprgpParameters& inner);
   /// The loop of the paper.
   Status run(const Vector& start, Observer* observer);
 
@@ -100,7 +104,8 @@ OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<
       penalty_(parameters.penalty * (problem.operatorNorm > 0 ? problem.operatorNorm : 1.0) /
                (equality_.norm() * equality_.norm())),
       multiplier_(multiplier),
-      hessian_(rcp(new PenalizedOperator(problem.hessian, problem.hessian->getDomainMap(), problem.equality, penalty_))),
+      hessian_(rcp(new PenalizedOperator(problem.hessian, problem.hessian->getDomainMap(), problem.equality,
+                                         penalty_))),
       rule_(problem.equality, tolerances, parameters.balance * problem.operatorNorm / equality_.norm(),
             parameters.forcing * tolerances.gradientReference),
       inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
@@ -116,7 +121,8 @@ double OuterIteration::normOfLagrangian() const {
 /// −μᵀc + ρ/2‖c‖².
 double OuterIteration::constantOfLagrangian() const {
   const auto c = equality_.rightHandSide();
-  return equality_.isHomogeneous() ? 0.0 : 0.5 * penalty_ * equality_.dot(c, c) - equality_.dot(multiplier_, c);
+  return equality_.isHomogeneous() ? 0.0
+                                   : 0.5 * penalty_ * equality_.dot(c, c) - equality_.dot(multiplier_, c);
 }
 
 /// b − Bᵀμ + ρBᵀc.
@@ -166,7 +172,8 @@ void OuterIteration::adapt(const Progress& previous, const Progress& now) {
   const bool isFirst = inner_.counts().outer == 0;
   const double roundOff = 1e-14 * std::abs(now.lagrangian);
   const bool grewTooLittle =
-      !isFirst && now.lagrangian < previous.lagrangian + 0.5 * penalty_ * now.residual * now.residual - roundOff;
+      !isFirst &&
+      now.lagrangian < previous.lagrangian + 0.5 * penalty_ * now.residual * now.residual - roundOff;
   slow_ = !isFirst && now.residual > 0.5 * previous.residual ? slow_ + 1 : 0;
   if (grewTooLittle && parameters_.update != SmalbeParameters::Update::penalty)
     rule_.reduceBalance(parameters_.balanceReduction);
@@ -183,7 +190,8 @@ void OuterIteration::startMultiplier() {
     return;
   Vector gradient(inner_.scaledGradient(), Teuchos::Copy);
   gradient.scale(1.0 / inner_.gradientScale());
-  const std::vector<double> change = estimateMultiplier(equality_, *problem_.set, inner_.solution(), gradient);
+  const std::vector<double> change =
+      estimateMultiplier(equality_, *problem_.set, inner_.solution(), gradient);
   work_.putScalar(0.0);
   equality_.addTransposedProduct(change, 1.0, work_);
   const double constant = equality_.isHomogeneous() ? 0.0 : equality_.dot(change, equality_.rightHandSide());
@@ -201,7 +209,8 @@ void OuterIteration::growPenalty() {
   penalty_ += growth;
   hessian_->setPenalty(penalty_);
   linearTermOfLagrangian(work_);
-  inner_.changeHessian(change, 0.5 * growth * residual * residual, work_, constantOfLagrangian(), normOfLagrangian());
+  inner_.changeHessian(change, 0.5 * growth * residual * residual, work_, constantOfLagrangian(),
+                       normOfLagrangian());
 }
 
 /// μ may go further than the paper's step ρ(Bx − c) where the inner solution x does not notice: while every entry that
@@ -210,8 +219,9 @@ void OuterIteration::growPenalty() {
 void OuterIteration::updateMultiplier() {
   work_.putScalar(0.0);
   equality_.addTransposedProduct(rule_.residual(), penalty_ * inner_.gradientScale(), work_);
-  const double longest = minOverRanks(
-      *work_.getMap()->getComm(), problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
+  const double longest =
+      minOverRanks(*work_.getMap()->getComm(),
+                   problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
   const double step = std::isfinite(longest) ? std::max(1.0, longest) : 1.0;
   work_.scale(step / inner_.gradientScale());
   const double residual = rule_.residualNorm();
@@ -239,14 +249,18 @@ Teuchos::ParameterList SmalbeParameters::validParameters() {
   const SmalbeParameters defaults;
   Teuchos::ParameterList list("SMALBE");
   addChoice(list, "Update", "both",
-            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M (SMALBE-M) or the "
+            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M "
+            "(SMALBE-M) or the "
             "penalty ρ (SMALBE-ρ). 'both' is 'balance', and ρ grows where ‖Bx − c‖ falls slowly.",
             {"both", "balance", "penalty"});
-  addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0, 1e12, true);
+  addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0,
+          1e12, true);
   addReal(list, "Balance", defaults.balance,
           "M‖B‖ at the start as a multiple of ‖A‖: inner loops stop at ‖gᴾ‖ ≤ M‖Bx − c‖.", 0.0, 1e12, true);
-  addReal(list, "Balance Reduction", defaults.balanceReduction, "Factor on M, with Update 'balance' or 'both'.", 0.0, 1.0, true, true);
-  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty' or 'both'.", 1.0, 1e6, true);
+  addReal(list, "Balance Reduction", defaults.balanceReduction,
+          "Factor on M, with Update 'balance' or 'both'.", 0.0, 1.0, true, true);
+  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty' or 'both'.",
+          1.0, 1e6, true);
   addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
   addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
              "Updates of the multiplier of the equality constraints at most.", 1);
@@ -268,9 +282,10 @@ SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   return parameters;
 }
 
-SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x, std::vector<double>& multiplier,
-                                      const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
-                                      const MprgpParameters& inner, Observer* observer) {
+SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x,
+                                      std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
+                                      const SmalbeParameters& parameters, const MprgpParameters& inner,
+                                      Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
   OuterIteration outer(problem, multiplier, tolerances, parameters, inner);
@@ -280,10 +295,12 @@ SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vecto
   x.assign(solver.solution());
   describeEnd(solver, report);
   if (report.status == Status::maxIterations && report.counts.outer >= parameters.maxOuterIterations)
-    report.reason = "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer Iterations' or "
-                    "the tolerance";
+    report.reason =
+        "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer Iterations' or "
+        "the tolerance";
   report.relativeProjectedGradient = relativeTo(tolerances.gradientReference, solver.projectedGradient());
-  for (std::size_t i = 0; i < multiplier.size(); ++i) // the gradient is that of L: μ + ρ(Bx − c) is what it belongs to
+  for (std::size_t i = 0; i < multiplier.size();
+       ++i) // the gradient is that of L: μ + ρ(Bx − c) is what it belongs to
     multiplier[i] += outer.penalty() * outer.rule().residual()[i];
   report.relativeConstraintResidual = relativeTo(tolerances.constraintReference, outer.rule().residualNorm());
   return report;

@@ -45,12 +45,12 @@ struct SmalbeTolerances {
 
 /// The problem, as SMALBE needs it.
 struct EqualityBoundProblem {
-  RCP<const Operator> hessian;               ///< A, n × n, positive definite on Ker B
-  RCP<const Vector> linearTerm;              ///< b
-  RCP<const ConvexSet> set;                  ///< Ω
-  RCP<const EqualityConstraint> equality;    ///< Bx = c
-  RCP<const Operator> preconditioner;        ///< of A + ρBᵀB, or null
-  double operatorNorm = 1;                   ///< over-estimate of ‖A‖
+  RCP<const Operator> hessian;            ///< A, n × n, positive definite on Ker B
+  RCP<const Vector> linearTerm;           ///< b
+  RCP<const ConvexSet> set;               ///< Ω
+  RCP<const EqualityConstraint> equality; ///< Bx = c
+  RCP<const Operator> preconditioner;     ///< of A + ρBᵀB, or null
+  double operatorNorm = 1;                ///< over-estimate of ‖A‖
 };
 
 /// \param x           in: start (projected onto Ω; the multiplier starts from what suits it); out: the last iterate,
@@ -58,8 +58,9 @@ struct EqualityBoundProblem {
 /// \param multiplier  out: μ, in the constraint's own entries
 /// Returns converged only if a gradient computed afresh bears it out. Precondition: Ω is not empty.
 /// Collective.
-SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x, std::vector<double>& multiplier,
-                                      const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
-                                      const MprgpParameters& inner, Observer* observer = nullptr);
+SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x,
+                                      std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
+                                      const SmalbeParameters& parameters, const MprgpParameters& inner,
+                                      Observer* observer = nullptr);
 
 } // namespace epafi::qp

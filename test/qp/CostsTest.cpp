@@ -56,8 +56,9 @@ struct Costs {
 };
 
 /// Costs of one step, from the difference between a short and a long run.
-Costs costsOfAStep(const RCP<const Operator>& a, const RCP<const qp::ConvexSet>& set, const RCP<const Vector>& b,
-                   const RCP<const Operator>& preconditioner, qp::MprgpParameters parameters) {
+Costs costsOfAStep(const RCP<const Operator>& a, const RCP<const qp::ConvexSet>& set,
+                   const RCP<const Vector>& b, const RCP<const Operator>& preconditioner,
+                   qp::MprgpParameters parameters) {
   std::array<double, 2> reductions{}, allocations{};
   std::array<int, 2> steps{};
   for (const int run : {0, 0, 1}) { // the first one makes the work space
@@ -107,8 +108,9 @@ TEST_F(CostsTest, APreconditionedCgStepMakesOneReductionMore) {
 }
 
 TEST_F(CostsTest, NoKindOfStepAllocates) {
-  const RCP<const qp::ConvexSet> near = rcp(new qp::Box(test::makeVector(map, [](int i) { return -1.0 - i % 5; }),
-                                                        test::makeVector(map, [](int i) { return 3.0 + i % 7; })));
+  const RCP<const qp::ConvexSet> near =
+      rcp(new qp::Box(test::makeVector(map, [](int i) { return -1.0 - i % 5; }),
+                      test::makeVector(map, [](int i) { return 3.0 + i % 7; })));
   for (const auto expansion : {qp::Expansion::fixedStep, qp::Expansion::projectedCg, qp::Expansion::optimal,
                                qp::Expansion::barzilaiBorwein})
     for (const auto release : {qp::Release::choppedGradient, qp::Release::projectedGradient}) {
