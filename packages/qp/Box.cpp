@@ -205,13 +205,15 @@ double Box::longestMultiplierStep(const Vector& x, const Vector& g, const Vector
   return longest;
 }
 
-bool Box::recedesAlong(const Vector& d) const {
+RCP<const ConvexSet> Box::recessionCone(const RCP<const Map>& map) const {
+  const RCP<Vector> lower = rcp(new Vector(map)), upper = rcp(new Vector(map));
   const Local bounds = local();
-  const auto direction = localData(d);
-  for (std::size_t i = 0; i < direction.size(); ++i)
-    if (std::isfinite(bounds[i].maxFeasibleStep(0.0, direction[i])))
-      return false;
-  return true;
+  const auto low = localDataNonConst(*lower), high = localDataNonConst(*upper);
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    low[i] = std::isfinite(bounds[i].lower) ? 0.0 : -infinity;
+    high[i] = std::isfinite(bounds[i].upper) ? 0.0 : infinity;
+  }
+  return rcp(new Box(lower, upper));
 }
 
 } // namespace epafi::qp

@@ -80,7 +80,8 @@ public:
   [[nodiscard]] double complementarity(const Vector& x, const Vector& g, double scale) const override;
   [[nodiscard]] double longestMultiplierStep(const Vector& x, const Vector& g,
                                              const Vector& s) const override;
-  [[nodiscard]] bool recedesAlong(const Vector& d) const override;
+  /// 0 takes the place of every finite bound.
+  [[nodiscard]] RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const override;
 
 private:
   RCP<const Vector> lower_, upper_;

@@ -78,8 +78,9 @@ public:
   /// until the first multiplier changes its sign. 0 if s touches a free entry.
   [[nodiscard]] virtual double longestMultiplierStep(const Vector& x, const Vector& g,
                                                      const Vector& s) const = 0;
-  /// Whether x − αd stays in the set for every α > 0, at every feasible x.
-  [[nodiscard]] virtual bool recedesAlong(const Vector& d) const = 0;
+  /// The directions d along which the set has no end: x + αd stays in it for every α > 0, at every feasible x.
+  /// \param map  of the unknowns
+  [[nodiscard]] virtual RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const = 0;
 };
 
 } // namespace epafi::qp

@@ -83,7 +83,7 @@ std::optional<Status> Mprgp::ending(StoppingRule& rule) {
   while (true) {
     if (!std::isfinite(projectedGradient_))
       return Status::notFinite;
-    if (rule.isSatisfied(projectedGradient(), measureReduction_.sums().subspan(7)))
+    if (isSatisfied_)
       return Status::converged;
     if (counts_.hessianMultiplications >= parameters_.maxMultiplications)
       return Status::maxIterations;

@@ -157,6 +157,7 @@ private:
   long long active_ = 0;
   bool conjugate_ = false; ///< whether the next direction is made conjugate to p
   bool gradientIsFresh_ = false;
+  bool isSatisfied_ = false; ///< what the rule says of the present iterate
   bool timeIsUp_ = false;
   double deadline_ = 0;
   int refreshes_ = 0;

@@ -285,6 +285,7 @@ void Mprgp::measure(StoppingRule& rule) {
   active_ = static_cast<long long>(measureReduction_.sum(5));
   timeIsUp_ = measureReduction_.sum(6) > 0;
   projectedGradient_ = std::sqrt(freeSquared_ + choppedSquared_);
+  isSatisfied_ = rule.isSatisfied(projectedGradient(), sums.subspan(7));
 }
 
 } // namespace epafi::qp

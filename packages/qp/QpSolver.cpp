@@ -9,6 +9,7 @@
 #include "epafi/qp/Feasibility.hpp"
 #include "epafi/qp/LocalData.hpp"
 #include "epafi/qp/MatrixEquality.hpp"
+#include "epafi/qp/RecessionDirection.hpp"
 
 #include <Teuchos_TimeMonitor.hpp>
 #include <Tpetra_Map.hpp>
@@ -88,6 +89,7 @@ struct QpSolver::Run {
   bool findStart();
   void prepareOperators();
   void iterate();
+  void lookForUnboundedness();
   void certify();
 
   bool end(Status status, const std::string& reason) const {
@@ -207,6 +209,8 @@ void QpSolver::Run::prepareOperators() {
   }
   operatorNorm = solver.operatorNorm_ > 0 ? solver.operatorNorm_ : estimateNorm(*hessian, solver.norm_).norm;
   reference = solver.reference_ > 0 ? solver.reference_ : accurateNorm(*given.linearTerm);
+  if (operatorNorm == 0 && !equality.constraint.is_null()) // a linear objective: ρ and M still need units
+    operatorNorm = accurateNorm(x) > 0 ? reference / accurateNorm(x) : reference;
   if (reference == 0) {
     Vector nearest(x.getMap());
     set->project(nearest);
@@ -235,6 +239,23 @@ void QpSolver::Run::iterate() {
                                      preconditioner, operatorNorm};
   solution.report =
       solveEqualityBoundProblem(problem, x, multiplier, tolerances, solver.smalbe_, solver.mprgp_, observer);
+}
+
+/// An iteration that ended without success far away from where it began may have followed a direction without end.
+void QpSolver::Run::lookForUnboundedness() {
+  SolveReport& report = solution.report;
+  if (report.status != Status::stagnated && report.status != Status::maxIterations)
+    return;
+  if (operatorNorm * accurateNorm(x) <= 1e3 * accurateNorm(*given.linearTerm))
+    return;
+  const RecessionDirection found =
+      findRecessionDirection(given.hessian, operatorNorm, *given.linearTerm, *set, equality.constraint,
+                             solver.mprgp_.maxMultiplications);
+  report.counts.hessianMultiplications += found.multiplications;
+  if (found.direction.is_null())
+    return;
+  report.certificate = found.direction;
+  end(Status::unbounded, explain(Status::unbounded));
 }
 
 /// The KKT residuals from scratch, the multipliers, and a second look at the status.
@@ -308,6 +329,7 @@ QpSolution QpSolver::solve(const QuadraticProgram& problem, Vector& x, Observer*
   if (run.prepareConstraints() && run.findStart()) {
     run.prepareOperators();
     run.iterate();
+    run.lookForUnboundedness();
     run.certify();
   }
   lastRun_ = toString(solution.report.status);

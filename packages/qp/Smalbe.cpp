@@ -17,6 +17,9 @@
 namespace epafi::qp {
 namespace {
 
+/// Largest ρ‖B‖² as a multiple of ‖A‖: the round-off of ρBᵀ(Bx − c) limits the gradient that can be reached.
+constexpr double maxPenalty = 1e4;
+
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
 class AdaptiveRule final : public StoppingRule {
 public:
@@ -175,10 +178,12 @@ void OuterIteration::adapt(const Progress& previous, const Progress& now) {
       !isFirst &&
       now.lagrangian < previous.lagrangian + 0.5 * penalty_ * now.residual * now.residual - roundOff;
   slow_ = !isFirst && now.residual > 0.5 * previous.residual ? slow_ + 1 : 0;
-  if (grewTooLittle && parameters_.update != SmalbeParameters::Update::penalty)
+  using Update = SmalbeParameters::Update;
+  const bool mayGrow = penalty_ * equality_.norm() * equality_.norm() < maxPenalty * problem_.operatorNorm;
+  if (grewTooLittle && (parameters_.update != Update::penalty || !mayGrow))
     rule_.reduceBalance(parameters_.balanceReduction);
-  const bool isSlow = parameters_.update == SmalbeParameters::Update::both && slow_ >= 2;
-  if (isSlow || (grewTooLittle && parameters_.update == SmalbeParameters::Update::penalty)) {
+  const bool isSlow = parameters_.update == Update::both && slow_ >= 2;
+  if (mayGrow && (isSlow || (grewTooLittle && parameters_.update == Update::penalty))) {
     growPenalty();
     slow_ = 0;
   }
