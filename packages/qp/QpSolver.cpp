@@ -262,16 +262,16 @@ void QpSolver::Run::lookForUnboundedness() {
 void QpSolver::Run::certify() {
   SolveReport& report = solution.report;
   Vector gradient(x.getMap());
-  if (projector) {
+  if (projector)
     projector->complete(*given.linearTerm, x);
-    report.gradient = Teuchos::null;
-  }
-  if (report.gradient.is_null()) {
-    given.hessian->apply(x, gradient);
+  if (projector || !equality.constraint.is_null() || report.gradient.is_null()) {
+    given.hessian->apply(x, gradient); // what the iteration holds is of another operator, or not fresh
     ++report.counts.hessianMultiplications;
     gradient.update(-1.0, *given.linearTerm, 1.0);
+    report.objective = 0.5 * (accurateDot(x, gradient) - accurateDot(x, *given.linearTerm));
     if (!equality.constraint.is_null())
       equality.constraint->addTransposedProduct(multiplier, 1.0, gradient);
+    report.gradient = rcp(new Vector(gradient, Teuchos::Copy));
   } else {
     gradient.assign(*report.gradient);
   }
