@@ -46,6 +46,7 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
   conjugate_ = false;
   refreshes_ = 0;
   measure(rule);
+  startGradient_ = projectedGradient_;
   record(rule, StepKind::start, observer);
 
   while (true) {

@@ -83,6 +83,8 @@ public:
   [[nodiscard]] double gradientScale() const { return scale_; }
   /// Norm of the projected gradient ‖g^P‖ at the last step, and its parts ‖φ‖ and ‖β‖.
   [[nodiscard]] double projectedGradient() const { return projectedGradient_ / scale_; }
+  /// The same where the last run began.
+  [[nodiscard]] double startGradient() const { return startGradient_ / scale_; }
   [[nodiscard]] double freeGradient() const;
   [[nodiscard]] double choppedGradient() const;
   [[nodiscard]] double objective() const { return objective_ / scale_; }
@@ -148,7 +150,7 @@ private:
   FusedReduction measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, xᵀx, active entries, time is up; the rule's sums
   double objective_ = 0, constant_ = 0; ///< f, and what is in it beside ½xᵀAx − bᵀx
   double linearNorm_ = 0;               ///< ‖b‖, scaled
-  double projectedGradient_ = 0;
+  double projectedGradient_ = 0, startGradient_ = 0;
   double freeSquared_ = 0, choppedSquared_ = 0; ///< φᵀφ, βᵀβ
   double reducedTimesFree_ = 0;                 ///< φ̃ᵀφ
   double directionTimesImage_ = 0;              ///< φᵀAp or zᵀAp, for the next conjugation

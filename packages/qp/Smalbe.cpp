@@ -83,7 +83,8 @@ private:
   void adapt(const Progress& previous, const Progress& now);
   void growPenalty();
   void updateMultiplier();
-  bool restore();
+  void restore();
+  bool restorationsHelp();
   [[nodiscard]] double normOfLagrangian() const;
   [[nodiscard]] double constantOfLagrangian() const;
   void linearTermOfLagrangian(Vector& b) const;
@@ -97,7 +98,9 @@ private:
   AdaptiveRule rule_;
   Mprgp inner_;
   Vector work_;
-  int restorations_ = 0, idle_ = 0, slow_ = 0;
+  int idle_ = 0, slow_ = 0, idleRestorations_ = 0;
+  bool wasRestored_ = false;
+  double bestRestored_ = std::numeric_limits<double>::infinity();
 };
 
 OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
@@ -151,13 +154,16 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
       return status;
     if (rule_.isFinal() && inner_.gradientIsFresh())
       return Status::converged;
+    if (!restorationsHelp())
+      return Status::stagnated;
     const Progress now{inner_.objective(), rule_.residualNorm()};
     updateMultiplier(); // μ ← μ + ρ(Bx − c), or further
     adapt(previous, now);
     previous = now;
     ++inner_.counts().outer;
-    if ((rule_.isFinal() || status == Status::stagnated) && !restore())
-      return Status::stagnated;
+    wasRestored_ = rule_.isFinal() || status == Status::stagnated;
+    if (wasRestored_)
+      restore();
   }
   return Status::maxIterations;
 }
@@ -235,17 +241,23 @@ void OuterIteration::updateMultiplier() {
     multiplier_[i] += step * penalty_ * rule_.residual()[i];
 }
 
-/// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on. Returns false after too
-/// many trials.
-bool OuterIteration::restore() {
-  constexpr int maxRestorations = 10;
-  if (++restorations_ > maxRestorations)
-    return false;
+/// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on.
+void OuterIteration::restore() {
   work_.assign(inner_.solution());
   if (equality_.isReplicated())
     restoreEquality(equality_, *problem_.set, rule_.residual(), work_);
   inner_.moveTo(work_);
-  return true;
+}
+
+/// Whether the gradients after restorations, none of which was small enough, still become smaller.
+bool OuterIteration::restorationsHelp() {
+  constexpr int maxIdle = 8;
+  if (!wasRestored_)
+    return true;
+  const bool isBetter = inner_.startGradient() < 0.9 * bestRestored_;
+  bestRestored_ = std::min(bestRestored_, inner_.startGradient());
+  idleRestorations_ = isBetter ? 0 : idleRestorations_ + 1;
+  return idleRestorations_ <= maxIdle;
 }
 
 } // namespace
