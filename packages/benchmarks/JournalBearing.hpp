@@ -6,8 +6,8 @@
 
 namespace epafi::benchmarks {
 
-/// min ∫ ½ p |∇v|² − ε sin(ξ) v over v ≥ 0 that vanish on the border of (0, 2π) × (0, 2b), p(ξ) = (1 + ε cos ξ)³; n ×
-/// n unknowns, linear elements on triangles. Problem DPJB of MINPACK-2 (Averick, Carter, Moré, Xue, Argonne
+/// min ∫ ½ p |∇v|² − ε sin(ξ) v over v ≥ 0 that vanish on the border of (0, 2π) × (0, 2b), p(ξ) = (1 + ε cos ξ)³;
+/// n × n unknowns, linear elements on triangles. Problem DPJB of MINPACK-2 (Averick, Carter, Moré, Xue, Argonne
 /// ANL/MCS-P153-0692, 1992), discretised as in the example `jbearing2` of PETSc and the tutorial of PERMON:
 ///
 ///   t₁ = hx hy (2p(ξ) + p(ξ+hx))/6     t₂ = hx hy (2p(ξ) + p(ξ−hx))/6
