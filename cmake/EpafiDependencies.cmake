@@ -16,6 +16,15 @@ target_link_libraries(epafi_trilinos INTERFACE ${epafi_trilinos_libraries} MPI::
 # Trilinos 13.2 hides Tpetra::Map::getLocalNumElements under an older name; see base/Compatibility.hpp.
 target_compile_definitions(epafi_trilinos INTERFACE OMPI_SKIP_MPICXX)
 
+# Algebraic multigrid, for the studies and examples alone: no room of the library links it.
+find_package(MueLu REQUIRED HINTS ${Trilinos_DIR}/../MueLu)
+set(epafi_muelu_libraries ${MueLu_LIBRARIES} ${MueLu_TPL_LIBRARIES})
+list(REMOVE_DUPLICATES epafi_muelu_libraries)
+add_library(epafi_muelu INTERFACE)
+add_library(Epafi::muelu ALIAS epafi_muelu)
+target_include_directories(epafi_muelu SYSTEM INTERFACE ${MueLu_INCLUDE_DIRS} ${MueLu_TPL_INCLUDE_DIRS})
+target_link_libraries(epafi_muelu INTERFACE ${epafi_muelu_libraries} Epafi::trilinos)
+
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)
 add_library(epafi_metis INTERFACE)

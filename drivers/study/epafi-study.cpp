@@ -1,5 +1,6 @@
 /// `epafi-study STUDY`: measurements as tables and pictures.
 
+#include "QpStudy.hpp"
 #include "TablesStudy.hpp"
 
 #include "epafi/base/Collective.hpp"
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <string>
 
 namespace {
@@ -21,7 +23,11 @@ constexpr const char* usage =
     "Usage: epafi-study STUDY [--output DIR] [--quick]\n"
     "Writes DIR/<study>.csv, a table to read and a picture (DIR is . by default); --quick ends within a "
     "minute.\n\n"
-    "  tables   Tables 1 and 2 of the paper: dimensions and iterations, ours beside the paper's\n";
+    "  tables   Tables 1 and 2 of the paper: dimensions and iterations, ours beside the paper's\n"
+    "  qp       problems with bounds: products with the Hessian by method, preconditioner and start\n";
+
+using Study = bool (*)(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
+const std::map<std::string, Study> studies{{"tables", drivers::studyTables}, {"qp", drivers::studyQp}};
 
 struct Request {
   std::string study;
@@ -50,10 +56,13 @@ Request parse(int argc, char** argv) {
       request.study = word;
     }
   }
-  if (!request.help && request.study != "tables")
-    throw InputError(request.study.empty()
-                         ? "no study is named; the studies are: tables"
-                         : "unknown study '" + request.study + "'; the studies are: tables");
+  if (!request.help && studies.count(request.study) == 0) {
+    std::string names;
+    for (const auto& [name, study] : studies)
+      names += (names.empty() ? "" : ", ") + name;
+    throw InputError((request.study.empty() ? "no study is named" : "unknown study '" + request.study + "'") +
+                     "; the studies are: " + names);
+  }
   return request;
 }
 
@@ -90,7 +99,7 @@ int main(int argc, char** argv) {
           throw InputError("the directory " + request.directory.string() +
                            " cannot be made: " + error.message());
       });
-      exitCode = drivers::studyTables(request.directory, request.quick, comm) ? 0 : 1;
+      exitCode = studies.at(request.study)(request.directory, request.quick, comm) ? 0 : 1;
       drawsPicture = comm->getRank() == 0;
     } catch (const InputError& error) {
       if (comm->getRank() == 0)

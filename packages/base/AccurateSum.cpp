@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include <cmath>
+#include <utility>
 
 namespace epafi {
 namespace {
@@ -41,19 +42,42 @@ extern "C" void addSumsTakeMinimum(void* in, void* inout, int* count, MPI_Dataty
 }
 // NOLINTEND(readability-non-const-parameter)
 
-/// Combines `blocks` blocks of `length` values each over all ranks.
-void reduce(const Comm& comm, AccurateSum* values, int blocks, int length, MPI_User_function* function) {
+/// The type of one sum and the two operations, made at the first use and freed by MPI_Finalize (which deletes the
+/// attributes of MPI_COMM_SELF first).
+struct MpiObjects {
+  MPI_Datatype sum = MPI_DATATYPE_NULL;
+  MPI_Op add = MPI_OP_NULL, addTakeMinimum = MPI_OP_NULL;
+};
+
+// NOLINTNEXTLINE(readability-non-const-parameter): MPI prescribes the signature
+extern "C" int freeMpiObjects(MPI_Comm /*comm*/, int /*key*/, void* attribute, void* /*state*/) {
+  auto* objects = static_cast<MpiObjects*>(attribute);
+  MPI_Type_free(&objects->sum);
+  MPI_Op_free(&objects->add);
+  MPI_Op_free(&objects->addTakeMinimum);
+  return MPI_SUCCESS;
+}
+
+MpiObjects& mpiObjects() {
+  static MpiObjects objects;
+  if (objects.sum == MPI_DATATYPE_NULL) {
+    MPI_Type_contiguous(2, MPI_DOUBLE, &objects.sum);
+    MPI_Type_commit(&objects.sum);
+    MPI_Op_create(addSums, 1, &objects.add);
+    MPI_Op_create(addSumsTakeMinimum, 1, &objects.addTakeMinimum);
+    int key = MPI_KEYVAL_INVALID;
+    MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, freeMpiObjects, &key, nullptr);
+    MPI_Comm_set_attr(MPI_COMM_SELF, key, &objects);
+    MPI_Comm_free_keyval(&key);
+  }
+  return objects;
+}
+
+MPI_Comm rawCommunicator(const Comm& comm) {
   const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
   if (mpi == nullptr)
     throw Error("sums over several ranks need a communicator of MPI");
-  MPI_Datatype type = MPI_DATATYPE_NULL;
-  MPI_Op operation = MPI_OP_NULL;
-  MPI_Type_contiguous(2 * length, MPI_DOUBLE, &type);
-  MPI_Type_commit(&type);
-  MPI_Op_create(function, 1, &operation);
-  MPI_Allreduce(MPI_IN_PLACE, values, blocks, type, operation, *mpi->getRawMpiComm());
-  MPI_Op_free(&operation);
-  MPI_Type_free(&type);
+  return *mpi->getRawMpiComm();
 }
 
 } // namespace
@@ -62,12 +86,39 @@ static_assert(sizeof(AccurateSum) == 2 * sizeof(double));
 
 void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums) {
   if (comm.getSize() > 1 && !sums.empty())
-    reduce(comm, sums.data(), static_cast<int>(sums.size()), 1, addSums);
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), mpiObjects().sum,
+                  mpiObjects().add, rawCommunicator(comm));
 }
 
-void sumAndMinimumOverRanks(const Comm& comm, std::span<AccurateSum> sumsAndMinimum) {
-  if (comm.getSize() > 1 && !sumsAndMinimum.empty())
-    reduce(comm, sumsAndMinimum.data(), 1, static_cast<int>(sumsAndMinimum.size()), addSumsTakeMinimum);
+/// A message of `length` sums is one element of this type: MPI must not cut off the minimum.
+struct SumsAndMinimum::Type {
+  explicit Type(int length) {
+    MPI_Type_contiguous(length, mpiObjects().sum, &value);
+    MPI_Type_commit(&value);
+  }
+  Type(const Type&) = delete;
+  Type& operator=(const Type&) = delete;
+  ~Type() {
+    int isOver = 0;
+    MPI_Finalized(&isOver);
+    if (isOver == 0)
+      MPI_Type_free(&value);
+  }
+  MPI_Datatype value = MPI_DATATYPE_NULL;
+};
+
+SumsAndMinimum::SumsAndMinimum(RCP<const Comm> comm, std::size_t length) : comm_(std::move(comm)) {
+  if (comm_->getSize() > 1 && length > 0)
+    type_ = std::make_unique<Type>(static_cast<int>(length));
+}
+SumsAndMinimum::SumsAndMinimum(SumsAndMinimum&&) noexcept = default;
+SumsAndMinimum& SumsAndMinimum::operator=(SumsAndMinimum&&) noexcept = default;
+SumsAndMinimum::~SumsAndMinimum() = default;
+
+void SumsAndMinimum::reduce(std::span<AccurateSum> sumsAndMinimum) const {
+  if (type_)
+    MPI_Allreduce(MPI_IN_PLACE, sumsAndMinimum.data(), 1, type_->value, mpiObjects().addTakeMinimum,
+                  rawCommunicator(*comm_));
 }
 
 double accurateDot(const Vector& x, const Vector& y) {

@@ -7,6 +7,7 @@
 
 #include "epafi/base/Types.hpp"
 
+#include <memory>
 #include <span>
 
 namespace epafi {
@@ -35,8 +36,25 @@ private:
 /// Sums over the ranks, in place; one message. Collective.
 void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums);
 
-/// The same for all values but the last one, of which the smallest is taken; one message. Collective.
-void sumAndMinimumOverRanks(const Comm& comm, std::span<AccurateSum> sumsAndMinimum);
+/// The same for all values but the last one, of which the smallest is taken. The object keeps what MPI needs for
+/// messages of its length, so that `reduce` allocates nothing.
+class SumsAndMinimum {
+public:
+  /// \param length  number of values, the minimum included. Not collective.
+  SumsAndMinimum(RCP<const Comm> comm, std::size_t length);
+  SumsAndMinimum(SumsAndMinimum&& other) noexcept;
+  SumsAndMinimum& operator=(SumsAndMinimum&& other) noexcept;
+  SumsAndMinimum(const SumsAndMinimum&) = delete;
+  SumsAndMinimum& operator=(const SumsAndMinimum&) = delete;
+  ~SumsAndMinimum();
+  /// In place; one message. Collective.
+  void reduce(std::span<AccurateSum> sumsAndMinimum) const;
+
+private:
+  struct Type;
+  RCP<const Comm> comm_;
+  std::unique_ptr<Type> type_; ///< null on a single rank
+};
 
 /// xᵀy and ‖x‖. Collective.
 double accurateDot(const Vector& x, const Vector& y);

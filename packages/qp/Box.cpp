@@ -31,20 +31,23 @@ std::string Box::emptiness(const Map& map) const {
   collectively(*map.getComm(), [&] {
     for (const RCP<const Vector>& bound : {lower_, upper_})
       if (!bound.is_null() && !bound->getMap()->isCompatible(map))
-        throw InputError("the bounds are not on the map of the unknowns; give them as vectors on the domain map of the "
-                         "Hessian");
+        throw InputError(
+            "the bounds are not on the map of the unknowns; give them as vectors on the domain map of the "
+            "Hessian");
   });
   collectively(*map.getComm(), [&] {
     const Local bounds = local();
-    const std::size_t size = lower_.is_null() && upper_.is_null() ? 0 : (lower_.is_null() ? upper_ : lower_)->getLocalLength();
+    const std::size_t size =
+        lower_.is_null() && upper_.is_null() ? 0 : (lower_.is_null() ? upper_ : lower_)->getLocalLength();
     for (std::size_t i = 0; i < size; ++i) {
       const Interval interval = bounds[i];
       std::ostringstream where;
-      where << "entry " << map.getGlobalElement(static_cast<LocalOrdinal>(i)) << ": lower " << interval.lower << ", upper "
-            << interval.upper;
+      where << "entry " << map.getGlobalElement(static_cast<LocalOrdinal>(i)) << ": lower " << interval.lower
+            << ", upper " << interval.upper;
       if (std::isnan(interval.lower) || std::isnan(interval.upper))
         throw InputError("a bound is not a number, " + where.str() + "; use infinity for 'no bound'");
-      if (found.empty() && (interval.lower > interval.upper || interval.lower == infinity || interval.upper == -infinity))
+      if (found.empty() &&
+          (interval.lower > interval.upper || interval.lower == infinity || interval.upper == -infinity))
         found = "the bounds leave no value for " + where.str();
     }
   });
@@ -104,20 +107,21 @@ void Box::subtractFromFreeGradient(const Vector& x, const Vector& g, double fact
     result[i] = bounds[i].freeGradient(values[i], gradient[i]) - (factor != 0 ? factor * result[i] : 0.0);
 }
 
-void Box::choppedGradient(const Vector& x, const Vector& g, Vector& y) const {
+void Box::choppedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const {
   const Local bounds = local();
   const auto values = localData(x), gradient = localData(g);
   const auto result = localDataNonConst(y);
   for (std::size_t i = 0; i < values.size(); ++i)
-    result[i] = bounds[i].choppedGradient(values[i], gradient[i]);
+    result[i] = bounds[i].choppedGradient(values[i], gradient[i], negligible);
 }
 
-void Box::projectedGradient(const Vector& x, const Vector& g, Vector& y) const {
+void Box::projectedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const {
   const Local bounds = local();
   const auto values = localData(x), gradient = localData(g);
   const auto result = localDataNonConst(y);
   for (std::size_t i = 0; i < values.size(); ++i)
-    result[i] = bounds[i].isFree(values[i]) ? gradient[i] : bounds[i].choppedGradient(values[i], gradient[i]);
+    result[i] = bounds[i].isFree(values[i]) ? gradient[i]
+                                            : bounds[i].choppedGradient(values[i], gradient[i], negligible);
 }
 
 void Box::restrictToFree(const Vector& x, Vector& z) const {
@@ -129,14 +133,15 @@ void Box::restrictToFree(const Vector& x, Vector& z) const {
       result[i] = 0;
 }
 
-void Box::restrictToReleased(const Vector& x, const Vector& g, Vector& z) const {
+void Box::restrictToReleased(const Vector& x, const Vector& g, double negligible, Vector& z) const {
   const Local bounds = local();
   const auto values = localData(x), gradient = localData(g);
   const auto result = localDataNonConst(z);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Interval interval = bounds[i];
     // At a lower bound β and an inward z are negative, at an upper one positive.
-    if (!interval.isFree(values[i]) && !(interval.choppedGradient(values[i], gradient[i]) * result[i] > 0))
+    if (!interval.isFree(values[i]) &&
+        !(interval.choppedGradient(values[i], gradient[i], negligible) * result[i] > 0))
       result[i] = 0;
   }
 }
@@ -165,8 +170,9 @@ void Box::activate(const Vector& active, Vector& x) const {
     if (chosen[i] == 0)
       continue;
     const Interval interval = bounds[i];
-    const double nearer =
-        std::abs(values[i] - interval.lower) <= std::abs(values[i] - interval.upper) ? interval.lower : interval.upper;
+    const double nearer = std::abs(values[i] - interval.lower) <= std::abs(values[i] - interval.upper)
+                              ? interval.lower
+                              : interval.upper;
     if (std::isfinite(nearer))
       values[i] = nearer;
   }
@@ -199,13 +205,15 @@ double Box::longestMultiplierStep(const Vector& x, const Vector& g, const Vector
   return longest;
 }
 
-bool Box::recedesAlong(const Vector& d) const {
+RCP<const ConvexSet> Box::recessionCone(const RCP<const Map>& map) const {
+  const RCP<Vector> lower = rcp(new Vector(map)), upper = rcp(new Vector(map));
   const Local bounds = local();
-  const auto direction = localData(d);
-  for (std::size_t i = 0; i < direction.size(); ++i)
-    if (std::isfinite(bounds[i].maxFeasibleStep(0.0, direction[i])))
-      return false;
-  return true;
+  const auto low = localDataNonConst(*lower), high = localDataNonConst(*upper);
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    low[i] = std::isfinite(bounds[i].lower) ? 0.0 : -infinity;
+    high[i] = std::isfinite(bounds[i].upper) ? 0.0 : infinity;
+  }
+  return rcp(new Box(lower, upper));
 }
 
 } // namespace epafi::qp

@@ -6,6 +6,7 @@
 #include "epafi/qp/LocalData.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace epafi::qp {
@@ -23,6 +24,11 @@ public:
       if (isFree(x) || !(lower < upper))
         return 0.0;
       return x <= lower ? std::min(g, 0.0) : std::max(g, 0.0);
+    }
+    /// The same, 0 if it is no larger than `negligible`.
+    [[nodiscard]] double choppedGradient(double x, double g, double negligible) const {
+      const double chopped = choppedGradient(x, g);
+      return std::abs(chopped) > negligible ? chopped : 0.0;
     }
     /// φ̃ for the step ᾱ = `step`, at a free entry with gradient g.
     [[nodiscard]] double reducedFreeGradient(double x, double g, double step) const {
@@ -64,16 +70,18 @@ public:
   [[nodiscard]] GradientSums measure(const Vector& x, const Vector& g, const Vector& image,
                                      double step) const override;
   void subtractFromFreeGradient(const Vector& x, const Vector& g, double factor, Vector& y) const override;
-  void choppedGradient(const Vector& x, const Vector& g, Vector& y) const override;
-  void projectedGradient(const Vector& x, const Vector& g, Vector& y) const override;
+  void choppedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const override;
+  void projectedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const override;
   void restrictToFree(const Vector& x, Vector& z) const override;
-  void restrictToReleased(const Vector& x, const Vector& g, Vector& z) const override;
+  void restrictToReleased(const Vector& x, const Vector& g, double negligible, Vector& z) const override;
   void freeIndicator(const Vector& x, Vector& y) const override;
   void distanceToBoundary(const Vector& x, double atMost, Vector& y) const override;
   void activate(const Vector& active, Vector& x) const override;
   [[nodiscard]] double complementarity(const Vector& x, const Vector& g, double scale) const override;
-  [[nodiscard]] double longestMultiplierStep(const Vector& x, const Vector& g, const Vector& s) const override;
-  [[nodiscard]] bool recedesAlong(const Vector& d) const override;
+  [[nodiscard]] double longestMultiplierStep(const Vector& x, const Vector& g,
+                                             const Vector& s) const override;
+  /// 0 takes the place of every finite bound.
+  [[nodiscard]] RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const override;
 
 private:
   RCP<const Vector> lower_, upper_;

@@ -1,6 +1,7 @@
 #include "epafi/qp/ConjugateProjector.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <Teuchos_LAPACK.hpp>
@@ -13,15 +14,17 @@ namespace {
 
 class ProjectedHessian final : public Operator {
 public:
-  explicit ProjectedHessian(const ConjugateProjector& projector) : projector_(projector), product_(getRangeMap()) {}
+  explicit ProjectedHessian(const ConjugateProjector& projector)
+      : projector_(projector), product_(getRangeMap()) {}
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return projector_.hessian()->getDomainMap(); }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return projector_.hessian()->getRangeMap(); }
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha, double beta) const override {
-    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-      projector_.apply(*x.getVector(column), product_);
-      y.getVectorNonConst(column)->update(alpha, product_, beta);
-    }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
+             double beta) const override {
+    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+      projector_.apply(in, product_);
+      out.update(alpha, product_, beta);
+    });
   }
 
 private:
@@ -62,8 +65,9 @@ ConjugateProjector::ConjugateProjector(RCP<const Operator> a, RCP<const MultiVec
   const int n = static_cast<int>(k);
   Teuchos::LAPACK<int, double>().POTRF('L', n, cholesky_.data(), n, &info);
   if (info != 0)
-    throw InputError("the coarse space is not independent: UᵀAU is not positive definite; leave out columns that others "
-                     "combine, or that A maps to zero");
+    throw InputError(
+        "the coarse space is not independent: UᵀAU is not positive definite; leave out columns that others "
+        "combine, or that A maps to zero");
 }
 
 /// (UᵀAU)⁻¹ columnsᵀx.
@@ -75,8 +79,8 @@ std::vector<double> ConjugateProjector::coefficients(const MultiVector& columns,
   return solution;
 }
 
-void ConjugateProjector::subtract(const MultiVector& columns, const std::vector<double>& coefficients, double factor,
-                                  Vector& x) {
+void ConjugateProjector::subtract(const MultiVector& columns, const std::vector<double>& coefficients,
+                                  double factor, Vector& x) {
   for (std::size_t k = 0; k < coefficients.size(); ++k)
     x.update(-factor * coefficients[k], *columns.getVector(k), 1.0);
 }

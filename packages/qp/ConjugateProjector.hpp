@@ -37,12 +37,13 @@ public:
 
 private:
   std::vector<double> coefficients(const MultiVector& columns, const Vector& x) const;
-  static void subtract(const MultiVector& columns, const std::vector<double>& coefficients, double factor, Vector& x);
+  static void subtract(const MultiVector& columns, const std::vector<double>& coefficients, double factor,
+                       Vector& x);
 
   RCP<const Operator> a_;
   RCP<const MultiVector> u_;
-  MultiVector au_;                ///< AU
-  std::vector<double> cholesky_;  ///< of UᵀAU, k × k on every rank
+  MultiVector au_;               ///< AU
+  std::vector<double> cholesky_; ///< of UᵀAU, k × k on every rank
 };
 
 } // namespace epafi::qp

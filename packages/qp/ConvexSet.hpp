@@ -57,14 +57,14 @@ public:
                                              double step) const = 0;
   /// y = φ − factor · y; with factor 0 the old y is not read.
   virtual void subtractFromFreeGradient(const Vector& x, const Vector& g, double factor, Vector& y) const = 0;
-  /// y = β.
-  virtual void choppedGradient(const Vector& x, const Vector& g, Vector& y) const = 0;
-  /// y = g^P.
-  virtual void projectedGradient(const Vector& x, const Vector& g, Vector& y) const = 0;
+  /// y = β, without what is no larger than `negligible`: a multiplier that is zero but for round-off releases nothing.
+  virtual void choppedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const = 0;
+  /// y = g^P, likewise.
+  virtual void projectedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const = 0;
   /// z becomes 0 on the active set.
   virtual void restrictToFree(const Vector& x, Vector& z) const = 0;
-  /// As restrictToFree, but z stays where β ≠ 0 and x − αz enters the set for small α > 0.
-  virtual void restrictToReleased(const Vector& x, const Vector& g, Vector& z) const = 0;
+  /// As restrictToFree, but z stays where β is not negligible and x − αz enters the set for small α > 0.
+  virtual void restrictToReleased(const Vector& x, const Vector& g, double negligible, Vector& z) const = 0;
   /// y_i = 1 where x is free, else 0.
   virtual void freeIndicator(const Vector& x, Vector& y) const = 0;
   /// y_i = a lower bound of how far x_i may move either way with the set kept, at most `atMost`; 0 on the active set.
@@ -76,9 +76,11 @@ public:
   [[nodiscard]] virtual double complementarity(const Vector& x, const Vector& g, double scale) const = 0;
   /// Largest α with which the fixed x stays the minimiser over Ω when its gradient moves along s, from g to g + αs:
   /// until the first multiplier changes its sign. 0 if s touches a free entry.
-  [[nodiscard]] virtual double longestMultiplierStep(const Vector& x, const Vector& g, const Vector& s) const = 0;
-  /// Whether x − αd stays in the set for every α > 0, at every feasible x.
-  [[nodiscard]] virtual bool recedesAlong(const Vector& d) const = 0;
+  [[nodiscard]] virtual double longestMultiplierStep(const Vector& x, const Vector& g,
+                                                     const Vector& s) const = 0;
+  /// The directions d along which the set has no end: x + αd stays in it for every α > 0, at every feasible x.
+  /// \param map  of the unknowns
+  [[nodiscard]] virtual RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const = 0;
 };
 
 } // namespace epafi::qp

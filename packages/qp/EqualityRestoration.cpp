@@ -28,7 +28,8 @@ bool solveWeighted(const EqualityConstraint& equality, const Vector& weights, st
 
 } // namespace
 
-void restoreEquality(const EqualityConstraint& equality, const ConvexSet& set, std::span<const double> residual, Vector& x) {
+void restoreEquality(const EqualityConstraint& equality, const ConvexSet& set,
+                     std::span<const double> residual, Vector& x) {
   Vector weights(x.getMap()), column(x.getMap());
   set.distanceToBoundary(x, x.normInf(), weights);
   std::vector<double> solution(residual.begin(), residual.end());
@@ -41,8 +42,8 @@ void restoreEquality(const EqualityConstraint& equality, const ConvexSet& set, s
   x.update(1.0, column, 1.0);
 }
 
-std::vector<double> estimateMultiplier(const EqualityConstraint& equality, const ConvexSet& set, const Vector& x,
-                                       const Vector& gradient) {
+std::vector<double> estimateMultiplier(const EqualityConstraint& equality, const ConvexSet& set,
+                                       const Vector& x, const Vector& gradient) {
   Vector weights(x.getMap()), free(x.getMap());
   set.freeIndicator(x, weights);
   free.elementWiseMultiply(-1.0, weights, gradient, 0.0); // −φ

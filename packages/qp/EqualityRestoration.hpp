@@ -17,13 +17,14 @@ namespace epafi::qp {
 /// nothing where the free entries do not suffice or δ would cross a bound.
 /// \param residual  Bx − c, on every rank.
 /// Cost: k messages of 2k numbers for k rows. Collective.
-void restoreEquality(const EqualityConstraint& equality, const ConvexSet& set, std::span<const double> residual, Vector& x);
+void restoreEquality(const EqualityConstraint& equality, const ConvexSet& set,
+                     std::span<const double> residual, Vector& x);
 
 /// The multiplier μ that suits a start near the solution: ‖φ + (Bᵀμ)_F‖ smallest over the free entries F; 0
 /// where these do not determine it.
 /// \param gradient  Ax − b.
 /// Cost: k + 1 messages. Collective.
-std::vector<double> estimateMultiplier(const EqualityConstraint& equality, const ConvexSet& set, const Vector& x,
-                                       const Vector& gradient);
+std::vector<double> estimateMultiplier(const EqualityConstraint& equality, const ConvexSet& set,
+                                       const Vector& x, const Vector& gradient);
 
 } // namespace epafi::qp

@@ -17,7 +17,9 @@ public:
   LeastSquaresRule(const EqualityConstraint& equality, double smallest)
       : equality_(equality), smallest_(smallest), residual_(equality.numEntries()) {}
   [[nodiscard]] int numSums() const override { return equality_.numSums(); }
-  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override { equality_.addLocalSums(x, sums); }
+  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override {
+    equality_.addLocalSums(x, sums);
+  }
   bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override {
     norm_ = equality_.finishResidual(sums, residual_);
     isStationary_ = projectedGradient <= 1e-9 * norm_ * equality_.norm();
@@ -39,7 +41,8 @@ private:
 
 } // namespace
 
-Feasibility findFeasiblePoint(const RCP<const EqualityConstraint>& equality, const RCP<const ConvexSet>& set, Vector& x) {
+Feasibility findFeasiblePoint(const RCP<const EqualityConstraint>& equality, const RCP<const ConvexSet>& set,
+                              Vector& x) {
   const EqualityConstraint& b = *equality;
   Vector rhs(x.getMap()); // Bᵀc
   double rhsNorm = 0;
@@ -50,7 +53,8 @@ Feasibility findFeasiblePoint(const RCP<const EqualityConstraint>& equality, con
   set->project(x);
   MprgpParameters parameters;
   parameters.maxMultiplications = 2000;
-  Mprgp solver(rcp(new PenalizedOperator(Teuchos::null, x.getMap(), equality, 1.0)), set, parameters, b.norm() * b.norm());
+  Mprgp solver(rcp(new PenalizedOperator(Teuchos::null, x.getMap(), equality, 1.0)), set, parameters,
+               b.norm() * b.norm());
   solver.start(rhs, x);
   LeastSquaresRule rule(b, 1e-13 * (rhsNorm + b.norm() * accurateNorm(x)));
   runToCertificate(solver, rule, nullptr);
@@ -58,7 +62,8 @@ Feasibility findFeasiblePoint(const RCP<const EqualityConstraint>& equality, con
 
   Feasibility result;
   result.distance = rule.residualNorm();
-  result.isFeasible = !(rule.isStationary() && result.distance > 1e-8 * (rhsNorm + b.norm() * accurateNorm(x)));
+  result.isFeasible =
+      !(rule.isStationary() && result.distance > 1e-8 * (rhsNorm + b.norm() * accurateNorm(x)));
   if (!result.isFeasible) {
     result.certificate = rule.residual();
     for (double& value : result.certificate)

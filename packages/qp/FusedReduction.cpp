@@ -7,7 +7,7 @@
 namespace epafi::qp {
 
 FusedReduction::FusedReduction(RCP<const Comm> comm, int numSums)
-    : comm_(std::move(comm)), values_(static_cast<std::size_t>(numSums) + 1) {
+    : values_(static_cast<std::size_t>(numSums) + 1), reduction_(std::move(comm), values_.size()) {
   clear();
 }
 
@@ -17,7 +17,7 @@ void FusedReduction::clear() {
 }
 
 void FusedReduction::reduce() {
-  sumAndMinimumOverRanks(*comm_, values_);
+  reduction_.reduce(values_);
 }
 
 } // namespace epafi::qp

@@ -29,8 +29,8 @@ public:
   void reduce();
 
 private:
-  RCP<const Comm> comm_;
   std::vector<AccurateSum> values_; ///< the sums, then the minimum
+  SumsAndMinimum reduction_;
 };
 
 } // namespace epafi::qp

@@ -21,4 +21,12 @@ inline std::span<double> localDataNonConst(Vector& x) {
   return {view.data(), view.extent(0)};
 }
 
+/// y += factor · x; unlike Vector::update it allocates nothing.
+inline void addScaled(double factor, const Vector& x, Vector& y) {
+  const auto in = localData(x);
+  const auto out = localDataNonConst(y);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] += factor * in[i];
+}
+
 } // namespace epafi::qp

@@ -1,6 +1,7 @@
 #include "epafi/qp/MatrixEquality.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/qp/LocalData.hpp"
 
@@ -30,7 +31,8 @@ public:
   /// \param w  this rank's columns of W, one after the other
   /// \param c  Wc
   OrthonormalEquality(RCP<const Operator> b, std::vector<double> w, std::vector<double> c)
-      : b_(std::move(b)), w_(std::move(w)), c_(std::move(c)), rows_(b_->getRangeMap()), transposed_(b_->getDomainMap()) {}
+      : b_(std::move(b)), w_(std::move(w)), c_(std::move(c)), rows_(b_->getRangeMap()),
+        transposed_(b_->getDomainMap()) {}
 
   [[nodiscard]] int size() const override { return static_cast<int>(c_.size()); }
   [[nodiscard]] bool isHomogeneous() const override { return false; }
@@ -68,7 +70,8 @@ private:
 class ScaledEquality final : public EqualityConstraint {
 public:
   ScaledEquality(RCP<const Operator> b, const RCP<const Vector>& c, double scale)
-      : b_(std::move(b)), scale_(scale), isHomogeneous_(c.is_null()), rows_(b_->getRangeMap()), transposed_(b_->getDomainMap()) {
+      : b_(std::move(b)), scale_(scale), isHomogeneous_(c.is_null()), rows_(b_->getRangeMap()),
+        transposed_(b_->getDomainMap()) {
     if (!c.is_null())
       for (const double value : localData(*c))
         c_.push_back(scale * value);
@@ -126,11 +129,12 @@ public:
   explicit GramOperator(RCP<const Operator> b) : b_(std::move(b)), transposed_(b_->getDomainMap()) {}
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return b_->getRangeMap(); }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return b_->getRangeMap(); }
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha, double beta) const override {
-    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-      b_->apply(*x.getVector(column), transposed_, Teuchos::TRANS);
-      b_->apply(transposed_, *y.getVectorNonConst(column), Teuchos::NO_TRANS, alpha, beta);
-    }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
+             double beta) const override {
+    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+      b_->apply(in, transposed_, Teuchos::TRANS);
+      b_->apply(transposed_, out, Teuchos::NO_TRANS, alpha, beta);
+    });
   }
 
 private:
@@ -169,7 +173,8 @@ std::vector<double> gramMatrix(const Operator& b, std::size_t m, std::size_t fir
 }
 
 /// All of c on every rank.
-std::vector<double> replicated(const RCP<const Vector>& c, std::size_t m, std::size_t first, const Comm& comm) {
+std::vector<double> replicated(const RCP<const Vector>& c, std::size_t m, std::size_t first,
+                               const Comm& comm) {
   std::vector<double> all(m, 0.0);
   if (!c.is_null())
     std::ranges::copy(localData(*c), all.begin() + static_cast<std::ptrdiff_t>(first));
@@ -182,7 +187,8 @@ PreparedEquality orthonormal(const RCP<const Operator>& b, const RCP<const Vecto
   const Comm& comm = *rows.getComm();
   const std::size_t numLocalRows = Vector(b->getRangeMap()).getLocalLength();
   const std::size_t first = firstRow(rows, numLocalRows);
-  std::vector<double> v = gramMatrix(*b, m, first), rhs = replicated(c, m, first, comm), scale(m), eigenvalues(m);
+  std::vector<double> v = gramMatrix(*b, m, first), rhs = replicated(c, m, first, comm), scale(m),
+                      eigenvalues(m);
   double frobeniusSquared = 0;
   for (std::size_t i = 0; i < m; ++i) {
     frobeniusSquared += v[i * m + i];
@@ -200,7 +206,8 @@ PreparedEquality orthonormal(const RCP<const Operator>& b, const RCP<const Vecto
   Teuchos::LAPACK<int, double>().SYEV('V', 'L', n, v.data(), n, eigenvalues.data(), work.data(),
                                       static_cast<int>(work.size()), &info);
   if (info != 0)
-    throw Error("the constraint matrix has entries that are not finite, or its Gram matrix has no eigenvalues to be found");
+    throw Error("the constraint matrix has entries that are not finite, or its Gram matrix has no "
+                "eigenvalues to be found");
 
   PreparedEquality prepared;
   prepared.numRows = static_cast<GlobalOrdinal>(m);
@@ -246,10 +253,12 @@ PreparedEquality orthonormal(const RCP<const Operator>& b, const RCP<const Vecto
   std::vector<double> w(numLocalRows * kept.size());
   for (std::size_t i = 0; i < numLocalRows; ++i)
     for (std::size_t k = 0; k < kept.size(); ++k)
-      w[i * kept.size() + k] = v[kept[k] * m + first + i] * scale[first + i] / std::sqrt(eigenvalues[kept[k]]);
+      w[i * kept.size() + k] =
+          v[kept[k] * m + first + i] * scale[first + i] / std::sqrt(eigenvalues[kept[k]]);
   if (kept.empty())
     return prepared;
-  const RCP<const OrthonormalEquality> constraint = rcp(new OrthonormalEquality(b, std::move(w), std::move(wc)));
+  const RCP<const OrthonormalEquality> constraint =
+      rcp(new OrthonormalEquality(b, std::move(w), std::move(wc)));
   prepared.constraint = constraint;
   prepared.multiplierOfRows = [constraint, b](std::span<const double> mu) {
     const RCP<Vector> y = rcp(new Vector(b->getRangeMap()));
@@ -259,14 +268,16 @@ PreparedEquality orthonormal(const RCP<const Operator>& b, const RCP<const Vecto
   return prepared;
 }
 
-PreparedEquality scaled(const RCP<const Operator>& b, const RCP<const Vector>& c, const NormEstimateParameters& norm) {
+PreparedEquality scaled(const RCP<const Operator>& b, const RCP<const Vector>& c,
+                        const NormEstimateParameters& norm) {
   PreparedEquality prepared;
   prepared.numRows = prepared.rank = static_cast<GlobalOrdinal>(b->getRangeMap()->getGlobalNumElements());
   const double squared = estimateNorm(GramOperator(b), norm).norm;
   if (squared == 0) {
     prepared.rank = 0;
     if (!c.is_null() && c->normInf() > 0) {
-      prepared.contradiction = "the equality constraints contradict each other: B = 0, but the right-hand side is not";
+      prepared.contradiction =
+          "the equality constraints contradict each other: B = 0, but the right-hand side is not";
       prepared.certificate = rcp(new Vector(*c, Teuchos::Copy));
       prepared.certificate->scale(-1.0 / c->norm2());
     }
@@ -291,7 +302,8 @@ PreparedEquality prepareEquality(const RCP<const Operator>& b, const RCP<const V
   if (!b->hasTransposeApply())
     throw InputError("the constraint operator has no transposed apply; SMALBE needs products with Bᵀ");
   if (!c.is_null() && !c->getMap()->isSameAs(*b->getRangeMap()))
-    throw InputError("the right-hand side of the equality constraints is not on the range map of their matrix");
+    throw InputError(
+        "the right-hand side of the equality constraints is not on the range map of their matrix");
   const auto m = static_cast<std::size_t>(b->getRangeMap()->getGlobalNumElements());
   if (m == 0)
     return {};

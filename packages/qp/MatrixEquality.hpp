@@ -18,10 +18,10 @@ struct PreparedEquality {
   /// The multiplier of the rows of B, on B's range map, from one of the prepared constraint.
   std::function<RCP<Vector>(std::span<const double>)> multiplierOfRows;
   GlobalOrdinal numRows = 0;
-  double norm = 0;              ///< ‖B‖, or the Frobenius norm of B: what Bx − c is measured by
-  GlobalOrdinal rank = 0;       ///< independent rows; numRows where this was not looked for
-  std::string contradiction;    ///< why the rows contradict each other; empty if they do not
-  RCP<Vector> certificate;      ///< then: y with Bᵀy = 0, yᵀc < 0, of length 1
+  double norm = 0;           ///< ‖B‖, or the Frobenius norm of B: what Bx − c is measured by
+  GlobalOrdinal rank = 0;    ///< independent rows; numRows where this was not looked for
+  std::string contradiction; ///< why the rows contradict each other; empty if they do not
+  RCP<Vector> certificate;   ///< then: y with Bᵀy = 0, yᵀc < 0, of length 1
 };
 
 /// Up to `maxDenseRows` rows are made orthonormal: with BBᵀ = VΛVᵀ (rows scaled to length 1 first) the constraint is

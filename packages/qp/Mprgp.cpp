@@ -18,15 +18,15 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 } // namespace
 
-Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters, double operatorNorm,
-             RCP<const Operator> preconditioner)
-    : a_(std::move(a)), preconditioner_(std::move(preconditioner)), set_(std::move(set)), parameters_(parameters),
-      scale_(operatorNorm > 0 ? 1.0 / operatorNorm : 1.0), norm_(operatorNorm > 0 ? 1.0 : 0.0),
-      comm_(a_->getDomainMap()->getComm()),
+Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters,
+             double operatorNorm, RCP<const Operator> preconditioner)
+    : a_(std::move(a)), preconditioner_(std::move(preconditioner)), set_(std::move(set)),
+      parameters_(parameters), scale_(operatorNorm > 0 ? 1.0 / operatorNorm : 1.0),
+      norm_(operatorNorm > 0 ? 1.0 : 0.0), comm_(a_->getDomainMap()->getComm()),
       hessianTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: product with the Hessian")),
-      preconditionerTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: preconditioner")), x_(a_->getDomainMap()),
-      b_(a_->getDomainMap()), g_(a_->getDomainMap()), p_(a_->getDomainMap()), ap_(a_->getDomainMap()),
-      stepReduction_(comm_, 4), measureReduction_(comm_, 7) {
+      preconditionerTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: preconditioner")),
+      x_(a_->getDomainMap()), b_(a_->getDomainMap()), g_(a_->getDomainMap()), p_(a_->getDomainMap()),
+      ap_(a_->getDomainMap()), stepReduction_(comm_, 4), measureReduction_(comm_, 7) {
   if (!preconditioner_.is_null()) {
     residual_ = rcp(new Vector(a_->getDomainMap()));
     z_ = rcp(new Vector(a_->getDomainMap()));
@@ -46,6 +46,7 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
   conjugate_ = false;
   refreshes_ = 0;
   measure(rule);
+  startGradient_ = projectedGradient_;
   record(rule, StepKind::start, observer);
 
   while (true) {
@@ -83,7 +84,7 @@ std::optional<Status> Mprgp::ending(StoppingRule& rule) {
   while (true) {
     if (!std::isfinite(projectedGradient_))
       return Status::notFinite;
-    if (rule.isSatisfied(projectedGradient(), measureReduction_.sums().subspan(7)))
+    if (isSatisfied_)
       return Status::converged;
     if (counts_.hessianMultiplications >= parameters_.maxMultiplications)
       return Status::maxIterations;
@@ -132,7 +133,8 @@ void Mprgp::step(const StepSizes& sizes, StepKind kind) {
   const double exact = sizes.curvature > threshold ? sizes.slope / sizes.curvature : sizes.feasible;
   move(std::min(exact, sizes.feasible), sizes);
   curvature_ = sizes.curvature;
-  conjugate_ = isConjugateGradient || (parameters_.release == Release::projectedGradient && exact <= sizes.feasible);
+  conjugate_ =
+      isConjugateGradient || (parameters_.release == Release::projectedGradient && exact <= sizes.feasible);
 }
 
 double Mprgp::freeGradient() const {
@@ -153,11 +155,12 @@ RCP<Vector> Mprgp::certificate() const {
 
 std::string Mprgp::description() const {
   std::ostringstream text;
-  text << "Epafi::qp::Mprgp {unknowns: " << a_->getDomainMap()->getGlobalNumElements() << ", ‖A‖: " << operatorNorm()
+  text << "Epafi::qp::Mprgp {unknowns: " << a_->getDomainMap()->getGlobalNumElements()
+       << ", ‖A‖: " << operatorNorm()
        << ", preconditioner: " << (preconditioner_.is_null() ? "none" : preconditioner_->description())
-       << ", products: " << counts_.hessianMultiplications << ", steps: " << counts_.conjugateGradient << " CG, "
-       << counts_.expansion << " expansion, " << counts_.proportioning << " proportioning, ‖g^P‖: " << projectedGradient()
-       << "}";
+       << ", products: " << counts_.hessianMultiplications << ", steps: " << counts_.conjugateGradient
+       << " CG, " << counts_.expansion << " expansion, " << counts_.proportioning
+       << " proportioning, ‖g^P‖: " << projectedGradient() << "}";
   return text.str();
 }
 

@@ -47,8 +47,8 @@ public:
   /// \param set             Ω; kept
   /// \param operatorNorm    over-estimate of ‖A‖, > 0 unless A = 0
   /// \param preconditioner  M ≈ A⁻¹ on the unknowns' map, restricted to the free set where it is used; null for none
-  Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters, double operatorNorm,
-        RCP<const Operator> preconditioner = Teuchos::null);
+  Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters,
+        double operatorNorm, RCP<const Operator> preconditioner = Teuchos::null);
 
   /// x becomes the projection of x0, g = Ax − b (no product if that is 0), f = ½xᵀAx − bᵀx + constant. Collective.
   void start(const Vector& b, const Vector& x0, double constant = 0);
@@ -72,9 +72,10 @@ public:
   /// Collective.
   void shiftLinearTerm(const Vector& shift, double objectiveShift);
 
-  /// The operator has changed (a new penalty): b and the constant of the objective are given anew, g and f recomputed
-  /// (one product). \param operatorNorm  of the changed operator. Collective.
-  void restart(const Vector& b, double constant, double operatorNorm);
+  /// The operator has changed (a new penalty): g and f are given what they grow by at x, b and the constant of the
+  /// objective are given anew. No product. \param operatorNorm  of the changed operator. Collective.
+  void changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b, double constant,
+                     double operatorNorm);
 
   [[nodiscard]] const Vector& solution() const { return x_; }
   /// (Ax − b) · gradientScale(), as updated by the steps.
@@ -82,6 +83,8 @@ public:
   [[nodiscard]] double gradientScale() const { return scale_; }
   /// Norm of the projected gradient ‖g^P‖ at the last step, and its parts ‖φ‖ and ‖β‖.
   [[nodiscard]] double projectedGradient() const { return projectedGradient_ / scale_; }
+  /// The same where the last run began.
+  [[nodiscard]] double startGradient() const { return startGradient_ / scale_; }
   [[nodiscard]] double freeGradient() const;
   [[nodiscard]] double choppedGradient() const;
   [[nodiscard]] double objective() const { return objective_ / scale_; }
@@ -147,7 +150,7 @@ private:
   FusedReduction measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, xᵀx, active entries, time is up; the rule's sums
   double objective_ = 0, constant_ = 0; ///< f, and what is in it beside ½xᵀAx − bᵀx
   double linearNorm_ = 0;               ///< ‖b‖, scaled
-  double projectedGradient_ = 0;
+  double projectedGradient_ = 0, startGradient_ = 0;
   double freeSquared_ = 0, choppedSquared_ = 0; ///< φᵀφ, βᵀβ
   double reducedTimesFree_ = 0;                 ///< φ̃ᵀφ
   double directionTimesImage_ = 0;              ///< φᵀAp or zᵀAp, for the next conjugation
@@ -156,6 +159,7 @@ private:
   long long active_ = 0;
   bool conjugate_ = false; ///< whether the next direction is made conjugate to p
   bool gradientIsFresh_ = false;
+  bool isSatisfied_ = false; ///< what the rule says of the present iterate
   bool timeIsUp_ = false;
   double deadline_ = 0;
   int refreshes_ = 0;

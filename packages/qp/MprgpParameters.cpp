@@ -50,15 +50,18 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
           "times the free one.",
           0.0, 1e6, true);
   addChoice(list, "Expansion", expansions.front().first,
-            "Where a CG step that would leave the feasible set goes instead: the projection of the full CG step, or "
-            "from the boundary along the free gradient with a fixed, an optimal, or a Barzilai–Borwein step length. "
+            "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
+            "step, or "
+            "from the boundary along the free gradient with a fixed, an optimal, or a Barzilai–Borwein step "
+            "length. "
             "One that raises the objective is repeated with the fixed step.",
             namesOf(expansions));
   addReal(list, "Expansion Step", defaults.expansionStep,
           "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
           true, true);
   addChoice(list, "Release", releases.front().first,
-            "Direction that leaves a face which is no longer proportional: the projected gradient (preconditioned if "
+            "Direction that leaves a face which is no longer proportional: the projected gradient "
+            "(preconditioned if "
             "there is a preconditioner), or the chopped gradient alone.",
             namesOf(releases));
   addInteger(list, "Maximum Multiplications", defaults.maxMultiplications,

@@ -2,9 +2,7 @@
 
 #include "epafi/qp/LocalData.hpp"
 #include "epafi/qp/Mprgp.hpp"
-
-#include <Teuchos_Time.hpp>
-#include <Teuchos_TimeMonitor.hpp>
+#include "epafi/qp/Timing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,12 +35,14 @@ void Mprgp::moveTo(const Vector& x) {
   refreshGradient();
 }
 
-void Mprgp::restart(const Vector& b, double constant, double operatorNorm) {
+void Mprgp::changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b,
+                          double constant, double operatorNorm) {
+  g_.update(scale_, gradientChange, 1.0);
+  objective_ += scale_ * objectiveChange;
   b_.assign(b);
   linearNorm_ = scale_ * accurateNorm(b_);
   constant_ = scale_ * constant;
-  norm_ = operatorNorm * scale_;
-  refreshGradient();
+  norm_ = std::max(norm_, scale_ * operatorNorm);
 }
 
 void Mprgp::refreshGradient() {
@@ -59,14 +59,14 @@ void Mprgp::shiftLinearTerm(const Vector& shift, double objectiveShift) {
 }
 
 void Mprgp::applyHessian(const Vector& x, Vector& ax) {
-  const Teuchos::TimeMonitor timing(*hessianTimer_);
+  const Timing timing(*hessianTimer_);
   a_->apply(x, ax);
   ++counts_.hessianMultiplications;
 }
 
 /// z = M r for r = `residual_`.
 void Mprgp::precondition() {
-  const Teuchos::TimeMonitor timing(*preconditionerTimer_);
+  const Timing timing(*preconditionerTimer_);
   preconditioner_->apply(*residual_, *z_);
   ++counts_.preconditionerApplications;
 }
@@ -75,26 +75,27 @@ void Mprgp::precondition() {
 /// set lets it move, or β alone.
 std::optional<Status> Mprgp::setDirection(StepKind intent) {
   const bool isInFace = intent == StepKind::conjugateGradient;
+  const double negligible = 1e-12 * projectedGradient_;
   if (!isInFace && parameters_.release == Release::choppedGradient) {
-    set_->choppedGradient(x_, g_, p_);
+    set_->choppedGradient(x_, g_, negligible, p_);
     return std::nullopt;
   }
   if (preconditioner_.is_null()) {
     if (isInFace)
       set_->subtractFromFreeGradient(x_, g_, conjugate_ ? directionTimesImage_ / curvature_ : 0.0, p_);
     else
-      set_->projectedGradient(x_, g_, p_);
+      set_->projectedGradient(x_, g_, negligible, p_);
     return std::nullopt;
   }
   if (isInFace)
     set_->subtractFromFreeGradient(x_, g_, 0.0, *residual_);
   else
-    set_->projectedGradient(x_, g_, *residual_);
+    set_->projectedGradient(x_, g_, negligible, *residual_);
   precondition();
   if (isInFace)
     set_->restrictToFree(x_, *z_);
   else
-    set_->restrictToReleased(x_, g_, *z_);
+    set_->restrictToReleased(x_, g_, negligible, *z_);
   const auto r = localData(*residual_), z = localData(*z_), ap = localData(ap_);
   AccurateSum rz, zap;
   for (std::size_t i = 0; i < z.size(); ++i) {
@@ -110,7 +111,10 @@ std::optional<Status> Mprgp::setDirection(StepKind intent) {
   if (!(stepReduction_.sum(0) > 0)) // rᵀMr ≤ 0: no descent, M is not positive definite
     return Status::indefinitePreconditioner;
   const bool conjugates = isInFace && conjugate_;
-  p_.update(1.0, *z_, conjugates ? -scale_ * stepReduction_.sum(1) / curvature_ : 0.0);
+  const double conjugation = conjugates ? scale_ * stepReduction_.sum(1) / curvature_ : 0.0;
+  const auto p = localDataNonConst(p_);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    p[i] = z[i] - (conjugates ? conjugation * p[i] : 0.0);
   return std::nullopt;
 }
 
@@ -145,7 +149,7 @@ void Mprgp::correctNorm(double rayleighQuotient) {
 /// x −= αp, g −= αAp, f follows: f(x − αp) = f − α gᵀp + ½α² pᵀAp. Streams x, g, p, Ap, l, u.
 void Mprgp::move(double length, const StepSizes& sizes) {
   set_->move(length, p_, x_); // feasible already but for the last digit
-  g_.update(-length * scale_, ap_, 1.0);
+  addScaled(-length * scale_, ap_, g_);
   objective_ += length * (0.5 * length * sizes.curvature - sizes.slope);
   gradientIsFresh_ = false;
 }
@@ -218,13 +222,17 @@ std::optional<Status> Mprgp::safeTrial(Trial trial) {
     trial = tryAlong(ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0));
   }
   refreshGradient();
-  return counts_.hessianMultiplications >= parameters_.maxMultiplications ? Status::maxIterations : Status::stagnated;
+  return counts_.hessianMultiplications >= parameters_.maxMultiplications ? Status::maxIterations
+                                                                          : Status::stagnated;
 }
 
 /// The point P(x − length · direction) goes into p, its gradient into g. The direction may be p itself. Ap, which holds
 /// φ(x^½), is left alone.
 Mprgp::Trial Mprgp::tryAlong(const Vector& direction, double length) {
-  p_.update(1.0, x_, -length, direction, 0.0);
+  const auto start = localData(x_), along = localData(direction);
+  const auto trialPoint = localDataNonConst(p_);
+  for (std::size_t i = 0; i < trialPoint.size(); ++i)
+    trialPoint[i] = start[i] - length * along[i];
   set_->project(p_);
   applyHessian(p_, g_);
   const auto trial = localData(p_), half = localData(x_), b = localData(b_), free = localData(ap_);
@@ -246,7 +254,8 @@ Mprgp::Trial Mprgp::tryAlong(const Vector& direction, double length) {
   sums[3] = gradient;
   stepReduction_.reduce();
   const double xax = scale_ * stepReduction_.sum(0), xb = scale_ * stepReduction_.sum(1);
-  return {0.5 * xax - xb + constant_, std::abs(xax) + std::abs(xb), stepReduction_.sum(2), stepReduction_.sum(3)};
+  return {0.5 * xax - xb + constant_, std::abs(xax) + std::abs(xb), stepReduction_.sum(2),
+          stepReduction_.sum(3)};
 }
 
 void Mprgp::accept(const Trial& trial) {
@@ -256,8 +265,7 @@ void Mprgp::accept(const Trial& trial) {
 
 /// All that the loop asks of the split gradient, in one pass and one message. Streams x, g, Ap, l, u.
 void Mprgp::measure(StoppingRule& rule) {
-  const GradientSums mine =
-      set_->measure(x_, g_, ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0));
+  const GradientSums mine = set_->measure(x_, g_, ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0));
   measureReduction_.clear();
   const std::span<AccurateSum> sums = measureReduction_.sums();
   sums[0] = mine.freeSquared;
@@ -277,6 +285,7 @@ void Mprgp::measure(StoppingRule& rule) {
   active_ = static_cast<long long>(measureReduction_.sum(5));
   timeIsUp_ = measureReduction_.sum(6) > 0;
   projectedGradient_ = std::sqrt(freeSquared_ + choppedSquared_);
+  isSatisfied_ = rule.isSatisfied(projectedGradient(), sums.subspan(7));
 }
 
 } // namespace epafi::qp

@@ -1,5 +1,7 @@
 #include "epafi/qp/PenalizedOperator.hpp"
 
+#include "epafi/base/Columns.hpp"
+
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
@@ -7,8 +9,8 @@
 
 namespace epafi::qp {
 
-PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const Map> map, RCP<const EqualityConstraint> b,
-                                     double penalty)
+PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const Map> map,
+                                     RCP<const EqualityConstraint> b, double penalty)
     : a_(std::move(a)), map_(std::move(map)), b_(std::move(b)), penalty_(penalty), bx_(b_->numEntries()) {}
 
 void PenalizedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
@@ -19,10 +21,10 @@ void PenalizedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETr
     y.scale(beta);
   else
     a_->apply(x, y, mode, alpha, beta);
-  for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-    b_->product(*x.getVector(column), bx_);
-    b_->addTransposedProduct(bx_, alpha * penalty_, *y.getVectorNonConst(column));
-  }
+  forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+    b_->product(in, bx_);
+    b_->addTransposedProduct(bx_, alpha * penalty_, out);
+  });
 }
 
 } // namespace epafi::qp

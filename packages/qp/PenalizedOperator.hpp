@@ -16,7 +16,8 @@ public:
   /// \param a        null for A = 0
   /// \param map      the map of x
   /// \param penalty  ρ ≥ 0
-  PenalizedOperator(RCP<const Operator> a, RCP<const Map> map, RCP<const EqualityConstraint> b, double penalty);
+  PenalizedOperator(RCP<const Operator> a, RCP<const Map> map, RCP<const EqualityConstraint> b,
+                    double penalty);
 
   void setPenalty(double penalty) { penalty_ = penalty; }
 

@@ -9,6 +9,7 @@
 #include "epafi/qp/Feasibility.hpp"
 #include "epafi/qp/LocalData.hpp"
 #include "epafi/qp/MatrixEquality.hpp"
+#include "epafi/qp/RecessionDirection.hpp"
 
 #include <Teuchos_TimeMonitor.hpp>
 #include <Tpetra_Map.hpp>
@@ -26,17 +27,21 @@ namespace epafi::qp {
 Teuchos::ParameterList QpSolver::validParameters() {
   Teuchos::ParameterList list("QP");
   addReal(list, "Tolerance", 1e-6, "Stop at ‖gᴾ‖ ≤ Tolerance · Reference.", 0.0, 1.0);
-  addReal(list, "Absolute Tolerance", 0.0, "Stop at ‖gᴾ‖ ≤ this as well; 0 leaves the relative test alone.", 0.0);
-  addReal(list, "Reference", 0.0, "What ‖gᴾ‖ is relative to; 0 stands for ‖b‖ (or, if b = 0, ‖A‖ times the length of the "
-                                  "feasible point that is nearest to 0).",
+  addReal(list, "Absolute Tolerance", 0.0, "Stop at ‖gᴾ‖ ≤ this as well; 0 leaves the relative test alone.",
+          0.0);
+  addReal(list, "Reference", 0.0,
+          "What ‖gᴾ‖ is relative to; 0 stands for ‖b‖ (or, if b = 0, ‖A‖ times the length of the "
+          "feasible point that is nearest to 0).",
           0.0);
   addReal(list, "Constraint Tolerance", 1e-6,
           "Stop only if ‖Bx − c‖ ≤ this times ‖c‖ (or, if c = 0, ‖B‖‖b‖/‖A‖) as well.", 0.0, 1.0, true);
   addInteger(list, "Maximum Dense Rows", 300,
-             "Up to so many rows of B are made orthonormal, and redundant ones found, with a dense matrix of that size on "
+             "Up to so many rows of B are made orthonormal, and redundant ones found, with a dense matrix of "
+             "that size on "
              "every rank; beyond, B is only scaled.",
              0);
-  addReal(list, "Operator Norm", 0.0, "An over-estimate of ‖A‖ if one is known; 0 for an estimate by 'Norm Estimate'.", 0.0);
+  addReal(list, "Operator Norm", 0.0,
+          "An over-estimate of ‖A‖ if one is known; 0 for an estimate by 'Norm Estimate'.", 0.0);
   list.sublist("MPRGP").setParameters(MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(SmalbeParameters::validParameters());
   list.sublist("Norm Estimate").setParameters(NormEstimateParameters::validParameters());
@@ -84,6 +89,7 @@ struct QpSolver::Run {
   bool findStart();
   void prepareOperators();
   void iterate();
+  void lookForUnboundedness();
   void certify();
 
   bool end(Status status, const std::string& reason) const {
@@ -102,8 +108,8 @@ void requireFinite(const Vector& values, const char* name) {
     for (std::size_t i = 0; i < entries.size(); ++i)
       if (!std::isfinite(entries[i])) {
         std::ostringstream text;
-        text << "entry " << values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)) << " of " << name << " is "
-             << entries[i] << "; it must be a finite number";
+        text << "entry " << values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)) << " of " << name
+             << " is " << entries[i] << "; it must be a finite number";
         throw InputError(text.str());
       }
   });
@@ -124,12 +130,15 @@ void QpSolver::Run::check() const {
   requireMap(x.getMap()->isSameAs(map), "the start x");
   requireMap(given.constraintMatrix.is_null() || given.constraintMatrix->getDomainMap()->isSameAs(map),
              "the domain of the constraint matrix");
-  requireMap(given.preconditioner.is_null() || given.preconditioner->getDomainMap()->isSameAs(map), "the preconditioner");
-  requireMap(given.activeGuess.is_null() || given.activeGuess->getMap()->isSameAs(map), "the guess of the active set");
+  requireMap(given.preconditioner.is_null() || given.preconditioner->getDomainMap()->isSameAs(map),
+             "the preconditioner");
+  requireMap(given.activeGuess.is_null() || given.activeGuess->getMap()->isSameAs(map),
+             "the guess of the active set");
   if (given.constraintMatrix.is_null() && !given.constraintValues.is_null())
     throw InputError("constraint values are given without a constraint matrix");
   if (!given.coarseSpace.is_null() && !given.constraintMatrix.is_null())
-    throw InputError("projector preconditioning is for problems without equality constraints; leave out the coarse space");
+    throw InputError(
+        "projector preconditioning is for problems without equality constraints; leave out the coarse space");
   requireFinite(*given.linearTerm, "the linear term");
   requireFinite(x, "the start x");
   if (!given.constraintValues.is_null())
@@ -142,7 +151,8 @@ bool QpSolver::Run::prepareConstraints() {
     return end(Status::infeasible, emptiness);
   if (given.constraintMatrix.is_null())
     return true;
-  equality = prepareEquality(given.constraintMatrix, given.constraintValues, solver.maxDenseRows_, solver.norm_);
+  equality =
+      prepareEquality(given.constraintMatrix, given.constraintValues, solver.maxDenseRows_, solver.norm_);
   if (equality.contradiction.empty())
     return true;
   solution.report.certificate = equality.certificate;
@@ -182,7 +192,8 @@ void QpSolver::Run::prepareOperators() {
         const auto column = given.coarseSpace->getData(k);
         for (std::size_t i = 0; i < distance.size(); ++i)
           if (std::isfinite(distance[i]) && column[static_cast<Teuchos_Ordinal>(i)] != 0)
-            throw InputError("the coarse space is not 0 in an entry that has a bound; set its rows there to 0");
+            throw InputError(
+                "the coarse space is not 0 in an entry that has a bound; set its rows there to 0");
       }
     });
     projector = std::make_unique<ConjugateProjector>(given.hessian, given.coarseSpace);
@@ -198,6 +209,8 @@ void QpSolver::Run::prepareOperators() {
   }
   operatorNorm = solver.operatorNorm_ > 0 ? solver.operatorNorm_ : estimateNorm(*hessian, solver.norm_).norm;
   reference = solver.reference_ > 0 ? solver.reference_ : accurateNorm(*given.linearTerm);
+  if (operatorNorm == 0 && !equality.constraint.is_null()) // a linear objective: ρ and M still need units
+    operatorNorm = accurateNorm(x) > 0 ? reference / accurateNorm(x) : reference;
   if (reference == 0) {
     Vector nearest(x.getMap());
     set->project(nearest);
@@ -217,29 +230,48 @@ void QpSolver::Run::iterate() {
   const EqualityConstraint& b = *equality.constraint;
   const double c = b.isHomogeneous() ? 0.0 : std::sqrt(b.dot(b.rightHandSide(), b.rightHandSide()));
   SmalbeTolerances tolerances;
-  tolerances.gradient = reference > 0 ? std::max(solver.tolerance_, solver.absoluteTolerance_ / reference) : 0.0;
+  tolerances.gradient =
+      reference > 0 ? std::max(solver.tolerance_, solver.absoluteTolerance_ / reference) : 0.0;
   tolerances.gradientReference = reference;
   tolerances.constraint = solver.constraintTolerance_;
   tolerances.constraintReference = c > 0 ? c : operatorNorm > 0 ? b.norm() * reference / operatorNorm : 0.0;
-  const EqualityBoundProblem problem{hessian, linearTerm, set, equality.constraint, preconditioner, operatorNorm};
+  const EqualityBoundProblem problem{hessian,        linearTerm,  set, equality.constraint,
+                                     preconditioner, operatorNorm};
   solution.report =
       solveEqualityBoundProblem(problem, x, multiplier, tolerances, solver.smalbe_, solver.mprgp_, observer);
+}
+
+/// An iteration that ended without success far away from where it began may have followed a direction without end.
+void QpSolver::Run::lookForUnboundedness() {
+  SolveReport& report = solution.report;
+  if (report.status != Status::stagnated && report.status != Status::maxIterations)
+    return;
+  if (operatorNorm * accurateNorm(x) <= 1e3 * accurateNorm(*given.linearTerm))
+    return;
+  const RecessionDirection found =
+      findRecessionDirection(given.hessian, operatorNorm, *given.linearTerm, *set, equality.constraint,
+                             solver.mprgp_.maxMultiplications);
+  report.counts.hessianMultiplications += found.multiplications;
+  if (found.direction.is_null())
+    return;
+  report.certificate = found.direction;
+  end(Status::unbounded, explain(Status::unbounded));
 }
 
 /// The KKT residuals from scratch, the multipliers, and a second look at the status.
 void QpSolver::Run::certify() {
   SolveReport& report = solution.report;
   Vector gradient(x.getMap());
-  if (projector) {
+  if (projector)
     projector->complete(*given.linearTerm, x);
-    report.gradient = Teuchos::null;
-  }
-  if (report.gradient.is_null()) {
-    given.hessian->apply(x, gradient);
+  if (projector || !equality.constraint.is_null() || report.gradient.is_null()) {
+    given.hessian->apply(x, gradient); // what the iteration holds is of another operator, or not fresh
     ++report.counts.hessianMultiplications;
     gradient.update(-1.0, *given.linearTerm, 1.0);
+    report.objective = 0.5 * (accurateDot(x, gradient) - accurateDot(x, *given.linearTerm));
     if (!equality.constraint.is_null())
       equality.constraint->addTransposedProduct(multiplier, 1.0, gradient);
+    report.gradient = rcp(new Vector(gradient, Teuchos::Copy));
   } else {
     gradient.assign(*report.gradient);
   }
@@ -269,19 +301,22 @@ void QpSolver::Run::certify() {
       size += accurateNorm(*given.constraintValues);
     }
     report.kkt.equality = relativeTo(size, accurateNorm(residual));
-    solution.equalityMultiplier = equality.multiplierOfRows ? equality.multiplierOfRows(multiplier)
-                                                            : rcp(new Vector(given.constraintMatrix->getRangeMap()));
+    solution.equalityMultiplier = equality.multiplierOfRows
+                                      ? equality.multiplierOfRows(multiplier)
+                                      : rcp(new Vector(given.constraintMatrix->getRangeMap()));
   }
   const double limit = std::max(solver.tolerance_, relativeTo(reference, solver.absoluteTolerance_));
   const double gradientNorm = std::hypot(report.kkt.stationarity, report.kkt.dualFeasibility);
   const double slack = projector ? 10 : 1.0000001; // the projected problem has a round-off of its own
   report.relativeProjectedGradient = gradientNorm;
   if (report.status == Status::converged &&
-      (gradientNorm > slack * limit || report.kkt.equality > std::max(10 * solver.constraintTolerance_, 1e-9))) {
+      (gradientNorm > slack * limit ||
+       report.kkt.equality > std::max(10 * solver.constraintTolerance_, 1e-9))) {
     report.status = Status::stagnated;
     std::ostringstream text;
-    text << "the iteration met the tolerance, but recomputed from the solution the projected gradient is " << gradientNorm
-         << " and the equality residual " << report.kkt.equality << " (relative): round-off allows no better";
+    text << "the iteration met the tolerance, but recomputed from the solution the projected gradient is "
+         << gradientNorm << " and the equality residual " << report.kkt.equality
+         << " (relative): round-off allows no better";
     report.reason = text.str();
   }
 }
@@ -294,10 +329,13 @@ QpSolution QpSolver::solve(const QuadraticProgram& problem, Vector& x, Observer*
   if (run.prepareConstraints() && run.findStart()) {
     run.prepareOperators();
     run.iterate();
+    run.lookForUnboundedness();
     run.certify();
   }
   lastRun_ = toString(solution.report.status);
-  lastRun_.append(", ").append(std::to_string(solution.report.counts.hessianMultiplications)).append(" products");
+  lastRun_.append(", ")
+      .append(std::to_string(solution.report.counts.hessianMultiplications))
+      .append(" products");
   return solution;
 }
 

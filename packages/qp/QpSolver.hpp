@@ -29,11 +29,12 @@ namespace epafi::qp {
 /// min ½xᵀAx − bᵀx subject to x in Ω and Bx = c. Everything is shared and never changed. Members that a problem has no
 /// use for stay null.
 struct QuadraticProgram {
-  RCP<const Operator> hessian;          ///< A, n × n, symmetric positive semidefinite; its domain map is that of x
-  RCP<const Vector> linearTerm;         ///< b
-  RCP<const ConvexSet> set;             ///< Ω
-  RCP<const Operator> constraintMatrix; ///< B, m × n, of any rank, with a transposed apply (a CrsMatrix has one)
-  RCP<const Vector> constraintValues;   ///< c, on B's range map; null for 0
+  RCP<const Operator> hessian;  ///< A, n × n, symmetric positive semidefinite; its domain map is that of x
+  RCP<const Vector> linearTerm; ///< b
+  RCP<const ConvexSet> set;     ///< Ω
+  RCP<const Operator>
+      constraintMatrix; ///< B, m × n, of any rank, with a transposed apply (a CrsMatrix has one)
+  RCP<const Vector> constraintValues; ///< c, on B's range map; null for 0
 
   /// M ≈ A⁻¹, symmetric positive definite; used restricted to the free set.
   RCP<const Operator> preconditioner;

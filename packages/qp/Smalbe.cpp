@@ -10,21 +10,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 namespace epafi::qp {
 namespace {
 
+/// Largest ρ‖B‖² as a multiple of ‖A‖: the round-off of ρBᵀ(Bx − c) limits the gradient that can be reached.
+constexpr double maxPenalty = 1e4;
+
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
 class AdaptiveRule final : public StoppingRule {
 public:
-  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance, double forcing)
+  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance,
+               double forcing)
       : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
         residual_(equality_->numEntries()) {}
 
   [[nodiscard]] int numSums() const override { return equality_->numSums(); }
-  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override { equality_->addLocalSums(x, sums); }
+  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override {
+    equality_->addLocalSums(x, sums);
+  }
 
   bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override {
     residualNorm_ = equality_->finishResidual(sums, residual_);
@@ -55,8 +62,9 @@ private:
 /// The outer iteration with its state μ, ρ, M.
 class OuterIteration {
 public:
-  OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
-                 const SmalbeParameters& parameters, const MprgpParameters& inner);
+  OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
+                 const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
+                 const MprgpParameters& inner);
   /// The loop of the paper.
   Status run(const Vector& start, Observer* observer);
 
@@ -65,10 +73,18 @@ public:
   [[nodiscard]] double penalty() const { return penalty_; }
 
 private:
+  /// Where an inner loop ended.
+  struct Progress {
+    double lagrangian = 0;
+    double residual = std::numeric_limits<double>::infinity();
+  };
   void startMultiplier();
+  bool toleratesRoundOff(const Progress& previous);
+  void adapt(const Progress& previous, const Progress& now);
   void growPenalty();
   void updateMultiplier();
-  bool restore();
+  void restore();
+  bool restorationsHelp();
   [[nodiscard]] double normOfLagrangian() const;
   [[nodiscard]] double constantOfLagrangian() const;
   void linearTermOfLagrangian(Vector& b) const;
@@ -82,7 +98,9 @@ private:
   AdaptiveRule rule_;
   Mprgp inner_;
   Vector work_;
-  int restorations_ = 0;
+  int idle_ = 0, slow_ = 0, idleRestorations_ = 0;
+  bool wasRestored_ = false;
+  double bestRestored_ = std::numeric_limits<double>::infinity();
 };
 
 OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
@@ -92,7 +110,8 @@ OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<
       penalty_(parameters.penalty * (problem.operatorNorm > 0 ? problem.operatorNorm : 1.0) /
                (equality_.norm() * equality_.norm())),
       multiplier_(multiplier),
-      hessian_(rcp(new PenalizedOperator(problem.hessian, problem.hessian->getDomainMap(), problem.equality, penalty_))),
+      hessian_(rcp(new PenalizedOperator(problem.hessian, problem.hessian->getDomainMap(), problem.equality,
+                                         penalty_))),
       rule_(problem.equality, tolerances, parameters.balance * problem.operatorNorm / equality_.norm(),
             parameters.forcing * tolerances.gradientReference),
       inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
@@ -108,7 +127,8 @@ double OuterIteration::normOfLagrangian() const {
 /// −μᵀc + ρ/2‖c‖².
 double OuterIteration::constantOfLagrangian() const {
   const auto c = equality_.rightHandSide();
-  return equality_.isHomogeneous() ? 0.0 : 0.5 * penalty_ * equality_.dot(c, c) - equality_.dot(multiplier_, c);
+  return equality_.isHomogeneous() ? 0.0
+                                   : 0.5 * penalty_ * equality_.dot(c, c) - equality_.dot(multiplier_, c);
 }
 
 /// b − Bᵀμ + ρBᵀc.
@@ -127,28 +147,52 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
   if (inner_.solution().normInf() > 0)
     startMultiplier();
 
-  double previousLagrangian = 0;
+  Progress previous;
   while (inner_.counts().outer < parameters_.maxOuterIterations) {
     const Status status = inner_.run(rule_, observer); // ‖g^P‖ ≤ min(M‖Bx − c‖, η)
-    if (status != Status::converged)
+    if (status != Status::converged && !(status == Status::stagnated && toleratesRoundOff(previous)))
       return status;
     if (rule_.isFinal() && inner_.gradientIsFresh())
       return Status::converged;
-    const double residual = rule_.residualNorm();
-    const double lagrangian = inner_.objective();
-    const bool grewTooLittle =
-        inner_.counts().outer > 0 && lagrangian < previousLagrangian + 0.5 * penalty_ * residual * residual;
-    previousLagrangian = lagrangian;
-    updateMultiplier(); // μ ← μ + ρ(Bx − c), or further
-    if (grewTooLittle && parameters_.update == SmalbeParameters::Update::balance)
-      rule_.reduceBalance(parameters_.balanceReduction); // M ← βM
-    else if (grewTooLittle)
-      growPenalty(); // ρ ← βρ
-    ++inner_.counts().outer;
-    if (rule_.isFinal() && !restore())
+    if (!restorationsHelp())
       return Status::stagnated;
+    const Progress now{inner_.objective(), rule_.residualNorm()};
+    updateMultiplier(); // μ ← μ + ρ(Bx − c), or further
+    adapt(previous, now);
+    previous = now;
+    ++inner_.counts().outer;
+    wasRestored_ = rule_.isFinal() || status == Status::stagnated;
+    if (wasRestored_)
+      restore();
   }
   return Status::maxIterations;
+}
+
+/// What MPRGP cannot improve any further is good enough for the next multiplier, as long as these make progress.
+bool OuterIteration::toleratesRoundOff(const Progress& previous) {
+  constexpr int maxIdle = 3;
+  idle_ = rule_.residualNorm() > 0.9 * previous.residual ? idle_ + 1 : 0;
+  return idle_ <= maxIdle;
+}
+
+/// M ← βM, or ρ ← βρ, when L grew by less than ρ/2‖Bx − c‖²; and, with both at hand, ρ ← βρ as well when ‖Bx − c‖ has
+/// twice in a row not been halved.
+void OuterIteration::adapt(const Progress& previous, const Progress& now) {
+  const bool isFirst = inner_.counts().outer == 0;
+  const double roundOff = 1e-14 * std::abs(now.lagrangian);
+  const bool grewTooLittle =
+      !isFirst &&
+      now.lagrangian < previous.lagrangian + 0.5 * penalty_ * now.residual * now.residual - roundOff;
+  slow_ = !isFirst && now.residual > 0.5 * previous.residual ? slow_ + 1 : 0;
+  using Update = SmalbeParameters::Update;
+  const bool mayGrow = penalty_ * equality_.norm() * equality_.norm() < maxPenalty * problem_.operatorNorm;
+  if (grewTooLittle && (parameters_.update != Update::penalty || !mayGrow))
+    rule_.reduceBalance(parameters_.balanceReduction);
+  const bool isSlow = parameters_.update == Update::both && slow_ >= 2;
+  if (mayGrow && (isSlow || (grewTooLittle && parameters_.update == Update::penalty))) {
+    growPenalty();
+    slow_ = 0;
+  }
 }
 
 /// Gives a warm start the multiplier that belongs to it; without, the first outer iterations would lead away from it.
@@ -157,7 +201,8 @@ void OuterIteration::startMultiplier() {
     return;
   Vector gradient(inner_.scaledGradient(), Teuchos::Copy);
   gradient.scale(1.0 / inner_.gradientScale());
-  const std::vector<double> change = estimateMultiplier(equality_, *problem_.set, inner_.solution(), gradient);
+  const std::vector<double> change =
+      estimateMultiplier(equality_, *problem_.set, inner_.solution(), gradient);
   work_.putScalar(0.0);
   equality_.addTransposedProduct(change, 1.0, work_);
   const double constant = equality_.isHomogeneous() ? 0.0 : equality_.dot(change, equality_.rightHandSide());
@@ -166,11 +211,17 @@ void OuterIteration::startMultiplier() {
     multiplier_[i] += change[i];
 }
 
+/// ρ ← βρ at the present x and μ.
 void OuterIteration::growPenalty() {
-  penalty_ *= parameters_.penaltyGrowth;
+  const double growth = (parameters_.penaltyGrowth - 1) * penalty_;
+  const double residual = rule_.residualNorm();
+  Vector change(work_.getMap()); // of the gradient: growth · Bᵀ(Bx − c)
+  equality_.addTransposedProduct(rule_.residual(), growth, change);
+  penalty_ += growth;
   hessian_->setPenalty(penalty_);
   linearTermOfLagrangian(work_);
-  inner_.restart(work_, constantOfLagrangian(), normOfLagrangian());
+  inner_.changeHessian(change, 0.5 * growth * residual * residual, work_, constantOfLagrangian(),
+                       normOfLagrangian());
 }
 
 /// μ may go further than the paper's step ρ(Bx − c) where the inner solution x does not notice: while every entry that
@@ -179,8 +230,9 @@ void OuterIteration::growPenalty() {
 void OuterIteration::updateMultiplier() {
   work_.putScalar(0.0);
   equality_.addTransposedProduct(rule_.residual(), penalty_ * inner_.gradientScale(), work_);
-  const double longest = minOverRanks(
-      *work_.getMap()->getComm(), problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
+  const double longest =
+      minOverRanks(*work_.getMap()->getComm(),
+                   problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
   const double step = std::isfinite(longest) ? std::max(1.0, longest) : 1.0;
   work_.scale(step / inner_.gradientScale());
   const double residual = rule_.residualNorm();
@@ -189,17 +241,23 @@ void OuterIteration::updateMultiplier() {
     multiplier_[i] += step * penalty_ * rule_.residual()[i];
 }
 
-/// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on. Returns false after too
-/// many trials.
-bool OuterIteration::restore() {
-  constexpr int maxRestorations = 10;
-  if (++restorations_ > maxRestorations)
-    return false;
+/// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on.
+void OuterIteration::restore() {
   work_.assign(inner_.solution());
   if (equality_.isReplicated())
     restoreEquality(equality_, *problem_.set, rule_.residual(), work_);
   inner_.moveTo(work_);
-  return true;
+}
+
+/// Whether the gradients after restorations, none of which was small enough, still become smaller.
+bool OuterIteration::restorationsHelp() {
+  constexpr int maxIdle = 8;
+  if (!wasRestored_)
+    return true;
+  const bool isBetter = inner_.startGradient() < 0.9 * bestRestored_;
+  bestRestored_ = std::min(bestRestored_, inner_.startGradient());
+  idleRestorations_ = isBetter ? 0 : idleRestorations_ + 1;
+  return idleRestorations_ <= maxIdle;
 }
 
 } // namespace
@@ -207,15 +265,19 @@ bool OuterIteration::restore() {
 Teuchos::ParameterList SmalbeParameters::validParameters() {
   const SmalbeParameters defaults;
   Teuchos::ParameterList list("SMALBE");
-  addChoice(list, "Update", "balance",
-            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M (SMALBE-M) or the "
-            "penalty ρ (SMALBE-ρ).",
-            {"balance", "penalty"});
-  addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0, 1e12, true);
+  addChoice(list, "Update", "both",
+            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M "
+            "(SMALBE-M) or the "
+            "penalty ρ (SMALBE-ρ). 'both' is 'balance', and ρ grows where ‖Bx − c‖ falls slowly.",
+            {"both", "balance", "penalty"});
+  addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0,
+          1e12, true);
   addReal(list, "Balance", defaults.balance,
           "M‖B‖ at the start as a multiple of ‖A‖: inner loops stop at ‖gᴾ‖ ≤ M‖Bx − c‖.", 0.0, 1e12, true);
-  addReal(list, "Balance Reduction", defaults.balanceReduction, "Factor on M, with Update 'balance'.", 0.0, 1.0, true, true);
-  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty'.", 1.0, 1e6, true);
+  addReal(list, "Balance Reduction", defaults.balanceReduction,
+          "Factor on M, with Update 'balance' or 'both'.", 0.0, 1.0, true, true);
+  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty' or 'both'.",
+          1.0, 1e6, true);
   addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
   addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
              "Updates of the multiplier of the equality constraints at most.", 1);
@@ -224,7 +286,10 @@ Teuchos::ParameterList SmalbeParameters::validParameters() {
 
 SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   SmalbeParameters parameters;
-  parameters.update = list.get<std::string>("Update") == "penalty" ? Update::penalty : Update::balance;
+  const auto& update = list.get<std::string>("Update");
+  parameters.update = update == "both"      ? Update::both
+                      : update == "penalty" ? Update::penalty
+                                            : Update::balance;
   parameters.penalty = list.get<double>("Penalty");
   parameters.balance = list.get<double>("Balance");
   parameters.balanceReduction = list.get<double>("Balance Reduction");
@@ -234,9 +299,10 @@ SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   return parameters;
 }
 
-SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x, std::vector<double>& multiplier,
-                                      const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
-                                      const MprgpParameters& inner, Observer* observer) {
+SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x,
+                                      std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
+                                      const SmalbeParameters& parameters, const MprgpParameters& inner,
+                                      Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
   OuterIteration outer(problem, multiplier, tolerances, parameters, inner);
@@ -246,10 +312,12 @@ SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vecto
   x.assign(solver.solution());
   describeEnd(solver, report);
   if (report.status == Status::maxIterations && report.counts.outer >= parameters.maxOuterIterations)
-    report.reason = "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer Iterations' or "
-                    "the tolerance";
+    report.reason =
+        "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer Iterations' or "
+        "the tolerance";
   report.relativeProjectedGradient = relativeTo(tolerances.gradientReference, solver.projectedGradient());
-  for (std::size_t i = 0; i < multiplier.size(); ++i) // the gradient is that of L: μ + ρ(Bx − c) is what it belongs to
+  for (std::size_t i = 0; i < multiplier.size();
+       ++i) // the gradient is that of L: μ + ρ(Bx − c) is what it belongs to
     multiplier[i] += outer.penalty() * outer.rule().residual()[i];
   report.relativeConstraintResidual = relativeTo(tolerances.constraintReference, outer.rule().residualNorm());
   return report;

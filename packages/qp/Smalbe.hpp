@@ -21,9 +21,10 @@
 namespace epafi::qp {
 
 struct SmalbeParameters {
-  /// What changes when the augmented Lagrangian grew too little.
-  enum class Update { balance, penalty };
-  Update update = Update::balance;
+  /// What changes when the augmented Lagrangian grew too little. `both`: the balance, and the penalty where the
+  /// residual of the constraint falls slowly.
+  enum class Update { both, balance, penalty };
+  Update update = Update::both;
   double penalty = 1.0;          ///< ρ‖B‖² as a multiple of ‖A‖
   double balance = 0.3;          ///< M‖B‖ at the start, as a multiple of ‖A‖
   double balanceReduction = 0.5; ///< factor on M (SMALBE-M)
@@ -44,12 +45,12 @@ struct SmalbeTolerances {
 
 /// The problem, as SMALBE needs it.
 struct EqualityBoundProblem {
-  RCP<const Operator> hessian;               ///< A, n × n, positive definite on Ker B
-  RCP<const Vector> linearTerm;              ///< b
-  RCP<const ConvexSet> set;                  ///< Ω
-  RCP<const EqualityConstraint> equality;    ///< Bx = c
-  RCP<const Operator> preconditioner;        ///< of A + ρBᵀB, or null
-  double operatorNorm = 1;                   ///< over-estimate of ‖A‖
+  RCP<const Operator> hessian;            ///< A, n × n, positive definite on Ker B
+  RCP<const Vector> linearTerm;           ///< b
+  RCP<const ConvexSet> set;               ///< Ω
+  RCP<const EqualityConstraint> equality; ///< Bx = c
+  RCP<const Operator> preconditioner;     ///< of A + ρBᵀB, or null
+  double operatorNorm = 1;                ///< over-estimate of ‖A‖
 };
 
 /// \param x           in: start (projected onto Ω; the multiplier starts from what suits it); out: the last iterate,
@@ -57,8 +58,9 @@ struct EqualityBoundProblem {
 /// \param multiplier  out: μ, in the constraint's own entries
 /// Returns converged only if a gradient computed afresh bears it out. Precondition: Ω is not empty.
 /// Collective.
-SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x, std::vector<double>& multiplier,
-                                      const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
-                                      const MprgpParameters& inner, Observer* observer = nullptr);
+SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x,
+                                      std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
+                                      const SmalbeParameters& parameters, const MprgpParameters& inner,
+                                      Observer* observer = nullptr);
 
 } // namespace epafi::qp

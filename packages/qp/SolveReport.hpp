@@ -38,10 +38,10 @@ struct StepRecord {
   int iteration = 0; ///< counts from 0 over all outer iterations
   int outer = 0;     ///< outer iteration (SMALBE), 0 for MPRGP alone
   StepKind kind = StepKind::start;
-  double projectedGradient = 0;   ///< ‖g^P‖ relative to the stopping reference
-  double constraintResidual = 0;  ///< ‖Bx − c‖ relative to its reference; 0 without equality constraints
-  double objective = 0;           ///< value of the function minimised (augmented Lagrangian in SMALBE)
-  long long activeBounds = 0;     ///< entries at a bound
+  double projectedGradient = 0;  ///< ‖g^P‖ relative to the stopping reference
+  double constraintResidual = 0; ///< ‖Bx − c‖ relative to its reference; 0 without equality constraints
+  double objective = 0;          ///< value of the function minimised (augmented Lagrangian in SMALBE)
+  long long activeBounds = 0;    ///< entries at a bound
   int hessianMultiplications = 0; ///< products with the operator so far
 };
 
@@ -81,8 +81,9 @@ struct SolveReport {
   /// Of length 1, or null. indefiniteOperator: d with dᵀAd < 0. unbounded: d with Ad = 0, Bd = 0, dᵀb > 0, along which
   /// the set has no end. infeasible: y on the rows of B with yᵀ(Bx − c) > 0 for every x within the bounds.
   RCP<Vector> certificate;
-  RCP<Vector> gradient; ///< of the Lagrangian at x, from a fresh product with A; null if the last one is not fresh
-  History history;      ///< every step, in order
+  RCP<Vector>
+      gradient;    ///< of the Lagrangian at x, from a fresh product with A; null if the last one is not fresh
+  History history; ///< every step, in order
 };
 
 /// Receives every step of a solver as it happens. Called on all ranks; must not throw.

@@ -1,5 +1,7 @@
 #include "epafi/fetidp/DualOperator.hpp"
 
+#include "epafi/base/Columns.hpp"
+
 #include <utility>
 
 namespace epafi::fetidp {
@@ -11,13 +13,13 @@ DualOperator::DualOperator(const decomposition::DecomposedProblem& problem,
 
 void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                          double beta) const {
-  for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-    const std::span<const double> lambda = input_.toSubdomains(*x.getVector(column));
+  forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+    const std::span<const double> lambda = input_.toSubdomains(in);
     inverse_->applyDual(lambda, output_.values());
     output_.sumToOwners(result_);
-    y.getVectorNonConst(column)->update(alpha, result_, beta); // beta = 0 overwrites, NaN included
+    out.update(alpha, result_, beta); // beta = 0 overwrites, NaN included
     ++applications_;
-  }
+  });
 }
 
 } // namespace epafi::fetidp

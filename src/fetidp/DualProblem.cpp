@@ -170,7 +170,8 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
                                              parameters_.mprgp.maxMultiplications, observer);
     return;
   }
-  const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lowerBounds(-std::numeric_limits<double>::infinity())));
+  const RCP<const qp::ConvexSet> set =
+      rcp(new qp::Box(lowerBounds(-std::numeric_limits<double>::infinity())));
   solution.report =
       qp::solveBoundProblem({hessian_, rhs, set, Teuchos::null, norm_.norm}, *solution.lambda,
                             {parameters_.tolerance, accurateNorm(*rhs), 0.0}, parameters_.mprgp, observer);
@@ -204,8 +205,8 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVecto
   const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lower));
   std::vector<double> multiplier;
   solution.report =
-      qp::solveEqualityBoundProblem({hessian_, rhs, set, coarseSpace_, Teuchos::null, norm_.norm}, mu, multiplier,
-                                    tolerances, parameters_.smalbe, parameters_.mprgp, observer);
+      qp::solveEqualityBoundProblem({hessian_, rhs, set, coarseSpace_, Teuchos::null, norm_.norm}, mu,
+                                    multiplier, tolerances, parameters_.smalbe, parameters_.mprgp, observer);
   solution.lambda->update(1.0, mu, 1.0, feasible, 0.0);
   const Eigen::VectorXd imbalance = coarseSpace_->product(*solution.lambda) - e;
   solution.equilibrium =

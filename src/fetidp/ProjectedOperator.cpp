@@ -1,5 +1,7 @@
 #include "epafi/fetidp/ProjectedOperator.hpp"
 
+#include "epafi/base/Columns.hpp"
+
 #include <utility>
 
 namespace epafi::fetidp {
@@ -11,13 +13,13 @@ ProjectedOperator::ProjectedOperator(RCP<const Operator> dualOperator,
 
 void ProjectedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                               double beta) const {
-  for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-    projected_.assign(*x.getVector(column));
+  forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+    projected_.assign(in);
     coarseSpace_->project(projected_);        // Px
     dualOperator_->apply(projected_, image_); // FPx
     coarseSpace_->project(image_);            // PFPx
-    y.getVectorNonConst(column)->update(alpha, image_, beta);
-  }
+    out.update(alpha, image_, beta);
+  });
 }
 
 } // namespace epafi::fetidp

@@ -83,7 +83,7 @@ TEST(AccurateSumTest, TakesTheMinimumOfTheLastValueOnly) {
   const auto comm = Tpetra::getDefaultComm();
   std::vector<AccurateSum> values{AccurateSum(1.0), AccurateSum(5.0 - comm->getRank())};
 
-  sumAndMinimumOverRanks(*comm, values);
+  SumsAndMinimum(comm, values.size()).reduce(values);
 
   EXPECT_EQ(values[0].value(), comm->getSize());
   EXPECT_EQ(values[1].value(), 5.0 - (comm->getSize() - 1));

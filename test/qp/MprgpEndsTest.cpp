@@ -54,15 +54,15 @@ TEST(MprgpEndsTest, StopsAtTheLimitOfProducts) {
   std::mt19937 random(31);
   const Problem problem = randomProblem(40, 1e6, random);
   const auto map = problem.map();
-  const RCP<const Box> box = rcp(new Box(test::makeVector(map, problem.lower), test::makeVector(map, problem.upper)));
+  const RCP<const Box> box =
+      rcp(new Box(test::makeVector(map, problem.lower), test::makeVector(map, problem.upper)));
   Vector x(map);
   qp::MprgpParameters parameters;
   parameters.maxMultiplications = 5;
 
-  const auto report =
-      qp::solveBoundProblem({rcp(new test::DenseOperator(map, problem.a)), test::makeVector(map, problem.b), box,
-                             Teuchos::null, 1.0},
-                            x, {1e-12, problem.b.norm()}, parameters);
+  const auto report = qp::solveBoundProblem({rcp(new test::DenseOperator(map, problem.a)),
+                                             test::makeVector(map, problem.b), box, Teuchos::null, 1.0},
+                                            x, {1e-12, problem.b.norm()}, parameters);
 
   EXPECT_EQ(report.status, Status::maxIterations);
   EXPECT_LE(report.counts.hessianMultiplications, 7);
@@ -88,8 +88,9 @@ TEST(MprgpEndsTest, LeavesBoundsAndRightHandSideAlone) {
   const auto upper = test::makeVector(map, problem.upper);
   Vector x(map);
 
-  qp::solveBoundProblem({rcp(new test::DenseOperator(map, problem.a)), b, rcp(new Box(lower, upper)), Teuchos::null, 1.0},
-                        x, {1e-10, problem.b.norm()}, {});
+  qp::solveBoundProblem(
+      {rcp(new test::DenseOperator(map, problem.a)), b, rcp(new Box(lower, upper)), Teuchos::null, 1.0}, x,
+      {1e-10, problem.b.norm()}, {});
 
   EXPECT_EQ(test::gather(*b), problem.b);
   EXPECT_EQ(test::gather(*lower), problem.lower);

@@ -34,9 +34,10 @@ Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameter
     x.assign(*test::makeVector(map, start));
   const qp::SmalbeTolerances tolerances{tolerance, problem.b.norm(), tolerance, 1.0};
   std::vector<double> multiplier;
-  const auto report = qp::solveEqualityBoundProblem({rcp(new test::DenseOperator(map, problem.a)),
-                                                     test::makeVector(map, problem.b), box, g, Teuchos::null, norm},
-                                                    x, multiplier, tolerances, parameters, {});
+  const auto report =
+      qp::solveEqualityBoundProblem({rcp(new test::DenseOperator(map, problem.a)),
+                                     test::makeVector(map, problem.b), box, g, Teuchos::null, norm},
+                                    x, multiplier, tolerances, parameters, {});
   return {test::gather(x), report};
 }
 

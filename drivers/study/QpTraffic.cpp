@@ -1,0 +1,109 @@
+#include "QpTraffic.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/qp/Box.hpp"
+#include "epafi/qp/LocalData.hpp"
+#include "epafi/qp/Mprgp.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Teuchos_Time.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace epafi::drivers {
+namespace {
+
+constexpr int repetitions = 5;
+constexpr int stepsPerRun = 40;
+/// Vectors that a CG step reads and writes, bounds among them.
+constexpr double vectorsPerStep = 23 + 3;
+
+/// diag(1, …, 1000) over and over, so that CG goes on; knows how long its products took.
+class TimedDiagonal final : public Operator {
+public:
+  explicit TimedDiagonal(RCP<const Map> map) : map_(std::move(map)), diagonal_(map_) {
+    const auto entries = qp::localDataNonConst(diagonal_);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      entries[i] = 1.0 + static_cast<double>(map_->getGlobalElement(static_cast<LocalOrdinal>(i)) % 1000);
+  }
+  [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
+  [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
+             double beta) const override {
+    const double begin = Teuchos::Time::wallTime();
+    y.elementWiseMultiply(alpha, diagonal_, x, beta);
+    seconds += Teuchos::Time::wallTime() - begin;
+  }
+  mutable double seconds = 0;
+
+private:
+  RCP<const Map> map_;
+  Vector diagonal_;
+};
+
+/// Seconds of one step without its product, the best of several runs.
+double secondsPerStep(const RCP<const Map>& map) {
+  const RCP<Vector> lower = rcp(new Vector(map)), upper = rcp(new Vector(map)), b = rcp(new Vector(map));
+  lower->putScalar(-std::numeric_limits<double>::infinity());
+  upper->putScalar(std::numeric_limits<double>::infinity());
+  b->putScalar(1.0);
+  const Vector zero(map);
+  const RCP<const TimedDiagonal> hessian = rcp(new TimedDiagonal(map));
+  qp::MprgpParameters parameters;
+  parameters.maxMultiplications = stepsPerRun;
+  double best = std::numeric_limits<double>::infinity();
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    qp::Mprgp solver(hessian, rcp(new qp::Box(lower, upper)), parameters, 1000.0);
+    solver.start(*b, zero);
+    qp::GradientRule never(0.0, 1.0);
+    hessian->seconds = 0;
+    const double begin = Teuchos::Time::wallTime();
+    solver.run(never, nullptr);
+    const double seconds = Teuchos::Time::wallTime() - begin - hessian->seconds;
+    best = std::min(best, seconds / solver.counts().conjugateGradient);
+  }
+  return maxOverRanks(*map->getComm(), best);
+}
+
+/// Bytes a second of a = b + s c on all ranks together, each with its share of n entries; the best of several runs.
+double streamBandwidth(const RCP<const Map>& map) {
+  Vector a(map), b(map), c(map);
+  b.putScalar(1.0);
+  c.putScalar(2.0);
+  double best = std::numeric_limits<double>::infinity();
+  for (int repetition = 0; repetition < 4 * repetitions; ++repetition) {
+    map->getComm()->barrier();
+    const double begin = Teuchos::Time::wallTime();
+    const auto from = qp::localData(b), other = qp::localData(c);
+    const auto to = qp::localDataNonConst(a);
+    for (std::size_t i = 0; i < to.size(); ++i)
+      to[i] = from[i] + 3.0 * other[i];
+    best = std::min(best, maxOverRanks(*map->getComm(), Teuchos::Time::wallTime() - begin));
+  }
+  return 3 * sizeof(double) * static_cast<double>(map->getGlobalNumElements()) / best;
+}
+
+} // namespace
+
+std::string measureTraffic(bool quick, const RCP<const Comm>& comm) {
+  std::ostringstream csv;
+  csv << "size,bytes_per_step,step_seconds,stream_bytes_per_second,ratio\n";
+  const std::vector<std::size_t> sizes =
+      quick ? std::vector<std::size_t>{10000, 250000}
+            : std::vector<std::size_t>{10000, 40000, 160000, 1000000, 4000000};
+  for (const std::size_t size : sizes) {
+    const RCP<const Map> map = rcp(new Map(size, 0, comm));
+    const double bytes = vectorsPerStep * sizeof(double) * static_cast<double>(size);
+    const double seconds = secondsPerStep(map), stream = streamBandwidth(map);
+    csv << size << ',' << bytes << ',' << seconds << ',' << stream << ',' << bytes / seconds / stream << '\n';
+  }
+  return csv.str();
+}
+
+} // namespace epafi::drivers

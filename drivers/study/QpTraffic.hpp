@@ -1,0 +1,17 @@
+#pragma once
+
+/// How close a step of MPRGP comes to the speed of the memory.
+
+#include "epafi/base/Types.hpp"
+
+#include <string>
+
+namespace epafi::drivers {
+
+/// Times conjugate gradient steps of MPRGP without their products with the Hessian, and sets the bytes they stream
+/// (packages/qp/Mprgp.hpp) over that time against a triad a = b + s c on vectors of the same length. With `quick`
+/// only short vectors. Returns the text of qp_traffic.csv: size (unknowns), bytes_per_step, step_seconds,
+/// stream_bytes_per_second, ratio (1: as fast as the triad). Collective.
+std::string measureTraffic(bool quick, const RCP<const Comm>& comm);
+
+} // namespace epafi::drivers
