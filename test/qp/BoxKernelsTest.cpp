@@ -67,9 +67,9 @@ TEST_F(BoxKernelsTest, TheLongestStepEndsAtTheFirstBound) {
 TEST_F(BoxKernelsTest, TheGradientIsSplit) {
   const RCP<Vector> g = vector({-3, 3, 4, 5, 6, -7, 8}), y = vector({9, 9, 9, 9, 9, 9, 9});
 
-  box_.choppedGradient(*x_, *g, *y);
+  box_.choppedGradient(*x_, *g, 0, *y);
   EXPECT_EQ(gather(*y), dense({-3, 0, 4, 0, 0, 0, 0}));
-  box_.projectedGradient(*x_, *g, *y);
+  box_.projectedGradient(*x_, *g, 0, *y);
   EXPECT_EQ(gather(*y), dense({-3, 0, 4, 5, 0, 0, 8}));
   box_.subtractFromFreeGradient(*x_, *g, 0, *y);
   EXPECT_EQ(gather(*y), dense({0, 0, 0, 5, 0, 0, 8}));
@@ -125,7 +125,7 @@ TEST_F(BoxKernelsTest, ReleasedEntriesKeepADirectionThatEntersTheBox) {
   const RCP<Vector> g = vector({-3, -3, 4, 5, 6, -7, 8});
   const auto restricted = [&](const std::vector<double>& values) {
     const RCP<Vector> z = vector(values);
-    box_.restrictToReleased(*x_, *g, *z);
+    box_.restrictToReleased(*x_, *g, 0, *z);
     return gather(*z);
   };
 
@@ -188,27 +188,41 @@ TEST_F(BoxKernelsTest, MultipliersMayMoveUntilTheFirstChangesItsSign) {
   EXPECT_EQ(along({0, 0, 0, 0, -100, 0, 0}), infinity) << "that of a fixed entry may have either sign";
 }
 
-TEST_F(BoxKernelsTest, RecedesWhereNoBoundIsMet) {
-  const auto recedes = [&](const std::vector<double>& d) {
-    return smallest(box_.recedesAlong(*vector(d)) ? 1 : 0) == 1;
+TEST_F(BoxKernelsTest, MultipliersThatAreNegligibleReleaseNothing) {
+  const RCP<Vector> g = vector({-3, -1, 0.5, 0.5, 6, 4, -0.5}), y = vector({9, 9, 9, 9, 9, 9, 9});
+  const RCP<Vector> z = vector({-1, -1, 1, 1, 1, 1, 1});
+
+  box_.choppedGradient(*x_, *g, 1, *y);
+  EXPECT_EQ(gather(*y), dense({-3, 0, 0, 0, 0, 4, 0}));
+  box_.projectedGradient(*x_, *g, 1, *y);
+  EXPECT_EQ(gather(*y), dense({-3, 0, 0, 0.5, 0, 4, -0.5})) << "the free gradient stays, however small";
+  box_.restrictToReleased(*x_, *g, 1, *z);
+  EXPECT_EQ(gather(*z), dense({-1, 0, 0, 1, 0, 1, 1}));
+}
+
+TEST_F(BoxKernelsTest, TheRecessionConeHoldsZeroWhereThereWasABound) {
+  const RCP<const Map> map = linearMap(7);
+  const RCP<const qp::ConvexSet> cone = box_.recessionCone(map);
+  const auto projected = [&](double value) {
+    Vector d(map);
+    d.putScalar(value);
+    cone->project(d);
+    return gather(d);
   };
 
-  EXPECT_TRUE(recedes({0, -1, 1, -5, 0, 0, 0})) << "x − αd leaves along the open sides";
-  EXPECT_TRUE(recedes({0, 0, 0, 5, 0, 0, 0}));
-  EXPECT_FALSE(recedes({0, 1, 0, 0, 0, 0, 0})) << "into a lower bound";
-  EXPECT_FALSE(recedes({0, 0, -1, 0, 0, 0, 0})) << "into an upper bound";
-  EXPECT_FALSE(recedes({1e-9, 0, 0, 0, 0, 0, 0})) << "a box ends both ways";
-  EXPECT_FALSE(recedes({0, 0, 0, 0, 1, 0, 0})) << "a fixed entry";
+  EXPECT_EQ(projected(3), dense({0, 3, 0, 3, 0, 0, 0}));
+  EXPECT_EQ(projected(-3), dense({0, 0, -3, -3, 0, 0, 0}));
 }
 
 TEST_F(BoxKernelsTest, WithoutBoundsEverythingIsFree) {
   const Box none;
-  const RCP<Vector> y = vector({0, 0, 0, 0, 0, 0, 0});
+  const RCP<Vector> y = vector({0, 0, 0, 0, 0, 0, 0}), d = vector({-1, 1, -2, 2, -3, 3, 0});
 
   none.freeIndicator(*x_, *y);
+  none.recessionCone(linearMap(7))->project(*d);
 
   EXPECT_EQ(gather(*y), Eigen::VectorXd::Ones(7));
-  EXPECT_TRUE(none.recedesAlong(*y));
+  EXPECT_EQ(gather(*d), dense({-1, 1, -2, 2, -3, 3, 0}));
   EXPECT_EQ(smallest(none.maxFeasibleStep(*x_, *y)), infinity);
 }
 

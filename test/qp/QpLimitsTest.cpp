@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Problems, QpLimitsTest, testing::Bool(),
 
 TEST(QpLimitsTest, OuterIterationsAreLimitedAndMultipliersStillBelongToTheIterate) {
   const DenseProgram program = programOf(true, 1e4);
-  for (const char* update : {"balance", "penalty"})
+  for (const char* update : {"both", "balance", "penalty"})
     for (int limit = 1; limit <= 6; ++limit) {
       QpCall call{withTolerance(1e-13)};
       call.parameters.sublist("SMALBE").set("Maximum Outer Iterations", limit);

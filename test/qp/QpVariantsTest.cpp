@@ -46,10 +46,11 @@ TEST_P(QpVariantsTest, SolvesRowsWithEveryUpdateOnEveryPath) {
   for (const int numRows : {1, 3, 8}) {
     const DenseProgram program = mixedProgramWithRows(30, numRows, 100, 109);
     const OracleAnswer oracle = solveByDualActiveSet(program);
-    for (const char* update : {"balance", "penalty"})
+    for (const char* update : {"both", "balance", "penalty"})
       for (const int dense : {300, 0}) {
         QpCall variant = call(1e-9);
         variant.parameters.sublist("SMALBE").set("Update", std::string(update));
+        variant.parameters.sublist("SMALBE").set("Maximum Outer Iterations", 2000);
         variant.parameters.set("Maximum Dense Rows", dense);
 
         const QpAnswer answer = solveQp(program, variant);
