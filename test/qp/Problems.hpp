@@ -21,8 +21,8 @@
 namespace epafi::test {
 
 /// n entries, spread as evenly as Tpetra does; some ranks own none if n is small.
-inline RCP<const Map> linearMap(int n) {
-  return rcp(new Map(static_cast<std::size_t>(n), 0, Tpetra::getDefaultComm()));
+inline RCP<const Map> linearMap(int n, const RCP<const Comm>& comm = Tpetra::getDefaultComm()) {
+  return rcp(new Map(static_cast<std::size_t>(n), 0, comm));
 }
 
 /// Entry i is values(i).
@@ -70,6 +70,29 @@ public:
 
 private:
   RCP<const Map> map_;
+  Eigen::MatrixXd matrix_;
+};
+
+/// A dense m × n matrix, known on every rank, as an operator with a transposed apply.
+class DenseRows final : public Operator {
+public:
+  DenseRows(RCP<const Map> domain, RCP<const Map> range, Eigen::MatrixXd matrix)
+      : domain_(std::move(domain)), range_(std::move(range)), matrix_(std::move(matrix)) {}
+  RCP<const Map> getDomainMap() const override { return domain_; }
+  RCP<const Map> getRangeMap() const override { return range_; }
+  bool hasTransposeApply() const override { return true; }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
+             double beta) const override {
+    const bool isTransposed = mode != Teuchos::NO_TRANS;
+    for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
+      const Eigen::VectorXd in = gather(*x.getVector(column));
+      const Eigen::VectorXd image = isTransposed ? Eigen::VectorXd(matrix_.transpose() * in) : matrix_ * in;
+      y.getVectorNonConst(column)->update(alpha, *makeVector(isTransposed ? domain_ : range_, image), beta);
+    }
+  }
+
+private:
+  RCP<const Map> domain_, range_;
   Eigen::MatrixXd matrix_;
 };
 

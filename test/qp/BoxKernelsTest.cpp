@@ -1,0 +1,215 @@
+#include "Problems.hpp"
+
+#include "epafi/qp/Box.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+/// The passes of Box over its vectors, each alone: two-sided, lower, upper, no bounds and a fixed entry in turn.
+namespace {
+
+using namespace epafi;
+using namespace epafi::test;
+using qp::Box;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Entries 0 … 6: [−1, 2], [−1, ∞), (−∞, 2], free, fixed at 1, [−1, 2], [−1, 2].
+class BoxKernelsTest : public testing::Test {
+protected:
+  static RCP<Vector> vector(const std::vector<double>& values) {
+    return makeVector(linearMap(7), [&](int i) { return values[static_cast<std::size_t>(i)]; });
+  }
+  static Eigen::VectorXd dense(const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  }
+  static double smallest(double mine) { // over the ranks
+    double result = 0;
+    Teuchos::reduceAll(*Tpetra::getDefaultComm(), Teuchos::REDUCE_MIN, 1, &mine, &result);
+    return result;
+  }
+  static double largest(double mine) { return -smallest(-mine); }
+
+  RCP<Vector> lower_ = vector({-1, -1, -infinity, -infinity, 1, -1, -1});
+  RCP<Vector> upper_ = vector({2, infinity, 2, infinity, 1, 2, 2});
+  Box box_{lower_, upper_};
+  RCP<Vector> x_ = vector({-1, -1, 2, 5, 1, 2, 0.5}); ///< lower, lower, upper, free, fixed, upper, free
+};
+
+TEST_F(BoxKernelsTest, MoveGoesAlongAndProjects) {
+  box_.move(2, *vector({-0.5, 3, 1, 4, -1, -1, 0.25}), *x_);
+
+  EXPECT_EQ(gather(*x_), dense({0, -1, 0, -3, 1, 2, 0}));
+}
+
+TEST_F(BoxKernelsTest, MoveByNothingStays) {
+  box_.move(0, *vector({1, 1, 1, 1, 1, 1, 1}), *x_);
+
+  EXPECT_EQ(gather(*x_), dense({-1, -1, 2, 5, 1, 2, 0.5}));
+}
+
+TEST_F(BoxKernelsTest, TheLongestStepEndsAtTheFirstBound) {
+  const auto along = [&](const std::vector<double>& p) {
+    return smallest(box_.maxFeasibleStep(*x_, *vector(p)));
+  };
+
+  EXPECT_EQ(along({0, 0, 0, 0, 0, 0, 0.5}), 3) << "from 0.5 to −1";
+  EXPECT_EQ(along({0, 0, 0, 0, 0, 0, -0.5}), 3) << "from 0.5 to 2";
+  EXPECT_EQ(along({0, 0, 0, 7, 0, 0, 0}), infinity);
+  EXPECT_EQ(along({-1, 0, 0, 0, 0, 0, 0}), 3) << "from the lower bound to the upper one";
+  EXPECT_EQ(along({1, 0, 0, 0, 0, 0, 0}), 0) << "out of the box";
+  EXPECT_EQ(along({0, -1, 1, 0, 0, 0, 0}), infinity) << "away from single bounds";
+  EXPECT_EQ(along({0, 0, 0, 0, 1, 0, 0}), 0) << "a fixed entry";
+}
+
+TEST_F(BoxKernelsTest, TheGradientIsSplit) {
+  const RCP<Vector> g = vector({-3, 3, 4, 5, 6, -7, 8}), y = vector({9, 9, 9, 9, 9, 9, 9});
+
+  box_.choppedGradient(*x_, *g, *y);
+  EXPECT_EQ(gather(*y), dense({-3, 0, 4, 0, 0, 0, 0}));
+  box_.projectedGradient(*x_, *g, *y);
+  EXPECT_EQ(gather(*y), dense({-3, 0, 4, 5, 0, 0, 8}));
+  box_.subtractFromFreeGradient(*x_, *g, 0, *y);
+  EXPECT_EQ(gather(*y), dense({0, 0, 0, 5, 0, 0, 8}));
+  box_.freeIndicator(*x_, *y);
+  EXPECT_EQ(gather(*y), dense({0, 0, 0, 1, 0, 0, 1}));
+}
+
+TEST_F(BoxKernelsTest, WithFactorZeroTheOldVectorIsNotRead) {
+  const RCP<Vector> y = makeVector(linearMap(7), [](int) { return std::nan(""); });
+
+  box_.subtractFromFreeGradient(*x_, *vector({1, 1, 1, 1, 1, 1, 1}), 0, *y);
+
+  EXPECT_EQ(gather(*y), dense({0, 0, 0, 1, 0, 0, 1}));
+}
+
+TEST_F(BoxKernelsTest, TheOldVectorIsSubtractedWithItsFactor) {
+  const RCP<Vector> y = vector({1, 2, 3, 4, 5, 6, 7});
+
+  box_.subtractFromFreeGradient(*x_, *vector({1, 1, 1, 1, 1, 1, 1}), 2, *y);
+
+  EXPECT_EQ(gather(*y), dense({-2, -4, -6, -7, -10, -12, -13}));
+}
+
+TEST_F(BoxKernelsTest, MeasureSumsWhatTheOthersMake) {
+  const RCP<Vector> g = vector({-3, 3, 4, 5, 6, -7, 8}), image = vector({1, 1, 1, 2, 1, 1, 3});
+  const double step = 0.5;
+
+  qp::GradientSums sums = box_.measure(*x_, *g, *image, step);
+  const double mine[] = {sums.freeSquared.value(),      sums.choppedSquared.value(),
+                         sums.reducedTimesFree.value(), sums.freeTimesImage.value(),
+                         sums.solutionSquared.value(),  static_cast<double>(sums.active)};
+  double all[6];
+  Teuchos::reduceAll(*Tpetra::getDefaultComm(), Teuchos::REDUCE_SUM, 6, mine, all);
+
+  EXPECT_EQ(all[0], 25 + 64);
+  EXPECT_EQ(all[1], 9 + 16);
+  EXPECT_EQ(all[2], 25 + 8 * 3) << "the last one is cut to (0.5 + 1)/0.5 = 3";
+  EXPECT_EQ(all[3], 10 + 24);
+  EXPECT_EQ(all[4], 1 + 1 + 4 + 25 + 1 + 4 + 0.25);
+  EXPECT_EQ(all[5], 5);
+}
+
+TEST_F(BoxKernelsTest, RestrictionToTheFreeEntriesClearsTheOthers) {
+  const RCP<Vector> z = vector({1, 2, 3, 4, 5, 6, 7});
+
+  box_.restrictToFree(*x_, *z);
+
+  EXPECT_EQ(gather(*z), dense({0, 0, 0, 4, 0, 0, 7}));
+}
+
+TEST_F(BoxKernelsTest, ReleasedEntriesKeepADirectionThatEntersTheBox) {
+  // x − αz enters at a lower bound with z < 0, at an upper one with z > 0, and only where β ≠ 0.
+  const RCP<Vector> g = vector({-3, -3, 4, 5, 6, -7, 8});
+  const auto restricted = [&](const std::vector<double>& values) {
+    const RCP<Vector> z = vector(values);
+    box_.restrictToReleased(*x_, *g, *z);
+    return gather(*z);
+  };
+
+  EXPECT_EQ(restricted({-1, 1, 1, 1, 1, 1, -1}), dense({-1, 0, 1, 1, 0, 0, -1}));
+  EXPECT_EQ(restricted({1, -1, -1, -1, -1, -1, 1}), dense({0, -1, 0, -1, 0, 0, 1}));
+}
+
+TEST_F(BoxKernelsTest, TheDistanceIsThatToTheNearerBoundAtMostWhatIsAsked) {
+  const RCP<Vector> y = vector({9, 9, 9, 9, 9, 9, 9});
+  const RCP<Vector> inside = vector({0, 3, -1, 5, 1, 1.75, 0.5});
+
+  box_.distanceToBoundary(*inside, 3, *y);
+  EXPECT_EQ(gather(*y), dense({1, 3, 3, 3, 0, 0.25, 1.5}));
+  box_.distanceToBoundary(*x_, infinity, *y);
+  EXPECT_EQ(gather(*y), dense({0, 0, 0, infinity, 0, 0, 1.5}));
+}
+
+TEST_F(BoxKernelsTest, ActivationGoesToTheNearerBoundIfThereIsOne) {
+  const RCP<Vector> inside = vector({0, 3, -9, 5, 1, 1, 1.5});
+
+  box_.activate(*vector({1, 1, -1, 1, 1, 0, 0.5}), *inside);
+
+  EXPECT_EQ(gather(*inside), dense({-1, -1, 2, 5, 1, 1, 2}));
+}
+
+TEST_F(BoxKernelsTest, ComplementarityIsTheLargestGradientWithRoom) {
+  const auto of = [&](const std::vector<double>& g, double scale) {
+    return largest(box_.complementarity(*x_, *vector(g), scale));
+  };
+
+  EXPECT_EQ(of({3, 2, -1, 0, 5, -6, 0}, 10), 0) << "every gradient is held by a bound";
+  EXPECT_EQ(of({-3, 0, 0, 0, 0, 0, 0}, 10), 3) << "from its lower bound the entry may follow −g";
+  EXPECT_EQ(of({-3, 0, 0, 0, 0, 0, 0}, 0.5), 1.5) << "by 3 at most";
+  EXPECT_EQ(of({0, 0, 0, -4, 0, 0, 0}, 1), 4) << "no bound at all";
+  EXPECT_EQ(of({0, 0, 0, 0, 0, 0, 8}, 2), 3) << "0.5 is 1.5 above its bound";
+  EXPECT_EQ(of({0, 0, 0, 0, 7, 0, 0}, 1), 0) << "a fixed entry has no room";
+}
+
+TEST_F(BoxKernelsTest, ComplementarityOfAZeroOperatorWithoutBoundsIsZeroOrTheGradientButNoNan) {
+  const Box none;
+  const RCP<Vector> g = vector({0, 0, 0, 2, 0, 0, 0});
+
+  const double found = largest(none.complementarity(*x_, *g, 0));
+
+  EXPECT_FALSE(std::isnan(found));
+}
+
+TEST_F(BoxKernelsTest, MultipliersMayMoveUntilTheFirstChangesItsSign) {
+  const RCP<Vector> g = vector({3, 2, -1, 0, 5, -6, 0}); // ≥ 0 at lower bounds, ≤ 0 at upper ones
+  const auto along = [&](const std::vector<double>& s) {
+    return smallest(box_.longestMultiplierStep(*x_, *g, *vector(s)));
+  };
+
+  EXPECT_EQ(along({0, 0, 0, 0, 0, 0, 0}), infinity);
+  EXPECT_EQ(along({-1, 0, 0, 0, 0, 0, 0}), 3);
+  EXPECT_EQ(along({-1, -1, 0, 0, 0, 0, 0}), 2);
+  EXPECT_EQ(along({-1, -1, 0.5, 0, 0, 12, 0}), 0.5) << "an upper bound's grows to 0";
+  EXPECT_EQ(along({1, 1, -1, 0, 0, -1, 0}), infinity) << "all grow away from 0";
+  EXPECT_EQ(along({0, 0, 0, 1, 0, 0, 0}), 0) << "a free entry has no multiplier to give";
+  EXPECT_EQ(along({0, 0, 0, 0, -100, 0, 0}), infinity) << "that of a fixed entry may have either sign";
+}
+
+TEST_F(BoxKernelsTest, RecedesWhereNoBoundIsMet) {
+  const auto recedes = [&](const std::vector<double>& d) {
+    return smallest(box_.recedesAlong(*vector(d)) ? 1 : 0) == 1;
+  };
+
+  EXPECT_TRUE(recedes({0, -1, 1, -5, 0, 0, 0})) << "x − αd leaves along the open sides";
+  EXPECT_TRUE(recedes({0, 0, 0, 5, 0, 0, 0}));
+  EXPECT_FALSE(recedes({0, 1, 0, 0, 0, 0, 0})) << "into a lower bound";
+  EXPECT_FALSE(recedes({0, 0, -1, 0, 0, 0, 0})) << "into an upper bound";
+  EXPECT_FALSE(recedes({1e-9, 0, 0, 0, 0, 0, 0})) << "a box ends both ways";
+  EXPECT_FALSE(recedes({0, 0, 0, 0, 1, 0, 0})) << "a fixed entry";
+}
+
+TEST_F(BoxKernelsTest, WithoutBoundsEverythingIsFree) {
+  const Box none;
+  const RCP<Vector> y = vector({0, 0, 0, 0, 0, 0, 0});
+
+  none.freeIndicator(*x_, *y);
+
+  EXPECT_EQ(gather(*y), Eigen::VectorXd::Ones(7));
+  EXPECT_TRUE(none.recedesAlong(*y));
+  EXPECT_EQ(smallest(none.maxFeasibleStep(*x_, *y)), infinity);
+}
+
+} // namespace
