@@ -64,13 +64,32 @@ def mark_outer(axes, history):
     above.set_xlabel("outer iteration", fontsize=10, color="#555555", labelpad=4)
 
 
+def is_round_off(history):
+    """Steps whose constraint holds to round-off: on a common axis they would press everything else together."""
+    gradients = history.projected_gradient[drawable(history.projected_gradient)]
+    return (history.constraint_residual >= 0) & (history.constraint_residual < 1e-4 * gradients.min())
+
+
+def draw_equilibrium(axes, history):
+    """The constraint's residual; an arrow at the lower edge where it is round-off. Returns the legend's handles."""
+    if not drawable(history.constraint_residual).any():
+        return []
+    round_off = is_round_off(history)
+    draw_series(axes, history, numpy.where(round_off, numpy.nan, history.constraint_residual), style.VERMILLION)
+    handles = [Line2D([], [], color=style.VERMILLION, linewidth=2, label="equilibrium ‖Gλ‖")]
+    if round_off.any():
+        look = dict(linestyle="none", marker="v", markersize=7, color=style.VERMILLION)
+        axes.plot(history.hessian_multiplications[round_off], numpy.full(round_off.sum(), 0.03),
+                  transform=axes.get_xaxis_transform(), zorder=4, **look)
+        handles.append(Line2D([], [], label="equilibrium to round-off", **look))
+    return handles
+
+
 def figure(history, title):
     picture, axes = pyplot.subplots(figsize=(9.0, 5.4))
     handles = [Line2D([], [], color=style.BLUE, linewidth=2, label="projected gradient ‖gᴾ‖")]
     draw_series(axes, history, history.projected_gradient, style.BLUE)
-    if drawable(history.constraint_residual).any():
-        draw_series(axes, history, history.constraint_residual, style.VERMILLION)
-        handles.append(Line2D([], [], color=style.VERMILLION, linewidth=2, label="equilibrium ‖Gλ‖"))
+    handles += draw_equilibrium(axes, history)
     axes.set_yscale("log")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True, nbins=10))
     axes.set_xlabel("products with the Hessian [number]")

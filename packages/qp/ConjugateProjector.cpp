@@ -94,13 +94,17 @@ void ConjugateProjector::apply(const Vector& x, Vector& y) const {
   subtract(au_, coefficients(au_, x), 1.0, y);
 }
 
+void ConjugateProjector::project(Vector& x) const {
+  subtract(*u_, coefficients(au_, x), 1.0, x);
+}
+
 void ConjugateProjector::projectLinearTerm(const Vector& b, Vector& projected) const {
   projected.assign(b);
   subtract(au_, coefficients(*u_, b), 1.0, projected);
 }
 
 void ConjugateProjector::complete(const Vector& b, Vector& x) const {
-  subtract(*u_, coefficients(au_, x), 1.0, x);
+  project(x);
   subtract(*u_, coefficients(*u_, b), -1.0, x);
 }
 

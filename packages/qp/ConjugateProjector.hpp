@@ -31,6 +31,8 @@ public:
   /// x = Px' + U(UᵀAU)⁻¹Uᵀb from the solution x' of the projected problem, in place. Collective.
   void complete(const Vector& b, Vector& x) const;
 
+  /// x ← Px. Collective.
+  void project(Vector& x) const;
   /// y = APx. Collective.
   void apply(const Vector& x, Vector& y) const;
   [[nodiscard]] const RCP<const Operator>& hessian() const { return a_; }

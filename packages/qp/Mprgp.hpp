@@ -59,9 +59,6 @@ public:
   /// Collective.
   Status run(StoppingRule& rule, Observer* observer);
 
-  /// Goes on from the projection of x, with g = Ax − b computed afresh (one product). Collective.
-  void moveTo(const Vector& x);
-
   /// Recomputes g = Ax − b and f (one product): what round-off has added to the updated gradient is gone.
   /// Collective.
   void refreshGradient();

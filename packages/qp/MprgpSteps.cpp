@@ -29,12 +29,6 @@ void Mprgp::start(const Vector& b, const Vector& x0, double constant) {
     lastG_->assign(g_);
 }
 
-void Mprgp::moveTo(const Vector& x) {
-  x_.assign(x);
-  set_->project(x_);
-  refreshGradient();
-}
-
 void Mprgp::changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b,
                           double constant, double operatorNorm) {
   g_.update(scale_, gradientChange, 1.0);

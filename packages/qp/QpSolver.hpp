@@ -50,7 +50,7 @@ struct QuadraticProgram {
 struct QpSolution {
   SolveReport report;
   RCP<Vector> boundMultiplier;    ///< Ax − b + Bᵀμ where a bound holds x (≥ 0 at a lower one), else 0
-  RCP<Vector> equalityMultiplier; ///< μ on the rows of B; null without. 0 on rows that say nothing new
+  RCP<Vector> equalityMultiplier; ///< μ on the rows of B; null without. Redundant rows share it
 };
 
 class QpSolver : public Teuchos::Describable {
@@ -71,7 +71,7 @@ public:
   [[nodiscard]] std::string description() const override;
 
 private:
-  struct Run; ///< one solve, in QpSolver.cpp
+  struct Run; ///< one solve, in QpRun.hpp
 
   double tolerance_, absoluteTolerance_, constraintTolerance_, reference_, operatorNorm_;
   int maxDenseRows_;

@@ -246,7 +246,9 @@ void OuterIteration::restore() {
   work_.assign(inner_.solution());
   if (equality_.isReplicated())
     restoreEquality(equality_, *problem_.set, rule_.residual(), work_);
-  inner_.moveTo(work_);
+  Vector b(work_.getMap()); // afresh as well: many shifts have left their round-off in it
+  linearTermOfLagrangian(b);
+  inner_.start(b, work_, constantOfLagrangian());
 }
 
 /// Whether the gradients after restorations, none of which was small enough, still become smaller.

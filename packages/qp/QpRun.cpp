@@ -1,0 +1,196 @@
+#include "epafi/qp/QpRun.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/Box.hpp"
+#include "epafi/qp/Feasibility.hpp"
+#include "epafi/qp/LocalData.hpp"
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Operator.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace epafi::qp {
+namespace {
+
+/// Throws InputError on all ranks if an entry is NaN or infinite. Collective.
+void requireFinite(const Vector& values, const char* name) {
+  collectively(*values.getMap()->getComm(), [&] {
+    const auto entries = localData(values);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (!std::isfinite(entries[i])) {
+        std::ostringstream text;
+        text << "entry " << values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)) << " of " << name
+             << " is " << entries[i] << "; it must be a finite number";
+        throw InputError(text.str());
+      }
+  });
+}
+
+void requireMap(bool fits, const char* name) {
+  if (!fits)
+    throw InputError(std::string(name) + " is not on the domain map of the Hessian");
+}
+
+} // namespace
+
+void QpSolver::Run::check() const {
+  if (given.hessian.is_null() || given.linearTerm.is_null())
+    throw InputError("a quadratic program needs a Hessian and a linear term; set both members");
+  const Map& map = *given.hessian->getDomainMap();
+  requireMap(given.linearTerm->getMap()->isSameAs(map), "the linear term");
+  requireMap(x.getMap()->isSameAs(map), "the start x");
+  requireMap(given.constraintMatrix.is_null() || given.constraintMatrix->getDomainMap()->isSameAs(map),
+             "the domain of the constraint matrix");
+  requireMap(given.preconditioner.is_null() || given.preconditioner->getDomainMap()->isSameAs(map),
+             "the preconditioner");
+  requireMap(given.activeGuess.is_null() || given.activeGuess->getMap()->isSameAs(map),
+             "the guess of the active set");
+  if (given.constraintMatrix.is_null() && !given.constraintValues.is_null())
+    throw InputError("constraint values are given without a constraint matrix");
+  if (!given.coarseSpace.is_null() && !given.constraintMatrix.is_null())
+    throw InputError(
+        "projector preconditioning is for problems without equality constraints; leave out the coarse space");
+  requireFinite(*given.linearTerm, "the linear term");
+  requireFinite(x, "the start x");
+  if (!given.constraintValues.is_null())
+    requireFinite(*given.constraintValues, "the constraint values");
+}
+
+bool QpSolver::Run::prepareConstraints() {
+  set = given.set.is_null() ? Teuchos::rcp_implicit_cast<const ConvexSet>(rcp(new Box())) : given.set;
+  if (const std::string emptiness = set->emptiness(*x.getMap()); !emptiness.empty())
+    return end(Status::infeasible, emptiness);
+  if (given.constraintMatrix.is_null())
+    return true;
+  equality =
+      prepareEquality(given.constraintMatrix, given.constraintValues, solver.maxDenseRows_, solver.norm_);
+  if (equality.contradiction.empty())
+    return true;
+  solution.report.certificate = equality.certificate;
+  return end(Status::infeasible, equality.contradiction);
+}
+
+/// A feasible start from the given one: projected, with the guess of the active set, and onto Bx = c where x and the set
+/// allow it.
+bool QpSolver::Run::findStart() {
+  set->project(x);
+  if (!given.activeGuess.is_null())
+    set->activate(*given.activeGuess, x);
+  if (equality.constraint.is_null())
+    return true;
+  const Feasibility feasibility = findFeasiblePoint(equality.constraint, set, x);
+  if (feasibility.isFeasible)
+    return true;
+  const RCP<Vector> certificate = equality.multiplierOfRows(feasibility.certificate);
+  certificate->scale(1.0 / certificate->norm2());
+  solution.report.certificate = certificate;
+  std::ostringstream text;
+  text << "no x within the bounds satisfies the equality constraints: the nearest one misses them by "
+       << feasibility.distance << " (rows made orthonormal)";
+  return end(Status::infeasible, text.str());
+}
+
+bool QpSolver::Run::prepareOperators() {
+  hessian = given.hessian;
+  linearTerm = given.linearTerm;
+  preconditioner = given.preconditioner;
+  if (!given.coarseSpace.is_null())
+    prepareProjector();
+  if (given.facePreconditioner) {
+    Vector free(x.getMap());
+    set->freeIndicator(x, free);
+    preconditioner = given.facePreconditioner(free);
+    if (preconditioner.is_null())
+      throw InputError("the function that makes the preconditioner of a face returned null");
+    requireMap(preconditioner->getDomainMap()->isSameAs(*x.getMap()), "the preconditioner of the face");
+  }
+  try {
+    operatorNorm =
+        solver.operatorNorm_ > 0 ? solver.operatorNorm_ : estimateNorm(*hessian, solver.norm_).norm;
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) { // on all ranks alike
+    return end(Status::notFinite, error.what());
+  }
+  return chooseReference();
+}
+
+/// Projector preconditioning: A and b give way to AP and Pᵀb.
+void QpSolver::Run::prepareProjector() {
+  requireMap(given.coarseSpace->getMap()->isSameAs(*x.getMap()), "the coarse space");
+  Vector free(x.getMap()); // U must vanish where there is a bound
+  set->distanceToBoundary(x, std::numeric_limits<double>::infinity(), free);
+  collectively(*x.getMap()->getComm(), [&] {
+    const auto distance = localData(free);
+    for (std::size_t k = 0; k < given.coarseSpace->getNumVectors(); ++k) {
+      const auto column = given.coarseSpace->getData(k);
+      for (std::size_t i = 0; i < distance.size(); ++i) {
+        const double value = column[static_cast<Teuchos_Ordinal>(i)];
+        if (!std::isfinite(value))
+          throw InputError("the coarse space has an entry that is not a finite number");
+        if (std::isfinite(distance[i]) && value != 0)
+          throw InputError("the coarse space is not 0 in an entry that has a bound; set its rows there to 0");
+      }
+    }
+  });
+  projector = std::make_unique<ConjugateProjector>(given.hessian, given.coarseSpace);
+  hessian = projector->projectedOperator();
+  const RCP<Vector> projected = rcp(new Vector(x.getMap()));
+  projector->projectLinearTerm(*given.linearTerm, *projected);
+  linearTerm = projected;
+}
+
+/// What gradients are relative to: ‖b‖; where that is nothing beside the products with A that the bounds and rows force,
+/// the gradient at the feasible point nearest to 0. Where 0 is feasible and b = 0, it is the solution.
+bool QpSolver::Run::chooseReference() {
+  reference = solver.reference_ > 0 ? solver.reference_ : accurateNorm(*given.linearTerm);
+  const bool hasRows = !equality.constraint.is_null();
+  if (operatorNorm == 0 && hasRows) // a linear objective: ρ and M still need units
+    operatorNorm = accurateNorm(x) > 0 ? reference / accurateNorm(x) : reference;
+  if (solver.reference_ > 0)
+    return true;
+  Vector nearest(x.getMap());
+  set->project(nearest);
+  if (hasRows)
+    findFeasiblePoint(equality.constraint, set, nearest);
+  if (reference > 1e-12 * operatorNorm * accurateNorm(nearest))
+    return true;
+  if (accurateNorm(nearest) == 0) {
+    x.putScalar(0.0);
+    return true;
+  }
+  Vector gradient(x.getMap());
+  given.hessian->apply(nearest, gradient);
+  ++extraMultiplications;
+  reference = std::max(reference, accurateNorm(gradient));
+  return true;
+}
+
+void QpSolver::Run::iterate() {
+  if (equality.constraint.is_null()) {
+    const BoundProblem problem{hessian, linearTerm, set, preconditioner, operatorNorm};
+    solution.report = solveBoundProblem(problem, x, {solver.tolerance_, reference, solver.absoluteTolerance_},
+                                        solver.mprgp_, observer);
+    return;
+  }
+  const EqualityConstraint& b = *equality.constraint;
+  const double c = b.isHomogeneous() ? 0.0 : std::sqrt(b.dot(b.rightHandSide(), b.rightHandSide()));
+  SmalbeTolerances tolerances;
+  tolerances.gradient =
+      reference > 0 ? std::max(solver.tolerance_, solver.absoluteTolerance_ / reference) : 0.0;
+  tolerances.gradientReference = reference;
+  tolerances.constraint = solver.constraintTolerance_;
+  tolerances.constraintReference = c > 0 ? c : operatorNorm > 0 ? b.norm() * reference / operatorNorm : 0.0;
+  const EqualityBoundProblem problem{hessian,        linearTerm,  set, equality.constraint,
+                                     preconditioner, operatorNorm};
+  solution.report =
+      solveEqualityBoundProblem(problem, x, multiplier, tolerances, solver.smalbe_, solver.mprgp_, observer);
+}
+
+} // namespace epafi::qp

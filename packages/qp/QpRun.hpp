@@ -1,0 +1,50 @@
+#pragma once
+
+/// The inside of QpSolver::solve.
+
+#include "epafi/qp/ConjugateProjector.hpp"
+#include "epafi/qp/MatrixEquality.hpp"
+#include "epafi/qp/QpSolver.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace epafi::qp {
+
+/// One solve, step by step. A step that ends the solve returns false and leaves the status in the report.
+struct QpSolver::Run {
+  const QpSolver& solver;
+  const QuadraticProgram& given;
+  Vector& x;
+  Observer* observer;
+  QpSolution& solution;
+
+  RCP<const ConvexSet> set{};
+  RCP<const Operator> hessian{};
+  RCP<const Vector> linearTerm{};
+  RCP<const Operator> preconditioner{};
+  PreparedEquality equality{};
+  std::unique_ptr<ConjugateProjector> projector{};
+  std::vector<double> multiplier{}; ///< μ of the prepared constraint
+  double operatorNorm = 0, reference = 0;
+  int extraMultiplications = 0;
+
+  void check() const;
+  bool prepareConstraints();
+  bool findStart();
+  bool prepareOperators();
+  void prepareProjector();
+  bool chooseReference();
+  void iterate();
+  void lookForUnboundedness();
+  void certify();
+
+  bool end(Status status, const std::string& reason) const {
+    solution.report.status = status;
+    solution.report.reason = reason;
+    return false;
+  }
+};
+
+} // namespace epafi::qp
