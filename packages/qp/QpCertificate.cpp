@@ -15,12 +15,13 @@
 
 namespace epafi::qp {
 
-/// An iteration that ended without success far away from where it began may have followed a direction without end.
+/// An iteration that ended without success far away from where it began may have followed a direction without end; and
+/// the direction in which MPRGP met no curvature still holds noise.
 void QpSolver::Run::lookForUnboundedness() {
   SolveReport& report = solution.report;
-  if (report.status != Status::stagnated && report.status != Status::maxIterations)
-    return;
-  if (operatorNorm * accurateNorm(x) <= 1e3 * accurateNorm(*given.linearTerm))
+  const bool isFarAway = operatorNorm * accurateNorm(x) > 1e3 * accurateNorm(*given.linearTerm);
+  const bool hasFailed = report.status == Status::stagnated || report.status == Status::maxIterations;
+  if (report.status != Status::unbounded && !(hasFailed && isFarAway))
     return;
   const RecessionDirection found =
       findRecessionDirection(given.hessian, operatorNorm, *given.linearTerm, *set, equality.constraint,

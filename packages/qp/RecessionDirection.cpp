@@ -5,14 +5,14 @@
 
 #include <Tpetra_Map.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace epafi::qp {
 namespace {
-
-constexpr double penalty = 1e12; ///< τ
 
 /// I + τ(A/‖A‖ + BᵀB/‖B‖²).
 class PenalizedIdentity final : public Operator {
@@ -20,16 +20,17 @@ public:
   PenalizedIdentity(RCP<const Operator> a, double operatorNorm, RCP<const EqualityConstraint> equality)
       : a_(std::move(a)), scale_(operatorNorm > 0 ? 1 / operatorNorm : 0.0), equality_(std::move(equality)),
         bx_(equality_.is_null() ? 0 : equality_->numEntries()), work_(a_->getDomainMap()) {}
+  void setPenalty(double penalty) { penalty_ = penalty; }
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return a_->getDomainMap(); }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return a_->getRangeMap(); }
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
              double beta) const override {
     forEachColumn(x, y, [&](const Vector& in, Vector& out) {
       a_->apply(in, work_);
-      work_.scale(penalty * scale_);
+      work_.scale(penalty_ * scale_);
       if (!equality_.is_null()) {
         equality_->product(in, bx_);
-        equality_->addTransposedProduct(bx_, penalty / (equality_->norm() * equality_->norm()), work_);
+        equality_->addTransposedProduct(bx_, penalty_ / (equality_->norm() * equality_->norm()), work_);
       }
       work_.update(1.0, in, 1.0);
       out.update(alpha, work_, beta);
@@ -38,11 +39,32 @@ public:
 
 private:
   RCP<const Operator> a_;
-  double scale_;
+  double scale_, penalty_ = 0; ///< 1/‖A‖, τ
   RCP<const EqualityConstraint> equality_;
   mutable std::vector<double> bx_;
   mutable Vector work_;
 };
+
+/// How far d, made of length 1, is from Ad = 0 and Bd = 0: the larger of ‖Ad‖/‖A‖ and ‖Bd‖/‖B‖; infinity where d leads
+/// nowhere. One product.
+double defect(const Operator& a, double operatorNorm, const Vector& target,
+              const EqualityConstraint* equality, Vector& d) {
+  const double norm = accurateNorm(d);
+  if (!(norm > 1e-6))
+    return std::numeric_limits<double>::infinity();
+  d.scale(1 / norm);
+  if (accurateDot(d, target) < 1e-6)
+    return std::numeric_limits<double>::infinity();
+  Vector image(d.getMap());
+  a.apply(d, image);
+  double largest = operatorNorm > 0 ? accurateNorm(image) / operatorNorm : 0.0;
+  if (equality != nullptr) {
+    std::vector<double> bd(equality->numEntries());
+    equality->product(d, bd);
+    largest = std::max(largest, std::sqrt(equality->dot(bd, bd)) / equality->norm());
+  }
+  return largest;
+}
 
 } // namespace
 
@@ -55,28 +77,29 @@ RecessionDirection findRecessionDirection(const RCP<const Operator>& a, double o
     return found;
   const RCP<Vector> target = rcp(new Vector(b, Teuchos::Copy)), d = rcp(new Vector(b.getMap()));
   target->scale(1 / length);
+  const RCP<PenalizedIdentity> hessian = rcp(new PenalizedIdentity(a, operatorNorm, equality));
+  const RCP<const ConvexSet> cone = set.recessionCone(b.getMap());
+  constexpr double wanted = 1e-10, believed = 1e-7;
+  double smallest = std::numeric_limits<double>::infinity();
   MprgpParameters parameters;
-  parameters.maxMultiplications = maxMultiplications;
-  const BoundProblem problem{rcp(new PenalizedIdentity(a, operatorNorm, equality)), target,
-                             set.recessionCone(b.getMap()), Teuchos::null,
-                             1 + penalty * (equality.is_null() ? 1 : 2)};
-  const SolveReport report = solveBoundProblem(problem, *d, {1e-9, 1.0, 0.0}, parameters);
-  found.multiplications = report.counts.hessianMultiplications + 1;
-
-  const double norm = accurateNorm(*d);
-  if (!(norm > 1e-6))
-    return found;
-  d->scale(1 / norm);
-  Vector image(b.getMap());
-  a->apply(*d, image);
-  bool isCertificate = accurateDot(*d, *target) >= 1e-6 && accurateDot(*d, image) <= 1e-13 * operatorNorm;
-  if (!equality.is_null()) {
-    std::vector<double> bd(equality->numEntries());
-    equality->product(*d, bd);
-    isCertificate = isCertificate && std::sqrt(equality->dot(bd, bd)) <= 1e-6 * equality->norm();
+  for (double penalty = 1e2; penalty < 1e13 && found.multiplications < maxMultiplications; penalty *= 10) {
+    hessian->setPenalty(penalty); // each from the solution of the one before
+    parameters.maxMultiplications = maxMultiplications - found.multiplications;
+    const BoundProblem problem{hessian, target, cone, Teuchos::null,
+                               1 + penalty * (equality.is_null() ? 1 : 2)};
+    const SolveReport report = solveBoundProblem(problem, *d, {1e-9, 1.0, 0.0}, parameters);
+    found.multiplications += report.counts.hessianMultiplications + 1;
+    const RCP<Vector> candidate = rcp(new Vector(*d, Teuchos::Copy));
+    const double candidateDefect = defect(*a, operatorNorm, *target, equality.get(), *candidate);
+    if (candidateDefect < smallest) {
+      smallest = candidateDefect;
+      found.direction = candidate;
+    }
+    if (smallest <= wanted || !(accurateNorm(*d) > 1e-6)) // d shrinks with τ where there is no such direction
+      break;
   }
-  if (isCertificate)
-    found.direction = d;
+  if (smallest > believed)
+    found.direction = Teuchos::null;
   return found;
 }
 

@@ -175,7 +175,7 @@ bool OuterIteration::toleratesRoundOff(const Progress& previous) {
   return idle_ <= maxIdle;
 }
 
-/// M ← βM, or ρ ← βρ, when L grew by less than ρ/2‖Bx − c‖²; and, with both at hand, ρ ← βρ as well when ‖Bx − c‖ has
+/// M ← βM, or ρ ← βρ, when L grew by less than ρ/2‖Bx − c‖²; and where ρ may change, ρ ← βρ as well when ‖Bx − c‖ has
 /// twice in a row not been halved.
 void OuterIteration::adapt(const Progress& previous, const Progress& now) {
   const bool isFirst = inner_.counts().outer == 0;
@@ -188,7 +188,7 @@ void OuterIteration::adapt(const Progress& previous, const Progress& now) {
   const bool mayGrow = penalty_ * equality_.norm() * equality_.norm() < maxPenalty * problem_.operatorNorm;
   if (grewTooLittle && (parameters_.update != Update::penalty || !mayGrow))
     rule_.reduceBalance(parameters_.balanceReduction);
-  const bool isSlow = parameters_.update == Update::both && slow_ >= 2;
+  const bool isSlow = parameters_.update != Update::balance && slow_ >= 2;
   if (mayGrow && (isSlow || (grewTooLittle && parameters_.update == Update::penalty))) {
     growPenalty();
     slow_ = 0;
