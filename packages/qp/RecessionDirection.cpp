@@ -75,7 +75,8 @@ RecessionDirection findRecessionDirection(const RCP<const Operator>& a, double o
   const double length = accurateNorm(b);
   if (length == 0)
     return found;
-  const RCP<Vector> target = rcp(new Vector(b, Teuchos::Copy)), d = rcp(new Vector(b.getMap()));
+  const RCP<Vector> target = rcp(new Vector(b, Teuchos::Copy)), d = rcp(new Vector(b.getMap())),
+                    previous = rcp(new Vector(b.getMap()));
   target->scale(1 / length);
   const RCP<PenalizedIdentity> hessian = rcp(new PenalizedIdentity(a, operatorNorm, equality));
   const RCP<const ConvexSet> cone = set.recessionCone(b.getMap());
@@ -89,7 +90,11 @@ RecessionDirection findRecessionDirection(const RCP<const Operator>& a, double o
                                1 + penalty * (equality.is_null() ? 1 : 2)};
     const SolveReport report = solveBoundProblem(problem, *d, {1e-9, 1.0, 0.0}, parameters);
     found.multiplications += report.counts.hessianMultiplications + 1;
-    const RCP<Vector> candidate = rcp(new Vector(*d, Teuchos::Copy));
+    const RCP<Vector> candidate =
+        rcp(new Vector(*d, Teuchos::Copy)); // d(τ) = d(∞) + O(1/τ) within a face: extrapolated
+    candidate->update(-1.0 / 9.0, *previous, 10.0 / 9.0);
+    cone->project(*candidate);
+    previous->assign(*d);
     const double candidateDefect = defect(*a, operatorNorm, *target, equality.get(), *candidate);
     if (candidateDefect < smallest) {
       smallest = candidateDefect;

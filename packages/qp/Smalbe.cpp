@@ -82,7 +82,8 @@ private:
   bool toleratesRoundOff(const Progress& previous);
   void adapt(const Progress& previous, const Progress& now);
   void growPenalty();
-  void updateMultiplier();
+  void updateMultiplier(const Progress& previous);
+  double extrapolation(const Progress& previous);
   void restore();
   bool restorationsHelp();
   [[nodiscard]] double normOfLagrangian() const;
@@ -98,7 +99,8 @@ private:
   AdaptiveRule rule_;
   Mprgp inner_;
   Vector work_;
-  int idle_ = 0, slow_ = 0, idleRestorations_ = 0;
+  std::vector<double> lastResidual_;
+  int idle_ = 0, slow_ = 0, aligned_ = 0, idleRestorations_ = 0;
   bool wasRestored_ = false;
   double bestRestored_ = std::numeric_limits<double>::infinity();
 };
@@ -117,6 +119,7 @@ OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<
       inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
       work_(problem.hessian->getDomainMap()) {
   multiplier_.assign(equality_.numEntries(), 0.0);
+  lastResidual_.assign(equality_.numEntries(), 0.0);
 }
 
 /// ‖A + ρBᵀB‖ at most.
@@ -156,12 +159,16 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
       return Status::converged;
     if (!restorationsHelp())
       return Status::stagnated;
+    wasRestored_ = rule_.isFinal() || status == Status::stagnated;
+    if (rule_.isFinal() && !equality_.isReplicated()) { // Bx = c cannot be made exact: only the gradient is in doubt
+      restore();
+      continue;
+    }
     const Progress now{inner_.objective(), rule_.residualNorm()};
-    updateMultiplier(); // μ ← μ + ρ(Bx − c), or further
+    updateMultiplier(previous); // μ ← μ + ρ(Bx − c), or further
     adapt(previous, now);
     previous = now;
     ++inner_.counts().outer;
-    wasRestored_ = rule_.isFinal() || status == Status::stagnated;
     if (wasRestored_)
       restore();
   }
@@ -224,21 +231,37 @@ void OuterIteration::growPenalty() {
                        normOfLagrangian());
 }
 
-/// μ may go further than the paper's step ρ(Bx − c) where the inner solution x does not notice: while every entry that
-/// the shift touches is held at its bound, x stays the minimiser and L grows linearly in μ, until the first multiplier
-/// there changes its sign.
-void OuterIteration::updateMultiplier() {
+/// μ may go further than the paper's step ρ(Bx − c), to `extrapolation()` or where the inner solution x does not notice:
+/// while every entry that the shift touches is held at its bound, x stays the minimiser and L grows linearly in μ, until
+/// the first multiplier there changes its sign.
+void OuterIteration::updateMultiplier(const Progress& previous) {
   work_.putScalar(0.0);
   equality_.addTransposedProduct(rule_.residual(), penalty_ * inner_.gradientScale(), work_);
   const double longest =
       minOverRanks(*work_.getMap()->getComm(),
                    problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
-  const double step = std::isfinite(longest) ? std::max(1.0, longest) : 1.0;
+  const double step = std::max({1.0, std::isfinite(longest) ? longest : 1.0, extrapolation(previous)});
   work_.scale(step / inner_.gradientScale());
   const double residual = rule_.residualNorm();
   inner_.shiftLinearTerm(work_, step * penalty_ * residual * residual);
   for (std::size_t i = 0; i < multiplier_.size(); ++i)
     multiplier_[i] += step * penalty_ * rule_.residual()[i];
+}
+
+/// Where residual after residual is the last one times q, close to 1 (rows that the free entries can hardly serve), the sum
+/// of the steps to come is 1/(1 − q) of them.
+double OuterIteration::extrapolation(const Progress& previous) {
+  constexpr int patience = 4;
+  constexpr double longest = 1e8;
+  const double residual = rule_.residualNorm();
+  const double alignment = equality_.dot(rule_.residual(), lastResidual_) / (residual * previous.residual);
+  lastResidual_.assign(rule_.residual().begin(), rule_.residual().end());
+  aligned_ = residual > 0.5 * previous.residual && alignment > 0.99 ? aligned_ + 1 : 0;
+  if (aligned_ < patience)
+    return 1;
+  aligned_ = 0;
+  const double ratio = residual / previous.residual;
+  return ratio < 1 ? std::min(1 / (1 - ratio), longest) : 1;
 }
 
 /// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on.
@@ -256,7 +279,7 @@ bool OuterIteration::restorationsHelp() {
   constexpr int maxIdle = 8;
   if (!wasRestored_)
     return true;
-  const bool isBetter = inner_.startGradient() < 0.9 * bestRestored_;
+  const bool isBetter = inner_.startGradient() < 0.999 * bestRestored_;
   bestRestored_ = std::min(bestRestored_, inner_.startGradient());
   idleRestorations_ = isBetter ? 0 : idleRestorations_ + 1;
   return idleRestorations_ <= maxIdle;
