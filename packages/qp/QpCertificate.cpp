@@ -90,6 +90,11 @@ void QpSolver::Run::certify() {
   const double gradientNorm = std::hypot(report.kkt.stationarity, report.kkt.dualFeasibility);
   const double slack = projector ? 10 : 1.0000001; // the projected problem has a round-off of its own
   report.relativeProjectedGradient = gradientNorm;
+  const bool meetsGradient = gradientNorm <= slack * limit;
+  if (report.status == Status::stagnated && meetsGradient &&
+      report.relativeConstraintResidual <=
+          solver.constraintTolerance_) // the residuals decide, not the doubts on the way
+    end(Status::converged, explain(Status::converged));
   if (report.status == Status::converged &&
       (gradientNorm > slack * limit ||
        report.kkt.equality > std::max(10 * solver.constraintTolerance_, 1e-9))) {

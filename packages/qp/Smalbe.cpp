@@ -160,7 +160,8 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
     if (!restorationsHelp())
       return Status::stagnated;
     wasRestored_ = rule_.isFinal() || status == Status::stagnated;
-    if (rule_.isFinal() && !equality_.isReplicated()) { // Bx = c cannot be made exact: only the gradient is in doubt
+    if (rule_.isFinal() &&
+        !equality_.isReplicated()) { // Bx = c cannot be made exact: only the gradient is in doubt
       restore();
       continue;
     }
