@@ -33,10 +33,10 @@ def draw_series(axes, rows, colour, marker):
     size = numpy.array([float(row["size"]) for row in rows])
     products = numpy.array([float(row["hessian_multiplications"]) for row in rows])
     axes.plot(size, products, color=colour, linewidth=1.8)
-    for good, face in ((True, colour), (False, "white")):
+    for good, face, size_of_marker, layer in ((True, colour, 6.5, 3), (False, "white", 9, 4)):
         chosen = numpy.array([converged(row) == good for row in rows])
-        axes.plot(size[chosen], products[chosen], linestyle="none", marker=marker, markersize=6.5, markeredgecolor=colour,
-                  markerfacecolor=face, markeredgewidth=1.4)
+        axes.plot(size[chosen], products[chosen], linestyle="none", marker=marker, markersize=size_of_marker, zorder=layer,
+                  markeredgecolor=colour, markerfacecolor=face, markeredgewidth=1.4)
 
 
 def draw_reference(axes, rows):

@@ -25,6 +25,13 @@ HISTORY = """iteration,outer,step,projected_gradient,constraint_residual,objecti
 0,0,s,1,0.5,0,3,1
 1,0,c,0.1,0.25,-1,3,2
 """
+QP = """problem,size,method,preconditioner,start,hessian_multiplications,status,permon_multiplications
+journal_bearing,100,published,none,zero,504,Converged,444
+journal_bearing,200,published,none,zero,1780,MaxIterations,1393
+journal_bearing,100,projected_cg,none,zero,416,Converged,
+journal_bearing,200,projected_cg,none,zero,1078,Converged,
+torsion,100,projected_cg,face_multigrid,nested,18,Converged,
+"""
 
 
 def run(*arguments):
@@ -94,6 +101,12 @@ class Plot(unittest.TestCase):
         (self.directory / "tables.csv").write_text(TABLE)
         found = self.pictures(self.directory / "tables.csv", "--format", "pdf")
         self.assertEqual(found[0].read_bytes()[:5], b"%PDF-")
+
+    def test_products_of_quadratic_programs_are_drawn(self):
+        (self.directory / "qp.csv").write_text(QP)
+        self.assertEqual([picture.name for picture in self.pictures(self.directory)], ["qp.png"])
+        (self.directory / "qp.csv").write_text(QP.replace("1780", "many"))
+        self.assertIn("many", self.refused(self.directory))
 
     def test_a_history_table_alone_gives_the_convergence(self):
         (self.directory / "history.csv").write_text(HISTORY)

@@ -35,7 +35,7 @@ TEST(MultigridTest, FaceKeepsTheFreeBlockAndTheDiagonal) {
 }
 
 TEST(MultigridTest, IsSymmetricPositiveDefiniteAndCloseToTheInverse) {
-  const BoundBenchmark benchmark = journalBearing(16, allRanks());
+  const BoundBenchmark benchmark = journalBearing(12, allRanks());
 
   const Eigen::MatrixXd m = dense(*drivers::makeMultigrid(benchmark.hessian));
 
@@ -48,7 +48,7 @@ TEST(MultigridTest, IsSymmetricPositiveDefiniteAndCloseToTheInverse) {
 }
 
 TEST(MultigridTest, OfTheFaceLeavesFixedEntriesAlone) {
-  const BoundBenchmark benchmark = journalBearing(12, allRanks());
+  const BoundBenchmark benchmark = journalBearing(11, allRanks());
   const RCP<Vector> free = someFree(benchmark);
 
   const Eigen::MatrixXd m = dense(*drivers::makeFaceMultigrid(benchmark.hessian, *free));

@@ -2,6 +2,7 @@
 """test_driver.py EPAFI SOURCE_DIR MPIRUN ARGUMENTS...: the program as its users meet it: exit codes, messages, files; on one
 rank and on several, always within a time limit, so that a rank that waits for ever is a failure."""
 
+import csv
 import pathlib
 import re
 import subprocess
@@ -11,6 +12,7 @@ import unittest
 import xml.etree.ElementTree
 
 PROGRAM, SOURCE, LAUNCH = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+STUDY = str(pathlib.Path(PROGRAM).with_name("epafi-study"))  # stands beside
 SOLVED, NOT_CONVERGED, WRONG_INPUT, NOT_SOLVABLE = range(4)
 LIMIT = 60  # seconds
 
@@ -277,6 +279,50 @@ class RefusesProblemsWithoutASolution(Driver):
                     "--set", "Bodies/right/Loads/up/Value=0.3", "--set", "Bodies/right/Loads/up/Box={1,2,0,0.25}",
                     "--set", "Bodies/right/Loads/down/Value=-0.1", "--set", "Bodies/right/Loads/down/Box={1,2,0.25,1}",
                     "--set", "Bodies/right/Loads/lower strip/Value=0")
+
+
+class StudiesQuadraticPrograms(Driver):
+    COLUMNS = ["problem", "size", "method", "preconditioner", "start", "hessian_multiplications", "cg_steps",
+               "expansion_steps", "proportioning_steps", "seconds", "relative_projected_gradient"]
+
+    def study(self, *arguments):
+        return subprocess.run([STUDY, *map(str, arguments)], capture_output=True, text=True, timeout=2 * LIMIT, check=False)
+
+    def products(self, rows, problem, size, preconditioner, start):
+        found = {int(row["hessian_multiplications"]) for row in rows
+                 if (row["problem"], int(row["size"]), row["method"], row["preconditioner"], row["start"]) ==
+                 (problem, size, "projected_cg", preconditioner, start)
+                 and (float(row["proportioning_constant"]), float(row["expansion_step"])) == (1.0, 1.9)}
+        self.assertEqual(len(found), 1, (problem, size, preconditioner, start))
+        return found.pop()
+
+    def test_the_quick_study(self):
+        run = self.study("qp", "--quick", "--output", self.place)
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""), run.stdout)
+        for name in ("qp.csv", "qp.md", "qp.png", "qp_traffic.csv"):
+            self.assertGreater((self.place / name).stat().st_size, 50, name)
+        with open(self.place / "qp.csv", newline="", encoding="utf-8") as table:
+            reader = csv.DictReader(table)
+            rows = list(reader)
+        self.assertEqual(reader.fieldnames[:len(self.COLUMNS)], self.COLUMNS)
+        for row in rows:
+            if row["status"] == "Converged":
+                self.assertLessEqual(float(row["relative_projected_gradient"]), 1.001e-6, row)
+            steps = sum(int(row[f"{kind}_steps"]) for kind in ("cg", "expansion", "proportioning"))
+            self.assertLessEqual(steps, int(row["hessian_multiplications"]), row)
+        self.assertLessEqual(self.products(rows, "journal_bearing", 100, "none", "zero"), 444)  # PERMON 3.18
+        self.assertLessEqual(self.products(rows, "journal_bearing", 100, "multigrid", "zero"), 70)
+        for problem in ("journal_bearing", "obstacle", "torsion"):
+            nested = [self.products(rows, problem, size, "face_multigrid", "nested") for size in (50, 100)]
+            self.assertLessEqual(nested[1], 30, problem)
+            self.assertLessEqual(nested[1], 1.5 * nested[0], f"{problem}: the count hardly grows with the mesh")
+
+    def test_unknown_studies(self):
+        for words, arguments in ((["tabels", "qp", "tables"], ["tabels"]), (["no study"], [])):
+            run = self.study(*arguments)
+            self.assertEqual(run.returncode, WRONG_INPUT)
+            for word in words:
+                self.assertIn(word, run.stderr)
 
 
 if __name__ == "__main__":
