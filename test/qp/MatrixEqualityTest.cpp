@@ -92,7 +92,8 @@ TEST(MatrixEqualityTest, RowsThatAreNearlyTheSameBecomeOrthonormalAsFarAsTheyAre
     const PreparedEquality prepared = prepare(b, {}, denseRows);
 
     EXPECT_EQ(prepared.rank, 3) << angle;
-    expectOrthonormal(prepared, 10, 1e-14 / (angle * angle)); // round-off of the Gram matrix beside its eigenvalue
+    expectOrthonormal(prepared, 10,
+                      1e-14 / (angle * angle)); // round-off of the Gram matrix beside its eigenvalue
   }
 }
 

@@ -105,7 +105,8 @@ TEST_P(QpInvarianceTest, OfAllUnitsTogether) {
 std::string nameOf(const testing::TestParamInfo<std::tuple<Kind, double>>& instance) {
   static constexpr const char* kinds[] = {"bounds", "rows", "scaledRows", "redundantRows"};
   static constexpr const char* factors[] = {"e12", "em12", "two40", "twom40", "two3"};
-  return std::string(kinds[static_cast<int>(std::get<0>(instance.param))]) + "_" + factors[instance.index % 5];
+  return std::string(kinds[static_cast<int>(std::get<0>(instance.param))]) + "_" +
+         factors[instance.index % 5];
 }
 
 INSTANTIATE_TEST_SUITE_P(Units, QpInvarianceTest,
