@@ -137,14 +137,6 @@ void Mprgp::step(const StepSizes& sizes, StepKind kind) {
       isConjugateGradient || (parameters_.release == Release::projectedGradient && exact <= sizes.feasible);
 }
 
-double Mprgp::freeGradient() const {
-  return std::sqrt(freeSquared_) / scale_;
-}
-
-double Mprgp::choppedGradient() const {
-  return std::sqrt(choppedSquared_) / scale_;
-}
-
 RCP<Vector> Mprgp::certificate() const {
   const RCP<Vector> direction = rcp(new Vector(p_, Teuchos::Copy));
   const double length = accurateNorm(*direction);

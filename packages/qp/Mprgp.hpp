@@ -78,12 +78,11 @@ public:
   /// (Ax − b) · gradientScale(), as updated by the steps.
   [[nodiscard]] const Vector& scaledGradient() const { return g_; }
   [[nodiscard]] double gradientScale() const { return scale_; }
-  /// Norm of the projected gradient ‖g^P‖ at the last step, and its parts ‖φ‖ and ‖β‖.
+  /// Norm of the projected gradient ‖g^P‖ at the last step.
   [[nodiscard]] double projectedGradient() const { return projectedGradient_ / scale_; }
   /// The same where the last run began.
   [[nodiscard]] double startGradient() const { return startGradient_ / scale_; }
-  [[nodiscard]] double freeGradient() const;
-  [[nodiscard]] double choppedGradient() const;
+  [[nodiscard]] double solutionNorm() const { return solutionNorm_; } ///< ‖x‖
   [[nodiscard]] double objective() const { return objective_ / scale_; }
   [[nodiscard]] bool gradientIsFresh() const { return gradientIsFresh_; }
   [[nodiscard]] StepCounts& counts() { return counts_; }

@@ -191,7 +191,9 @@ void OuterIteration::adapt(const Progress& previous, const Progress& now) {
   const bool grewTooLittle =
       !isFirst &&
       now.lagrangian < previous.lagrangian + 0.5 * penalty_ * now.residual * now.residual - roundOff;
-  slow_ = !isFirst && now.residual > 0.5 * previous.residual ? slow_ + 1 : 0;
+  // A residual that is round-off of Bx does not fall any more, whatever the penalty.
+  const bool isRoundOff = now.residual <= 1e-13 * equality_.norm() * inner_.solutionNorm();
+  slow_ = !isFirst && !isRoundOff && now.residual > 0.5 * previous.residual ? slow_ + 1 : 0;
   using Update = SmalbeParameters::Update;
   const bool mayGrow = penalty_ * equality_.norm() * equality_.norm() < maxPenalty * problem_.operatorNorm;
   if (grewTooLittle && (parameters_.update != Update::penalty || !mayGrow))
