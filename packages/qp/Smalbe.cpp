@@ -37,7 +37,10 @@ public:
     residualNorm_ = equality_->finishResidual(sums, residual_);
     isFinal_ = projectedGradient <= tolerances_.gradient * tolerances_.gradientReference &&
                residualNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
-    return isFinal_ || projectedGradient <= std::min(balance_ * residualNorm_, forcing_);
+    // After a thousand steps it is time for another multiplier, if only the gradient is small enough for the end.
+    const bool isLong = ++steps_ > 1000;
+    const double enough = isLong ? 0.1 * tolerances_.gradient * tolerances_.gradientReference : 0.0;
+    return isFinal_ || projectedGradient <= std::max(std::min(balance_ * residualNorm_, forcing_), enough);
   }
 
   void describe(StepRecord& record) const override {
@@ -49,6 +52,7 @@ public:
   [[nodiscard]] double residualNorm() const { return residualNorm_; }
   [[nodiscard]] std::span<const double> residual() const { return residual_; }
   void reduceBalance(double factor) { balance_ *= factor; }
+  void startInnerLoop() { steps_ = 0; }
 
 private:
   RCP<const EqualityConstraint> equality_;
@@ -56,6 +60,7 @@ private:
   double balance_, forcing_;
   std::vector<double> residual_;
   double residualNorm_ = 0;
+  int steps_ = 0; ///< of the inner loop
   bool isFinal_ = false;
 };
 
@@ -152,6 +157,7 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
 
   Progress previous;
   while (inner_.counts().outer < parameters_.maxOuterIterations) {
+    rule_.startInnerLoop();
     const Status status = inner_.run(rule_, observer); // ‖g^P‖ ≤ min(M‖Bx − c‖, η)
     if (status != Status::converged && !(status == Status::stagnated && toleratesRoundOff(previous)))
       return status;
