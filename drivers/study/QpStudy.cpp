@@ -151,7 +151,7 @@ bool studyQp(const std::filesystem::path& directory, bool quick, const RCP<const
     if (methodName(row) == "projected_cg")
       defaultsConverged = defaultsConverged && result.report.status == qp::Status::converged;
   }
-  const std::string traffic = measureTraffic(quick, comm);
+  std::string traffic = measureTraffic(quick, comm);
   output::writeTextFile(
       directory / "qp.csv", [&] { return csv; }, *comm);
   output::writeTextFile(
