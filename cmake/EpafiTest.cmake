@@ -15,7 +15,7 @@ function(epafi_test name)
     set(TEST_RANKS 1)
   endif()
   if(NOT TEST_TIMEOUT)
-    set(TEST_TIMEOUT 120)
+    set(TEST_TIMEOUT 600) # against hanging; a loaded machine is slow
   endif()
   add_executable(test_${name} ${TEST_SOURCES})
   target_link_libraries(test_${name} PRIVATE epafi_test_main ${TEST_USES})

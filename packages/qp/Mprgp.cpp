@@ -26,7 +26,7 @@ Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParamet
       hessianTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: product with the Hessian")),
       preconditionerTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: preconditioner")),
       x_(a_->getDomainMap()), b_(a_->getDomainMap()), g_(a_->getDomainMap()), p_(a_->getDomainMap()),
-      ap_(a_->getDomainMap()), stepReduction_(comm_, 4), measureReduction_(comm_, 7) {
+      ap_(a_->getDomainMap()), stepReduction_(comm_, 4), measureReduction_(comm_, numOwnSums) {
   if (!preconditioner_.is_null()) {
     residual_ = rcp(new Vector(a_->getDomainMap()));
     z_ = rcp(new Vector(a_->getDomainMap()));
@@ -41,9 +41,9 @@ Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParamet
 
 // The loop of the paper.
 Status Mprgp::run(StoppingRule& rule, Observer* observer) {
-  measureReduction_ = FusedReduction(comm_, 7 + rule.numSums());
+  measureReduction_ = FusedReduction(comm_, numOwnSums + rule.numSums());
   progress_.restart();
-  conjugate_ = false;
+  conjugate_ = staysInFace_ = false;
   refreshes_ = 0;
   measure(rule);
   startGradient_ = projectedGradient_;
@@ -76,6 +76,13 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
 bool Mprgp::isProportional() const {
   const double gamma = parameters_.proportioningConstant;
   return choppedSquared_ <= gamma * gamma * reducedTimesFree_; // βᵀβ ≤ Γ² φ̃ᵀφ
+}
+
+/// Whether the iterate is so far from leaving its face that the next one will hardly do so either.
+bool Mprgp::isWellProportional() const {
+  constexpr double margin = 0.1;
+  const double gamma = parameters_.proportioningConstant;
+  return choppedSquared_ <= margin * gamma * gamma * reducedTimesFree_;
 }
 
 /// Why the iteration is over at the present iterate, if it is.
@@ -129,6 +136,7 @@ bool Mprgp::fits(const StepSizes& sizes, StepKind intent) const {
 void Mprgp::step(const StepSizes& sizes, StepKind kind) {
   const bool isConjugateGradient = kind == StepKind::conjugateGradient;
   ++(isConjugateGradient ? counts_.conjugateGradient : counts_.proportioning);
+  staysInFace_ = isConjugateGradient && !preconditioner_.is_null() && isWellProportional();
   const double threshold = zeroCurvature * norm_ * sizes.squared;
   const double exact = sizes.curvature > threshold ? sizes.slope / sizes.curvature : sizes.feasible;
   move(std::min(exact, sizes.feasible), sizes);

@@ -18,6 +18,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <optional>
+#include <span>
 
 namespace Teuchos {
 class Time;
@@ -36,7 +37,9 @@ namespace epafi::qp {
 ///   expansion      2 products, 3 reductions (its first product found the CG step too long); 1 product more if the
 ///                  trial raises the objective and is repeated, or if its length is 'optimal'
 ///   proportioning  1 product, 2 reductions
-/// With a preconditioner: 1 application for each direction, 1 reduction and 4 vectors more a CG step.
+/// With a preconditioner: 1 application for each direction, 4 vectors more a CG step; 1 reduction more where a
+/// proportioning step may come next (βᵀβ > Γ²φ̃ᵀφ/10). Elsewhere M is applied before it is known that the iteration
+/// goes on in the face: one application in vain at the end, and where proportioning comes as a surprise.
 /// All work vectors are allocated by the constructor, none in a step.
 ///
 /// Preconditions: A symmetric positive semidefinite on the unknowns' map; the preconditioner symmetric positive
@@ -112,6 +115,7 @@ private:
   // The loop's questions.
   std::optional<Status> ending(StoppingRule& rule);
   [[nodiscard]] bool isProportional() const;
+  [[nodiscard]] bool isWellProportional() const;
   [[nodiscard]] std::optional<Status> endingOf(const StepSizes& sizes) const;
   [[nodiscard]] bool fits(const StepSizes& sizes, StepKind intent) const;
   // Its steps.
@@ -122,6 +126,7 @@ private:
   // Passes over the vectors.
   void applyHessian(const Vector& x, Vector& ax);
   void precondition();
+  void addPreconditionedSums(std::span<AccurateSum> sums) const;
   StepSizes stepSizes();
   void move(double length, const StepSizes& sizes);
   double expansionLength(const StepSizes& sizes);
@@ -143,17 +148,22 @@ private:
   RCP<Vector> residual_, z_;     ///< for the preconditioner: φ or φ + β, and M times it
   RCP<Vector> lastX_, lastG_;    ///< for Barzilai–Borwein: after the last expansion
   FusedReduction stepReduction_; ///< pᵀAp, gᵀp, pᵀp; α_f; also every other pair of sums
-  FusedReduction measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, xᵀx, active entries, time is up; the rule's sums
+  static constexpr int numOwnSums = 9;
+  FusedReduction
+      measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, xᵀx, active entries, time is up, rᵀz, zᵀAp; the rule's
   double objective_ = 0, constant_ = 0; ///< f, and what is in it beside ½xᵀAx − bᵀx
   double linearNorm_ = 0;               ///< ‖b‖, scaled
   double projectedGradient_ = 0, startGradient_ = 0;
   double freeSquared_ = 0, choppedSquared_ = 0; ///< φᵀφ, βᵀβ
   double reducedTimesFree_ = 0;                 ///< φ̃ᵀφ
   double directionTimesImage_ = 0;              ///< φᵀAp or zᵀAp, for the next conjugation
+  double residualTimesZ_ = 0;                   ///< rᵀz, where z = Mr
   double curvature_ = 0;                        ///< pᵀAp of the last step
   double solutionNorm_ = 0;                     ///< ‖x‖
   long long active_ = 0;
-  bool conjugate_ = false; ///< whether the next direction is made conjugate to p
+  bool conjugate_ = false;   ///< whether the next direction is made conjugate to p
+  bool staysInFace_ = false; ///< the next measurement is to precondition φ
+  bool isForeseen_ = false;  ///< z = Mφ is there already
   bool gradientIsFresh_ = false;
   bool isSatisfied_ = false; ///< what the rule says of the present iterate
   bool timeIsUp_ = false;

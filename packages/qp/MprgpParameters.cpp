@@ -64,8 +64,11 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
             "(preconditioned if "
             "there is a preconditioner), or the chopped gradient alone.",
             namesOf(releases));
-  addInteger(list, "Maximum Multiplications", defaults.maxMultiplications,
-             "Products with the operator at most, over all outer iterations together; limits CG too.", 1);
+  addInteger(
+      list, "Maximum Multiplications", defaults.maxMultiplications,
+      "Products with the operator at most, over all outer iterations together; limits CG too. Looked at "
+      "before each step, which takes one to three.",
+      1);
   addReal(list, "Time Limit", defaults.timeLimit,
           "Seconds after which the iteration stops with the iterate it has; 0 for no limit.", 0.0, 1e9);
   return list;

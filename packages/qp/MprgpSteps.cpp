@@ -81,35 +81,42 @@ std::optional<Status> Mprgp::setDirection(StepKind intent) {
       set_->projectedGradient(x_, g_, negligible, p_);
     return std::nullopt;
   }
-  if (isInFace)
-    set_->subtractFromFreeGradient(x_, g_, 0.0, *residual_);
-  else
-    set_->projectedGradient(x_, g_, negligible, *residual_);
-  precondition();
-  if (isInFace)
-    set_->restrictToFree(x_, *z_);
-  else
-    set_->restrictToReleased(x_, g_, negligible, *z_);
-  const auto r = localData(*residual_), z = localData(*z_), ap = localData(ap_);
-  AccurateSum rz, zap;
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    rz.add(r[i] * z[i]);
-    zap.add(z[i] * ap[i]);
+  if (!isInFace || !isForeseen_) {
+    if (isInFace)
+      set_->subtractFromFreeGradient(x_, g_, 0.0, *residual_);
+    else
+      set_->projectedGradient(x_, g_, negligible, *residual_);
+    precondition();
+    if (isInFace)
+      set_->restrictToFree(x_, *z_);
+    else
+      set_->restrictToReleased(x_, g_, negligible, *z_);
+    stepReduction_.clear();
+    addPreconditionedSums(stepReduction_.sums());
+    stepReduction_.reduce();
+    residualTimesZ_ = stepReduction_.sum(0);
+    directionTimesImage_ = scale_ * stepReduction_.sum(1);
   }
-  stepReduction_.clear();
-  stepReduction_.sums()[0] = rz;
-  stepReduction_.sums()[1] = zap;
-  stepReduction_.reduce();
-  if (!std::isfinite(stepReduction_.sum(0)))
+  if (!std::isfinite(residualTimesZ_))
     return Status::notFinite;
-  if (!(stepReduction_.sum(0) > 0)) // rᵀMr ≤ 0: no descent, M is not positive definite
+  if (!(residualTimesZ_ > 0)) // rᵀMr ≤ 0: no descent, M is not positive definite
     return Status::indefinitePreconditioner;
   const bool conjugates = isInFace && conjugate_;
-  const double conjugation = conjugates ? scale_ * stepReduction_.sum(1) / curvature_ : 0.0;
+  const double conjugation = conjugates ? directionTimesImage_ / curvature_ : 0.0;
+  const auto z = localData(*z_);
   const auto p = localDataNonConst(p_);
   for (std::size_t i = 0; i < p.size(); ++i)
     p[i] = z[i] - (conjugates ? conjugation * p[i] : 0.0);
   return std::nullopt;
+}
+
+/// rᵀz and zᵀAp, this rank's shares.
+void Mprgp::addPreconditionedSums(std::span<AccurateSum> sums) const {
+  const auto r = localData(*residual_), z = localData(*z_), ap = localData(ap_);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    sums[0].add(r[i] * z[i]);
+    sums[1].add(z[i] * ap[i]);
+  }
 }
 
 /// pᵀAp, gᵀp, pᵀp and α_f in one message. Streams p, Ap, g, then x, p, l, u.
@@ -257,8 +264,11 @@ void Mprgp::accept(const Trial& trial) {
   gradientIsFresh_ = true;
 }
 
-/// All that the loop asks of the split gradient, in one pass and one message. Streams x, g, Ap, l, u.
+/// All that the loop asks of the split gradient, in one pass and one message. Streams x, g, Ap, l, u. Where the next
+/// step will most likely stay in the face, it is preconditioned now, so that its two sums travel along.
 void Mprgp::measure(StoppingRule& rule) {
+  isForeseen_ = staysInFace_;
+  staysInFace_ = false;
   const GradientSums mine = set_->measure(x_, g_, ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0));
   measureReduction_.clear();
   const std::span<AccurateSum> sums = measureReduction_.sums();
@@ -269,17 +279,24 @@ void Mprgp::measure(StoppingRule& rule) {
   sums[4] = mine.solutionSquared;
   sums[5] = AccurateSum(static_cast<double>(mine.active));
   sums[6] = AccurateSum(deadline_ > 0 && Teuchos::Time::wallTime() > deadline_ ? 1.0 : 0.0);
-  rule.addLocalSums(x_, sums.subspan(7));
+  if (isForeseen_) {
+    set_->subtractFromFreeGradient(x_, g_, 0.0, *residual_);
+    precondition();
+    set_->restrictToFree(x_, *z_);
+    addPreconditionedSums(sums.subspan(7));
+  }
+  rule.addLocalSums(x_, sums.subspan(numOwnSums));
   measureReduction_.reduce();
   freeSquared_ = measureReduction_.sum(0);
   choppedSquared_ = measureReduction_.sum(1);
   reducedTimesFree_ = measureReduction_.sum(2);
-  directionTimesImage_ = scale_ * measureReduction_.sum(3);
+  directionTimesImage_ = scale_ * measureReduction_.sum(isForeseen_ ? 8 : 3);
+  residualTimesZ_ = measureReduction_.sum(7);
   solutionNorm_ = std::sqrt(measureReduction_.sum(4));
   active_ = static_cast<long long>(measureReduction_.sum(5));
   timeIsUp_ = measureReduction_.sum(6) > 0;
   projectedGradient_ = std::sqrt(freeSquared_ + choppedSquared_);
-  isSatisfied_ = rule.isSatisfied(projectedGradient(), sums.subspan(7));
+  isSatisfied_ = rule.isSatisfied(projectedGradient(), sums.subspan(numOwnSums));
 }
 
 } // namespace epafi::qp

@@ -234,7 +234,7 @@ TEST(QpInputTest, ParametersAreCheckedWhenTheSolverIsMade) {
   EXPECT_THROW(make("MPRGP", "Expansion Step", 2.0), InputError);
   EXPECT_THROW(make("MPRGP", "Proportioning Constant", 0.0), InputError);
   EXPECT_THROW(make("SMALBE", "Update", std::string("neither")), InputError);
-  EXPECT_NO_THROW(qp::QpSolver(qp::QpSolver::validParameters()));
+  EXPECT_NO_THROW(qp::QpSolver{qp::QpSolver::validParameters()});
 }
 
 TEST(QpInputTest, EveryParameterHasItsMeaningInTheList) {

@@ -20,8 +20,8 @@ bool isWithinBounds(const DenseProgram& program, const Eigen::VectorXd& x) {
 
 /// Solves with an operator that is good for `healthy` products and then writes `value` in entry `row`.
 QpAnswer solveFaulty(const DenseProgram& program, int healthy, int row, double value,
-                     Teuchos::ParameterList parameters) {
-  QpCall call{std::move(parameters)};
+                     const Teuchos::ParameterList& parameters) {
+  QpCall call{parameters};
   call.change = [&](qp::QuadraticProgram& problem) {
     problem.hessian =
         rcp(new FaultyOperator(problem.hessian->getDomainMap(), program.hessian, healthy, row, value));
