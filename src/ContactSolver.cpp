@@ -45,9 +45,9 @@ Teuchos::ParameterList ContactSolver::validParameters() {
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());
   list.sublist("Norm Estimate").setParameters(qp::NormEstimateParameters::validParameters());
   Teuchos::ParameterList& solvers = list.sublist("Direct Solvers");
-  addChoice(solvers, "Subdomains", direct.subdomains, "Amesos2 solver of the subdomains.",
+  addChoice(solvers, "Subdomains", direct.subdomains, "Direct solver of the subdomains.",
             direct::availableSolvers());
-  addChoice(solvers, "Coarse Problem", direct.coarse, "Amesos2 solver of the coarse problem.",
+  addChoice(solvers, "Coarse Problem", direct.coarse, "Direct solver of the coarse problem.",
             direct::availableSolvers());
   return list;
 }

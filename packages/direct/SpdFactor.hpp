@@ -1,7 +1,7 @@
 #pragma once
 
 /// Sparse factorisation of a symmetric positive definite matrix that lies on one rank: one subdomain, or the
-/// coarse problem.
+/// coarse problem; and the matrix condensed to some of its unknowns.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -16,7 +16,9 @@ namespace epafi::direct {
 /// Symmetric matrix with both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// A factorised SPD matrix A (n × n). Not copyable; used by one rank alone, nothing here is collective.
+/// A factorised SPD matrix A (n × n), of whose unknowns k ≤ n are *kept*: eliminated last, so that what is left of A
+/// when the others are gone, the Schur complement S = A_kk − A_ki A_ii⁻¹ A_ik = ((A⁻¹)_kk)⁻¹, can be had. Not copyable;
+/// used by one rank alone, nothing here is collective.
 class SpdFactor {
 public:
   virtual ~SpdFactor() = default;
@@ -26,23 +28,54 @@ public:
   SpdFactor& operator=(SpdFactor&&) = delete;
 
   [[nodiscard]] virtual int size() const = 0;
-  /// X = A⁻¹ B; both n × k, column by column, k ≥ 0. X may not overlap B.
+  /// X = A⁻¹ B; both n × m, column by column, m ≥ 0. X may not overlap B.
   virtual void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) = 0;
+  /// S, k × k, in the order in which the kept unknowns were given; both triangles, equal to the last digit.
+  virtual Eigen::MatrixXd schurComplement() = 0;
+  /// (A⁻¹)_kk = S⁻¹, likewise.
+  virtual Eigen::MatrixXd inverseOfKept() = 0;
   /// Bytes that the factors take.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// Entries of the factor: a solve reads each of them twice.
+  [[nodiscard]] virtual std::size_t numEntries() const = 0;
 
 protected:
   SpdFactor() = default;
 };
 
-/// Names that `factorize` takes with this build of Trilinos. Amesos2's Tacho is left out: it crashes on
-/// matrices of some thousand unknowns in Trilinos 13.2.
+/// Factorises matrices by one direct solver, and remembers what depends on their pattern alone (ordering, elimination
+/// tree) for the next one with the same pattern and the same unknowns kept.
+class Factorizer {
+public:
+  /// \param solver  one of `availableSolvers()`. \throws InputError for another name (lists the known ones).
+  explicit Factorizer(std::string solver);
+  Factorizer(const Factorizer&) = delete;
+  Factorizer& operator=(const Factorizer&) = delete;
+  Factorizer(Factorizer&&) noexcept;
+  Factorizer& operator=(Factorizer&&) noexcept;
+  ~Factorizer();
+
+  /// Precondition: A square, SPD, both triangles stored; `kept` distinct and within it. n = 0 is allowed.
+  /// \throws Error if the factorisation fails, with `what` (the matrix's name for people, such as "subdomain 3") and n.
+  std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::vector<int>& kept,
+                                       const std::string& what);
+
+  [[nodiscard]] const std::string& solver() const { return solver_; }
+  /// Symbolic factorisations made so far: the number of different patterns, where the solver shares them.
+  [[nodiscard]] int numSymbolic() const { return numSymbolic_; }
+
+private:
+  struct Patterns;
+  std::string solver_;
+  std::unique_ptr<Patterns> patterns_;
+  int numSymbolic_ = 0;
+};
+
+/// Names that `Factorizer` takes: CHOLMOD, and the serial solvers of Amesos2 in this build of Trilinos. Amesos2's Tacho
+/// is left out: it crashes on matrices of some thousand unknowns in Trilinos 13.2.
 std::vector<std::string> availableSolvers();
 
-/// Factorises A by the Amesos2 solver called `solver`.
-/// Precondition: A square, SPD, both triangles stored. n = 0 is allowed.
-/// \throws InputError for an unknown name (lists the known ones); Error if the factorisation fails, with
-///         `what` (the matrix's name for people, such as "subdomain 3") and n.
+/// Factorises one matrix of which nothing is kept. See Factorizer.
 std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver,
                                      const std::string& what);
 

@@ -28,17 +28,20 @@ Triplets gatherTriplets(const Comm& comm, const std::vector<double>& mine) {
 }
 
 /// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from.
-SparseMatrix assemble(const Comm& comm, int size, std::span<const SubdomainSolver> subdomains) {
+SparseMatrix assemble(const DecomposedProblem& problem, int size, std::span<const SubdomainGroup> groups) {
+  std::vector<const Eigen::MatrixXd*> blocks(problem.subdomains.size());
+  for (const SubdomainGroup& group : groups)
+    for (const std::size_t member : group.members())
+      blocks[member] = &group.condensed().schurComplement();
   std::vector<double> mine;
-  for (const SubdomainSolver& subdomain : subdomains) {
-    const auto indices = subdomain.crosspointIndices();
+  for (std::size_t s = 0; s < blocks.size(); ++s) {
+    const auto& indices = problem.subdomains[s].crosspointIndices;
     for (std::size_t j = 0; j < indices.size(); ++j)
       for (std::size_t i = 0; i < indices.size(); ++i)
         mine.insert(mine.end(), {static_cast<double>(indices[i]), static_cast<double>(indices[j]),
-                                 subdomain.schurComplement()(static_cast<Eigen::Index>(i),
-                                                             static_cast<Eigen::Index>(j))});
+                                 (*blocks[s])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))});
   }
-  const Triplets all = gatherTriplets(comm, mine);
+  const Triplets all = gatherTriplets(*problem.comm, mine);
   SparseMatrix result(size, size);
   result.setFromTriplets(all.begin(), all.end());
   return result;
@@ -132,11 +135,11 @@ void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const
 
 } // namespace
 
-CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainSolver> subdomains,
+CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
                              const std::string& directSolver)
     : comm_(problem.comm), size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())),
       rhs_(size_) {
-  SparseMatrix matrix = assemble(*comm_, size_, subdomains);
+  SparseMatrix matrix = assemble(problem, size_, groups);
   if (problem.kernelDimension > 0) {
     const CoarseKernel kernel = gatherKernel(problem, size_);
     const Eigen::VectorXd stiffness = crosspointStiffness(problem, size_);

@@ -11,7 +11,7 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/direct/SpdFactor.hpp"
-#include "epafi/fetidp/SubdomainSolver.hpp"
+#include "epafi/fetidp/SubdomainGroup.hpp"
 
 #include <Eigen/Core>
 
@@ -25,7 +25,7 @@ class CoarseProblem {
 public:
   /// Sums the subdomains' Schur complements over all ranks and factorises. Collective.
   /// \throws Error if the kernel handed over is none of S_cc, or if the factorisation fails.
-  CoarseProblem(const decomposition::DecomposedProblem& problem, std::span<const SubdomainSolver> subdomains,
+  CoarseProblem(const decomposition::DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
                 const std::string& directSolver);
 
   [[nodiscard]] int size() const { return size_; }

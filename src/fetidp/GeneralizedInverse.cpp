@@ -3,17 +3,18 @@
 #include "epafi/base/Collective.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace epafi::fetidp {
 
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
                                        const DirectSolvers& solvers) {
   collectively(*problem.comm, [&] {
-    subdomains_.reserve(problem.subdomains.size());
-    for (const auto& subdomain : problem.subdomains)
-      subdomains_.emplace_back(subdomain, solvers.subdomains);
+    direct::Factorizer factorizer(solvers.subdomains);
+    for (auto& members : groupIdentical(problem.subdomains, solvers.shareIdentical))
+      groups_.emplace_back(problem.subdomains, std::move(members), factorizer);
   });
-  coarseProblem_ = std::make_unique<CoarseProblem>(problem, subdomains_, solvers.coarse);
+  coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, solvers.coarse);
   coarse_.resize(coarseProblem_->size());
   coarseSums_.resize(static_cast<std::size_t>(coarse_.size()));
 }
@@ -21,38 +22,38 @@ GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& p
 void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result) {
   std::fill(result.begin(), result.end(), 0.0);
   std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
-  for (SubdomainSolver& subdomain : subdomains_)
-    subdomain.applyFlexibility(lambda, coarseSums_); // B_r K_rr⁻¹ B_rᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
-  coarseProblem_->solve(coarseSums_, coarse_);       // x_c = S_cc⁺ z
-  for (const SubdomainSolver& subdomain : subdomains_)
-    subdomain.applyCoupling(coarse_, result); // Σ B_r K_rr⁻¹ B_rᵀ λ + W L_c x_c
+  for (SubdomainGroup& group : groups_)
+    group.applyFlexibility(lambda, coarseSums_); // B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
+  coarseProblem_->solve(coarseSums_, coarse_); // x_c = S_cc⁺ z
+  for (SubdomainGroup& group : groups_)
+    group.applyCoupling(coarse_, result); // Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c
 }
 
 void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u) {
   std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
-  for (std::size_t s = 0; s < subdomains_.size(); ++s)
-    subdomains_[s].eliminate(b[s], coarseSums_);
+  for (SubdomainGroup& group : groups_)
+    group.eliminate(b, coarseSums_);
   coarseProblem_->solve(coarseSums_, coarse_);
-  u.resize(subdomains_.size());
-  for (std::size_t s = 0; s < subdomains_.size(); ++s)
-    subdomains_[s].substitute(coarse_, u[s]);
+  u.resize(b.size());
+  for (SubdomainGroup& group : groups_)
+    group.substitute(coarse_, b, u);
 }
 
 void GeneralizedInverse::subtractForces(std::span<const double> lambda, SubdomainVectors& b) const {
-  for (std::size_t s = 0; s < subdomains_.size(); ++s)
-    subdomains_[s].subtractForces(lambda, b[s]);
+  for (const SubdomainGroup& group : groups_)
+    group.subtractForces(lambda, b);
 }
 
 void GeneralizedInverse::constraint(const SubdomainVectors& u, std::span<double> result) const {
   std::fill(result.begin(), result.end(), 0.0);
-  for (std::size_t s = 0; s < subdomains_.size(); ++s)
-    subdomains_[s].addConstraint(u[s], result);
+  for (const SubdomainGroup& group : groups_)
+    group.addConstraint(u, result);
 }
 
 std::size_t GeneralizedInverse::factorBytes() const {
   std::size_t bytes = coarseProblem_->factorBytes();
-  for (const SubdomainSolver& subdomain : subdomains_)
-    bytes += subdomain.factorBytes();
+  for (const SubdomainGroup& group : groups_)
+    bytes += group.factorBytes();
   return bytes;
 }
 

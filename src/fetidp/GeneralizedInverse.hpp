@@ -5,7 +5,7 @@
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/CoarseProblem.hpp"
-#include "epafi/fetidp/SubdomainSolver.hpp"
+#include "epafi/fetidp/SubdomainGroup.hpp"
 
 #include <memory>
 #include <span>
@@ -17,10 +17,11 @@ namespace epafi::fetidp {
 /// Values of this rank's subdomains, n_s each.
 using SubdomainVectors = std::vector<Eigen::VectorXd>;
 
-/// Names of the direct solvers (see direct::availableSolvers).
+/// Names of the direct solvers (see direct::availableSolvers), and whether identical subdomains share their factor.
 struct DirectSolvers {
-  std::string subdomains = "KLU2";
-  std::string coarse = "KLU2";
+  std::string subdomains = "CHOLMOD";
+  std::string coarse = "CHOLMOD";
+  bool shareIdentical = true;
 };
 
 class GeneralizedInverse {
@@ -42,12 +43,15 @@ public:
   /// result = this rank's part of B̄ u (on the ghost map). Not collective.
   void constraint(const SubdomainVectors& u, std::span<double> result) const;
 
-  /// Bytes of this rank's factors.
+  /// This rank's subdomains, identical ones together.
+  [[nodiscard]] std::span<SubdomainGroup> groups() { return groups_; }
+  [[nodiscard]] std::span<const SubdomainGroup> groups() const { return groups_; }
+  /// Bytes of this rank's factors and dense blocks.
   [[nodiscard]] std::size_t factorBytes() const;
   [[nodiscard]] int coarseSize() const { return coarseProblem_->size(); }
 
 private:
-  std::vector<SubdomainSolver> subdomains_;
+  std::vector<SubdomainGroup> groups_;
   std::unique_ptr<CoarseProblem> coarseProblem_;
   std::vector<AccurateSum> coarseSums_; ///< work
   Eigen::VectorXd coarse_;              ///< work

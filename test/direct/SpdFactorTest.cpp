@@ -1,7 +1,10 @@
 #include "epafi/direct/SpdFactor.hpp"
 #include "epafi/base/Errors.hpp"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace {
 
@@ -21,6 +24,31 @@ SparseMatrix laplacian(int n) {
   SparseMatrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
+}
+
+/// 9-point stencil on an n × n grid, SPD; ordering it is worth while.
+SparseMatrix plate(int n) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di)
+          if (i + di >= 0 && i + di < n && j + dj >= 0 && j + dj < n)
+            entries.emplace_back(i + j * n, i + di + (j + dj) * n,
+                                 di == 0 && dj == 0 ? 8.5 + 0.01 * i : -1.0);
+  SparseMatrix matrix(n * n, n * n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Nodes on the border of the plate, in no particular order.
+std::vector<int> borderOf(int n) {
+  std::vector<int> border;
+  for (int k = n - 1; k >= 0; --k)
+    for (int l = 0; l < n; ++l)
+      if (k == 0 || l == 0 || k == n - 1 || l == n - 1)
+        border.push_back(l * n + k);
+  return border;
 }
 
 class SpdFactorTest : public testing::TestWithParam<std::string> {};
@@ -66,8 +94,76 @@ TEST_P(SpdFactorTest, TakesAMatrixWithoutRows) {
   EXPECT_EQ(factor->bytes(), 0U);
 }
 
+TEST_P(SpdFactorTest, CondensesToTheKeptUnknownsInTheOrderGiven) {
+  for (const int n : {1, 3, 9, 40}) { // CHOLMOD: simplicial, then supernodal
+    const SparseMatrix a = plate(n);
+    const std::vector<int> kept = borderOf(n);
+    direct::Factorizer factorizer(GetParam());
+    const auto factor = factorizer.factorize(a, kept, "a test");
+
+    const Eigen::MatrixXd inverse = factor->inverseOfKept(), schur = factor->schurComplement();
+
+    const Eigen::MatrixXd whole = Eigen::MatrixXd(a).inverse();
+    const Eigen::MatrixXd expected = whole(kept, kept);
+    EXPECT_LE((inverse - expected).norm(), 1e-12 * expected.norm()) << n;
+    EXPECT_LE((schur * expected - Eigen::MatrixXd::Identity(expected.rows(), expected.cols())).norm(), 1e-11)
+        << n;
+    EXPECT_EQ((inverse - inverse.transpose()).norm(), 0) << n;
+    EXPECT_EQ((schur - schur.transpose()).norm(), 0) << n;
+  }
+}
+
+TEST_P(SpdFactorTest, SolvesWithUnknownsKept) {
+  const SparseMatrix a = plate(12);
+  direct::Factorizer factorizer(GetParam());
+  const auto factor = factorizer.factorize(a, borderOf(12), "a test");
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(144, 3);
+  Eigen::MatrixXd x(144, 3);
+
+  factor->solve(b, x);
+
+  EXPECT_LE((a * x - b).norm(), 1e-12 * b.norm());
+}
+
+TEST_P(SpdFactorTest, KeepsAllOrNothing) {
+  const SparseMatrix a = plate(4);
+  std::vector<int> all(16);
+  std::iota(all.begin(), all.end(), 0);
+  direct::Factorizer factorizer(GetParam());
+
+  EXPECT_LE((factorizer.factorize(a, all, "a test")->schurComplement() - Eigen::MatrixXd(a)).norm(), 1e-12);
+  EXPECT_EQ(factorizer.factorize(a, {}, "a test")->schurComplement().size(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(AllSolvers, SpdFactorTest, testing::ValuesIn(direct::availableSolvers()),
                          [](const auto& solver) { return solver.param; });
+
+TEST(CholmodFactor, AnalysesAPatternOnce) {
+  direct::Factorizer factorizer("CHOLMOD");
+  const SparseMatrix a = plate(5);
+  const auto first = factorizer.factorize(a, borderOf(5), "a test");
+  const auto second = factorizer.factorize(2.0 * a, borderOf(5), "a test");
+  EXPECT_EQ(factorizer.numSymbolic(), 1);
+  EXPECT_LE((second->schurComplement() - 2 * first->schurComplement()).norm(), 1e-12);
+
+  factorizer.factorize(a, {0, 3}, "a test");
+  factorizer.factorize(plate(6), {0, 3}, "a test");
+  EXPECT_EQ(factorizer.numSymbolic(), 3);
+  factorizer.factorize(a, {3, 0}, "a test"); // another order of the kept is another pattern
+  EXPECT_EQ(factorizer.numSymbolic(), 4);
+}
+
+TEST(CholmodFactor, NamesAMatrixThatIsNotPositiveDefinite) {
+  SparseMatrix a = laplacian(5);
+  a.coeffRef(2, 2) = -1;
+  try {
+    direct::factorize(a, "CHOLMOD", "subdomain 7");
+    FAIL() << "no error was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("subdomain 7"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("not positive definite"), std::string::npos);
+  }
+}
 
 TEST(SpdFactorNames, RefusesAnUnknownSolverAndListsTheKnownOnes) {
   try {

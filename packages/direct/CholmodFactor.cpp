@@ -1,0 +1,247 @@
+#include "epafi/direct/CholmodFactor.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace epafi::direct {
+namespace {
+
+/// CHOLMOD's settings and work space, one for the process; never freed before its last factor.
+class Workspace {
+public:
+  Workspace() {
+    cholmod_start(&common_);
+    common_.print = 0;
+    common_.nmethods = 1;
+    common_.postorder = 0; // CAMD has done so within the constraints
+    common_.final_ll = 1;  // L Lᵀ, simplicial too: its last block is the factor of the Schur complement
+  }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+  Workspace(Workspace&&) = delete;
+  Workspace& operator=(Workspace&&) = delete;
+  ~Workspace() { cholmod_finish(&common_); }
+  [[nodiscard]] cholmod_common* get() { return &common_; }
+
+private:
+  cholmod_common common_{};
+};
+
+cholmod_common* common() {
+  static Workspace workspace;
+  return workspace.get();
+}
+
+struct FreeFactor {
+  void operator()(cholmod_factor* factor) const { cholmod_free_factor(&factor, common()); }
+};
+using FactorHandle = std::unique_ptr<cholmod_factor, FreeFactor>;
+
+/// What CHOLMOD says of the last call, for people.
+std::string failureText() {
+  switch (common()->status) {
+  case CHOLMOD_OUT_OF_MEMORY:
+    return "out of memory";
+  case CHOLMOD_TOO_LARGE:
+    return "the factor is too large for 32-bit indices";
+  default:
+    return "CHOLMOD's status " + std::to_string(common()->status);
+  }
+}
+
+/// The lower triangle of a matrix of which both are stored, as CHOLMOD sees it. Nothing is copied.
+cholmod_sparse viewOf(const SparseMatrix& matrix) {
+  cholmod_sparse view{};
+  view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
+  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  view.p = const_cast<int*>(matrix.outerIndexPtr()); // NOLINT: CHOLMOD's interface knows no const
+  view.i = const_cast<int*>(matrix.innerIndexPtr()); // NOLINT
+  view.x = const_cast<double*>(matrix.valuePtr());   // NOLINT
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+cholmod_dense viewOf(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
+  cholmod_dense view{};
+  view.nrow = static_cast<std::size_t>(matrix.rows());
+  view.ncol = static_cast<std::size_t>(matrix.cols());
+  view.d = static_cast<std::size_t>(matrix.outerStride());
+  view.nzmax = view.d * view.ncol;
+  view.x = const_cast<double*>(matrix.data()); // NOLINT
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  return view;
+}
+
+} // namespace
+
+class CholmodPattern {
+public:
+  CholmodPattern(const SparseMatrix& matrix, std::vector<int> kept)
+      : start_(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.rows() + 1),
+        rows_(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()), kept_(std::move(kept)) {
+    std::vector<int> group(static_cast<std::size_t>(matrix.rows()), 0), order(group.size());
+    if (kept_.size() < group.size()) // CAMD takes groups below n only
+      for (const int unknown : kept_)
+        group[static_cast<std::size_t>(unknown)] = 1;
+    cholmod_sparse view = viewOf(matrix);
+    if (cholmod_camd(&view, nullptr, 0, group.data(), order.data(), common()) == 0)
+      throw Error("a matrix of " + std::to_string(matrix.rows()) +
+                  " unknowns could not be ordered: " + failureText());
+    common()->method[0].ordering = CHOLMOD_GIVEN;
+    symbolic_.reset(cholmod_analyze_p(&view, order.data(), nullptr, 0, common()));
+    if (!symbolic_)
+      throw Error("a matrix of " + std::to_string(matrix.rows()) +
+                  " unknowns could not be analysed: " + failureText());
+    // Position of each kept unknown, in the order given, within the last block.
+    std::vector<int> position(group.size(), 0);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      position[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+    const int first = static_cast<int>(order.size() - kept_.size());
+    for (const int unknown : kept_)
+      place_.push_back(position[static_cast<std::size_t>(unknown)] - first);
+  }
+
+  [[nodiscard]] bool fits(const SparseMatrix& matrix, const std::vector<int>& kept) const {
+    return matrix.rows() + 1 == static_cast<Eigen::Index>(start_.size()) &&
+           matrix.nonZeros() == static_cast<Eigen::Index>(rows_.size()) && kept == kept_ &&
+           std::equal(start_.begin(), start_.end(), matrix.outerIndexPtr()) &&
+           std::equal(rows_.begin(), rows_.end(), matrix.innerIndexPtr());
+  }
+  [[nodiscard]] FactorHandle makeFactor() const {
+    return FactorHandle(cholmod_copy_factor(symbolic_.get(), common()));
+  }
+  /// Where the kept unknowns, in the order given, stand in the factor's last block.
+  [[nodiscard]] const std::vector<int>& place() const { return place_; }
+
+private:
+  std::vector<int> start_, rows_, kept_, place_;
+  FactorHandle symbolic_;
+};
+
+namespace {
+
+class CholmodFactor final : public SpdFactor {
+public:
+  CholmodFactor(const SparseMatrix& matrix, std::shared_ptr<const CholmodPattern> pattern)
+      : pattern_(std::move(pattern)), factor_(pattern_->makeFactor()) {
+    cholmod_sparse view = viewOf(matrix);
+    if (!factor_ || cholmod_factorize(&view, factor_.get(), common()) == 0)
+      throw Error(failureText());
+    if (factor_->minor < factor_->n)
+      throw Error("the matrix is not positive definite");
+  }
+  CholmodFactor(const CholmodFactor&) = delete;
+  CholmodFactor& operator=(const CholmodFactor&) = delete;
+  CholmodFactor(CholmodFactor&&) = delete;
+  CholmodFactor& operator=(CholmodFactor&&) = delete;
+  ~CholmodFactor() override {
+    cholmod_free_dense(&solution_, common());
+    cholmod_free_dense(&work_, common());
+    cholmod_free_dense(&moreWork_, common());
+  }
+
+  [[nodiscard]] int size() const override { return static_cast<int>(factor_->n); }
+
+  void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) override {
+    if (b.cols() == 0)
+      return;
+    cholmod_dense rhs = viewOf(b);
+    if (cholmod_solve2(CHOLMOD_A, factor_.get(), &rhs, nullptr, &solution_, nullptr, &work_, &moreWork_,
+                       common()) == 0)
+      throw Error("a solve failed: " + failureText());
+    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution_->x), b.rows(), b.cols());
+  }
+
+  Eigen::MatrixXd schurComplement() override {
+    const Eigen::MatrixXd lower = lastBlock();
+    return inGivenOrder(productOfFactor(lower));
+  }
+  Eigen::MatrixXd inverseOfKept() override { return inGivenOrder(inverseFromFactor(lastBlock())); }
+
+  [[nodiscard]] std::size_t bytes() const override {
+    return numEntries() * sizeof(double) +
+           (factor_->is_super != 0 ? factor_->ssize : factor_->nzmax) * sizeof(int);
+  }
+  [[nodiscard]] std::size_t numEntries() const override {
+    return factor_->is_super != 0 ? factor_->xsize : factor_->nzmax;
+  }
+
+private:
+  /// C, lower triangular: S = C Cᵀ in the factor's order.
+  [[nodiscard]] Eigen::MatrixXd lastBlock() const {
+    const auto k = static_cast<Eigen::Index>(pattern_->place().size());
+    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(k, k);
+    const Eigen::Index first = size() - k;
+    const auto* values = static_cast<const double*>(factor_->x);
+    const auto put = [&](Eigen::Index row, Eigen::Index column, double value) {
+      if (row >= column && column >= first)
+        block(row - first, column - first) = value;
+    };
+    if (factor_->is_super == 0) {
+      const auto *start = static_cast<const int*>(factor_->p), *rows = static_cast<const int*>(factor_->i),
+                 *count = static_cast<const int*>(factor_->nz);
+      for (Eigen::Index column = first; column < size(); ++column)
+        for (int entry = start[column]; entry < start[column] + count[column]; ++entry)
+          put(rows[entry], column, values[entry]);
+      return block;
+    }
+    const auto *super = static_cast<const int*>(factor_->super), *pi = static_cast<const int*>(factor_->pi),
+               *px = static_cast<const int*>(factor_->px), *rows = static_cast<const int*>(factor_->s);
+    for (std::size_t s = factor_->nsuper; s-- > 0 && super[s + 1] > first;) {
+      const int numRows = pi[s + 1] - pi[s];
+      for (int column = super[s]; column < super[s + 1]; ++column)
+        for (int i = 0; i < numRows; ++i)
+          put(rows[pi[s] + i], column, values[px[s] + i + (column - super[s]) * numRows]);
+    }
+    return block;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd inGivenOrder(const Eigen::MatrixXd& block) const {
+    const std::vector<int>& place = pattern_->place();
+    Eigen::MatrixXd result(block.rows(), block.cols());
+    for (std::size_t j = 0; j < place.size(); ++j)
+      for (std::size_t i = 0; i < place.size(); ++i)
+        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = block(place[i], place[j]);
+    return result;
+  }
+
+  std::shared_ptr<const CholmodPattern> pattern_;
+  FactorHandle factor_;
+  cholmod_dense *solution_ = nullptr, *work_ = nullptr, *moreWork_ = nullptr; ///< kept between solves
+};
+
+} // namespace
+
+std::shared_ptr<const CholmodPattern> analyzePattern(const SparseMatrix& matrix,
+                                                     const std::vector<int>& kept) {
+  return std::make_shared<const CholmodPattern>(matrix, kept);
+}
+
+bool fits(const CholmodPattern& pattern, const SparseMatrix& matrix, const std::vector<int>& kept) {
+  return pattern.fits(matrix, kept);
+}
+
+std::unique_ptr<SpdFactor> factorizeByCholmod(const SparseMatrix& matrix,
+                                              std::shared_ptr<const CholmodPattern> pattern,
+                                              const std::string& what) {
+  try {
+    return std::make_unique<CholmodFactor>(matrix, std::move(pattern));
+  } catch (const Error& error) {
+    throw Error("the matrix of " + what + " (" + std::to_string(matrix.rows()) +
+                " unknowns) could not be factorised by CHOLMOD: " + error.what());
+  }
+}
+
+} // namespace epafi::direct

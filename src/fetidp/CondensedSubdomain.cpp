@@ -1,0 +1,73 @@
+#include "epafi/fetidp/CondensedSubdomain.hpp"
+
+#include <utility>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::SparseMatrix;
+
+/// The block of a sparse matrix with the given rows and columns; both lists ascending.
+SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
+                   const std::vector<int>& columns) {
+  std::vector<int> position(static_cast<std::size_t>(matrix.rows()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    position[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
+  SparseMatrix result(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  Eigen::Index numEntries = 0;
+  for (const int column : columns)
+    numEntries += matrix.outerIndexPtr()[column + 1] - matrix.outerIndexPtr()[column];
+  result.reserve(numEntries);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    result.startVec(static_cast<Eigen::Index>(j));
+    for (SparseMatrix::InnerIterator entry(matrix, columns[j]); entry; ++entry) {
+      const int row = position[static_cast<std::size_t>(entry.row())];
+      if (row >= 0)
+        result.insertBack(row, static_cast<Eigen::Index>(j)) = entry.value();
+    }
+  }
+  result.finalize();
+  return result;
+}
+
+} // namespace
+
+CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain,
+                                       SubdomainInterface interface, direct::Factorizer& factorizer)
+    : interface_(std::move(interface)) {
+  const auto& remainder = subdomain.remainderUnknowns;
+  const auto& crosspoints = subdomain.crosspointUnknowns;
+  factor_ = factorizer.factorize(block(subdomain.stiffness, remainder, remainder), interface_.boundary,
+                                 "subdomain " + std::to_string(subdomain.number));
+  remainderToCrosspoint_ = block(subdomain.stiffness, remainder, crosspoints);
+
+  const Eigen::MatrixXd rhs(remainderToCrosspoint_);
+  crosspointResponse_.resizeLike(rhs);
+  factor_->solve(rhs, crosspointResponse_); // Ψ = K_rr⁻¹ K_rc
+  boundaryResponse_ = crosspointResponse_(interface_.boundary, Eigen::all);
+  schurComplement_ = Eigen::MatrixXd(block(subdomain.stiffness, crosspoints, crosspoints));
+  schurComplement_ -= remainderToCrosspoint_.transpose() * crosspointResponse_; // S = K_cc − K_cr Ψ
+  schurComplement_ =
+      (0.5 * (schurComplement_ + schurComplement_.transpose())).eval(); // symmetric to the last digit
+}
+
+/// With T the Schur complement on (Δ, c): T_ΔΔ = S_ΔΔ, T_Δc = S_ΔΔ Ψ_Δ, T_cc = S + Ψ_Δᵀ S_ΔΔ Ψ_Δ.
+Eigen::MatrixXd CondensedSubdomain::interfaceStiffness() const {
+  const Eigen::Index numBoundary = boundaryResponse_.rows();
+  const auto numTouched = static_cast<Eigen::Index>(interface_.crosspoints.size());
+  Eigen::MatrixXd result(numBoundary + numTouched, numBoundary + numTouched);
+  const Eigen::MatrixXd boundary = factor_->schurComplement();
+  result.topLeftCorner(numBoundary, numBoundary) = boundary;
+  if (numTouched == 0)
+    return result;
+  const Eigen::MatrixXd psi = boundaryResponse_(Eigen::all, interface_.crosspoints);
+  const Eigen::MatrixXd coupling = boundary * psi;
+  result.topRightCorner(numBoundary, numTouched) = coupling;
+  result.bottomLeftCorner(numTouched, numBoundary) = coupling.transpose();
+  const Eigen::MatrixXd corner =
+      schurComplement_(interface_.crosspoints, interface_.crosspoints) + psi.transpose() * coupling;
+  result.bottomRightCorner(numTouched, numTouched) = 0.5 * (corner + corner.transpose());
+  return result;
+}
+
+} // namespace epafi::fetidp

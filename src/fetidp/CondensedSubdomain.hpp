@@ -1,0 +1,53 @@
+#pragma once
+
+/// One subdomain condensed: K_rr factorised with its boundary last, and what couples boundary and crosspoints.
+///
+/// The unknowns are remainders r = (I, Δ), of which B touches Δ, and crosspoints c. One factor gives
+///   S_ΔΔ = K_ΔΔ − K_ΔI K_II⁻¹ K_IΔ,   (K_rr⁻¹)_ΔΔ = S_ΔΔ⁻¹,
+///   Ψ = K_rr⁻¹ K_rc,                  S = K_cc − K_cr Ψ,
+/// and from these come F's local part, the coarse matrix and the Dirichlet preconditioner (theory: docs/theory.md).
+
+#include "epafi/direct/SpdFactor.hpp"
+#include "epafi/fetidp/SubdomainInterface.hpp"
+
+#include <Eigen/Core>
+
+#include <memory>
+
+namespace epafi::fetidp {
+
+/// Shared by all subdomains that are identical. n_r remainders, n_Δ of them in the boundary, n_c crosspoint values.
+class CondensedSubdomain {
+public:
+  /// Not collective. \throws Error if the factorisation fails.
+  CondensedSubdomain(const decomposition::Subdomain& subdomain, SubdomainInterface interface,
+                     direct::Factorizer& factorizer);
+
+  [[nodiscard]] const SubdomainInterface& interface() const { return interface_; }
+  [[nodiscard]] Eigen::Index numRemainders() const { return remainderToCrosspoint_.rows(); }
+  [[nodiscard]] Eigen::Index numBoundary() const { return boundaryResponse_.rows(); }
+  [[nodiscard]] Eigen::Index numCrosspoints() const { return schurComplement_.rows(); }
+
+  /// K_rr; its kept unknowns are Δ.
+  [[nodiscard]] direct::SpdFactor& factor() const { return *factor_; }
+  /// Ψ, n_r × n_c.
+  [[nodiscard]] const Eigen::MatrixXd& crosspointResponse() const { return crosspointResponse_; }
+  /// Ψ_Δ, n_Δ × n_c.
+  [[nodiscard]] const Eigen::MatrixXd& boundaryResponse() const { return boundaryResponse_; }
+  /// S, n_c × n_c, symmetric positive semidefinite, to the last digit.
+  [[nodiscard]] const Eigen::MatrixXd& schurComplement() const { return schurComplement_; }
+  /// K_rc, n_r × n_c.
+  [[nodiscard]] const decomposition::SparseMatrix& remainderToCrosspoint() const {
+    return remainderToCrosspoint_;
+  }
+  /// What is left of K on (Δ, C) when I is eliminated and the other crosspoints are held; symmetric.
+  [[nodiscard]] Eigen::MatrixXd interfaceStiffness() const;
+
+private:
+  SubdomainInterface interface_;
+  std::unique_ptr<direct::SpdFactor> factor_;
+  decomposition::SparseMatrix remainderToCrosspoint_;
+  Eigen::MatrixXd crosspointResponse_, boundaryResponse_, schurComplement_;
+};
+
+} // namespace epafi::fetidp

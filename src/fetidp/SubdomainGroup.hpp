@@ -1,0 +1,92 @@
+#pragma once
+
+/// Identical subdomains of one rank, worked on together: one factor, one condensed block, and products with all of
+/// them at once as one matrix–matrix product.
+///
+/// With B = [B_Δ B_C] and Ψ, S as in CondensedSubdomain.hpp the dual operator is
+///   F = Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ + (Σ W L_c) S_cc⁺ (Σ W L_c)ᵀ,   W = B_c − B_Δ Ψ_Δ,   S_cc = Σ L_cᵀ S L_c.
+
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/direct/SymmetricBlock.hpp"
+#include "epafi/fetidp/CondensedSubdomain.hpp"
+
+#include <span>
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// An entry of B seen from a member: multiplier (ghost map), position among (Δ, C), value.
+struct InterfaceEntry {
+  int multiplier, position;
+  double coefficient;
+};
+
+/// m members; n_r, n_Δ, n_c as in CondensedSubdomain. Nothing here is collective.
+class SubdomainGroup {
+public:
+  /// \param members  indices of identical subdomains
+  /// Keeps a reference to `subdomains`, which must outlive it. \throws Error if the factorisation fails.
+  SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains, std::vector<std::size_t> members,
+                 direct::Factorizer& factorizer);
+
+  [[nodiscard]] const CondensedSubdomain& condensed() const { return condensed_; }
+  [[nodiscard]] std::span<const std::size_t> members() const { return members_; }
+  /// Global coarse index of each crosspoint value of a member.
+  [[nodiscard]] std::span<const GlobalOrdinal> crosspointIndices(std::size_t member) const {
+    return (*subdomains_)[members_[member]].crosspointIndices;
+  }
+  /// B's entries in a member.
+  [[nodiscard]] std::span<const InterfaceEntry> entries(std::size_t member) const {
+    return {entries_.data() + firstEntry_[member], entries_.data() + firstEntry_[member + 1]};
+  }
+
+  /// From now on (K_rr⁻¹)_ΔΔ is a dense block, not a pair of sparse solves.
+  void makeExplicit();
+  [[nodiscard]] bool isExplicit() const { return isExplicit_; }
+
+  /// First half of F's part: keeps (K_rr⁻¹)_ΔΔ B_Δᵀ λ and adds L_cᵀ Wᵀ λ to `coarse`.
+  /// \param lambda  this rank's multipliers (ghost map)
+  /// \param coarse  all coarse unknowns
+  void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse);
+  /// Second half: result += B_Δ (what was kept) + W L_c x_c.
+  /// \param result  this rank's multipliers (ghost map)
+  void applyCoupling(const Eigen::VectorXd& coarse, std::span<double> result);
+
+  /// First half of K̄⁺: adds L_cᵀ(b_c − Ψᵀ b_r) to `coarse`.
+  /// \param b  of all this rank's subdomains, n_s values each
+  void eliminate(const std::vector<Eigen::VectorXd>& b, std::span<AccurateSum> coarse);
+  /// Second half: u_c = L_c x_c, u_r = K_rr⁻¹(b_r − K_rc u_c).
+  /// \param u  of all this rank's subdomains; the members' are overwritten
+  void substitute(const Eigen::VectorXd& coarse, const std::vector<Eigen::VectorXd>& b,
+                  std::vector<Eigen::VectorXd>& u);
+
+  /// b −= Bᵀ λ in the members. \param lambda  on the ghost map
+  void subtractForces(std::span<const double> lambda, std::vector<Eigen::VectorXd>& b) const;
+  /// result += B u of the members. \param result  on the ghost map
+  void addConstraint(const std::vector<Eigen::VectorXd>& u, std::span<double> result) const;
+
+  /// Bytes of the factor, and of the dense block.
+  [[nodiscard]] std::size_t factorBytes() const;
+  /// Bytes that one product with F reads of factor or block.
+  [[nodiscard]] std::size_t applyBytes() const;
+
+private:
+  [[nodiscard]] Eigen::Index numMembers() const { return static_cast<Eigen::Index>(members_.size()); }
+  [[nodiscard]] Eigen::Index prepareBatch(Eigen::Index first);
+  void solveForBoundary();
+  void addToCoarse(std::span<AccurateSum> coarse) const;
+  void takeFromCoarse(const Eigen::VectorXd& coarse);
+
+  const std::vector<decomposition::Subdomain>* subdomains_;
+  std::vector<std::size_t> members_;
+  CondensedSubdomain condensed_;
+  std::vector<InterfaceEntry> entries_;
+  std::vector<std::size_t> firstEntry_; ///< of each member, and the end
+  direct::SymmetricBlock flexibility_;  ///< (K_rr⁻¹)_ΔΔ, if explicit
+  bool isExplicit_ = false;
+  Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × m: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it
+  Eigen::MatrixXd coarseLocal_;         ///< work, n_c × m
+  Eigen::MatrixXd rhs_, solution_;      ///< work of sparse solves, n_r × a few
+};
+
+} // namespace epafi::fetidp

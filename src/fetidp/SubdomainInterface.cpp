@@ -1,0 +1,111 @@
+#include "epafi/fetidp/SubdomainInterface.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <unordered_map>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::SparseMatrix;
+using decomposition::Subdomain;
+
+template <class T>
+bool areEqual(const T* a, const T* b, Eigen::Index count) {
+  return std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0;
+}
+
+bool areEqual(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() &&
+         areEqual(a.outerIndexPtr(), b.outerIndexPtr(), a.outerSize() + 1) &&
+         areEqual(a.innerIndexPtr(), b.innerIndexPtr(), a.nonZeros()) &&
+         areEqual(a.valuePtr(), b.valuePtr(), a.nonZeros());
+}
+
+/// The unknowns that B touches, ascending.
+std::vector<int> touchedUnknowns(const Subdomain& subdomain) {
+  std::vector<char> isTouched(static_cast<std::size_t>(subdomain.stiffness.rows()), 0);
+  for (const auto& entry : subdomain.constraint)
+    isTouched[static_cast<std::size_t>(entry.unknown)] = 1;
+  std::vector<int> touched;
+  for (std::size_t unknown = 0; unknown < isTouched.size(); ++unknown)
+    if (isTouched[unknown] != 0)
+      touched.push_back(static_cast<int>(unknown));
+  return touched;
+}
+
+/// Equal for identical subdomains, and rarely for others.
+std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<int>& touched) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  const auto mix = [&hash](std::uint64_t value) {
+    hash = (hash ^ value) * 0x100000001b3ULL;
+    hash ^= hash >> 29U;
+  };
+  mix(static_cast<std::uint64_t>(subdomain.stiffness.nonZeros()));
+  for (const int unknown : subdomain.crosspointUnknowns)
+    mix(static_cast<std::uint64_t>(unknown));
+  for (const int unknown : touched)
+    mix(static_cast<std::uint64_t>(unknown));
+  for (Eigen::Index i = 0; i < subdomain.stiffness.nonZeros(); i += 1 + subdomain.stiffness.nonZeros() / 64) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, subdomain.stiffness.valuePtr() + i, sizeof bits);
+    mix(bits);
+  }
+  return hash;
+}
+
+} // namespace
+
+SubdomainInterface interfaceOf(const Subdomain& subdomain) {
+  SubdomainInterface interface;
+  const auto numUnknowns = static_cast<std::size_t>(subdomain.stiffness.rows());
+  std::vector<char> isTouched(numUnknowns, 0);
+  for (const int unknown : touchedUnknowns(subdomain))
+    isTouched[static_cast<std::size_t>(unknown)] = 1;
+  interface.positionOf.assign(numUnknowns, -1);
+  int next = 0;
+  const auto collect = [&](const std::vector<int>& unknowns, std::vector<int>& positions) {
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      if (isTouched[static_cast<std::size_t>(unknowns[i])] != 0) {
+        positions.push_back(static_cast<int>(i));
+        interface.positionOf[static_cast<std::size_t>(unknowns[i])] = next++;
+      }
+  };
+  collect(subdomain.remainderUnknowns, interface.boundary);
+  collect(subdomain.crosspointUnknowns, interface.crosspoints);
+  return interface;
+}
+
+std::vector<std::vector<std::size_t>> groupIdentical(const std::vector<Subdomain>& subdomains, bool share) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<std::vector<int>> touchedOf; // of each group
+  std::unordered_multimap<std::uint64_t, std::size_t> candidates;
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    std::vector<int> touched;
+    std::uint64_t hash = 0;
+    bool isNew = true;
+    if (share) {
+      touched = touchedUnknowns(subdomains[s]);
+      hash = fingerprint(subdomains[s], touched);
+      const auto [first, last] = candidates.equal_range(hash);
+      for (auto candidate = first; candidate != last && isNew; ++candidate) {
+        const Subdomain& other = subdomains[groups[candidate->second].front()];
+        if (other.crosspointUnknowns == subdomains[s].crosspointUnknowns &&
+            other.remainderUnknowns == subdomains[s].remainderUnknowns &&
+            touchedOf[candidate->second] == touched && areEqual(other.stiffness, subdomains[s].stiffness)) {
+          groups[candidate->second].push_back(s);
+          isNew = false;
+        }
+      }
+    }
+    if (isNew) {
+      candidates.emplace(hash, groups.size());
+      groups.push_back({s});
+      touchedOf.push_back(std::move(touched));
+    }
+  }
+  return groups;
+}
+
+} // namespace epafi::fetidp

@@ -1,0 +1,30 @@
+#pragma once
+
+/// Where the rows of B touch a subdomain, and which subdomains are one and the same.
+
+#include "epafi/decomposition/DecomposedProblem.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// The unknowns of a subdomain that B touches: Δ among the remainders, C among the crosspoint values.
+struct SubdomainInterface {
+  std::vector<int> boundary;    ///< Δ: positions in Subdomain::remainderUnknowns, ascending
+  std::vector<int> crosspoints; ///< C: positions in Subdomain::crosspointUnknowns, ascending
+  std::vector<int> positionOf;  ///< of each unknown among (Δ, C), or −1
+
+  [[nodiscard]] std::size_t size() const { return boundary.size() + crosspoints.size(); }
+};
+
+SubdomainInterface interfaceOf(const decomposition::Subdomain& subdomain);
+
+/// This rank's subdomains in groups of identical ones: equal K^s, equal remainders and crosspoints, equal interface, all
+/// compared number by number. What does not enter the factors (loads, gaps, places) may differ.
+/// \param share  false: every subdomain is a group of its own
+/// Returns the indices of each group, ascending; the groups in the order of their first members. Not collective.
+std::vector<std::vector<std::size_t>> groupIdentical(const std::vector<decomposition::Subdomain>& subdomains,
+                                                     bool share);
+
+} // namespace epafi::fetidp
