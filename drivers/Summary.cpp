@@ -79,7 +79,8 @@ void describeSolution(std::ostream& text, const SceneRun& run) {
        << algorithm.get<std::string>("Reason") << "\n              preconditioner "
        << algorithm.get<std::string>("Preconditioner") << ", subdomains by "
        << algorithm.get<std::string>("Subdomain Solver") << ", coarse problem by "
-       << algorithm.get<std::string>("Coarse Solver") << "\n  iterations  "
+       << algorithm.get<std::string>("Coarse Solver") << "\n              F "
+       << algorithm.get<std::string>("Dual Operator") << "\n  iterations  "
        << counted(iterations, "Hessian Multiplications", "product") << " with F (and "
        << count(iterations, "Norm Estimate Multiplications")
        << " to estimate its norm): " << count(iterations, "CG Steps") << " CG + "

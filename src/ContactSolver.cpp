@@ -3,7 +3,6 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
-#include "epafi/direct/SpdFactor.hpp"
 #include "epafi/fetidp/Recovery.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -13,6 +12,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace epafi {
 namespace {
@@ -32,7 +32,6 @@ double longest(const Comm& comm, double since) {
 
 Teuchos::ParameterList ContactSolver::validParameters() {
   const fetidp::DualParameters dual;
-  const fetidp::DirectSolvers direct;
   Teuchos::ParameterList list("Solver");
   addReal(list, "Tolerance", dual.tolerance,
           "The iteration stops when the projected gradient is this small relative to the right-hand side of "
@@ -44,11 +43,7 @@ Teuchos::ParameterList ContactSolver::validParameters() {
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());
   list.sublist("Norm Estimate").setParameters(qp::NormEstimateParameters::validParameters());
-  Teuchos::ParameterList& solvers = list.sublist("Direct Solvers");
-  addChoice(solvers, "Subdomains", direct.subdomains, "Direct solver of the subdomains.",
-            direct::availableSolvers());
-  addChoice(solvers, "Coarse Problem", direct.coarse, "Direct solver of the coarse problem.",
-            direct::availableSolvers());
+  fetidp::addFetiParameters(list);
   return list;
 }
 
@@ -59,8 +54,9 @@ ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters) {
   dualParameters_.mprgp = qp::MprgpParameters::from(list.sublist("MPRGP"));
   dualParameters_.smalbe = qp::SmalbeParameters::from(list.sublist("SMALBE"));
   dualParameters_.norm = qp::NormEstimateParameters::from(list.sublist("Norm Estimate"));
-  directSolvers_.subdomains = list.sublist("Direct Solvers").get<std::string>("Subdomains");
-  directSolvers_.coarse = list.sublist("Direct Solvers").get<std::string>("Coarse Problem");
+  dualParameters_.dualOperator = fetidp::dualOperatorFrom(list.sublist("Dual Operator"));
+  dualParameters_.preconditioner = fetidp::preconditionerFrom(list.sublist("Preconditioner"));
+  directSolvers_ = fetidp::directSolversFrom(list.sublist("Direct Solvers"));
 }
 
 void ContactSolver::setup(const decomposition::DecomposedProblem& problem) {
@@ -109,6 +105,28 @@ void ContactSolver::confirm(const fetidp::ContactSolution& solution) {
       "jumps of conductivity, or raise the tolerance";
 }
 
+/// How many of the subdomains are multiplied with as dense blocks, and how many different ones there are. Collective.
+std::string ContactSolver::describeDualOperator() const {
+  if (dual_->algorithm() == fetidp::Algorithm::direct)
+    return "none";
+  double explicitOnes = 0, different = 0;
+  for (const fetidp::SubdomainGroup& group : std::as_const(*inverse_).groups()) {
+    different += 1;
+    explicitOnes += group.isExplicit() ? static_cast<double>(group.members().size()) : 0.0;
+  }
+  explicitOnes = sumOverRanks(*problem_->comm, explicitOnes);
+  different = sumOverRanks(*problem_->comm, different);
+  std::ostringstream text;
+  text << (explicitOnes == 0                         ? "implicit"
+           : explicitOnes == problem_->numSubdomains ? "explicit"
+                                                     : "partly explicit");
+  if (explicitOnes > 0 && explicitOnes < problem_->numSubdomains)
+    text << " (" << explicitOnes << " of " << problem_->numSubdomains << " subdomains)";
+  if (different < problem_->numSubdomains)
+    text << ", " << different << " different subdomains factorised";
+  return text.str();
+}
+
 Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& solution) const {
   const auto& problem = *problem_;
   const Comm& comm = *problem.comm;
@@ -130,7 +148,8 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
   list.sublist("Algorithm")
       .set("Name", fetidp::toString(dual_->algorithm()))
       .set("Reason", dual_->reason())
-      .set("Preconditioner", "none")
+      .set("Preconditioner", fetidp::describe(dualParameters_.preconditioner))
+      .set("Dual Operator", describeDualOperator())
       .set("Subdomain Solver", directSolvers_.subdomains)
       .set("Coarse Solver", directSolvers_.coarse)
       .set("Operator Norm", dual_->norm().norm);

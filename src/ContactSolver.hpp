@@ -14,6 +14,7 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <memory>
+#include <string>
 
 namespace epafi {
 
@@ -56,6 +57,7 @@ public:
 
 private:
   void confirm(const fetidp::ContactSolution& solution);
+  [[nodiscard]] std::string describeDualOperator() const;
 
   fetidp::DualParameters dualParameters_;
   fetidp::DirectSolvers directSolvers_;

@@ -82,6 +82,10 @@ std::vector<std::string> availableSolvers() {
   return names;
 }
 
+std::string fastestSolver() {
+  return cholmod;
+}
+
 std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver,
                                      const std::string& what) {
   return Factorizer(solver).factorize(matrix, {}, what);

@@ -75,6 +75,9 @@ private:
 /// is left out: it crashes on matrices of some thousand unknowns in Trilinos 13.2.
 std::vector<std::string> availableSolvers();
 
+/// The solver that was fastest at every size measured (docs/performance.md).
+std::string fastestSolver();
+
 /// Factorises one matrix of which nothing is kept. See Factorizer.
 std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::string& solver,
                                      const std::string& what);

@@ -19,7 +19,7 @@
 namespace epafi::qp {
 namespace {
 
-/// Counts the products with A: Belos applies it through this.
+/// Counts the products with A, or with the preconditioner: Belos applies it through this.
 class CountingOperator final : public Operator {
 public:
   explicit CountingOperator(RCP<const Operator> a) : a_(std::move(a)) {}
@@ -99,17 +99,23 @@ int iterate(const RCP<Problem>& problem, double tolerance, int maxSteps, const R
 } // namespace
 
 SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vector>& b, const RCP<Vector>& x,
-                               double tolerance, int maxMultiplications, Observer* observer) {
+                               double tolerance, int maxMultiplications, Observer* observer,
+                               const RCP<const Operator>& preconditioner) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
   const double reference = b->norm2();
   const RCP<const CountingOperator> counting = rcp(new CountingOperator(a));
+  RCP<const CountingOperator> preconditioning;
+  if (!preconditioner.is_null())
+    preconditioning = rcp(new CountingOperator(preconditioner));
   const Vector start(*x, Teuchos::Copy);
   if (reference == 0)
     x->putScalar(0.0);
   report.status = Status::converged;
   try {
     const RCP<Problem> problem = rcp(new Problem(counting, x, b));
+    if (!preconditioning.is_null())
+      problem->setLeftPrec(preconditioning);
     problem->setProblem();
     if (reference > 0)
       report.counts.conjugateGradient = iterate(problem, tolerance, maxMultiplications,
@@ -126,6 +132,7 @@ SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vec
   report.relativeProjectedGradient = reference > 0 ? norm / reference : norm;
   report.objective = 0.5 * quadratic - b->dot(*x);
   report.counts.hessianMultiplications = counting->count();
+  report.counts.preconditionerApplications = preconditioning.is_null() ? 0 : preconditioning->count();
   if (!std::isfinite(norm)) {
     report.status = Status::notFinite;
     x->assign(start);

@@ -3,7 +3,9 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/DualPreconditioner.hpp"
 #include "epafi/fetidp/ProjectedOperator.hpp"
+#include "epafi/fetidp/ProjectedPreconditioner.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"
@@ -47,6 +49,7 @@ DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
   kernelEntries_ = kernelConstraint(problem_);
   if (algorithm_ == Algorithm::direct)
     return;
+  inverse_->prepareDual(parameters_.dualOperator);
   dualOperator_ = rcp(new DualOperator(problem_, inverse_));
   hessian_ = dualOperator_;
   if (algorithm_ == Algorithm::smalbe) {
@@ -57,6 +60,18 @@ DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
   }
   if (algorithm_ != Algorithm::conjugateGradient)
     norm_ = qp::estimateNorm(*hessian_, parameters_.norm);
+  precondition();
+}
+
+/// Makes M, or PMP + ρ⁻¹Q for the penalty ρ that SMALBE starts with.
+void DualProblem::precondition() {
+  if (parameters_.preconditioner.type == PreconditionerParameters::Type::none)
+    return;
+  preconditioner_ = rcp(new DualPreconditioner(problem_, inverse_, parameters_.preconditioner));
+  if (algorithm_ == Algorithm::smalbe) {
+    const double penalty = parameters_.smalbe.penalty * (norm_.norm > 0 ? norm_.norm : 1.0);
+    preconditioner_ = rcp(new ProjectedPreconditioner(preconditioner_, coarseSpace_, penalty));
+  }
 }
 
 void DualProblem::choose() {
@@ -167,13 +182,13 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
     solution.lambda->assign(*start);
   if (algorithm_ == Algorithm::conjugateGradient) {
     solution.report = qp::solveUnconstrained(hessian_, rhs, solution.lambda, parameters_.tolerance,
-                                             parameters_.mprgp.maxMultiplications, observer);
+                                             parameters_.mprgp.maxMultiplications, observer, preconditioner_);
     return;
   }
   const RCP<const qp::ConvexSet> set =
       rcp(new qp::Box(lowerBounds(-std::numeric_limits<double>::infinity())));
   solution.report =
-      qp::solveBoundProblem({hessian_, rhs, set, Teuchos::null, norm_.norm}, *solution.lambda,
+      qp::solveBoundProblem({hessian_, rhs, set, preconditioner_, norm_.norm}, *solution.lambda,
                             {parameters_.tolerance, accurateNorm(*rhs), 0.0}, parameters_.mprgp, observer);
 }
 
@@ -205,7 +220,7 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVecto
   const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lower));
   std::vector<double> multiplier;
   solution.report =
-      qp::solveEqualityBoundProblem({hessian_, rhs, set, coarseSpace_, Teuchos::null, norm_.norm}, mu,
+      qp::solveEqualityBoundProblem({hessian_, rhs, set, coarseSpace_, preconditioner_, norm_.norm}, mu,
                                     multiplier, tolerances, parameters_.smalbe, parameters_.mprgp, observer);
   solution.lambda->update(1.0, mu, 1.0, feasible, 0.0);
   const Eigen::VectorXd imbalance = coarseSpace_->product(*solution.lambda) - e;

@@ -8,6 +8,7 @@
 ///   floating bodies        SMALBE with MPRGP inside, on PFP after the shift by λ̃
 
 #include "epafi/fetidp/DualOperator.hpp"
+#include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 #include "epafi/qp/MprgpParameters.hpp"
 #include "epafi/qp/NormEstimate.hpp"
@@ -30,6 +31,8 @@ struct DualParameters {
   qp::MprgpParameters mprgp;
   qp::SmalbeParameters smalbe;
   qp::NormEstimateParameters norm;
+  DualOperatorParameters dualOperator;
+  PreconditionerParameters preconditioner;
 };
 
 /// λ and how it came about.
@@ -58,12 +61,15 @@ public:
   DualSolution solve(const Vector* start, qp::Observer* observer);
 
   [[nodiscard]] RCP<const DualOperator> dualOperator() const { return dualOperator_; }
+  /// M ≈ F⁻¹, or PMP + ρ⁻¹Q where bodies float; null without.
+  [[nodiscard]] RCP<const Operator> preconditioner() const { return preconditioner_; }
   /// G, P, Q; null without floating bodies.
   [[nodiscard]] RCP<const NaturalCoarseSpace> coarseSpace() const { return coarseSpace_; }
   [[nodiscard]] const std::vector<KernelEntry>& kernelEntries() const { return kernelEntries_; }
 
 private:
   void choose();
+  void precondition();
   RCP<Vector> rightHandSide(const SubdomainVectors& load);
   RCP<Vector> lowerBounds(double free) const;
   void solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
@@ -80,9 +86,10 @@ private:
   RCP<const DualOperator> dualOperator_;
   std::vector<KernelEntry> kernelEntries_;
   RCP<const NaturalCoarseSpace> coarseSpace_;
-  RCP<const Operator> hessian_; ///< F or PFP
-  qp::NormEstimate norm_;       ///< of the Hessian
-  double termSize_ = 0;         ///< of the terms of d̃
+  RCP<const Operator> hessian_;        ///< F or PFP
+  RCP<const Operator> preconditioner_; ///< of the Hessian, or null
+  qp::NormEstimate norm_;              ///< of the Hessian
+  double termSize_ = 0;                ///< of the terms of d̃
 };
 
 /// The loads that the problem holds, f^s for each of this rank's subdomains.

@@ -1,6 +1,7 @@
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/CostModel.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -17,6 +18,14 @@ GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& p
   coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, solvers.coarse);
   coarse_.resize(coarseProblem_->size());
   coarseSums_.resize(static_cast<std::size_t>(coarse_.size()));
+}
+
+void GeneralizedInverse::prepareDual(const DualOperatorParameters& parameters) {
+  using Mode = DualOperatorParameters::Mode;
+  for (SubdomainGroup& group : groups_)
+    if (parameters.mode == Mode::explicitBlocks ||
+        (parameters.mode == Mode::automatic && explicitPays(group, parameters.expectedProducts)))
+      group.makeExplicit();
 }
 
 void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result) {

@@ -5,6 +5,7 @@
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/CoarseProblem.hpp"
+#include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/SubdomainGroup.hpp"
 
 #include <memory>
@@ -17,18 +18,14 @@ namespace epafi::fetidp {
 /// Values of this rank's subdomains, n_s each.
 using SubdomainVectors = std::vector<Eigen::VectorXd>;
 
-/// Names of the direct solvers (see direct::availableSolvers), and whether identical subdomains share their factor.
-struct DirectSolvers {
-  std::string subdomains = "CHOLMOD";
-  std::string coarse = "CHOLMOD";
-  bool shareIdentical = true;
-};
-
 class GeneralizedInverse {
 public:
   /// Factorises the subdomains and the coarse problem. Keeps a reference to `problem`. Collective; throws
   /// alike on all ranks.
   GeneralizedInverse(const decomposition::DecomposedProblem& problem, const DirectSolvers& solvers);
+
+  /// Makes dense blocks where the mode asks for them, or where they pay off. Not collective.
+  void prepareDual(const DualOperatorParameters& parameters);
 
   /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap): the sum of `result` over the
   /// ranks is Fλ. One message of the coarse problem's size. Collective.

@@ -1,0 +1,59 @@
+#pragma once
+
+/// Preconditioners of F, built from the condensed subdomains: M = Σ B_D S_b B_Dᵀ without a coarse problem, where S_b is
+///   dirichlet  the stiffness of a subdomain condensed to its interface (Δ, C) (Farhat, Roux, *Int. J. Numer. Meth.
+///              Engng* 32 (1991); for FETI-DP Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006))
+///   lumped     the block K_bb of the interface alone: cheaper, and weaker
+/// and B_D is B with its entries scaled row by row,
+///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
+/// δ = 1 for multiplicity scaling, δ = the diagonal of K for stiffness (ρ) scaling. Rows of contact are treated like
+/// those of gluing. MPRGP uses M restricted to its free set ("in face").
+
+#include "epafi/fetidp/FetiParameters.hpp"
+#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/fetidp/MultiplierExchange.hpp"
+
+#include <Tpetra_Operator.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// n_λ × n_λ, symmetric positive definite: every row of B touches a free unknown, or it gets a 1 on the diagonal.
+class DualPreconditioner final : public Operator {
+public:
+  /// Shares `inverse`, and keeps a reference to `problem`. Precondition: type is not none. Collective.
+  DualPreconditioner(const decomposition::DecomposedProblem& problem,
+                     std::shared_ptr<GeneralizedInverse> inverse, const PreconditionerParameters& parameters);
+
+  [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
+  [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
+  /// y = alpha M x + beta y: two neighbour exchanges and one dense product a subdomain. Collective.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
+             double alpha = 1.0, double beta = 0.0) const override;
+  [[nodiscard]] bool hasTransposeApply() const override { return true; }
+  /// Bytes of this rank's blocks; what an application reads.
+  [[nodiscard]] std::size_t bytes() const;
+
+private:
+  /// What a group of identical subdomains needs: m members, n_b interface unknowns.
+  struct Block {
+    std::size_t group = 0; ///< index in the inverse's groups
+    direct::SymmetricBlock stiffness;
+    std::vector<double>
+        weights; ///< B_D's entries in the order of SubdomainGroup::entries, member after member
+    Eigen::MatrixXd input, output; ///< work, n_b × m
+  };
+  void scale(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Scaling scaling);
+  void multiply(std::span<const double> lambda, std::span<double> result) const;
+
+  RCP<const Map> map_;
+  std::shared_ptr<GeneralizedInverse> inverse_;
+  mutable std::vector<Block> blocks_;
+  std::vector<int> untouched_; ///< rows without a free unknown, local indices
+  mutable MultiplierExchange input_, output_;
+  mutable Vector result_;
+};
+
+} // namespace epafi::fetidp

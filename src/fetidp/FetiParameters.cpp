@@ -1,0 +1,99 @@
+#include "epafi/fetidp/FetiParameters.hpp"
+
+#include "epafi/base/Parameters.hpp"
+#include "epafi/direct/SpdFactor.hpp"
+
+#include <vector>
+
+namespace epafi::fetidp {
+namespace {
+
+const std::vector<std::string> types = {"none", "lumped", "dirichlet"};
+
+std::vector<std::string> solverNames() {
+  std::vector<std::string> names = direct::availableSolvers();
+  names.insert(names.begin(), "auto");
+  return names;
+}
+
+std::string resolved(const std::string& solver) {
+  return solver == "auto" ? direct::fastestSolver() : solver;
+}
+
+} // namespace
+
+std::string toString(PreconditionerParameters::Type type) {
+  return types[static_cast<std::size_t>(type)];
+}
+
+std::string describe(const PreconditionerParameters& parameters) {
+  if (parameters.type == PreconditionerParameters::Type::none)
+    return toString(parameters.type);
+  const bool byStiffness = parameters.scaling == PreconditionerParameters::Scaling::stiffness;
+  return toString(parameters.type) + (byStiffness ? ", stiffness scaling" : ", multiplicity scaling") +
+         (parameters.isSingle ? ", single precision" : "");
+}
+
+void addFetiParameters(Teuchos::ParameterList& list) {
+  const DualOperatorParameters operatorDefaults;
+  const PreconditionerParameters preconditionerDefaults;
+  Teuchos::ParameterList& solvers = list.sublist("Direct Solvers");
+  addChoice(
+      solvers, "Subdomains", "auto",
+      "Direct solver of the subdomains; 'auto' is the one that was fastest where it was measured, CHOLMOD.",
+      solverNames());
+  addChoice(solvers, "Coarse Problem", "auto", "Direct solver of the coarse problem; 'auto' likewise.",
+            solverNames());
+  addChoice(
+      solvers, "Share Identical Subdomains", DirectSolvers().shareIdentical ? "yes" : "no",
+      "Whether subdomains with equal matrices, found by comparing them, share one factor and dense block.",
+      {"yes", "no"});
+  Teuchos::ParameterList& dual = list.sublist("Dual Operator");
+  addChoice(
+      dual, "Mode", "auto",
+      "How F is multiplied with: 'implicit' by two sparse triangular solves a subdomain, 'explicit' by a "
+      "dense block each, 'auto' by what is less work for the expected products.",
+      {"auto", "implicit", "explicit"});
+  addInteger(dual, "Expected Products", operatorDefaults.expectedProducts,
+             "Products with F in which explicit blocks must pay off, for 'auto'.", 1);
+  Teuchos::ParameterList& preconditioner = list.sublist("Preconditioner");
+  addChoice(
+      preconditioner, "Type", toString(preconditionerDefaults.type),
+      "Preconditioner of F: each subdomain's stiffness condensed to its interface ('dirichlet'), or that "
+      "stiffness alone ('lumped').",
+      types);
+  addChoice(
+      preconditioner, "Scaling", "stiffness",
+      "How an interface's forces are shared by the subdomains that meet there: by the diagonal of their "
+      "stiffness, or equally.",
+      {"multiplicity", "stiffness"});
+  addChoice(preconditioner, "Precision", preconditionerDefaults.isSingle ? "single" : "double",
+            "Of the preconditioner's blocks; the solution is as accurate with either.", {"single", "double"});
+}
+
+DirectSolvers directSolversFrom(const Teuchos::ParameterList& list) {
+  return {resolved(list.get<std::string>("Subdomains")), resolved(list.get<std::string>("Coarse Problem")),
+          list.get<std::string>("Share Identical Subdomains") == "yes"};
+}
+
+DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list) {
+  using Mode = DualOperatorParameters::Mode;
+  const auto& mode = list.get<std::string>("Mode");
+  return {mode == "auto"       ? Mode::automatic
+          : mode == "implicit" ? Mode::implicitSolves
+                               : Mode::explicitBlocks,
+          list.get<int>("Expected Products")};
+}
+
+PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list) {
+  using Type = PreconditionerParameters::Type;
+  using Scaling = PreconditionerParameters::Scaling;
+  const auto& type = list.get<std::string>("Type");
+  return {type == "none"     ? Type::none
+          : type == "lumped" ? Type::lumped
+                             : Type::dirichlet,
+          list.get<std::string>("Scaling") == "stiffness" ? Scaling::stiffness : Scaling::multiplicity,
+          list.get<std::string>("Precision") == "single"};
+}
+
+} // namespace epafi::fetidp

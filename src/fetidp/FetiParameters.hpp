@@ -1,0 +1,46 @@
+#pragma once
+
+/// What FETI-DP can be told: direct solvers, the form of F, the preconditioner.
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <string>
+
+namespace epafi::fetidp {
+
+/// Names of the direct solvers (see direct::availableSolvers), and whether identical subdomains share their factor.
+struct DirectSolvers {
+  std::string subdomains = "CHOLMOD";
+  std::string coarse = "CHOLMOD";
+  bool shareIdentical = true;
+};
+
+struct DualOperatorParameters {
+  /// How a subdomain's part (K_rr⁻¹)_ΔΔ of F is multiplied with: by a pair of sparse triangular solves, by a dense block,
+  /// or by what is less work for so many products.
+  enum class Mode { automatic, implicitSolves, explicitBlocks };
+  Mode mode = Mode::automatic;
+  int expectedProducts = 40; ///< that a setup must pay off in
+};
+
+struct PreconditionerParameters {
+  enum class Type { none, lumped, dirichlet };
+  enum class Scaling { multiplicity, stiffness };
+  Type type = Type::dirichlet;
+  Scaling scaling = Scaling::stiffness;
+  bool isSingle = false; ///< blocks in single precision
+};
+
+/// "none", "lumped", "dirichlet".
+std::string toString(PreconditionerParameters::Type type);
+/// For people: "dirichlet, stiffness scaling, single precision".
+std::string describe(const PreconditionerParameters& parameters);
+
+/// Lists "Direct Solvers", "Dual Operator", "Preconditioner".
+void addFetiParameters(Teuchos::ParameterList& list);
+/// From validated lists.
+DirectSolvers directSolversFrom(const Teuchos::ParameterList& list);
+DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list);
+PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list);
+
+} // namespace epafi::fetidp
