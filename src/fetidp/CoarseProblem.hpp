@@ -29,6 +29,7 @@ public:
                 const std::string& directSolver);
 
   [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] const Comm& comm() const { return *comm_; }
   /// x = S_cc⁺ Σ_ranks z: sums z over the ranks, in place (one message), then solves. Both have size()
   /// entries. Collective.
   void solve(std::span<AccurateSum> z, Eigen::VectorXd& x) const;

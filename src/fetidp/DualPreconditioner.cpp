@@ -9,17 +9,18 @@
 namespace epafi::fetidp {
 namespace {
 
-/// K on the interface (Δ, C), n_b × n_b.
-Eigen::MatrixXd interfaceBlock(const decomposition::Subdomain& subdomain,
-                               const SubdomainInterface& interface) {
-  const auto size = static_cast<Eigen::Index>(interface.size());
+/// K_ΔΔ.
+Eigen::MatrixXd boundaryBlock(const decomposition::Subdomain& subdomain,
+                              const CondensedSubdomain& condensed) {
+  const Eigen::Index size = condensed.numBoundary();
+  const std::vector<int>& positionOf = condensed.interface().positionOf;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index column = 0; column < subdomain.stiffness.cols(); ++column) {
-    const int j = interface.positionOf[static_cast<std::size_t>(column)];
-    if (j < 0)
+    const int j = positionOf[static_cast<std::size_t>(column)];
+    if (j < 0 || j >= size)
       continue;
     for (decomposition::SparseMatrix::InnerIterator entry(subdomain.stiffness, column); entry; ++entry)
-      if (const int i = interface.positionOf[static_cast<std::size_t>(entry.row())]; i >= 0)
+      if (const int i = positionOf[static_cast<std::size_t>(entry.row())]; i >= 0 && i < size)
         block(i, j) = entry.value();
   }
   return block;
@@ -30,26 +31,35 @@ Eigen::MatrixXd interfaceBlock(const decomposition::Subdomain& subdomain,
 DualPreconditioner::DualPreconditioner(const decomposition::DecomposedProblem& problem,
                                        std::shared_ptr<GeneralizedInverse> inverse,
                                        const PreconditionerParameters& parameters)
-    : map_(problem.multiplierMap), inverse_(std::move(inverse)), input_(problem), output_(problem),
-      result_(map_) {
-  collectively(*problem.comm, [&] {
-    const auto groups = std::as_const(*inverse_).groups();
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const CondensedSubdomain& condensed = groups[g].condensed();
-      const auto& first = problem.subdomains[groups[g].members().front()];
-      const Eigen::MatrixXd matrix = parameters.type == PreconditionerParameters::Type::lumped
-                                         ? interfaceBlock(first, condensed.interface())
-                                         : condensed.interfaceStiffness();
-      const auto numMembers = static_cast<Eigen::Index>(groups[g].members().size());
-      const auto storage = parameters.isSingle ? direct::SymmetricBlock::Storage::single
-                                               : direct::fasterStorage(static_cast<int>(matrix.rows()),
-                                                                       static_cast<int>(numMembers));
-      blocks_.push_back({g, direct::SymmetricBlock(matrix, storage), {}, {}, {}});
-      blocks_.back().input.resize(matrix.rows(), numMembers);
-      blocks_.back().output.resizeLike(blocks_.back().input);
-    }
-  });
+    : map_(problem.multiplierMap), inverse_(std::move(inverse)), crosspoints_(problem, *inverse_),
+      touchedSums_(static_cast<std::size_t>(crosspoints_.size())),
+      nearSums_(static_cast<std::size_t>(crosspoints_.extension().rows())),
+      displacement_(crosspoints_.size()), forces_(crosspoints_.size()),
+      nearDisplacement_(crosspoints_.extension().rows()), nearForces_(nearDisplacement_.size()),
+      input_(problem), output_(problem), result_(map_) {
+  collectively(*problem.comm, [&] { makeBlocks(problem, parameters.type, parameters.isSingle); });
   scale(problem, parameters.scaling);
+  findFollowers(problem);
+}
+
+void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& problem,
+                                    PreconditionerParameters::Type type, bool isSingle) {
+  using Storage = direct::SymmetricBlock::Storage;
+  const auto groups = std::as_const(*inverse_).groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const CondensedSubdomain& condensed = groups[g].condensed();
+    const Eigen::MatrixXd matrix =
+        type == PreconditionerParameters::Type::lumped
+            ? boundaryBlock(problem.subdomains[groups[g].members().front()], condensed)
+            : condensed.factor().schurComplement();
+    const auto numMembers = static_cast<Eigen::Index>(groups[g].members().size());
+    const auto storage =
+        isSingle ? Storage::single
+                 : direct::fasterStorage(static_cast<int>(matrix.rows()), static_cast<int>(numMembers));
+    blocks_.push_back({g, direct::SymmetricBlock(matrix, storage), {}, {}, {}});
+    blocks_.back().input.resize(matrix.rows(), numMembers);
+    blocks_.back().output.resizeLike(blocks_.back().input);
+  }
 }
 
 /// The weights (b_i/δ_i) / Σ_k b_k²/δ_k. Collective.
@@ -80,30 +90,113 @@ void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
                                 totals[static_cast<std::size_t>(entry.multiplier)]);
 }
 
-/// This rank's part of Σ B_D S_b B_Dᵀ λ, both on the ghost map.
-void DualPreconditioner::multiply(std::span<const double> lambda, std::span<double> result) const {
-  std::fill(result.begin(), result.end(), 0.0);
+void DualPreconditioner::findFollowers(const decomposition::DecomposedProblem& problem) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const SubdomainGroup& group = std::as_const(*inverse_).groups()[blocks_[b].group];
+    for (std::size_t member = 0; member < group.members().size(); ++member) {
+      Follower follower{b, static_cast<Eigen::Index>(member), {}, {}, {}};
+      for (const InterfaceEntry& entry : group.entries(member))
+        if (problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities &&
+            entry.position < group.condensed().numBoundary())
+          follower.boundary.push_back(entry.position);
+      if (follower.boundary.empty())
+        continue;
+      for (const GlobalOrdinal crosspoint : group.crosspointIndices(member))
+        follower.crosspoints.push_back(crosspoints_.nearIndexOf(crosspoint));
+      follower.response = group.condensed().boundaryResponse()(follower.boundary, Eigen::all);
+      followers_.push_back(std::move(follower));
+    }
+  }
+}
+
+/// B_Dᵀ λ: the members' inputs, and `displacement_` summed over the ranks.
+void DualPreconditioner::gather(std::span<const double> lambda) const {
+  std::fill(touchedSums_.begin(), touchedSums_.end(), AccurateSum());
   for (Block& block : blocks_) {
     const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
+    const auto numBoundary = static_cast<int>(block.input.rows());
+    const std::vector<int>& touched = group.condensed().interface().crosspoints;
     block.input.setZero();
     const double* weight = block.weights.data();
     for (std::size_t member = 0; member < group.members().size(); ++member)
-      for (const InterfaceEntry& entry : group.entries(member))
-        block.input(entry.position, static_cast<Eigen::Index>(member)) +=
-            *weight++ * lambda[static_cast<std::size_t>(entry.multiplier)];
+      for (const InterfaceEntry& entry : group.entries(member)) {
+        const double value = *weight++ * lambda[static_cast<std::size_t>(entry.multiplier)];
+        if (entry.position < numBoundary)
+          block.input(entry.position, static_cast<Eigen::Index>(member)) += value;
+        else
+          touchedSums_[static_cast<std::size_t>(
+                           crosspoints_.indexOf(group.crosspointIndices(member)[static_cast<std::size_t>(
+                               touched[static_cast<std::size_t>(entry.position - numBoundary)])]))]
+              .add(value);
+      }
+  }
+  if (touchedSums_.empty())
+    return;
+  sumOverRanks(*map_->getComm(), touchedSums_);
+  for (std::size_t i = 0; i < touchedSums_.size(); ++i)
+    displacement_[static_cast<Eigen::Index>(i)] = touchedSums_[i].value();
+}
+
+/// Takes from the displacement of the edges what follows their crosspoints: u_Δ + Ψ_Δ u_c is left.
+void DualPreconditioner::followCrosspoints() const {
+  if (touchedSums_.empty())
+    return;
+  nearDisplacement_.noalias() = crosspoints_.extension() * displacement_;
+  for (const Follower& follower : followers_)
+    for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
+      for (std::size_t i = 0; i < follower.boundary.size(); ++i)
+        blocks_[follower.block].input(follower.boundary[i], follower.member) +=
+            follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+            nearDisplacement_[follower.crosspoints[j]];
+}
+
+/// Forces at the boundaries, and at the crosspoints that contact touches: Ŝ u_c, and what the boundaries pass on, Ψ_Δᵀ of
+/// theirs.
+void DualPreconditioner::multiply() const {
+  for (Block& block : blocks_)
     block.stiffness.apply(block.input, block.output);
-    weight = block.weights.data();
+  if (touchedSums_.empty())
+    return;
+  std::fill(nearSums_.begin(), nearSums_.end(), AccurateSum());
+  for (const Follower& follower : followers_)
+    for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
+      for (std::size_t i = 0; i < follower.boundary.size(); ++i)
+        nearSums_[static_cast<std::size_t>(follower.crosspoints[j])].add(
+            follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+            blocks_[follower.block].output(follower.boundary[i], follower.member));
+  sumOverRanks(*map_->getComm(), nearSums_);
+  for (std::size_t i = 0; i < nearSums_.size(); ++i)
+    nearForces_[static_cast<Eigen::Index>(i)] = nearSums_[i].value();
+  forces_.noalias() = crosspoints_.stiffness() * displacement_;
+  forces_.noalias() += crosspoints_.extension().transpose() * nearForces_;
+}
+
+/// B_D times the forces.
+void DualPreconditioner::scatter(std::span<double> result) const {
+  std::fill(result.begin(), result.end(), 0.0);
+  for (const Block& block : blocks_) {
+    const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
+    const auto numBoundary = static_cast<int>(block.output.rows());
+    const std::vector<int>& touched = group.condensed().interface().crosspoints;
+    const double* weight = block.weights.data();
     for (std::size_t member = 0; member < group.members().size(); ++member)
       for (const InterfaceEntry& entry : group.entries(member))
         result[static_cast<std::size_t>(entry.multiplier)] +=
-            *weight++ * block.output(entry.position, static_cast<Eigen::Index>(member));
+            *weight++ *
+            (entry.position < numBoundary
+                 ? block.output(entry.position, static_cast<Eigen::Index>(member))
+                 : forces_[crosspoints_.indexOf(group.crosspointIndices(member)[static_cast<std::size_t>(
+                       touched[static_cast<std::size_t>(entry.position - numBoundary)])])]);
   }
 }
 
 void DualPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                                double beta) const {
   forEachColumn(x, y, [&](const Vector& in, Vector& out) {
-    multiply(input_.toSubdomains(in), output_.values());
+    gather(input_.toSubdomains(in));
+    followCrosspoints();
+    multiply();
+    scatter(output_.values());
     output_.sumToOwners(result_);
     if (!untouched_.empty()) {
       const auto result = result_.getDataNonConst();

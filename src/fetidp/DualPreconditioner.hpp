@@ -1,14 +1,16 @@
 #pragma once
 
-/// Preconditioners of F, built from the condensed subdomains: M = Σ B_D S_b B_Dᵀ without a coarse problem, where S_b is
-///   dirichlet  the stiffness of a subdomain condensed to its interface (Δ, C) (Farhat, Roux, *Int. J. Numer. Meth.
+/// Preconditioners of F, built from the condensed subdomains: M = Σ B_D S_Δ B_Dᵀ + what contact at crosspoints needs
+/// (ContactCrosspoints.hpp), where S_Δ is
+///   dirichlet  the stiffness of a subdomain condensed to its boundary, S_ΔΔ (Farhat, Roux, *Int. J. Numer. Meth.
 ///              Engng* 32 (1991); for FETI-DP Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006))
-///   lumped     the block K_bb of the interface alone: cheaper, and weaker
+///   lumped     the block K_ΔΔ of the boundary alone: cheaper, and weaker
 /// and B_D is B with its entries scaled row by row,
 ///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
 /// δ = 1 for multiplicity scaling, δ = the diagonal of K for stiffness (ρ) scaling. Rows of contact are treated like
 /// those of gluing. MPRGP uses M restricted to its free set ("in face").
 
+#include "epafi/fetidp/ContactCrosspoints.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
@@ -29,7 +31,8 @@ public:
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
-  /// y = alpha M x + beta y: two neighbour exchanges and one dense product a subdomain. Collective.
+  /// y = alpha M x + beta y: two neighbour exchanges, one dense product a subdomain, and, where contact touches
+  /// crosspoints, two messages of n_C and n_N numbers. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
              double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
@@ -37,20 +40,38 @@ public:
   [[nodiscard]] std::size_t bytes() const;
 
 private:
-  /// What a group of identical subdomains needs: m members, n_b interface unknowns.
+  /// What a group of identical subdomains needs: m members, n_Δ boundary unknowns.
   struct Block {
     std::size_t group = 0; ///< index in the inverse's groups
     direct::SymmetricBlock stiffness;
     std::vector<double>
         weights; ///< B_D's entries in the order of SubdomainGroup::entries, member after member
-    Eigen::MatrixXd input, output; ///< work, n_b × m
+    Eigen::MatrixXd input, output; ///< work, n_Δ × m
   };
+  /// A member that contact touches next to a crosspoint: u_Δ follows −Ψ_Δ u_c in the rows of contact.
+  struct Follower {
+    std::size_t block;
+    Eigen::Index member;
+    std::vector<int> boundary;    ///< positions in Δ that contact touches
+    std::vector<int> crosspoints; ///< the near crosspoints (see ContactCrosspoints) of a column of `response`
+    Eigen::MatrixXd response;     ///< Ψ there
+  };
+  void makeBlocks(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Type type,
+                  bool isSingle);
+  void findFollowers(const decomposition::DecomposedProblem& problem);
   void scale(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Scaling scaling);
-  void multiply(std::span<const double> lambda, std::span<double> result) const;
+  void gather(std::span<const double> lambda) const;
+  void followCrosspoints() const;
+  void multiply() const;
+  void scatter(std::span<double> result) const;
 
   RCP<const Map> map_;
   std::shared_ptr<GeneralizedInverse> inverse_;
+  ContactCrosspoints crosspoints_;
   mutable std::vector<Block> blocks_;
+  std::vector<Follower> followers_;
+  mutable std::vector<AccurateSum> touchedSums_, nearSums_;                       ///< work, n_C and n_N
+  mutable Eigen::VectorXd displacement_, forces_, nearDisplacement_, nearForces_; ///< work
   std::vector<int> untouched_; ///< rows without a free unknown, local indices
   mutable MultiplierExchange input_, output_;
   mutable Vector result_;

@@ -3,6 +3,8 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/CostModel.hpp"
 
+#include <Teuchos_Comm.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -46,6 +48,14 @@ void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u) {
   u.resize(b.size());
   for (SubdomainGroup& group : groups_)
     group.substitute(coarse_, b, u);
+}
+
+const Eigen::VectorXd& GeneralizedInverse::coarseColumn(GlobalOrdinal unknown) {
+  std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
+  if (coarseProblem_->comm().getRank() == 0)
+    coarseSums_[static_cast<std::size_t>(unknown)] = AccurateSum(1.0);
+  coarseProblem_->solve(coarseSums_, coarse_);
+  return coarse_;
 }
 
 void GeneralizedInverse::subtractForces(std::span<const double> lambda, SubdomainVectors& b) const {

@@ -40,6 +40,9 @@ public:
   /// result = this rank's part of B̄ u (on the ghost map). Not collective.
   void constraint(const SubdomainVectors& u, std::span<double> result) const;
 
+  /// S_cc⁺ times a unit vector, on every rank; valid until the next call of any function. Collective.
+  const Eigen::VectorXd& coarseColumn(GlobalOrdinal unknown);
+
   /// This rank's subdomains, identical ones together.
   [[nodiscard]] std::span<SubdomainGroup> groups() { return groups_; }
   [[nodiscard]] std::span<const SubdomainGroup> groups() const { return groups_; }

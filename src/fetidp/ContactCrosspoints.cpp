@@ -1,0 +1,80 @@
+#include "epafi/fetidp/ContactCrosspoints.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Map.hpp>
+
+#include <algorithm>
+
+namespace epafi::fetidp {
+namespace {
+
+using Unknowns = std::vector<GlobalOrdinal>;
+
+/// The union over the ranks, ascending. Collective.
+Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
+  const std::vector<double> all = gatherOnAll(comm, std::vector<double>(mine.begin(), mine.end()));
+  Unknowns unknowns(all.begin(), all.end());
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  return unknowns;
+}
+
+/// Coarse unknowns that rows of contact touch, and all those of the subdomains that contact touches. Collective.
+void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& near) {
+  Unknowns myTouched, myNear;
+  std::vector<int> crosspointOf;
+  for (const auto& subdomain : problem.subdomains) {
+    crosspointOf.assign(static_cast<std::size_t>(subdomain.stiffness.rows()), -1);
+    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
+      crosspointOf[static_cast<std::size_t>(subdomain.crosspointUnknowns[i])] = static_cast<int>(i);
+    bool isNear = false;
+    for (const auto& entry : subdomain.constraint) {
+      isNear =
+          isNear || problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities;
+      if (const int i = crosspointOf[static_cast<std::size_t>(entry.unknown)]; i >= 0)
+        myTouched.push_back(subdomain.crosspointIndices[static_cast<std::size_t>(i)]);
+    }
+    if (isNear)
+      myNear.insert(myNear.end(), subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
+  }
+  touched = unionOverRanks(*problem.comm, myTouched);
+  near = unionOverRanks(*problem.comm, myNear);
+}
+
+int positionIn(const Unknowns& unknowns, GlobalOrdinal unknown) {
+  const auto found = std::lower_bound(unknowns.begin(), unknowns.end(), unknown);
+  return found != unknowns.end() && *found == unknown ? static_cast<int>(found - unknowns.begin()) : -1;
+}
+
+} // namespace
+
+ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& problem,
+                                       GeneralizedInverse& inverse) {
+  findUnknowns(problem, touched_, near_);
+  const auto n = static_cast<Eigen::Index>(touched_.size());
+  if (n == 0)
+    return;
+  Eigen::MatrixXd flexibility(n, n), response(static_cast<Eigen::Index>(near_.size()), n); // of S_cc⁺
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::VectorXd& column = inverse.coarseColumn(touched_[static_cast<std::size_t>(j)]);
+    flexibility.col(j) = column(touched_);
+    response.col(j) = column(near_);
+  }
+  collectively(*problem.comm, [&] {
+    stiffness_ = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
+  });
+  extension_ = response * stiffness_;
+}
+
+int ContactCrosspoints::indexOf(GlobalOrdinal coarseUnknown) const {
+  return positionIn(touched_, coarseUnknown);
+}
+
+int ContactCrosspoints::nearIndexOf(GlobalOrdinal coarseUnknown) const {
+  return positionIn(near_, coarseUnknown);
+}
+
+} // namespace epafi::fetidp
