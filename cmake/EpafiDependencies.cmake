@@ -25,6 +25,14 @@ add_library(Epafi::muelu ALIAS epafi_muelu)
 target_include_directories(epafi_muelu SYSTEM INTERFACE ${MueLu_INCLUDE_DIRS} ${MueLu_TPL_INCLUDE_DIRS})
 target_link_libraries(epafi_muelu INTERFACE ${epafi_muelu_libraries} Epafi::trilinos)
 
+# SuiteSparse's CHOLMOD.
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+add_library(epafi_cholmod INTERFACE)
+add_library(Epafi::cholmod ALIAS epafi_cholmod)
+target_include_directories(epafi_cholmod SYSTEM INTERFACE "${CHOLMOD_INCLUDE_DIR}")
+target_link_libraries(epafi_cholmod INTERFACE "${CHOLMOD_LIBRARY}")
+
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)
 add_library(epafi_metis INTERFACE)
