@@ -34,8 +34,9 @@ namespace epafi::qp {
 /// Costs of a step in products with A, messages (beside those inside A and the preconditioner), and vectors streamed
 /// (l and u counted as two):
 ///   CG             1 product, 2 reductions, 23 vectors read and 3 written
-///   expansion      2 products, 3 reductions (its first product found the CG step too long); 1 product more if the
-///                  trial raises the objective and is repeated, or if its length is 'optimal'
+///   expansion      2 products, 3 reductions (its first product found the CG step too long); 1 product and 1 reduction
+///                  less where the part of it that fits is large enough; 1 more if the trial raises the objective and
+///                  is repeated, or if its length is 'optimal'
 ///   proportioning  1 product, 2 reductions
 /// With a preconditioner: 1 application for each direction, 4 vectors more a CG step; 1 reduction more where a
 /// proportioning step may come next (βᵀβ > Γ²φ̃ᵀφ/10). Elsewhere M is applied before it is known that the iteration

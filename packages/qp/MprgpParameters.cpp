@@ -56,6 +56,11 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
             "length. "
             "One that raises the objective is repeated with the fixed step.",
             namesOf(expansions));
+  addReal(list, "Sufficient Share", defaults.sufficientShare,
+          "A CG step that would leave the feasible set, but of which at least this share fits, ends at the "
+          "boundary "
+          "and saves the product of an expansion; 1: every such step is followed by an expansion.",
+          0.0, 1.0, true);
   addReal(list, "Expansion Step", defaults.expansionStep,
           "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
           true, true);
@@ -78,6 +83,7 @@ MprgpParameters MprgpParameters::from(const Teuchos::ParameterList& list) {
   MprgpParameters parameters;
   parameters.proportioningConstant = list.get<double>("Proportioning Constant");
   parameters.expansion = valueOf(expansions, list.get<std::string>("Expansion"));
+  parameters.sufficientShare = list.get<double>("Sufficient Share");
   parameters.expansionStep = list.get<double>("Expansion Step");
   parameters.release = valueOf(releases, list.get<std::string>("Release"));
   parameters.maxMultiplications = list.get<int>("Maximum Multiplications");

@@ -155,11 +155,15 @@ void Mprgp::move(double length, const StepSizes& sizes) {
   gradientIsFresh_ = false;
 }
 
-/// x^½ = x − α_f p, then a trial point beyond it that must not raise the objective.
+/// x^½ = x − α_f p, then, if that is only a small part of the step, a trial point beyond it that must not raise the
+/// objective.
 std::optional<Status> Mprgp::expansionStep(const StepSizes& sizes) {
   ++counts_.expansion;
   move(sizes.feasible, sizes);
   conjugate_ = false;
+  if (parameters_.sufficientShare < 1 &&
+      sizes.feasible * sizes.curvature >= parameters_.sufficientShare * sizes.slope)
+    return std::nullopt; // x^½ is good enough
   const bool hasCurvature = sizes.curvature > 1e-14 * norm_ * sizes.squared;
   if (parameters_.expansion == Expansion::projectedCg && hasCurvature) {
     set_->subtractFromFreeGradient(x_, g_, 0.0, ap_); // φ(x^½), for the safeguard
