@@ -125,28 +125,40 @@ int renumber(std::vector<int>& part) {
   return next;
 }
 
+/// Part k of m takes the columns floor(k n / m) … floor((k + 1) n / m) − 1 of n.
+GlobalOrdinal firstOf(GlobalOrdinal k, int n, int m) {
+  return k * n / m;
+}
+
 } // namespace
 
 GridPartition::GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> counts)
-    : elements_(mesh.elements()), counts_(counts) {}
+    : elements_(mesh.elements()), counts_(counts) {
+  const auto cut = [](int n, int m) {
+    std::vector<int> partOf(static_cast<std::size_t>(n));
+    for (int k = 0; k < m; ++k)
+      std::fill(partOf.begin() + firstOf(k, n, m), partOf.begin() + firstOf(k + 1, n, m), k);
+    return partOf;
+  };
+  columnOf_ = cut(elements_[0], counts_[0]);
+  rowOf_ = cut(elements_[1], counts_[1]);
+}
 
 int GridPartition::partOf(GlobalOrdinal element) const {
-  // Part k of m takes the elements floor(k n / m) … floor((k + 1) n / m) − 1 in each direction.
-  const auto locate = [](GlobalOrdinal i, int n, int m) { return ((i + 1) * m - 1) / n; };
-  const GlobalOrdinal column = locate(element % elements_[0], elements_[0], counts_[0]);
-  const GlobalOrdinal row = locate(element / elements_[0], elements_[1], counts_[1]);
-  return static_cast<int>(column + row * counts_[0]);
+  const GlobalOrdinal row = element / elements_[0], column = element - row * elements_[0];
+  return columnOf_[static_cast<std::size_t>(column)] + rowOf_[static_cast<std::size_t>(row)] * counts_[0];
 }
 
 std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
-  const auto first = [](GlobalOrdinal k, int n, int m) { return k * n / m; };
-  const GlobalOrdinal column = part % counts_[0], row = part / counts_[0];
-  std::vector<GlobalOrdinal> elements;
-  for (GlobalOrdinal j = first(row, elements_[1], counts_[1]); j < first(row + 1, elements_[1], counts_[1]);
-       ++j)
-    for (GlobalOrdinal i = first(column, elements_[0], counts_[0]);
-         i < first(column + 1, elements_[0], counts_[0]); ++i)
-      elements.push_back(i + j * elements_[0]);
+  const int column = part % counts_[0], row = part / counts_[0];
+  const GlobalOrdinal left = firstOf(column, elements_[0], counts_[0]),
+                      right = firstOf(column + 1, elements_[0], counts_[0]),
+                      bottom = firstOf(row, elements_[1], counts_[1]),
+                      top = firstOf(row + 1, elements_[1], counts_[1]);
+  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>((right - left) * (top - bottom)));
+  auto next = elements.begin();
+  for (GlobalOrdinal j = bottom; j < top; ++j, next += right - left)
+    std::iota(next, next + (right - left), left + j * elements_[0]);
   return elements;
 }
 
