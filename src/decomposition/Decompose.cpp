@@ -36,12 +36,21 @@ void requireCut(const scene::Body& body) {
                        " subdomains there; choose between 1 and " + std::to_string(body.elements[d]));
 }
 
+/// Whether two bodies are meshed and cut alike: their partitions are the same.
+bool areCutAlike(const scene::Body& a, const scene::Body& b) {
+  const scene::Decomposition &cut = a.decomposition, &other = b.decomposition;
+  if (a.elements != b.elements || cut.method != other.method)
+    return false;
+  return cut.method == scene::Decomposition::Method::metis ? cut.parts == other.parts
+                                                           : cut.counts == other.counts;
+}
+
 /// Collective.
-std::unique_ptr<Partition> makePartition(const scene::Body& body, const fem::RectangleMesh& mesh,
-                                         const Comm& comm) {
+std::shared_ptr<const Partition> makePartition(const scene::Body& body, const fem::RectangleMesh& mesh,
+                                               const Comm& comm) {
   if (body.decomposition.method == scene::Decomposition::Method::metis)
-    return std::make_unique<GraphPartition>(mesh, body.decomposition.parts, comm);
-  return std::make_unique<GridPartition>(mesh, body.decomposition.counts);
+    return std::make_shared<const GraphPartition>(mesh, body.decomposition.parts, comm);
+  return std::make_shared<const GridPartition>(mesh, body.decomposition.counts);
 }
 
 /// Collective.
@@ -50,7 +59,10 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
   int firstSubdomain = 0;
   for (const scene::Body& body : scene.bodies) {
     auto mesh = std::make_unique<fem::RectangleMesh>(body.rectangle, body.elements);
-    auto partition = makePartition(body, *mesh, comm);
+    const auto alike = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                    [&](const scene::Body& other) { return areCutAlike(other, body); });
+    const auto earlier = static_cast<std::size_t>(alike - scene.bodies.begin()); // body itself if none is
+    auto partition = earlier < bodies.size() ? bodies[earlier].partition : makePartition(body, *mesh, comm);
     const int numParts = partition->numParts();
     bodies.push_back({body.name, std::move(mesh), std::move(partition), firstSubdomain});
     firstSubdomain += numParts;

@@ -33,7 +33,13 @@ struct Sides {
 };
 
 Sides findSides(const Layout& layout, const std::vector<Piece>& pieces) {
+  std::size_t numShared = 0;
+  for (const Piece& piece : pieces)
+    numShared += piece.sharing.size();
   Sides sides;
+  sides.lower.reserve(
+      numShared); // about twice what a node with two copies takes; what is not used costs nothing
+  sides.higher.reserve(numShared);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const Piece& piece = pieces[p];
     const auto b = static_cast<std::size_t>(piece.body);
