@@ -86,25 +86,28 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
 }
 
 Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
-                 const std::vector<Piece>& pieces) {
+                 std::vector<Piece>& pieces) {
   Rows rows;
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const Piece& piece = pieces[p];
+  std::vector<std::size_t> places;
+  for (Piece& piece : pieces) {
     const fem::RectangleMesh& mesh = *layout.bodies[static_cast<std::size_t>(piece.body)].mesh;
+    const std::vector<GlobalOrdinal>& nodes = piece.assembled.nodes;
     for (const ContactLayout& contact : contacts)
       for (const Side& side : {Side{1.0, contact.firstBody, contact.firstEdge},
                                Side{-1.0, contact.secondBody, contact.secondEdge}}) {
         if (side.body != piece.body)
           continue;
-        for (std::size_t i = 0; i < piece.assembled.nodes.size(); ++i) {
-          const GlobalOrdinal position = mesh.positionOnEdge(side.edge, piece.assembled.nodes[i]);
-          if (position < 0 || piece.sharing[i].front() != piece.part)
+        mesh.placesOnEdge(side.edge, nodes, places);
+        for (const std::size_t place : places) {
+          if (!piece.sharing.isLowest(piece.part, place))
             continue;
-          const GlobalOrdinal row = contact.firstRow + position;
+          const GlobalOrdinal row = contact.firstRow + mesh.positionOnEdge(side.edge, nodes[place]);
           if (side.coefficient > 0)
             rows.owned.push_back(row);
-          if (piece.assembled.unknownOf[i] >= 0)
-            rows.entries.push_back({p, row, piece.assembled.unknownOf[i], side.coefficient});
+          if (piece.assembled.unknownOf[place] >= 0) {
+            rows.touched.push_back(row);
+            piece.rows.push_back({row, piece.assembled.unknownOf[place], side.coefficient});
+          }
         }
       }
   }

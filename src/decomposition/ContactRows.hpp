@@ -13,11 +13,11 @@ namespace epafi::decomposition {
 /// share an edge of a body (a common corner is fine). Not collective (every rank finds the same).
 std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies);
 
-/// This rank's entries and the rows it owns: those whose first node lies, at its lowest subdomain, on this
-/// rank. A node that several subdomains share has its entry in the lowest-numbered one; supported nodes have
-/// none.
+/// Enters the rows in the pieces. This rank owns those whose first node lies, at its lowest subdomain, on
+/// this rank. A node that several subdomains share has its entry in the lowest-numbered one; supported nodes
+/// have none. `touched` has a row twice if both its nodes are here. Not collective.
 Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
-                 const std::vector<Piece>& pieces);
+                 std::vector<Piece>& pieces);
 
 /// The right-hand side c of a contact row: its gap, less what supported nodes contribute.
 double contactGap(const Layout& layout, const std::vector<ContactLayout>& contacts, GlobalOrdinal row);

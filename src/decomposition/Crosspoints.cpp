@@ -3,26 +3,24 @@
 #include "epafi/base/Collective.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
-#include <map>
+#include <span>
 
 namespace epafi::decomposition {
 namespace {
 
 using Key = std::pair<int, GlobalOrdinal>;
 
-bool isFree(const fem::BodyModel& model, GlobalOrdinal node) {
-  for (int component = 0; component < model.components(); ++component)
-    if (!model.prescribed(node, component))
-      return true;
-  return false;
+/// Whether a node of a piece has unknowns.
+bool isFree(const Piece& piece, std::size_t node, std::size_t components) {
+  const auto first = piece.assembled.unknownOf.begin() + static_cast<std::ptrdiff_t>(node * components);
+  return std::any_of(first, first + static_cast<std::ptrdiff_t>(components),
+                     [](int unknown) { return unknown >= 0; });
 }
 
-bool isHeld(const fem::BodyModel& model, GlobalOrdinal node) {
-  for (int component = 0; component < model.components(); ++component)
-    if (!model.prescribed(node, component))
-      return false;
-  return true;
+std::size_t componentsOf(const Layout& layout, int body) {
+  return static_cast<std::size_t>(layout.models[static_cast<std::size_t>(body)]->components());
 }
 
 /// Points that hold a body's rigid modes: one for a scalar field, two in the plane, three in space.
@@ -30,54 +28,83 @@ std::size_t pointsNeeded(const fem::BodyModel& model) {
   return static_cast<std::size_t>(model.components());
 }
 
+/// Nodes without unknowns.
+std::size_t countHeld(const Piece& piece, std::size_t components) {
+  if (piece.assembled.unknownPosition.size() == piece.assembled.unknownOf.size())
+    return 0;
+  std::size_t held = 0;
+  for (std::size_t node = 0; node < piece.assembled.nodes.size(); ++node)
+    held += isFree(piece, node, components) ? 0 : 1;
+  return held;
+}
+
 /// Whether supports alone make each subdomain of the whole problem regular; the same on every rank.
 /// Collective.
 std::vector<char> findHeld(const Layout& layout, const std::vector<Piece>& pieces, const Comm& comm) {
   std::vector<double> heldNodes(static_cast<std::size_t>(layout.numSubdomains), 0.0);
   for (const Piece& piece : pieces)
-    for (const GlobalOrdinal node : piece.assembled.nodes)
-      if (isHeld(*layout.models[static_cast<std::size_t>(piece.body)], node))
-        heldNodes[static_cast<std::size_t>(piece.number)] += 1;
+    heldNodes[static_cast<std::size_t>(piece.number)] =
+        static_cast<double>(countHeld(piece, componentsOf(layout, piece.body)));
   sumOverRanks(comm, heldNodes);
   std::vector<char> held;
-  for (int number = 0; number < layout.numSubdomains; ++number) {
-    const auto& model = *layout.models[static_cast<std::size_t>(bodyOf(layout, number))];
-    held.push_back(heldNodes[held.size()] >= static_cast<double>(pointsNeeded(model)) ? 1 : 0);
+  held.reserve(heldNodes.size());
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const auto needed = static_cast<double>(pointsNeeded(*layout.models[b]));
+    for (int part = 0; part < layout.bodies[b].partition->numParts(); ++part)
+      held.push_back(heldNodes[held.size()] >= needed ? 1 : 0);
   }
   return held;
 }
 
-/// The free nodes that a piece shares with one other part.
+/// Number of free nodes and of free crosspoints that a piece shares with another part.
 struct Interface {
-  std::size_t numCrosspoints = 0;
-  std::vector<GlobalOrdinal> nodes;
+  int other = 0;
+  std::size_t numNodes = 0, numCrosspoints = 0;
 };
 
-/// The interfaces of a piece with higher parts, by part.
-std::map<int, Interface> findInterfaces(const fem::BodyModel& model, const Piece& piece) {
-  std::map<int, Interface> interfaces;
-  for (std::size_t i = 0; i < piece.sharing.size(); ++i) {
-    const GlobalOrdinal node = piece.assembled.nodes[i];
-    if (piece.sharing[i].size() < 2 || !isFree(model, node))
+/// The interfaces of a piece with higher parts.
+std::vector<Interface> findInterfaces(const Piece& piece, std::size_t components) {
+  std::vector<Interface> interfaces; // few: a search through all is short
+  for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
+    const std::size_t node = piece.sharing.node(k);
+    if (piece.sharing.parts(k).back() == piece.part || !isFree(piece, node, components))
       continue;
-    for (const int other : piece.sharing[i])
-      if (other > piece.part) {
-        Interface& interface = interfaces[other];
-        interface.nodes.push_back(node);
-        interface.numCrosspoints += piece.isCrosspoint[i] != 0 ? 1 : 0;
-      }
+    for (const int other : piece.sharing.parts(k)) {
+      if (other <= piece.part)
+        continue;
+      auto interface = std::find_if(interfaces.begin(), interfaces.end(),
+                                    [other](const Interface& i) { return i.other == other; });
+      if (interface == interfaces.end())
+        interface = interfaces.insert(interface, {other, 0, 0});
+      ++interface->numNodes;
+      interface->numCrosspoints += piece.isCrosspoint[node] != 0 ? 1 : 0;
+    }
   }
   return interfaces;
 }
 
-/// Marks the end points and meeting points of interfaces.
+/// The free nodes of an interface, ascending.
+std::vector<GlobalOrdinal> nodesOf(const Interface& interface, const Piece& piece, std::size_t components) {
+  std::vector<GlobalOrdinal> nodes;
+  nodes.reserve(interface.numNodes);
+  for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
+    const std::span<const int> parts = piece.sharing.parts(k);
+    if (isFree(piece, piece.sharing.node(k), components) &&
+        std::find(parts.begin(), parts.end(), interface.other) != parts.end())
+      nodes.push_back(piece.assembled.nodes[piece.sharing.node(k)]);
+  }
+  return nodes;
+}
+
+/// Marks the end points and meeting points of interfaces; the lowest part lists them.
 void markCorners(const fem::Mesh& mesh, Piece& piece, std::vector<Key>& corners) {
   piece.isCrosspoint.assign(piece.assembled.nodes.size(), 0);
-  for (std::size_t i = 0; i < piece.sharing.size(); ++i) {
-    const std::size_t copies = piece.sharing[i].size();
-    if (copies >= 3 || (copies == 2 && mesh.isBoundaryNode(piece.assembled.nodes[i]))) {
-      piece.isCrosspoint[i] = 1;
-      corners.emplace_back(piece.body, piece.assembled.nodes[i]);
+  for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
+    const std::size_t node = piece.sharing.node(k), copies = piece.sharing.parts(k).size();
+    if (copies >= 3 || (copies == 2 && mesh.isBoundaryNode(piece.assembled.nodes[node]))) {
+      piece.isCrosspoint[node] = 1;
+      if (piece.sharing.parts(k).front() == piece.part)
+        corners.emplace_back(piece.body, piece.assembled.nodes[node]);
     }
   }
 }
@@ -88,32 +115,32 @@ void markCorners(const fem::Mesh& mesh, Piece& piece, std::vector<Key>& corners)
 void addInterfacePoints(const Layout& layout, const Piece& piece, const std::vector<char>& held,
                         std::vector<Key>& extra) {
   const auto b = static_cast<std::size_t>(piece.body);
-  const int firstSubdomain = layout.bodies[b].firstSubdomain;
-  const std::size_t needed = pointsNeeded(*layout.models[b]);
-  for (const auto& [other, interface] : findInterfaces(*layout.models[b], piece)) {
+  const std::size_t components = componentsOf(layout, piece.body), needed = pointsNeeded(*layout.models[b]);
+  for (const Interface& interface : findInterfaces(piece, components)) {
+    const int other = layout.bodies[b].firstSubdomain + interface.other;
     const bool bothHeld =
-        held[static_cast<std::size_t>(piece.number)] != 0 &&
-        held[static_cast<std::size_t>(firstSubdomain) + static_cast<std::size_t>(other)] != 0;
+        held[static_cast<std::size_t>(piece.number)] != 0 && held[static_cast<std::size_t>(other)] != 0;
     if (bothHeld || interface.numCrosspoints >= needed)
       continue;
-    const std::size_t missing = needed - interface.numCrosspoints, available = interface.nodes.size();
+    const std::vector<GlobalOrdinal> nodes = nodesOf(interface, piece, components);
+    const std::size_t missing = needed - interface.numCrosspoints;
     for (std::size_t k = 0; k < missing; ++k)
-      extra.emplace_back(piece.body, interface.nodes[(2 * k + 1) * available / (2 * missing)]);
+      extra.emplace_back(piece.body, nodes[(2 * k + 1) * nodes.size() / (2 * missing)]);
   }
 }
 
-/// Node nearest to the centre of the points of a piece.
-GlobalOrdinal middleNode(const fem::Mesh& mesh, const Piece& piece) {
+/// Place of the node nearest to the centre of the points of a piece.
+std::size_t middleNode(const fem::Mesh& mesh, const Piece& piece) {
   fem::Point centre{0, 0, 0};
   for (const GlobalOrdinal node : piece.assembled.nodes) {
     const fem::Point point = mesh.point(node);
     for (std::size_t d = 0; d < 3; ++d)
       centre[d] += point[d] / static_cast<double>(piece.assembled.nodes.size());
   }
-  GlobalOrdinal best = piece.assembled.nodes.front();
+  std::size_t best = 0;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const GlobalOrdinal node : piece.assembled.nodes) {
-    const fem::Point point = mesh.point(node);
+  for (std::size_t node = 0; node < piece.assembled.nodes.size(); ++node) {
+    const fem::Point point = mesh.point(piece.assembled.nodes[node]);
     double distance = 0;
     for (std::size_t d = 0; d < 3; ++d)
       distance += (point[d] - centre[d]) * (point[d] - centre[d]);
@@ -139,24 +166,46 @@ std::vector<Key> gatherKeys(const Comm& comm, const std::vector<Key>& mine) {
   return keys;
 }
 
+/// Marks some crosspoints, sorted, in the pieces that share them.
+void mark(const std::vector<Key>& crosspoints, std::vector<Piece>& pieces) {
+  for (Piece& piece : pieces) {
+    const std::vector<GlobalOrdinal>& nodes = piece.assembled.nodes;
+    auto key = std::lower_bound(crosspoints.begin(), crosspoints.end(), Key(piece.body, nodes.front()));
+    const auto end = std::upper_bound(key, crosspoints.end(), Key(piece.body, nodes.back()));
+    for (std::size_t k = 0; k < piece.sharing.size() && key != end; ++k) {
+      const std::size_t node = piece.sharing.node(k);
+      key = std::lower_bound(key, end, Key(piece.body, nodes[node]));
+      if (key != end && key->second == nodes[node])
+        piece.isCrosspoint[node] = 1;
+    }
+  }
+}
+
 } // namespace
 
 CrosspointNumbering::CrosspointNumbering(const Layout& layout, std::vector<Piece>& pieces, const Comm& comm) {
   const std::vector<char> held = findHeld(layout, pieces, comm);
-  std::vector<Key> mine;
+  std::vector<Key> corners, extra;
   for (Piece& piece : pieces) {
     const auto b = static_cast<std::size_t>(piece.body);
-    markCorners(*layout.bodies[b].mesh, piece, mine);
-    addInterfacePoints(layout, piece, held, mine);
-    if (layout.models[b]->kernelDimension() > 0 && layout.bodies[b].partition->numParts() == 1)
-      mine.emplace_back(piece.body, middleNode(*layout.bodies[b].mesh, piece));
+    markCorners(*layout.bodies[b].mesh, piece, corners);
+    addInterfacePoints(layout, piece, held, extra);
+    if (layout.models[b]->kernelDimension() > 0 && layout.bodies[b].partition->numParts() == 1) {
+      const std::size_t middle = middleNode(*layout.bodies[b].mesh, piece);
+      piece.isCrosspoint[middle] = 1; // no other piece has it
+      extra.emplace_back(piece.body, piece.assembled.nodes[middle]);
+    }
   }
-  nodes_ = gatherKeys(comm, mine);
+  nodes_ = gatherKeys(comm, corners);
+  extra = gatherKeys(comm, extra);
+  if (!extra.empty()) {
+    mark(extra, pieces);
+    std::vector<Key> all;
+    std::set_union(nodes_.begin(), nodes_.end(), extra.begin(), extra.end(), std::back_inserter(all));
+    nodes_.swap(all);
+  }
 
-  for (Piece& piece : pieces)
-    for (std::size_t i = 0; i < piece.isCrosspoint.size(); ++i)
-      if (std::binary_search(nodes_.begin(), nodes_.end(), Key(piece.body, piece.assembled.nodes[i])))
-        piece.isCrosspoint[i] = 1;
+  firstIndex_.reserve(nodes_.size());
   for (const auto& [body, node] : nodes_) {
     firstIndex_.push_back(numUnknowns_);
     const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(body)];
@@ -166,14 +215,9 @@ CrosspointNumbering::CrosspointNumbering(const Layout& layout, std::vector<Piece
   }
 }
 
-GlobalOrdinal CrosspointNumbering::index(int body, GlobalOrdinal node, const fem::BodyModel& model,
-                                         int component) const {
+GlobalOrdinal CrosspointNumbering::firstIndex(int body, GlobalOrdinal node) const {
   const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), Key(body, node));
-  GlobalOrdinal result = firstIndex_[static_cast<std::size_t>(found - nodes_.begin())];
-  for (int c = 0; c < component; ++c)
-    if (!model.prescribed(node, c))
-      ++result;
-  return result;
+  return firstIndex_[static_cast<std::size_t>(found - nodes_.begin())];
 }
 
 } // namespace epafi::decomposition

@@ -27,9 +27,8 @@ public:
   [[nodiscard]] GlobalOrdinal numNodes() const { return static_cast<GlobalOrdinal>(nodes_.size()); }
   /// Number of free unknowns at crosspoints.
   [[nodiscard]] GlobalOrdinal numUnknowns() const { return numUnknowns_; }
-  /// Coarse index of a crosspoint's free component.
-  [[nodiscard]] GlobalOrdinal index(int body, GlobalOrdinal node, const fem::BodyModel& model,
-                                    int component) const;
+  /// Coarse index of a crosspoint's first free component; the next ones follow.
+  [[nodiscard]] GlobalOrdinal firstIndex(int body, GlobalOrdinal node) const;
 
 private:
   using Key = std::pair<int, GlobalOrdinal>; ///< body, node

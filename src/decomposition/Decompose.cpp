@@ -12,6 +12,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace epafi::decomposition {
@@ -35,12 +36,21 @@ void requireCut(const scene::Body& body) {
                        " subdomains there; choose between 1 and " + std::to_string(body.elements[d]));
 }
 
+/// Whether two bodies are meshed and cut alike: their partitions are the same.
+bool areCutAlike(const scene::Body& a, const scene::Body& b) {
+  const scene::Decomposition &cut = a.decomposition, &other = b.decomposition;
+  if (a.elements != b.elements || cut.method != other.method)
+    return false;
+  return cut.method == scene::Decomposition::Method::metis ? cut.parts == other.parts
+                                                           : cut.counts == other.counts;
+}
+
 /// Collective.
-std::unique_ptr<Partition> makePartition(const scene::Body& body, const fem::RectangleMesh& mesh,
-                                         const Comm& comm) {
+std::shared_ptr<const Partition> makePartition(const scene::Body& body, const fem::RectangleMesh& mesh,
+                                               const Comm& comm) {
   if (body.decomposition.method == scene::Decomposition::Method::metis)
-    return std::make_unique<GraphPartition>(mesh, body.decomposition.parts, comm);
-  return std::make_unique<GridPartition>(mesh, body.decomposition.counts);
+    return std::make_shared<const GraphPartition>(mesh, body.decomposition.parts, comm);
+  return std::make_shared<const GridPartition>(mesh, body.decomposition.counts);
 }
 
 /// Collective.
@@ -49,7 +59,10 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
   int firstSubdomain = 0;
   for (const scene::Body& body : scene.bodies) {
     auto mesh = std::make_unique<fem::RectangleMesh>(body.rectangle, body.elements);
-    auto partition = makePartition(body, *mesh, comm);
+    const auto alike = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                    [&](const scene::Body& other) { return areCutAlike(other, body); });
+    const auto earlier = static_cast<std::size_t>(alike - scene.bodies.begin()); // body itself if none is
+    auto partition = earlier < bodies.size() ? bodies[earlier].partition : makePartition(body, *mesh, comm);
     const int numParts = partition->numParts();
     bodies.push_back({body.name, std::move(mesh), std::move(partition), firstSubdomain});
     firstSubdomain += numParts;
@@ -58,53 +71,52 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
 }
 
 RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm) {
-  std::sort(indices.begin(), indices.end());
+  if (!std::is_sorted(indices.begin(), indices.end()))
+    std::sort(indices.begin(), indices.end());
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
                      Teuchos::arrayViewFromVector(indices), 0, comm));
 }
 
-/// Splits the unknowns of a piece in remainder and crosspoints.
-Subdomain makeSubdomain(const Layout& layout, const CrosspointNumbering& crosspoints, Piece& piece) {
-  const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(piece.body)];
-  Subdomain subdomain;
-  subdomain.body = piece.body;
-  subdomain.number = piece.number;
-  const int components = model.components();
-  for (std::size_t unknown = 0; unknown < piece.assembled.unknownPosition.size(); ++unknown) {
-    const int position = piece.assembled.unknownPosition[unknown];
-    const auto node = static_cast<std::size_t>(position / components);
+/// Splits the unknowns of a piece in remainder and crosspoints, and lists the crosspoint values that this rank
+/// owns: those of which no lower subdomain has a copy.
+void splitUnknowns(const CrosspointNumbering& crosspoints, const Piece& piece, std::size_t components,
+                   Subdomain& subdomain, std::vector<GlobalOrdinal>& ownedCrosspoints) {
+  const fem::AssembledSubdomain& assembled = piece.assembled;
+  subdomain.remainderUnknowns.reserve(assembled.unknownPosition.size());
+  for (std::size_t node = 0; node < assembled.nodes.size(); ++node) {
+    const auto unknowns = std::span(assembled.unknownOf).subspan(node * components, components);
     if (piece.isCrosspoint[node] == 0) {
-      subdomain.remainderUnknowns.push_back(static_cast<int>(unknown));
-    } else {
-      subdomain.crosspointUnknowns.push_back(static_cast<int>(unknown));
-      subdomain.crosspointIndices.push_back(
-          crosspoints.index(piece.body, piece.assembled.nodes[node], model, position % components));
+      for (const int unknown : unknowns)
+        if (unknown >= 0)
+          subdomain.remainderUnknowns.push_back(unknown);
+      continue;
     }
+    const bool owned = piece.sharing.isLowest(piece.part, node);
+    GlobalOrdinal index = crosspoints.firstIndex(piece.body, assembled.nodes[node]);
+    for (const int unknown : unknowns)
+      if (unknown >= 0) {
+        subdomain.crosspointUnknowns.push_back(unknown);
+        subdomain.crosspointIndices.push_back(index);
+        if (owned)
+          ownedCrosspoints.push_back(index);
+        ++index;
+      }
   }
-  subdomain.nodes = piece.assembled.nodes;
-  subdomain.unknownPosition = std::move(piece.assembled.unknownPosition);
-  subdomain.stiffness.swap(piece.assembled.stiffness); // Eigen 3.4 cannot move sparse matrices
-  subdomain.load = std::move(piece.assembled.load);
-  subdomain.prescribed = std::move(piece.assembled.prescribed);
-  subdomain.energyOffset = piece.assembled.energyOffset;
-  subdomain.kernel = std::move(piece.assembled.kernel);
-  return subdomain;
 }
 
-/// Crosspoint values that this rank owns: those of which no lower subdomain has a copy.
-std::vector<GlobalOrdinal> ownedCrosspoints(const Layout& layout, const CrosspointNumbering& crosspoints,
-                                            const std::vector<Piece>& pieces) {
-  std::vector<GlobalOrdinal> owned;
-  for (const Piece& piece : pieces) {
-    const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(piece.body)];
-    for (std::size_t i = 0; i < piece.assembled.nodes.size(); ++i)
-      if (piece.isCrosspoint[i] != 0 && piece.sharing[i].front() == piece.part)
-        for (int c = 0; c < model.components(); ++c)
-          if (!model.prescribed(piece.assembled.nodes[i], c))
-            owned.push_back(crosspoints.index(piece.body, piece.assembled.nodes[i], model, c));
-  }
-  return owned;
+/// Moves what is assembled out of a piece; what it takes to attach B stays.
+void takeAssembled(Piece& piece, Subdomain& subdomain) {
+  fem::AssembledSubdomain& assembled = piece.assembled;
+  subdomain.body = piece.body;
+  subdomain.number = piece.number;
+  subdomain.nodes = std::move(assembled.nodes);
+  subdomain.unknownPosition = std::move(assembled.unknownPosition);
+  subdomain.stiffness.swap(assembled.stiffness); // Eigen 3.4 cannot move sparse matrices
+  subdomain.load = std::move(assembled.load);
+  subdomain.prescribed = std::move(assembled.prescribed);
+  subdomain.energyOffset = assembled.energyOffset;
+  subdomain.kernel = std::move(assembled.kernel);
 }
 
 std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout) {
@@ -119,19 +131,33 @@ std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout
 }
 
 /// The multiplier maps and B: entries named by global rows become local.
-void attachRows(const std::vector<Rows>& groups, const RCP<const Comm>& comm, DecomposedProblem& problem) {
-  std::vector<GlobalOrdinal> owned, touched;
-  for (const Rows& rows : groups) {
-    owned.insert(owned.end(), rows.owned.begin(), rows.owned.end());
-    for (const RowEntry& entry : rows.entries)
-      touched.push_back(entry.row);
-  }
-  problem.multiplierMap = makeMap(std::move(owned), comm);
-  problem.multiplierGhostMap = makeMap(std::move(touched), comm);
-  for (const Rows& rows : groups)
-    for (const RowEntry& entry : rows.entries)
-      problem.subdomains[entry.piece].constraint.push_back(
+void attachRows(const Rows& contact, const Rows& gluing, const std::vector<Piece>& pieces,
+                DecomposedProblem& problem) {
+  const auto both = [](const std::vector<GlobalOrdinal>& a, const std::vector<GlobalOrdinal>& b) {
+    std::vector<GlobalOrdinal> joined;
+    joined.reserve(a.size() + b.size());
+    joined.insert(joined.end(), a.begin(), a.end());
+    joined.insert(joined.end(), b.begin(), b.end());
+    return joined;
+  };
+  problem.multiplierMap = makeMap(both(contact.owned, gluing.owned), problem.comm);
+  problem.multiplierGhostMap = makeMap(both(contact.touched, gluing.touched), problem.comm);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    std::vector<ConstraintEntry>& constraint = problem.subdomains[p].constraint;
+    constraint.reserve(pieces[p].rows.size());
+    for (const RowEntry& entry : pieces[p].rows)
+      constraint.push_back(
           {problem.multiplierGhostMap->getLocalElement(entry.row), entry.unknown, entry.coefficient});
+  }
+}
+
+/// The bodies and the numbers of the whole problem that are known before it is assembled.
+void describe(const scene::Scene& scene, const Layout& layout, DecomposedProblem& problem) {
+  problem.components = layout.models.empty() ? 1 : layout.models.front()->components();
+  problem.numSubdomains = layout.numSubdomains;
+  problem.bodies = describeBodies(scene, layout);
+  for (const Body& body : problem.bodies)
+    problem.kernelDimension += body.kernelDimension;
 }
 
 } // namespace
@@ -155,33 +181,33 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
 
   DecomposedProblem& problem = result.problem;
   problem.comm = comm;
-  problem.components = layout.models.empty() ? 1 : layout.models.front()->components();
-  problem.numSubdomains = layout.numSubdomains;
-  problem.bodies = describeBodies(scene, layout);
-  for (const Body& body : problem.bodies)
-    problem.kernelDimension += body.kernelDimension;
+  describe(scene, layout, problem);
   problem.numCrosspoints = crosspoints.numNodes();
-  problem.crosspointMap = makeMap(ownedCrosspoints(layout, crosspoints, pieces), comm);
-
   for (const ContactLayout& contact : result.contacts)
     problem.numInequalities += contact.numRows;
-  std::vector<Rows> rows{contactRows(layout, result.contacts, pieces)};
-  rows.push_back(gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities));
+  const Rows contact = contactRows(layout, result.contacts, pieces);
+  const Rows gluing = gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities);
 
   GlobalOrdinal positions = 0, remainders = 0;
-  problem.subdomains.reserve(pieces.size());
-  for (Piece& piece : pieces) {
-    positions += piece.assembled.prescribed.size();
-    problem.subdomains.push_back(makeSubdomain(layout, crosspoints, piece));
-    remainders += static_cast<GlobalOrdinal>(problem.subdomains.back().remainderUnknowns.size());
+  std::vector<GlobalOrdinal> ownedCrosspoints;
+  problem.subdomains.resize(pieces.size());
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    Subdomain& subdomain = problem.subdomains[p];
+    const auto body = static_cast<std::size_t>(pieces[p].body);
+    splitUnknowns(crosspoints, pieces[p], static_cast<std::size_t>(layout.models[body]->components()),
+                  subdomain, ownedCrosspoints);
+    takeAssembled(pieces[p], subdomain);
+    positions += subdomain.prescribed.size();
+    remainders += static_cast<GlobalOrdinal>(subdomain.remainderUnknowns.size());
   }
   problem.primalDimension = sumOverRanks(*comm, positions);
+  problem.crosspointMap = makeMap(std::move(ownedCrosspoints), comm);
   problem.remainderMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
                                      static_cast<std::size_t>(remainders), 0, comm));
-  attachRows(rows, comm, problem);
+  attachRows(contact, gluing, pieces, problem);
 
   problem.gap = rcp(new Vector(problem.multiplierMap));
-  for (const GlobalOrdinal row : rows.front().owned)
+  for (const GlobalOrdinal row : contact.owned)
     problem.gap->replaceGlobalValue(row, contactGap(layout, result.contacts, row));
   return result;
 }

@@ -16,8 +16,8 @@ namespace epafi::decomposition {
 struct BodyLayout {
   std::string name;
   std::unique_ptr<fem::RectangleMesh> mesh;
-  std::unique_ptr<Partition> partition;
-  int firstSubdomain = 0; ///< number of its part 0 in the whole problem
+  std::shared_ptr<const Partition> partition; ///< bodies that are meshed and cut alike share one
+  int firstSubdomain = 0;                     ///< number of its part 0 in the whole problem
 };
 
 /// A contact pair of the scene: its rows of B_I and its nodes on the first body's edge, in the same order.

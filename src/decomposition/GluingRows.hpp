@@ -10,10 +10,11 @@
 namespace epafi::decomposition {
 
 /// Rows are numbered from `firstRow` by lower subdomain, then node, then component, whatever the number of
-/// ranks; the lower side's rank owns a row and tells its number to the other side.
+/// ranks; the lower side's rank owns a row and tells its number to the other side. Enters the rows in the
+/// pieces.
 /// \param[out] numRows  of the whole problem.
 /// Collective.
-Rows gluingRows(const Layout& layout, const std::vector<Piece>& pieces, GlobalOrdinal firstRow,
+Rows gluingRows(const Layout& layout, std::vector<Piece>& pieces, GlobalOrdinal firstRow,
                 const RCP<const Comm>& comm, GlobalOrdinal& numRows);
 
 } // namespace epafi::decomposition

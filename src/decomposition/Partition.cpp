@@ -2,13 +2,13 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/ConnectedParts.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <metis.h>
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <span>
 #include <string>
@@ -19,6 +19,8 @@ namespace {
 /// METIS on the dual graph of the mesh; the part of every element.
 std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
   std::vector<idx_t> start{0}, neighbours;
+  start.reserve(static_cast<std::size_t>(mesh.numElements()) + 1);
+  neighbours.reserve(static_cast<std::size_t>(mesh.nodesPerElement() * mesh.numElements()));
   std::vector<GlobalOrdinal> adjacent;
   auto numVertices = static_cast<idx_t>(mesh.numElements());
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
@@ -43,110 +45,54 @@ std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
   return {part.begin(), part.end()};
 }
 
-/// Connected pieces of the parts: the piece of every element, pieces numbered from 0, and their sizes.
-struct Pieces {
-  std::vector<int> of;
-  std::vector<std::size_t> size;
-};
-
-Pieces findPieces(const fem::Mesh& mesh, const std::vector<int>& part) {
-  Pieces pieces{std::vector<int>(part.size(), -1), {}};
-  std::vector<GlobalOrdinal> stack, adjacent;
-  for (std::size_t seed = 0; seed < part.size(); ++seed) {
-    if (pieces.of[seed] >= 0)
-      continue;
-    const auto piece = static_cast<int>(pieces.size.size());
-    pieces.size.push_back(0);
-    pieces.of[seed] = piece;
-    stack.assign(1, static_cast<GlobalOrdinal>(seed));
-    while (!stack.empty()) {
-      const GlobalOrdinal element = stack.back();
-      stack.pop_back();
-      ++pieces.size.back();
-      mesh.elementNeighbours(element, adjacent);
-      for (const GlobalOrdinal other : adjacent)
-        if (pieces.of[static_cast<std::size_t>(other)] < 0 &&
-            part[static_cast<std::size_t>(other)] == part[seed]) {
-          pieces.of[static_cast<std::size_t>(other)] = piece;
-          stack.push_back(other);
-        }
-    }
-  }
-  return pieces;
-}
-
-/// Gives every piece that is not the largest of its part to the neighbouring part with which it shares most
-/// edges.
-void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
-  for (;;) {
-    const Pieces pieces = findPieces(mesh, part);
-    std::map<int, int> largest; // piece of each part
-    for (std::size_t element = 0; element < part.size(); ++element) {
-      const int piece = pieces.of[element];
-      const auto [entry, isNew] = largest.try_emplace(part[element], piece);
-      if (!isNew &&
-          pieces.size[static_cast<std::size_t>(piece)] > pieces.size[static_cast<std::size_t>(entry->second)])
-        entry->second = piece;
-    }
-    if (largest.size() == pieces.size.size())
-      return;
-    std::map<int, std::map<int, int>> edges; // stray piece → neighbouring part → shared edges
-    std::vector<GlobalOrdinal> adjacent;
-    for (std::size_t element = 0; element < part.size(); ++element) {
-      const int piece = pieces.of[element];
-      if (largest[part[element]] == piece)
-        continue;
-      mesh.elementNeighbours(static_cast<GlobalOrdinal>(element), adjacent);
-      for (const GlobalOrdinal other : adjacent)
-        if (part[static_cast<std::size_t>(other)] != part[element])
-          ++edges[piece][part[static_cast<std::size_t>(other)]];
-    }
-    if (edges.empty())
-      return; // the body itself has pieces: each keeps its part's number
-    const auto& [stray, shared] = *edges.begin();
-    const auto target = std::max_element(shared.begin(), shared.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    for (std::size_t element = 0; element < part.size(); ++element)
-      if (pieces.of[element] == stray)
-        part[element] = target->first;
-  }
-}
-
 /// Numbers the parts that have elements from 0, in the old order; returns how many there are.
 int renumber(std::vector<int>& part) {
-  std::map<int, int> number;
+  std::vector<int> number(static_cast<std::size_t>(*std::max_element(part.begin(), part.end())) + 1, -1);
   for (const int p : part)
-    number.try_emplace(p, 0);
+    number[static_cast<std::size_t>(p)] = 0;
   int next = 0;
-  for (auto& [old, fresh] : number)
-    fresh = next++;
+  for (int& fresh : number)
+    if (fresh == 0)
+      fresh = next++;
   for (int& p : part)
-    p = number[p];
+    p = number[static_cast<std::size_t>(p)];
   return next;
+}
+
+/// Part k of m takes the columns floor(k n / m) … floor((k + 1) n / m) − 1 of n.
+GlobalOrdinal firstOf(GlobalOrdinal k, int n, int m) {
+  return k * n / m;
 }
 
 } // namespace
 
 GridPartition::GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> counts)
-    : elements_(mesh.elements()), counts_(counts) {}
+    : elements_(mesh.elements()), counts_(counts) {
+  const auto cut = [](int n, int m) {
+    std::vector<int> partOf(static_cast<std::size_t>(n));
+    for (int k = 0; k < m; ++k)
+      std::fill(partOf.begin() + firstOf(k, n, m), partOf.begin() + firstOf(k + 1, n, m), k);
+    return partOf;
+  };
+  columnOf_ = cut(elements_[0], counts_[0]);
+  rowOf_ = cut(elements_[1], counts_[1]);
+}
 
 int GridPartition::partOf(GlobalOrdinal element) const {
-  // Part k of m takes the elements floor(k n / m) … floor((k + 1) n / m) − 1 in each direction.
-  const auto locate = [](GlobalOrdinal i, int n, int m) { return ((i + 1) * m - 1) / n; };
-  const GlobalOrdinal column = locate(element % elements_[0], elements_[0], counts_[0]);
-  const GlobalOrdinal row = locate(element / elements_[0], elements_[1], counts_[1]);
-  return static_cast<int>(column + row * counts_[0]);
+  const GlobalOrdinal row = element / elements_[0], column = element - row * elements_[0];
+  return columnOf_[static_cast<std::size_t>(column)] + rowOf_[static_cast<std::size_t>(row)] * counts_[0];
 }
 
 std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
-  const auto first = [](GlobalOrdinal k, int n, int m) { return k * n / m; };
-  const GlobalOrdinal column = part % counts_[0], row = part / counts_[0];
-  std::vector<GlobalOrdinal> elements;
-  for (GlobalOrdinal j = first(row, elements_[1], counts_[1]); j < first(row + 1, elements_[1], counts_[1]);
-       ++j)
-    for (GlobalOrdinal i = first(column, elements_[0], counts_[0]);
-         i < first(column + 1, elements_[0], counts_[0]); ++i)
-      elements.push_back(i + j * elements_[0]);
+  const int column = part % counts_[0], row = part / counts_[0];
+  const GlobalOrdinal left = firstOf(column, elements_[0], counts_[0]),
+                      right = firstOf(column + 1, elements_[0], counts_[0]),
+                      bottom = firstOf(row, elements_[1], counts_[1]),
+                      top = firstOf(row + 1, elements_[1], counts_[1]);
+  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>((right - left) * (top - bottom)));
+  auto next = elements.begin();
+  for (GlobalOrdinal j = bottom; j < top; ++j, next += right - left)
+    std::iota(next, next + (right - left), left + j * elements_[0]);
   return elements;
 }
 

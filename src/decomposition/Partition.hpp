@@ -20,7 +20,7 @@ public:
 };
 
 /// Cuts a rectangle into counts[0] × counts[1] rectangles of as equal numbers of elements as possible. Stores
-/// nothing of global size.
+/// one number a column and one a row of elements, nothing of the mesh's size.
 class GridPartition final : public Partition {
 public:
   /// Precondition: 1 ≤ counts ≤ number of elements in each direction.
@@ -32,6 +32,7 @@ public:
 private:
   std::array<int, 2> elements_;
   std::array<int, 2> counts_;
+  std::vector<int> columnOf_, rowOf_; ///< column of parts of each column of elements; the same for rows
 };
 
 /// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the

@@ -3,27 +3,34 @@
 #include <Teuchos_Comm.hpp>
 
 #include <algorithm>
-#include <utility>
+#include <optional>
 
 namespace epafi::decomposition {
 
-Sharing::Sharing(const BodyLayout& body, std::span<const GlobalOrdinal> nodes) {
-  start_.reserve(nodes.size() + 1);
-  parts_.reserve(nodes.size() + nodes.size() / 4);
+Sharing::Sharing(const BodyLayout& body, const fem::AssembledSubdomain& piece) {
+  nodes_.reserve(piece.borderNodes.size());
+  start_.reserve(piece.borderNodes.size() + 1);
+  parts_.reserve(3 * piece.borderNodes.size());
   std::vector<GlobalOrdinal> elements;
-  std::vector<int> parts;
-  for (const GlobalOrdinal node : nodes) {
-    body.mesh->nodeElements(node, elements);
-    parts.clear();
+  for (const int place : piece.borderNodes) {
+    const auto node = static_cast<std::size_t>(place);
+    body.mesh->nodeElements(piece.nodes[node], elements);
+    const auto first = static_cast<std::ptrdiff_t>(parts_.size());
     for (const GlobalOrdinal element : elements) {
       const int part = body.partition->partOf(element);
-      if (std::find(parts.begin(), parts.end(), part) == parts.end())
-        parts.push_back(part);
+      if (std::find(parts_.begin() + first, parts_.end(), part) == parts_.end())
+        parts_.push_back(part);
     }
-    std::sort(parts.begin(), parts.end());
-    parts_.insert(parts_.end(), parts.begin(), parts.end());
+    std::sort(parts_.begin() + first, parts_.end());
+    nodes_.push_back(node);
     start_.push_back(parts_.size());
   }
+}
+
+bool Sharing::isLowest(int part, std::size_t node) const {
+  const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), node);
+  return found == nodes_.end() || *found != node ||
+         parts(static_cast<std::size_t>(found - nodes_.begin())).front() == part;
 }
 
 int bodyOf(const Layout& layout, int number) {
@@ -37,17 +44,21 @@ std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
   const auto first = [&](GlobalOrdinal rank) {
     return static_cast<int>(rank * layout.numSubdomains / comm.getSize());
   };
+  const int begin = first(comm.getRank()), end = first(comm.getRank() + 1);
   std::vector<Piece> pieces;
-  for (int number = first(comm.getRank()); number < first(comm.getRank() + 1); ++number) {
-    Piece piece;
+  pieces.reserve(static_cast<std::size_t>(end - begin));
+  std::optional<fem::SubdomainAssembler> assembler;
+  for (int number = begin; number < end; ++number) {
+    Piece& piece = pieces.emplace_back();
     piece.number = number;
     piece.body = bodyOf(layout, number);
     const auto b = static_cast<std::size_t>(piece.body);
+    if (pieces.size() == 1 || piece.body != pieces[pieces.size() - 2].body)
+      assembler.emplace(*layout.models[b]);
     const BodyLayout& body = layout.bodies[b];
     piece.part = number - body.firstSubdomain;
-    piece.assembled = fem::assemble(*layout.models[b], body.partition->elementsOf(piece.part));
-    piece.sharing = Sharing(body, piece.assembled.nodes);
-    pieces.push_back(std::move(piece));
+    assembler->assemble(body.partition->elementsOf(piece.part), piece.assembled);
+    piece.sharing = Sharing(body, piece.assembled);
   }
   return pieces;
 }

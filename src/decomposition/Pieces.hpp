@@ -13,20 +13,33 @@
 
 namespace epafi::decomposition {
 
-/// Parts of the body that share each node of a piece, ascending; the piece's own part is among them.
+/// The nodes of a piece that other parts of its body share, and these parts.
 class Sharing {
 public:
-  /// \param nodes  of one piece
-  Sharing(const BodyLayout& body, std::span<const GlobalOrdinal> nodes);
   Sharing() = default;
-  [[nodiscard]] std::size_t size() const { return start_.size() - 1; }
-  [[nodiscard]] std::span<const int> operator[](std::size_t node) const {
-    return {parts_.data() + start_[node], parts_.data() + start_[node + 1]};
+  Sharing(const BodyLayout& body, const fem::AssembledSubdomain& piece);
+
+  /// Number of shared nodes.
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  /// Place of a shared node among the nodes of the piece, ascending with k.
+  [[nodiscard]] std::size_t node(std::size_t k) const { return nodes_[k]; }
+  /// Parts at a shared node, ascending; the piece's own part is among them.
+  [[nodiscard]] std::span<const int> parts(std::size_t k) const {
+    return {parts_.data() + start_[k], parts_.data() + start_[k + 1]};
   }
+  /// Whether no lower part than `part`, the piece's own, has the node.
+  [[nodiscard]] bool isLowest(int part, std::size_t node) const;
 
 private:
-  std::vector<std::size_t> start_{0};
+  std::vector<std::size_t> nodes_, start_{0};
   std::vector<int> parts_;
+};
+
+/// An entry of B that is still named by its global row.
+struct RowEntry {
+  GlobalOrdinal row; ///< index of the multiplier
+  int unknown;
+  double coefficient;
 };
 
 /// One of this rank's subdomains.
@@ -35,6 +48,7 @@ struct Piece {
   fem::AssembledSubdomain assembled;
   Sharing sharing;
   std::vector<char> isCrosspoint; ///< for each node
+  std::vector<RowEntry> rows;     ///< B^s
 };
 
 /// The bodies' layouts and physics, and how subdomains go to ranks: rank r of P has the numbers [rN/P,
@@ -51,18 +65,11 @@ int bodyOf(const Layout& layout, int number);
 /// Assembles this rank's subdomains, in the order of their numbers. Not collective.
 std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm);
 
-/// An entry of B that is still named by its global row.
-struct RowEntry {
-  std::size_t piece; ///< index among this rank's pieces
-  GlobalOrdinal row; ///< index of the multiplier
-  int unknown;
-  double coefficient;
-};
-
-/// Rows of B that this rank's subdomains touch.
+/// Rows of B by their global indices.
 struct Rows {
-  std::vector<RowEntry> entries;
   std::vector<GlobalOrdinal> owned; ///< rows that this rank owns
+  std::vector<GlobalOrdinal>
+      touched; ///< rows in which this rank's subdomains have entries, some perhaps twice
 };
 
 } // namespace epafi::decomposition

@@ -12,8 +12,15 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace epafi::fem {
+
+/// A value that a support prescribes; position = place among the nodes asked for × components + component.
+struct PrescribedValue {
+  std::size_t position = 0;
+  double value = 0;
+};
 
 class BodyModel {
 public:
@@ -27,8 +34,20 @@ public:
   [[nodiscard]] virtual double kernelValue(GlobalOrdinal node, int component, int mode) const = 0;
   /// Prescribed value of a node's component, or nothing where it is free.
   [[nodiscard]] virtual std::optional<double> prescribed(GlobalOrdinal node, int component) const = 0;
-  /// Element stiffness and load; sizes nodesPerElement · components, node by node.
-  virtual void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const = 0;
+  /// All prescribed values at some ascending nodes, in any order, a value that two supports give perhaps
+  /// twice; `values` is overwritten.
+  virtual void prescribed(std::span<const GlobalOrdinal> nodes,
+                          std::vector<PrescribedValue>& values) const = 0;
+
+  /// Kind of each element: elements of one kind have the same stiffness, to the last bit.
+  virtual void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const = 0;
+  /// Stiffness of the elements of a kind; size nodesPerElement · components, node by node.
+  virtual void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const = 0;
+  /// Loads of elements, one column each; rows as in the stiffness.
+  virtual void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const = 0;
+
+  /// Stiffness and load of one element.
+  void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const;
 };
 
 /// −∇·(κ∇u) = f on a rectangle with Q1 elements.
@@ -44,12 +63,27 @@ public:
     return 1.0;
   }
   [[nodiscard]] std::optional<double> prescribed(GlobalOrdinal node, int component) const override;
-  void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const override;
+  void prescribed(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const override;
+  void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const override;
+  void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const override;
+  void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const override;
 
 private:
+  /// A region of the scene: its columns and rows of elements, ends excluded.
+  struct Patch {
+    std::array<GlobalOrdinal, 2> columns, rows;
+  };
+  /// A load of the scene: its share of each column and each row of elements.
+  struct Strips {
+    double value = 0;
+    std::vector<Eigen::Vector2d> alongX, alongY;
+  };
+
   const scene::Body& body_;
   const RectangleMesh& mesh_;
   Eigen::Matrix4d unitStiffness_; ///< of conductivity 1; all elements have the same shape
+  std::vector<Patch> patches_;    ///< of each region
+  std::vector<Strips> strips_;    ///< of each load
 };
 
 } // namespace epafi::fem

@@ -25,8 +25,13 @@ public:
   [[nodiscard]] virtual Point point(GlobalOrdinal node) const = 0;
   /// Nodes of an element in the order of its shape functions (counter-clockwise in 2-D).
   virtual void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const = 0;
+  /// The same for many elements, one after the other; quickest where the elements ascend.
+  virtual void elementNodes(std::span<const GlobalOrdinal> elements,
+                            std::span<GlobalOrdinal> nodes) const = 0;
   /// Elements that touch a node, appended to nothing: `elements` is overwritten.
   virtual void nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const = 0;
+  /// How many elements touch each of some ascending nodes.
+  virtual void numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const = 0;
   /// Elements that share an edge (2-D) or a face (3-D) with an element: its neighbours in the dual graph.
   virtual void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const = 0;
   [[nodiscard]] virtual bool isBoundaryNode(GlobalOrdinal node) const = 0;

@@ -16,16 +16,17 @@ Eigen::Matrix4d membraneStiffness(double hx, double hy) {
   return k;
 }
 
-Eigen::Vector4d membraneLoad(const scene::Rectangle& element, const scene::Rectangle& box) {
-  const double x0 = std::max(element.x0, box.x0), x1 = std::min(element.x1, box.x1);
-  const double y0 = std::max(element.y0, box.y0), y1 = std::min(element.y1, box.y1);
-  if (x1 <= x0 || y1 <= y0)
-    return Eigen::Vector4d::Zero();
-  // A bilinear function over a rectangle: its value at the centre times the area.
-  const double s = (0.5 * (x0 + x1) - element.x0) / (element.x1 - element.x0);
-  const double t = (0.5 * (y0 + y1) - element.y0) / (element.y1 - element.y0);
-  const double area = (x1 - x0) * (y1 - y0);
-  return area * Eigen::Vector4d((1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t);
+Eigen::Vector2d segmentLoad(double a, double b, double low, double high) {
+  const double from = std::max(a, low), to = std::min(b, high);
+  if (to <= from)
+    return Eigen::Vector2d::Zero();
+  // A linear function over a segment: its value in the middle times the length.
+  const double s = (0.5 * (from + to) - a) / (b - a);
+  return (to - from) * Eigen::Vector2d(1 - s, s);
+}
+
+Eigen::Vector4d membraneLoad(const Eigen::Vector2d& alongX, const Eigen::Vector2d& alongY) {
+  return {alongX[0] * alongY[0], alongX[1] * alongY[0], alongX[1] * alongY[1], alongX[0] * alongY[1]};
 }
 
 } // namespace epafi::fem

@@ -2,8 +2,6 @@
 
 /// The bilinear rectangle: its stiffness and load, integrated exactly.
 
-#include "epafi/scene/Scene.hpp"
-
 #include <Eigen/Core>
 
 namespace epafi::fem {
@@ -12,7 +10,11 @@ namespace epafi::fem {
 /// 4 × 4.
 Eigen::Matrix4d membraneStiffness(double hx, double hy);
 
-/// ∫N_i over the part of the element that lies in `box`, exact for any box. 4 values; 0 if they do not meet.
-Eigen::Vector4d membraneLoad(const scene::Rectangle& element, const scene::Rectangle& box);
+/// ∫N over the part of the segment [a, b] that lies in [low, high], for the two linear functions N of the
+/// segment; exact, 0 if they do not meet.
+Eigen::Vector2d segmentLoad(double a, double b, double low, double high);
+
+/// ∫N_i over the part of an element that lies in a box: the product of the segments' along x and y. 4 values.
+Eigen::Vector4d membraneLoad(const Eigen::Vector2d& alongX, const Eigen::Vector2d& alongY);
 
 } // namespace epafi::fem

@@ -1,5 +1,7 @@
 #include "epafi/fem/RectangleMesh.hpp"
 
+#include "epafi/fem/GridWalk.hpp"
+
 #include <algorithm>
 
 namespace epafi::fem {
@@ -35,6 +37,21 @@ void RectangleMesh::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal>
   nodes[3] = lowerLeft + row;
 }
 
+void RectangleMesh::elementNodes(std::span<const GlobalOrdinal> elements,
+                                 std::span<GlobalOrdinal> nodes) const {
+  const GlobalOrdinal row = elements_[0] + 1;
+  GridWalk walk(elements_[0]);
+  auto next = nodes.begin();
+  for (const GlobalOrdinal element : elements) {
+    walk.to(element);
+    const GlobalOrdinal lowerLeft = walk.column() + walk.row() * row;
+    *next++ = lowerLeft;
+    *next++ = lowerLeft + 1;
+    *next++ = lowerLeft + row + 1;
+    *next++ = lowerLeft + row;
+  }
+}
+
 void RectangleMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
   const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
@@ -43,6 +60,17 @@ void RectangleMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>&
     for (GlobalOrdinal ei = std::max<GlobalOrdinal>(i - 1, 0);
          ei <= std::min<GlobalOrdinal>(i, elements_[0] - 1); ++ei)
       elements.push_back(ei + ej * elements_[0]);
+}
+
+void RectangleMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const {
+  std::fill(numbers.begin(), numbers.end(), 4);
+  std::vector<std::size_t> places;
+  for (const scene::Edge edge :
+       {scene::Edge::left, scene::Edge::right, scene::Edge::bottom, scene::Edge::top}) {
+    placesOnEdge(edge, nodes, places);
+    for (const std::size_t place : places)
+      numbers[place] /= 2;
+  }
 }
 
 void RectangleMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
@@ -102,6 +130,28 @@ GlobalOrdinal RectangleMesh::positionOnEdge(scene::Edge edge, GlobalOrdinal node
     return j == elements_[1] ? i : -1;
   }
   return -1;
+}
+
+void RectangleMesh::placesOnEdge(scene::Edge edge, std::span<const GlobalOrdinal> nodes,
+                                 std::vector<std::size_t>& places) const {
+  places.clear();
+  if (nodes.empty())
+    return;
+  const GlobalOrdinal row = elements_[0] + 1;
+  auto place = nodes.begin();
+  if (edge == scene::Edge::bottom || edge == scene::Edge::top) { // one run of nodes
+    const GlobalOrdinal first = edgeNode(edge, 0);
+    for (place = std::lower_bound(place, nodes.end(), first); place != nodes.end() && *place < first + row;
+         ++place)
+      places.push_back(static_cast<std::size_t>(place - nodes.begin()));
+    return;
+  }
+  for (GlobalOrdinal j = nodes.front() / row; j <= nodes.back() / row; ++j) { // one node a row
+    const GlobalOrdinal wanted = edgeNode(edge, j);
+    place = std::lower_bound(place, nodes.end(), wanted);
+    if (place != nodes.end() && *place == wanted)
+      places.push_back(static_cast<std::size_t>(place - nodes.begin()));
+  }
 }
 
 } // namespace epafi::fem

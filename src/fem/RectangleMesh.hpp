@@ -19,7 +19,9 @@ public:
   [[nodiscard]] int nodesPerElement() const override { return 4; }
   [[nodiscard]] Point point(GlobalOrdinal node) const override;
   void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const override;
+  void elementNodes(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> nodes) const override;
   void nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const override;
+  void numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const override;
   void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const override;
   [[nodiscard]] bool isBoundaryNode(GlobalOrdinal node) const override;
 
@@ -33,6 +35,10 @@ public:
   [[nodiscard]] GlobalOrdinal edgeNode(scene::Edge edge, GlobalOrdinal k) const;
   /// Position of a node on an edge, or −1 if it does not lie on it.
   [[nodiscard]] GlobalOrdinal positionOnEdge(scene::Edge edge, GlobalOrdinal node) const;
+  /// Places in `nodes`, which ascend, of those that lie on an edge; `places` is overwritten. Costs a search a
+  /// row of the mesh, not a step a node.
+  void placesOnEdge(scene::Edge edge, std::span<const GlobalOrdinal> nodes,
+                    std::vector<std::size_t>& places) const;
 
 private:
   scene::Rectangle rectangle_;

@@ -1,140 +1,164 @@
 #include "epafi/fem/SubdomainAssembly.hpp"
 
-#include <algorithm>
+#include <optional>
 
 namespace epafi::fem {
 namespace {
 
-std::vector<GlobalOrdinal> nodesOf(const Mesh& mesh, std::span<const GlobalOrdinal> elements) {
-  const auto perElement = static_cast<std::size_t>(mesh.nodesPerElement());
-  std::vector<GlobalOrdinal> nodes(elements.size() * perElement);
-  for (std::size_t e = 0; e < elements.size(); ++e)
-    mesh.elementNodes(elements[e], std::span(nodes).subspan(e * perElement, perElement));
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
-/// Tells free positions from supported ones.
-void number(const BodyModel& model, AssembledSubdomain& subdomain) {
-  const int components = model.components();
-  const std::size_t numPositions = subdomain.nodes.size() * static_cast<std::size_t>(components);
-  subdomain.unknownOf.assign(numPositions, -1);
-  subdomain.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
-  for (std::size_t i = 0; i < subdomain.nodes.size(); ++i)
-    for (int c = 0; c < components; ++c) {
-      const std::size_t position = i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c);
-      if (const auto value = model.prescribed(subdomain.nodes[i], c)) {
-        subdomain.prescribed[static_cast<Eigen::Index>(position)] = *value;
-      } else {
-        subdomain.unknownOf[position] = static_cast<int>(subdomain.unknownPosition.size());
-        subdomain.unknownPosition.push_back(static_cast<int>(position));
-      }
-    }
-}
+/// A grid has four shapes of subdomains, if it does not divide the mesh evenly, and each of them nine ways to
+/// lie on the body's edges.
+constexpr std::size_t maxNumberings = 8, maxPatterns = 40;
+/// Elements of all that is kept: some 10 MB for quadrilaterals with one component.
+constexpr std::size_t maxElements = 1U << 16U;
 
 void fillKernel(const BodyModel& model, AssembledSubdomain& subdomain) {
   const int components = model.components(), modes = model.kernelDimension();
   subdomain.kernel.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()), modes);
-  for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
-    for (int mode = 0; mode < modes; ++mode) {
+  for (int mode = 0; mode < modes; ++mode)
+    for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
       const int position = subdomain.unknownPosition[i];
       subdomain.kernel(static_cast<Eigen::Index>(i), mode) = model.kernelValue(
           subdomain.nodes[static_cast<std::size_t>(position / components)], position % components, mode);
     }
 }
 
-/// One element's share of a subdomain: its matrix and load go to the free unknowns, what the supports hold
-/// goes to the right-hand side and to the energy.
-class ElementScatter {
-public:
-  ElementScatter(const BodyModel& model, std::size_t numElements, AssembledSubdomain& subdomain)
-      : model_(model), subdomain_(subdomain), components_(static_cast<std::size_t>(model.components())),
-        nodes_(static_cast<std::size_t>(model.mesh().nodesPerElement())),
-        positions_(nodes_.size() * components_) {
-    triplets_.reserve(numElements * positions_.size() * positions_.size());
-  }
-
-  void add(GlobalOrdinal element) {
-    model_.mesh().elementNodes(element, nodes_);
-    locate();
-    model_.element(element, stiffness_, load_);
-    for (std::size_t j = 0; j < positions_.size(); ++j) {
-      const int unknown = subdomain_.unknownOf[positions_[j]];
-      if (unknown >= 0)
-        addFree(static_cast<Eigen::Index>(j), unknown);
-      else
-        addHeld(static_cast<Eigen::Index>(j));
-    }
-  }
-
-  void finish() {
-    const auto n = static_cast<Eigen::Index>(subdomain_.unknownPosition.size());
-    subdomain_.stiffness.resize(n, n);
-    // Both triangles add up their duplicates in the order of the elements: symmetric to the last digit.
-    subdomain_.stiffness.setFromTriplets(triplets_.begin(), triplets_.end());
-  }
-
-private:
-  void locate() {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const auto found = std::lower_bound(subdomain_.nodes.begin(), subdomain_.nodes.end(), nodes_[i]);
-      const auto node = static_cast<std::size_t>(found - subdomain_.nodes.begin());
-      for (std::size_t c = 0; c < components_; ++c)
-        positions_[i * components_ + c] = node * components_ + c;
-    }
-  }
-
-  void addFree(Eigen::Index column, int unknown) {
-    subdomain_.load[unknown] += load_[column];
-    for (std::size_t i = 0; i < positions_.size(); ++i) {
-      const int other = subdomain_.unknownOf[positions_[i]];
-      if (other >= 0)
-        triplets_.emplace_back(other, unknown, stiffness_(static_cast<Eigen::Index>(i), column));
-    }
-  }
-
-  void addHeld(Eigen::Index column) {
-    const double held = heldValue(static_cast<std::size_t>(column));
-    if (held == 0)
-      return;
-    subdomain_.energyOffset -= load_[column] * held; // −f_dᵀu_d
-    for (std::size_t i = 0; i < positions_.size(); ++i) {
-      const double entry = stiffness_(static_cast<Eigen::Index>(i), column) * held;
-      const int other = subdomain_.unknownOf[positions_[i]];
-      if (other >= 0)
-        subdomain_.load[other] -= entry; // f_f − K_fd u_d
-      else
-        subdomain_.energyOffset += 0.5 * entry * heldValue(i); // ½ u_dᵀ K_dd u_d
-    }
-  }
-
-  [[nodiscard]] double heldValue(std::size_t position) const {
-    return subdomain_.prescribed[static_cast<Eigen::Index>(positions_[position])];
-  }
-
-  const BodyModel& model_;
-  AssembledSubdomain& subdomain_;
-  std::size_t components_;
-  std::vector<GlobalOrdinal> nodes_;   ///< of the element at hand
-  std::vector<std::size_t> positions_; ///< of its values in the subdomain
-  Eigen::MatrixXd stiffness_;
-  Eigen::VectorXd load_;
-  std::vector<Eigen::Triplet<double>> triplets_;
-};
-
 } // namespace
+
+SubdomainAssembler::SubdomainAssembler(const BodyModel& model)
+    : model_(model), components_(static_cast<std::size_t>(model.components())),
+      numberings_(maxNumberings, maxElements), patterns_(maxPatterns, maxElements) {}
+
+void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, AssembledSubdomain& subdomain) {
+  const std::shared_ptr<const LocalNumbering> numbering = number(elements, subdomain);
+  findBorder(*numbering, subdomain);
+  hold(subdomain);
+  std::shared_ptr<const StiffnessPattern> pattern = patterns_.find(
+      [&](const StiffnessPattern& known) { return known.fits(*numbering, subdomain.unknownOf); });
+  if (!pattern)
+    pattern =
+        patterns_.add(StiffnessPattern(numbering, model_.components(), subdomain.unknownOf), elements.size());
+
+  kinds_.resize(elements.size());
+  model_.kinds(elements, kinds_);
+  model_.loads(elements, loads_);
+  addStiffness(*pattern, subdomain);
+  addLoads(*numbering, subdomain);
+  eliminate(*numbering, *pattern, subdomain);
+  fillKernel(model_, subdomain);
+}
+
+/// Finds the nodes.
+std::shared_ptr<const LocalNumbering> SubdomainAssembler::number(std::span<const GlobalOrdinal> elements,
+                                                                 AssembledSubdomain& subdomain) {
+  const int perElement = model_.mesh().nodesPerElement();
+  corners_.resize(elements.size() * static_cast<std::size_t>(perElement));
+  model_.mesh().elementNodes(elements, corners_);
+  std::optional<GlobalOrdinal> firstNode;
+  std::shared_ptr<const LocalNumbering> numbering = numberings_.find([&](const LocalNumbering& known) {
+    firstNode = known.firstNodeIfShifted(corners_);
+    return firstNode.has_value();
+  });
+  if (!numbering) {
+    numbering = numberings_.add(LocalNumbering(corners_, perElement), elements.size());
+    firstNode = numbering->firstNodeIfShifted(corners_);
+  }
+  subdomain.nodes = numbering->nodes(firstNode.value_or(0));
+  return numbering;
+}
+
+void SubdomainAssembler::findBorder(const LocalNumbering& numbering, AssembledSubdomain& subdomain) {
+  numElementsAt_.resize(subdomain.nodes.size());
+  model_.mesh().numNodeElements(subdomain.nodes, numElementsAt_);
+  subdomain.borderNodes.clear();
+  for (std::size_t i = 0; i < numElementsAt_.size(); ++i)
+    if (numElementsAt_[i] > numbering.numElementsAt()[i])
+      subdomain.borderNodes.push_back(static_cast<int>(i));
+}
+
+/// Tells free positions from supported ones.
+void SubdomainAssembler::hold(AssembledSubdomain& subdomain) {
+  const std::size_t numPositions = subdomain.nodes.size() * components_;
+  subdomain.unknownOf.assign(numPositions, 0);
+  subdomain.prescribed.setZero(static_cast<Eigen::Index>(numPositions));
+  model_.prescribed(subdomain.nodes, prescribed_);
+  for (const auto& [position, value] : prescribed_) {
+    subdomain.unknownOf[position] = -1;
+    subdomain.prescribed[static_cast<Eigen::Index>(position)] = value;
+  }
+  subdomain.unknownPosition.clear();
+  subdomain.unknownPosition.reserve(numPositions);
+  for (std::size_t position = 0; position < numPositions; ++position)
+    if (subdomain.unknownOf[position] == 0) {
+      subdomain.unknownOf[position] = static_cast<int>(subdomain.unknownPosition.size());
+      subdomain.unknownPosition.push_back(static_cast<int>(position));
+    }
+}
+
+const Eigen::MatrixXd& SubdomainAssembler::stiffnessOf(GlobalOrdinal kind) {
+  if (kind != kindAtHand_)
+    model_.stiffness(kind, stiffness_);
+  kindAtHand_ = kind;
+  return stiffness_;
+}
+
+/// Both triangles add up in the order of the elements: symmetric to the last digit.
+void SubdomainAssembler::addStiffness(const StiffnessPattern& pattern, AssembledSubdomain& subdomain) {
+  pattern.shape(subdomain.stiffness);
+  double* values = subdomain.stiffness.valuePtr();
+  for (std::size_t e = 0; e < kinds_.size(); ++e) {
+    const double* entry = stiffnessOf(kinds_[e]).data();
+    for (const int place : pattern.places(e)) {
+      if (place >= 0)
+        values[place] += *entry;
+      ++entry;
+    }
+  }
+}
+
+void SubdomainAssembler::addLoads(const LocalNumbering& numbering, AssembledSubdomain& subdomain) {
+  subdomain.load.setZero(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
+  const double* load = loads_.data();
+  for (const int node : numbering.corners())
+    for (std::size_t c = 0; c < components_; ++c, ++load) {
+      const int unknown = subdomain.unknownOf[static_cast<std::size_t>(node) * components_ + c];
+      if (unknown >= 0)
+        subdomain.load[unknown] += *load;
+    }
+}
+
+/// What the supports hold goes to the right-hand side and to the energy.
+void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const StiffnessPattern& pattern,
+                                   AssembledSubdomain& subdomain) {
+  subdomain.energyOffset = 0;
+  for (const std::size_t e : pattern.supportedElements()) {
+    const std::span<const int> nodes = numbering.elementNodes(e);
+    const auto positionOf = [&](Eigen::Index value) {
+      const auto v = static_cast<std::size_t>(value);
+      return static_cast<std::size_t>(nodes[v / components_]) * components_ + v % components_;
+    };
+    const auto heldAt = [&](std::size_t position) {
+      return subdomain.prescribed[static_cast<Eigen::Index>(position)];
+    };
+    const Eigen::MatrixXd& k = stiffnessOf(kinds_[e]);
+    for (Eigen::Index j = 0; j < k.cols(); ++j) {
+      const double held = heldAt(positionOf(j)); // 0 at the free positions
+      if (held == 0)
+        continue;
+      subdomain.energyOffset -= loads_(j, static_cast<Eigen::Index>(e)) * held; // −f_dᵀu_d
+      for (Eigen::Index i = 0; i < k.rows(); ++i) {
+        const std::size_t other = positionOf(i);
+        if (subdomain.unknownOf[other] >= 0)
+          subdomain.load[subdomain.unknownOf[other]] -= k(i, j) * held; // f_f − K_fd u_d
+        else
+          subdomain.energyOffset += 0.5 * k(i, j) * held * heldAt(other); // ½ u_dᵀ K_dd u_d
+      }
+    }
+  }
+}
 
 AssembledSubdomain assemble(const BodyModel& model, std::span<const GlobalOrdinal> elements) {
   AssembledSubdomain subdomain;
-  subdomain.nodes = nodesOf(model.mesh(), elements);
-  number(model, subdomain);
-  fillKernel(model, subdomain);
-  subdomain.load = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
-  ElementScatter scatter(model, elements.size(), subdomain);
-  for (const GlobalOrdinal element : elements)
-    scatter.add(element);
-  scatter.finish();
+  SubdomainAssembler(model).assemble(elements, subdomain);
   return subdomain;
 }
 

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/ConnectedParts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,63 @@ TEST(PartitionTest, GraphPartsAreTheSameOnEveryRank) {
     const double part = partition.partOf(element);
     EXPECT_EQ(maxOverRanks(*world(), part), minOverRanks(*world(), part));
   }
+}
+
+/// Number of parts that have elements; each of them connected.
+int expectConnected(const fem::Mesh& mesh, const std::vector<int>& part) {
+  std::set<int> begun;
+  std::vector<char> seen(part.size(), 0);
+  std::vector<GlobalOrdinal> neighbours;
+  for (std::size_t seed = 0; seed < part.size(); ++seed) {
+    if (seen[seed] != 0)
+      continue;
+    EXPECT_TRUE(begun.insert(part[seed]).second) << "part " << part[seed] << " is not connected";
+    std::vector<GlobalOrdinal> stack{static_cast<GlobalOrdinal>(seed)};
+    seen[seed] = 1;
+    while (!stack.empty()) {
+      mesh.elementNeighbours(stack.back(), neighbours);
+      stack.pop_back();
+      for (const GlobalOrdinal other : neighbours)
+        if (part[static_cast<std::size_t>(other)] == part[seed] &&
+            seen[static_cast<std::size_t>(other)]++ == 0)
+          stack.push_back(other);
+    }
+  }
+  return static_cast<int>(begun.size());
+}
+
+TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
+  const fem::RectangleMesh mesh({0, 1, 0, 1}, {12, 11});
+  const auto size = static_cast<std::size_t>(mesh.numElements());
+  std::vector<int> checkerboard(size), stripes(size), scattered(size);
+  for (std::size_t e = 0; e < size; ++e) {
+    checkerboard[e] = static_cast<int>((e % 12 + e / 12) % 2);
+    stripes[e] = static_cast<int>(e / 12 % 2);
+    scattered[e] = static_cast<int>(e * 7919 % 13 * (e % 5) % 6);
+  }
+  for (std::vector<int>* part : {&checkerboard, &stripes, &scattered}) {
+    makeConnected(mesh, *part);
+    EXPECT_GE(expectConnected(mesh, *part), 1);
+  }
+  // A stray element goes where most of its edges are.
+  std::vector<int> halves(size, 0);
+  for (std::size_t e = 0; e < size; ++e)
+    halves[e] = e % 12 < 6 ? 0 : 1;
+  std::vector<int> withStray = halves;
+  withStray[12 * 5 + 2] = 1;
+  makeConnected(mesh, withStray);
+  EXPECT_EQ(withStray, halves);
+}
+
+TEST(PartitionTest, BodiesThatAreMeshedAndCutAlikeShareTheirPartition) {
+  scene::Scene scene = twoMembranes(true, 9, metis(7));
+  const auto alike = decompose(scene, world());
+  EXPECT_EQ(alike.bodies[0].partition, alike.bodies[1].partition);
+  scene.bodies[1].decomposition = metis(6);
+  const auto different = decompose(scene, world());
+  EXPECT_NE(different.bodies[0].partition, different.bodies[1].partition);
+  scene.bodies[1].decomposition = grid(3, 3);
+  EXPECT_EQ(decompose(scene, world()).bodies[1].partition->numParts(), 9);
 }
 
 TEST(PartitionTest, ImpossibleCountsAreRefused) {

@@ -39,6 +39,42 @@ TEST(RectangleMeshTest, NodesKnowExactlyTheElementsThatKnowThem) {
   }
 }
 
+TEST(RectangleMeshTest, ManyAtOnceAreTheSameAsOneByOne) {
+  const std::vector<GlobalOrdinal> elements{1, 2, 3, 5, 0, 4}; // runs, a gap, a step back
+  std::vector<GlobalOrdinal> all(4 * elements.size());
+  mesh.elementNodes(elements, all);
+  std::array<GlobalOrdinal, 4> nodes{};
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    mesh.elementNodes(elements[e], nodes);
+    EXPECT_TRUE(std::equal(nodes.begin(), nodes.end(), all.begin() + static_cast<std::ptrdiff_t>(4 * e)))
+        << e;
+  }
+
+  for (const std::array<int, 2> size : {std::array{3, 2}, {1, 1}, {1, 4}, {5, 1}}) {
+    const RectangleMesh other({0, 1, 0, 1}, size);
+    std::vector<GlobalOrdinal> touching;
+    std::vector<GlobalOrdinal> some; // two of three nodes
+    for (GlobalOrdinal node = 0; node < other.numNodes(); ++node)
+      if (node % 3 != 1)
+        some.push_back(node);
+    std::vector<int> numbers(some.size());
+    other.numNodeElements(some, numbers);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      other.nodeElements(some[i], touching);
+      EXPECT_EQ(numbers[i], static_cast<int>(touching.size())) << some[i];
+    }
+    std::vector<std::size_t> places;
+    for (const Edge edge : {Edge::left, Edge::right, Edge::bottom, Edge::top}) {
+      other.placesOnEdge(edge, some, places);
+      std::vector<std::size_t> expected;
+      for (std::size_t i = 0; i < some.size(); ++i)
+        if (other.positionOnEdge(edge, some[i]) >= 0)
+          expected.push_back(i);
+      EXPECT_EQ(places, expected);
+    }
+  }
+}
+
 TEST(RectangleMeshTest, NeighboursShareTwoNodes) {
   std::vector<GlobalOrdinal> neighbours;
   std::array<GlobalOrdinal, 4> a{}, b{};
