@@ -11,22 +11,38 @@ extern "C" void dspmv_(const char* uplo, const int* n, const double* alpha, cons
 namespace epafi::direct {
 namespace {
 
-/// y = A x or Y = A X of a full matrix, by whichever of BLAS' routines fits the number of columns.
+/// From here on a single product is faster with half the matrix (measured with OpenBLAS on one core, the matrix not in
+/// the cache: docs/performance.md).
+constexpr int packedPays = 96;
+
+/// Y = A X of a full matrix.
 template <class Scalar>
-void multiply(int size, int numColumns, const Scalar* a, const Scalar* x, Scalar* y) {
+void multiply(SymmetricBlock::Use use, int size, int numColumns, const Scalar* a, const Scalar* x,
+              Scalar* y) {
   const Teuchos::BLAS<int, Scalar> blas;
   constexpr Scalar one = 1, zero = 0;
-  if (numColumns == 1)
-    blas.GEMV(Teuchos::NO_TRANS, size, size, one, a, size, x, 1, zero, y, 1);
-  else
-    blas.GEMM(Teuchos::NO_TRANS, Teuchos::NO_TRANS, size, numColumns, size, one, a, size, x, size, zero, y,
-              size);
+  if (use == SymmetricBlock::Use::alone) {
+    for (std::ptrdiff_t column = 0; column < numColumns; ++column)
+      blas.GEMV(Teuchos::NO_TRANS, size, size, one, a, size, x + column * size, 1, zero, y + column * size,
+                1);
+    return;
+  }
+  // OpenBLAS cuts the sums of large matrices in pieces that depend on the number of columns, from 16 on.
+  const int width = size <= 128 ? numColumns : 8;
+  for (int first = 0; first < numColumns; first += width) {
+    const auto offset = static_cast<std::ptrdiff_t>(first) * size;
+    blas.GEMM(Teuchos::NO_TRANS, Teuchos::NO_TRANS, size, std::min(width, numColumns - first), size, one, a,
+              size, x + offset, size, zero, y + offset, size);
+  }
 }
 
 } // namespace
 
-SymmetricBlock::SymmetricBlock(const Eigen::MatrixXd& matrix, Storage storage)
-    : size_(static_cast<int>(matrix.rows())), storage_(storage) {
+SymmetricBlock::SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision precision)
+    : size_(static_cast<int>(matrix.rows())), use_(use),
+      storage_(precision == Precision::single             ? Storage::single
+               : use == Use::alone && size_ >= packedPays ? Storage::packed
+                                                          : Storage::full) {
   const auto numEntries = static_cast<std::size_t>(matrix.size());
   if (storage_ == Storage::full) {
     values_.assign(matrix.data(), matrix.data() + numEntries);
@@ -37,8 +53,7 @@ SymmetricBlock::SymmetricBlock(const Eigen::MatrixXd& matrix, Storage storage)
   } else {
     values_.reserve((numEntries + static_cast<std::size_t>(size_)) / 2);
     for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-      for (Eigen::Index row = column; row < matrix.rows(); ++row)
-        values_.push_back(matrix(row, column));
+      values_.insert(values_.end(), &matrix(column, column), matrix.data() + (column + 1) * matrix.rows());
   }
 }
 
@@ -47,14 +62,14 @@ void SymmetricBlock::apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const {
   if (size_ == 0 || numColumns == 0)
     return;
   if (storage_ == Storage::full) {
-    multiply(size_, numColumns, values_.data(), x.data(), y.data());
+    multiply(use_, size_, numColumns, values_.data(), x.data(), y.data());
   } else if (storage_ == Storage::single) {
     const auto numEntries = static_cast<std::size_t>(x.size());
     singleX_.resize(std::max(singleX_.size(), numEntries));
     singleY_.resize(singleX_.size());
     std::transform(x.data(), x.data() + numEntries, singleX_.begin(),
                    [](double value) { return static_cast<float>(value); });
-    multiply(size_, numColumns, singleValues_.data(), singleX_.data(), singleY_.data());
+    multiply(use_, size_, numColumns, singleValues_.data(), singleX_.data(), singleY_.data());
     std::copy_n(singleY_.begin(), numEntries, y.data());
   } else {
     constexpr double one = 1, zero = 0;
@@ -63,12 +78,6 @@ void SymmetricBlock::apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const {
       dspmv_("L", &size_, &one, values_.data(), x.col(column).data(), &step, &zero, y.col(column).data(),
              &step);
   }
-}
-
-SymmetricBlock::Storage fasterStorage(int size, int numColumns) {
-  constexpr int packedPays = 96; // from here on half the traffic outweighs the slower loop
-  return numColumns == 1 && size >= packedPays ? SymmetricBlock::Storage::packed
-                                               : SymmetricBlock::Storage::full;
 }
 
 } // namespace epafi::direct

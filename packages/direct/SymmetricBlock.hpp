@@ -12,18 +12,16 @@ namespace epafi::direct {
 
 class SymmetricBlock {
 public:
-  enum class Storage {
-    full, ///< k × k: one product reads k² numbers, many at once run at the speed of matrix–matrix products
-    packed, ///< k(k + 1)/2 numbers, half the memory and half the traffic of a single product
-    single  ///< k × k in single precision: for preconditioners alone
-  };
+  /// Whether products are with one vector at a time, or with several. The columns of a product do not depend on how
+  /// many there are.
+  enum class Use { alone, shared };
+  enum class Precision { full, single }; ///< single is for preconditioners alone
 
   SymmetricBlock() = default;
-  /// \param matrix  k × k, both triangles
-  SymmetricBlock(const Eigen::MatrixXd& matrix, Storage storage);
+  /// \param matrix  k × k, both triangles. Stored are k(k + 1)/2 numbers for a large matrix used alone, else k².
+  SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision precision = Precision::full);
 
   [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] Storage storage() const { return storage_; }
   /// Y = A X; both k × m, m ≥ 0, column-major without gaps. Not collective. Y may not overlap X.
   void apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const;
   /// Bytes that one product reads of the matrix; also what it takes in memory.
@@ -32,15 +30,13 @@ public:
   }
 
 private:
+  enum class Storage { full, packed, single };
   int size_ = 0;
+  Use use_ = Use::alone;
   Storage storage_ = Storage::full;
   std::vector<double> values_;
   std::vector<float> singleValues_;
   mutable std::vector<float> singleX_, singleY_; ///< work
 };
-
-/// The faster storage for products with `numColumns` vectors at once (measured with OpenBLAS on one core, the matrix not
-/// in the cache: see docs/performance.md).
-SymmetricBlock::Storage fasterStorage(int size, int numColumns);
 
 } // namespace epafi::direct

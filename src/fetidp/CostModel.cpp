@@ -18,7 +18,7 @@ DualCosts expectedCosts(const SubdomainGroup& group) {
   const auto members = static_cast<double>(group.members().size());
   const auto size = static_cast<double>(group.condensed().numBoundary());
   const auto entries = static_cast<double>(group.condensed().factor().numEntries());
-  const bool isAlone = group.members().size() == 1;
+  const bool isAlone = group.use() == direct::SymmetricBlock::Use::alone;
   DualCosts costs;
   costs.implicitProduct = callSeconds + 2 * members * entries / (isAlone ? solveRate : batchRate);
   costs.explicitProduct =

@@ -44,7 +44,7 @@ DualPreconditioner::DualPreconditioner(const decomposition::DecomposedProblem& p
 
 void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& problem,
                                     PreconditionerParameters::Type type, bool isSingle) {
-  using Storage = direct::SymmetricBlock::Storage;
+  using Precision = direct::SymmetricBlock::Precision;
   const auto groups = std::as_const(*inverse_).groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const CondensedSubdomain& condensed = groups[g].condensed();
@@ -53,10 +53,8 @@ void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& prob
             ? boundaryBlock(problem.subdomains[groups[g].members().front()], condensed)
             : condensed.factor().schurComplement();
     const auto numMembers = static_cast<Eigen::Index>(groups[g].members().size());
-    const auto storage =
-        isSingle ? Storage::single
-                 : direct::fasterStorage(static_cast<int>(matrix.rows()), static_cast<int>(numMembers));
-    blocks_.push_back({g, direct::SymmetricBlock(matrix, storage), {}, {}, {}});
+    const auto precision = isSingle ? Precision::single : Precision::full;
+    blocks_.push_back({g, direct::SymmetricBlock(matrix, groups[g].use(), precision), {}, {}, {}});
     blocks_.back().input.resize(matrix.rows(), numMembers);
     blocks_.back().output.resizeLike(blocks_.back().input);
   }

@@ -12,10 +12,12 @@ namespace epafi::fetidp {
 
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
                                        const DirectSolvers& solvers) {
+  auto groups = groupIdentical(problem, solvers.shareIdentical);
   collectively(*problem.comm, [&] {
     direct::Factorizer factorizer(solvers.subdomains);
-    for (auto& members : groupIdentical(problem.subdomains, solvers.shareIdentical))
-      groups_.emplace_back(problem.subdomains, std::move(members), factorizer);
+    groups_.reserve(groups.size());
+    for (IdenticalSubdomains& group : groups)
+      groups_.emplace_back(problem.subdomains, std::move(group), factorizer);
   });
   coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, solvers.coarse);
   coarse_.resize(coarseProblem_->size());

@@ -12,8 +12,9 @@ constexpr Eigen::Index batch = 32;
 } // namespace
 
 SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains,
-                               std::vector<std::size_t> members, direct::Factorizer& factorizer)
-    : subdomains_(&subdomains), members_(std::move(members)),
+                               IdenticalSubdomains identical, direct::Factorizer& factorizer)
+    : subdomains_(&subdomains), members_(std::move(identical.members)),
+      use_(identical.isShared ? direct::SymmetricBlock::Use::shared : direct::SymmetricBlock::Use::alone),
       condensed_(subdomains[members_.front()], interfaceOf(subdomains[members_.front()]), factorizer),
       firstEntry_{0} {
   const std::vector<int>& positionOf = condensed_.interface().positionOf;
@@ -31,9 +32,7 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
 void SubdomainGroup::makeExplicit() {
   if (isExplicit_)
     return;
-  const auto storage =
-      direct::fasterStorage(static_cast<int>(condensed_.numBoundary()), static_cast<int>(numMembers()));
-  flexibility_ = direct::SymmetricBlock(condensed_.factor().inverseOfKept(), storage);
+  flexibility_ = direct::SymmetricBlock(condensed_.factor().inverseOfKept(), use_);
   isExplicit_ = true;
 }
 
@@ -50,7 +49,9 @@ void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<
       else
         coarseLocal_(touched[static_cast<std::size_t>(entry.position - numBoundary)], member) += value;
     }
-  coarseLocal_.noalias() -= condensed_.boundaryResponse().transpose() * boundary_; // Wᵀ λ
+  for (Eigen::Index member = 0; member < numMembers(); ++member) // column by column: see SymmetricBlock::Use
+    coarseLocal_.col(member).noalias() -=
+        condensed_.boundaryResponse().transpose() * boundary_.col(member); // Wᵀ λ
   addToCoarse(coarse);
   if (isExplicit_)
     flexibility_.apply(boundary_, response_);
@@ -82,7 +83,8 @@ void SubdomainGroup::solveForBoundary() {
 
 void SubdomainGroup::applyCoupling(const Eigen::VectorXd& coarse, std::span<double> result) {
   takeFromCoarse(coarse);
-  response_.noalias() -= condensed_.boundaryResponse() * coarseLocal_;
+  for (Eigen::Index member = 0; member < numMembers(); ++member)
+    response_.col(member).noalias() -= condensed_.boundaryResponse() * coarseLocal_.col(member);
   const int numBoundary = static_cast<int>(condensed_.numBoundary());
   const std::vector<int>& touched = condensed_.interface().crosspoints;
   for (Eigen::Index member = 0; member < numMembers(); ++member)
@@ -122,8 +124,8 @@ void SubdomainGroup::eliminate(const std::vector<Eigen::VectorXd>& b, std::span<
       const Eigen::VectorXd& forces = b[members_[static_cast<std::size_t>(first + j)]];
       rhs_.col(j) = forces(like.remainderUnknowns);
       coarseLocal_.col(first + j) = forces(like.crosspointUnknowns);
+      coarseLocal_.col(first + j).noalias() -= condensed_.crosspointResponse().transpose() * rhs_.col(j);
     }
-    coarseLocal_.middleCols(first, columns).noalias() -= condensed_.crosspointResponse().transpose() * rhs_;
   }
   addToCoarse(coarse);
 }

@@ -24,13 +24,15 @@ struct InterfaceEntry {
 /// m members; n_r, n_Δ, n_c as in CondensedSubdomain. Nothing here is collective.
 class SubdomainGroup {
 public:
-  /// \param members  indices of identical subdomains
+  /// \param identical  see groupIdentical; at least one
   /// Keeps a reference to `subdomains`, which must outlive it. \throws Error if the factorisation fails.
-  SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains, std::vector<std::size_t> members,
+  SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains, IdenticalSubdomains identical,
                  direct::Factorizer& factorizer);
 
   [[nodiscard]] const CondensedSubdomain& condensed() const { return condensed_; }
   [[nodiscard]] std::span<const std::size_t> members() const { return members_; }
+  /// How dense blocks of the group are used: the same on any number of ranks, and with it the last digit of products.
+  [[nodiscard]] direct::SymmetricBlock::Use use() const { return use_; }
   /// Global coarse index of each crosspoint value of a member.
   [[nodiscard]] std::span<const GlobalOrdinal> crosspointIndices(std::size_t member) const {
     return (*subdomains_)[members_[member]].crosspointIndices;
@@ -79,6 +81,7 @@ private:
 
   const std::vector<decomposition::Subdomain>* subdomains_;
   std::vector<std::size_t> members_;
+  direct::SymmetricBlock::Use use_;
   CondensedSubdomain condensed_;
   std::vector<InterfaceEntry> entries_;
   std::vector<std::size_t> firstEntry_; ///< of each member, and the end

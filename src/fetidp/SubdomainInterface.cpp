@@ -1,5 +1,7 @@
 #include "epafi/fetidp/SubdomainInterface.hpp"
 
+#include "epafi/base/Collective.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -77,33 +79,41 @@ SubdomainInterface interfaceOf(const Subdomain& subdomain) {
   return interface;
 }
 
-std::vector<std::vector<std::size_t>> groupIdentical(const std::vector<Subdomain>& subdomains, bool share) {
-  std::vector<std::vector<std::size_t>> groups;
+std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedProblem& problem, bool share) {
+  const std::vector<Subdomain>& subdomains = problem.subdomains;
+  std::vector<IdenticalSubdomains> groups;
+  if (!share) {
+    for (std::size_t s = 0; s < subdomains.size(); ++s)
+      groups.push_back({{s}, false});
+    return groups;
+  }
   std::vector<std::vector<int>> touchedOf; // of each group
+  std::vector<double> hashOf;              // likewise, as a number that messages take
   std::unordered_multimap<std::uint64_t, std::size_t> candidates;
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    std::vector<int> touched;
-    std::uint64_t hash = 0;
-    bool isNew = true;
-    if (share) {
-      touched = touchedUnknowns(subdomains[s]);
-      hash = fingerprint(subdomains[s], touched);
-      const auto [first, last] = candidates.equal_range(hash);
-      for (auto candidate = first; candidate != last && isNew; ++candidate) {
-        const Subdomain& other = subdomains[groups[candidate->second].front()];
-        if (other.crosspointUnknowns == subdomains[s].crosspointUnknowns &&
-            other.remainderUnknowns == subdomains[s].remainderUnknowns &&
-            touchedOf[candidate->second] == touched && areEqual(other.stiffness, subdomains[s].stiffness)) {
-          groups[candidate->second].push_back(s);
-          isNew = false;
-        }
-      }
+    std::vector<int> touched = touchedUnknowns(subdomains[s]);
+    const std::uint64_t hash = fingerprint(subdomains[s], touched);
+    const auto [first, last] = candidates.equal_range(hash);
+    const auto same = std::find_if(first, last, [&](const auto& candidate) {
+      const Subdomain& other = subdomains[groups[candidate.second].members.front()];
+      return other.crosspointUnknowns == subdomains[s].crosspointUnknowns &&
+             other.remainderUnknowns == subdomains[s].remainderUnknowns &&
+             touchedOf[candidate.second] == touched && areEqual(other.stiffness, subdomains[s].stiffness);
+    });
+    if (same != last) {
+      groups[same->second].members.push_back(s);
+      continue;
     }
-    if (isNew) {
-      candidates.emplace(hash, groups.size());
-      groups.push_back({s});
-      touchedOf.push_back(std::move(touched));
-    }
+    candidates.emplace(hash, groups.size());
+    groups.push_back({{s}, false});
+    touchedOf.push_back(std::move(touched));
+    hashOf.push_back(static_cast<double>(hash >> 12U)); // 52 bits
+  }
+  std::vector<double> all = gatherOnAll(*problem.comm, hashOf);
+  std::sort(all.begin(), all.end());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto [first, last] = std::equal_range(all.begin(), all.end(), hashOf[g]);
+    groups[g].isShared = groups[g].members.size() > 1 || last - first > 1;
   }
   return groups;
 }

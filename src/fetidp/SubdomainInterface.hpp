@@ -20,11 +20,16 @@ struct SubdomainInterface {
 
 SubdomainInterface interfaceOf(const decomposition::Subdomain& subdomain);
 
+/// Subdomains that are identical.
+struct IdenticalSubdomains {
+  std::vector<std::size_t> members; ///< indices, ascending
+  bool isShared = false;            ///< whether there are others like them, on any rank
+};
+
 /// This rank's subdomains in groups of identical ones: equal K^s, equal remainders and crosspoints, equal interface, all
 /// compared number by number. What does not enter the factors (loads, gaps, places) may differ.
 /// \param share  false: every subdomain is a group of its own
-/// Returns the indices of each group, ascending; the groups in the order of their first members. Not collective.
-std::vector<std::vector<std::size_t>> groupIdentical(const std::vector<decomposition::Subdomain>& subdomains,
-                                                     bool share);
+/// Returns the groups in the order of their first members. Collective.
+std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedProblem& problem, bool share);
 
 } // namespace epafi::fetidp

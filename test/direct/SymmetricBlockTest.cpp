@@ -16,28 +16,46 @@ Eigen::MatrixXd symmetric(int k) {
   return random * random.transpose() + Eigen::MatrixXd::Identity(k, k);
 }
 
-TEST(SymmetricBlockTest, MultipliesByAnyNumberOfColumnsInEveryStorage) {
+using Use = SymmetricBlock::Use;
+using Precision = SymmetricBlock::Precision;
+
+TEST(SymmetricBlockTest, MultipliesByAnyNumberOfColumnsHoweverItIsStored) {
   for (const int k : {0, 1, 5, 64, 131})
-    for (const int columns : {0, 1, 2, 9}) {
-      const Eigen::MatrixXd a = symmetric(k), x = Eigen::MatrixXd::Random(k, columns);
-      for (const auto storage : {SymmetricBlock::Storage::full, SymmetricBlock::Storage::packed,
-                                 SymmetricBlock::Storage::single}) {
-        const SymmetricBlock block(a, storage);
+    for (const int columns : {0, 1, 2, 9})
+      for (const auto use : {Use::alone, Use::shared})
+        for (const auto precision : {Precision::full, Precision::single}) {
+          const Eigen::MatrixXd a = symmetric(k), x = Eigen::MatrixXd::Random(k, columns);
+          const SymmetricBlock block(a, use, precision);
+          Eigen::MatrixXd y(k, columns);
+
+          block.apply(x, y);
+
+          const double accuracy = precision == Precision::single ? 1e-6 : 1e-14;
+          EXPECT_LE((y - a * x).norm(), accuracy * (1 + a.norm() * x.norm())) << k << " × " << columns;
+        }
+}
+
+TEST(SymmetricBlockTest, AColumnDoesNotDependOnHowManyThereAre) {
+  for (const int k : {7, 28, 60, 124, 252})
+    for (const auto use : {Use::alone, Use::shared}) {
+      const SymmetricBlock block(symmetric(k), use);
+      const Eigen::MatrixXd x = Eigen::MatrixXd::Random(k, 1);
+      Eigen::MatrixXd alone(k, 1);
+      block.apply(x, alone);
+      for (const int columns : {2, 3, 8, 17, 40}) {
         Eigen::MatrixXd y(k, columns);
-
-        block.apply(x, y);
-
-        const double accuracy = storage == SymmetricBlock::Storage::single ? 1e-6 : 1e-14;
-        EXPECT_LE((y - a * x).norm(), accuracy * (1 + a.norm() * x.norm())) << k << " × " << columns;
+        block.apply(x.replicate(1, columns), y);
+        EXPECT_EQ((y.colwise() - alone.col(0)).norm(), 0) << k << " × " << columns;
       }
     }
 }
 
 TEST(SymmetricBlockTest, CountsWhatItReads) {
-  const Eigen::MatrixXd a = symmetric(10);
-  EXPECT_EQ(SymmetricBlock(a, SymmetricBlock::Storage::full).bytes(), 800U);
-  EXPECT_EQ(SymmetricBlock(a, SymmetricBlock::Storage::packed).bytes(), 440U);
-  EXPECT_EQ(SymmetricBlock(a, SymmetricBlock::Storage::single).bytes(), 400U);
+  const Eigen::MatrixXd small = symmetric(10), large = symmetric(100);
+  EXPECT_EQ(SymmetricBlock(small, Use::alone).bytes(), 800U);
+  EXPECT_EQ(SymmetricBlock(small, Use::alone, Precision::single).bytes(), 400U);
+  EXPECT_EQ(SymmetricBlock(large, Use::alone).bytes(), 8U * 5050U);
+  EXPECT_EQ(SymmetricBlock(large, Use::shared).bytes(), 80000U);
 }
 
 TEST(DenseSymmetricTest, InvertsAndMultipliesFactors) {
