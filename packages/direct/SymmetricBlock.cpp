@@ -3,6 +3,7 @@
 #include <Teuchos_BLAS.hpp>
 
 #include <algorithm>
+#include <cstddef>
 
 // Teuchos has no product with a packed matrix.
 extern "C" void dspmv_(const char* uplo, const int* n, const double* alpha, const double* ap, const double* x,
@@ -15,24 +16,32 @@ namespace {
 /// the cache: docs/performance.md).
 constexpr int packedPays = 96;
 
-/// Y = A X of a full matrix.
+/// Columns of one matrix–matrix product, never more, never fewer: OpenBLAS adds in another order where there are many.
+constexpr int width = 8;
+
+/// Y = A X of a full matrix. \param padded  work space for the last columns
 template <class Scalar>
-void multiply(SymmetricBlock::Use use, int size, int numColumns, const Scalar* a, const Scalar* x,
-              Scalar* y) {
+void multiply(SymmetricBlock::Use use, int size, int numColumns, const Scalar* a, const Scalar* x, Scalar* y,
+              std::vector<Scalar>& padded) {
   const Teuchos::BLAS<int, Scalar> blas;
   constexpr Scalar one = 1, zero = 0;
-  if (use == SymmetricBlock::Use::alone) {
-    for (std::ptrdiff_t column = 0; column < numColumns; ++column)
+  const auto multiplyColumns = [&](const Scalar* columns, Scalar* image) {
+    blas.GEMM(Teuchos::NO_TRANS, Teuchos::NO_TRANS, size, width, size, one, a, size, columns, size, zero,
+              image, size);
+  };
+  std::ptrdiff_t column = 0;
+  if (use == SymmetricBlock::Use::alone)
+    for (; column < numColumns; ++column)
       blas.GEMV(Teuchos::NO_TRANS, size, size, one, a, size, x + column * size, 1, zero, y + column * size,
                 1);
-    return;
-  }
-  // OpenBLAS cuts the sums of large matrices in pieces that depend on the number of columns, from 16 on.
-  const int width = size <= 128 ? numColumns : 8;
-  for (int first = 0; first < numColumns; first += width) {
-    const auto offset = static_cast<std::ptrdiff_t>(first) * size;
-    blas.GEMM(Teuchos::NO_TRANS, Teuchos::NO_TRANS, size, std::min(width, numColumns - first), size, one, a,
-              size, x + offset, size, zero, y + offset, size);
+  for (; column + width <= numColumns; column += width)
+    multiplyColumns(x + column * size, y + column * size);
+  if (column < numColumns) {
+    const std::ptrdiff_t numRest = (numColumns - column) * size, numPadded = std::ptrdiff_t{width} * size;
+    padded.resize(static_cast<std::size_t>(2 * numPadded));
+    std::fill(std::copy_n(x + column * size, numRest, padded.begin()), padded.begin() + numPadded, zero);
+    multiplyColumns(padded.data(), padded.data() + numPadded);
+    std::copy_n(padded.begin() + numPadded, numRest, y + column * size);
   }
 }
 
@@ -62,14 +71,14 @@ void SymmetricBlock::apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const {
   if (size_ == 0 || numColumns == 0)
     return;
   if (storage_ == Storage::full) {
-    multiply(use_, size_, numColumns, values_.data(), x.data(), y.data());
+    multiply(use_, size_, numColumns, values_.data(), x.data(), y.data(), padded_);
   } else if (storage_ == Storage::single) {
     const auto numEntries = static_cast<std::size_t>(x.size());
     singleX_.resize(std::max(singleX_.size(), numEntries));
     singleY_.resize(singleX_.size());
     std::transform(x.data(), x.data() + numEntries, singleX_.begin(),
                    [](double value) { return static_cast<float>(value); });
-    multiply(use_, size_, numColumns, singleValues_.data(), singleX_.data(), singleY_.data());
+    multiply(use_, size_, numColumns, singleValues_.data(), singleX_.data(), singleY_.data(), singlePadded_);
     std::copy_n(singleY_.begin(), numEntries, y.data());
   } else {
     constexpr double one = 1, zero = 0;

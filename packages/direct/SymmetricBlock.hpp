@@ -36,7 +36,8 @@ private:
   Storage storage_ = Storage::full;
   std::vector<double> values_;
   std::vector<float> singleValues_;
-  mutable std::vector<float> singleX_, singleY_; ///< work
+  mutable std::vector<float> singleX_, singleY_, singlePadded_; ///< work
+  mutable std::vector<double> padded_;                          ///< work
 };
 
 } // namespace epafi::direct

@@ -6,8 +6,8 @@
 namespace epafi::fetidp {
 namespace {
 
-/// Columns solved for at once: enough for matrix–matrix speed, few enough for the cache.
-constexpr Eigen::Index batch = 32;
+/// Columns solved for at once.
+constexpr Eigen::Index batch = 4;
 
 } // namespace
 
@@ -59,13 +59,16 @@ void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<
     solveForBoundary();
 }
 
-/// Number of members, from `first` on, that are solved for at once; makes their work space.
+/// Number of members, from `first` on, that are solved for at once; makes their work space, 0 in columns to spare. A
+/// shared factor always gets as many columns: CHOLMOD adds in another order for fewer.
 Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index first) {
   const Eigen::Index columns = std::min(batch, numMembers() - first);
-  if (rhs_.cols() != columns) {
-    rhs_.resize(condensed_.numRemainders(), columns);
+  const Eigen::Index width = use_ == direct::SymmetricBlock::Use::alone ? columns : batch;
+  if (rhs_.cols() != width) {
+    rhs_.resize(condensed_.numRemainders(), width);
     solution_.resizeLike(rhs_);
   }
+  rhs_.rightCols(width - columns).setZero();
   return columns;
 }
 
@@ -75,9 +78,9 @@ void SubdomainGroup::solveForBoundary() {
   for (Eigen::Index first = 0; first < numMembers(); first += batch) {
     const Eigen::Index columns = prepareBatch(first);
     rhs_.setZero();
-    rhs_(positions, Eigen::all) = boundary_.middleCols(first, columns);
+    rhs_.leftCols(columns)(positions, Eigen::all) = boundary_.middleCols(first, columns);
     condensed_.factor().solve(rhs_, solution_);
-    response_.middleCols(first, columns) = solution_(positions, Eigen::all);
+    response_.middleCols(first, columns) = solution_.leftCols(columns)(positions, Eigen::all);
   }
 }
 
@@ -138,7 +141,7 @@ void SubdomainGroup::substitute(const Eigen::VectorXd& coarse, const std::vector
     const Eigen::Index columns = prepareBatch(first);
     for (Eigen::Index j = 0; j < columns; ++j)
       rhs_.col(j) = b[members_[static_cast<std::size_t>(first + j)]](like.remainderUnknowns);
-    rhs_ -= condensed_.remainderToCrosspoint() * coarseLocal_.middleCols(first, columns);
+    rhs_.leftCols(columns) -= condensed_.remainderToCrosspoint() * coarseLocal_.middleCols(first, columns);
     condensed_.factor().solve(rhs_, solution_);
     for (Eigen::Index j = 0; j < columns; ++j) {
       Eigen::VectorXd& values = u[members_[static_cast<std::size_t>(first + j)]];
