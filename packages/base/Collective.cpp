@@ -3,8 +3,10 @@
 #include "epafi/base/Errors.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_DefaultMpiComm.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 namespace epafi {
@@ -122,6 +124,24 @@ std::vector<double> gatherOnAll(const Comm& comm, std::span<const double> values
     result.insert(result.end(), first, first + static_cast<std::ptrdiff_t>(all[rank * block]));
   }
   return result;
+}
+
+std::vector<double> gatherOnFirst(const Comm& comm, std::span<const double> values) {
+  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
+  if (mpi == nullptr || comm.getSize() == 1)
+    return {values.begin(), values.end()};
+  const MPI_Comm raw = *mpi->getRawMpiComm();
+  const auto ranks = static_cast<std::size_t>(comm.getSize());
+  const auto mine = static_cast<int>(values.size());
+  std::vector<int> counts(ranks), offsets(ranks, 0);
+  MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, raw);
+  std::vector<double> all;
+  if (comm.getRank() == 0) {
+    std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
+    all.resize(static_cast<std::size_t>(offsets.back()) + static_cast<std::size_t>(counts.back()));
+  }
+  MPI_Gatherv(values.data(), mine, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE, 0, raw);
+  return all;
 }
 
 } // namespace epafi

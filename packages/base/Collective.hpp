@@ -34,4 +34,7 @@ double minOverRanks(const Comm& comm, double value);
 /// Collective.
 std::vector<double> gatherOnAll(const Comm& comm, std::span<const double> values);
 
+/// The same on rank 0 alone; empty on the others. Collective.
+std::vector<double> gatherOnFirst(const Comm& comm, std::span<const double> values);
+
 } // namespace epafi

@@ -56,11 +56,13 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
             "length. "
             "One that raises the objective is repeated with the fixed step.",
             namesOf(expansions));
-  addReal(list, "Sufficient Share", defaults.sufficientShare,
-          "A CG step that would leave the feasible set, but of which at least this share fits, ends at the "
-          "boundary "
-          "and saves the product of an expansion; 1: every such step is followed by an expansion.",
-          0.0, 1.0, true);
+  addReal(
+      list, "Sufficient Share", defaults.sufficientShare,
+      "A CG step that would leave the feasible set, but of which at least this share fits, ends at the "
+      "boundary "
+      "and saves the product of an expansion. 1: every such step is followed by an expansion; 0: 0.25 with a "
+      "preconditioner, else 1.",
+      0.0, 1.0);
   addReal(list, "Expansion Step", defaults.expansionStep,
           "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
           true, true);

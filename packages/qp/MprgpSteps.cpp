@@ -161,8 +161,7 @@ std::optional<Status> Mprgp::expansionStep(const StepSizes& sizes) {
   ++counts_.expansion;
   move(sizes.feasible, sizes);
   conjugate_ = false;
-  if (parameters_.sufficientShare < 1 &&
-      sizes.feasible * sizes.curvature >= parameters_.sufficientShare * sizes.slope)
+  if (sufficientShare_ < 1 && sizes.feasible * sizes.curvature >= sufficientShare_ * sizes.slope)
     return std::nullopt; // x^½ is good enough
   const bool hasCurvature = sizes.curvature > 1e-14 * norm_ * sizes.squared;
   if (parameters_.expansion == Expansion::projectedCg && hasCurvature) {

@@ -4,10 +4,12 @@
 #include "epafi/base/Errors.hpp"
 
 #include <Eigen/QR>
+#include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -17,18 +19,19 @@ using decomposition::DecomposedProblem;
 using decomposition::SparseMatrix;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// All ranks' entries (i, j, value) on every rank.
-Triplets gatherTriplets(const Comm& comm, const std::vector<double>& mine) {
-  const std::vector<double> all = gatherOnAll(comm, mine);
+/// Entries (i, j, value), three numbers each.
+Triplets toTriplets(const std::vector<double>& numbers) {
   Triplets triplets;
-  triplets.reserve(all.size() / 3);
-  for (std::size_t k = 0; k < all.size(); k += 3)
-    triplets.emplace_back(static_cast<int>(all[k]), static_cast<int>(all[k + 1]), all[k + 2]);
+  triplets.reserve(numbers.size() / 3);
+  for (std::size_t k = 0; k < numbers.size(); k += 3)
+    triplets.emplace_back(static_cast<int>(numbers[k]), static_cast<int>(numbers[k + 1]), numbers[k + 2]);
   return triplets;
 }
 
-/// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from.
-SparseMatrix assemble(const DecomposedProblem& problem, int size, std::span<const SubdomainGroup> groups) {
+/// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from;
+/// on rank 0 alone unless replicated.
+SparseMatrix assemble(const DecomposedProblem& problem, int size, std::span<const SubdomainGroup> groups,
+                      bool isReplicated) {
   std::vector<const Eigen::MatrixXd*> blocks(problem.subdomains.size());
   for (const SubdomainGroup& group : groups)
     for (const std::size_t member : group.members())
@@ -41,7 +44,8 @@ SparseMatrix assemble(const DecomposedProblem& problem, int size, std::span<cons
         mine.insert(mine.end(), {static_cast<double>(indices[i]), static_cast<double>(indices[j]),
                                  (*blocks[s])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))});
   }
-  const Triplets all = gatherTriplets(*problem.comm, mine);
+  const Triplets all =
+      toTriplets(isReplicated ? gatherOnAll(*problem.comm, mine) : gatherOnFirst(*problem.comm, mine));
   SparseMatrix result(size, size);
   result.setFromTriplets(all.begin(), all.end());
   return result;
@@ -66,7 +70,7 @@ CoarseKernel gatherKernel(const DecomposedProblem& problem, int size) {
       }
   CoarseKernel kernel{Eigen::MatrixXd::Zero(size, problem.kernelDimension),
                       std::vector<int>(static_cast<std::size_t>(size), -1)};
-  for (const auto& entry : gatherTriplets(*problem.comm, mine)) {
+  for (const auto& entry : toTriplets(gatherOnAll(*problem.comm, mine))) {
     kernel.modes(entry.row(), entry.col()) = entry.value(); // copies of a crosspoint agree
     for (std::size_t body = 0; body < problem.bodies.size(); ++body)
       if (entry.col() >= problem.bodies[body].kernelOffset &&
@@ -136,34 +140,89 @@ void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const
 } // namespace
 
 CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
-                             const std::string& directSolver)
+                             std::span<const GlobalOrdinal> crosspoints, const DirectSolvers& solvers)
     : comm_(problem.comm), size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())),
-      rhs_(size_) {
-  SparseMatrix matrix = assemble(problem, size_, groups);
+      crosspoints_(crosspoints.begin(), crosspoints.end()) {
+  const bool isReplicated = size_ <= solvers.maxReplicated || comm_->getSize() == 1;
+  const bool isMine = isReplicated || comm_->getRank() == 0;
+  SparseMatrix matrix = assemble(problem, size_, groups, isReplicated);
+  std::optional<CoarseKernel> kernel;
+  Eigen::VectorXd stiffness;
   if (problem.kernelDimension > 0) {
-    const CoarseKernel kernel = gatherKernel(problem, size_);
-    const Eigen::VectorXd stiffness = crosspointStiffness(problem, size_);
-    requireKernel(matrix, kernel, stiffness);
-    for (std::size_t body = 0; body < problem.bodies.size(); ++body)
-      if (problem.bodies[body].kernelDimension > 0)
-        for (const int unknown : fixingUnknowns(problem.bodies[body], static_cast<int>(body), kernel))
-          matrix.coeffRef(unknown, unknown) += stiffness[unknown]; // τ
+    kernel = gatherKernel(problem, size_);
+    stiffness = crosspointStiffness(problem, size_);
   }
-  matrix.makeCompressed();
-  factor_ = direct::factorize(matrix, directSolver, "the coarse problem");
+  collectively(*comm_, [&] {
+    if (!isMine)
+      return;
+    if (kernel) {
+      requireKernel(matrix, *kernel, stiffness);
+      for (std::size_t body = 0; body < problem.bodies.size(); ++body)
+        if (problem.bodies[body].kernelDimension > 0)
+          for (const int unknown : fixingUnknowns(problem.bodies[body], static_cast<int>(body), *kernel))
+            matrix.coeffRef(unknown, unknown) += stiffness[unknown]; // τ
+    }
+    matrix.makeCompressed();
+    factor_ = direct::factorize(matrix, solvers.coarse, "the coarse problem");
+    rhs_.resize(size_);
+    solution_.resize(size_);
+  });
+  if (isReplicated) {
+    sums_.resize(static_cast<std::size_t>(size_));
+    return;
+  }
+  const auto whole = static_cast<Tpetra::global_size_t>(size_);
+  const RCP<const Map> firstMap = rcp(new Map(whole, static_cast<std::size_t>(isMine ? size_ : 0), 0, comm_));
+  const RCP<const Map> myMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                                           Teuchos::arrayViewFromVector(crosspoints_), 0, comm_));
+  import_ = rcp(new Import(firstMap, myMap));
+  first_ = rcp(new Vector(firstMap));
+  mine_ = rcp(new Vector(myMap));
 }
 
-void CoarseProblem::solve(std::span<AccurateSum> z, Eigen::VectorXd& x) const {
+void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::VectorXd& x) const {
   if (size_ == 0)
     return;
-  sumOverRanks(*comm_, z);
+  if (isReplicated())
+    solveReplicated(z, x);
+  else
+    solveOnFirst(z, x);
+}
+
+void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::VectorXd& x) const {
+  std::fill(sums_.begin(), sums_.end(), AccurateSum());
   for (std::size_t i = 0; i < z.size(); ++i)
-    rhs_[static_cast<Eigen::Index>(i)] = z[i].value();
-  factor_->solve(rhs_, x);
+    sums_[static_cast<std::size_t>(crosspoints_[i])] = z[i];
+  sumOverRanks(*comm_, sums_);
+  for (std::size_t i = 0; i < sums_.size(); ++i)
+    rhs_[static_cast<Eigen::Index>(i)] = sums_[i].value();
+  factor_->solve(rhs_, solution_);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    x[static_cast<Eigen::Index>(i)] = solution_[static_cast<Eigen::Index>(crosspoints_[i])];
+}
+
+void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::VectorXd& x) const {
+  {
+    const auto values = mine_->getDataNonConst();
+    for (std::size_t i = 0; i < z.size(); ++i)
+      values[static_cast<Teuchos_Ordinal>(i)] = z[i].value();
+  }
+  first_->putScalar(0.0);
+  first_->doExport(*mine_, *import_, Tpetra::ADD);
+  if (factor_) {
+    const auto values = first_->getDataNonConst();
+    std::copy_n(values.begin(), size_, rhs_.data());
+    factor_->solve(rhs_, solution_);
+    std::copy_n(solution_.data(), size_, values.begin());
+  }
+  mine_->doImport(*first_, *import_, Tpetra::INSERT);
+  const auto values = mine_->getData();
+  for (std::size_t i = 0; i < z.size(); ++i)
+    x[static_cast<Eigen::Index>(i)] = values[static_cast<Teuchos_Ordinal>(i)];
 }
 
 std::size_t CoarseProblem::factorBytes() const {
-  return factor_->bytes();
+  return factor_ ? factor_->bytes() : 0;
 }
 
 } // namespace epafi::fetidp

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. It is the one thing of global size that
-/// every rank holds; all ranks factorise and solve it alike, which saves a message.
+/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. While it is small it is the one thing of global
+/// size that every rank holds: all factorise and solve it alike, for the price of one message. A large one lies on
+/// rank 0, and the others send their shares and receive their values, by plans built once.
 ///
 /// Where a body floats, S_cc is singular with the known kernel R_c (R at the crosspoints). A generalised
 /// inverse is then S_cc⁺ = (S_cc + τEEᵀ)⁻¹, where E picks as many crosspoint values of every floating body as
@@ -11,35 +12,48 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/direct/SpdFactor.hpp"
+#include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/SubdomainGroup.hpp"
 
 #include <Eigen/Core>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <memory>
 #include <span>
-#include <string>
+#include <vector>
 
 namespace epafi::fetidp {
 
 class CoarseProblem {
 public:
-  /// Sums the subdomains' Schur complements over all ranks and factorises. Collective.
-  /// \throws Error if the kernel handed over is none of S_cc, or if the factorisation fails.
+  /// Sums the subdomains' Schur complements over all ranks and factorises.
+  /// \param crosspoints  this rank's coarse unknowns, ascending
+  /// Collective. \throws Error if the kernel handed over is none of S_cc, or if the factorisation fails.
   CoarseProblem(const decomposition::DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
-                const std::string& directSolver);
+                std::span<const GlobalOrdinal> crosspoints, const DirectSolvers& solvers);
 
+  /// Coarse unknowns of the whole problem.
   [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] const Comm& comm() const { return *comm_; }
-  /// x = S_cc⁺ Σ_ranks z: sums z over the ranks, in place (one message), then solves. Both have size()
-  /// entries. Collective.
-  void solve(std::span<AccurateSum> z, Eigen::VectorXd& x) const;
+  [[nodiscard]] bool isReplicated() const { return import_.is_null(); }
+  /// x = S_cc⁺ Σ_ranks z, both of this rank's crosspoints. One sum over the ranks if replicated; the same digits then on
+  /// any number of ranks. Collective.
+  void solve(std::span<const AccurateSum> z, Eigen::VectorXd& x) const;
+  /// Of this rank.
   [[nodiscard]] std::size_t factorBytes() const;
 
 private:
+  void solveReplicated(std::span<const AccurateSum> z, Eigen::VectorXd& x) const;
+  void solveOnFirst(std::span<const AccurateSum> z, Eigen::VectorXd& x) const;
+
   RCP<const Comm> comm_;
   int size_ = 0;
-  std::unique_ptr<direct::SpdFactor> factor_;
-  mutable Eigen::VectorXd rhs_;
+  std::vector<GlobalOrdinal> crosspoints_;
+  std::unique_ptr<direct::SpdFactor> factor_; ///< null where another rank has it
+  mutable std::vector<AccurateSum> sums_;     ///< work of a replicated one
+  mutable Eigen::VectorXd rhs_, solution_;    ///< work
+  RCP<const Import> import_;                  ///< from rank 0 to the ranks' crosspoints, unless replicated
+  mutable RCP<Vector> first_, mine_;          ///< likewise
 };
 
 } // namespace epafi::fetidp

@@ -57,12 +57,20 @@ ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& p
   const auto n = static_cast<Eigen::Index>(touched_.size());
   if (n == 0)
     return;
-  Eigen::MatrixXd flexibility(n, n), response(static_cast<Eigen::Index>(near_.size()), n); // of S_cc⁺
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const Eigen::VectorXd& column = inverse.coarseColumn(touched_[static_cast<std::size_t>(j)]);
-    flexibility.col(j) = column(touched_);
-    response.col(j) = column(near_);
+  // S_cc⁺ at the near ones, which the touched ones are among; each value from the rank that owns it.
+  std::vector<double> values(near_.size() * touched_.size(), 0.0);
+  for (std::size_t j = 0; j < touched_.size(); ++j) {
+    const bool isOwner = problem.crosspointMap->isNodeGlobalElement(touched_[j]);
+    const Eigen::VectorXd& column = inverse.coarseColumn(touched_[j], isOwner);
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      if (problem.crosspointMap->isNodeGlobalElement(near_[i]))
+        values[i + j * near_.size()] = column[inverse.coarseIndexOf(near_[i])];
   }
+  sumOverRanks(*problem.comm, std::span<double>(values));
+  const Eigen::Map<const Eigen::MatrixXd> response(values.data(), static_cast<Eigen::Index>(near_.size()), n);
+  Eigen::MatrixXd flexibility(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    flexibility.row(i) = response.row(nearIndexOf(touched_[static_cast<std::size_t>(i)]));
   collectively(*problem.comm, [&] {
     stiffness_ = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
   });

@@ -48,6 +48,10 @@ void addFetiParameters(Teuchos::ParameterList& list) {
       solvers, "Share Identical Subdomains", DirectSolvers().shareIdentical ? "yes" : "no",
       "Whether subdomains with equal matrices, found by comparing them, share one factor and dense block.",
       {"yes", "no"});
+  addInteger(solvers, "Maximum Replicated Size", DirectSolvers().maxReplicated,
+             "Coarse unknowns up to which every rank holds and solves the coarse problem, which takes one "
+             "message and "
+             "gives the same digits on any number of ranks; beyond, rank 0 alone does.");
   Teuchos::ParameterList& dual = list.sublist("Dual Operator");
   addChoice(
       dual, "Mode", "auto",
@@ -73,7 +77,8 @@ void addFetiParameters(Teuchos::ParameterList& list) {
 
 DirectSolvers directSolversFrom(const Teuchos::ParameterList& list) {
   return {resolved(list.get<std::string>("Subdomains")), resolved(list.get<std::string>("Coarse Problem")),
-          list.get<std::string>("Share Identical Subdomains") == "yes"};
+          list.get<std::string>("Share Identical Subdomains") == "yes",
+          list.get<int>("Maximum Replicated Size")};
 }
 
 DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list) {

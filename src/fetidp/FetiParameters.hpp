@@ -13,6 +13,7 @@ struct DirectSolvers {
   std::string subdomains = "CHOLMOD";
   std::string coarse = "CHOLMOD";
   bool shareIdentical = true;
+  int maxReplicated = 20000; ///< coarse unknowns; a larger coarse problem is kept and solved on one rank
 };
 
 struct DualOperatorParameters {

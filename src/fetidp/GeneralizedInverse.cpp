@@ -3,25 +3,38 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/CostModel.hpp"
 
-#include <Teuchos_Comm.hpp>
-
 #include <algorithm>
 #include <utility>
 
 namespace epafi::fetidp {
 
+namespace {
+
+/// This rank's coarse unknowns, ascending.
+std::vector<GlobalOrdinal> crosspointsOf(const decomposition::DecomposedProblem& problem) {
+  std::vector<GlobalOrdinal> crosspoints;
+  for (const auto& subdomain : problem.subdomains)
+    crosspoints.insert(crosspoints.end(), subdomain.crosspointIndices.begin(),
+                       subdomain.crosspointIndices.end());
+  std::sort(crosspoints.begin(), crosspoints.end());
+  crosspoints.erase(std::unique(crosspoints.begin(), crosspoints.end()), crosspoints.end());
+  return crosspoints;
+}
+
+} // namespace
+
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
-                                       const DirectSolvers& solvers) {
+                                       const DirectSolvers& solvers)
+    : crosspoints_(crosspointsOf(problem)), coarseSums_(crosspoints_.size()),
+      coarse_(static_cast<Eigen::Index>(crosspoints_.size())) {
   auto groups = groupIdentical(problem, solvers.shareIdentical);
   collectively(*problem.comm, [&] {
     direct::Factorizer factorizer(solvers.subdomains);
     groups_.reserve(groups.size());
     for (IdenticalSubdomains& group : groups)
-      groups_.emplace_back(problem.subdomains, std::move(group), factorizer);
+      groups_.emplace_back(problem.subdomains, std::move(group), crosspoints_, factorizer);
   });
-  coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, solvers.coarse);
-  coarse_.resize(coarseProblem_->size());
-  coarseSums_.resize(static_cast<std::size_t>(coarse_.size()));
+  coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, crosspoints_, solvers);
 }
 
 void GeneralizedInverse::prepareDual(const DualOperatorParameters& parameters) {
@@ -52,12 +65,18 @@ void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u) {
     group.substitute(coarse_, b, u);
 }
 
-const Eigen::VectorXd& GeneralizedInverse::coarseColumn(GlobalOrdinal unknown) {
+const Eigen::VectorXd& GeneralizedInverse::coarseColumn(GlobalOrdinal unknown, bool isOwner) {
   std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
-  if (coarseProblem_->comm().getRank() == 0)
-    coarseSums_[static_cast<std::size_t>(unknown)] = AccurateSum(1.0);
+  if (isOwner)
+    coarseSums_[static_cast<std::size_t>(coarseIndexOf(unknown))] = AccurateSum(1.0);
   coarseProblem_->solve(coarseSums_, coarse_);
   return coarse_;
+}
+
+int GeneralizedInverse::coarseIndexOf(GlobalOrdinal unknown) const {
+  const auto found = std::lower_bound(crosspoints_.begin(), crosspoints_.end(), unknown);
+  return found != crosspoints_.end() && *found == unknown ? static_cast<int>(found - crosspoints_.begin())
+                                                          : -1;
 }
 
 void GeneralizedInverse::subtractForces(std::span<const double> lambda, SubdomainVectors& b) const {

@@ -40,20 +40,25 @@ public:
   /// result = this rank's part of B̄ u (on the ghost map). Not collective.
   void constraint(const SubdomainVectors& u, std::span<double> result) const;
 
-  /// S_cc⁺ times a unit vector, on every rank; valid until the next call of any function. Collective.
-  const Eigen::VectorXd& coarseColumn(GlobalOrdinal unknown);
+  /// S_cc⁺ times a unit vector, at this rank's coarse unknowns; valid until the next call of any function.
+  /// \param isOwner  true on exactly one rank, which must have the unknown
+  /// Collective.
+  const Eigen::VectorXd& coarseColumn(GlobalOrdinal unknown, bool isOwner);
+  /// Place of a coarse unknown among this rank's, or −1.
+  [[nodiscard]] int coarseIndexOf(GlobalOrdinal unknown) const;
 
   /// This rank's subdomains, identical ones together.
   [[nodiscard]] std::span<SubdomainGroup> groups() { return groups_; }
   [[nodiscard]] std::span<const SubdomainGroup> groups() const { return groups_; }
   /// Bytes of this rank's factors and dense blocks.
   [[nodiscard]] std::size_t factorBytes() const;
-  [[nodiscard]] int coarseSize() const { return coarseProblem_->size(); }
+  [[nodiscard]] const CoarseProblem& coarseProblem() const { return *coarseProblem_; }
 
 private:
+  std::vector<GlobalOrdinal> crosspoints_; ///< this rank's coarse unknowns, ascending
   std::vector<SubdomainGroup> groups_;
   std::unique_ptr<CoarseProblem> coarseProblem_;
-  std::vector<AccurateSum> coarseSums_; ///< work
+  std::vector<AccurateSum> coarseSums_; ///< work, of this rank's coarse unknowns
   Eigen::VectorXd coarse_;              ///< work
 };
 

@@ -12,7 +12,8 @@ constexpr Eigen::Index batch = 4;
 } // namespace
 
 SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains,
-                               IdenticalSubdomains identical, direct::Factorizer& factorizer)
+                               IdenticalSubdomains identical, std::span<const GlobalOrdinal> crosspoints,
+                               direct::Factorizer& factorizer)
     : subdomains_(&subdomains), members_(std::move(identical.members)),
       use_(identical.isShared ? direct::SymmetricBlock::Use::shared : direct::SymmetricBlock::Use::alone),
       condensed_(subdomains[members_.front()], interfaceOf(subdomains[members_.front()]), factorizer),
@@ -27,6 +28,13 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
   boundary_.resize(condensed_.numBoundary(), numMembers());
   response_.resizeLike(boundary_);
   coarseLocal_.resize(condensed_.numCrosspoints(), numMembers());
+  coarseIndices_.resize(condensed_.numCrosspoints(), numMembers());
+  for (Eigen::Index member = 0; member < numMembers(); ++member) {
+    const auto unknowns = crosspointIndices(static_cast<std::size_t>(member));
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      coarseIndices_(static_cast<Eigen::Index>(i), member) = static_cast<int>(
+          std::lower_bound(crosspoints.begin(), crosspoints.end(), unknowns[i]) - crosspoints.begin());
+  }
 }
 
 void SubdomainGroup::makeExplicit() {
@@ -101,22 +109,14 @@ void SubdomainGroup::applyCoupling(const Eigen::VectorXd& coarse, std::span<doub
 
 /// coarse += Σ L_cᵀ of the members' columns.
 void SubdomainGroup::addToCoarse(std::span<AccurateSum> coarse) const {
-  for (std::size_t member = 0; member < members_.size(); ++member) {
-    const auto indices = crosspointIndices(member);
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      coarse[static_cast<std::size_t>(indices[i])].add(
-          coarseLocal_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(member)));
-  }
+  for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
+    coarse[static_cast<std::size_t>(coarseIndices_.data()[i])].add(coarseLocal_.data()[i]);
 }
 
 /// The members' columns = L_c x_c.
 void SubdomainGroup::takeFromCoarse(const Eigen::VectorXd& coarse) {
-  for (std::size_t member = 0; member < members_.size(); ++member) {
-    const auto indices = crosspointIndices(member);
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      coarseLocal_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(member)) =
-          coarse[static_cast<Eigen::Index>(indices[i])];
-  }
+  for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
+    coarseLocal_.data()[i] = coarse[coarseIndices_.data()[i]];
 }
 
 void SubdomainGroup::eliminate(const std::vector<Eigen::VectorXd>& b, std::span<AccurateSum> coarse) {

@@ -24,10 +24,11 @@ struct InterfaceEntry {
 /// m members; n_r, n_Δ, n_c as in CondensedSubdomain. Nothing here is collective.
 class SubdomainGroup {
 public:
-  /// \param identical  see groupIdentical; at least one
+  /// \param identical    see groupIdentical; at least one
+  /// \param crosspoints  this rank's coarse unknowns, ascending: `coarse` below is numbered like them
   /// Keeps a reference to `subdomains`, which must outlive it. \throws Error if the factorisation fails.
   SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains, IdenticalSubdomains identical,
-                 direct::Factorizer& factorizer);
+                 std::span<const GlobalOrdinal> crosspoints, direct::Factorizer& factorizer);
 
   [[nodiscard]] const CondensedSubdomain& condensed() const { return condensed_; }
   [[nodiscard]] std::span<const std::size_t> members() const { return members_; }
@@ -48,7 +49,7 @@ public:
 
   /// First half of F's part: keeps (K_rr⁻¹)_ΔΔ B_Δᵀ λ and adds L_cᵀ Wᵀ λ to `coarse`.
   /// \param lambda  this rank's multipliers (ghost map)
-  /// \param coarse  all coarse unknowns
+  /// \param coarse  this rank's coarse unknowns
   void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse);
   /// Second half: result += B_Δ (what was kept) + W L_c x_c.
   /// \param result  this rank's multipliers (ghost map)
@@ -85,6 +86,7 @@ private:
   CondensedSubdomain condensed_;
   std::vector<InterfaceEntry> entries_;
   std::vector<std::size_t> firstEntry_; ///< of each member, and the end
+  Eigen::MatrixXi coarseIndices_;       ///< n_c × m, L_c
   direct::SymmetricBlock flexibility_;  ///< (K_rr⁻¹)_ΔΔ, if explicit
   bool isExplicit_ = false;
   Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × m: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it

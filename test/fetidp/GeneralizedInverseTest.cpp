@@ -138,7 +138,7 @@ TEST(GeneralizedInverseTest, AcceptsBodiesOfVeryDifferentStiffness) {
 TEST(GeneralizedInverseTest, CountsTheBytesOfItsFactors) {
   const auto decomposition = decompose(twoMembranes(true, 6, grid(2, 2)), world());
   const GeneralizedInverse inverse(decomposition.problem, DirectSolvers());
-  EXPECT_EQ(inverse.coarseSize(),
+  EXPECT_EQ(inverse.coarseProblem().size(),
             static_cast<int>(decomposition.problem.crosspointMap->getGlobalNumElements()));
   EXPECT_GT(inverse.factorBytes(), 0u);
 }

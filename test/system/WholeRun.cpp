@@ -54,10 +54,10 @@ scene::Scene cutByMetis(scene::Scene scene, int parts) {
   return scene;
 }
 
-drivers::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm) {
-  Teuchos::ParameterList parameters;
-  parameters.set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance);
-  return drivers::solveScene(scene, parameters, comm);
+drivers::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm,
+                        Teuchos::ParameterList solver) {
+  solver.set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance);
+  return drivers::solveScene(scene, solver, comm);
 }
 
 drivers::SceneRun solve(const scene::Scene& scene, double tolerance) {

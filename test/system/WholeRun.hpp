@@ -28,7 +28,9 @@ scene::Scene cutInGrid(scene::Scene scene, int counts);
 scene::Scene cutByMetis(scene::Scene scene, int parts);
 
 /// Solves the scene to a relative tolerance (that of the equilibrium too). Collective over `comm`.
-drivers::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm);
+/// \param solver  what else the solver is told
+drivers::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm,
+                        Teuchos::ParameterList solver = Teuchos::ParameterList());
 /// Over all ranks.
 drivers::SceneRun solve(const scene::Scene& scene, double tolerance);
 
