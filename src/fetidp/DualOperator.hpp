@@ -1,7 +1,7 @@
 #pragma once
 
 /// F = B̄ K̄⁺ B̄ᵀ, the dual operator (paper, section on FETI-DP; design of the block form in
-/// SubdomainSolver.hpp).
+/// SubdomainGroup.hpp).
 
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
@@ -20,8 +20,8 @@ public:
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
-  /// y = alpha F x + beta y. Costs a column: one sparse solve a subdomain, two neighbour exchanges, one
-  /// message of the coarse problem's size. The operator is symmetric, so that `mode` does not matter.
+  /// y = alpha F x + beta y. Costs a column: two sparse triangular solves or one dense product a subdomain,
+  /// two neighbour exchanges, one message of the coarse problem's size. The operator is symmetric, so that `mode` does not matter.
   /// Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
              double alpha = 1.0, double beta = 0.0) const override;

@@ -107,6 +107,7 @@ TEST_F(CollectiveTest, GathersUnevenPiecesInTheOrderOfTheRanks) {
   for (int rank = 0; rank < comm->getSize(); ++rank)
     expected.insert(expected.end(), static_cast<std::size_t>(rank), rank);
   EXPECT_EQ(gatherOnAll(*comm, mine), expected);
+  EXPECT_EQ(gatherOnFirst(*comm, mine), comm->getRank() == 0 ? expected : std::vector<double>());
 }
 
 } // namespace
