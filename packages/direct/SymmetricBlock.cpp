@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
-// Teuchos has no product with a packed matrix.
+// Teuchos has no product with a packed matrix. NOLINTNEXTLINE(readability-identifier-naming): the name is BLAS'
 extern "C" void dspmv_(const char* uplo, const int* n, const double* alpha, const double* ap, const double* x,
                        const int* incx, const double* beta, double* y, const int* incy);
 
