@@ -71,7 +71,7 @@ TEST(GroupIdenticalTest, TheInnerSubdomainsOfAUniformGridAreOneGroup) {
   EXPECT_EQ(groups[groupOf(groups, 12)].members, inner);
   EXPECT_EQ(groups.size(), 9U);
   for (const IdenticalSubdomains& group : groups)
-    EXPECT_EQ(group.isShared, group.members.size() > 1);
+    EXPECT_EQ(group.numOnAllRanks, static_cast<int>(group.members.size()));
 }
 
 TEST(GroupIdenticalTest, EverySubdomainIsInOneGroupAndLikeItsFirst) {
@@ -157,7 +157,7 @@ TEST(GroupIdenticalTest, WithoutSharingEverySubdomainIsAGroupOfItsOwn) {
   ASSERT_EQ(groups.size(), 25U);
   for (std::size_t s = 0; s < groups.size(); ++s) {
     EXPECT_EQ(groups[s].members, std::vector<std::size_t>{s});
-    EXPECT_FALSE(groups[s].isShared);
+    EXPECT_FALSE(groups[s].isShared());
   }
 }
 
