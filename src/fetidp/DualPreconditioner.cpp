@@ -99,6 +99,10 @@ void DualPreconditioner::findFollowers(const decomposition::DecomposedProblem& p
           follower.boundary.push_back(entry.position);
       if (follower.boundary.empty())
         continue;
+      std::sort(follower.boundary.begin(),
+                follower.boundary.end()); // where two contacts meet, an unknown is in both
+      follower.boundary.erase(std::unique(follower.boundary.begin(), follower.boundary.end()),
+                              follower.boundary.end());
       for (const GlobalOrdinal crosspoint : group.crosspointIndices(member))
         follower.crosspoints.push_back(crosspoints_.nearIndexOf(crosspoint));
       follower.response = group.condensed().boundaryResponse()(follower.boundary, Eigen::all);
