@@ -91,8 +91,7 @@ TEST(CondensedSubdomainTest, KnowsItsSizes) {
   forEachSubdomain([](const Compared& s) {
     EXPECT_EQ(s.condensed.numRemainders(), s.krr.rows());
     EXPECT_EQ(s.condensed.numCrosspoints(), s.kcc.rows());
-    EXPECT_EQ(s.condensed.numBoundary(),
-              static_cast<Eigen::Index>(s.condensed.interface().boundary.size()));
+    EXPECT_EQ(s.condensed.numBoundary(), static_cast<Eigen::Index>(s.condensed.interface().boundary.size()));
   });
 }
 

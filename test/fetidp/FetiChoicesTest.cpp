@@ -80,12 +80,12 @@ int products(const scene::Scene& scene, const std::string& type) {
 
 TEST(FetiChoicesTest, ConjugateGradientsWithoutContactTakeFewerProductsWithAPreconditioner) {
   for (const auto& cut : {grid(4, 4), metis(7)}) {
-    const scene::Scene scene = decomposition::oneBody(32, 32, cut, {{"wall", scene::Edge::left, 0.0}});
+    scene::Scene scene = decomposition::oneBody(32, 32, cut, {{"wall", scene::Edge::left, 0.0}});
+    setHalves(scene.bodies[0], 1.0, -3.0); // else u depends on x alone
     const int none = products(scene, "none"), lumped = products(scene, "lumped"),
               dirichlet = products(scene, "dirichlet");
     EXPECT_LT(lumped, none) << cut.parts;
     EXPECT_LT(dirichlet, lumped) << cut.parts;
-    std::cout << none << ' ' << lumped << ' ' << dirichlet << std::endl;
   }
 }
 
@@ -95,18 +95,17 @@ TEST(FetiChoicesTest, ContactTakesFewerProductsWithAPreconditioner) {
     setHalves(scene.bodies[0], 4.0, -5.0);
     setHalves(scene.bodies[1], -3.0, 2.0);
     const int none = products(scene, "none"), dirichlet = products(scene, "dirichlet");
-    EXPECT_LT(dirichlet, none) << coercive;
-    std::cout << none << ' ' << dirichlet << std::endl;
+    EXPECT_LT(dirichlet, 0.7 * none) << coercive;
   }
 }
 
 TEST(FetiChoicesTest, ConductivityThatJumpsDoesNotSpoilTheSolution) {
   for (const ContactCase& c : hardCases()) {
-    if (c.name.find("between bodies") == std::string::npos && c.name.find("support") == std::string::npos)
+    if (c.name.find("jumps") == std::string::npos)
       continue;
     scene::Scene scene = c.scene;
-    setHalves(scene.bodies[0], 4.0 * scene.bodies[0].conductivity, -5.0 * scene.bodies[0].conductivity);
-    setHalves(scene.bodies[1], -3.0 * scene.bodies[0].conductivity, 2.0 * scene.bodies[0].conductivity);
+    setHalves(scene.bodies[0], 4.0, -5.0);
+    setHalves(scene.bodies[1], -3.0, 2.0);
     const auto decomposition = decompose(scene, world());
     const PrimalSolution reference = solveUndecomposed(decomposition);
     ASSERT_LE(reference.violation, 1e-8) << c.name;
@@ -117,8 +116,6 @@ TEST(FetiChoicesTest, ConductivityThatJumpsDoesNotSpoilTheSolution) {
       const ContactSolution solution = solver.solve();
       EXPECT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
       EXPECT_LE(fieldError(fieldOf(decomposition, solution), reference.field), 1e-6);
-      std::cout << c.name << ' ' << type << ' ' << solver.report().counts.hessianMultiplications << ' '
-                << fieldError(fieldOf(decomposition, solution), reference.field) << std::endl;
     }
   }
 }

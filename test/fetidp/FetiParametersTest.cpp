@@ -20,7 +20,8 @@ std::string complaint(const std::string& sublist, const std::string& name, const
 
 TEST(FetiParametersTest, WordsThatMeanNothingAreRefusedWithThoseThatDo) {
   using Text = std::string;
-  test::expectSays(complaint("Direct Solvers", "Subdomains", Text("KLU3")), {"Subdomains", "KLU3", "KLU2", "CHOLMOD", "auto"});
+  test::expectSays(complaint("Direct Solvers", "Subdomains", Text("KLU3")),
+                   {"Subdomains", "KLU3", "KLU2", "CHOLMOD", "auto"});
   test::expectSays(complaint("Direct Solvers", "Coarse Problem", Text("LU")),
                    {"Coarse Problem", "LU", "KLU2", "CHOLMOD", "auto"});
   test::expectSays(complaint("Direct Solvers", "Share Identical Subdomains", Text("maybe")),
@@ -41,7 +42,8 @@ TEST(FetiParametersTest, NumbersOutOfRangeTypesAndNamesAreRefused) {
   test::expectSays(complaint("Dual Operator", "Expected Products", 2.5), {"Expected Products"});
   test::expectSays(complaint("Direct Solvers", "Share Identical Subdomains", true),
                    {"Share Identical Subdomains"});
-  test::expectSays(complaint("Preconditioner", "Scalings", std::string("stiffness")), {"Scalings", "Scaling"});
+  test::expectSays(complaint("Preconditioner", "Scalings", std::string("stiffness")),
+                   {"Scalings", "Scaling"});
   test::expectSays(complaint("Dual Operators", "Mode", std::string("auto")),
                    {"Dual Operators", "Dual Operator"});
 }
@@ -115,7 +117,10 @@ TEST(FetiParametersTest, TheReportSaysWhatWasDone) {
   Teuchos::ParameterList list;
   list.sublist("Direct Solvers").set("Subdomains", "KLU2");
   list.sublist("Dual Operator").set("Mode", "explicit");
-  list.sublist("Preconditioner").set("Type", "lumped").set("Scaling", "multiplicity").set("Precision", "single");
+  list.sublist("Preconditioner")
+      .set("Type", "lumped")
+      .set("Scaling", "multiplicity")
+      .set("Precision", "single");
   Teuchos::ParameterList said = algorithmOf(scene, list);
   EXPECT_EQ(said.get<std::string>("Subdomain Solver"), "KLU2");
   EXPECT_EQ(said.get<std::string>("Coarse Solver"), direct::fastestSolver());

@@ -47,8 +47,8 @@ std::vector<ContactCase> formCases() {
 
 /// F of a problem in one form.
 Eigen::MatrixXd matrixIn(const DecomposedProblem& problem, const Form& form) {
-  auto inverse = std::make_shared<GeneralizedInverse>(
-      problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
+  auto inverse =
+      std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
   inverse->prepareDual({form.mode, 40});
   return matrixOf(DualOperator(problem, std::move(inverse)));
 }
@@ -71,8 +71,7 @@ TEST(OperatorFormsTest, EveryFormEqualsTheUndecomposedComputation) {
 TEST(OperatorFormsTest, AllFormsAreTheSameOperator) {
   for (const ContactCase& c : formCases()) {
     const auto decomposition = decompose(c.scene, world());
-    const Eigen::MatrixXd plain =
-        matrixIn(decomposition.problem, {"CHOLMOD", false, Mode::implicitSolves});
+    const Eigen::MatrixXd plain = matrixIn(decomposition.problem, {"CHOLMOD", false, Mode::implicitSolves});
     for (const Form& form : allForms()) {
       SCOPED_TRACE(c.name + "; " + nameOf(form));
       const Eigen::MatrixXd f = matrixIn(decomposition.problem, form);
@@ -98,8 +97,8 @@ TEST(OperatorFormsTest, ProductsWithManyMultipliersAtOnceAreTheSumOfSingleOnes) 
   const DecomposedProblem& problem = decomposition.problem;
   for (const Form& form : allForms()) {
     SCOPED_TRACE(nameOf(form));
-    auto inverse = std::make_shared<GeneralizedInverse>(
-        problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
+    auto inverse =
+        std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
     inverse->prepareDual({form.mode, 40});
     const DualOperator f(problem, inverse);
     const Eigen::MatrixXd matrix = matrixOf(f);

@@ -44,11 +44,13 @@ Eigen::VectorXd scaledSpectrum(const Eigen::MatrixXd& symmetric);
 /// ‖D^(−1/2) (A − Aᵀ) D^(−1/2)‖, the largest entry: asymmetry without units.
 double scaledAsymmetry(const Eigen::MatrixXd& matrix);
 
-/// Scenes that preconditioners find hard: conductivities that jump by 10^±6 between bodies, and between regions along
-/// and across the cut; contact that ends at supports of one body or of both.
+/// Scenes that preconditioners find hard: conductivities that jump by 10^±6 between bodies, or between regions along
+/// the cut; contact that ends at supports of one body or of both, contacts that meet in a corner, three bodies in a row.
 std::vector<ContactCase> hardCases();
+/// Conductivities that jump by 10^±6 inside subdomains, METIS parts among them.
+std::vector<ContactCase> jumpsInside();
 
-/// "dirichlet, stiffness scaling" and all others, in the precision asked for.
+/// Lumped and dirichlet with both scalings, in the precision asked for.
 std::vector<PreconditionerParameters> allPreconditioners(bool isSingle);
 
 } // namespace epafi::fetidp
