@@ -51,23 +51,4 @@ CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain
       (0.5 * (schurComplement_ + schurComplement_.transpose())).eval(); // symmetric to the last digit
 }
 
-/// With T the Schur complement on (Δ, c): T_ΔΔ = S_ΔΔ, T_Δc = S_ΔΔ Ψ_Δ, T_cc = S + Ψ_Δᵀ S_ΔΔ Ψ_Δ.
-Eigen::MatrixXd CondensedSubdomain::interfaceStiffness() const {
-  const Eigen::Index numBoundary = boundaryResponse_.rows();
-  const auto numTouched = static_cast<Eigen::Index>(interface_.crosspoints.size());
-  Eigen::MatrixXd result(numBoundary + numTouched, numBoundary + numTouched);
-  const Eigen::MatrixXd boundary = factor_->schurComplement();
-  result.topLeftCorner(numBoundary, numBoundary) = boundary;
-  if (numTouched == 0)
-    return result;
-  const Eigen::MatrixXd psi = boundaryResponse_(Eigen::all, interface_.crosspoints);
-  const Eigen::MatrixXd coupling = boundary * psi;
-  result.topRightCorner(numBoundary, numTouched) = coupling;
-  result.bottomLeftCorner(numTouched, numBoundary) = coupling.transpose();
-  const Eigen::MatrixXd corner =
-      schurComplement_(interface_.crosspoints, interface_.crosspoints) + psi.transpose() * coupling;
-  result.bottomRightCorner(numTouched, numTouched) = 0.5 * (corner + corner.transpose());
-  return result;
-}
-
 } // namespace epafi::fetidp

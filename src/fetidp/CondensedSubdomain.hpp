@@ -40,8 +40,6 @@ public:
   [[nodiscard]] const decomposition::SparseMatrix& remainderToCrosspoint() const {
     return remainderToCrosspoint_;
   }
-  /// What is left of K on (Δ, C) when I is eliminated and the other crosspoints are held; symmetric.
-  [[nodiscard]] Eigen::MatrixXd interfaceStiffness() const;
 
 private:
   SubdomainInterface interface_;

@@ -15,7 +15,7 @@ constexpr double callSeconds = 5e-7; ///< what a call costs, however small
 } // namespace
 
 DualCosts expectedCosts(const SubdomainGroup& group) {
-  const auto members = static_cast<double>(group.members().size());
+  const auto members = static_cast<double>(group.numOnAllRanks());
   const auto size = static_cast<double>(group.condensed().numBoundary());
   const auto entries = static_cast<double>(group.condensed().factor().numEntries());
   const bool isAlone = group.use() == direct::SymmetricBlock::Use::alone;

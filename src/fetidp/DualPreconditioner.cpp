@@ -60,13 +60,36 @@ void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& prob
   }
 }
 
+/// The diagonal of K̄ at the crosspoint values that contact touches: B has an entry for one copy of each, whose own
+/// stiffness may be far from that of all. Collective.
+Eigen::VectorXd DualPreconditioner::crosspointStiffness(const decomposition::DecomposedProblem& problem) {
+  std::fill(touchedSums_.begin(), touchedSums_.end(), AccurateSum());
+  for (const auto& subdomain : problem.subdomains)
+    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
+      if (const int touched = crosspoints_.indexOf(subdomain.crosspointIndices[i]); touched >= 0) {
+        const int unknown = subdomain.crosspointUnknowns[i];
+        touchedSums_[static_cast<std::size_t>(touched)].add(subdomain.stiffness.coeff(unknown, unknown));
+      }
+  sumOverRanks(*map_->getComm(), touchedSums_);
+  Eigen::VectorXd diagonal(crosspoints_.size());
+  for (std::size_t i = 0; i < touchedSums_.size(); ++i)
+    diagonal[static_cast<Eigen::Index>(i)] = touchedSums_[i].value();
+  return diagonal;
+}
+
 /// The weights (b_i/δ_i) / Σ_k b_k²/δ_k. Collective.
 void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
                                PreconditionerParameters::Scaling scaling) {
+  const Eigen::VectorXd atCrosspoints = crosspointStiffness(problem);
   const auto stiffnessAt = [&](const decomposition::Subdomain& subdomain, int unknown) {
-    return scaling == PreconditionerParameters::Scaling::stiffness
-               ? subdomain.stiffness.coeff(unknown, unknown)
-               : 1.0;
+    if (scaling == PreconditionerParameters::Scaling::multiplicity)
+      return 1.0;
+    const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
+    const auto found = std::lower_bound(crosspoints.begin(), crosspoints.end(), unknown);
+    if (found != crosspoints.end() && *found == unknown)
+      return atCrosspoints[crosspoints_.indexOf(
+          subdomain.crosspointIndices[static_cast<std::size_t>(found - crosspoints.begin())])];
+    return subdomain.stiffness.coeff(unknown, unknown);
   };
   const std::span<double> sums = output_.values();
   std::fill(sums.begin(), sums.end(), 0.0);
@@ -99,6 +122,10 @@ void DualPreconditioner::findFollowers(const decomposition::DecomposedProblem& p
           follower.boundary.push_back(entry.position);
       if (follower.boundary.empty())
         continue;
+      std::sort(follower.boundary.begin(),
+                follower.boundary.end()); // where two contacts meet, an unknown is in both
+      follower.boundary.erase(std::unique(follower.boundary.begin(), follower.boundary.end()),
+                              follower.boundary.end());
       for (const GlobalOrdinal crosspoint : group.crosspointIndices(member))
         follower.crosspoints.push_back(crosspoints_.nearIndexOf(crosspoint));
       follower.response = group.condensed().boundaryResponse()(follower.boundary, Eigen::all);

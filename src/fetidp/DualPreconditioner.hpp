@@ -7,7 +7,7 @@
 ///   lumped     the block K_ΔΔ of the boundary alone: cheaper, and weaker
 /// and B_D is B with its entries scaled row by row,
 ///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
-/// δ = 1 for multiplicity scaling, δ = the diagonal of K for stiffness (ρ) scaling. Rows of contact are treated like
+/// δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at crosspoints, of K̄) for stiffness (ρ) scaling. Rows of contact are treated like
 /// those of gluing. MPRGP uses M restricted to its free set ("in face").
 
 #include "epafi/fetidp/ContactCrosspoints.hpp"
@@ -59,6 +59,7 @@ private:
   void makeBlocks(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Type type,
                   bool isSingle);
   void findFollowers(const decomposition::DecomposedProblem& problem);
+  Eigen::VectorXd crosspointStiffness(const decomposition::DecomposedProblem& problem);
   void scale(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Scaling scaling);
   void gather(std::span<const double> lambda) const;
   void followCrosspoints() const;

@@ -15,7 +15,8 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
                                IdenticalSubdomains identical, std::span<const GlobalOrdinal> crosspoints,
                                direct::Factorizer& factorizer)
     : subdomains_(&subdomains), members_(std::move(identical.members)),
-      use_(identical.isShared ? direct::SymmetricBlock::Use::shared : direct::SymmetricBlock::Use::alone),
+      numOnAllRanks_(identical.numOnAllRanks),
+      use_(identical.isShared() ? direct::SymmetricBlock::Use::shared : direct::SymmetricBlock::Use::alone),
       condensed_(subdomains[members_.front()], interfaceOf(subdomains[members_.front()]), factorizer),
       firstEntry_{0} {
   const std::vector<int>& positionOf = condensed_.interface().positionOf;

@@ -32,6 +32,8 @@ public:
 
   [[nodiscard]] const CondensedSubdomain& condensed() const { return condensed_; }
   [[nodiscard]] std::span<const std::size_t> members() const { return members_; }
+  /// How many are like the members, they included.
+  [[nodiscard]] int numOnAllRanks() const { return numOnAllRanks_; }
   /// How dense blocks of the group are used: the same on any number of ranks, and with it the last digit of products.
   [[nodiscard]] direct::SymmetricBlock::Use use() const { return use_; }
   /// Global coarse index of each crosspoint value of a member.
@@ -82,6 +84,7 @@ private:
 
   const std::vector<decomposition::Subdomain>* subdomains_;
   std::vector<std::size_t> members_;
+  int numOnAllRanks_;
   direct::SymmetricBlock::Use use_;
   CondensedSubdomain condensed_;
   std::vector<InterfaceEntry> entries_;

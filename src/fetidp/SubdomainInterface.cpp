@@ -84,7 +84,7 @@ std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedP
   std::vector<IdenticalSubdomains> groups;
   if (!share) {
     for (std::size_t s = 0; s < subdomains.size(); ++s)
-      groups.push_back({{s}, false});
+      groups.push_back({{s}});
     return groups;
   }
   std::vector<std::vector<int>> touchedOf; // of each group
@@ -105,16 +105,19 @@ std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedP
       continue;
     }
     candidates.emplace(hash, groups.size());
-    groups.push_back({{s}, false});
+    groups.push_back({{s}});
     touchedOf.push_back(std::move(touched));
     hashOf.push_back(static_cast<double>(hash >> 12U)); // 52 bits
   }
-  std::vector<double> all = gatherOnAll(*problem.comm, hashOf);
-  std::sort(all.begin(), all.end());
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const auto [first, last] = std::equal_range(all.begin(), all.end(), hashOf[g]);
-    groups[g].isShared = groups[g].members.size() > 1 || last - first > 1;
-  }
+  std::vector<double> mine; // hash and number of each group
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    mine.insert(mine.end(), {hashOf[g], static_cast<double>(groups[g].members.size())});
+  const std::vector<double> all = gatherOnAll(*problem.comm, mine);
+  std::unordered_map<double, int> numOf;
+  for (std::size_t i = 0; i < all.size(); i += 2)
+    numOf[all[i]] += static_cast<int>(all[i + 1]);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    groups[g].numOnAllRanks = numOf[hashOf[g]];
   return groups;
 }
 

@@ -23,7 +23,9 @@ SubdomainInterface interfaceOf(const decomposition::Subdomain& subdomain);
 /// Subdomains that are identical.
 struct IdenticalSubdomains {
   std::vector<std::size_t> members; ///< indices, ascending
-  bool isShared = false;            ///< whether there are others like them, on any rank
+  int numOnAllRanks = 1;            ///< of them, members included
+
+  [[nodiscard]] bool isShared() const { return numOnAllRanks > 1; }
 };
 
 /// This rank's subdomains in groups of identical ones: equal K^s, equal remainders and crosspoints, equal interface, all

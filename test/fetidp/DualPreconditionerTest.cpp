@@ -1,0 +1,230 @@
+#include "Preconditioned.hpp"
+
+#include "epafi/base/Collective.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::Subdomain;
+
+std::vector<ContactCase> allCases() {
+  std::vector<ContactCase> cases = contactCases();
+  for (const auto& more : {hardCases(), jumpsInside()})
+    cases.insert(cases.end(), more.begin(), more.end());
+  return cases;
+}
+
+/// Where the conductivity jumps inside a subdomain, multiplicity scaling lets the softest value decide.
+double smallestEigenvalue(const PreconditionerParameters& parameters) {
+  return parameters.scaling == Scaling::stiffness ? 1e-3 : 1e-8;
+}
+
+TEST(DualPreconditionerTest, IsSymmetricPositiveDefinite) {
+  for (const ContactCase& c : allCases())
+    for (const PreconditionerParameters& parameters : allPreconditioners(false)) {
+      SCOPED_TRACE(c.name + "; " + describe(parameters));
+      const Eigen::MatrixXd m = matrixOf(Preconditioned(c.scene, parameters).m);
+      ASSERT_GT(m.diagonal().minCoeff(), 0);
+      EXPECT_LE(scaledAsymmetry(m), 1e-11);
+      EXPECT_GT(scaledSpectrum(m).minCoeff(), smallestEigenvalue(parameters));
+    }
+}
+
+TEST(DualPreconditionerTest, InSinglePrecisionItIsSymmetricPositiveDefiniteToSixDigits) {
+  for (const ContactCase& c : allCases())
+    for (PreconditionerParameters parameters : allPreconditioners(true)) {
+      SCOPED_TRACE(c.name + "; " + describe(parameters));
+      const Eigen::MatrixXd m = matrixOf(Preconditioned(c.scene, parameters).m);
+      ASSERT_GT(m.diagonal().minCoeff(), 0);
+      EXPECT_LE(scaledAsymmetry(m), 1e-6);
+      EXPECT_GT(scaledSpectrum(m).minCoeff(), smallestEigenvalue(parameters));
+      parameters.isSingle = false;
+      const double error = relativeError(m, matrixOf(Preconditioned(c.scene, parameters).m));
+      EXPECT_LE(error, 1e-6);
+    }
+}
+
+/// Σ TᵀDT by dense algebra: T takes multipliers to displacements, D is a stiffness.
+class DensePreconditioner {
+public:
+  DensePreconditioner(const Preconditioned& p, const PreconditionerParameters& parameters)
+      : problem_(p.problem), parameters_(parameters), crosspoints_(problem_, *p.inverse),
+        diagonal_(
+            Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.crosspointMap->getGlobalNumElements()))),
+        totals_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.dualDimension()))) {
+    for (const Subdomain& s : problem_.subdomains)
+      for (std::size_t c = 0; c < s.crosspointUnknowns.size(); ++c)
+        diagonal_[static_cast<Eigen::Index>(s.crosspointIndices[c])] +=
+            s.stiffness.coeff(s.crosspointUnknowns[c], s.crosspointUnknowns[c]);
+    sum(diagonal_);
+    for (const Subdomain& s : problem_.subdomains)
+      for (const auto& entry : s.constraint)
+        totals_[row(entry)] += entry.coefficient * entry.coefficient / weight(s, entry.unknown);
+    sum(totals_);
+  }
+
+  [[nodiscard]] Eigen::MatrixXd matrix() const {
+    const Eigen::Index n = totals_.size();
+    Eigen::MatrixXd touched = Eigen::MatrixXd::Zero(crosspoints_.size(), n); // B_Dᵀ at crosspoints
+    for (const Subdomain& s : problem_.subdomains)
+      for (std::size_t c = 0; c < s.crosspointUnknowns.size(); ++c)
+        for (const auto& entry : s.constraint)
+          if (entry.unknown == s.crosspointUnknowns[c])
+            touched(crosspoints_.indexOf(s.crosspointIndices[c]), row(entry)) += scaled(s, entry);
+    sum(touched);
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
+    for (const Subdomain& s : problem_.subdomains)
+      addSubdomain(s, touched, m);
+    sum(m);
+    m += touched.transpose() * crosspoints_.stiffness() * touched;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (totals_[i] == 0)
+        m(i, i) = 1;
+    return m;
+  }
+
+private:
+  void addSubdomain(const Subdomain& s, const Eigen::MatrixXd& touched, Eigen::MatrixXd& m) const {
+    const Eigen::MatrixXd k(s.stiffness);
+    const auto &r = s.remainderUnknowns, &c = s.crosspointUnknowns;
+    const std::vector<int> boundary = interfaceOf(s).boundary;
+    if (boundary.empty())
+      return;
+    const Eigen::MatrixXd krr = k(r, r), krc = k(r, c),
+                          inverse = krr.llt().solve(Eigen::MatrixXd::Identity(krr.rows(), krr.cols()));
+    const Eigen::MatrixXd stiffness =
+        parameters_.type == Type::lumped
+            ? Eigen::MatrixXd(krr(boundary, boundary))
+            : Eigen::MatrixXd(Eigen::MatrixXd(inverse(boundary, boundary)).inverse());
+    const Eigen::MatrixXd psi = inverse * krc;
+    Eigen::MatrixXd t = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(boundary.size()), m.cols());
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+      const int unknown = r[static_cast<std::size_t>(boundary[i])];
+      bool isInContact = false;
+      for (const auto& entry : s.constraint)
+        if (entry.unknown == unknown) {
+          t(static_cast<Eigen::Index>(i), row(entry)) += scaled(s, entry);
+          isInContact = isInContact || row(entry) < problem_.numInequalities;
+        }
+      if (isInContact && crosspoints_.size() > 0)
+        for (std::size_t j = 0; j < c.size(); ++j)
+          t.row(static_cast<Eigen::Index>(i)) +=
+              psi(boundary[i], static_cast<Eigen::Index>(j)) *
+              crosspoints_.extension().row(crosspoints_.nearIndexOf(s.crosspointIndices[j])) * touched;
+    }
+    m += t.transpose() * stiffness * t;
+  }
+
+  [[nodiscard]] Eigen::Index row(const decomposition::ConstraintEntry& entry) const {
+    return static_cast<Eigen::Index>(problem_.multiplierGhostMap->getGlobalElement(entry.multiplier));
+  }
+  [[nodiscard]] double weight(const Subdomain& s, int unknown) const {
+    if (parameters_.scaling == Scaling::multiplicity)
+      return 1.0;
+    for (std::size_t c = 0; c < s.crosspointUnknowns.size(); ++c)
+      if (s.crosspointUnknowns[c] == unknown)
+        return diagonal_[static_cast<Eigen::Index>(s.crosspointIndices[c])];
+    return s.stiffness.coeff(unknown, unknown);
+  }
+  /// An entry of B_D.
+  [[nodiscard]] double scaled(const Subdomain& s, const decomposition::ConstraintEntry& entry) const {
+    return entry.coefficient / weight(s, entry.unknown) / totals_[row(entry)];
+  }
+  template <class Matrix>
+  void sum(Matrix& matrix) const {
+    sumOverRanks(*problem_.comm, {matrix.data(), static_cast<std::size_t>(matrix.size())});
+  }
+
+  const DecomposedProblem& problem_;
+  PreconditionerParameters parameters_;
+  ContactCrosspoints crosspoints_;
+  Eigen::VectorXd diagonal_; ///< of K̄ at the crosspoints
+  Eigen::VectorXd totals_;   ///< Σ b²/δ of each row
+};
+
+TEST(DualPreconditionerTest, IsTheSumOfScaledStiffnessesThatItsDefinitionSays) {
+  for (const ContactCase& c : allCases())
+    for (const PreconditionerParameters& parameters : allPreconditioners(false)) {
+      SCOPED_TRACE(c.name + "; " + describe(parameters));
+      const Preconditioned preconditioned(c.scene, parameters);
+      EXPECT_LE(
+          relativeError(matrixOf(preconditioned.m), DensePreconditioner(preconditioned, parameters).matrix()),
+          1e-9);
+    }
+}
+
+TEST(DualPreconditionerTest, RowsThatTouchNothingAreLeftAlone) {
+  const std::string name = "contact that ends at both bodies' supports";
+  for (const ContactCase& c : hardCases())
+    if (c.name == name)
+      for (const PreconditionerParameters& parameters : allPreconditioners(true)) {
+        const Preconditioned preconditioned(c.scene, parameters);
+        const Eigen::MatrixXd f = matrixOf(preconditioned.f), m = matrixOf(preconditioned.m);
+        int untouched = 0;
+        for (Eigen::Index i = 0; i < f.rows(); ++i)
+          if (f.row(i).isZero(0)) {
+            ++untouched;
+            EXPECT_EQ(m.row(i), Eigen::RowVectorXd::Unit(f.rows(), i));
+          }
+        EXPECT_EQ(untouched, 1); // the end at the feet; the other one is free
+        const Eigen::VectorXd spectrum = scaledSpectrum(m);
+        EXPECT_GT(spectrum.minCoeff(), 1e-3);
+      }
+}
+
+TEST(DualPreconditionerTest, IsTheSameToTheLastDigitOnAnyNumberOfRanks) {
+  for (const ContactCase& c : allCases())
+    for (const bool isSingle : {false, true}) {
+      SCOPED_TRACE(c.name + (isSingle ? ", single" : ""));
+      const PreconditionerParameters parameters{Type::dirichlet, Scaling::stiffness, isSingle};
+      const Eigen::MatrixXd together = matrixOf(Preconditioned(c.scene, parameters).m);
+      const Eigen::MatrixXd alone = matrixOf(Preconditioned(c.scene, parameters, thisRankOnly()).m);
+      EXPECT_EQ((together - alone).cwiseAbs().maxCoeff(), 0);
+    }
+}
+
+TEST(DualPreconditionerTest, ScalesAndAddsAsTpetraOperatorsDo) {
+  const Preconditioned preconditioned(twoMembranes(true, 4, grid(2, 2)));
+  const Eigen::MatrixXd m = matrixOf(preconditioned.m);
+  const Eigen::VectorXd x = randomVector(m.rows(), 1), y = randomVector(m.rows(), 2);
+  const RCP<const Map> map = preconditioned.m.getDomainMap();
+  const RCP<Vector> input = spread(map, x), output = spread(map, y);
+
+  preconditioned.m.apply(*input, *output, Teuchos::NO_TRANS, 2.0, -3.0);
+  EXPECT_LE(relativeError(gathered(*output), 2.0 * m * x - 3.0 * y), 1e-13);
+  output->putScalar(std::numeric_limits<double>::quiet_NaN());
+  preconditioned.m.apply(*input, *output, Teuchos::TRANS); // beta = 0 forgets what was there
+  EXPECT_LE(relativeError(gathered(*output), m * x), 1e-13);
+  EXPECT_EQ(gathered(*input), x);
+}
+
+TEST(DualPreconditionerTest, ItsUnitsAreThoseOfTheStiffness) {
+  for (const PreconditionerParameters& parameters : allPreconditioners(false)) {
+    SCOPED_TRACE(describe(parameters));
+    scene::Scene scene = twoMembranes(false, 6, grid(3, 3));
+    const Eigen::MatrixXd m = matrixOf(Preconditioned(scene, parameters).m);
+    for (scene::Body& body : scene.bodies)
+      body.conductivity *= 1024;
+    EXPECT_LE(relativeError(matrixOf(Preconditioned(scene, parameters).m), 1024 * m), 1e-14);
+  }
+}
+
+TEST(DualPreconditionerTest, SinglePrecisionReadsHalfTheBytesAtMost) {
+  const scene::Scene scene = twoMembranes(false, 12, grid(4, 4));
+  const Preconditioned full(scene, {Type::dirichlet, Scaling::stiffness, false}, thisRankOnly()),
+      single(scene, {Type::dirichlet, Scaling::stiffness, true}, thisRankOnly());
+  EXPECT_GT(full.m.bytes(), 0U);
+  EXPECT_EQ(single.m.bytes(), full.m.bytes() / 2);
+}
+
+} // namespace
+} // namespace epafi::fetidp

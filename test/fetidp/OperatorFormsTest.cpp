@@ -1,0 +1,136 @@
+// F in all its forms: sparse solves or dense blocks, factors shared or not, by any direct solver.
+
+#include "Preconditioned.hpp"
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+namespace epafi::fetidp {
+namespace {
+
+using Mode = DualOperatorParameters::Mode;
+
+struct Form {
+  std::string solver;
+  bool isShared;
+  Mode mode;
+};
+
+std::vector<Form> allForms() {
+  std::vector<Form> forms;
+  for (const std::string& solver : direct::availableSolvers())
+    for (const bool isShared : {true, false})
+      for (const Mode mode : {Mode::implicitSolves, Mode::explicitBlocks, Mode::automatic})
+        forms.push_back({solver, isShared, mode});
+  return forms;
+}
+
+std::string nameOf(const Form& form) {
+  return form.solver + (form.isShared ? ", shared" : ", not shared") +
+         (form.mode == Mode::implicitSolves   ? ", implicit"
+          : form.mode == Mode::explicitBlocks ? ", explicit"
+                                              : ", auto");
+}
+
+/// Cases with equal subdomains in number, and METIS parts.
+std::vector<ContactCase> formCases() {
+  std::vector<ContactCase> cases;
+  for (const bool coercive : {true, false}) {
+    const std::string kind = coercive ? "coercive, " : "semicoercive, ";
+    cases.push_back({kind + "grid", twoMembranes(coercive, 12, grid(4, 4)), coercive});
+    cases.push_back({kind + "METIS", twoMembranes(coercive, 8, metis(5)), coercive});
+    cases.push_back({kind + "one element a subdomain", twoMembranes(coercive, 3, grid(3, 3)), coercive});
+  }
+  return cases;
+}
+
+/// F of a problem in one form.
+Eigen::MatrixXd matrixIn(const DecomposedProblem& problem, const Form& form) {
+  auto inverse =
+      std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
+  inverse->prepareDual({form.mode, 40});
+  return matrixOf(DualOperator(problem, std::move(inverse)));
+}
+
+TEST(OperatorFormsTest, EveryFormEqualsTheUndecomposedComputation) {
+  for (const ContactCase& c : formCases()) {
+    const auto decomposition = decompose(c.scene, world());
+    const DenseProblem dense = densify(decomposition.problem);
+    const Eigen::MatrixXd z = kernelOf(dense.constraint * dense.kernel);
+    const Eigen::MatrixXd expected =
+        z.transpose() * dense.constraint * pseudoInverse(dense.stiffness) * dense.constraint.transpose() * z;
+    for (const Form& form : allForms()) {
+      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      EXPECT_LE(relativeError(z.transpose() * matrixIn(decomposition.problem, form) * z, expected), 1e-12);
+    }
+  }
+}
+
+/// On all multipliers, where bodies float too: one generalised inverse is used by all.
+TEST(OperatorFormsTest, AllFormsAreTheSameOperator) {
+  for (const ContactCase& c : formCases()) {
+    const auto decomposition = decompose(c.scene, world());
+    const Eigen::MatrixXd plain = matrixIn(decomposition.problem, {"CHOLMOD", false, Mode::implicitSolves});
+    for (const Form& form : allForms()) {
+      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      const Eigen::MatrixXd f = matrixIn(decomposition.problem, form);
+      EXPECT_LE(relativeError(f, plain), 1e-12);
+      EXPECT_LE((f - f.transpose()).norm(), 1e-13 * f.norm());
+    }
+  }
+}
+
+TEST(OperatorFormsTest, EveryFormIsTheSameToTheLastDigitOnAnyNumberOfRanks) {
+  for (const ContactCase& c : formCases()) {
+    const auto together = decompose(c.scene, world()), alone = decompose(c.scene, thisRankOnly());
+    for (const Form& form : allForms()) {
+      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      EXPECT_EQ((matrixIn(together.problem, form) - matrixIn(alone.problem, form)).cwiseAbs().maxCoeff(), 0);
+    }
+  }
+}
+
+/// A group's columns do not disturb each other: F of many multipliers at once and one after the other.
+TEST(OperatorFormsTest, ProductsWithManyMultipliersAtOnceAreTheSumOfSingleOnes) {
+  const auto decomposition = decompose(twoMembranes(false, 12, grid(4, 4)), world());
+  const DecomposedProblem& problem = decomposition.problem;
+  for (const Form& form : allForms()) {
+    SCOPED_TRACE(nameOf(form));
+    auto inverse =
+        std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
+    inverse->prepareDual({form.mode, 40});
+    const DualOperator f(problem, inverse);
+    const Eigen::MatrixXd matrix = matrixOf(f);
+    const Eigen::VectorXd x = randomVector(matrix.cols(), 5);
+    Vector image(problem.multiplierMap);
+    f.apply(*spread(problem.multiplierMap, x), image);
+    EXPECT_LE(relativeError(gathered(image), matrix * x), 1e-13);
+  }
+}
+
+TEST(OperatorFormsTest, OneFactorServesAllThatAreIdentical) {
+  const auto decomposition = decompose(twoMembranes(false, 12, grid(4, 4)), thisRankOnly());
+  const GeneralizedInverse shared(decomposition.problem, DirectSolvers{"CHOLMOD", "CHOLMOD", true});
+  const GeneralizedInverse single(decomposition.problem, DirectSolvers{"CHOLMOD", "CHOLMOD", false});
+  EXPECT_EQ(single.groups().size(), 32U);
+  EXPECT_LE(shared.groups().size(), 18U); // nine kinds a body at most
+  EXPECT_LT(shared.factorBytes(), single.factorBytes());
+}
+
+TEST(OperatorFormsTest, BlocksAreMadeWhereTheyPayOff) {
+  const auto decomposition = decompose(twoMembranes(true, 32, grid(2, 2)), thisRankOnly());
+  const auto numExplicit = [&](int products) {
+    GeneralizedInverse inverse(decomposition.problem, DirectSolvers());
+    inverse.prepareDual({Mode::automatic, products});
+    int number = 0;
+    for (const SubdomainGroup& group : inverse.groups())
+      number += group.isExplicit() ? static_cast<int>(group.members().size()) : 0;
+    return number;
+  };
+  EXPECT_EQ(numExplicit(1), 0);
+  EXPECT_EQ(numExplicit(1000), 8);
+}
+
+} // namespace
+} // namespace epafi::fetidp
