@@ -17,8 +17,8 @@
 namespace epafi::drivers {
 namespace {
 
-constexpr std::size_t mostRuns = 3;
-constexpr double secondsOfRuns = 4; ///< after which there is no further run
+constexpr std::size_t mostRuns = 7;
+constexpr double secondsOfRuns = 5; ///< after which there is no further run
 constexpr double secondsOfProducts = 0.1;
 
 Teuchos::ParameterList parametersOf(const ScalingRow& run) {
