@@ -1,9 +1,11 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import contact, convergence, qp, subdomains, surface, table, tables
+from . import contact, convergence, qp, scaling, subdomains, surface, table, tables
 from .errors import PlotError
 from .run import read_run
 from .style import Canvas
+
+STUDIES = ("tables.csv", "qp.csv", "scaling.csv")
 
 
 def draw(source, output, extension, dpi):
@@ -23,11 +25,12 @@ def find(source):
     if not source.is_dir():
         return [source]
     found = [file for file in sorted(source.glob("*.h5")) if not file.name.startswith(".")]
-    found += [source / name for name in ("tables.csv", "qp.csv", "history.csv") if (source / name).is_file()]
+    found += [source / name for name in (*STUDIES, "history.csv") if (source / name).is_file()]
     if "history.csv" in [file.name for file in found] and any(file.suffix == ".h5" for file in found):
         found = [file for file in found if file.name != "history.csv"]  # the HDF5 file holds the same history
     if not found:
-        raise PlotError(f"directory '{source}' holds neither *.h5 nor tables.csv nor qp.csv; name the directory of a run or study.")
+        raise PlotError(f"directory '{source}' holds neither *.h5 nor {', '.join(STUDIES)}; name the directory of a run "
+                        "or study.")
     return found
 
 
@@ -49,6 +52,8 @@ def draw_table(file, canvas):
         yield canvas.save(tables.figure(rows), file.stem)
     elif table.has(rows, qp.COLUMNS):
         yield canvas.save(qp.figure(file, rows), file.stem)
+    elif table.has(rows, scaling.COLUMNS):
+        yield canvas.save(scaling.figure(file, rows), file.stem)
     elif table.has(rows, convergence.COLUMNS):
         history = convergence.history_of_table(file, rows)
         if not convergence.can_draw(history):
@@ -57,4 +62,5 @@ def draw_table(file, canvas):
     else:
         raise PlotError(f"'{file}' has neither the columns of tables.csv ({', '.join(tables.COLUMNS)}) "
                         f"nor those of qp.csv ({', '.join(qp.COLUMNS)}) "
+                        f"nor those of scaling.csv ({', '.join(scaling.COLUMNS)}) "
                         f"nor those of history.csv ({', '.join(convergence.COLUMNS)}).")

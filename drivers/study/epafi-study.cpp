@@ -1,6 +1,7 @@
 /// `epafi-study STUDY`: measurements as tables and pictures.
 
 #include "QpStudy.hpp"
+#include "ScalingStudy.hpp"
 #include "TablesStudy.hpp"
 
 #include "epafi/base/Collective.hpp"
@@ -24,10 +25,14 @@ constexpr const char* usage =
     "Writes DIR/<study>.csv, a table to read and a picture (DIR is . by default); --quick ends within a "
     "minute.\n\n"
     "  tables   Tables 1 and 2 of the paper: dimensions and iterations, ours beside the paper's\n"
-    "  qp       problems with bounds: products with the Hessian by method, preconditioner and start\n";
+    "  qp       problems with bounds: products with the Hessian by method, preconditioner and start\n"
+    "  scaling  time, memory and messages over the number of subdomains, their size and the number of "
+    "ranks;\n"
+    "           rows of other numbers of ranks that DIR/scaling.csv holds are kept\n";
 
 using Study = bool (*)(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
-const std::map<std::string, Study> studies{{"tables", drivers::studyTables}, {"qp", drivers::studyQp}};
+const std::map<std::string, Study> studies{
+    {"tables", drivers::studyTables}, {"qp", drivers::studyQp}, {"scaling", drivers::studyScaling}};
 
 struct Request {
   std::string study;

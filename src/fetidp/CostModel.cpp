@@ -5,12 +5,14 @@
 namespace epafi::fetidp {
 namespace {
 
-constexpr double solveRate = 2e9;    ///< entries of a sparse factor a second, one right-hand side
-constexpr double batchRate = 6e9;    ///< the same, several right-hand sides at once
-constexpr double streamRate = 1.5e9; ///< entries of a dense block a second, one vector
-constexpr double productRate = 1e10; ///< multiplications and additions a second, several vectors
-constexpr double inverseRate = 4e9;  ///< the same when the block is made
-constexpr double callSeconds = 5e-7; ///< what a call costs, however small
+// Measured by `epafi-study scaling` on subdomains with H/h from 8 to 64 (docs/performance.md); within a factor of two.
+constexpr double solveRate = 1.3e9;     ///< entries of a sparse factor a second, one right-hand side
+constexpr double batchRate = 2.8e9;     ///< the same, several right-hand sides at once
+constexpr double streamRate = 3e9;      ///< entries of a dense block a second, one vector
+constexpr double productRate = 2.2e10;  ///< multiplications and additions a second, several vectors
+constexpr double inverseRate = 4.5e9;   ///< the same when the block is made
+constexpr double callSeconds = 1e-7;    ///< what a product costs, however small
+constexpr double blockSeconds = 1.5e-6; ///< what making a block costs, however small
 
 } // namespace
 
@@ -23,7 +25,7 @@ DualCosts expectedCosts(const SubdomainGroup& group) {
   costs.implicitProduct = callSeconds + 2 * members * entries / (isAlone ? solveRate : batchRate);
   costs.explicitProduct =
       callSeconds + (isAlone ? size * size / streamRate : 2 * members * size * size / productRate);
-  costs.explicitSetup = callSeconds + 2.0 / 3.0 * std::pow(size, 3) / inverseRate;
+  costs.explicitSetup = blockSeconds + 2.0 / 3.0 * std::pow(size, 3) / inverseRate;
   return costs;
 }
 

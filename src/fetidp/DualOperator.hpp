@@ -27,6 +27,8 @@ public:
              double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
   [[nodiscard]] int applications() const { return applications_; }
+  /// K̄⁺, of which F is made.
+  [[nodiscard]] const GeneralizedInverse& inverse() const { return *inverse_; }
 
 private:
   RCP<const Map> map_;

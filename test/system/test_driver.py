@@ -281,6 +281,63 @@ class RefusesProblemsWithoutASolution(Driver):
                     "--set", "Bodies/right/Loads/lower strip/Value=0")
 
 
+class StudiesScaling(Driver):
+    COLUMNS = ["problem", "H_inverse", "H_over_h", "ranks", "operator", "preconditioner", "hessian_multiplications",
+               "assembly_seconds", "setup_seconds", "solve_seconds", "total_seconds", "peak_bytes", "apply_seconds",
+               "apply_bytes", "stream_bytes_per_second"]
+
+    def study(self, ranks=1):
+        launch = [*LAUNCH, str(ranks)] if ranks > 1 else []
+        return subprocess.run([*launch, STUDY, "scaling", "--quick", "--output", str(self.place)], capture_output=True,
+                              text=True, timeout=2 * LIMIT, check=False)
+
+    def rows(self):
+        with open(self.place / "scaling.csv", newline="", encoding="utf-8") as table:
+            reader = csv.DictReader(table)
+            rows = list(reader)
+        self.assertEqual(reader.fieldnames[:len(self.COLUMNS)], self.COLUMNS)
+        return rows
+
+    def test_the_quick_study_and_its_rows_of_other_numbers_of_ranks(self):
+        run = self.study()
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""), run.stdout)
+        for name in ("", "_blocks", "_costs", "_coarse", "_prediction"):
+            self.assertGreater((self.place / f"scaling{name}.csv").stat().st_size, 50, name)
+        for name in ("scaling.md", "scaling.png"):
+            self.assertGreater((self.place / name).stat().st_size, 1000, name)
+        alone = self.rows()
+        self.assertEqual({(row["operator"], row["preconditioner"]) for row in alone},
+                         {(form, kind) for form in ("implicit", "explicit", "shared") for kind in ("none", "lumped", "dirichlet")})
+        for row in alone:
+            numbers = {name: float(row[name]) for name in self.COLUMNS[6:]}
+            self.assertTrue(all(value > 0 for value in numbers.values()), row)
+            phases = sum(numbers[f"{phase}_seconds"] for phase in ("assembly", "setup", "solve"))
+            self.assertLess(phases, 1.5 * numbers["total_seconds"], row)  # medians, each of its own
+        for problem in ("coercive", "semicoercive"):
+            energies = [float(row["energy"]) for row in alone
+                        if (row["problem"], row["H_inverse"], row["H_over_h"]) == (problem, "8", "8")]
+            self.assertLess(max(energies) - min(energies), 1e-5 * abs(energies[0]), problem)
+
+        run = self.study(ranks=2)
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""), run.stdout)
+        both = self.rows()
+        self.assertEqual([row for row in both if row["ranks"] == "1"], alone)
+        several = [row for row in both if row["ranks"] == "2"]
+        self.assertEqual({(row["H_inverse"], row["operator"]) for row in several},
+                         {("8", "shared"), ("8", "explicit"), ("6", "shared"), ("6", "explicit")})
+        for row in several:
+            self.assertGreaterEqual(float(row["messages_per_apply"]), 1, row)
+            # one sum of the coarse problem, twice as precise as its numbers
+            self.assertEqual(float(row["reduction_bytes_per_apply"]), 16 * float(row["coarse_unknowns"]), row)
+
+    def test_tables_of_others_are_not_overwritten(self):
+        (self.place / "scaling.csv").write_text("problem,ranks\ncoercive,2\n")
+        run = self.study()
+        self.assertEqual(run.returncode, WRONG_INPUT)
+        self.assertIn("scaling.csv", run.stderr)
+        self.assertEqual((self.place / "scaling.csv").read_text(), "problem,ranks\ncoercive,2\n")
+
+
 class StudiesQuadraticPrograms(Driver):
     COLUMNS = ["problem", "size", "method", "preconditioner", "start", "hessian_multiplications", "cg_steps",
                "expansion_steps", "proportioning_steps", "seconds", "relative_projected_gradient"]

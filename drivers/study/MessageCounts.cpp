@@ -1,0 +1,65 @@
+#include "MessageCounts.hpp"
+
+#include <mpi.h>
+
+namespace {
+
+epafi::drivers::MessageCounts counts; // NOLINT: the calls of MPI have no other place for it
+
+std::int64_t bytesOf(int count, MPI_Datatype type) {
+  int size = 0;
+  MPI_Type_size(type, &size);
+  return std::int64_t{count} * size;
+}
+
+void countMessage(int count, MPI_Datatype type) {
+  ++counts.messages;
+  counts.bytes += bytesOf(count, type);
+}
+
+} // namespace
+
+extern "C" {
+
+int MPI_Allreduce(const void* sendbuf, void* recvbuf, int count, MPI_Datatype datatype, MPI_Op op,
+                  MPI_Comm comm) {
+  ++counts.reductions;
+  counts.reductionBytes += bytesOf(count, datatype);
+  return PMPI_Allreduce(sendbuf, recvbuf, count, datatype, op, comm);
+}
+
+int MPI_Send(const void* buf, int count, MPI_Datatype datatype, int dest, int tag, MPI_Comm comm) {
+  countMessage(count, datatype);
+  return PMPI_Send(buf, count, datatype, dest, tag, comm);
+}
+
+int MPI_Ssend(const void* buf, int count, MPI_Datatype datatype, int dest, int tag, MPI_Comm comm) {
+  countMessage(count, datatype);
+  return PMPI_Ssend(buf, count, datatype, dest, tag, comm);
+}
+
+int MPI_Rsend(const void* buf, int count, MPI_Datatype datatype, int dest, int tag, MPI_Comm comm) {
+  countMessage(count, datatype);
+  return PMPI_Rsend(buf, count, datatype, dest, tag, comm);
+}
+
+int MPI_Isend(const void* buf, int count, MPI_Datatype datatype, int dest, int tag, MPI_Comm comm,
+              MPI_Request* request) {
+  countMessage(count, datatype);
+  return PMPI_Isend(buf, count, datatype, dest, tag, comm, request);
+}
+
+} // extern "C"
+
+namespace epafi::drivers {
+
+MessageCounts messageCounts() {
+  return counts;
+}
+
+MessageCounts operator-(const MessageCounts& a, const MessageCounts& b) {
+  return {a.messages - b.messages, a.bytes - b.bytes, a.reductions - b.reductions,
+          a.reductionBytes - b.reductionBytes};
+}
+
+} // namespace epafi::drivers

@@ -1,0 +1,148 @@
+#include "ScalingCase.hpp"
+
+#include "Median.hpp"
+#include "MessageCounts.hpp"
+#include "PeakMemory.hpp"
+#include "SceneRun.hpp"
+
+#include "epafi/fetidp/DualPreconditioner.hpp"
+#include "epafi/scene/ModelProblem.hpp"
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Operator.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <vector>
+
+namespace epafi::drivers {
+namespace {
+
+constexpr std::size_t mostRuns = 7;
+constexpr double secondsOfRuns = 5; ///< after which there is no further run
+constexpr double secondsOfProducts = 0.1;
+
+Teuchos::ParameterList parametersOf(const ScalingRow& run) {
+  Teuchos::ParameterList parameters;
+  parameters.sublist("Dual Operator").set("Mode", run.dualOperator == "implicit" ? "implicit" : "explicit");
+  parameters.sublist("Direct Solvers")
+      .set("Share Identical Subdomains", run.dualOperator == "shared" ? "yes" : "no");
+  parameters.sublist("Preconditioner").set("Type", run.preconditioner).set("Precision", run.precision);
+  return parameters;
+}
+
+/// Reductions that conjugate gradient steps make, products included.
+class ReductionCount final : public qp::Observer {
+public:
+  void step(const qp::StepRecord& record) override {
+    const auto now = static_cast<double>(messageCounts().reductions);
+    if (record.kind == qp::StepKind::conjugateGradient)
+      ofSteps_.push_back(now - last_);
+    last_ = now;
+  }
+  [[nodiscard]] double perStep() const { return ofSteps_.empty() ? ScalingRow::unknown : median(ofSteps_); }
+
+private:
+  double last_ = 0;
+  std::vector<double> ofSteps_;
+};
+
+/// Times of one run after the other.
+struct RunTimes {
+  std::vector<double> assembly, setup, solve, total;
+  double sum = 0;
+
+  void add(const Teuchos::ParameterList& report) {
+    const auto time = [&](const char* phase) { return report.sublist("Time").get<double>(phase); };
+    assembly.push_back(time("Assembly"));
+    setup.push_back(time("Setup"));
+    solve.push_back(time("Solve"));
+    total.push_back(assembly.back() + setup.back() + solve.back() + time("Recovery"));
+    sum += total.back();
+  }
+};
+
+void measureProducts(const fetidp::DualProblem& dual, const Comm& comm, ScalingRow& row) {
+  const fetidp::DualOperator& f = *dual.dualOperator();
+  Vector x(f.getDomainMap()), y(f.getDomainMap());
+  x.putScalar(1.0);
+  row.applySeconds = medianSeconds(comm, secondsOfProducts, [&] { f.apply(x, y); });
+  const MessageCounts before = messageCounts();
+  f.apply(x, y);
+  const MessageCounts sent = messageCounts() - before;
+  row.messagesPerApply = maxOverRanks(comm, static_cast<double>(sent.messages));
+  row.bytesSentPerApply = maxOverRanks(comm, static_cast<double>(sent.bytes));
+  row.reductionBytesPerApply = maxOverRanks(comm, static_cast<double>(sent.reductionBytes));
+  if (dual.preconditioner().is_null())
+    return;
+  row.preconditionerSeconds =
+      medianSeconds(comm, secondsOfProducts, [&] { dual.preconditioner()->apply(x, y); });
+  if (const auto m = Teuchos::rcp_dynamic_cast<const fetidp::DualPreconditioner>(dual.preconditioner());
+      !m.is_null())
+    row.preconditionerBytes = sumOverRanks(comm, static_cast<double>(m->bytes()));
+}
+
+/// What the blocks of F read, hold and took to make.
+void measureBlocks(const fetidp::GeneralizedInverse& inverse, const Comm& comm, ScalingRow& row) {
+  double bytes = 0;
+  for (const fetidp::SubdomainGroup& group : inverse.groups())
+    bytes += static_cast<double>(group.applyBytes());
+  row.applyBytes = sumOverRanks(comm, bytes);
+  row.factorBytes = sumOverRanks(comm, static_cast<double>(inverse.factorBytes()));
+  row.coarseUnknowns = inverse.coarseSize();
+  if (row.dualOperator == "implicit")
+    return;
+  const double begin = Teuchos::Time::wallTime();
+  for (const fetidp::SubdomainGroup& group : inverse.groups())
+    const direct::SymmetricBlock block(group.condensed().factor().inverseOfKept(), group.use());
+  row.explicitSetup = maxOverRanks(comm, Teuchos::Time::wallTime() - begin);
+}
+
+double problemBytes(const decomposition::DecomposedProblem& problem) {
+  double bytes = 0;
+  for (const auto& subdomain : problem.subdomains)
+    bytes += static_cast<double>(subdomain.stiffness.nonZeros()) * (sizeof(double) + sizeof(int)) +
+             static_cast<double>(subdomain.load.size()) * sizeof(double);
+  return sumOverRanks(*problem.comm, bytes);
+}
+
+/// One run from the scene to the solution. Returns whether it converged.
+bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const Comm>& comm, RunTimes& times,
+             ScalingRow& row) {
+  row.baseBytes = sumOverRanks(*comm, resetPeakBytes());
+  ReductionCount reductions;
+  const SceneRun run = solveScene(scene, parametersOf(row), comm, &reductions);
+  row.peakBytes = sumOverRanks(*comm, peakBytes());
+  times.add(run.report);
+  row.hessianMultiplications = run.solver->report().counts.hessianMultiplications;
+  row.energy = run.solution.energy;
+  row.reductionsPerStep = reductions.perStep();
+  const decomposition::DecomposedProblem& problem = run.decomposition->problem;
+  row.unknowns = static_cast<double>(problem.primalDimension);
+  row.multipliers = static_cast<double>(problem.dualDimension());
+  row.problemBytes = problemBytes(problem);
+  if (measuresProducts) {
+    measureProducts(run.solver->dualProblem(), *comm, row);
+    measureBlocks(run.solver->dualProblem().dualOperator()->inverse(), *comm, row);
+  }
+  return run.solver->report().status == qp::Status::converged;
+}
+
+} // namespace
+
+bool measureRun(ScalingRow& row, const RCP<const Comm>& comm) {
+  const int counts = static_cast<int>(row.subdomainsPerSide);
+  const scene::Scene scene =
+      scene::modelProblem(row.problem == "coercive", counts, counts * static_cast<int>(row.elementsPerSide));
+  row.ranks = comm->getSize();
+  RunTimes times;
+  bool converged = true;
+  while (times.total.empty() || (times.total.size() < mostRuns && times.sum < secondsOfRuns))
+    converged = runOnce(scene, times.total.empty(), comm, times, row) && converged;
+  row.assembly = median(times.assembly);
+  row.setup = median(times.setup);
+  row.solve = median(times.solve);
+  row.total = median(times.total);
+  return converged;
+}
+
+} // namespace epafi::drivers
