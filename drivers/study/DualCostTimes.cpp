@@ -22,7 +22,7 @@ namespace {
 double secondsPerProduct(fetidp::GeneralizedInverse& inverse,
                          const decomposition::DecomposedProblem& problem) {
   const std::vector<double> lambda(numLocal(*problem.multiplierGhostMap), 1.0);
-  std::vector<AccurateSum> coarse(static_cast<std::size_t>(inverse.coarseSize()));
+  std::vector<AccurateSum> coarse(static_cast<std::size_t>(inverse.coarseProblem().size()));
   return medianSeconds(*problem.comm, 0.2, [&] {
     for (fetidp::SubdomainGroup& group : inverse.groups())
       group.applyFlexibility(lambda, coarse);

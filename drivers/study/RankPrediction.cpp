@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace epafi::drivers {
@@ -25,8 +26,10 @@ CoarseTimes timeCoarseProblem(int subdomainsPerSide) {
       scene::modelProblem(true, subdomainsPerSide, subdomainsPerSide * elementsPerSide), alone);
   const fetidp::DirectSolvers solvers;
   const fetidp::GeneralizedInverse inverse(cut.problem, solvers);
+  std::vector<GlobalOrdinal> crosspoints(static_cast<std::size_t>(inverse.coarseProblem().size()));
+  std::iota(crosspoints.begin(), crosspoints.end(), GlobalOrdinal{0}); // a single rank has them all
   const double begin = Teuchos::Time::wallTime();
-  const fetidp::CoarseProblem coarse(cut.problem, inverse.groups(), solvers.coarse);
+  const fetidp::CoarseProblem coarse(cut.problem, inverse.groups(), crosspoints, solvers);
   CoarseTimes times;
   times.setupSeconds = Teuchos::Time::wallTime() - begin;
   times.unknowns = coarse.size();

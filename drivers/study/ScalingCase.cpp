@@ -88,7 +88,7 @@ void measureBlocks(const fetidp::GeneralizedInverse& inverse, const Comm& comm, 
     bytes += static_cast<double>(group.applyBytes());
   row.applyBytes = sumOverRanks(comm, bytes);
   row.factorBytes = sumOverRanks(comm, static_cast<double>(inverse.factorBytes()));
-  row.coarseUnknowns = inverse.coarseSize();
+  row.coarseUnknowns = inverse.coarseProblem().size();
   if (row.dualOperator == "implicit")
     return;
   const double begin = Teuchos::Time::wallTime();
