@@ -23,7 +23,7 @@ using test::randomProblem;
 
 constexpr double shares[] = {0.01, 0.25, 1.0};
 
-Answer solveWith(const Problem& problem, double share, double tolerance = 1e-10) {
+Answer solveWithShare(const Problem& problem, double share, double tolerance = 1e-10) {
   const auto map = problem.map();
   const auto a = rcp(new test::DenseOperator(map, problem.a));
   const RCP<const qp::ConvexSet> box =
@@ -53,7 +53,7 @@ std::vector<int> productsOf(const qp::History& history, StepKind kind) {
 
 TEST(SufficientShareTest, ACutStepOfWhichEnoughFitsTakesOneProduct) {
   const auto productsAt = [](double bound, double share) {
-    const Answer answer = solveWith(cutAt(bound), share);
+    const Answer answer = solveWithShare(cutAt(bound), share);
     EXPECT_EQ(answer.report.status, Status::converged);
     EXPECT_EQ(answer.x[0], bound);
     const std::vector<int> products = productsOf(answer.report.history, StepKind::expansion);
@@ -72,10 +72,10 @@ TEST(SufficientShareTest, EveryValueLeadsToTheSameSolution) {
   std::mt19937 random(41);
   for (int repeat = 0; repeat < 20; ++repeat) {
     const Problem problem = randomProblem(3 + 2 * repeat, std::pow(10.0, repeat % 5), random);
-    const Answer usual = solveWith(problem, 0.25);
+    const Answer usual = solveWithShare(problem, 0.25);
     for (const double share : shares) {
       SCOPED_TRACE(testing::Message() << repeat << ", share " << share);
-      const Answer answer = solveWith(problem, share);
+      const Answer answer = solveWithShare(problem, share);
       EXPECT_EQ(answer.report.status, Status::converged) << answer.report.reason;
       EXPECT_LE(projectedGradient(problem, answer.x), 1.001e-10 * problem.b.norm() + 1e-14);
       EXPECT_LE((answer.x - usual.x).norm(), 1e-5 * usual.x.norm()); // κ ≤ 10⁴ times the tolerance, and some
@@ -90,7 +90,7 @@ TEST(SufficientShareTest, TheObjectiveNeverGrows) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     const Problem problem = randomProblem(30, std::pow(10.0, repeat % 5), random);
     for (const double share : shares) {
-      const Answer answer = solveWith(problem, share);
+      const Answer answer = solveWithShare(problem, share);
       const auto& history = answer.report.history;
       double size = 1;
       for (const auto& record : history)
@@ -111,7 +111,7 @@ TEST(SufficientShareTest, ItIsAskedForLessOftenTheMoreItAsks) {
     const Problem problem = randomProblem(40, 100, random);
     for (std::size_t s = 0; s < 3; ++s) {
       const std::vector<int> products =
-          productsOf(solveWith(problem, shares[s]).report.history, StepKind::expansion);
+          productsOf(solveWithShare(problem, shares[s]).report.history, StepKind::expansion);
       ASSERT_FALSE(products.empty());
       double sum = 0;
       for (const int number : products) {
@@ -133,7 +133,7 @@ TEST(SufficientShareTest, TheSetIsNeverLeft) {
   std::mt19937 random(53);
   for (const double share : shares) {
     const Problem problem = randomProblem(35, 1e3, random);
-    const Answer answer = solveWith(problem, share);
+    const Answer answer = solveWithShare(problem, share);
     EXPECT_TRUE((answer.x.array() >= problem.lower.array()).all());
     EXPECT_TRUE((answer.x.array() <= problem.upper.array()).all());
   }
