@@ -32,6 +32,15 @@ journal_bearing,100,projected_cg,none,zero,416,Converged,
 journal_bearing,200,projected_cg,none,zero,1078,Converged,
 torsion,100,projected_cg,face_multigrid,nested,18,Converged,
 """
+SCALING = "problem,H_inverse,H_over_h,ranks,operator,preconditioner,hessian_multiplications,assembly_seconds,setup_seconds," \
+          "solve_seconds,apply_seconds,apply_bytes,stream_bytes_per_second,precision,unknowns\n"
+ONE_RANK = "".join(f"coercive,{inverse},8,1,{form},dirichlet,20,0.1,0.2,0.3,1e-3,1e6,1e10,double,1000\n"
+                   for inverse in (2, 4, 8) for form in ("implicit", "explicit", "shared"))
+TWO_RANKS = "coercive,8,8,2,shared,dirichlet,20,0.1,0.2,0.3,1e-3,1e6,1e10,double,1000\n"
+PREDICTION = """ranks,subdomains_per_rank,local_seconds,neighbour_seconds,reduction_seconds,coarse_sum_seconds,coarse_solve_seconds
+1,1,1e-3,0,0,0,1e-6
+1000,1,1e-3,1e-5,1e-5,1e-5,1e-3
+"""
 
 
 def run(*arguments):
@@ -107,6 +116,17 @@ class Plot(unittest.TestCase):
         self.assertEqual([picture.name for picture in self.pictures(self.directory)], ["qp.png"])
         (self.directory / "qp.csv").write_text(QP.replace("1780", "many"))
         self.assertIn("many", self.refused(self.directory))
+
+    def test_scaling_is_drawn_as_far_as_it_was_measured(self):
+        for rows, prediction in ((ONE_RANK, None), (TWO_RANKS, None), (ONE_RANK + TWO_RANKS, PREDICTION)):
+            (self.directory / "scaling.csv").write_text(SCALING + rows)
+            if prediction:
+                (self.directory / "scaling_prediction.csv").write_text(prediction)
+            self.assertEqual([picture.name for picture in self.pictures(self.directory)], ["scaling.png"])
+        (self.directory / "scaling.csv").write_text(SCALING + ONE_RANK.replace("1e6", "many"))
+        self.assertIn("many", self.refused(self.directory))
+        (self.directory / "scaling.csv").write_text(SCALING + ONE_RANK.splitlines()[0])
+        self.assertIn("no series", self.refused(self.directory))
 
     def test_a_history_table_alone_gives_the_convergence(self):
         (self.directory / "history.csv").write_text(HISTORY)
