@@ -123,7 +123,7 @@ std::string ContactSolver::describeDualOperator() const {
   if (explicitOnes > 0 && explicitOnes < problem_->numSubdomains)
     text << " (" << explicitOnes << " of " << problem_->numSubdomains << " subdomains)";
   if (different < problem_->numSubdomains)
-    text << ", " << different << " different subdomains factorised";
+    text << ", " << different << " factorisations, the others alike";
   return text.str();
 }
 
@@ -148,7 +148,9 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
   list.sublist("Algorithm")
       .set("Name", fetidp::toString(dual_->algorithm()))
       .set("Reason", dual_->reason())
-      .set("Preconditioner", fetidp::describe(dualParameters_.preconditioner))
+      .set("Preconditioner", dual_->preconditioner().is_null()
+                                 ? std::string("none")
+                                 : fetidp::describe(dualParameters_.preconditioner))
       .set("Dual Operator", describeDualOperator())
       .set("Subdomain Solver", directSolvers_.subdomains)
       .set("Coarse Solver", directSolvers_.coarse)
@@ -172,7 +174,8 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
   list.sublist("Time").set("Setup", times_.setup).set("Solve", times_.solve).set("Recovery", times_.recovery);
   list.sublist("Memory")
       .set("Peak Bytes", sumOverRanks(comm, peakBytes()))
-      .set("Factor Bytes", sumOverRanks(comm, static_cast<double>(inverse_->factorBytes())));
+      .set("Factor Bytes",
+           sumOverRanks(comm, static_cast<double>(inverse_->factorBytes() + dual_->preconditionerBytes())));
   list.sublist("Status")
       .set("Converged", report_.status == qp::Status::converged)
       .set("Status", qp::toString(report_.status))

@@ -67,10 +67,13 @@ DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
 void DualProblem::precondition() {
   if (parameters_.preconditioner.type == PreconditionerParameters::Type::none)
     return;
-  preconditioner_ = rcp(new DualPreconditioner(problem_, inverse_, parameters_.preconditioner));
+  const RCP<const DualPreconditioner> m =
+      rcp(new DualPreconditioner(problem_, inverse_, parameters_.preconditioner));
+  preconditionerBytes_ = m->bytes();
+  preconditioner_ = m;
   if (algorithm_ == Algorithm::smalbe) {
     const double penalty = parameters_.smalbe.penalty * (norm_.norm > 0 ? norm_.norm : 1.0);
-    preconditioner_ = rcp(new ProjectedPreconditioner(preconditioner_, coarseSpace_, penalty));
+    preconditioner_ = rcp(new ProjectedPreconditioner(m, coarseSpace_, penalty));
   }
 }
 

@@ -63,6 +63,8 @@ public:
   [[nodiscard]] RCP<const DualOperator> dualOperator() const { return dualOperator_; }
   /// M ≈ F⁻¹, or PMP + ρ⁻¹Q where bodies float; null without.
   [[nodiscard]] RCP<const Operator> preconditioner() const { return preconditioner_; }
+  /// Bytes of this rank's blocks of M.
+  [[nodiscard]] std::size_t preconditionerBytes() const { return preconditionerBytes_; }
   /// G, P, Q; null without floating bodies.
   [[nodiscard]] RCP<const NaturalCoarseSpace> coarseSpace() const { return coarseSpace_; }
   [[nodiscard]] const std::vector<KernelEntry>& kernelEntries() const { return kernelEntries_; }
@@ -88,8 +90,9 @@ private:
   RCP<const NaturalCoarseSpace> coarseSpace_;
   RCP<const Operator> hessian_;        ///< F or PFP
   RCP<const Operator> preconditioner_; ///< of the Hessian, or null
-  qp::NormEstimate norm_;              ///< of the Hessian
-  double termSize_ = 0;                ///< of the terms of d̃
+  std::size_t preconditionerBytes_ = 0;
+  qp::NormEstimate norm_; ///< of the Hessian
+  double termSize_ = 0;   ///< of the terms of d̃
 };
 
 /// The loads that the problem holds, f^s for each of this rank's subdomains.

@@ -118,19 +118,5 @@ TEST(OperatorFormsTest, OneFactorServesAllThatAreIdentical) {
   EXPECT_LT(shared.factorBytes(), single.factorBytes());
 }
 
-TEST(OperatorFormsTest, BlocksAreMadeWhereTheyPayOff) {
-  const auto decomposition = decompose(twoMembranes(true, 32, grid(2, 2)), thisRankOnly());
-  const auto numExplicit = [&](int products) {
-    GeneralizedInverse inverse(decomposition.problem, DirectSolvers());
-    inverse.prepareDual({Mode::automatic, products});
-    int number = 0;
-    for (const SubdomainGroup& group : inverse.groups())
-      number += group.isExplicit() ? static_cast<int>(group.members().size()) : 0;
-    return number;
-  };
-  EXPECT_EQ(numExplicit(1), 0);
-  EXPECT_EQ(numExplicit(1000), 8);
-}
-
 } // namespace
 } // namespace epafi::fetidp
