@@ -125,7 +125,8 @@ TEST(FetiParametersTest, TheReportSaysWhatWasDone) {
   EXPECT_EQ(said.get<std::string>("Subdomain Solver"), "KLU2");
   EXPECT_EQ(said.get<std::string>("Coarse Solver"), direct::fastestSolver());
   EXPECT_EQ(said.get<std::string>("Preconditioner"), "lumped, multiplicity scaling, single precision");
-  test::expectSays(said.get<std::string>("Dual Operator"), {"explicit, ", "factorisations, the others alike"});
+  test::expectSays(said.get<std::string>("Dual Operator"),
+                   {"explicit, ", "factorisations, the others alike"});
 
   list.sublist("Dual Operator").set("Mode", "implicit");
   list.sublist("Preconditioner").set("Type", "none");
