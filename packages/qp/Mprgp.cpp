@@ -21,9 +21,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters,
              double operatorNorm, RCP<const Operator> preconditioner)
     : a_(std::move(a)), preconditioner_(std::move(preconditioner)), set_(std::move(set)),
-      parameters_(parameters), sufficientShare_(parameters.sufficientShare > 0 ? parameters.sufficientShare
-                                                : preconditioner_.is_null()    ? 1.0
-                                                                               : 0.25),
+      parameters_(parameters),
+      sufficientShare_(parameters.sufficientShare > 0 ? parameters.sufficientShare : 1.0),
       scale_(operatorNorm > 0 ? 1.0 / operatorNorm : 1.0), norm_(operatorNorm > 0 ? 1.0 : 0.0),
       comm_(a_->getDomainMap()->getComm()),
       hessianTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: product with the Hessian")),

@@ -24,7 +24,8 @@ struct MprgpParameters {
   double proportioningConstant = 1.0; ///< Γ > 0
   Expansion expansion = Expansion::projectedCg;
   /// Of a CG step that meets the boundary: with at least this share it is good enough, and ends there (a cut to the share
-  /// s has 1 − (1 − s)² of the decrease); 1: never; 0: 0.25 with a preconditioner, else 1.
+  /// s has 1 − (1 − s)² of the decrease); 1: never; 0: not chosen, which is 1 but where the caller
+  /// knows better.
   double sufficientShare = 0;
   double expansionStep = 1.9; ///< ᾱ‖A‖, in (0, 2)
   Release release = Release::projectedGradient;

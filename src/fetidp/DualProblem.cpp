@@ -67,6 +67,8 @@ DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
 void DualProblem::precondition() {
   if (parameters_.preconditioner.type == PreconditionerParameters::Type::none)
     return;
+  if (parameters_.mprgp.sufficientShare == 0)
+    parameters_.mprgp.sufficientShare = 0.25; // most expansions would fix one multiplier or two
   const RCP<const DualPreconditioner> m =
       rcp(new DualPreconditioner(problem_, inverse_, parameters_.preconditioner));
   preconditionerBytes_ = m->bytes();
