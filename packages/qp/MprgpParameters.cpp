@@ -60,7 +60,8 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
       list, "Sufficient Share", defaults.sufficientShare,
       "A CG step that would leave the feasible set, but of which at least this share fits, ends at the "
       "boundary "
-      "and saves the product of an expansion. 1: every such step is followed by an expansion; 0: 0.25 with a "
+      "and saves the product of an expansion. 1: every such step is followed by an expansion; 0: 0.25 for "
+      "FETI-DP with a "
       "preconditioner, else 1.",
       0.0, 1.0);
   addReal(list, "Expansion Step", defaults.expansionStep,
