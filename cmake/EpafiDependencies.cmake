@@ -28,10 +28,11 @@ target_link_libraries(epafi_muelu INTERFACE ${epafi_muelu_libraries} Epafi::tril
 # Sparse Cholesky factors of subdomains. Its dense parts go through the BLAS that Trilinos names; OpenBLAS it should be.
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX) # its run-time library alone, to keep CHOLMOD from making threads
 add_library(epafi_cholmod INTERFACE)
 add_library(Epafi::cholmod ALIAS epafi_cholmod)
 target_include_directories(epafi_cholmod SYSTEM INTERFACE "${CHOLMOD_INCLUDE_DIR}")
-target_link_libraries(epafi_cholmod INTERFACE "${CHOLMOD_LIBRARY}")
+target_link_libraries(epafi_cholmod INTERFACE "${CHOLMOD_LIBRARY}" ${OpenMP_CXX_LIBRARIES})
 
 find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)

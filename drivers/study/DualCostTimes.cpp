@@ -25,7 +25,7 @@ double secondsPerProduct(fetidp::GeneralizedInverse& inverse,
   std::vector<AccurateSum> coarse(static_cast<std::size_t>(inverse.coarseProblem().size()));
   return medianSeconds(*problem.comm, 0.2, [&] {
     for (fetidp::SubdomainGroup& group : inverse.groups())
-      group.applyFlexibility(lambda, coarse);
+      group.applyFlexibility(lambda, coarse, 1);
   });
 }
 

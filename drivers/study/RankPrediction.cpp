@@ -35,7 +35,7 @@ CoarseTimes timeCoarseProblem(int subdomainsPerSide) {
   times.unknowns = coarse.size();
   times.bytes = static_cast<double>(coarse.factorBytes());
   std::vector<AccurateSum> z(static_cast<std::size_t>(coarse.size()), AccurateSum(1.0));
-  Eigen::VectorXd x(coarse.size());
+  Eigen::MatrixXd x(coarse.size(), 1);
   times.solveSeconds = medianSeconds(*alone, 0.1, [&] { coarse.solve(z, x); });
   return times;
 }

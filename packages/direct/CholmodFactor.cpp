@@ -9,8 +9,27 @@
 #include <memory>
 #include <utility>
 
+// OpenMP's own header is the compiler's, and not every tool that reads this file has it.
+extern "C" int omp_get_max_active_levels(); // NOLINT(readability-identifier-naming)
+extern "C" void omp_set_max_active_levels(int levels); // NOLINT(readability-identifier-naming)
+
 namespace epafi::direct {
 namespace {
+
+/// While it lives, OpenMP makes no threads for this one. CHOLMOD asks for four whatever the machine has, ranks are what
+/// Epafi runs in parallel, and on matrices of some hundred unknowns the threads cost more than they bring.
+class OneThread {
+public:
+  OneThread() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+  OneThread(OneThread&&) = delete;
+  OneThread& operator=(OneThread&&) = delete;
+  ~OneThread() { omp_set_max_active_levels(levels_); }
+
+private:
+  int levels_;
+};
 
 /// CHOLMOD's settings and work space, one for the process; never freed before its last factor.
 class Workspace {
@@ -26,16 +45,26 @@ public:
   Workspace& operator=(const Workspace&) = delete;
   Workspace(Workspace&&) = delete;
   Workspace& operator=(Workspace&&) = delete;
-  ~Workspace() { cholmod_finish(&common_); }
+  ~Workspace() {
+    for (cholmod_dense** dense : {&solution, &work, &moreWork})
+      cholmod_free_dense(dense, &common_);
+    cholmod_finish(&common_);
+  }
   [[nodiscard]] cholmod_common* get() { return &common_; }
+
+  cholmod_dense *solution = nullptr, *work = nullptr, *moreWork = nullptr; ///< of the last solve, for the next one
 
 private:
   cholmod_common common_{};
 };
 
+Workspace& workspace() {
+  static Workspace instance;
+  return instance;
+}
+
 cholmod_common* common() {
-  static Workspace workspace;
-  return workspace.get();
+  return workspace().get();
 }
 
 struct FreeFactor {
@@ -136,6 +165,7 @@ class CholmodFactor final : public SpdFactor {
 public:
   CholmodFactor(const SparseMatrix& matrix, std::shared_ptr<const CholmodPattern> pattern)
       : pattern_(std::move(pattern)), factor_(pattern_->makeFactor()) {
+    const OneThread guard;
     cholmod_sparse view = viewOf(matrix);
     if (!factor_ || cholmod_factorize(&view, factor_.get(), common()) == 0)
       throw Error(failureText());
@@ -146,22 +176,20 @@ public:
   CholmodFactor& operator=(const CholmodFactor&) = delete;
   CholmodFactor(CholmodFactor&&) = delete;
   CholmodFactor& operator=(CholmodFactor&&) = delete;
-  ~CholmodFactor() override {
-    cholmod_free_dense(&solution_, common());
-    cholmod_free_dense(&work_, common());
-    cholmod_free_dense(&moreWork_, common());
-  }
+  ~CholmodFactor() override = default;
 
   [[nodiscard]] int size() const override { return static_cast<int>(factor_->n); }
 
   void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) override {
     if (b.cols() == 0)
       return;
+    const OneThread guard;
     cholmod_dense rhs = viewOf(b);
-    if (cholmod_solve2(CHOLMOD_A, factor_.get(), &rhs, nullptr, &solution_, nullptr, &work_, &moreWork_,
-                       common()) == 0)
+    Workspace& space = workspace();
+    if (cholmod_solve2(CHOLMOD_A, factor_.get(), &rhs, nullptr, &space.solution, nullptr, &space.work,
+                       &space.moreWork, common()) == 0)
       throw Error("a solve failed: " + failureText());
-    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution_->x), b.rows(), b.cols());
+    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(space.solution->x), b.rows(), b.cols());
   }
 
   Eigen::MatrixXd schurComplement() override {
@@ -219,7 +247,6 @@ private:
 
   std::shared_ptr<const CholmodPattern> pattern_;
   FactorHandle factor_;
-  cholmod_dense *solution_ = nullptr, *work_ = nullptr, *moreWork_ = nullptr; ///< kept between solves
 };
 
 } // namespace

@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <cstddef>
 
-// Teuchos has no product with a packed matrix. NOLINTNEXTLINE(readability-identifier-naming): the name is BLAS'
+// Teuchos has no product with a packed matrix; the names are BLAS'. NOLINTBEGIN(readability-identifier-naming)
 extern "C" void dspmv_(const char* uplo, const int* n, const double* alpha, const double* ap, const double* x,
                        const int* incx, const double* beta, double* y, const int* incy);
+extern "C" void sspmv_(const char* uplo, const int* n, const float* alpha, const float* ap, const float* x,
+                       const int* incx, const float* beta, float* y, const int* incy);
+// NOLINTEND(readability-identifier-naming)
 
 namespace epafi::direct {
 namespace {
 
-/// From here on a single product is faster with half the matrix (measured with OpenBLAS on one core, the matrix not in
-/// the cache: docs/performance.md).
-constexpr int packedPays = 96;
+/// From here on a single product is as fast or faster with half the matrix (measured with OpenBLAS on one core, the matrix
+/// not in the cache: docs/performance.md).
+constexpr int packedPays = 48;
 
 /// Columns of one matrix–matrix product, never more, never fewer: OpenBLAS adds in another order where there are many.
 constexpr int width = 8;
@@ -45,48 +48,66 @@ void multiply(SymmetricBlock::Use use, int size, int numColumns, const Scalar* a
   }
 }
 
+void multiplyPacked(int size, const double* a, const double* x, double* y) {
+  constexpr double one = 1, zero = 0;
+  constexpr int step = 1;
+  dspmv_("L", &size, &one, a, x, &step, &zero, y, &step);
+}
+
+void multiplyPacked(int size, const float* a, const float* x, float* y) {
+  constexpr float one = 1, zero = 0;
+  constexpr int step = 1;
+  sspmv_("L", &size, &one, a, x, &step, &zero, y, &step);
+}
+
+/// The lower triangle column by column, or all.
+template <class Scalar>
+std::vector<Scalar> stored(const Eigen::MatrixXd& matrix, bool isPacked) {
+  std::vector<Scalar> values;
+  values.reserve(static_cast<std::size_t>(isPacked ? (matrix.size() + matrix.rows()) / 2 : matrix.size()));
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+    for (Eigen::Index row = isPacked ? column : 0; row < matrix.rows(); ++row)
+      values.push_back(static_cast<Scalar>(matrix(row, column)));
+  return values;
+}
+
 } // namespace
 
 SymmetricBlock::SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision precision)
-    : size_(static_cast<int>(matrix.rows())), use_(use),
-      storage_(precision == Precision::single             ? Storage::single
-               : use == Use::alone && size_ >= packedPays ? Storage::packed
-                                                          : Storage::full) {
-  const auto numEntries = static_cast<std::size_t>(matrix.size());
-  if (storage_ == Storage::full) {
-    values_.assign(matrix.data(), matrix.data() + numEntries);
-  } else if (storage_ == Storage::single) {
-    singleValues_.resize(numEntries);
-    std::transform(matrix.data(), matrix.data() + numEntries, singleValues_.begin(),
-                   [](double value) { return static_cast<float>(value); });
-  } else {
-    values_.reserve((numEntries + static_cast<std::size_t>(size_)) / 2);
-    for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-      values_.insert(values_.end(), &matrix(column, column), matrix.data() + (column + 1) * matrix.rows());
+    : size_(static_cast<int>(matrix.rows())), use_(use), isPacked_(use == Use::alone && size_ >= packedPays),
+      precision_(precision) {
+  if (precision == Precision::single)
+    singleValues_ = stored<float>(matrix, isPacked_);
+  else
+    values_ = stored<double>(matrix, isPacked_);
+}
+
+template <class Scalar>
+void SymmetricBlock::applyStored(const std::vector<Scalar>& values, int numColumns, const Scalar* x,
+                                 Scalar* y, std::vector<Scalar>& padded) const {
+  if (!isPacked_) {
+    multiply(use_, size_, numColumns, values.data(), x, y, padded);
+    return;
   }
+  for (std::ptrdiff_t column = 0; column < numColumns; ++column)
+    multiplyPacked(size_, values.data(), x + column * size_, y + column * size_);
 }
 
 void SymmetricBlock::apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const {
   const int numColumns = static_cast<int>(x.cols());
   if (size_ == 0 || numColumns == 0)
     return;
-  if (storage_ == Storage::full) {
-    multiply(use_, size_, numColumns, values_.data(), x.data(), y.data(), padded_);
-  } else if (storage_ == Storage::single) {
-    const auto numEntries = static_cast<std::size_t>(x.size());
-    singleX_.resize(std::max(singleX_.size(), numEntries));
-    singleY_.resize(singleX_.size());
-    std::transform(x.data(), x.data() + numEntries, singleX_.begin(),
-                   [](double value) { return static_cast<float>(value); });
-    multiply(use_, size_, numColumns, singleValues_.data(), singleX_.data(), singleY_.data(), singlePadded_);
-    std::copy_n(singleY_.begin(), numEntries, y.data());
-  } else {
-    constexpr double one = 1, zero = 0;
-    constexpr int step = 1;
-    for (Eigen::Index column = 0; column < x.cols(); ++column)
-      dspmv_("L", &size_, &one, values_.data(), x.col(column).data(), &step, &zero, y.col(column).data(),
-             &step);
+  if (precision_ == Precision::full) {
+    applyStored(values_, numColumns, x.data(), y.data(), padded_);
+    return;
   }
+  const auto numEntries = static_cast<std::size_t>(x.size());
+  singleX_.resize(std::max(singleX_.size(), numEntries));
+  singleY_.resize(singleX_.size());
+  std::transform(x.data(), x.data() + numEntries, singleX_.begin(),
+                 [](double value) { return static_cast<float>(value); });
+  applyStored(singleValues_, numColumns, singleX_.data(), singleY_.data(), singlePadded_);
+  std::copy_n(singleY_.begin(), numEntries, y.data());
 }
 
 } // namespace epafi::direct

@@ -30,10 +30,14 @@ public:
   }
 
 private:
-  enum class Storage { full, packed, single };
+  template <class Scalar>
+  void applyStored(const std::vector<Scalar>& values, int numColumns, const Scalar* x, Scalar* y,
+                   std::vector<Scalar>& padded) const;
+
   int size_ = 0;
   Use use_ = Use::alone;
-  Storage storage_ = Storage::full;
+  bool isPacked_ = false;
+  Precision precision_ = Precision::full;
   std::vector<double> values_;
   std::vector<float> singleValues_;
   mutable std::vector<float> singleX_, singleY_, singlePadded_; ///< work

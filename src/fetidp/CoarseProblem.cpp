@@ -164,8 +164,6 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
     }
     matrix.makeCompressed();
     factor_ = direct::factorize(matrix, solvers.coarse, "the coarse problem");
-    rhs_.resize(size_);
-    solution_.resize(size_);
   });
   if (isReplicated) {
     sums_.resize(static_cast<std::size_t>(size_));
@@ -176,49 +174,61 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   const RCP<const Map> myMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
                                            Teuchos::arrayViewFromVector(crosspoints_), 0, comm_));
   import_ = rcp(new Import(firstMap, myMap));
-  first_ = rcp(new Vector(firstMap));
-  mine_ = rcp(new Vector(myMap));
+  first_ = rcp(new MultiVector(firstMap, 1));
+  mine_ = rcp(new MultiVector(myMap, 1));
 }
 
-void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::VectorXd& x) const {
+void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
   if (size_ == 0)
     return;
+  if (factor_) {
+    rhs_.resize(size_, x.cols());
+    solution_.resize(size_, x.cols());
+  }
   if (isReplicated())
     solveReplicated(z, x);
   else
     solveOnFirst(z, x);
 }
 
-void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::VectorXd& x) const {
-  std::fill(sums_.begin(), sums_.end(), AccurateSum());
-  for (std::size_t i = 0; i < z.size(); ++i)
-    sums_[static_cast<std::size_t>(crosspoints_[i])] = z[i];
+void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
+  sums_.assign(static_cast<std::size_t>(rhs_.size()), AccurateSum());
+  for (Eigen::Index j = 0, k = 0; j < x.cols(); ++j)
+    for (const GlobalOrdinal crosspoint : crosspoints_)
+      sums_[static_cast<std::size_t>(j * size_ + crosspoint)] = z[static_cast<std::size_t>(k++)];
   sumOverRanks(*comm_, sums_);
   for (std::size_t i = 0; i < sums_.size(); ++i)
-    rhs_[static_cast<Eigen::Index>(i)] = sums_[i].value();
+    rhs_.data()[i] = sums_[i].value();
   factor_->solve(rhs_, solution_);
-  for (std::size_t i = 0; i < z.size(); ++i)
-    x[static_cast<Eigen::Index>(i)] = solution_[static_cast<Eigen::Index>(crosspoints_[i])];
+  for (Eigen::Index j = 0; j < x.cols(); ++j)
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      x(i, j) = solution_(static_cast<Eigen::Index>(crosspoints_[static_cast<std::size_t>(i)]), j);
 }
 
-void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::VectorXd& x) const {
-  {
-    const auto values = mine_->getDataNonConst();
-    for (std::size_t i = 0; i < z.size(); ++i)
-      values[static_cast<Teuchos_Ordinal>(i)] = z[i].value();
+void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
+  const auto numColumns = static_cast<std::size_t>(x.cols());
+  if (mine_->getNumVectors() != numColumns) {
+    first_ = rcp(new MultiVector(first_->getMap(), numColumns));
+    mine_ = rcp(new MultiVector(mine_->getMap(), numColumns));
+  }
+  for (std::size_t j = 0, k = 0; j < numColumns; ++j) {
+    const auto values = mine_->getDataNonConst(j);
+    for (double& value : values)
+      value = z[k++].value();
   }
   first_->putScalar(0.0);
   first_->doExport(*mine_, *import_, Tpetra::ADD);
   if (factor_) {
-    const auto values = first_->getDataNonConst();
-    std::copy_n(values.begin(), size_, rhs_.data());
+    for (std::size_t j = 0; j < numColumns; ++j)
+      std::copy_n(first_->getData(j).begin(), size_, rhs_.col(static_cast<Eigen::Index>(j)).data());
     factor_->solve(rhs_, solution_);
-    std::copy_n(solution_.data(), size_, values.begin());
+    for (std::size_t j = 0; j < numColumns; ++j)
+      std::copy_n(solution_.col(static_cast<Eigen::Index>(j)).data(), size_,
+                  first_->getDataNonConst(j).begin());
   }
   mine_->doImport(*first_, *import_, Tpetra::INSERT);
-  const auto values = mine_->getData();
-  for (std::size_t i = 0; i < z.size(); ++i)
-    x[static_cast<Eigen::Index>(i)] = values[static_cast<Teuchos_Ordinal>(i)];
+  for (std::size_t j = 0; j < numColumns; ++j)
+    std::copy_n(mine_->getData(j).begin(), x.rows(), x.col(static_cast<Eigen::Index>(j)).data());
 }
 
 std::size_t CoarseProblem::factorBytes() const {

@@ -36,24 +36,24 @@ public:
   /// Coarse unknowns of the whole problem.
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] bool isReplicated() const { return import_.is_null(); }
-  /// x = S_cc⁺ Σ_ranks z, both of this rank's crosspoints. One sum over the ranks if replicated; the same digits then on
-  /// any number of ranks. Collective.
-  void solve(std::span<const AccurateSum> z, Eigen::VectorXd& x) const;
+  /// X = S_cc⁺ Σ_ranks Z, both of this rank's crosspoints, with the columns of X, one after the other in Z. One sum over
+  /// the ranks if replicated; the same digits then on any number of ranks. Collective.
+  void solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
   /// Of this rank.
   [[nodiscard]] std::size_t factorBytes() const;
 
 private:
-  void solveReplicated(std::span<const AccurateSum> z, Eigen::VectorXd& x) const;
-  void solveOnFirst(std::span<const AccurateSum> z, Eigen::VectorXd& x) const;
+  void solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
+  void solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
 
   RCP<const Comm> comm_;
   int size_ = 0;
   std::vector<GlobalOrdinal> crosspoints_;
   std::unique_ptr<direct::SpdFactor> factor_; ///< null where another rank has it
   mutable std::vector<AccurateSum> sums_;     ///< work of a replicated one
-  mutable Eigen::VectorXd rhs_, solution_;    ///< work
+  mutable Eigen::MatrixXd rhs_, solution_;    ///< work
   RCP<const Import> import_;                  ///< from rank 0 to the ranks' crosspoints, unless replicated
-  mutable RCP<Vector> first_, mine_;          ///< likewise
+  mutable RCP<MultiVector> first_, mine_;     ///< likewise
 };
 
 } // namespace epafi::fetidp

@@ -59,12 +59,18 @@ ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& p
     return;
   // S_cc⁺ at the near ones, which the touched ones are among; each value from the rank that owns it.
   std::vector<double> values(near_.size() * touched_.size(), 0.0);
-  for (std::size_t j = 0; j < touched_.size(); ++j) {
-    const bool isOwner = problem.crosspointMap->isNodeGlobalElement(touched_[j]);
-    const Eigen::VectorXd& column = inverse.coarseColumn(touched_[j], isOwner);
+  constexpr std::size_t batch = 16; // columns at once: work space stays small beside the coarse problem's factor
+  for (std::size_t first = 0; first < touched_.size(); first += batch) {
+    const auto unknowns = std::span(touched_).subspan(first, std::min(batch, touched_.size() - first));
+    std::vector<bool> isOwner;
+    for (const GlobalOrdinal unknown : unknowns)
+      isOwner.push_back(problem.crosspointMap->isNodeGlobalElement(unknown));
+    const Eigen::MatrixXd& columns = inverse.coarseColumns(unknowns, isOwner);
     for (std::size_t i = 0; i < near_.size(); ++i)
       if (problem.crosspointMap->isNodeGlobalElement(near_[i]))
-        values[i + j * near_.size()] = column[inverse.coarseIndexOf(near_[i])];
+        for (std::size_t j = 0; j < unknowns.size(); ++j)
+          values[i + (first + j) * near_.size()] =
+              columns(inverse.coarseIndexOf(near_[i]), static_cast<Eigen::Index>(j));
   }
   sumOverRanks(*problem.comm, std::span<double>(values));
   const Eigen::Map<const Eigen::MatrixXd> response(values.data(), static_cast<Eigen::Index>(near_.size()), n);

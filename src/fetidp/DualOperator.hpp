@@ -20,12 +20,13 @@ public:
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
-  /// y = alpha F x + beta y. Costs a column: two sparse triangular solves or one dense product a subdomain,
-  /// two neighbour exchanges, one message of the coarse problem's size. The operator is symmetric, so that `mode` does not matter.
-  /// Collective.
+  /// y = alpha F x + beta y, all columns in one pass: two sparse triangular solves or one dense product a subdomain and
+  /// column, two neighbour exchanges, one message of the coarse problem's size times the columns. The operator is
+  /// symmetric, so that `mode` does not matter. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
              double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
+  /// Columns multiplied so far.
   [[nodiscard]] int applications() const { return applications_; }
   /// K̄⁺, of which F is made.
   [[nodiscard]] const GeneralizedInverse& inverse() const { return *inverse_; }
@@ -34,7 +35,7 @@ private:
   RCP<const Map> map_;
   std::shared_ptr<GeneralizedInverse> inverse_;
   mutable MultiplierExchange input_, output_;
-  mutable Vector result_;
+  mutable RCP<MultiVector> result_;
   mutable int applications_ = 0;
 };
 

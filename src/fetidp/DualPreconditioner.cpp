@@ -1,7 +1,6 @@
 #include "epafi/fetidp/DualPreconditioner.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Columns.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -32,11 +31,7 @@ DualPreconditioner::DualPreconditioner(const decomposition::DecomposedProblem& p
                                        std::shared_ptr<GeneralizedInverse> inverse,
                                        const PreconditionerParameters& parameters)
     : map_(problem.multiplierMap), inverse_(std::move(inverse)), crosspoints_(problem, *inverse_),
-      touchedSums_(static_cast<std::size_t>(crosspoints_.size())),
-      nearSums_(static_cast<std::size_t>(crosspoints_.extension().rows())),
-      displacement_(crosspoints_.size()), forces_(crosspoints_.size()),
-      nearDisplacement_(crosspoints_.extension().rows()), nearForces_(nearDisplacement_.size()),
-      input_(problem), output_(problem), result_(map_) {
+      input_(problem), output_(problem), result_(rcp(new MultiVector(map_, 1))) {
   collectively(*problem.comm, [&] { makeBlocks(problem, parameters.type, parameters.isSingle); });
   scale(problem, parameters.scaling);
   findFollowers(problem);
@@ -52,18 +47,15 @@ void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& prob
         type == PreconditionerParameters::Type::lumped
             ? boundaryBlock(problem.subdomains[groups[g].members().front()], condensed)
             : condensed.factor().schurComplement();
-    const auto numMembers = static_cast<Eigen::Index>(groups[g].members().size());
     const auto precision = isSingle ? Precision::single : Precision::full;
     blocks_.push_back({g, direct::SymmetricBlock(matrix, groups[g].use(), precision), {}, {}, {}});
-    blocks_.back().input.resize(matrix.rows(), numMembers);
-    blocks_.back().output.resizeLike(blocks_.back().input);
   }
 }
 
 /// The diagonal of K̄ at the crosspoint values that contact touches: B has an entry for one copy of each, whose own
 /// stiffness may be far from that of all. Collective.
 Eigen::VectorXd DualPreconditioner::crosspointStiffness(const decomposition::DecomposedProblem& problem) {
-  std::fill(touchedSums_.begin(), touchedSums_.end(), AccurateSum());
+  touchedSums_.assign(static_cast<std::size_t>(crosspoints_.size()), AccurateSum());
   for (const auto& subdomain : problem.subdomains)
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
       if (const int touched = crosspoints_.indexOf(subdomain.crosspointIndices[i]); touched >= 0) {
@@ -84,11 +76,9 @@ void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
   const auto stiffnessAt = [&](const decomposition::Subdomain& subdomain, int unknown) {
     if (scaling == PreconditionerParameters::Scaling::multiplicity)
       return 1.0;
-    const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
-    const auto found = std::lower_bound(crosspoints.begin(), crosspoints.end(), unknown);
-    if (found != crosspoints.end() && *found == unknown)
-      return atCrosspoints[crosspoints_.indexOf(
-          subdomain.crosspointIndices[static_cast<std::size_t>(found - crosspoints.begin())])];
+    if (const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
+        std::binary_search(crosspoints.begin(), crosspoints.end(), unknown))
+      return atCrosspoints[touchedIndexOf(subdomain, unknown)];
     return subdomain.stiffness.coeff(unknown, unknown);
   };
   const std::span<double> sums = output_.values();
@@ -97,36 +87,59 @@ void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
     for (const auto& entry : subdomain.constraint)
       sums[static_cast<std::size_t>(entry.multiplier)] +=
           entry.coefficient * entry.coefficient / stiffnessAt(subdomain, entry.unknown);
-  output_.sumToOwners(result_);
-  const auto total = result_.getData();
+  output_.sumToOwners(*result_);
+  const auto total = result_->getData(0);
   for (Teuchos_Ordinal row = 0; row < total.size(); ++row)
     if (total[row] == 0)
       untouched_.push_back(static_cast<int>(row));
 
-  const std::span<const double> totals = input_.toSubdomains(result_);
-  for (Block& block : blocks_)
-    for (const std::size_t member : std::as_const(*inverse_).groups()[block.group].members())
-      for (const auto& entry : problem.subdomains[member].constraint)
-        block.weights.push_back(entry.coefficient / stiffnessAt(problem.subdomains[member], entry.unknown) /
-                                totals[static_cast<std::size_t>(entry.multiplier)]);
+  const std::span<const double> totals = input_.toSubdomains(*result_);
+  for (Block& block : blocks_) {
+    const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
+    for (const std::size_t member : group.members()) {
+      const decomposition::Subdomain& subdomain = problem.subdomains[member];
+      for (const auto& entry : subdomain.constraint) {
+        const double weight = entry.coefficient / stiffnessAt(subdomain, entry.unknown) /
+                              totals[static_cast<std::size_t>(entry.multiplier)];
+        if (group.condensed().interface().positionOf[static_cast<std::size_t>(entry.unknown)] <
+            group.condensed().numBoundary())
+          block.weights.push_back(weight);
+        else
+          crosspointEntries_.push_back({entry.multiplier, touchedIndexOf(subdomain, entry.unknown), weight});
+      }
+    }
+  }
+}
+
+/// Index among the crosspoint values that contact touches, of an unknown that is one.
+int DualPreconditioner::touchedIndexOf(const decomposition::Subdomain& subdomain, int unknown) const {
+  const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
+  const auto found = std::lower_bound(crosspoints.begin(), crosspoints.end(), unknown);
+  return crosspoints_.indexOf(
+      subdomain.crosspointIndices[static_cast<std::size_t>(found - crosspoints.begin())]);
 }
 
 void DualPreconditioner::findFollowers(const decomposition::DecomposedProblem& problem) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const SubdomainGroup& group = std::as_const(*inverse_).groups()[blocks_[b].group];
-    for (std::size_t member = 0; member < group.members().size(); ++member) {
-      Follower follower{b, static_cast<Eigen::Index>(member), {}, {}, {}};
-      for (const InterfaceEntry& entry : group.entries(member))
+    const auto numMembers = static_cast<Eigen::Index>(group.members().size());
+    for (Eigen::Index member = 0; member < numMembers; ++member) {
+      Follower follower{b, member, numMembers, {}, {}, {}};
+      for (const auto& entry :
+           problem.subdomains[group.members()[static_cast<std::size_t>(member)]].constraint) {
+        const int position =
+            group.condensed().interface().positionOf[static_cast<std::size_t>(entry.unknown)];
         if (problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities &&
-            entry.position < group.condensed().numBoundary())
-          follower.boundary.push_back(entry.position);
+            position < group.condensed().numBoundary())
+          follower.boundary.push_back(position);
+      }
       if (follower.boundary.empty())
         continue;
       std::sort(follower.boundary.begin(),
                 follower.boundary.end()); // where two contacts meet, an unknown is in both
       follower.boundary.erase(std::unique(follower.boundary.begin(), follower.boundary.end()),
                               follower.boundary.end());
-      for (const GlobalOrdinal crosspoint : group.crosspointIndices(member))
+      for (const GlobalOrdinal crosspoint : group.crosspointIndices(static_cast<std::size_t>(member)))
         follower.crosspoints.push_back(crosspoints_.nearIndexOf(crosspoint));
       follower.response = group.condensed().boundaryResponse()(follower.boundary, Eigen::all);
       followers_.push_back(std::move(follower));
@@ -134,32 +147,42 @@ void DualPreconditioner::findFollowers(const decomposition::DecomposedProblem& p
   }
 }
 
-/// B_Dᵀ λ: the members' inputs, and `displacement_` summed over the ranks.
-void DualPreconditioner::gather(std::span<const double> lambda) const {
-  std::fill(touchedSums_.begin(), touchedSums_.end(), AccurateSum());
+/// Work space for k columns; sums and inputs begin at 0.
+void DualPreconditioner::prepareColumns(Eigen::Index numColumns) const {
   for (Block& block : blocks_) {
     const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
-    const auto numBoundary = static_cast<int>(block.input.rows());
-    const std::vector<int>& touched = group.condensed().interface().crosspoints;
-    block.input.setZero();
-    const double* weight = block.weights.data();
-    for (std::size_t member = 0; member < group.members().size(); ++member)
-      for (const InterfaceEntry& entry : group.entries(member)) {
-        const double value = *weight++ * lambda[static_cast<std::size_t>(entry.multiplier)];
-        if (entry.position < numBoundary)
-          block.input(entry.position, static_cast<Eigen::Index>(member)) += value;
-        else
-          touchedSums_[static_cast<std::size_t>(
-                           crosspoints_.indexOf(group.crosspointIndices(member)[static_cast<std::size_t>(
-                               touched[static_cast<std::size_t>(entry.position - numBoundary)])]))]
-              .add(value);
-      }
+    block.input.setZero(group.condensed().numBoundary(),
+                        static_cast<Eigen::Index>(group.members().size()) * numColumns);
+    block.output.resizeLike(block.input);
+  }
+  displacement_.resize(crosspoints_.size(), numColumns);
+  forces_.resizeLike(displacement_);
+  nearDisplacement_.resize(crosspoints_.extension().rows(), numColumns);
+  nearForces_.resizeLike(nearDisplacement_);
+  touchedSums_.assign(static_cast<std::size_t>(displacement_.size()), AccurateSum());
+  nearSums_.assign(static_cast<std::size_t>(nearForces_.size()), AccurateSum());
+}
+
+/// B_Dᵀ λ: the members' inputs, and `displacement_` summed over the ranks.
+void DualPreconditioner::gather(std::span<const double> lambda) const {
+  const Eigen::Index numColumns = displacement_.cols();
+  for (Eigen::Index j = 0; j < numColumns; ++j) {
+    const double* values = lambda.data() + j * static_cast<Eigen::Index>(lambda.size()) / numColumns;
+    for (Block& block : blocks_) {
+      double* input = block.input.data() + j * block.input.size() / numColumns;
+      const double* weight = block.weights.data();
+      for (const InterfaceEntry& entry : std::as_const(*inverse_).groups()[block.group].boundaryEntries())
+        input[entry.place] += *weight++ * values[entry.multiplier];
+    }
+    for (const CrosspointEntry& entry : crosspointEntries_)
+      touchedSums_[static_cast<std::size_t>(j * crosspoints_.size() + entry.touched)].add(
+          entry.weight * values[entry.multiplier]);
   }
   if (touchedSums_.empty())
     return;
   sumOverRanks(*map_->getComm(), touchedSums_);
   for (std::size_t i = 0; i < touchedSums_.size(); ++i)
-    displacement_[static_cast<Eigen::Index>(i)] = touchedSums_[i].value();
+    displacement_.data()[i] = touchedSums_[i].value();
 }
 
 /// Takes from the displacement of the edges what follows their crosspoints: u_Δ + Ψ_Δ u_c is left.
@@ -167,12 +190,14 @@ void DualPreconditioner::followCrosspoints() const {
   if (touchedSums_.empty())
     return;
   nearDisplacement_.noalias() = crosspoints_.extension() * displacement_;
-  for (const Follower& follower : followers_)
-    for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
-      for (std::size_t i = 0; i < follower.boundary.size(); ++i)
-        blocks_[follower.block].input(follower.boundary[i], follower.member) +=
-            follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-            nearDisplacement_[follower.crosspoints[j]];
+  for (Eigen::Index column = 0; column < displacement_.cols(); ++column)
+    for (const Follower& follower : followers_)
+      for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
+        for (std::size_t i = 0; i < follower.boundary.size(); ++i)
+          blocks_[follower.block].input(follower.boundary[i],
+                                        follower.member + column * follower.numMembers) +=
+              follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+              nearDisplacement_(follower.crosspoints[j], column);
 }
 
 /// Forces at the boundaries, and at the crosspoints that contact touches: Ŝ u_c, and what the boundaries pass on, Ψ_Δᵀ of
@@ -182,16 +207,17 @@ void DualPreconditioner::multiply() const {
     block.stiffness.apply(block.input, block.output);
   if (touchedSums_.empty())
     return;
-  std::fill(nearSums_.begin(), nearSums_.end(), AccurateSum());
-  for (const Follower& follower : followers_)
-    for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
-      for (std::size_t i = 0; i < follower.boundary.size(); ++i)
-        nearSums_[static_cast<std::size_t>(follower.crosspoints[j])].add(
-            follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-            blocks_[follower.block].output(follower.boundary[i], follower.member));
+  for (Eigen::Index column = 0; column < displacement_.cols(); ++column)
+    for (const Follower& follower : followers_)
+      for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
+        for (std::size_t i = 0; i < follower.boundary.size(); ++i)
+          nearSums_[static_cast<std::size_t>(column * nearForces_.rows() + follower.crosspoints[j])].add(
+              follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+              blocks_[follower.block].output(follower.boundary[i],
+                                             follower.member + column * follower.numMembers));
   sumOverRanks(*map_->getComm(), nearSums_);
   for (std::size_t i = 0; i < nearSums_.size(); ++i)
-    nearForces_[static_cast<Eigen::Index>(i)] = nearSums_[i].value();
+    nearForces_.data()[i] = nearSums_[i].value();
   forces_.noalias() = crosspoints_.stiffness() * displacement_;
   forces_.noalias() += crosspoints_.extension().transpose() * nearForces_;
 }
@@ -199,38 +225,38 @@ void DualPreconditioner::multiply() const {
 /// B_D times the forces.
 void DualPreconditioner::scatter(std::span<double> result) const {
   std::fill(result.begin(), result.end(), 0.0);
-  for (const Block& block : blocks_) {
-    const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
-    const auto numBoundary = static_cast<int>(block.output.rows());
-    const std::vector<int>& touched = group.condensed().interface().crosspoints;
-    const double* weight = block.weights.data();
-    for (std::size_t member = 0; member < group.members().size(); ++member)
-      for (const InterfaceEntry& entry : group.entries(member))
-        result[static_cast<std::size_t>(entry.multiplier)] +=
-            *weight++ *
-            (entry.position < numBoundary
-                 ? block.output(entry.position, static_cast<Eigen::Index>(member))
-                 : forces_[crosspoints_.indexOf(group.crosspointIndices(member)[static_cast<std::size_t>(
-                       touched[static_cast<std::size_t>(entry.position - numBoundary)])])]);
+  const Eigen::Index numColumns = displacement_.cols();
+  for (Eigen::Index j = 0; j < numColumns; ++j) {
+    double* values = result.data() + j * static_cast<Eigen::Index>(result.size()) / numColumns;
+    for (const Block& block : blocks_) {
+      const double* output = block.output.data() + j * block.output.size() / numColumns;
+      const double* weight = block.weights.data();
+      for (const InterfaceEntry& entry : std::as_const(*inverse_).groups()[block.group].boundaryEntries())
+        values[entry.multiplier] += *weight++ * output[entry.place];
+    }
+    for (const CrosspointEntry& entry : crosspointEntries_)
+      values[entry.multiplier] += entry.weight * forces_(entry.touched, j);
   }
 }
 
 void DualPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                                double beta) const {
-  forEachColumn(x, y, [&](const Vector& in, Vector& out) {
-    gather(input_.toSubdomains(in));
-    followCrosspoints();
-    multiply();
-    scatter(output_.values());
-    output_.sumToOwners(result_);
-    if (!untouched_.empty()) {
-      const auto result = result_.getDataNonConst();
-      const auto given = in.getData();
-      for (const int row : untouched_)
-        result[row] = given[row];
-    }
-    out.update(alpha, result_, beta);
-  });
+  const std::size_t numColumns = x.getNumVectors();
+  if (result_->getNumVectors() != numColumns)
+    result_ = rcp(new MultiVector(map_, numColumns));
+  prepareColumns(static_cast<Eigen::Index>(numColumns));
+  gather(input_.toSubdomains(x));
+  followCrosspoints();
+  multiply();
+  scatter(output_.values(numColumns));
+  output_.sumToOwners(*result_);
+  for (std::size_t j = 0; j < numColumns && !untouched_.empty(); ++j) {
+    const auto result = result_->getDataNonConst(j);
+    const auto given = x.getData(j);
+    for (const int row : untouched_)
+      result[row] = given[row];
+  }
+  y.update(alpha, *result_, beta);
 }
 
 std::size_t DualPreconditioner::bytes() const {

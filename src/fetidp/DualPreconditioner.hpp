@@ -31,8 +31,8 @@ public:
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
-  /// y = alpha M x + beta y: two neighbour exchanges, one dense product a subdomain, and, where contact touches
-  /// crosspoints, two messages of n_C and n_N numbers. Collective.
+  /// y = alpha M x + beta y, all columns in one pass: two neighbour exchanges, one dense product a subdomain and column,
+  /// and, where contact touches crosspoints, two messages of n_C and n_N numbers a column. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
              double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
@@ -44,14 +44,18 @@ private:
   struct Block {
     std::size_t group = 0; ///< index in the inverse's groups
     direct::SymmetricBlock stiffness;
-    std::vector<double>
-        weights; ///< B_D's entries in the order of SubdomainGroup::entries, member after member
-    Eigen::MatrixXd input, output; ///< work, n_Δ × m
+    std::vector<double> weights;   ///< B_D's entries in the order of SubdomainGroup::boundaryEntries
+    Eigen::MatrixXd input, output; ///< work, n_Δ × mk
+  };
+  /// An entry of B_D at a crosspoint value.
+  struct CrosspointEntry {
+    int multiplier, touched; ///< on the ghost map; index in ContactCrosspoints
+    double weight;
   };
   /// A member that contact touches next to a crosspoint: u_Δ follows −Ψ_Δ u_c in the rows of contact.
   struct Follower {
     std::size_t block;
-    Eigen::Index member;
+    Eigen::Index member, numMembers;
     std::vector<int> boundary;    ///< positions in Δ that contact touches
     std::vector<int> crosspoints; ///< the near crosspoints (see ContactCrosspoints) of a column of `response`
     Eigen::MatrixXd response;     ///< Ψ there
@@ -61,6 +65,8 @@ private:
   void findFollowers(const decomposition::DecomposedProblem& problem);
   Eigen::VectorXd crosspointStiffness(const decomposition::DecomposedProblem& problem);
   void scale(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Scaling scaling);
+  [[nodiscard]] int touchedIndexOf(const decomposition::Subdomain& subdomain, int unknown) const;
+  void prepareColumns(Eigen::Index numColumns) const;
   void gather(std::span<const double> lambda) const;
   void followCrosspoints() const;
   void multiply() const;
@@ -70,12 +76,13 @@ private:
   std::shared_ptr<GeneralizedInverse> inverse_;
   ContactCrosspoints crosspoints_;
   mutable std::vector<Block> blocks_;
+  std::vector<CrosspointEntry> crosspointEntries_;
   std::vector<Follower> followers_;
-  mutable std::vector<AccurateSum> touchedSums_, nearSums_;                       ///< work, n_C and n_N
-  mutable Eigen::VectorXd displacement_, forces_, nearDisplacement_, nearForces_; ///< work
+  mutable std::vector<AccurateSum> touchedSums_, nearSums_;                       ///< work, n_C k and n_N k
+  mutable Eigen::MatrixXd displacement_, forces_, nearDisplacement_, nearForces_; ///< work, likewise
   std::vector<int> untouched_; ///< rows without a free unknown, local indices
   mutable MultiplierExchange input_, output_;
-  mutable Vector result_;
+  mutable RCP<MultiVector> result_;
 };
 
 } // namespace epafi::fetidp

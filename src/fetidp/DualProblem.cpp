@@ -154,7 +154,7 @@ RCP<Vector> DualProblem::rightHandSide(const SubdomainVectors& load) {
   exchange.sumToOwners(*rhs);
   rhs->update(-1.0, *problem_.gap, 1.0);
   double largest = 0;
-  for (const Eigen::VectorXd& values : u)
+  for (const Eigen::MatrixXd& values : u)
     largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
   termSize_ = maxOverRanks(*problem_.comm, largest) + problem_.gap->normInf();
   return rhs;

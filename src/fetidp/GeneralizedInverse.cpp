@@ -25,8 +25,7 @@ std::vector<GlobalOrdinal> crosspointsOf(const decomposition::DecomposedProblem&
 
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
                                        const DirectSolvers& solvers)
-    : crosspoints_(crosspointsOf(problem)), coarseSums_(crosspoints_.size()),
-      coarse_(static_cast<Eigen::Index>(crosspoints_.size())) {
+    : crosspoints_(crosspointsOf(problem)) {
   auto groups = groupIdentical(problem, solvers.shareIdentical);
   collectively(*problem.comm, [&] {
     direct::Factorizer factorizer(solvers.subdomains);
@@ -45,18 +44,24 @@ void GeneralizedInverse::prepareDual(const DualOperatorParameters& parameters) {
       group.makeExplicit();
 }
 
-void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result) {
+/// Work space for k columns; the sums begin at 0.
+void GeneralizedInverse::prepareCoarse(int numColumns) {
+  coarseSums_.assign(crosspoints_.size() * static_cast<std::size_t>(numColumns), AccurateSum());
+  coarse_.resize(static_cast<Eigen::Index>(crosspoints_.size()), numColumns);
+}
+
+void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result, int numColumns) {
   std::fill(result.begin(), result.end(), 0.0);
-  std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
+  prepareCoarse(numColumns);
   for (SubdomainGroup& group : groups_)
-    group.applyFlexibility(lambda, coarseSums_); // B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
+    group.applyFlexibility(lambda, coarseSums_, numColumns); // B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
   coarseProblem_->solve(coarseSums_, coarse_); // x_c = S_cc⁺ z
   for (SubdomainGroup& group : groups_)
     group.applyCoupling(coarse_, result); // Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c
 }
 
-void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u) {
-  std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
+void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u, int numColumns) {
+  prepareCoarse(numColumns);
   for (SubdomainGroup& group : groups_)
     group.eliminate(b, coarseSums_);
   coarseProblem_->solve(coarseSums_, coarse_);
@@ -65,10 +70,13 @@ void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u) {
     group.substitute(coarse_, b, u);
 }
 
-const Eigen::VectorXd& GeneralizedInverse::coarseColumn(GlobalOrdinal unknown, bool isOwner) {
-  std::fill(coarseSums_.begin(), coarseSums_.end(), AccurateSum());
-  if (isOwner)
-    coarseSums_[static_cast<std::size_t>(coarseIndexOf(unknown))] = AccurateSum(1.0);
+const Eigen::MatrixXd& GeneralizedInverse::coarseColumns(std::span<const GlobalOrdinal> unknowns,
+                                                         const std::vector<bool>& isOwner) {
+  prepareCoarse(static_cast<int>(unknowns.size()));
+  for (std::size_t j = 0; j < unknowns.size(); ++j)
+    if (isOwner[j])
+      coarseSums_[j * crosspoints_.size() + static_cast<std::size_t>(coarseIndexOf(unknowns[j]))] =
+          AccurateSum(1.0);
   coarseProblem_->solve(coarseSums_, coarse_);
   return coarse_;
 }

@@ -15,8 +15,8 @@
 
 namespace epafi::fetidp {
 
-/// Values of this rank's subdomains, n_s each.
-using SubdomainVectors = std::vector<Eigen::VectorXd>;
+/// Values of this rank's subdomains, n_s × k each: k ≥ 1 vectors at once, as many in every subdomain.
+using SubdomainVectors = std::vector<Eigen::MatrixXd>;
 
 class GeneralizedInverse {
 public:
@@ -27,23 +27,24 @@ public:
   /// Makes dense blocks where the mode asks for them, or where they pay off. Not collective.
   void prepareDual(const DualOperatorParameters& parameters);
 
-  /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap): the sum of `result` over the
-  /// ranks is Fλ. One message of the coarse problem's size. Collective.
-  void applyDual(std::span<const double> lambda, std::span<double> result);
+  /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap) with k columns, one after the other:
+  /// the sum of `result` over the ranks is Fλ. One message of k times the coarse problem's size. Collective.
+  void applyDual(std::span<const double> lambda, std::span<double> result, int numColumns = 1);
 
   /// u = K̄⁺ b. Crosspoint entries of b are contributions, summed over the subdomains; those of u agree.
-  /// Collective.
-  void apply(const SubdomainVectors& b, SubdomainVectors& u);
+  /// Collective; b has `numColumns` columns on every rank, also on one without subdomains.
+  void apply(const SubdomainVectors& b, SubdomainVectors& u, int numColumns = 1);
 
-  /// b −= B̄ᵀ λ (λ on the ghost map). Not collective.
+  /// b −= B̄ᵀ λ (λ on the ghost map × k). Not collective.
   void subtractForces(std::span<const double> lambda, SubdomainVectors& b) const;
-  /// result = this rank's part of B̄ u (on the ghost map). Not collective.
+  /// result = this rank's part of B̄ u (on the ghost map × k). Not collective.
   void constraint(const SubdomainVectors& u, std::span<double> result) const;
 
-  /// S_cc⁺ times a unit vector, at this rank's coarse unknowns; valid until the next call of any function.
-  /// \param isOwner  true on exactly one rank, which must have the unknown
+  /// Columns of S_cc⁺ at this rank's coarse unknowns; valid until the next call of any function.
+  /// \param isOwner  of each of `unknowns`: true on exactly one rank, which must have it
   /// Collective.
-  const Eigen::VectorXd& coarseColumn(GlobalOrdinal unknown, bool isOwner);
+  const Eigen::MatrixXd& coarseColumns(std::span<const GlobalOrdinal> unknowns,
+                                       const std::vector<bool>& isOwner);
   /// Place of a coarse unknown among this rank's, or −1.
   [[nodiscard]] int coarseIndexOf(GlobalOrdinal unknown) const;
 
@@ -55,11 +56,13 @@ public:
   [[nodiscard]] const CoarseProblem& coarseProblem() const { return *coarseProblem_; }
 
 private:
+  void prepareCoarse(int numColumns);
+
   std::vector<GlobalOrdinal> crosspoints_; ///< this rank's coarse unknowns, ascending
   std::vector<SubdomainGroup> groups_;
   std::unique_ptr<CoarseProblem> coarseProblem_;
-  std::vector<AccurateSum> coarseSums_; ///< work, of this rank's coarse unknowns
-  Eigen::VectorXd coarse_;              ///< work
+  std::vector<AccurateSum> coarseSums_; ///< work, of this rank's coarse unknowns × k
+  Eigen::MatrixXd coarse_;              ///< work, likewise
 };
 
 } // namespace epafi::fetidp

@@ -1,12 +1,14 @@
 #pragma once
 
-/// Between the multipliers that a rank owns and those that its subdomains touch. Plans are built once.
+/// Between the multipliers that a rank owns and those that its subdomains touch, of several vectors at once. Plans are built
+/// once.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <cstddef>
 #include <span>
 
 namespace epafi::fetidp {
@@ -15,27 +17,38 @@ class MultiplierExchange {
 public:
   /// Collective.
   explicit MultiplierExchange(const decomposition::DecomposedProblem& problem)
-      : import_(problem.multiplierMap, problem.multiplierGhostMap), ghost_(problem.multiplierGhostMap) {}
+      : import_(problem.multiplierMap, problem.multiplierGhostMap),
+        ghost_(rcp(new MultiVector(problem.multiplierGhostMap, 1))) {}
 
-  /// Brings the owners' values to the ranks that touch them; valid until the next call. Collective.
-  std::span<const double> toSubdomains(const Vector& owned) {
-    ghost_.doImport(owned, import_, Tpetra::INSERT);
-    return values();
+  /// Brings the owners' values to the ranks that touch them, column after column; valid until the next call. Collective.
+  std::span<const double> toSubdomains(const MultiVector& owned) {
+    prepare(owned.getNumVectors());
+    ghost_->doImport(owned, import_, Tpetra::INSERT);
+    return view();
   }
-  /// Where a rank puts its contributions before `sumToOwners`. Not collective.
-  std::span<double> values() {
-    const auto view = ghost_.getLocalViewHost(Tpetra::Access::ReadWrite);
-    return {view.data(), view.extent(0)};
+  /// Where a rank puts its contributions before `sumToOwners`, column after column. Not collective.
+  std::span<double> values(std::size_t numColumns = 1) {
+    prepare(numColumns);
+    return view();
   }
-  /// owned = sum of the contributions of all ranks. Collective.
-  void sumToOwners(Vector& owned) {
+  /// owned = sum of the contributions of all ranks. Precondition: it has as many columns. Collective.
+  void sumToOwners(MultiVector& owned) {
     owned.putScalar(0.0);
-    owned.doExport(ghost_, import_, Tpetra::ADD);
+    owned.doExport(*ghost_, import_, Tpetra::ADD);
   }
 
 private:
+  void prepare(std::size_t numColumns) {
+    if (ghost_->getNumVectors() != numColumns)
+      ghost_ = rcp(new MultiVector(ghost_->getMap(), numColumns));
+  }
+  std::span<double> view() {
+    const auto values = ghost_->getLocalViewHost(Tpetra::Access::ReadWrite); // its own: no gaps between columns
+    return {values.data(), values.extent(0) * values.extent(1)};
+  }
+
   Import import_;
-  Vector ghost_;
+  RCP<MultiVector> ghost_;
 };
 
 } // namespace epafi::fetidp

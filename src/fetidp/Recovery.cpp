@@ -29,7 +29,8 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   AccurateSum energy;
   for (std::size_t s = 0; s < u.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
-    energy.add(0.5 * u[s].dot(subdomain.stiffness * u[s]) - subdomain.load.dot(u[s]) +
+    const auto values = u[s].col(0);
+    energy.add(0.5 * values.dot(subdomain.stiffness * values) - subdomain.load.dot(values) +
                subdomain.energyOffset);
   }
   sumOverRanks(*problem.comm, {&energy, 1});
@@ -37,10 +38,10 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
 }
 
 /// Values at all positions of a subdomain: the unknowns' and the prescribed ones.
-Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, const Eigen::VectorXd& u) {
+Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, const Eigen::MatrixXd& u) {
   Eigen::VectorXd all = subdomain.prescribed;
   for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
-    all[subdomain.unknownPosition[i]] = u[static_cast<Eigen::Index>(i)];
+    all[subdomain.unknownPosition[i]] = u(static_cast<Eigen::Index>(i));
   return all;
 }
 

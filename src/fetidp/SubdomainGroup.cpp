@@ -17,24 +17,31 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
     : subdomains_(&subdomains), members_(std::move(identical.members)),
       numOnAllRanks_(identical.numOnAllRanks),
       use_(identical.isShared() ? direct::SymmetricBlock::Use::shared : direct::SymmetricBlock::Use::alone),
-      condensed_(subdomains[members_.front()], interfaceOf(subdomains[members_.front()]), factorizer),
-      firstEntry_{0} {
-  const std::vector<int>& positionOf = condensed_.interface().positionOf;
-  for (const std::size_t member : members_) {
-    for (const auto& entry : subdomains[member].constraint)
-      entries_.push_back(
-          {entry.multiplier, positionOf[static_cast<std::size_t>(entry.unknown)], entry.coefficient});
-    firstEntry_.push_back(entries_.size());
-  }
-  boundary_.resize(condensed_.numBoundary(), numMembers());
-  response_.resizeLike(boundary_);
-  coarseLocal_.resize(condensed_.numCrosspoints(), numMembers());
+      condensed_(subdomains[members_.front()], interfaceOf(subdomains[members_.front()]), factorizer) {
+  for (std::size_t member = 0; member < members_.size(); ++member)
+    addEntries(member, members_[member]);
   coarseIndices_.resize(condensed_.numCrosspoints(), numMembers());
   for (Eigen::Index member = 0; member < numMembers(); ++member) {
     const auto unknowns = crosspointIndices(static_cast<std::size_t>(member));
     for (std::size_t i = 0; i < unknowns.size(); ++i)
       coarseIndices_(static_cast<Eigen::Index>(i), member) = static_cast<int>(
           std::lower_bound(crosspoints.begin(), crosspoints.end(), unknowns[i]) - crosspoints.begin());
+  }
+}
+
+void SubdomainGroup::addEntries(std::size_t member, std::size_t subdomain) {
+  const SubdomainInterface& interface = condensed_.interface();
+  const int numBoundary = static_cast<int>(condensed_.numBoundary()),
+            numCrosspoints = static_cast<int>(condensed_.numCrosspoints()), column = static_cast<int>(member);
+  for (const auto& entry : (*subdomains_)[subdomain].constraint) {
+    const int position = interface.positionOf[static_cast<std::size_t>(entry.unknown)]; // among (Δ, C)
+    if (position < numBoundary)
+      boundaryEntries_.push_back({entry.multiplier, position + column * numBoundary, entry.coefficient});
+    else
+      crosspointEntries_.push_back(
+          {entry.multiplier,
+           interface.crosspoints[static_cast<std::size_t>(position - numBoundary)] + column * numCrosspoints,
+           entry.coefficient});
   }
 }
 
@@ -45,22 +52,30 @@ void SubdomainGroup::makeExplicit() {
   isExplicit_ = true;
 }
 
-void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse) {
-  const int numBoundary = static_cast<int>(condensed_.numBoundary());
-  const std::vector<int>& touched = condensed_.interface().crosspoints;
+/// Work space for k columns.
+void SubdomainGroup::prepareColumns(Eigen::Index numColumns) {
+  boundary_.resize(condensed_.numBoundary(), numMembers() * numColumns);
+  response_.resizeLike(boundary_);
+  coarseLocal_.resize(condensed_.numCrosspoints(), boundary_.cols());
+}
+
+void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse,
+                                      int numColumns) {
+  prepareColumns(numColumns);
   boundary_.setZero();
   coarseLocal_.setZero();
-  for (Eigen::Index member = 0; member < numMembers(); ++member)
-    for (const InterfaceEntry& entry : entries(static_cast<std::size_t>(member))) {
-      const double value = entry.coefficient * lambda[static_cast<std::size_t>(entry.multiplier)];
-      if (entry.position < numBoundary)
-        boundary_(entry.position, member) += value; // B_Δᵀ λ
-      else
-        coarseLocal_(touched[static_cast<std::size_t>(entry.position - numBoundary)], member) += value;
-    }
-  for (Eigen::Index member = 0; member < numMembers(); ++member) // column by column: see SymmetricBlock::Use
-    coarseLocal_.col(member).noalias() -=
-        condensed_.boundaryResponse().transpose() * boundary_.col(member); // Wᵀ λ
+  for (Eigen::Index j = 0; j < numColumns; ++j) {
+    const double* values = lambda.data() + j * static_cast<Eigen::Index>(lambda.size()) / numColumns;
+    double *boundary = boundary_.data() + j * boundary_.size() / numColumns,
+           *crosspoints = coarseLocal_.data() + j * coarseLocal_.size() / numColumns;
+    for (const InterfaceEntry& entry : boundaryEntries_)
+      boundary[entry.place] += entry.coefficient * values[entry.multiplier]; // B_Δᵀ λ
+    for (const InterfaceEntry& entry : crosspointEntries_)
+      crosspoints[entry.place] += entry.coefficient * values[entry.multiplier];
+  }
+  for (Eigen::Index column = 0; column < boundary_.cols(); ++column) // one by one: see SymmetricBlock::Use
+    coarseLocal_.col(column).noalias() -=
+        condensed_.boundaryResponse().transpose() * boundary_.col(column); // Wᵀ λ
   addToCoarse(coarse);
   if (isExplicit_)
     flexibility_.apply(boundary_, response_);
@@ -68,10 +83,10 @@ void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<
     solveForBoundary();
 }
 
-/// Number of members, from `first` on, that are solved for at once; makes their work space, 0 in columns to spare. A
+/// Number of columns, from `first` on, that are solved for at once; makes their work space, 0 in columns to spare. A
 /// shared factor always gets as many columns: CHOLMOD adds in another order for fewer.
 Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index first) {
-  const Eigen::Index columns = std::min(batch, numMembers() - first);
+  const Eigen::Index columns = std::min(batch, coarseLocal_.cols() - first);
   const Eigen::Index width = use_ == direct::SymmetricBlock::Use::alone ? columns : batch;
   if (rhs_.cols() != width) {
     rhs_.resize(condensed_.numRemainders(), width);
@@ -84,7 +99,7 @@ Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index first) {
 /// (K_rr⁻¹)_ΔΔ B_Δᵀ λ by sparse solves.
 void SubdomainGroup::solveForBoundary() {
   const std::vector<int>& positions = condensed_.interface().boundary;
-  for (Eigen::Index first = 0; first < numMembers(); first += batch) {
+  for (Eigen::Index first = 0; first < boundary_.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(first);
     rhs_.setZero();
     rhs_.leftCols(columns)(positions, Eigen::all) = boundary_.middleCols(first, columns);
@@ -93,76 +108,94 @@ void SubdomainGroup::solveForBoundary() {
   }
 }
 
-void SubdomainGroup::applyCoupling(const Eigen::VectorXd& coarse, std::span<double> result) {
+void SubdomainGroup::applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result) {
   takeFromCoarse(coarse);
-  for (Eigen::Index member = 0; member < numMembers(); ++member)
-    response_.col(member).noalias() -= condensed_.boundaryResponse() * coarseLocal_.col(member);
-  const int numBoundary = static_cast<int>(condensed_.numBoundary());
-  const std::vector<int>& touched = condensed_.interface().crosspoints;
-  for (Eigen::Index member = 0; member < numMembers(); ++member)
-    for (const InterfaceEntry& entry : entries(static_cast<std::size_t>(member)))
-      result[static_cast<std::size_t>(entry.multiplier)] +=
-          entry.coefficient *
-          (entry.position < numBoundary
-               ? response_(entry.position, member)
-               : coarseLocal_(touched[static_cast<std::size_t>(entry.position - numBoundary)], member));
+  for (Eigen::Index column = 0; column < response_.cols(); ++column)
+    response_.col(column).noalias() -= condensed_.boundaryResponse() * coarseLocal_.col(column);
+  for (Eigen::Index j = 0; j < coarse.cols(); ++j) {
+    double* values = result.data() + j * static_cast<Eigen::Index>(result.size()) / coarse.cols();
+    const double *boundary = response_.data() + j * response_.size() / coarse.cols(),
+                 *crosspoints = coarseLocal_.data() + j * coarseLocal_.size() / coarse.cols();
+    for (const InterfaceEntry& entry : boundaryEntries_)
+      values[entry.multiplier] += entry.coefficient * boundary[entry.place];
+    for (const InterfaceEntry& entry : crosspointEntries_)
+      values[entry.multiplier] += entry.coefficient * crosspoints[entry.place];
+  }
 }
 
 /// coarse += Σ L_cᵀ of the members' columns.
 void SubdomainGroup::addToCoarse(std::span<AccurateSum> coarse) const {
-  for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
-    coarse[static_cast<std::size_t>(coarseIndices_.data()[i])].add(coarseLocal_.data()[i]);
+  const Eigen::Index numColumns = coarseLocal_.cols() / numMembers();
+  for (Eigen::Index j = 0; j < numColumns; ++j) {
+    AccurateSum* sums = coarse.data() + j * static_cast<Eigen::Index>(coarse.size()) / numColumns;
+    const double* values = coarseLocal_.data() + j * coarseIndices_.size();
+    for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
+      sums[coarseIndices_.data()[i]].add(values[i]);
+  }
 }
 
 /// The members' columns = L_c x_c.
-void SubdomainGroup::takeFromCoarse(const Eigen::VectorXd& coarse) {
-  for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
-    coarseLocal_.data()[i] = coarse[coarseIndices_.data()[i]];
+void SubdomainGroup::takeFromCoarse(const Eigen::MatrixXd& coarse) {
+  for (Eigen::Index j = 0; j < coarse.cols(); ++j) {
+    double* values = coarseLocal_.data() + j * coarseIndices_.size();
+    for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
+      values[i] = coarse(coarseIndices_.data()[i], j);
+  }
 }
 
-void SubdomainGroup::eliminate(const std::vector<Eigen::VectorXd>& b, std::span<AccurateSum> coarse) {
+void SubdomainGroup::eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<AccurateSum> coarse) {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
-  for (Eigen::Index first = 0; first < numMembers(); first += batch) {
-    const Eigen::Index columns = prepareBatch(first);
-    for (Eigen::Index j = 0; j < columns; ++j) {
-      const Eigen::VectorXd& forces = b[members_[static_cast<std::size_t>(first + j)]];
-      rhs_.col(j) = forces(like.remainderUnknowns);
-      coarseLocal_.col(first + j) = forces(like.crosspointUnknowns);
-      coarseLocal_.col(first + j).noalias() -= condensed_.crosspointResponse().transpose() * rhs_.col(j);
-    }
+  const Eigen::Index numColumns = b[members_.front()].cols();
+  coarseLocal_.resize(condensed_.numCrosspoints(), numMembers() * numColumns);
+  Eigen::VectorXd remainders(condensed_.numRemainders());
+  for (Eigen::Index column = 0; column < coarseLocal_.cols(); ++column) {
+    const auto forces =
+        b[members_[static_cast<std::size_t>(column % numMembers())]].col(column / numMembers());
+    remainders = forces(like.remainderUnknowns);
+    coarseLocal_.col(column) = forces(like.crosspointUnknowns);
+    coarseLocal_.col(column).noalias() -= condensed_.crosspointResponse().transpose() * remainders;
   }
   addToCoarse(coarse);
 }
 
-void SubdomainGroup::substitute(const Eigen::VectorXd& coarse, const std::vector<Eigen::VectorXd>& b,
-                                std::vector<Eigen::VectorXd>& u) {
+void SubdomainGroup::substitute(const Eigen::MatrixXd& coarse, const std::vector<Eigen::MatrixXd>& b,
+                                std::vector<Eigen::MatrixXd>& u) {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
+  for (const std::size_t member : members_)
+    u[member].resize(like.stiffness.rows(), coarse.cols());
   takeFromCoarse(coarse);
-  for (Eigen::Index first = 0; first < numMembers(); first += batch) {
+  for (Eigen::Index first = 0; first < coarseLocal_.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(first);
     for (Eigen::Index j = 0; j < columns; ++j)
-      rhs_.col(j) = b[members_[static_cast<std::size_t>(first + j)]](like.remainderUnknowns);
+      rhs_.col(j) = b[members_[static_cast<std::size_t>((first + j) % numMembers())]].col(
+          (first + j) / numMembers())(like.remainderUnknowns);
     rhs_.leftCols(columns) -= condensed_.remainderToCrosspoint() * coarseLocal_.middleCols(first, columns);
     condensed_.factor().solve(rhs_, solution_);
     for (Eigen::Index j = 0; j < columns; ++j) {
-      Eigen::VectorXd& values = u[members_[static_cast<std::size_t>(first + j)]];
-      values.resize(like.stiffness.rows());
+      auto values = u[members_[static_cast<std::size_t>((first + j) % numMembers())]].col((first + j) /
+                                                                                          numMembers());
       values(like.remainderUnknowns) = solution_.col(j);
       values(like.crosspointUnknowns) = coarseLocal_.col(first + j);
     }
   }
 }
 
-void SubdomainGroup::subtractForces(std::span<const double> lambda, std::vector<Eigen::VectorXd>& b) const {
+void SubdomainGroup::subtractForces(std::span<const double> lambda, std::vector<Eigen::MatrixXd>& b) const {
   for (const std::size_t member : members_)
-    for (const auto& entry : (*subdomains_)[member].constraint)
-      b[member][entry.unknown] -= entry.coefficient * lambda[static_cast<std::size_t>(entry.multiplier)];
+    for (Eigen::Index j = 0; j < b[member].cols(); ++j) {
+      const double* values = lambda.data() + j * static_cast<Eigen::Index>(lambda.size()) / b[member].cols();
+      for (const auto& entry : (*subdomains_)[member].constraint)
+        b[member](entry.unknown, j) -= entry.coefficient * values[entry.multiplier];
+    }
 }
 
-void SubdomainGroup::addConstraint(const std::vector<Eigen::VectorXd>& u, std::span<double> result) const {
+void SubdomainGroup::addConstraint(const std::vector<Eigen::MatrixXd>& u, std::span<double> result) const {
   for (const std::size_t member : members_)
-    for (const auto& entry : (*subdomains_)[member].constraint)
-      result[static_cast<std::size_t>(entry.multiplier)] += entry.coefficient * u[member][entry.unknown];
+    for (Eigen::Index j = 0; j < u[member].cols(); ++j) {
+      double* values = result.data() + j * static_cast<Eigen::Index>(result.size()) / u[member].cols();
+      for (const auto& entry : (*subdomains_)[member].constraint)
+        values[entry.multiplier] += entry.coefficient * u[member](entry.unknown, j);
+    }
 }
 
 std::size_t SubdomainGroup::factorBytes() const {

@@ -15,13 +15,15 @@
 
 namespace epafi::fetidp {
 
-/// An entry of B seen from a member: multiplier (ghost map), position among (Δ, C), value.
+/// An entry of B in a group: multiplier (ghost map), place in the members' boundary values (n_Δ × m) or crosspoint
+/// values (n_c × m), column by column, value.
 struct InterfaceEntry {
-  int multiplier, position;
+  int multiplier, place;
   double coefficient;
 };
 
-/// m members; n_r, n_Δ, n_c as in CondensedSubdomain. Nothing here is collective.
+/// m members; n_r, n_Δ, n_c as in CondensedSubdomain. What is multiplied or solved for has k ≥ 1 columns; multipliers and
+/// coarse unknowns lie column by column. Nothing here is collective.
 class SubdomainGroup {
 public:
   /// \param identical    see groupIdentical; at least one
@@ -40,35 +42,34 @@ public:
   [[nodiscard]] std::span<const GlobalOrdinal> crosspointIndices(std::size_t member) const {
     return (*subdomains_)[members_[member]].crosspointIndices;
   }
-  /// B's entries in a member.
-  [[nodiscard]] std::span<const InterfaceEntry> entries(std::size_t member) const {
-    return {entries_.data() + firstEntry_[member], entries_.data() + firstEntry_[member + 1]};
-  }
+  /// B's entries in the members' boundaries, member after member.
+  [[nodiscard]] std::span<const InterfaceEntry> boundaryEntries() const { return boundaryEntries_; }
 
   /// From now on (K_rr⁻¹)_ΔΔ is a dense block, not a pair of sparse solves.
   void makeExplicit();
   [[nodiscard]] bool isExplicit() const { return isExplicit_; }
 
   /// First half of F's part: keeps (K_rr⁻¹)_ΔΔ B_Δᵀ λ and adds L_cᵀ Wᵀ λ to `coarse`.
-  /// \param lambda  this rank's multipliers (ghost map)
-  /// \param coarse  this rank's coarse unknowns
-  void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse);
+  /// \param lambda  this rank's multipliers (ghost map) × k
+  /// \param coarse  this rank's coarse unknowns × k
+  void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse, int numColumns);
   /// Second half: result += B_Δ (what was kept) + W L_c x_c.
-  /// \param result  this rank's multipliers (ghost map)
-  void applyCoupling(const Eigen::VectorXd& coarse, std::span<double> result);
+  /// \param coarse  this rank's coarse unknowns, with k columns
+  /// \param result  this rank's multipliers (ghost map) × k
+  void applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result);
 
   /// First half of K̄⁺: adds L_cᵀ(b_c − Ψᵀ b_r) to `coarse`.
-  /// \param b  of all this rank's subdomains, n_s values each
-  void eliminate(const std::vector<Eigen::VectorXd>& b, std::span<AccurateSum> coarse);
+  /// \param b  of all this rank's subdomains, n_s × k each
+  void eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<AccurateSum> coarse);
   /// Second half: u_c = L_c x_c, u_r = K_rr⁻¹(b_r − K_rc u_c).
   /// \param u  of all this rank's subdomains; the members' are overwritten
-  void substitute(const Eigen::VectorXd& coarse, const std::vector<Eigen::VectorXd>& b,
-                  std::vector<Eigen::VectorXd>& u);
+  void substitute(const Eigen::MatrixXd& coarse, const std::vector<Eigen::MatrixXd>& b,
+                  std::vector<Eigen::MatrixXd>& u);
 
-  /// b −= Bᵀ λ in the members. \param lambda  on the ghost map
-  void subtractForces(std::span<const double> lambda, std::vector<Eigen::VectorXd>& b) const;
-  /// result += B u of the members. \param result  on the ghost map
-  void addConstraint(const std::vector<Eigen::VectorXd>& u, std::span<double> result) const;
+  /// b −= Bᵀ λ in the members. \param lambda  on the ghost map × k
+  void subtractForces(std::span<const double> lambda, std::vector<Eigen::MatrixXd>& b) const;
+  /// result += B u of the members. \param result  on the ghost map × k
+  void addConstraint(const std::vector<Eigen::MatrixXd>& u, std::span<double> result) const;
 
   /// Bytes of the factor, and of the dense block.
   [[nodiscard]] std::size_t factorBytes() const;
@@ -77,23 +78,24 @@ public:
 
 private:
   [[nodiscard]] Eigen::Index numMembers() const { return static_cast<Eigen::Index>(members_.size()); }
+  void prepareColumns(Eigen::Index numColumns);
+  void addEntries(std::size_t member, std::size_t subdomain);
   [[nodiscard]] Eigen::Index prepareBatch(Eigen::Index first);
   void solveForBoundary();
   void addToCoarse(std::span<AccurateSum> coarse) const;
-  void takeFromCoarse(const Eigen::VectorXd& coarse);
+  void takeFromCoarse(const Eigen::MatrixXd& coarse);
 
   const std::vector<decomposition::Subdomain>* subdomains_;
   std::vector<std::size_t> members_;
   int numOnAllRanks_;
   direct::SymmetricBlock::Use use_;
   CondensedSubdomain condensed_;
-  std::vector<InterfaceEntry> entries_;
-  std::vector<std::size_t> firstEntry_; ///< of each member, and the end
+  std::vector<InterfaceEntry> boundaryEntries_, crosspointEntries_; ///< member after member
   Eigen::MatrixXi coarseIndices_;       ///< n_c × m, L_c
   direct::SymmetricBlock flexibility_;  ///< (K_rr⁻¹)_ΔΔ, if explicit
   bool isExplicit_ = false;
-  Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × m: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it
-  Eigen::MatrixXd coarseLocal_;         ///< work, n_c × m
+  Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × mk: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it
+  Eigen::MatrixXd coarseLocal_;         ///< work, n_c × mk
   Eigen::MatrixXd rhs_, solution_;      ///< work of sparse solves, n_r × a few
 };
 

@@ -1,5 +1,7 @@
 #include "Reference.hpp"
 
+#include "epafi/fetidp/DualOperator.hpp"
+
 #include "epafi/base/Collective.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -19,6 +21,18 @@ TEST(CoarseProblemTest, LiesOnOneRankWhereItIsTooLargeForAll) {
   EXPECT_EQ(onFirst.coarseProblem().isReplicated(), world()->getSize() == 1);
   const bool hasFactor = world()->getSize() == 1 || world()->getRank() == 0;
   EXPECT_EQ(onFirst.coarseProblem().factorBytes() > 0, hasFactor);
+}
+
+TEST(CoarseProblemTest, TakesManyColumnsOnOneRankAsOnAll) {
+  const auto decomposition = decompose(twoMembranes(false, 8, grid(4, 4)), world());
+  const auto matrixWith = [&](int maxReplicated) {
+    DirectSolvers solvers;
+    solvers.maxReplicated = maxReplicated;
+    return matrixOf(DualOperator(decomposition.problem,
+                                 std::make_shared<GeneralizedInverse>(decomposition.problem, solvers)));
+  };
+  const Eigen::MatrixXd onAll = matrixWith(1000);
+  EXPECT_LE(relativeError(matrixWith(0), onAll), 1e-13);
 }
 
 TEST(CoarseProblemTest, GivesTheSameSolutionOnOneRankAsOnAll) {

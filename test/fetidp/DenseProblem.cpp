@@ -129,7 +129,7 @@ SubdomainVectors forcesOf(const DecomposedProblem& problem, const Eigen::VectorX
   for (std::size_t s = 0; s < columns.size(); ++s)
     for (std::size_t i = 0; i < columns[s].size(); ++i)
       if (lowest[columns[s][i]] != problem.subdomains[s].number)
-        forces[s][static_cast<Eigen::Index>(i)] = 0;
+        forces[s](static_cast<Eigen::Index>(i)) = 0;
   return forces;
 }
 
@@ -138,7 +138,7 @@ Eigen::VectorXd mergeValues(const DecomposedProblem& problem, const SubdomainVec
   const auto columns = mergedColumns(problem);
   for (std::size_t s = 0; s < columns.size(); ++s)
     for (std::size_t i = 0; i < columns[s].size(); ++i)
-      merged[columns[s][i]] += u[s][static_cast<Eigen::Index>(i)];
+      merged[columns[s][i]] += u[s](static_cast<Eigen::Index>(i));
   sum(*problem.comm, merged);
   return merged.cwiseQuotient(countCopies(problem));
 }

@@ -36,6 +36,33 @@ TEST(GeneralizedInverseTest, InvertsOnTheRangeOfTheStiffness) {
   }
 }
 
+TEST(GeneralizedInverseTest, TakesSeveralLoadsAtOnce) {
+  for (const ContactCase& c : contactCases()) {
+    SCOPED_TRACE(c.name);
+    const auto decomposition = decompose(c.scene, world());
+    const DecomposedProblem& problem = decomposition.problem;
+    GeneralizedInverse inverse(problem, DirectSolvers());
+    constexpr int numLoads = 5; // more than are solved for at once
+    SubdomainVectors loads(problem.subdomains.size()), together, single;
+    for (std::size_t s = 0; s < loads.size(); ++s)
+      loads[s].resize(problem.subdomains[s].load.size(), numLoads);
+    const auto loadOf = [&](int j) {
+      return forcesOf(problem, randomVector(decomposition::mergedSize(problem), 7 + static_cast<unsigned>(j)));
+    };
+    for (int j = 0; j < numLoads; ++j) {
+      const SubdomainVectors load = loadOf(j);
+      for (std::size_t s = 0; s < loads.size(); ++s)
+        loads[s].col(j) = load[s];
+    }
+    inverse.apply(loads, together, numLoads);
+    for (int j = 0; j < numLoads; ++j) {
+      inverse.apply(loadOf(j), single);
+      for (std::size_t s = 0; s < single.size(); ++s)
+        EXPECT_LE((together[s].col(j) - single[s]).norm(), 1e-13 * single[s].norm());
+    }
+  }
+}
+
 TEST(GeneralizedInverseTest, IsSymmetric) {
   for (const ContactCase& c : contactCases()) {
     SCOPED_TRACE(c.name);
@@ -79,7 +106,7 @@ TEST(GeneralizedInverseTest, ForcesAndConstraintsAreTransposed) {
 
   Eigen::Vector2d work = Eigen::Vector2d::Zero();
   for (std::size_t s = 0; s < values.size(); ++s)
-    work[0] -= forces[s].dot(values[s]);
+    work[0] -= forces[s].col(0).dot(values[s].col(0));
   for (std::size_t i = 0; i < mine.size(); ++i)
     work[1] += mine[i] * jump[i];
   EXPECT_NEAR(work[0], work[1], 1e-13 * lambda.norm() * u.norm());
