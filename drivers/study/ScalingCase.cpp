@@ -100,7 +100,7 @@ void measureBlocks(const fetidp::GeneralizedInverse& inverse, const Comm& comm, 
 double problemBytes(const decomposition::DecomposedProblem& problem) {
   double bytes = 0;
   for (const auto& subdomain : problem.subdomains)
-    bytes += static_cast<double>(subdomain.stiffness.nonZeros()) * (sizeof(double) + sizeof(int)) +
+    bytes += static_cast<double>(subdomain.stiffness->nonZeros()) * (sizeof(double) + sizeof(int)) +
              static_cast<double>(subdomain.load.size()) * sizeof(double);
   return sumOverRanks(*problem.comm, bytes);
 }

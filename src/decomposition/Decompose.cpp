@@ -112,7 +112,7 @@ void takeAssembled(Piece& piece, Subdomain& subdomain) {
   subdomain.number = piece.number;
   subdomain.nodes = std::move(assembled.nodes);
   subdomain.unknownPosition = std::move(assembled.unknownPosition);
-  subdomain.stiffness.swap(assembled.stiffness); // Eigen 3.4 cannot move sparse matrices
+  subdomain.stiffness = std::move(piece.stiffness);
   subdomain.load = std::move(assembled.load);
   subdomain.prescribed = std::move(assembled.prescribed);
   subdomain.energyOffset = assembled.energyOffset;

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct Subdomain {
   std::vector<int> crosspointUnknowns;          ///< v_c: unknowns that are crosspoint values, ascending
   std::vector<GlobalOrdinal> crosspointIndices; ///< L_c: global index of each v_c in crosspointMap
   std::vector<ConstraintEntry> constraint;      ///< B^s
-  SparseMatrix stiffness;                       ///< K^s, n_s × n_s
+  std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
   Eigen::VectorXd load;       ///< f^s, n_s, supports' prescribed values already moved to the right
   Eigen::VectorXd prescribed; ///< value at each position; 0 at the free ones
   double energyOffset = 0;    ///< energy that prescribed values alone contribute

@@ -1,5 +1,7 @@
 #include "epafi/decomposition/Pieces.hpp"
 
+#include "epafi/decomposition/EqualMatrices.hpp"
+
 #include <Teuchos_Comm.hpp>
 
 #include <algorithm>
@@ -48,6 +50,8 @@ std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
   std::vector<Piece> pieces;
   pieces.reserve(static_cast<std::size_t>(end - begin));
   std::optional<fem::SubdomainAssembler> assembler;
+  EqualMatrices matrices;
+  SparseMatrix scratch;
   for (int number = begin; number < end; ++number) {
     Piece& piece = pieces.emplace_back();
     piece.number = number;
@@ -57,7 +61,10 @@ std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
       assembler.emplace(*layout.models[b]);
     const BodyLayout& body = layout.bodies[b];
     piece.part = number - body.firstSubdomain;
+    piece.assembled.stiffness.swap(scratch); // its memory is used again if the last matrix was a known one
     assembler->assemble(body.partition->elementsOf(piece.part), piece.assembled);
+    piece.stiffness = matrices.store(piece.assembled.stiffness);
+    scratch.swap(piece.assembled.stiffness);
     piece.sharing = Sharing(body, piece.assembled);
   }
   return pieces;

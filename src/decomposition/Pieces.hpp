@@ -45,7 +45,8 @@ struct RowEntry {
 /// One of this rank's subdomains.
 struct Piece {
   int body = 0, part = 0, number = 0;
-  fem::AssembledSubdomain assembled;
+  fem::AssembledSubdomain assembled;             ///< without its stiffness
+  std::shared_ptr<const SparseMatrix> stiffness; ///< equal pieces share one
   Sharing sharing;
   std::vector<char> isCrosspoint; ///< for each node
   std::vector<RowEntry> rows;     ///< B^s

@@ -109,7 +109,7 @@ Eigen::VectorXd crosspointStiffness(const DecomposedProblem& problem, int size) 
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i) {
       const int unknown = subdomain.crosspointUnknowns[i];
       sums[static_cast<std::size_t>(subdomain.crosspointIndices[i])].add(
-          subdomain.stiffness.coeff(unknown, unknown));
+          subdomain.stiffness->coeff(unknown, unknown));
     }
   sumOverRanks(*problem.comm, sums);
   Eigen::VectorXd diagonal(size);

@@ -37,15 +37,15 @@ CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain
     : interface_(std::move(interface)) {
   const auto& remainder = subdomain.remainderUnknowns;
   const auto& crosspoints = subdomain.crosspointUnknowns;
-  factor_ = factorizer.factorize(block(subdomain.stiffness, remainder, remainder), interface_.boundary,
+  factor_ = factorizer.factorize(block(*subdomain.stiffness, remainder, remainder), interface_.boundary,
                                  "subdomain " + std::to_string(subdomain.number));
-  remainderToCrosspoint_ = block(subdomain.stiffness, remainder, crosspoints);
+  remainderToCrosspoint_ = block(*subdomain.stiffness, remainder, crosspoints);
 
   const Eigen::MatrixXd rhs(remainderToCrosspoint_);
   crosspointResponse_.resizeLike(rhs);
   factor_->solve(rhs, crosspointResponse_); // Ψ = K_rr⁻¹ K_rc
   boundaryResponse_ = crosspointResponse_(interface_.boundary, Eigen::all);
-  schurComplement_ = Eigen::MatrixXd(block(subdomain.stiffness, crosspoints, crosspoints));
+  schurComplement_ = Eigen::MatrixXd(block(*subdomain.stiffness, crosspoints, crosspoints));
   schurComplement_ -= remainderToCrosspoint_.transpose() * crosspointResponse_; // S = K_cc − K_cr Ψ
   schurComplement_ =
       (0.5 * (schurComplement_ + schurComplement_.transpose())).eval(); // symmetric to the last digit

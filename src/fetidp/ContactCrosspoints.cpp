@@ -27,7 +27,7 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
   Unknowns myTouched, myNear;
   std::vector<int> crosspointOf;
   for (const auto& subdomain : problem.subdomains) {
-    crosspointOf.assign(static_cast<std::size_t>(subdomain.stiffness.rows()), -1);
+    crosspointOf.assign(static_cast<std::size_t>(subdomain.stiffness->rows()), -1);
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
       crosspointOf[static_cast<std::size_t>(subdomain.crosspointUnknowns[i])] = static_cast<int>(i);
     bool isNear = false;

@@ -14,11 +14,11 @@ Eigen::MatrixXd boundaryBlock(const decomposition::Subdomain& subdomain,
   const Eigen::Index size = condensed.numBoundary();
   const std::vector<int>& positionOf = condensed.interface().positionOf;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index column = 0; column < subdomain.stiffness.cols(); ++column) {
+  for (Eigen::Index column = 0; column < subdomain.stiffness->cols(); ++column) {
     const int j = positionOf[static_cast<std::size_t>(column)];
     if (j < 0 || j >= size)
       continue;
-    for (decomposition::SparseMatrix::InnerIterator entry(subdomain.stiffness, column); entry; ++entry)
+    for (decomposition::SparseMatrix::InnerIterator entry(*subdomain.stiffness, column); entry; ++entry)
       if (const int i = positionOf[static_cast<std::size_t>(entry.row())]; i >= 0 && i < size)
         block(i, j) = entry.value();
   }
@@ -60,7 +60,7 @@ Eigen::VectorXd DualPreconditioner::crosspointStiffness(const decomposition::Dec
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
       if (const int touched = crosspoints_.indexOf(subdomain.crosspointIndices[i]); touched >= 0) {
         const int unknown = subdomain.crosspointUnknowns[i];
-        touchedSums_[static_cast<std::size_t>(touched)].add(subdomain.stiffness.coeff(unknown, unknown));
+        touchedSums_[static_cast<std::size_t>(touched)].add(subdomain.stiffness->coeff(unknown, unknown));
       }
   sumOverRanks(*map_->getComm(), touchedSums_);
   Eigen::VectorXd diagonal(crosspoints_.size());
@@ -79,7 +79,7 @@ void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
     if (const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
         std::binary_search(crosspoints.begin(), crosspoints.end(), unknown))
       return atCrosspoints[touchedIndexOf(subdomain, unknown)];
-    return subdomain.stiffness.coeff(unknown, unknown);
+    return subdomain.stiffness->coeff(unknown, unknown);
   };
   const std::span<double> sums = output_.values();
   std::fill(sums.begin(), sums.end(), 0.0);

@@ -30,7 +30,7 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   for (std::size_t s = 0; s < u.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
     const auto values = u[s].col(0);
-    energy.add(0.5 * values.dot(subdomain.stiffness * values) - subdomain.load.dot(values) +
+    energy.add(0.5 * values.dot(*subdomain.stiffness * values) - subdomain.load.dot(values) +
                subdomain.energyOffset);
   }
   sumOverRanks(*problem.comm, {&energy, 1});

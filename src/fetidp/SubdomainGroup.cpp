@@ -162,7 +162,7 @@ void SubdomainGroup::substitute(const Eigen::MatrixXd& coarse, const std::vector
                                 std::vector<Eigen::MatrixXd>& u) {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
   for (const std::size_t member : members_)
-    u[member].resize(like.stiffness.rows(), coarse.cols());
+    u[member].resize(like.stiffness->rows(), coarse.cols());
   takeFromCoarse(coarse);
   for (Eigen::Index first = 0; first < coarseLocal_.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(first);

@@ -1,33 +1,20 @@
 #include "epafi/fetidp/SubdomainInterface.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/decomposition/EqualMatrices.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <unordered_map>
 
 namespace epafi::fetidp {
 namespace {
 
-using decomposition::SparseMatrix;
 using decomposition::Subdomain;
-
-template <class T>
-bool areEqual(const T* a, const T* b, Eigen::Index count) {
-  return std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0;
-}
-
-bool areEqual(const SparseMatrix& a, const SparseMatrix& b) {
-  return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() &&
-         areEqual(a.outerIndexPtr(), b.outerIndexPtr(), a.outerSize() + 1) &&
-         areEqual(a.innerIndexPtr(), b.innerIndexPtr(), a.nonZeros()) &&
-         areEqual(a.valuePtr(), b.valuePtr(), a.nonZeros());
-}
 
 /// The unknowns that B touches, ascending.
 std::vector<int> touchedUnknowns(const Subdomain& subdomain) {
-  std::vector<char> isTouched(static_cast<std::size_t>(subdomain.stiffness.rows()), 0);
+  std::vector<char> isTouched(static_cast<std::size_t>(subdomain.stiffness->rows()), 0);
   for (const auto& entry : subdomain.constraint)
     isTouched[static_cast<std::size_t>(entry.unknown)] = 1;
   std::vector<int> touched;
@@ -39,21 +26,15 @@ std::vector<int> touchedUnknowns(const Subdomain& subdomain) {
 
 /// Equal for identical subdomains, and rarely for others.
 std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<int>& touched) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  std::uint64_t hash = decomposition::fingerprint(*subdomain.stiffness);
   const auto mix = [&hash](std::uint64_t value) {
     hash = (hash ^ value) * 0x100000001b3ULL;
     hash ^= hash >> 29U;
   };
-  mix(static_cast<std::uint64_t>(subdomain.stiffness.nonZeros()));
   for (const int unknown : subdomain.crosspointUnknowns)
     mix(static_cast<std::uint64_t>(unknown));
   for (const int unknown : touched)
     mix(static_cast<std::uint64_t>(unknown));
-  for (Eigen::Index i = 0; i < subdomain.stiffness.nonZeros(); i += 1 + subdomain.stiffness.nonZeros() / 64) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, subdomain.stiffness.valuePtr() + i, sizeof bits);
-    mix(bits);
-  }
   return hash;
 }
 
@@ -61,7 +42,7 @@ std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<int>& to
 
 SubdomainInterface interfaceOf(const Subdomain& subdomain) {
   SubdomainInterface interface;
-  const auto numUnknowns = static_cast<std::size_t>(subdomain.stiffness.rows());
+  const auto numUnknowns = static_cast<std::size_t>(subdomain.stiffness->rows());
   std::vector<char> isTouched(numUnknowns, 0);
   for (const int unknown : touchedUnknowns(subdomain))
     isTouched[static_cast<std::size_t>(unknown)] = 1;
@@ -98,7 +79,7 @@ std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedP
       const Subdomain& other = subdomains[groups[candidate.second].members.front()];
       return other.crosspointUnknowns == subdomains[s].crosspointUnknowns &&
              other.remainderUnknowns == subdomains[s].remainderUnknowns &&
-             touchedOf[candidate.second] == touched && areEqual(other.stiffness, subdomains[s].stiffness);
+             touchedOf[candidate.second] == touched && decomposition::areEqual(*other.stiffness, *subdomains[s].stiffness);
     });
     if (same != last) {
       groups[same->second].members.push_back(s);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <set>
 
 namespace epafi::decomposition {
 namespace {
@@ -36,14 +37,22 @@ TEST(EqualSubdomainsTest, InnerSubdomainsOfAUniformMeshAreEqualToTheLastBit) {
     ASSERT_EQ(s.size(), 25u);
     for (const std::size_t row : {1U, 2U, 3U})
       for (const std::size_t column : {1U, 2U, 3U}) {
-        EXPECT_TRUE(haveEqualBits(s[6].stiffness, s[5 * row + column].stiffness)) << row << ' ' << column;
+        EXPECT_TRUE(haveEqualBits(*s[6].stiffness, *s[5 * row + column].stiffness)) << row << ' ' << column;
         EXPECT_EQ(s[6].unknownPosition, s[5 * row + column].unknownPosition);
       }
     // Supports and free edges do not disturb those who do not touch them, nor those who touch the same.
-    EXPECT_TRUE(haveEqualBits(s[6].stiffness, s[24].stiffness));
-    EXPECT_TRUE(haveEqualBits(s[5].stiffness, s[15].stiffness));
-    EXPECT_FALSE(haveEqualBits(s[5].stiffness, s[6].stiffness));
+    EXPECT_TRUE(haveEqualBits(*s[6].stiffness, *s[24].stiffness));
+    EXPECT_TRUE(haveEqualBits(*s[5].stiffness, *s[15].stiffness));
+    EXPECT_FALSE(haveEqualBits(*s[5].stiffness, *s[6].stiffness));
   }
+}
+
+TEST(EqualSubdomainsTest, EqualMatricesAreStoredOnce) {
+  const auto result = decomposedAlone(oneBody(30, 30, grid(5, 5), {{"wall", scene::Edge::left, 0.3}}));
+  std::set<const SparseMatrix*> stored;
+  for (const Subdomain& s : result.problem.subdomains)
+    stored.insert(s.stiffness.get());
+  EXPECT_EQ(stored.size(), 2u); // with the support, and without
 }
 
 TEST(EqualSubdomainsTest, UnevenGridsHaveAsManyMatricesAsShapes) {
@@ -51,10 +60,10 @@ TEST(EqualSubdomainsTest, UnevenGridsHaveAsManyMatricesAsShapes) {
   std::map<Eigen::Index, std::vector<const SparseMatrix*>> ofSize;
   std::size_t different = 0;
   for (const Subdomain& s : result.problem.subdomains) {
-    auto& known = ofSize[s.stiffness.rows()];
+    auto& known = ofSize[s.stiffness->rows()];
     if (std::none_of(known.begin(), known.end(),
-                     [&](const SparseMatrix* other) { return haveEqualBits(*other, s.stiffness); })) {
-      known.push_back(&s.stiffness);
+                     [&](const SparseMatrix* other) { return haveEqualBits(*other, *s.stiffness); })) {
+      known.push_back(s.stiffness.get());
       ++different;
     }
   }
@@ -66,10 +75,10 @@ TEST(EqualSubdomainsTest, AnotherMaterialMakesAnotherMatrixOfTheSamePattern) {
   scene.bodies[0].regions = {{"middle", {0.4, 0.6, 0.4, 0.6}, 10}};
   const auto result = decomposedAlone(scene);
   const std::vector<Subdomain>& s = result.problem.subdomains;
-  EXPECT_FALSE(haveEqualBits(s[12].stiffness, s[6].stiffness));
-  EXPECT_LT((Eigen::MatrixXd(s[12].stiffness) - 10 * Eigen::MatrixXd(s[6].stiffness)).cwiseAbs().maxCoeff(),
+  EXPECT_FALSE(haveEqualBits(*s[12].stiffness, *s[6].stiffness));
+  EXPECT_LT((Eigen::MatrixXd(*s[12].stiffness) - 10 * Eigen::MatrixXd(*s[6].stiffness)).cwiseAbs().maxCoeff(),
             1e-13);
-  EXPECT_TRUE(haveEqualBits(s[11].stiffness, s[6].stiffness));
+  EXPECT_TRUE(haveEqualBits(*s[11].stiffness, *s[6].stiffness));
 }
 
 } // namespace

@@ -88,7 +88,7 @@ Eigen::MatrixXd mergedStiffness(const DecomposedProblem& problem) {
   Eigen::MatrixXd merged = Eigen::MatrixXd::Zero(n, n);
   const auto columns = mergedColumns(problem);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
-    const SparseMatrix& k = problem.subdomains[s].stiffness;
+    const SparseMatrix& k = *problem.subdomains[s].stiffness;
     for (int j = 0; j < k.outerSize(); ++j)
       for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry)
         merged(columns[s][static_cast<std::size_t>(entry.row())], columns[s][static_cast<std::size_t>(j)]) +=
@@ -119,9 +119,9 @@ double smallestPivot(const DecomposedProblem& problem) {
     std::vector<Eigen::Triplet<double>> pick;
     for (Eigen::Index k = 0; k < n; ++k)
       pick.emplace_back(s.remainderUnknowns[static_cast<std::size_t>(k)], k, 1.0);
-    SparseMatrix select(s.stiffness.rows(), n);
+    SparseMatrix select(s.stiffness->rows(), n);
     select.setFromTriplets(pick.begin(), pick.end());
-    const SparseMatrix krr = select.transpose() * s.stiffness * select;
+    const SparseMatrix krr = select.transpose() * *s.stiffness * select;
     const Eigen::SimplicialLDLT<SparseMatrix> factor(krr);
     if (factor.info() != Eigen::Success)
       return -1;

@@ -7,10 +7,19 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace epafi::decomposition {
+
+/// Lets `change(matrix)` change the stiffness of one subdomain, and of no other that shares it.
+template <class Change>
+void changeStiffness(Subdomain& subdomain, const Change& change) {
+  const auto matrix = std::make_shared<SparseMatrix>(*subdomain.stiffness);
+  change(*matrix);
+  subdomain.stiffness = matrix;
+}
 
 /// The communicator of all ranks.
 RCP<const Comm> world();

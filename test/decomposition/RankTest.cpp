@@ -23,7 +23,7 @@ void expectSame(const DecomposedProblem& a, const Subdomain& s, const Decomposed
   EXPECT_EQ(s.remainderUnknowns, t.remainderUnknowns);
   EXPECT_EQ(s.crosspointUnknowns, t.crosspointUnknowns);
   EXPECT_EQ(s.crosspointIndices, t.crosspointIndices);
-  EXPECT_EQ(Eigen::MatrixXd(s.stiffness), Eigen::MatrixXd(t.stiffness));
+  EXPECT_EQ(Eigen::MatrixXd(*s.stiffness), Eigen::MatrixXd(*t.stiffness));
   EXPECT_EQ(s.load, t.load);
   ASSERT_EQ(s.constraint.size(), t.constraint.size());
   for (std::size_t k = 0; k < s.constraint.size(); ++k) {

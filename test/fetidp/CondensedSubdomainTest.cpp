@@ -14,7 +14,7 @@ using decomposition::Subdomain;
 struct Compared {
   Compared(const Subdomain& subdomain, const std::string& solver)
       : factorizer(solver), condensed(subdomain, interfaceOf(subdomain), factorizer) {
-    const Eigen::MatrixXd k(subdomain.stiffness);
+    const Eigen::MatrixXd k(*subdomain.stiffness);
     const auto &r = subdomain.remainderUnknowns, &c = subdomain.crosspointUnknowns;
     krr = k(r, r);
     krc = k(r, c);

@@ -36,7 +36,7 @@ struct Crosspoints {
   }
 
   void add(const decomposition::Subdomain& subdomain) {
-    const Eigen::MatrixXd k(subdomain.stiffness);
+    const Eigen::MatrixXd k(*subdomain.stiffness);
     const auto &r = subdomain.remainderUnknowns, &c = subdomain.crosspointUnknowns;
     const Eigen::MatrixXd krr = k(r, r), krc = k(r, c);
     Eigen::MatrixXd s = k(c, c);

@@ -64,7 +64,7 @@ public:
     for (const Subdomain& s : problem_.subdomains)
       for (std::size_t c = 0; c < s.crosspointUnknowns.size(); ++c)
         diagonal_[static_cast<Eigen::Index>(s.crosspointIndices[c])] +=
-            s.stiffness.coeff(s.crosspointUnknowns[c], s.crosspointUnknowns[c]);
+            s.stiffness->coeff(s.crosspointUnknowns[c], s.crosspointUnknowns[c]);
     sum(diagonal_);
     for (const Subdomain& s : problem_.subdomains)
       for (const auto& entry : s.constraint)
@@ -94,7 +94,7 @@ public:
 
 private:
   void addSubdomain(const Subdomain& s, const Eigen::MatrixXd& touched, Eigen::MatrixXd& m) const {
-    const Eigen::MatrixXd k(s.stiffness);
+    const Eigen::MatrixXd k(*s.stiffness);
     const auto &r = s.remainderUnknowns, &c = s.crosspointUnknowns;
     const std::vector<int> boundary = interfaceOf(s).boundary;
     if (boundary.empty())
@@ -133,7 +133,7 @@ private:
     for (std::size_t c = 0; c < s.crosspointUnknowns.size(); ++c)
       if (s.crosspointUnknowns[c] == unknown)
         return diagonal_[static_cast<Eigen::Index>(s.crosspointIndices[c])];
-    return s.stiffness.coeff(unknown, unknown);
+    return s.stiffness->coeff(unknown, unknown);
   }
   /// An entry of B_D.
   [[nodiscard]] double scaled(const Subdomain& s, const decomposition::ConstraintEntry& entry) const {

@@ -135,7 +135,7 @@ TEST(RecoveryTest, EnergyIsThatOfTheSolution) {
     for (std::size_t s = 0; s < solved.decomposition.problem.subdomains.size(); ++s) {
       const auto& subdomain = solved.decomposition.problem.subdomains[s];
       const Eigen::VectorXd u = solved.solution.displacement[s](subdomain.unknownPosition);
-      energy += 0.5 * u.dot(subdomain.stiffness * u) - subdomain.load.dot(u);
+      energy += 0.5 * u.dot(*subdomain.stiffness * u) - subdomain.load.dot(u);
     }
     energy = sumOverRanks(*world(), energy);
     EXPECT_NEAR(solved.solution.energy, energy, 1e-13 * std::abs(energy));

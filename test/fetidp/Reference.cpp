@@ -45,8 +45,8 @@ void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdoma
   std::vector<Eigen::Index> node;
   for (const int position : subdomain.unknownPosition)
     node.push_back(nodeOf(primal, subdomain, position));
-  for (int j = 0; j < subdomain.stiffness.outerSize(); ++j)
-    for (decomposition::SparseMatrix::InnerIterator entry(subdomain.stiffness, j); entry; ++entry)
+  for (int j = 0; j < subdomain.stiffness->outerSize(); ++j)
+    for (decomposition::SparseMatrix::InnerIterator entry(*subdomain.stiffness, j); entry; ++entry)
       primal.stiffness(node[static_cast<std::size_t>(entry.row())], node[static_cast<std::size_t>(j)]) +=
           entry.value();
   for (std::size_t i = 0; i < node.size(); ++i) {

@@ -32,8 +32,8 @@ Whole assemble(const decomposition::DecomposedProblem& problem) {
   Eigen::Index size = 0;
   for (const auto& subdomain : problem.subdomains) {
     whole.offset.push_back(size);
-    for (int column = 0; column < subdomain.stiffness.outerSize(); ++column)
-      for (decomposition::SparseMatrix::InnerIterator entry(subdomain.stiffness, column); entry; ++entry)
+    for (int column = 0; column < subdomain.stiffness->outerSize(); ++column)
+      for (decomposition::SparseMatrix::InnerIterator entry(*subdomain.stiffness, column); entry; ++entry)
         whole.stiffness.emplace_back(static_cast<int>(size + entry.row()), static_cast<int>(size + column),
                                      entry.value());
     for (const auto& entry : subdomain.constraint) {
@@ -41,7 +41,7 @@ Whole assemble(const decomposition::DecomposedProblem& problem) {
       whole.rows[static_cast<std::size_t>(problem.multiplierMap->getLocalElement(global))].emplace_back(
           static_cast<int>(size) + entry.unknown, entry.coefficient);
     }
-    size += subdomain.stiffness.rows();
+    size += subdomain.stiffness->rows();
   }
   whole.load.resize(size);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
