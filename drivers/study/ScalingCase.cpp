@@ -12,6 +12,7 @@
 #include <Tpetra_Operator.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <set>
 #include <vector>
 
 namespace epafi::drivers {
@@ -97,12 +98,22 @@ void measureBlocks(const fetidp::GeneralizedInverse& inverse, const Comm& comm, 
   row.explicitSetup = maxOverRanks(comm, Teuchos::Time::wallTime() - begin);
 }
 
-double problemBytes(const decomposition::DecomposedProblem& problem) {
-  double bytes = 0;
+/// Of the subdomain matrices, each different one once.
+double matrixBytes(const decomposition::DecomposedProblem& problem) {
+  std::set<const decomposition::SparseMatrix*> different;
   for (const auto& subdomain : problem.subdomains)
-    bytes += static_cast<double>(subdomain.stiffness->nonZeros()) * (sizeof(double) + sizeof(int)) +
-             static_cast<double>(subdomain.load.size()) * sizeof(double);
+    different.insert(subdomain.stiffness.get());
+  double bytes = 0;
+  for (const decomposition::SparseMatrix* matrix : different)
+    bytes += static_cast<double>(matrix->nonZeros()) * (sizeof(double) + sizeof(int));
   return sumOverRanks(*problem.comm, bytes);
+}
+
+/// Of the vectors without which a scene is not solved: load, prescribed values, displacement, nodes of every subdomain;
+/// λ, d̃, g, p, Fp, φ, Mφ, bound, gap, slack, active set, work of F.
+double vectorBytes(const decomposition::DecomposedProblem& problem) {
+  return sizeof(double) * (4.0 * static_cast<double>(problem.primalDimension) +
+                           12.0 * static_cast<double>(problem.dualDimension()));
 }
 
 /// One run from the scene to the solution. Returns whether it converged.
@@ -119,7 +130,7 @@ bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const C
   const decomposition::DecomposedProblem& problem = run.decomposition->problem;
   row.unknowns = static_cast<double>(problem.primalDimension);
   row.multipliers = static_cast<double>(problem.dualDimension());
-  row.problemBytes = problemBytes(problem);
+  row.problemBytes = matrixBytes(problem) + vectorBytes(problem);
   if (measuresProducts) {
     measureProducts(run.solver->dualProblem(), *comm, row);
     measureBlocks(run.solver->dualProblem().dualOperator()->inverse(), *comm, row);

@@ -63,12 +63,17 @@ double fractionOfStream(const ScalingRow& row) {
   return row.applyBytes / row.applySeconds / row.streamRate;
 }
 
+/// Matrices, factors, dense blocks and vectors.
+double neededBytes(const ScalingRow& row) {
+  return row.factorBytes + row.preconditionerBytes + row.problemBytes;
+}
+
 std::string growthLine(const ScalingRow& row) {
   return line({row.problem, count(row.subdomainsPerSide), count(row.elementsPerSide), count(row.unknowns),
                count(row.multipliers), count(row.coarseUnknowns), count(row.hessianMultiplications),
                number(row.assembly, milli), number(row.setup, milli), number(row.solve, milli),
                number(row.total, milli), number(row.peakBytes - row.baseBytes, mega),
-               number(row.factorBytes + row.preconditionerBytes + row.problemBytes, mega)});
+               number(neededBytes(row), mega), number((row.peakBytes - row.baseBytes) / neededBytes(row), 1)});
 }
 
 } // namespace
@@ -77,7 +82,7 @@ std::string growthReport(const ScalingTable& table, const ScalingSizes& sizes) {
   std::string text =
       heading("Growing number and size of subdomains, one rank, F shared, Dirichlet preconditioner:",
               {"problem", "1/H", "H/h", "unknowns", "multipliers", "coarse", "products with F", "assembly ms",
-               "setup ms", "solve ms", "total ms", "peak MB", "of it matrices, factors, blocks MB"});
+               "setup ms", "solve ms", "total ms", "peak MB", "matrices, factors, vectors MB", "ratio"});
   for (const char* problem : {"coercive", "semicoercive"}) {
     for (const int elements : sizes.fixedElements)
       for (const ScalingRow& row : table.rows())

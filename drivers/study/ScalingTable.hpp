@@ -38,7 +38,7 @@ struct ScalingRow {
   double energy = unknown;
   double preconditionerSeconds = unknown; ///< one application
   double preconditionerBytes = unknown;
-  double problemBytes = unknown;           ///< subdomain matrices and loads
+  double problemBytes = unknown;           ///< different subdomain matrices, and vectors
   double baseBytes = unknown;              ///< held before the run: program and libraries
   double unknowns = unknown;               ///< primal dimension
   double multipliers = unknown;            ///< dual dimension

@@ -124,8 +124,7 @@ void requireFiniteData(const decomposition::DecomposedProblem& problem) {
 
 DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
   requireFiniteData(problem_);
-  const SubdomainVectors load = loadsOf(problem_);
-  const Eigen::VectorXd resultants = kernelLoad(problem_, load);
+  const Eigen::VectorXd resultants = kernelLoad(problem_, loadsOf(problem_));
   requireFeasibleGaps(problem_);
   requireUniqueSolution(problem_, kernelEntries_, resultants);
 
@@ -136,18 +135,18 @@ DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
     solution.report.reason = "solved directly";
     return solution;
   }
-  const RCP<Vector> rhs = rightHandSide(load);
+  const RCP<Vector> rhs = rightHandSide();
   if (algorithm_ == Algorithm::smalbe)
-    solveSemicoercive(rhs, load, start, observer, solution);
+    solveSemicoercive(rhs, resultants, start, observer, solution);
   else
     solveCoercive(rhs, start, observer, solution);
   return solution;
 }
 
 /// d̃ = B̄ K̄⁺ f̄ − c. Keeps the size of what it is the difference of, max |K̄⁺f̄| + max |c|.
-RCP<Vector> DualProblem::rightHandSide(const SubdomainVectors& load) {
+RCP<Vector> DualProblem::rightHandSide() {
   SubdomainVectors u;
-  inverse_->apply(load, u);
+  inverse_->apply(loadsOf(problem_), u);
   MultiplierExchange exchange(problem_);
   inverse_->constraint(u, exchange.values());
   const RCP<Vector> rhs = rcp(new Vector(problem_.multiplierMap));
@@ -198,9 +197,9 @@ void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp:
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
-void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVectors& load, const Vector* start,
-                                    qp::Observer* observer, DualSolution& solution) {
-  const Eigen::VectorXd e = coarseSpace_->normalized(kernelLoad(problem_, load));
+void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& resultants,
+                                    const Vector* start, qp::Observer* observer, DualSolution& solution) {
+  const Eigen::VectorXd e = coarseSpace_->normalized(resultants);
   Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
   coarseSpace_->feasiblePoint(e, feasible);
   dualOperator_->apply(feasible, *rhs, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
@@ -208,7 +207,7 @@ void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVecto
   const bool vanishes = setReference(*rhs, solution);
   // e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd
   // asks for.
-  const double largest = coarseSpace_->normalized(kernelLoadMagnitude(problem_, load)).norm();
+  const double largest = coarseSpace_->normalized(kernelLoadMagnitude(problem_, loadsOf(problem_))).norm();
   const bool isBalanced = e.norm() <= resultantTolerance * largest;
   const double equilibriumReference = !isBalanced      ? e.norm()
                                       : norm_.norm > 0 ? solution.reference / norm_.norm

@@ -72,12 +72,12 @@ public:
 private:
   void choose();
   void precondition();
-  RCP<Vector> rightHandSide(const SubdomainVectors& load);
+  RCP<Vector> rightHandSide();
   RCP<Vector> lowerBounds(double free) const;
   void solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
                      DualSolution& solution);
   bool setReference(Vector& rhs, DualSolution& solution) const;
-  void solveSemicoercive(const RCP<Vector>& rhs, const SubdomainVectors& load, const Vector* start,
+  void solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& resultants, const Vector* start,
                          qp::Observer* observer, DualSolution& solution);
 
   const decomposition::DecomposedProblem& problem_;

@@ -97,6 +97,7 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
   MultiplierExchange exchange(problem);
   inverse.subtractForces(exchange.toSubdomains(*dual.lambda), forces); // f̄ − B̄ᵀλ
   inverse.apply(forces, u);                                            // K̄⁺(f̄ − B̄ᵀλ)
+  forces = {};
   slackOf(problem, inverse, u, *solution.slack);
   solution.energy = energyOf(problem, u);
   if (problem.kernelDimension > 0) {
@@ -115,6 +116,7 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
   double largest = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
     solution.displacement.push_back(atAllPositions(problem.subdomains[s], u[s]));
+    u[s].resize(0, 0); // primal vectors are what takes memory once the factors are shared
     if (solution.displacement.back().size() > 0)
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
   }
