@@ -73,7 +73,8 @@ std::string growthLine(const ScalingRow& row) {
                count(row.multipliers), count(row.coarseUnknowns), count(row.hessianMultiplications),
                number(row.assembly, milli), number(row.setup, milli), number(row.solve, milli),
                number(row.total, milli), number(row.peakBytes - row.baseBytes, mega),
-               number(neededBytes(row), mega), number((row.peakBytes - row.baseBytes) / neededBytes(row), 1)});
+               number(neededBytes(row), mega),
+               number((row.peakBytes - row.baseBytes) / neededBytes(row), 1)});
 }
 
 } // namespace

@@ -10,7 +10,7 @@
 #include <utility>
 
 // OpenMP's own header is the compiler's, and not every tool that reads this file has it.
-extern "C" int omp_get_max_active_levels(); // NOLINT(readability-identifier-naming)
+extern "C" int omp_get_max_active_levels();            // NOLINT(readability-identifier-naming)
 extern "C" void omp_set_max_active_levels(int levels); // NOLINT(readability-identifier-naming)
 
 namespace epafi::direct {
@@ -52,7 +52,8 @@ public:
   }
   [[nodiscard]] cholmod_common* get() { return &common_; }
 
-  cholmod_dense *solution = nullptr, *work = nullptr, *moreWork = nullptr; ///< of the last solve, for the next one
+  cholmod_dense *solution = nullptr, *work = nullptr,
+                *moreWork = nullptr; ///< of the last solve, for the next one
 
 private:
   cholmod_common common_{};

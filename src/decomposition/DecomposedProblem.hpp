@@ -33,10 +33,10 @@ struct Subdomain {
   std::vector<GlobalOrdinal> nodes; ///< all its nodes, as numbered in the body, ascending
   std::vector<int>
       unknownPosition; ///< n_s: position (node of `nodes` × components + component) of an unknown
-  std::vector<int> remainderUnknowns;           ///< v_r: unknowns that are not crosspoint values, ascending
-  std::vector<int> crosspointUnknowns;          ///< v_c: unknowns that are crosspoint values, ascending
-  std::vector<GlobalOrdinal> crosspointIndices; ///< L_c: global index of each v_c in crosspointMap
-  std::vector<ConstraintEntry> constraint;      ///< B^s
+  std::vector<int> remainderUnknowns;            ///< v_r: unknowns that are not crosspoint values, ascending
+  std::vector<int> crosspointUnknowns;           ///< v_c: unknowns that are crosspoint values, ascending
+  std::vector<GlobalOrdinal> crosspointIndices;  ///< L_c: global index of each v_c in crosspointMap
+  std::vector<ConstraintEntry> constraint;       ///< B^s
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
   Eigen::VectorXd load;       ///< f^s, n_s, supports' prescribed values already moved to the right
   Eigen::VectorXd prescribed; ///< value at each position; 0 at the free ones

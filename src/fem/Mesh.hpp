@@ -4,9 +4,11 @@
 /// local (no communication) and cheap, so that each rank asks only about its own part of the body.
 
 #include "epafi/base/Types.hpp"
+#include "epafi/fem/Cell.hpp"
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace epafi::fem {
@@ -14,14 +16,23 @@ namespace epafi::fem {
 /// A point in the plane or in space; unused coordinates are 0.
 using Point = std::array<double, 3>;
 
+/// A named part of a body's boundary, whole on every rank: facets, each with the element that it bounds.
+struct Surface {
+  int nodesPerFacet = 2;
+  std::vector<GlobalOrdinal>
+      facetNodes; ///< nodesPerFacet each, in an order that makes the normal point outwards
+  std::vector<GlobalOrdinal> elements; ///< of each facet
+};
+
 class Mesh {
 public:
   virtual ~Mesh() = default;
 
+  [[nodiscard]] virtual CellType cellType() const = 0;
   [[nodiscard]] virtual GlobalOrdinal numNodes() const = 0;
   [[nodiscard]] virtual GlobalOrdinal numElements() const = 0;
   /// Nodes an element (the same for all elements of a mesh).
-  [[nodiscard]] virtual int nodesPerElement() const = 0;
+  [[nodiscard]] int nodesPerElement() const { return numNodesOf(cellType()); }
   [[nodiscard]] virtual Point point(GlobalOrdinal node) const = 0;
   /// Nodes of an element in the order of its shape functions (counter-clockwise in 2-D).
   virtual void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const = 0;
@@ -35,6 +46,15 @@ public:
   /// Elements that share an edge (2-D) or a face (3-D) with an element: its neighbours in the dual graph.
   virtual void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const = 0;
   [[nodiscard]] virtual bool isBoundaryNode(GlobalOrdinal node) const = 0;
+
+  /// Names of the surfaces: "left" … "top" of a structured mesh, physical groups of a Gmsh file.
+  [[nodiscard]] virtual std::vector<std::string> surfaceNames() const = 0;
+  /// Precondition: `name` is one of surfaceNames().
+  [[nodiscard]] virtual Surface surface(const std::string& name) const = 0;
+  /// Names of the element groups that a file gives; structured meshes have none.
+  [[nodiscard]] virtual std::vector<std::string> groupNames() const = 0;
+  /// Elements of a group, ascending. Precondition: `name` is one of groupNames().
+  [[nodiscard]] virtual std::vector<GlobalOrdinal> group(const std::string& name) const = 0;
 };
 
 } // namespace epafi::fem

@@ -5,6 +5,12 @@
 #include <algorithm>
 
 namespace epafi::fem {
+namespace {
+
+constexpr std::array<scene::Edge, 4> allEdges{scene::Edge::left, scene::Edge::right, scene::Edge::bottom,
+                                              scene::Edge::top};
+
+} // namespace
 
 RectangleMesh::RectangleMesh(const scene::Rectangle& rectangle, std::array<int, 2> elements)
     : rectangle_(rectangle), elements_(elements) {}
@@ -65,8 +71,7 @@ void RectangleMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>&
 void RectangleMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const {
   std::fill(numbers.begin(), numbers.end(), 4);
   std::vector<std::size_t> places;
-  for (const scene::Edge edge :
-       {scene::Edge::left, scene::Edge::right, scene::Edge::bottom, scene::Edge::top}) {
+  for (const scene::Edge edge : allEdges) {
     placesOnEdge(edge, nodes, places);
     for (const std::size_t place : places)
       numbers[place] /= 2;
@@ -89,6 +94,35 @@ void RectangleMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalO
 bool RectangleMesh::isBoundaryNode(GlobalOrdinal node) const {
   const GlobalOrdinal i = node % (elements_[0] + 1), j = node / (elements_[0] + 1);
   return i == 0 || j == 0 || i == elements_[0] || j == elements_[1];
+}
+
+std::vector<std::string> RectangleMesh::surfaceNames() const {
+  std::vector<std::string> names;
+  for (const scene::Edge edge : allEdges)
+    names.push_back(toString(edge));
+  return names;
+}
+
+Surface RectangleMesh::surface(const std::string& name) const {
+  const scene::Edge edge =
+      *std::find_if(allEdges.begin(), allEdges.end(), [&](scene::Edge e) { return toString(e) == name; });
+  const bool isReversed =
+      edge == scene::Edge::left || edge == scene::Edge::top; // the body lies on a facet's left side
+  Surface surface;
+  for (GlobalOrdinal k = 0; k + 1 < numEdgeNodes(edge); ++k) {
+    const GlobalOrdinal a = edgeNode(edge, k), b = edgeNode(edge, k + 1);
+    surface.facetNodes.insert(surface.facetNodes.end(), {isReversed ? b : a, isReversed ? a : b});
+    const GlobalOrdinal last = elements_[0] - 1, top = elements_[1] - 1;
+    surface.elements.push_back(edge == scene::Edge::left     ? k * elements_[0]
+                               : edge == scene::Edge::right  ? k * elements_[0] + last
+                               : edge == scene::Edge::bottom ? k
+                                                             : top * elements_[0] + k);
+  }
+  return surface;
+}
+
+std::vector<GlobalOrdinal> RectangleMesh::group(const std::string& /*name*/) const {
+  return {};
 }
 
 scene::Rectangle RectangleMesh::elementBox(GlobalOrdinal element) const {

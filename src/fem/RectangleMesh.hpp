@@ -16,7 +16,7 @@ public:
 
   [[nodiscard]] GlobalOrdinal numNodes() const override;
   [[nodiscard]] GlobalOrdinal numElements() const override;
-  [[nodiscard]] int nodesPerElement() const override { return 4; }
+  [[nodiscard]] CellType cellType() const override { return CellType::quadrilateral; }
   [[nodiscard]] Point point(GlobalOrdinal node) const override;
   void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const override;
   void elementNodes(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> nodes) const override;
@@ -24,6 +24,11 @@ public:
   void numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const override;
   void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const override;
   [[nodiscard]] bool isBoundaryNode(GlobalOrdinal node) const override;
+  /// "left", "right", "bottom", "top".
+  [[nodiscard]] std::vector<std::string> surfaceNames() const override;
+  [[nodiscard]] Surface surface(const std::string& name) const override;
+  [[nodiscard]] std::vector<std::string> groupNames() const override { return {}; }
+  [[nodiscard]] std::vector<GlobalOrdinal> group(const std::string& name) const override;
 
   [[nodiscard]] std::array<int, 2> elements() const { return elements_; }
   [[nodiscard]] const scene::Rectangle& rectangle() const { return rectangle_; }

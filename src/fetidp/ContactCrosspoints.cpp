@@ -59,7 +59,8 @@ ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& p
     return;
   // S_cc⁺ at the near ones, which the touched ones are among; each value from the rank that owns it.
   std::vector<double> values(near_.size() * touched_.size(), 0.0);
-  constexpr std::size_t batch = 16; // columns at once: work space stays small beside the coarse problem's factor
+  constexpr std::size_t batch =
+      16; // columns at once: work space stays small beside the coarse problem's factor
   for (std::size_t first = 0; first < touched_.size(); first += batch) {
     const auto unknowns = std::span(touched_).subspan(first, std::min(batch, touched_.size() - first));
     std::vector<bool> isOwner;

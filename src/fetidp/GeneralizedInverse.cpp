@@ -54,7 +54,8 @@ void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<dou
   std::fill(result.begin(), result.end(), 0.0);
   prepareCoarse(numColumns);
   for (SubdomainGroup& group : groups_)
-    group.applyFlexibility(lambda, coarseSums_, numColumns); // B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
+    group.applyFlexibility(lambda, coarseSums_,
+                           numColumns); // B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
   coarseProblem_->solve(coarseSums_, coarse_); // x_c = S_cc⁺ z
   for (SubdomainGroup& group : groups_)
     group.applyCoupling(coarse_, result); // Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c

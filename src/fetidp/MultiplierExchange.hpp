@@ -43,7 +43,8 @@ private:
       ghost_ = rcp(new MultiVector(ghost_->getMap(), numColumns));
   }
   std::span<double> view() {
-    const auto values = ghost_->getLocalViewHost(Tpetra::Access::ReadWrite); // its own: no gaps between columns
+    const auto values =
+        ghost_->getLocalViewHost(Tpetra::Access::ReadWrite); // its own: no gaps between columns
     return {values.data(), values.extent(0) * values.extent(1)};
   }
 

@@ -54,8 +54,8 @@ Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, cons
     const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
     for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
       const auto r = subdomain.kernel.col(mode);
-      sums[static_cast<std::size_t>(offset + mode)].add(magnitudes ? r.cwiseAbs().dot(load[s].col(0).cwiseAbs())
-                                                                   : r.dot(load[s].col(0)));
+      sums[static_cast<std::size_t>(offset + mode)].add(
+          magnitudes ? r.cwiseAbs().dot(load[s].col(0).cwiseAbs()) : r.dot(load[s].col(0)));
     }
   }
   sumOverRanks(*problem.comm, sums);

@@ -172,8 +172,8 @@ void SubdomainGroup::substitute(const Eigen::MatrixXd& coarse, const std::vector
     rhs_.leftCols(columns) -= condensed_.remainderToCrosspoint() * coarseLocal_.middleCols(first, columns);
     condensed_.factor().solve(rhs_, solution_);
     for (Eigen::Index j = 0; j < columns; ++j) {
-      auto values = u[members_[static_cast<std::size_t>((first + j) % numMembers())]].col((first + j) /
-                                                                                          numMembers());
+      auto values =
+          u[members_[static_cast<std::size_t>((first + j) % numMembers())]].col((first + j) / numMembers());
       values(like.remainderUnknowns) = solution_.col(j);
       values(like.crosspointUnknowns) = coarseLocal_.col(first + j);
     }

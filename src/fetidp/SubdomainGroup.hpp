@@ -91,8 +91,8 @@ private:
   direct::SymmetricBlock::Use use_;
   CondensedSubdomain condensed_;
   std::vector<InterfaceEntry> boundaryEntries_, crosspointEntries_; ///< member after member
-  Eigen::MatrixXi coarseIndices_;       ///< n_c × m, L_c
-  direct::SymmetricBlock flexibility_;  ///< (K_rr⁻¹)_ΔΔ, if explicit
+  Eigen::MatrixXi coarseIndices_;                                   ///< n_c × m, L_c
+  direct::SymmetricBlock flexibility_;                              ///< (K_rr⁻¹)_ΔΔ, if explicit
   bool isExplicit_ = false;
   Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × mk: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it
   Eigen::MatrixXd coarseLocal_;         ///< work, n_c × mk

@@ -79,7 +79,8 @@ std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedP
       const Subdomain& other = subdomains[groups[candidate.second].members.front()];
       return other.crosspointUnknowns == subdomains[s].crosspointUnknowns &&
              other.remainderUnknowns == subdomains[s].remainderUnknowns &&
-             touchedOf[candidate.second] == touched && decomposition::areEqual(*other.stiffness, *subdomains[s].stiffness);
+             touchedOf[candidate.second] == touched &&
+             decomposition::areEqual(*other.stiffness, *subdomains[s].stiffness);
     });
     if (same != last) {
       groups[same->second].members.push_back(s);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <algorithm>
 #include <cmath>
 
@@ -118,6 +120,26 @@ TEST(RectangleMeshTest, ElementBoxesFillTheRectangle) {
     area += (box.x1 - box.x0) * (box.y1 - box.y0);
   }
   EXPECT_NEAR(area, 3.0, 1e-14);
+}
+
+TEST(RectangleMeshTest, SurfacesRunAroundTheBodyWithItOnTheirLeft) {
+  const RectangleMesh plate({1, 4, -2, 0}, {5, 3});
+  double twiceArea = 0, length = 0;
+  for (const std::string& name : plate.surfaceNames()) {
+    const Surface surface = plate.surface(name);
+    ASSERT_EQ(surface.facetNodes.size(), 2 * surface.elements.size());
+    for (std::size_t k = 0; k < surface.elements.size(); ++k) {
+      const Point a = plate.point(surface.facetNodes[2 * k]), b = plate.point(surface.facetNodes[2 * k + 1]);
+      twiceArea += a[0] * b[1] - a[1] * b[0];
+      length += std::hypot(b[0] - a[0], b[1] - a[1]);
+      std::array<GlobalOrdinal, 4> corners{};
+      plate.elementNodes(surface.elements[k], corners);
+      for (std::size_t end = 0; end < 2; ++end)
+        EXPECT_NE(std::find(corners.begin(), corners.end(), surface.facetNodes[2 * k + end]), corners.end());
+    }
+  }
+  EXPECT_NEAR(twiceArea, 2 * 6.0, 1e-14);
+  EXPECT_NEAR(length, 10.0, 1e-14);
 }
 
 } // namespace

@@ -47,7 +47,8 @@ TEST(GeneralizedInverseTest, TakesSeveralLoadsAtOnce) {
     for (std::size_t s = 0; s < loads.size(); ++s)
       loads[s].resize(problem.subdomains[s].load.size(), numLoads);
     const auto loadOf = [&](int j) {
-      return forcesOf(problem, randomVector(decomposition::mergedSize(problem), 7 + static_cast<unsigned>(j)));
+      return forcesOf(problem,
+                      randomVector(decomposition::mergedSize(problem), 7 + static_cast<unsigned>(j)));
     };
     for (int j = 0; j < numLoads; ++j) {
       const SubdomainVectors load = loadOf(j);

@@ -1,0 +1,114 @@
+#pragma once
+
+/// A body of any shape and physics, as plain validated values. Lengths, forces and moduli share one consistent system of
+/// units of the user's choice (such as mm, N, MPa); nothing in Epafi depends on which. Angles do not occur.
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epafi::scene {
+
+/// membrane      −∇·(κ∇u) = f, one unknown a node
+/// planeStrain   linear elasticity in the plane, no strain across it; two unknowns
+/// planeStress   the same, no stress across it
+/// elasticity3d  linear elasticity in space; three unknowns
+enum class Physics { membrane, planeStrain, planeStress, elasticity3d };
+
+/// "membrane", "plane strain", "plane stress", "elasticity 3-D".
+std::string toString(Physics physics);
+
+/// Unknowns a node: 1, 2, 2, 3.
+int componentsOf(Physics physics);
+
+using Vector3 = std::array<double, 3>;
+
+/// Axis-parallel box; the whole space unless said otherwise. In the plane the third coordinate does not matter.
+struct Box {
+  Vector3 lower{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity()};
+  Vector3 upper{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                std::numeric_limits<double>::infinity()};
+};
+
+/// What a body or a region of it is made of; which numbers count follows from the physics.
+struct Material {
+  double conductivity = 1;    ///< κ of a membrane (its tension)
+  double youngsModulus = 1;   ///< E > 0, force per area
+  double poissonsRatio = 0.3; ///< ν, −1 < ν < ½
+  double thickness = 1;       ///< of plane bodies
+};
+
+/// Another material in the elements whose centre lies in a box, or that belong to a group of the mesh file; where several
+/// overlap, the last one in the file holds.
+struct SolidRegion {
+  std::string name;
+  Box box;           ///< counts if `group` is empty
+  std::string group; ///< physical group of the mesh file
+  Material material;
+};
+
+/// Components of the displacement prescribed on a surface. One alone makes a sliding support.
+struct SolidSupport {
+  std::string name;
+  std::string surface; ///< "left" … "top" of a structured mesh, or a physical group
+  std::array<std::optional<double>, 3> value;
+};
+
+/// A load; loads add up.
+struct SolidLoad {
+  enum class Kind {
+    body, ///< force per volume (per area of a membrane) in the elements whose centre lies in a box or a group
+    traction, ///< force per area on a surface
+    pressure, ///< force per area against a surface's outward normal; value[0]
+    point     ///< force at the node that lies at a point
+  };
+  std::string name;
+  Kind kind = Kind::body;
+  Box box;
+  std::string where; ///< group (body; may be empty: the box counts) or surface
+  Vector3 point{0, 0, 0};
+  Vector3 value{0, 0, 0};
+};
+
+/// Where the elements come from: a structured box, or a file.
+struct MeshSource {
+  Box box;                              ///< of a structured mesh
+  std::array<int, 3> elements{0, 0, 0}; ///< in x, y and z (z: 0 in the plane); of a structured mesh
+  std::string file;                     ///< if not empty, a file that Gmsh reads
+  std::string group; ///< the physical group in it that is this body; empty: all its elements
+};
+
+struct Solid {
+  Physics physics = Physics::elasticity3d;
+  MeshSource mesh;
+  Material material;
+  std::vector<SolidRegion> regions;
+  std::vector<SolidSupport> supports;
+  std::vector<SolidLoad> loads;
+};
+
+/// A rigid obstacle that does not move: a half-space, or a circle (in the plane) or sphere.
+struct Obstacle {
+  enum class Kind { plane, sphere };
+  Kind kind = Kind::plane;
+  Vector3 point{0, 0, 0};  ///< on the plane; centre of the sphere
+  Vector3 normal{0, 0, 1}; ///< of the plane, of length 1, towards the body
+  double radius = 1;       ///< of the sphere
+};
+
+/// Frictionless contact of a body's surface with another body's, whose nodes face its own, or with an obstacle.
+struct SurfaceContact {
+  std::string name;
+  int first = 0; ///< index into Scene::bodies
+  std::string firstSurface;
+  int second = -1; ///< −1: the obstacle
+  std::string secondSurface;
+  Obstacle obstacle;
+  /// Nodes farther from the other side than this get no inequality: they cannot meet.
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+} // namespace epafi::scene
