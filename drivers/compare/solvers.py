@@ -19,7 +19,8 @@ from reference import ROOT
 
 NAMES = ("epafi", "snesvi_cholmod", "snesvi_hypre", "linear_cholmod", "linear_muelu")
 COMPARE = pathlib.Path(__file__).resolve().parent
-ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1",
+               "PYTHONDONTWRITEBYTECODE": "1"}
 EXIT_WRONG_INPUT, EXIT_MISSING = 2, 3
 
 

@@ -1,6 +1,7 @@
 #include "epafi/decomposition/ContactRows.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
 #include "epafi/scene/EdgeSegment.hpp"
 
 #include <algorithm>
@@ -10,18 +11,23 @@
 namespace epafi::decomposition {
 namespace {
 
+/// Mesh of a membrane, which scene::ContactPair is about.
+const fem::RectangleMesh& rectangleOf(const BodyLayout& body) {
+  return dynamic_cast<const fem::RectangleMesh&>(*body.mesh);
+}
+
 void requireMatchingNodes(const scene::ContactPair& pair, const BodyLayout& first, const BodyLayout& second) {
   const std::string edges = "the " + toString(pair.firstEdge) + " edge of '" + first.name + "' and the " +
                             toString(pair.secondEdge) + " edge of '" + second.name + "'";
-  const GlobalOrdinal n = first.mesh->numEdgeNodes(pair.firstEdge),
-                      m = second.mesh->numEdgeNodes(pair.secondEdge);
+  const GlobalOrdinal n = rectangleOf(first).numEdgeNodes(pair.firstEdge),
+                      m = rectangleOf(second).numEdgeNodes(pair.secondEdge);
   if (n != m) {
     throw InputError("contact pair '" + pair.name + "': " + edges + " have non-matching nodes, " +
                      std::to_string(n) + " and " + std::to_string(m) +
                      "; give both edges the same number of elements");
   }
-  const scene::EdgeSegment a = segmentOf(first.mesh->rectangle(), pair.firstEdge),
-                           b = segmentOf(second.mesh->rectangle(), pair.secondEdge);
+  const scene::EdgeSegment a = segmentOf(rectangleOf(first).rectangle(), pair.firstEdge),
+                           b = segmentOf(rectangleOf(second).rectangle(), pair.secondEdge);
   if (!coincide(a, b))
     throw InputError("contact pair '" + pair.name + "': " + edges + " do not coincide: one is " +
                      toString(a) + ", the other " + toString(b));
@@ -57,11 +63,66 @@ private:
   std::map<std::pair<int, scene::Edge>, std::string> taken_;
 };
 
+/// The rows at a pair of edges.
+ContactLayout layoutEdges(const scene::ContactPair& pair, const std::vector<BodyLayout>& bodies) {
+  const fem::RectangleMesh &first = rectangleOf(bodies[static_cast<std::size_t>(pair.first)]),
+                           &second = rectangleOf(bodies[static_cast<std::size_t>(pair.second)]);
+  ContactLayout contact;
+  contact.name = pair.name;
+  contact.firstBody = pair.first;
+  contact.secondBody = pair.second;
+  const GlobalOrdinal numRows = first.numEdgeNodes(pair.firstEdge);
+  const scene::EdgeSegment edge = segmentOf(first.rectangle(), pair.firstEdge);
+  const double spacing = (edge.to - edge.from) / static_cast<double>(numRows - 1);
+  for (GlobalOrdinal k = 0; k < numRows; ++k) {
+    contact.firstNodes.push_back(first.edgeNode(pair.firstEdge, k));
+    contact.secondNodes.push_back(second.edgeNode(pair.secondEdge, k));
+    contact.areas.push_back(k == 0 || k + 1 == numRows ? 0.5 * spacing : spacing);
+  }
+  contact.directions.assign(contact.firstNodes.size(), 1.0);
+  contact.gaps.assign(contact.firstNodes.size(), pair.gap);
+  return contact;
+}
+
+/// One body's side of a contact: its nodes, ascending, with their places among the rows.
 struct Side {
-  double coefficient;
+  const ContactLayout* contact;
+  double sign;
   int body;
-  scene::Edge edge;
+  std::vector<std::pair<GlobalOrdinal, std::size_t>> nodes;
 };
+
+std::vector<Side> sidesOf(const std::vector<ContactLayout>& contacts) {
+  std::vector<Side> sides;
+  const auto add = [&](const ContactLayout& contact, double sign, int body,
+                       const std::vector<GlobalOrdinal>& nodes) {
+    Side& side = sides.emplace_back(Side{&contact, sign, body, {}});
+    for (std::size_t place = 0; place < nodes.size(); ++place)
+      side.nodes.emplace_back(nodes[place], place);
+    std::sort(side.nodes.begin(), side.nodes.end());
+  };
+  for (const ContactLayout& contact : contacts) {
+    add(contact, 1.0, contact.firstBody, contact.firstNodes);
+    if (contact.secondBody >= 0)
+      add(contact, -1.0, contact.secondBody, contact.secondNodes);
+  }
+  return sides;
+}
+
+/// Enters one row at a node of a piece; returns whether the piece has a free unknown in it.
+bool enterRow(const Side& side, std::size_t place, std::size_t node, GlobalOrdinal row, Piece& piece) {
+  const std::size_t components = side.contact->directions.size() / side.contact->firstNodes.size();
+  bool isTouched = false;
+  for (std::size_t c = 0; c < components; ++c) {
+    const double coefficient = side.sign * side.contact->directions[place * components + c];
+    const int unknown = piece.assembled.unknownOf[node * components + c];
+    if (coefficient == 0 || unknown < 0)
+      continue;
+    piece.rows.push_back({row, unknown, coefficient});
+    isTouched = true;
+  }
+  return isTouched;
+}
 
 } // namespace
 
@@ -77,53 +138,58 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
     requireMatchingNodes(pair, bodies[first], bodies[second]);
     takenEdges.take(pair, pair.first, pair.firstEdge, bodies[first].name);
     takenEdges.take(pair, pair.second, pair.secondEdge, bodies[second].name);
-    const GlobalOrdinal numRows = bodies[first].mesh->numEdgeNodes(pair.firstEdge);
-    contacts.push_back(
-        {pair.name, firstRow, numRows, pair.first, pair.second, pair.firstEdge, pair.secondEdge, pair.gap});
-    firstRow += numRows;
+    ContactLayout& contact = contacts.emplace_back(layoutEdges(pair, bodies));
+    contact.firstRow = firstRow;
+    firstRow += contact.numRows();
   }
   return contacts;
 }
 
-Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
-                 std::vector<Piece>& pieces) {
+Rows contactRows(const std::vector<ContactLayout>& contacts, std::vector<Piece>& pieces) {
   Rows rows;
-  std::vector<std::size_t> places;
+  const std::vector<Side> sides = sidesOf(contacts);
   for (Piece& piece : pieces) {
-    const fem::RectangleMesh& mesh = *layout.bodies[static_cast<std::size_t>(piece.body)].mesh;
     const std::vector<GlobalOrdinal>& nodes = piece.assembled.nodes;
-    for (const ContactLayout& contact : contacts)
-      for (const Side& side : {Side{1.0, contact.firstBody, contact.firstEdge},
-                               Side{-1.0, contact.secondBody, contact.secondEdge}}) {
-        if (side.body != piece.body)
+    for (const Side& side : sides) {
+      if (side.body != piece.body)
+        continue;
+      auto entry =
+          std::lower_bound(side.nodes.begin(), side.nodes.end(), std::pair(nodes.front(), std::size_t{0}));
+      for (auto found = nodes.begin(); entry != side.nodes.end() && entry->first <= nodes.back(); ++entry) {
+        found = std::lower_bound(found, nodes.end(), entry->first);
+        if (*found != entry->first)
           continue;
-        mesh.placesOnEdge(side.edge, nodes, places);
-        for (const std::size_t place : places) {
-          if (!piece.sharing.isLowest(piece.part, place))
-            continue;
-          const GlobalOrdinal row = contact.firstRow + mesh.positionOnEdge(side.edge, nodes[place]);
-          if (side.coefficient > 0)
-            rows.owned.push_back(row);
-          if (piece.assembled.unknownOf[place] >= 0) {
-            rows.touched.push_back(row);
-            piece.rows.push_back({row, piece.assembled.unknownOf[place], side.coefficient});
-          }
-        }
+        const auto node = static_cast<std::size_t>(found - nodes.begin());
+        if (!piece.sharing.isLowest(piece.part, node))
+          continue;
+        const GlobalOrdinal row = side.contact->firstRow + static_cast<GlobalOrdinal>(entry->second);
+        if (side.sign > 0)
+          rows.owned.push_back(row);
+        if (enterRow(side, entry->second, node, row, piece))
+          rows.touched.push_back(row);
       }
+    }
   }
   return rows;
 }
 
 double contactGap(const Layout& layout, const std::vector<ContactLayout>& contacts, GlobalOrdinal row) {
   const auto contact = std::find_if(contacts.begin(), contacts.end(),
-                                    [row](const ContactLayout& c) { return row < c.firstRow + c.numRows; });
-  const auto value = [&](int body, scene::Edge edge) {
-    const auto b = static_cast<std::size_t>(body);
-    const GlobalOrdinal node = layout.bodies[b].mesh->edgeNode(edge, row - contact->firstRow);
-    return layout.models[b]->prescribed(node, 0).value_or(0.0);
+                                    [row](const ContactLayout& c) { return row < c.firstRow + c.numRows(); });
+  const auto place = static_cast<std::size_t>(row - contact->firstRow);
+  const std::size_t components = contact->directions.size() / contact->firstNodes.size();
+  const auto prescribed = [&](int body, GlobalOrdinal node) {
+    double sum = 0;
+    for (std::size_t c = 0; c < components; ++c)
+      sum +=
+          contact->directions[place * components + c] *
+          layout.models[static_cast<std::size_t>(body)]->prescribed(node, static_cast<int>(c)).value_or(0.0);
+    return sum;
   };
-  return contact->gap - value(contact->firstBody, contact->firstEdge) +
-         value(contact->secondBody, contact->secondEdge);
+  double gap = contact->gaps[place] - prescribed(contact->firstBody, contact->firstNodes[place]);
+  if (contact->secondBody >= 0)
+    gap += prescribed(contact->secondBody, contact->secondNodes[place]);
+  return gap;
 }
 
 } // namespace epafi::decomposition

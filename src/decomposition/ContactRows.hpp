@@ -1,6 +1,6 @@
 #pragma once
 
-/// The rows of B_I: u_first − u_second ≤ gap at every node of a contact pair.
+/// The rows of B_I: dᵀ(u_first − u_second) ≤ gap at the nodes of a contact.
 
 #include "epafi/decomposition/Pieces.hpp"
 
@@ -16,8 +16,7 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
 /// Enters the rows in the pieces. This rank owns those whose first node lies, at its lowest subdomain, on
 /// this rank. A node that several subdomains share has its entry in the lowest-numbered one; supported nodes
 /// have none. `touched` has a row twice if both its nodes are here. Not collective.
-Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
-                 std::vector<Piece>& pieces);
+Rows contactRows(const std::vector<ContactLayout>& contacts, std::vector<Piece>& pieces);
 
 /// The right-hand side c of a contact row: its gap, less what supported nodes contribute.
 double contactGap(const Layout& layout, const std::vector<ContactLayout>& contacts, GlobalOrdinal row);

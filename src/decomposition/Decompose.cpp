@@ -6,6 +6,7 @@
 #include "epafi/decomposition/Crosspoints.hpp"
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Pieces.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
 
 #include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
@@ -58,7 +59,7 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
   std::vector<BodyLayout> bodies;
   int firstSubdomain = 0;
   for (const scene::Body& body : scene.bodies) {
-    auto mesh = std::make_unique<fem::RectangleMesh>(body.rectangle, body.elements);
+    auto mesh = std::make_unique<const fem::RectangleMesh>(body.rectangle, body.elements);
     const auto alike = std::find_if(scene.bodies.begin(), scene.bodies.end(),
                                     [&](const scene::Body& other) { return areCutAlike(other, body); });
     const auto earlier = static_cast<std::size_t>(alike - scene.bodies.begin()); // body itself if none is
@@ -170,7 +171,8 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   collectively(*comm, [&] {
     result.contacts = layoutContacts(scene, result.bodies);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-      layout.models.push_back(std::make_unique<fem::MembraneModel>(scene.bodies[b], *result.bodies[b].mesh));
+      layout.models.push_back(std::make_unique<fem::MembraneModel>(
+          scene.bodies[b], dynamic_cast<const fem::RectangleMesh&>(*result.bodies[b].mesh)));
       layout.numSubdomains += result.bodies[b].partition->numParts();
     }
   });
@@ -184,8 +186,8 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   describe(scene, layout, problem);
   problem.numCrosspoints = crosspoints.numNodes();
   for (const ContactLayout& contact : result.contacts)
-    problem.numInequalities += contact.numRows;
-  const Rows contact = contactRows(layout, result.contacts, pieces);
+    problem.numInequalities += contact.numRows();
+  const Rows contact = contactRows(result.contacts, pieces);
   const Rows gluing = gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities);
 
   GlobalOrdinal positions = 0, remainders = 0;

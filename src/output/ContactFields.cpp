@@ -21,21 +21,22 @@ ContactFields gatherContactFields(const decomposition::Decomposition& decomposit
                                   const fetidp::ContactSolution& solution, int contact) {
   const auto& problem = decomposition.problem;
   const auto& pair = decomposition.contacts[static_cast<std::size_t>(contact)];
-  const fem::RectangleMesh& mesh = *decomposition.bodies[static_cast<std::size_t>(pair.firstBody)].mesh;
+  const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(pair.firstBody)].mesh;
 
   ContactFields fields;
-  fields.numRows = pair.numRows;
-  fields.rows = evenShare(pair.numRows, *problem.comm);
+  fields.numRows = pair.numRows();
+  fields.rows = evenShare(pair.numRows(), *problem.comm);
   std::vector<GlobalOrdinal> multipliers;
   for (GlobalOrdinal k = fields.rows.first; k < fields.rows.first + fields.rows.count; ++k) {
     multipliers.push_back(pair.firstRow + k);
-    const fem::Point point = mesh.point(mesh.edgeNode(pair.firstEdge, k));
+    const fem::Point point = mesh.point(pair.firstNodes[static_cast<std::size_t>(k)]);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
   }
 
   const Teuchos::ArrayView<const GlobalOrdinal> indices(multipliers.data(),
                                                         static_cast<Teuchos::Ordinal>(multipliers.size()));
-  const auto slab = rcp(new Map(static_cast<Tpetra::global_size_t>(pair.numRows), indices, 0, problem.comm));
+  const auto slab =
+      rcp(new Map(static_cast<Tpetra::global_size_t>(pair.numRows()), indices, 0, problem.comm));
   const Import toSlab(problem.multiplierMap, slab);
   fields.initialGap = rowsOf(*problem.gap, toSlab);
   fields.gap = rowsOf(*solution.slack, toSlab);

@@ -62,7 +62,7 @@ TEST(ContactTest, RowsJoinOppositeNodesFromBottomToTop) {
     scene.contacts.front().gap = 0.25;
     const auto result = decompose(scene, world());
     ASSERT_EQ(result.contacts.size(), 1u);
-    EXPECT_EQ(result.contacts[0].numRows, 5);
+    EXPECT_EQ(result.contacts[0].numRows(), 5);
     for (GlobalOrdinal k = 0; k < 5; ++k) {
       EXPECT_EQ(entryOf(result.problem, k, 0),
                 (std::array<double, 2>{1.0, 5.0 * static_cast<double>(k) + 4}));

@@ -131,10 +131,11 @@ private:
 TEST(CrosspointTest, AnInterfaceThatIsAClosedLoopGetsOnePoint) {
   const scene::Body body = oneBody(6, 6, grid(1, 1), {{"left", Edge::left, 0.0}}).bodies.front();
   std::vector<BodyLayout> bodies(1);
-  bodies[0].mesh = std::make_unique<fem::RectangleMesh>(body.rectangle, body.elements);
-  bodies[0].partition = std::make_unique<InclusionPartition>(*bodies[0].mesh, 2);
+  auto mesh = std::make_unique<const fem::RectangleMesh>(body.rectangle, body.elements);
+  bodies[0].partition = std::make_unique<InclusionPartition>(*mesh, 2);
   Layout layout{bodies, {}, 2};
-  layout.models.push_back(std::make_unique<fem::MembraneModel>(body, *bodies[0].mesh));
+  layout.models.push_back(std::make_unique<fem::MembraneModel>(body, *mesh));
+  bodies[0].mesh = std::move(mesh);
   std::vector<Piece> pieces = assemblePieces(layout, *world());
   const CrosspointNumbering crosspoints(layout, pieces, *world());
   EXPECT_EQ(crosspoints.numNodes(), 1);

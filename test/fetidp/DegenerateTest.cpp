@@ -1,6 +1,7 @@
 #include "Reference.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Vector.hpp>
@@ -34,7 +35,7 @@ void expectClosedForm(const Solved& solved, double u1, double u2, double force) 
   const scene::Edge edges[] = {Edge::right, Edge::left};
   const double expected[] = {u1, u2};
   for (std::size_t b = 0; b < 2; ++b) {
-    const fem::RectangleMesh& mesh = *solved.decomposition.bodies[b].mesh;
+    const auto& mesh = dynamic_cast<const fem::RectangleMesh&>(*solved.decomposition.bodies[b].mesh);
     for (GlobalOrdinal k = 0; k < mesh.numEdgeNodes(edges[b]); ++k)
       EXPECT_NEAR(field[b][static_cast<Eigen::Index>(mesh.edgeNode(edges[b], k))], expected[b], 1e-9);
   }
