@@ -67,11 +67,11 @@ std::vector<GlobalOrdinal> strayElements(const std::vector<int>& part, const Pie
   return stray;
 }
 
-/// The part with which a piece shares most edges, the lowest of equals; nothing if it has no neighbours, or if
+/// The part with which a piece shares most facets, the lowest of equals; nothing if it has no neighbours, or if
 /// one of them has moved.
 std::optional<int> bestNeighbour(const fem::Mesh& mesh, const std::vector<int>& part, const Pieces& pieces,
                                  const std::vector<char>& moved, std::span<const GlobalOrdinal> piece) {
-  std::vector<int> neighbours; // one entry an edge
+  std::vector<int> neighbours; // one entry a facet
   std::vector<GlobalOrdinal> adjacent;
   for (const GlobalOrdinal element : piece) {
     mesh.elementNeighbours(element, adjacent);
@@ -86,11 +86,11 @@ std::optional<int> bestNeighbour(const fem::Mesh& mesh, const std::vector<int>& 
   }
   std::sort(neighbours.begin(), neighbours.end());
   std::optional<int> best;
-  std::ptrdiff_t mostEdges = 0;
+  std::ptrdiff_t mostFacets = 0;
   for (auto run = neighbours.begin(); run != neighbours.end();) {
     const auto end = std::upper_bound(run, neighbours.end(), *run);
-    if (end - run > mostEdges) {
-      mostEdges = end - run;
+    if (end - run > mostFacets) {
+      mostFacets = end - run;
       best = *run;
     }
     run = end;

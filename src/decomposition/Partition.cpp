@@ -16,33 +16,74 @@
 namespace epafi::decomposition {
 namespace {
 
-/// METIS on the dual graph of the mesh; the part of every element.
-std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
-  std::vector<idx_t> start{0}, neighbours;
-  start.reserve(static_cast<std::size_t>(mesh.numElements()) + 1);
-  neighbours.reserve(static_cast<std::size_t>(mesh.nodesPerElement() * mesh.numElements()));
+/// Neighbours of all elements, as METIS wants them.
+struct DualGraph {
+  std::vector<idx_t> start, neighbours;
+};
+
+DualGraph dualGraphOf(const fem::Mesh& mesh) {
+  DualGraph graph{{0}, {}};
+  graph.start.reserve(static_cast<std::size_t>(mesh.numElements()) + 1);
+  graph.neighbours.reserve(fem::facetsOf(mesh.cellType()).size() *
+                           static_cast<std::size_t>(mesh.numElements()));
   std::vector<GlobalOrdinal> adjacent;
-  auto numVertices = static_cast<idx_t>(mesh.numElements());
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     mesh.elementNeighbours(element, adjacent);
     for (const GlobalOrdinal other : adjacent)
-      neighbours.push_back(static_cast<idx_t>(other));
-    start.push_back(static_cast<idx_t>(neighbours.size()));
+      graph.neighbours.push_back(static_cast<idx_t>(other));
+    graph.start.push_back(static_cast<idx_t>(graph.neighbours.size()));
   }
+  return graph;
+}
+
+/// METIS on the dual graph of the mesh; the part of every element.
+std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts, const std::vector<int>& weights) {
+  DualGraph graph = dualGraphOf(mesh);
+  std::vector<idx_t> cost(weights.begin(), weights.end());
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_NUMBERING] = 0;
   options[METIS_OPTION_SEED] = 1;
   options[METIS_OPTION_CONTIG] = 1;
+  auto numVertices = static_cast<idx_t>(mesh.numElements());
   idx_t numConstraints = 1, numParts = parts, cut = 0;
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
   const int status =
-      METIS_PartGraphKway(&numVertices, &numConstraints, start.data(), neighbours.data(), nullptr, nullptr,
-                          nullptr, &numParts, nullptr, nullptr, options, &cut, part.data());
+      METIS_PartGraphKway(&numVertices, &numConstraints, graph.start.data(), graph.neighbours.data(),
+                          cost.empty() ? nullptr : cost.data(), nullptr, nullptr, &numParts, nullptr, nullptr,
+                          options, &cut, part.data());
   if (status != METIS_OK)
     throw InputError("METIS could not cut a mesh of " + std::to_string(numVertices) + " elements into " +
                      std::to_string(parts) + " parts (its status " + std::to_string(status) + ")");
   return {part.begin(), part.end()};
+}
+
+void requireCut(const fem::Mesh& mesh, int parts) {
+  const GlobalOrdinal numElements = mesh.numElements();
+  if (parts < 1 || parts > numElements)
+    throw InputError("a mesh of " + std::to_string(numElements) + " elements cannot be cut into " +
+                     std::to_string(parts) + " parts; choose between 1 and " + std::to_string(numElements));
+  const auto numFacets = static_cast<GlobalOrdinal>(fem::facetsOf(mesh.cellType()).size());
+  if (numElements > std::numeric_limits<idx_t>::max() / numFacets)
+    throw InputError("a mesh of " + std::to_string(numElements) +
+                     " elements is too large for METIS's 32-bit indices; cut the body as a grid");
+}
+
+void requireWeights(const fem::Mesh& mesh, const std::vector<int>& weights) {
+  if (weights.empty())
+    return;
+  if (static_cast<GlobalOrdinal>(weights.size()) != mesh.numElements())
+    throw InputError("a mesh of " + std::to_string(mesh.numElements()) + " elements got " +
+                     std::to_string(weights.size()) + " weights; give one an element, or none");
+  const auto least = std::min_element(weights.begin(), weights.end());
+  if (*least < 1)
+    throw InputError("element " + std::to_string(least - weights.begin()) + " weighs " +
+                     std::to_string(*least) + "; weights have to be at least 1");
+  const GlobalOrdinal sum = std::accumulate(weights.begin(), weights.end(), GlobalOrdinal{0});
+  if (sum > std::numeric_limits<idx_t>::max())
+    throw InputError(
+        "the elements weigh " + std::to_string(sum) + " in all, more than METIS can count; scale " +
+        "the weights so that their sum is at most " + std::to_string(std::numeric_limits<idx_t>::max()));
 }
 
 /// Numbers the parts that have elements from 0, in the old order; returns how many there are.
@@ -67,7 +108,13 @@ GlobalOrdinal firstOf(GlobalOrdinal k, int n, int m) {
 } // namespace
 
 GridPartition::GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> counts)
-    : elements_(mesh.elements()), counts_(counts) {
+    : GridPartition({mesh.elements()[0], mesh.elements()[1], 1}, {counts[0], counts[1], 1}) {}
+
+GridPartition::GridPartition(const fem::BoxMesh& mesh, std::array<int, 3> counts)
+    : GridPartition(mesh.elements(), counts) {}
+
+GridPartition::GridPartition(std::array<int, 3> elements, std::array<int, 3> counts)
+    : elements_(elements), counts_(counts) {
   const auto cut = [](int n, int m) {
     std::vector<int> partOf(static_cast<std::size_t>(n));
     for (int k = 0; k < m; ++k)
@@ -75,7 +122,11 @@ GridPartition::GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> 
     return partOf;
   };
   columnOf_ = cut(elements_[0], counts_[0]);
-  rowOf_ = cut(elements_[1], counts_[1]);
+  const std::vector<int> rowInLayer = cut(elements_[1], counts_[1]);
+  rowOf_.reserve(static_cast<std::size_t>(elements_[1]) * static_cast<std::size_t>(elements_[2]));
+  for (const int layer : cut(elements_[2], counts_[2]))
+    for (const int row : rowInLayer)
+      rowOf_.push_back(row + layer * counts_[1]);
 }
 
 int GridPartition::partOf(GlobalOrdinal element) const {
@@ -84,32 +135,34 @@ int GridPartition::partOf(GlobalOrdinal element) const {
 }
 
 std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
-  const int column = part % counts_[0], row = part / counts_[0];
-  const GlobalOrdinal left = firstOf(column, elements_[0], counts_[0]),
-                      right = firstOf(column + 1, elements_[0], counts_[0]),
-                      bottom = firstOf(row, elements_[1], counts_[1]),
-                      top = firstOf(row + 1, elements_[1], counts_[1]);
-  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>((right - left) * (top - bottom)));
+  const std::array<int, 3> place{part % counts_[0], part / counts_[0] % counts_[1],
+                                 part / counts_[0] / counts_[1]};
+  std::array<GlobalOrdinal, 3> first{}, end{};
+  std::size_t size = 1;
+  for (std::size_t d = 0; d < 3; ++d) {
+    first[d] = firstOf(place[d], elements_[d], counts_[d]);
+    end[d] = firstOf(place[d] + 1, elements_[d], counts_[d]);
+    size *= static_cast<std::size_t>(end[d] - first[d]);
+  }
+  std::vector<GlobalOrdinal> elements(size);
   auto next = elements.begin();
-  for (GlobalOrdinal j = bottom; j < top; ++j, next += right - left)
-    std::iota(next, next + (right - left), left + j * elements_[0]);
+  const GlobalOrdinal width = end[0] - first[0];
+  for (GlobalOrdinal k = first[2]; k < end[2]; ++k)
+    for (GlobalOrdinal j = first[1]; j < end[1]; ++j, next += width)
+      std::iota(next, next + width, first[0] + elements_[0] * (j + elements_[1] * k));
   return elements;
 }
 
-GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm)
+GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm,
+                               const std::vector<int>& weights)
     : part_(static_cast<std::size_t>(mesh.numElements()), 0) {
   collectively(comm, [&] {
-    if (parts < 1 || parts > mesh.numElements())
-      throw InputError("a mesh of " + std::to_string(mesh.numElements()) + " elements cannot be cut into " +
-                       std::to_string(parts) + " parts; choose between 1 and " +
-                       std::to_string(mesh.numElements()));
-    if (mesh.numElements() > std::numeric_limits<idx_t>::max() / mesh.nodesPerElement())
-      throw InputError("a mesh of " + std::to_string(mesh.numElements()) +
-                       " elements is too large for METIS's 32-bit indices; cut the body as a grid");
+    requireCut(mesh, parts);
     if (comm.getRank() != 0)
       return;
+    requireWeights(mesh, weights);
     if (parts > 1) {
-      part_ = cutByMetis(mesh, parts);
+      part_ = cutByMetis(mesh, parts, weights);
       makeConnected(mesh, part_);
     }
     numParts_ = renumber(part_);

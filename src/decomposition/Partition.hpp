@@ -2,14 +2,16 @@
 
 /// Partition of one body's elements into subdomains.
 
+#include "epafi/fem/BoxMesh.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
-#include "epafi/scene/Scene.hpp"
 
+#include <array>
 #include <vector>
 
 namespace epafi::decomposition {
 
-/// Which part each element belongs to. Parts are numbered from 0 and each is connected through element edges.
+/// Which part each element belongs to. Parts are numbered from 0 and each is connected through facets of
+/// elements.
 class Partition {
 public:
   virtual ~Partition() = default;
@@ -19,20 +21,26 @@ public:
   [[nodiscard]] virtual std::vector<GlobalOrdinal> elementsOf(int part) const = 0;
 };
 
-/// Cuts a rectangle into counts[0] × counts[1] rectangles of as equal numbers of elements as possible. Stores
-/// one number a column and one a row of elements, nothing of the mesh's size.
+/// Cuts a rectangle into counts[0] × counts[1] rectangles, a box into counts[0] × counts[1] × counts[2] boxes,
+/// of as equal numbers of elements as possible; parts are numbered x fastest, then y, then z. Stores one number
+/// a column and one a row of elements, nothing of the mesh's size.
 class GridPartition final : public Partition {
 public:
   /// Precondition: 1 ≤ counts ≤ number of elements in each direction.
   GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> counts);
-  [[nodiscard]] int numParts() const override { return counts_[0] * counts_[1]; }
+  GridPartition(const fem::BoxMesh& mesh, std::array<int, 3> counts);
+  [[nodiscard]] int numParts() const override { return counts_[0] * counts_[1] * counts_[2]; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override;
   [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override;
 
 private:
-  std::array<int, 2> elements_;
-  std::array<int, 2> counts_;
-  std::vector<int> columnOf_, rowOf_; ///< column of parts of each column of elements; the same for rows
+  /// A rectangle is a box of one layer.
+  GridPartition(std::array<int, 3> elements, std::array<int, 3> counts);
+
+  std::array<int, 3> elements_;
+  std::array<int, 3> counts_;
+  std::vector<int> columnOf_; ///< column of parts of each column of elements
+  std::vector<int> rowOf_;    ///< row of parts of each row of elements; rows are counted through all layers
 };
 
 /// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the
@@ -40,10 +48,13 @@ private:
 /// replicated.
 class GraphPartition final : public Partition {
 public:
-  /// METIS runs on rank 0, its result is broadcast; the same mesh and count give the same parts on any number
-  /// of ranks. The number of parts may differ from the one asked for where METIS leaves parts empty.
-  /// Collective. \throws InputError if METIS refuses.
-  GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm);
+  /// METIS runs on rank 0, its result is broadcast; the same mesh, count and weights give the same parts on any
+  /// number of ranks. The number of parts may differ from the one asked for where METIS leaves parts empty.
+  /// Collective. \throws InputError if METIS refuses, or if the weights are not as said.
+  ///
+  /// \param weights  cost of each element, ≥ 1, their sum an int: parts get nearly equal sums of them instead of
+  ///                 equal numbers of elements. Empty if all cost the same. Those of rank 0 count
+  GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm, const std::vector<int>& weights = {});
   [[nodiscard]] int numParts() const override { return numParts_; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override {
     return part_[static_cast<std::size_t>(element)];

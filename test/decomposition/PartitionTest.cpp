@@ -3,10 +3,14 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/ConnectedParts.hpp"
+#include "epafi/fem/LocalNumbering.hpp"
 
+#include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <set>
 
 namespace epafi::decomposition {
@@ -53,6 +57,87 @@ TEST(PartitionTest, GridsCutIntoEqualPartsThatCoverTheBody) {
     }
 }
 
+fem::BoxMesh boxMesh(int nx, int ny, int nz) {
+  return {{{0, 0, 0}, {1, 1, 1}}, {nx, ny, nz}};
+}
+
+TEST(PartitionTest, GridsCutBoxesXFirstThenYThenZ) {
+  const fem::BoxMesh mesh = boxMesh(4, 3, 2);
+  const GridPartition partition(mesh, {2, 3, 2});
+  EXPECT_EQ(partition.numParts(), 12);
+  EXPECT_EQ(partition.elementsOf(0), (std::vector<GlobalOrdinal>{0, 1}));
+  EXPECT_EQ(partition.elementsOf(1), (std::vector<GlobalOrdinal>{2, 3}));
+  EXPECT_EQ(partition.elementsOf(2), (std::vector<GlobalOrdinal>{4, 5}));
+  EXPECT_EQ(partition.elementsOf(6), (std::vector<GlobalOrdinal>{12, 13}));
+  EXPECT_EQ(partition.elementsOf(11), (std::vector<GlobalOrdinal>{22, 23}));
+  EXPECT_EQ(GridPartition(mesh, {1, 1, 2}).elementsOf(1),
+            (std::vector<GlobalOrdinal>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23}));
+}
+
+TEST(PartitionTest, GridsCutBoxesIntoEqualPartsThatCoverTheBody) {
+  for (const auto& size : {std::array{6, 6, 6}, {7, 5, 4}, {3, 8, 5}})
+    for (const auto& counts : {std::array{1, 1, 1}, {2, 2, 2}, {3, 5, 4}, {3, 1, 2}, {1, 4, 1}}) {
+      const fem::BoxMesh mesh = boxMesh(size[0], size[1], size[2]);
+      const GridPartition partition(mesh, counts);
+      ASSERT_EQ(partition.numParts(), counts[0] * counts[1] * counts[2]);
+      expectSound(partition, mesh);
+      int least = 1, most = 1;
+      for (std::size_t d = 0; d < 3; ++d) {
+        least *= size[d] / counts[d];
+        most *= (size[d] + counts[d] - 1) / counts[d];
+      }
+      for (int part = 0; part < partition.numParts(); ++part) {
+        const auto number = static_cast<int>(partition.elementsOf(part).size());
+        EXPECT_GE(number, least);
+        EXPECT_LE(number, most);
+      }
+    }
+}
+
+TEST(PartitionTest, OneLayerIsCutAsARectangle) {
+  const fem::RectangleMesh rectangle({0, 1, 0, 1}, {7, 5});
+  const GridPartition flat(rectangle, {3, 2}), solid(boxMesh(7, 5, 1), {3, 2, 1});
+  ASSERT_EQ(solid.numParts(), flat.numParts());
+  for (int part = 0; part < flat.numParts(); ++part)
+    EXPECT_EQ(solid.elementsOf(part), flat.elementsOf(part));
+  for (GlobalOrdinal element = 0; element < rectangle.numElements(); ++element)
+    EXPECT_EQ(solid.partOf(element), flat.partOf(element));
+}
+
+/// Numberings that are different from each other, and how often each of them was found.
+std::vector<std::pair<fem::LocalNumbering, int>> numberingsOf(const Partition& partition,
+                                                              const fem::Mesh& mesh) {
+  std::vector<std::pair<fem::LocalNumbering, int>> known;
+  for (int part = 0; part < partition.numParts(); ++part) {
+    const std::vector<GlobalOrdinal> elements = partition.elementsOf(part);
+    std::vector<GlobalOrdinal> corners(8 * elements.size());
+    mesh.elementNodes(elements, corners);
+    auto found = std::find_if(known.begin(), known.end(), [&](const auto& entry) {
+      return entry.first.firstNodeIfShifted(corners).has_value();
+    });
+    if (found == known.end())
+      found = known.insert(known.end(), {fem::LocalNumbering(corners, 8), 0});
+    ++found->second;
+    const GlobalOrdinal first = *std::min_element(corners.begin(), corners.end());
+    EXPECT_EQ(found->first.firstNodeIfShifted(corners), first) << part;
+    const std::vector<GlobalOrdinal> nodes = found->first.nodes(first);
+    for (std::size_t c = 0; c < corners.size(); ++c)
+      EXPECT_EQ(nodes[static_cast<std::size_t>(found->first.corners()[c])], corners[c]);
+  }
+  return known;
+}
+
+TEST(PartitionTest, EqualBoxesOfAMeshAreNumberedAlike) {
+  const fem::BoxMesh mesh = boxMesh(6, 9, 8);
+  const auto equal = numberingsOf(GridPartition(mesh, {2, 3, 4}), mesh);
+  ASSERT_EQ(equal.size(), 1u);
+  EXPECT_EQ(equal[0].second, 24);
+  EXPECT_EQ(equal[0].first.numNodes(), 4u * 4 * 3);
+  EXPECT_EQ(equal[0].first.numElements(), 3u * 3 * 2);
+  // Two widths, two depths, two heights.
+  EXPECT_EQ(numberingsOf(GridPartition(mesh, {4, 4, 3}), mesh).size(), 8u);
+}
+
 TEST(PartitionTest, GraphPartsAreConnectedAndCoverTheBody) {
   const fem::RectangleMesh mesh({0, 1, 0, 1}, {13, 9});
   for (const int parts : {1, 2, 3, 7, 16, 40, 117}) {
@@ -72,6 +157,87 @@ TEST(PartitionTest, GraphPartsAreTheSameOnEveryRank) {
     const double part = partition.partOf(element);
     EXPECT_EQ(maxOverRanks(*world(), part), minOverRanks(*world(), part));
   }
+}
+
+/// The largest cost of a part over the mean; every element costs the same if there are no weights.
+double imbalanceOf(const Partition& partition, const std::vector<int>& weights = {}) {
+  double largest = 0, sum = 0;
+  for (int part = 0; part < partition.numParts(); ++part) {
+    double cost = 0;
+    for (const GlobalOrdinal element : partition.elementsOf(part))
+      cost += weights.empty() ? 1 : weights[static_cast<std::size_t>(element)];
+    largest = std::max(largest, cost);
+    sum += cost;
+  }
+  return largest * partition.numParts() / sum;
+}
+
+std::vector<int> partsOf(const Partition& partition, const fem::Mesh& mesh) {
+  std::vector<int> parts(static_cast<std::size_t>(mesh.numElements()));
+  for (std::size_t element = 0; element < parts.size(); ++element)
+    parts[element] = partition.partOf(static_cast<GlobalOrdinal>(element));
+  return parts;
+}
+
+TEST(PartitionTest, GraphPartsOfBoxesAreConnectedAndBalanced) {
+  for (const auto& size : {std::array{12, 12, 12}, {20, 9, 5}, {31, 30, 1}}) {
+    const fem::BoxMesh mesh = boxMesh(size[0], size[1], size[2]);
+    for (const int parts : {1, 2, 5, 8, 13}) {
+      const GraphPartition partition(mesh, parts, *world());
+      EXPECT_EQ(partition.numParts(), parts);
+      expectSound(partition, mesh);
+      EXPECT_LE(imbalanceOf(partition), 1.1) << size[0] << ' ' << parts;
+    }
+  }
+  const fem::BoxMesh tiny = boxMesh(3, 3, 3);
+  for (const int parts : {1, 2, 9, 20, 27})
+    expectSound(GraphPartition(tiny, parts, *world()), tiny);
+}
+
+TEST(PartitionTest, GraphPartsDoNotDependOnTheNumberOfRanks) {
+  const Teuchos::MpiComm<int> alone(MPI_COMM_SELF);
+  const fem::BoxMesh mesh = boxMesh(9, 8, 7);
+  std::vector<int> weights(static_cast<std::size_t>(mesh.numElements()));
+  std::iota(weights.begin(), weights.end(), 1);
+  EXPECT_EQ(partsOf(GraphPartition(mesh, 6, *world()), mesh), partsOf(GraphPartition(mesh, 6, alone), mesh));
+  // The weights of rank 0 count.
+  const std::vector<int> mine = world()->getRank() == 0 ? weights : std::vector<int>{};
+  EXPECT_EQ(partsOf(GraphPartition(mesh, 6, *world(), mine), mesh),
+            partsOf(GraphPartition(mesh, 6, alone, weights), mesh));
+}
+
+TEST(PartitionTest, WeightsBalanceTheCostOfTheParts) {
+  const fem::BoxMesh box = boxMesh(12, 10, 8);
+  const fem::RectangleMesh rectangle({0, 1, 0, 1}, {40, 24});
+  const std::array<const fem::Mesh*, 2> meshes{&box, &rectangle};
+  for (const fem::Mesh* mesh : meshes) {
+    const auto size = static_cast<std::size_t>(mesh->numElements());
+    const std::vector<int> alike(size, 1);
+    EXPECT_EQ(partsOf(GraphPartition(*mesh, 6, *world(), alike), *mesh),
+              partsOf(GraphPartition(*mesh, 6, *world()), *mesh));
+
+    std::vector<int> costly = alike; // one corner of four costs five times as much
+    std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh->nodesPerElement()));
+    for (std::size_t element = 0; element < size; ++element) {
+      mesh->elementNodes(static_cast<GlobalOrdinal>(element), nodes);
+      const fem::Point point = mesh->point(nodes[0]);
+      if (point[0] < 0.5 && point[1] < 0.5)
+        costly[element] = 5;
+    }
+    const GraphPartition byCost(*mesh, 6, *world(), costly), byNumber(*mesh, 6, *world());
+    expectSound(byCost, *mesh);
+    EXPECT_LE(imbalanceOf(byCost, costly), 1.1);
+    EXPECT_GT(imbalanceOf(byNumber, costly), 1.3); // what the weights are for
+  }
+}
+
+TEST(PartitionTest, ImpossibleWeightsAreRefused) {
+  const fem::BoxMesh mesh = boxMesh(2, 2, 1);
+  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, 1, 1}), InputError);
+  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, 1, 0, 1}), InputError);
+  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, -3, 1, 1}), InputError);
+  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {std::numeric_limits<int>::max(), 1, 1, 1}), InputError);
+  EXPECT_NO_THROW(GraphPartition(mesh, 2, *world(), {1, 2, 3, 4}));
 }
 
 /// Number of parts that have elements; each of them connected.
@@ -118,6 +284,34 @@ TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
   withStray[12 * 5 + 2] = 1;
   makeConnected(mesh, withStray);
   EXPECT_EQ(withStray, halves);
+}
+
+TEST(PartitionTest, PartsOfABoxInManyPiecesAreMadeConnectedThroughFaces) {
+  const fem::BoxMesh mesh = boxMesh(5, 4, 6);
+  const auto size = static_cast<std::size_t>(mesh.numElements());
+  std::vector<int> checkerboard(size), scattered(size), halves(size);
+  for (std::size_t e = 0; e < size; ++e) {
+    checkerboard[e] = static_cast<int>((e % 5 + e / 5 % 4 + e / 20) % 2);
+    scattered[e] = static_cast<int>(e * 7919 % 13 * (e % 5) % 6);
+    halves[e] = e < size / 2 ? 0 : 1;
+  }
+  for (std::vector<int>* part : {&checkerboard, &scattered}) {
+    makeConnected(mesh, *part);
+    EXPECT_GE(expectConnected(mesh, *part), 1);
+  }
+  // A stray element goes where most of its faces are.
+  std::vector<int> withStray = halves;
+  withStray[2 + 5 * (1 + 4 * 1)] = 1;
+  makeConnected(mesh, withStray);
+  EXPECT_EQ(withStray, halves);
+}
+
+TEST(PartitionTest, BoxesThatTouchInAnEdgeOrACornerAreNotConnected) {
+  std::vector<int> edge{0, 1, 1, 1, 1, 1, 0, 1}, corner{0, 1, 1, 1, 1, 1, 1, 0}; // part 0 is two of 2 × 2 × 2
+  for (std::vector<int>* part : {&edge, &corner}) {
+    makeConnected(boxMesh(2, 2, 2), *part);
+    EXPECT_EQ(*part, (std::vector<int>{0, 1, 1, 1, 1, 1, 1, 1})); // of equal pieces, the first one stays
+  }
 }
 
 TEST(PartitionTest, BodiesThatAreMeshedAndCutAlikeShareTheirPartition) {
