@@ -1,10 +1,11 @@
 #include "epafi/decomposition/Crosspoints.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/decomposition/Corners.hpp"
+#include "epafi/decomposition/EdgeAverages.hpp"
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <span>
 
 namespace epafi::decomposition {
@@ -23,46 +24,34 @@ std::size_t componentsOf(const Layout& layout, int body) {
   return static_cast<std::size_t>(layout.models[static_cast<std::size_t>(body)]->components());
 }
 
-/// Points that hold a body's rigid modes: one for a scalar field, two in the plane, three in space.
-std::size_t pointsNeeded(const fem::BodyModel& model) {
-  return static_cast<std::size_t>(model.components());
-}
-
-/// Nodes without unknowns.
-std::size_t countHeld(const Piece& piece, std::size_t components) {
+/// Whether the nodes without unknowns hold a piece.
+bool isHeld(const Layout& layout, const Piece& piece) {
   if (piece.assembled.unknownPosition.size() == piece.assembled.unknownOf.size())
-    return 0;
-  std::size_t held = 0;
-  for (std::size_t node = 0; node < piece.assembled.nodes.size(); ++node)
-    held += isFree(piece, node, components) ? 0 : 1;
-  return held;
+    return false;
+  HoldingPoints points(static_cast<int>(componentsOf(layout, piece.body)));
+  const fem::Mesh& mesh = *layout.bodies[static_cast<std::size_t>(piece.body)].mesh;
+  for (std::size_t node = 0; node < piece.assembled.nodes.size() && !points.hold(); ++node)
+    if (!isFree(piece, node, componentsOf(layout, piece.body)))
+      points.add(mesh.point(piece.assembled.nodes[node]));
+  return points.hold();
 }
 
 /// Whether supports alone make each subdomain of the whole problem regular; the same on every rank.
 /// Collective.
 std::vector<char> findHeld(const Layout& layout, const std::vector<Piece>& pieces, const Comm& comm) {
-  std::vector<double> heldNodes(static_cast<std::size_t>(layout.numSubdomains), 0.0);
+  std::vector<double> held(static_cast<std::size_t>(layout.numSubdomains), 0.0);
   for (const Piece& piece : pieces)
-    heldNodes[static_cast<std::size_t>(piece.number)] =
-        static_cast<double>(countHeld(piece, componentsOf(layout, piece.body)));
-  sumOverRanks(comm, heldNodes);
-  std::vector<char> held;
-  held.reserve(heldNodes.size());
-  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
-    const auto needed = static_cast<double>(pointsNeeded(*layout.models[b]));
-    for (int part = 0; part < layout.bodies[b].partition->numParts(); ++part)
-      held.push_back(heldNodes[held.size()] >= needed ? 1 : 0);
-  }
-  return held;
+    held[static_cast<std::size_t>(piece.number)] = isHeld(layout, piece) ? 1 : 0;
+  sumOverRanks(comm, held);
+  return {held.begin(), held.end()};
 }
 
-/// Number of free nodes and of free crosspoints that a piece shares with another part.
+/// The free nodes that a piece shares with a higher part, ascending places.
 struct Interface {
   int other = 0;
-  std::size_t numNodes = 0, numCrosspoints = 0;
+  std::vector<std::size_t> nodes;
 };
 
-/// The interfaces of a piece with higher parts.
 std::vector<Interface> findInterfaces(const Piece& piece, std::size_t components) {
   std::vector<Interface> interfaces; // few: a search through all is short
   for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
@@ -75,81 +64,63 @@ std::vector<Interface> findInterfaces(const Piece& piece, std::size_t components
       auto interface = std::find_if(interfaces.begin(), interfaces.end(),
                                     [other](const Interface& i) { return i.other == other; });
       if (interface == interfaces.end())
-        interface = interfaces.insert(interface, {other, 0, 0});
-      ++interface->numNodes;
-      interface->numCrosspoints += piece.isCrosspoint[node] != 0 ? 1 : 0;
+        interface = interfaces.insert(interface, {other, {}});
+      interface->nodes.push_back(node);
     }
   }
   return interfaces;
 }
 
-/// The free nodes of an interface, ascending.
-std::vector<GlobalOrdinal> nodesOf(const Interface& interface, const Piece& piece, std::size_t components) {
-  std::vector<GlobalOrdinal> nodes;
-  nodes.reserve(interface.numNodes);
-  for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
-    const std::span<const int> parts = piece.sharing.parts(k);
-    if (isFree(piece, piece.sharing.node(k), components) &&
-        std::find(parts.begin(), parts.end(), interface.other) != parts.end())
-      nodes.push_back(piece.assembled.nodes[piece.sharing.node(k)]);
-  }
-  return nodes;
-}
-
 /// Marks the end points and meeting points of interfaces; the lowest part lists them.
 void markCorners(const fem::Mesh& mesh, Piece& piece, std::vector<Key>& corners) {
   piece.isCrosspoint.assign(piece.assembled.nodes.size(), 0);
-  for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
-    const std::size_t node = piece.sharing.node(k), copies = piece.sharing.parts(k).size();
-    if (copies >= 3 || (copies == 2 && mesh.isBoundaryNode(piece.assembled.nodes[node]))) {
+  const std::vector<char> isCorner = findCorners(mesh, piece);
+  for (std::size_t k = 0; k < piece.sharing.size(); ++k)
+    if (isCorner[k] != 0) {
+      const std::size_t node = piece.sharing.node(k);
       piece.isCrosspoint[node] = 1;
       if (piece.sharing.parts(k).front() == piece.part)
         corners.emplace_back(piece.body, piece.assembled.nodes[node]);
     }
-  }
 }
 
 /// Further crosspoints for the interfaces of a piece with higher parts: where one of the two sides leans on
-/// the other and too few free crosspoints join them, free nodes evenly spaced among the shared ones (a single
-/// one: in the middle). The lower part's rank decides, so that both sides hear of the same nodes.
+/// the other and the free crosspoints that join them do not hold it. The lower part's rank decides, so that both sides
+/// hear of the same nodes.
 void addInterfacePoints(const Layout& layout, const Piece& piece, const std::vector<char>& held,
                         std::vector<Key>& extra) {
   const auto b = static_cast<std::size_t>(piece.body);
-  const std::size_t components = componentsOf(layout, piece.body), needed = pointsNeeded(*layout.models[b]);
+  const fem::Mesh& mesh = *layout.bodies[b].mesh;
+  const std::size_t components = componentsOf(layout, piece.body);
   for (const Interface& interface : findInterfaces(piece, components)) {
     const int other = layout.bodies[b].firstSubdomain + interface.other;
-    const bool bothHeld =
-        held[static_cast<std::size_t>(piece.number)] != 0 && held[static_cast<std::size_t>(other)] != 0;
-    if (bothHeld || interface.numCrosspoints >= needed)
+    if (held[static_cast<std::size_t>(piece.number)] != 0 && held[static_cast<std::size_t>(other)] != 0)
       continue;
-    const std::vector<GlobalOrdinal> nodes = nodesOf(interface, piece, components);
-    const std::size_t missing = needed - interface.numCrosspoints;
-    for (std::size_t k = 0; k < missing; ++k)
-      extra.emplace_back(piece.body, nodes[(2 * k + 1) * nodes.size() / (2 * missing)]);
+    HoldingPoints points(static_cast<int>(components));
+    std::vector<fem::Point> candidates;
+    for (const std::size_t node : interface.nodes) {
+      candidates.push_back(mesh.point(piece.assembled.nodes[node]));
+      if (piece.isCrosspoint[node] != 0)
+        points.add(candidates.back());
+    }
+    for (const std::size_t place : points.complete(candidates))
+      extra.emplace_back(piece.body, piece.assembled.nodes[interface.nodes[place]]);
   }
 }
 
-/// Place of the node nearest to the centre of the points of a piece.
-std::size_t middleNode(const fem::Mesh& mesh, const Piece& piece) {
-  fem::Point centre{0, 0, 0};
-  for (const GlobalOrdinal node : piece.assembled.nodes) {
-    const fem::Point point = mesh.point(node);
-    for (std::size_t d = 0; d < 3; ++d)
-      centre[d] += point[d] / static_cast<double>(piece.assembled.nodes.size());
-  }
-  std::size_t best = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t node = 0; node < piece.assembled.nodes.size(); ++node) {
-    const fem::Point point = mesh.point(piece.assembled.nodes[node]);
-    double distance = 0;
-    for (std::size_t d = 0; d < 3; ++d)
-      distance += (point[d] - centre[d]) * (point[d] - centre[d]);
-    if (distance < nearest * (1 - 1e-12)) {
-      nearest = distance;
-      best = node;
+/// Crosspoints of a body in one piece that supports do not hold.
+void addPointsInside(const fem::Mesh& mesh, int components, Piece& piece, std::vector<Key>& extra) {
+  std::vector<std::size_t> free;
+  std::vector<fem::Point> candidates;
+  for (std::size_t node = 0; node < piece.assembled.nodes.size(); ++node)
+    if (isFree(piece, node, static_cast<std::size_t>(components))) {
+      free.push_back(node);
+      candidates.push_back(mesh.point(piece.assembled.nodes[node]));
     }
+  for (const std::size_t place : HoldingPoints(components).complete(candidates)) {
+    piece.isCrosspoint[free[place]] = 1; // no other piece has it
+    extra.emplace_back(piece.body, piece.assembled.nodes[free[place]]);
   }
-  return best;
 }
 
 /// The union of all ranks' lists, sorted, on every rank.
@@ -190,11 +161,8 @@ CrosspointNumbering::CrosspointNumbering(const Layout& layout, std::vector<Piece
     const auto b = static_cast<std::size_t>(piece.body);
     markCorners(*layout.bodies[b].mesh, piece, corners);
     addInterfacePoints(layout, piece, held, extra);
-    if (layout.models[b]->kernelDimension() > 0 && layout.bodies[b].partition->numParts() == 1) {
-      const std::size_t middle = middleNode(*layout.bodies[b].mesh, piece);
-      piece.isCrosspoint[middle] = 1; // no other piece has it
-      extra.emplace_back(piece.body, piece.assembled.nodes[middle]);
-    }
+    if (layout.models[b]->kernelDimension() > 0 && layout.bodies[b].partition->numParts() == 1)
+      addPointsInside(*layout.bodies[b].mesh, layout.models[b]->components(), piece, extra);
   }
   nodes_ = gatherKeys(comm, corners);
   extra = gatherKeys(comm, extra);
@@ -204,6 +172,8 @@ CrosspointNumbering::CrosspointNumbering(const Layout& layout, std::vector<Piece
     std::set_union(nodes_.begin(), nodes_.end(), extra.begin(), extra.end(), std::back_inserter(all));
     nodes_.swap(all);
   }
+  numCorners_ = static_cast<GlobalOrdinal>(nodes_.size());
+  addCarriers(layout, pieces, comm);
 
   firstIndex_.reserve(nodes_.size());
   for (const auto& [body, node] : nodes_) {
@@ -213,6 +183,24 @@ CrosspointNumbering::CrosspointNumbering(const Layout& layout, std::vector<Piece
       if (!model.prescribed(node, component))
         ++numUnknowns_;
   }
+}
+
+/// Averages along edges become coarse unknowns in the place of one node's values, the carrier's. Collective.
+void CrosspointNumbering::addCarriers(const Layout& layout, std::vector<Piece>& pieces, const Comm& comm) {
+  std::vector<Key> carriers;
+  for (Piece& piece : pieces)
+    if (fem::dimensionOf(layout.bodies[static_cast<std::size_t>(piece.body)].mesh->cellType()) == 3) {
+      findEdgeAverages(componentsOf(layout, piece.body), piece);
+      for (const EdgeAverage& average : piece.averages) {
+        piece.isCrosspoint[average.carrier] = 1;
+        if (piece.sharing.isLowest(piece.part, average.carrier))
+          carriers.emplace_back(piece.body, piece.assembled.nodes[average.carrier]);
+      }
+    }
+  carriers = gatherKeys(comm, carriers);
+  std::vector<Key> all;
+  std::set_union(nodes_.begin(), nodes_.end(), carriers.begin(), carriers.end(), std::back_inserter(all));
+  nodes_.swap(all);
 }
 
 GlobalOrdinal CrosspointNumbering::firstIndex(int body, GlobalOrdinal node) const {

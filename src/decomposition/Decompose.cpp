@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/ContactRows.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
+#include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Pieces.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
@@ -106,6 +107,20 @@ void splitUnknowns(const CrosspointNumbering& crosspoints, const Piece& piece, s
   }
 }
 
+/// Averages along edges become unknowns of the pieces, whose rows are so far those of contact; returns them piece by
+/// piece.
+std::vector<std::vector<Average>> changeBasis(const Layout& layout, std::vector<Piece>& pieces) {
+  std::vector<std::vector<Average>> averages;
+  AverageBasis basis;
+  for (Piece& piece : pieces) {
+    const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(piece.body)];
+    averages.push_back(averagesOf(piece, static_cast<std::size_t>(model.components())));
+    changeBasisOfRows(averages.back(), 0, piece.rows);
+    basis.change(averages.back(), piece);
+  }
+  return averages;
+}
+
 /// Moves what is assembled out of a piece; what it takes to attach B stays.
 void takeAssembled(Piece& piece, Subdomain& subdomain) {
   fem::AssembledSubdomain& assembled = piece.assembled;
@@ -188,6 +203,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   for (const ContactLayout& contact : result.contacts)
     problem.numInequalities += contact.numRows();
   const Rows contact = contactRows(result.contacts, pieces);
+  const std::vector<std::vector<Average>> averages = changeBasis(layout, pieces);
   const Rows gluing = gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities);
 
   GlobalOrdinal positions = 0, remainders = 0;
@@ -199,6 +215,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
     splitUnknowns(crosspoints, pieces[p], static_cast<std::size_t>(layout.models[body]->components()),
                   subdomain, ownedCrosspoints);
     takeAssembled(pieces[p], subdomain);
+    subdomain.averages = averages[p];
     positions += subdomain.prescribed.size();
     remainders += static_cast<GlobalOrdinal>(subdomain.remainderUnknowns.size());
   }

@@ -25,8 +25,16 @@ struct ConstraintEntry {
   double coefficient = 0;
 };
 
+/// An unknown that is the average a of several values, and the others, which are deviations ũ_i from it:
+/// u_i = ũ_i + a, u_carrier = a − Σ ũ_i (see EdgeAverages.hpp).
+struct Average {
+  int carrier = 0; ///< unknown a
+  std::vector<int> others;
+  bool operator==(const Average& other) const = default;
+};
+
 /// One subdomain Ω^s. Its *unknowns* are the free values v of its nodes (components a node, supported ones
-/// left out), numbered 0 … n_s − 1 in the order of its nodes.
+/// left out), numbered 0 … n_s − 1 in the order of its nodes; some may stand for averages and deviations.
 struct Subdomain {
   int body = 0;                     ///< index into DecomposedProblem::bodies
   int number = 0;                   ///< number of the subdomain in the whole problem
@@ -36,6 +44,7 @@ struct Subdomain {
   std::vector<int> remainderUnknowns;            ///< v_r: unknowns that are not crosspoint values, ascending
   std::vector<int> crosspointUnknowns;           ///< v_c: unknowns that are crosspoint values, ascending
   std::vector<GlobalOrdinal> crosspointIndices;  ///< L_c: global index of each v_c in crosspointMap
+  std::vector<Average> averages;                 ///< where unknowns are no values of nodes; most often none
   std::vector<ConstraintEntry> constraint;       ///< B^s
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
   Eigen::VectorXd load;       ///< f^s, n_s, supports' prescribed values already moved to the right
@@ -43,6 +52,9 @@ struct Subdomain {
   double energyOffset = 0;    ///< energy that prescribed values alone contribute
   Eigen::MatrixXd kernel;     ///< R^s, n_s × kernelDimension of its body
 };
+
+/// Turns unknowns ũ of a subdomain into values of its nodes, in place.
+void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u);
 
 struct Body {
   std::string name;
@@ -77,7 +89,7 @@ struct DecomposedProblem {
   GlobalOrdinal numInequalities = 0; ///< n_I
   GlobalOrdinal numEqualities = 0;   ///< n_E
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
-  GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too
+  GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
   [[nodiscard]] GlobalOrdinal dualDimension() const { return numInequalities + numEqualities; }
 };
 

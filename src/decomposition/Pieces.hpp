@@ -42,6 +42,12 @@ struct RowEntry {
   double coefficient;
 };
 
+/// The average of u along an edge of a piece, component by component, in the place of its carrier's values.
+struct EdgeAverage {
+  std::size_t carrier = 0;         ///< place of a node
+  std::vector<std::size_t> others; ///< places of the other nodes, ascending
+};
+
 /// One of this rank's subdomains.
 struct Piece {
   int body = 0, part = 0, number = 0;
@@ -49,7 +55,8 @@ struct Piece {
   std::shared_ptr<const SparseMatrix> stiffness; ///< equal pieces share one
   Sharing sharing;
   std::vector<char> isCrosspoint; ///< for each node
-  std::vector<RowEntry> rows;     ///< B^s
+  std::vector<EdgeAverage> averages;
+  std::vector<RowEntry> rows; ///< B^s
 };
 
 /// The bodies' layouts and physics, and how subdomains go to ranks: rank r of P has the numbers [rN/P,

@@ -38,8 +38,9 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
 }
 
 /// Values at all positions of a subdomain: the unknowns' and the prescribed ones.
-Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, const Eigen::MatrixXd& u) {
+Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, Eigen::MatrixXd& u) {
   Eigen::VectorXd all = subdomain.prescribed;
+  decomposition::toNodalValues(subdomain, u.col(0));
   for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
     all[subdomain.unknownPosition[i]] = u(static_cast<Eigen::Index>(i));
   return all;

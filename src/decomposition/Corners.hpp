@@ -1,0 +1,41 @@
+#pragma once
+
+/// The corners of subdomains, and points that hold a body.
+
+#include "epafi/decomposition/Pieces.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace epafi::decomposition {
+
+/// Tells for each shared node of a piece (in the order of `sharing`) whether it is a corner:
+///  - in the plane, if three or more subdomains share it, or two share it on the body's boundary: the end points and
+///    meeting points of interfaces. On a grid these are all subdomain corners but the four of the body;
+///  - in space, if three or more subdomains share it, and it alone is shared by just these, or it lies on the body's
+///    boundary: the end points of edges.
+/// All pieces that share a node find the same.
+std::vector<char> findCorners(const fem::Mesh& mesh, const Piece& piece);
+
+/// Points, and whether a body that is held there can still move: one holds a scalar field, two different ones a body in
+/// the plane, three that are not on a line a body in space.
+class HoldingPoints {
+public:
+  /// \param components  unknowns a node: 1, 2 or 3
+  explicit HoldingPoints(int components) : needed_(static_cast<std::size_t>(components)) {}
+
+  /// A point that holds no more than those before it is forgotten.
+  void add(const fem::Point& point);
+  [[nodiscard]] bool hold() const { return points_.size() >= needed_; }
+  /// Adds such candidates that all points together hold, far from each other; returns their places, none if they hold
+  /// already. Where the candidates cannot hold (in space: all on a line) there are none, or fewer than it takes.
+  std::vector<std::size_t> complete(const std::vector<fem::Point>& candidates);
+
+private:
+  [[nodiscard]] double gain(const fem::Point& point) const;
+
+  std::size_t needed_;
+  std::vector<fem::Point> points_; ///< independent ones
+};
+
+} // namespace epafi::decomposition
