@@ -1,0 +1,150 @@
+#include "epafi/fem/ElementIntegrals.hpp"
+
+#include "epafi/fem/ElementMap.hpp"
+#include "epafi/fem/ShapeFunctions.hpp"
+
+#include <cassert>
+#include <iterator>
+
+namespace epafi::fem {
+namespace {
+
+using scene::Physics;
+
+template <class Shape>
+constexpr int numGradients = Shape::numNodes* Shape::dimension;
+
+/// S: products of all shape functions' derivatives, row and column node × dimension + direction. Isotropic stiffnesses are
+/// sums of its entries.
+template <class Shape>
+using GradientProducts = Eigen::Matrix<double, numGradients<Shape>, numGradients<Shape>>;
+
+[[maybe_unused]] bool fits(CellType type, Physics physics) {
+  return dimensionOf(type) == (physics == Physics::elasticity3d ? 3 : 2);
+}
+
+/// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its upper triangle.
+template <class Shape>
+GradientProducts<Shape> gradientProducts(std::span<const Point> points) {
+  const auto corners = relativeCorners<Shape>(points);
+  GradientProducts<Shape> products = GradientProducts<Shape>::Zero();
+  for (const auto& sample : gaussSamples<Shape>()) {
+    const ElementMap<Shape> map(corners, sample);
+    const typename Shape::Gradients gradients = map.gradients(sample);
+    const Eigen::Map<const Eigen::Matrix<double, numGradients<Shape>, 1>> g(gradients.data());
+    const double weight = Shape::gaussWeight * map.determinant();
+    for (int column = 0; column < numGradients<Shape>; ++column)
+      products.col(column) += (weight * g[column]) * g;
+  }
+  return products;
+}
+
+/// ∫∇N_a·∇N_b
+template <class Shape>
+double gradientsDot(const GradientProducts<Shape>& products, int a, int b) {
+  return products
+      .template block<Shape::dimension, Shape::dimension>(a * Shape::dimension, b * Shape::dimension)
+      .trace();
+}
+
+/// The lower triangle becomes the mirror image of the upper one.
+template <class Matrix>
+void mirror(Matrix& matrix) {
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+    for (Eigen::Index row = 0; row < column; ++row)
+      matrix(column, row) = matrix(row, column);
+}
+
+template <class Shape>
+void membraneStiffness(std::span<const Point> points, double conductivity, Eigen::MatrixXd& stiffness) {
+  const GradientProducts<Shape> products = gradientProducts<Shape>(points);
+  for (int b = 0; b < Shape::numNodes; ++b)
+    for (int a = 0; a <= b; ++a)
+      stiffness(a, b) = conductivity * gradientsDot<Shape>(products, a, b);
+}
+
+/// K_ai,bj = λ S_ai,bj + μ S_aj,bi + μ δ_ij Σ_k S_ak,bk
+template <class Shape>
+void elasticStiffness(std::span<const Point> points, double lambda, double mu, Eigen::MatrixXd& stiffness) {
+  constexpr int dim = Shape::dimension;
+  const GradientProducts<Shape> products = gradientProducts<Shape>(points);
+  for (int b = 0; b < Shape::numNodes; ++b)
+    for (int a = 0; a <= b; ++a) {
+      const Eigen::Matrix<double, dim, dim> s = products.template block<dim, dim>(a * dim, b * dim);
+      Eigen::Matrix<double, dim, dim> block = lambda * s + mu * s.transpose();
+      block.diagonal().array() += mu * s.trace();
+      stiffness.template block<dim, dim>(a * dim, b * dim) = block;
+    }
+}
+
+/// Entry (i, j) = ∂u_i/∂x_j at the centre, from `components` values a node.
+template <class Shape, int components>
+Eigen::Matrix<double, components, Shape::dimension> gradientAtCentre(std::span<const Point> points,
+                                                                     std::span<const double> values) {
+  assert(std::ssize(values) == Shape::numNodes * components);
+  const auto& sample = centreSample<Shape>();
+  const ElementMap<Shape> map(relativeCorners<Shape>(points), sample);
+  const Eigen::Map<const Eigen::Matrix<double, components, Shape::numNodes>> nodal(values.data());
+  return nodal * map.gradients(sample).transpose();
+}
+
+} // namespace
+
+void elementStiffness(CellType type, std::span<const Point> points, Physics physics,
+                      const scene::Material& material, Eigen::MatrixXd& stiffness) {
+  assert(fits(type, physics));
+  withShape(type, [&](auto shape) {
+    using Shape = decltype(shape);
+    const int size = physics == Physics::membrane ? Shape::numNodes : numGradients<Shape>;
+    stiffness.resize(size, size);
+    if (physics == Physics::membrane) {
+      membraneStiffness<Shape>(points, material.conductivity, stiffness);
+    } else {
+      const auto [lambda, mu] = lameConstants(physics, material);
+      const double thickness = thicknessOf(physics, material);
+      elasticStiffness<Shape>(points, thickness * lambda, thickness * mu, stiffness);
+    }
+  });
+  mirror(stiffness);
+}
+
+void bodyForceLoad(CellType type, std::span<const Point> points, Physics physics,
+                   const scene::Material& material, const scene::Vector3& force, Eigen::VectorXd& load) {
+  assert(fits(type, physics));
+  withShape(type, [&](auto shape) {
+    using Shape = decltype(shape);
+    const auto corners = relativeCorners<Shape>(points);
+    typename Shape::Values integrals = Shape::Values::Zero(); // ∫N_a
+    for (const auto& sample : gaussSamples<Shape>())
+      integrals += (Shape::gaussWeight * ElementMap<Shape>(corners, sample).determinant()) * sample.values;
+    const int components = physics == Physics::membrane ? 1 : Shape::dimension;
+    const double thickness = thicknessOf(physics, material);
+    load.resize(Shape::numNodes * components);
+    for (int a = 0; a < Shape::numNodes; ++a)
+      for (int i = 0; i < components; ++i)
+        load[a * components + i] = thickness * integrals[a] * force[static_cast<std::size_t>(i)];
+  });
+}
+
+SymmetricTensor stressAtCentre(CellType type, std::span<const Point> points, Physics physics,
+                               const scene::Material& material, std::span<const double> displacements) {
+  assert(fits(type, physics) && physics != Physics::membrane);
+  return withShape(type, [&](auto shape) {
+    using Shape = decltype(shape);
+    constexpr int dim = Shape::dimension;
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    gradient.topLeftCorner<dim, dim>() = gradientAtCentre<Shape, dim>(points, displacements);
+    return stressOf(gradient, physics, material);
+  });
+}
+
+std::array<double, 2> fluxAtCentre(CellType type, std::span<const Point> points,
+                                   const scene::Material& material, std::span<const double> values) {
+  assert(dimensionOf(type) == 2);
+  return withShape(type, [&](auto shape) {
+    const auto gradient = gradientAtCentre<decltype(shape), 1>(points, values);
+    return std::array{material.conductivity * gradient[0], material.conductivity * gradient[1]};
+  });
+}
+
+} // namespace epafi::fem

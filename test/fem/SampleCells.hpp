@@ -1,0 +1,149 @@
+#pragma once
+
+/// Elements to test with: of every type, of every form.
+
+#include "epafi/fem/Cell.hpp"
+#include "epafi/fem/Mesh.hpp"
+#include "epafi/scene/Solid.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace epafi::fem {
+
+constexpr std::array allCellTypes{CellType::triangle, CellType::quadrilateral, CellType::tetrahedron,
+                                  CellType::hexahedron};
+
+/// Physics that go with a type of cell, membranes apart.
+inline std::vector<scene::Physics> elasticPhysics(CellType type) {
+  if (dimensionOf(type) == 3)
+    return {scene::Physics::elasticity3d};
+  return {scene::Physics::planeStrain, scene::Physics::planeStress};
+}
+
+/// Physics that go with a type of cell.
+inline std::vector<scene::Physics> allPhysics(CellType type) {
+  auto all = elasticPhysics(type);
+  if (dimensionOf(type) == 2)
+    all.push_back(scene::Physics::membrane);
+  return all;
+}
+
+inline Eigen::Vector3d vectorOf(const Point& point) {
+  return {point[0], point[1], point[2]};
+}
+inline Point pointOf(const Eigen::Vector3d& vector) {
+  return {vector[0], vector[1], vector[2]};
+}
+
+/// The cell of side 1 at the origin.
+inline std::vector<Point> unitCell(CellType type) {
+  switch (type) {
+  case CellType::triangle:
+    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  case CellType::quadrilateral:
+    return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  case CellType::tetrahedron:
+    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  case CellType::hexahedron:
+    break;
+  }
+  return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+}
+
+/// A cell with its corners moved by `map`.
+template <class Map>
+std::vector<Point> mapped(std::vector<Point> points, const Map& map) {
+  for (Point& point : points)
+    point = pointOf(map(vectorOf(point)));
+  return points;
+}
+
+/// Numbers in [−1, 1], the same on every machine.
+class RandomNumbers {
+public:
+  explicit RandomNumbers(std::uint32_t seed) : engine_(seed) {}
+  double operator()() { return static_cast<double>(engine_()) / 2147483647.5 - 1; }
+  Eigen::Vector3d vector() {
+    const double x = (*this)(), y = (*this)(), z = (*this)();
+    return {x, y, z};
+  }
+
+private:
+  std::mt19937 engine_;
+};
+
+/// The unit cell with each corner moved by up to 0.15 along each axis: faces of hexahedra are warped.
+inline std::vector<Point> distortedCell(CellType type, std::uint32_t seed) {
+  RandomNumbers random(seed);
+  return mapped(unitCell(type), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    Eigen::Vector3d moved = x + 0.15 * random.vector();
+    if (dimensionOf(type) == 2)
+      moved[2] = 0;
+    return moved;
+  });
+}
+
+/// No parallelogram or parallelepiped, but with plane faces: the image of the unit cell under a projective map.
+inline std::vector<Point> planeFacedCell(CellType type) {
+  const bool inSpace = dimensionOf(type) == 3;
+  return mapped(unitCell(type), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    Eigen::Vector3d image = Eigen::Vector3d(2 * x[0] + 0.3 * x[1], 1.5 * x[1] - 0.2 * x[0], 0.8 * x[2]) +
+                            Eigen::Vector3d(x[2] * 0.1, x[2] * 0.4, x[0] * 0.3);
+    if (!inSpace)
+      image[2] = 0;
+    return image / (1 + 0.3 * x[0] - 0.2 * x[1] + 0.25 * x[2]);
+  });
+}
+
+/// Rotation by an angle about z, in space about an oblique axis.
+inline Eigen::Matrix3d rotation(CellType type, double angle) {
+  const Eigen::Vector3d axis =
+      dimensionOf(type) == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, 3).normalized();
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+/// Corners of a facet.
+inline std::vector<Point> facetPoints(CellType type, std::span<const Point> points,
+                                      const std::array<int, 4>& facet) {
+  std::vector<Point> corners;
+  for (int i = 0; i < nodesPerFacet(type); ++i)
+    corners.push_back(points[static_cast<std::size_t>(facet[static_cast<std::size_t>(i)])]);
+  return corners;
+}
+
+/// Adds a facet's load to that of the element.
+inline void addFacetLoad(CellType type, const std::array<int, 4>& facet, const Eigen::VectorXd& facetLoad,
+                         Eigen::VectorXd& load) {
+  const auto components = facetLoad.size() / nodesPerFacet(type);
+  for (int i = 0; i < nodesPerFacet(type); ++i)
+    load.segment(facet[static_cast<std::size_t>(i)] * components, components) +=
+        facetLoad.segment(i * components, components);
+}
+
+/// The field x ↦ gradient·x + (1, −2, 3) at the corners, `components` values a node.
+inline Eigen::VectorXd linearField(std::span<const Point> points, int components,
+                                   const Eigen::Matrix3d& gradient) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(points.size()) * components);
+  for (std::size_t a = 0; a < points.size(); ++a)
+    values.segment(static_cast<Eigen::Index>(a) * components, components) =
+        (gradient * vectorOf(points[a]) + Eigen::Vector3d(1, -2, 3)).head(components);
+  return values;
+}
+
+/// Sum over the nodes of a load with `components` values a node.
+inline Eigen::Vector3d resultant(const Eigen::VectorXd& load, int components) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Eigen::Index row = 0; row < load.size(); ++row)
+    sum[row % components] += load[row];
+  return sum;
+}
+
+} // namespace epafi::fem
