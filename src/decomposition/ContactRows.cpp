@@ -1,6 +1,7 @@
 #include "epafi/decomposition/ContactRows.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/ContactSearch.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
 #include "epafi/scene/EdgeSegment.hpp"
 
@@ -139,6 +140,13 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
     takenEdges.take(pair, pair.first, pair.firstEdge, bodies[first].name);
     takenEdges.take(pair, pair.second, pair.secondEdge, bodies[second].name);
     ContactLayout& contact = contacts.emplace_back(layoutEdges(pair, bodies));
+    contact.firstRow = firstRow;
+    firstRow += contact.numRows();
+  }
+  for (const scene::SurfaceContact& search : scene.surfaceContacts) {
+    const auto& body = scene.bodies[static_cast<std::size_t>(search.first)];
+    const int components = body.solid ? componentsOf(body.solid->physics) : 1;
+    ContactLayout& contact = contacts.emplace_back(searchContact(search, bodies, components));
     contact.firstRow = firstRow;
     firstRow += contact.numRows();
   }

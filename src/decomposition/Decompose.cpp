@@ -7,7 +7,6 @@
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Pieces.hpp"
-#include "epafi/fem/RectangleMesh.hpp"
 
 #include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
@@ -19,58 +18,6 @@
 
 namespace epafi::decomposition {
 namespace {
-
-void requireCut(const scene::Body& body) {
-  const scene::Decomposition& cut = body.decomposition;
-  const std::string where = "body '" + body.name + "' has ";
-  if (cut.method == scene::Decomposition::Method::metis) {
-    const GlobalOrdinal numElements = static_cast<GlobalOrdinal>(body.elements[0]) * body.elements[1];
-    if (cut.parts < 1 || cut.parts > numElements)
-      throw InputError(where + std::to_string(numElements) + " elements and cannot be cut into " +
-                       std::to_string(cut.parts) + " parts; choose between 1 and " +
-                       std::to_string(numElements));
-    return;
-  }
-  for (std::size_t d = 0; d < 2; ++d)
-    if (cut.counts[d] < 1 || cut.counts[d] > body.elements[d])
-      throw InputError(where + std::to_string(body.elements[d]) + " elements in " + (d == 0 ? "x" : "y") +
-                       " and cannot be cut into " + std::to_string(cut.counts[d]) +
-                       " subdomains there; choose between 1 and " + std::to_string(body.elements[d]));
-}
-
-/// Whether two bodies are meshed and cut alike: their partitions are the same.
-bool areCutAlike(const scene::Body& a, const scene::Body& b) {
-  const scene::Decomposition &cut = a.decomposition, &other = b.decomposition;
-  if (a.elements != b.elements || cut.method != other.method)
-    return false;
-  return cut.method == scene::Decomposition::Method::metis ? cut.parts == other.parts
-                                                           : cut.counts == other.counts;
-}
-
-/// Collective.
-std::shared_ptr<const Partition> makePartition(const scene::Body& body, const fem::RectangleMesh& mesh,
-                                               const Comm& comm) {
-  if (body.decomposition.method == scene::Decomposition::Method::metis)
-    return std::make_shared<const GraphPartition>(mesh, body.decomposition.parts, comm);
-  return std::make_shared<const GridPartition>(mesh, body.decomposition.counts);
-}
-
-/// Collective.
-std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
-  std::vector<BodyLayout> bodies;
-  int firstSubdomain = 0;
-  for (const scene::Body& body : scene.bodies) {
-    auto mesh = std::make_unique<const fem::RectangleMesh>(body.rectangle, body.elements);
-    const auto alike = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                    [&](const scene::Body& other) { return areCutAlike(other, body); });
-    const auto earlier = static_cast<std::size_t>(alike - scene.bodies.begin()); // body itself if none is
-    auto partition = earlier < bodies.size() ? bodies[earlier].partition : makePartition(body, *mesh, comm);
-    const int numParts = partition->numParts();
-    bodies.push_back({body.name, std::move(mesh), std::move(partition), firstSubdomain});
-    firstSubdomain += numParts;
-  }
-  return bodies;
-}
 
 RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm) {
   if (!std::is_sorted(indices.begin(), indices.end()))
@@ -179,15 +126,13 @@ void describe(const scene::Scene& scene, const Layout& layout, DecomposedProblem
 } // namespace
 
 Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) {
-  collectively(*comm, [&] { std::for_each(scene.bodies.begin(), scene.bodies.end(), requireCut); });
   Decomposition result;
   result.bodies = layoutBodies(scene, *comm);
   Layout layout{result.bodies, {}, 0};
   collectively(*comm, [&] {
     result.contacts = layoutContacts(scene, result.bodies);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-      layout.models.push_back(std::make_unique<fem::MembraneModel>(
-          scene.bodies[b], dynamic_cast<const fem::RectangleMesh&>(*result.bodies[b].mesh)));
+      layout.models.push_back(makeModel(scene.bodies[b], *result.bodies[b].mesh));
       layout.numSubdomains += result.bodies[b].partition->numParts();
     }
   });

@@ -1,6 +1,5 @@
 #include "epafi/fem/SolidModel.hpp"
 
-#include "epafi/base/Errors.hpp"
 #include "epafi/fem/BoxMesh.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
@@ -124,11 +123,12 @@ void SolidModel::requireNoMechanism() const {
       }
   }
   if (numReached < mesh_.numElements())
-    throw refusal("only " + std::to_string(numReached) + " of its " + std::to_string(mesh_.numElements()) +
-                  " elements are joined with each other in whole " +
-                  (dimensionOf(mesh_.cellType()) == 2 ? "edges" : "faces") +
-                  "; the others hang on nodes, or on nothing, and could turn: a mechanism. Make each part a body "
-                  "of its own, or join the parts in the mesh");
+    throw refusal(
+        "only " + std::to_string(numReached) + " of its " + std::to_string(mesh_.numElements()) +
+        " elements are joined with each other in whole " +
+        (dimensionOf(mesh_.cellType()) == 2 ? "edges" : "faces") +
+        "; the others hang on nodes, or on nothing, and could turn: a mechanism. Make each part a body "
+        "of its own, or join the parts in the mesh");
 }
 
 Surface SolidModel::surfaceOf(const std::string& user, const std::string& surface) const {
@@ -212,7 +212,8 @@ void SolidModel::holdSupports() {
   if (contradiction != held_.end())
     throw refusal("two supports hold the node at " + text(mesh_.point(contradiction->node)) +
                   " in component " + "xyz"[contradiction->component] + " at different values, " +
-                  std::to_string(contradiction->value) + " and " + std::to_string((contradiction + 1)->value));
+                  std::to_string(contradiction->value) + " and " +
+                  std::to_string((contradiction + 1)->value));
   held_.erase(std::unique(held_.begin(), held_.end(),
                           [&](const Held& a, const Held& b) { return place(a) == place(b); }),
               held_.end());
@@ -238,9 +239,10 @@ void SolidModel::prescribed(std::span<const GlobalOrdinal> nodes,
   for (auto node = nodes.begin(); held != held_.end() && held->node <= nodes.back(); ++held) {
     node = std::lower_bound(node, nodes.end(), held->node);
     if (node != nodes.end() && *node == held->node)
-      values.push_back({static_cast<std::size_t>(node - nodes.begin()) * static_cast<std::size_t>(components_) +
-                            static_cast<std::size_t>(held->component),
-                        held->value});
+      values.push_back(
+          {static_cast<std::size_t>(node - nodes.begin()) * static_cast<std::size_t>(components_) +
+               static_cast<std::size_t>(held->component),
+           held->value});
   }
 }
 
@@ -330,8 +332,8 @@ void SolidModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd&
       if (!contains(loaded_[k], elements[e]))
         continue;
       pointsOf(elements[e], points);
-      bodyForceLoad(mesh_.cellType(), isCongruent() ? shape_ : points, solid_.physics, materialOf(elements[e]),
-                    solid_.loads[k].value, values);
+      bodyForceLoad(mesh_.cellType(), isCongruent() ? shape_ : points, solid_.physics,
+                    materialOf(elements[e]), solid_.loads[k].value, values);
       loads.col(static_cast<Eigen::Index>(e)) += values;
     }
   }
@@ -344,7 +346,8 @@ void SolidModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd&
       continue;
     mesh_.elementNodes(elements[e], std::span(nodes).first(number));
     for (; force != forces_.end() && force->element == elements[e]; ++force) {
-      const auto corner = std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(number), force->node);
+      const auto corner =
+          std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(number), force->node);
       for (int c = 0; c < components_; ++c)
         loads((corner - nodes.begin()) * components_ + c, static_cast<Eigen::Index>(e)) +=
             force->force[static_cast<std::size_t>(c)];

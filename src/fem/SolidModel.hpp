@@ -3,6 +3,7 @@
 /// The physics of a body of any shape (scene::Solid): membrane, plane strain, plane stress or elasticity in space, on any
 /// mesh of linear elements.
 
+#include "epafi/base/Errors.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/RigidModes.hpp"
 #include "epafi/scene/Solid.hpp"
@@ -75,10 +76,10 @@ private:
   const scene::Solid& solid_;
   const Mesh& mesh_;
   int components_;
-  std::vector<Point> shape_;    ///< corners of every element, up to a shift, where all are congruent; else empty
-  std::vector<Domain> regions_; ///< of solid_.regions
-  std::vector<Domain> loaded_;  ///< of body forces, in the order of solid_.loads; others are empty
-  std::vector<Held> held_;      ///< ascending by node and component
+  std::vector<Point> shape_; ///< corners of every element, up to a shift, where all are congruent; else empty
+  std::vector<Domain> regions_;    ///< of solid_.regions
+  std::vector<Domain> loaded_;     ///< of body forces, in the order of solid_.loads; others are empty
+  std::vector<Held> held_;         ///< ascending by node and component
   std::vector<NodalForce> forces_; ///< ascending by element
   RigidModes rigidModes_;
   Eigen::MatrixXd freeModes_; ///< columns: combinations of the rigid modes

@@ -93,7 +93,8 @@ Decomposition readDecomposition(const ListReader& list, const Body& body) {
   const std::string elements = "body \"" + body.name + "\" has only " + text(body.elements) + " elements";
   if (list.word("Method") == "grid") {
     cut.method = Decomposition::Method::grid;
-    cut.counts = list.counts("Grid");
+    const std::array<int, 2> counts = list.counts("Grid");
+    cut.counts = {counts[0], counts[1], 1};
     if (cut.counts[0] > nx || cut.counts[1] > ny)
       list.refuseValue("Grid", elements);
   } else {

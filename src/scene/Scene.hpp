@@ -3,8 +3,11 @@
 /// What an XML scene says, as plain validated values. Lengths, deflections, loads and conductivities share
 /// one consistent system of units of the user's choice; nothing in Epafi depends on which.
 
+#include "epafi/scene/Solid.hpp"
+
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,11 +49,11 @@ struct Region {
 struct Decomposition {
   enum class Method { grid, metis };
   Method method = Method::grid;
-  std::array<int, 2> counts = {2, 2}; ///< grid: subdomains in x and y
-  int parts = 4;                      ///< metis: number of parts
+  std::array<int, 3> counts = {2, 2, 2}; ///< grid: subdomains in x, y and, in space, z
+  int parts = 4;                         ///< metis: number of parts
 };
 
-/// A membrane −∇·(κ∇u) = f on a rectangle, Q1 elements.
+/// A membrane −∇·(κ∇u) = f on a rectangle, Q1 elements; or, if `solid` is given, what that says.
 struct Body {
   std::string name;
   Rectangle rectangle;
@@ -60,6 +63,7 @@ struct Body {
   std::vector<Support> supports;
   std::vector<Load> loads;
   Decomposition decomposition;
+  std::optional<Solid> solid; ///< if there, name and decomposition are all that counts beside it
 };
 
 /// Non-penetration u_second − u_first ≥ −gap on a pair of coinciding edges; one inequality a node, end points
@@ -76,7 +80,8 @@ struct ContactPair {
 struct Scene {
   std::string title;
   std::vector<Body> bodies;
-  std::vector<ContactPair> contacts;
+  std::vector<ContactPair> contacts;           ///< of membranes on rectangles
+  std::vector<SurfaceContact> surfaceContacts; ///< of all others
 };
 
 } // namespace epafi::scene

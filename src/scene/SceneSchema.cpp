@@ -80,7 +80,7 @@ ParameterList decompositionSchema() {
   ParameterList list("Decomposition");
   addChoice(list, "Method", "grid", "A grid of rectangles, or METIS on the graph of the elements.",
             {"grid", "metis"});
-  addArray(list, "Grid", Array<int>(cut.counts.begin(), cut.counts.end()),
+  addArray(list, "Grid", Array<int>(cut.counts.begin(), cut.counts.begin() + 2),
            "With the method grid: number of subdomains {nx, ny} in x and y of each body.", counts);
   addInteger(list, "Parts", cut.parts, "With the method metis: number of subdomains of each body.", 1);
   return list;

@@ -1,0 +1,125 @@
+#include "epafi/decomposition/BodyLayout.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
+#include "epafi/fem/SolidModel.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace epafi::decomposition {
+namespace {
+
+using scene::Physics;
+
+/// Elements in x, y and z of a structured mesh (z: 1 in the plane); zeros of another one.
+std::array<int, 3> elementCounts(const fem::Mesh& mesh) {
+  if (const auto* plane = dynamic_cast<const fem::RectangleMesh*>(&mesh))
+    return {plane->elements()[0], plane->elements()[1], 1};
+  if (const auto* box = dynamic_cast<const fem::BoxMesh*>(&mesh))
+    return box->elements();
+  return {0, 0, 0};
+}
+
+void requireCut(const scene::Body& body, const fem::Mesh& mesh) {
+  const scene::Decomposition& cut = body.decomposition;
+  const std::string where = "body '" + body.name + "' has ";
+  if (cut.method == scene::Decomposition::Method::metis) {
+    if (cut.parts < 1 || cut.parts > mesh.numElements())
+      throw InputError(where + std::to_string(mesh.numElements()) + " elements and cannot be cut into " +
+                       std::to_string(cut.parts) + " parts; choose between 1 and " +
+                       std::to_string(mesh.numElements()));
+    return;
+  }
+  const std::array<int, 3> elements = elementCounts(mesh);
+  if (elements[0] == 0)
+    throw InputError("body '" + body.name +
+                     "' has a mesh from a file and cannot be cut as a grid; choose the method metis");
+  const auto dimension = static_cast<std::size_t>(dimensionOf(mesh.cellType()));
+  for (std::size_t d = 0; d < dimension; ++d)
+    if (cut.counts[d] < 1 || cut.counts[d] > elements[d])
+      throw InputError(where + std::to_string(elements[d]) + " elements in " + "xyz"[d] +
+                       " and cannot be cut into " + std::to_string(cut.counts[d]) +
+                       " subdomains there; choose between 1 and " + std::to_string(elements[d]));
+}
+
+std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body) {
+  if (!body.solid)
+    return std::make_unique<const fem::RectangleMesh>(body.rectangle, body.elements);
+  const scene::MeshSource& source = body.solid->mesh;
+  const scene::Vector3 &lower = source.box.lower, &upper = source.box.upper;
+  if (source.elements[2] > 0)
+    return std::make_unique<const fem::BoxMesh>(source.box, source.elements);
+  return std::make_unique<const fem::RectangleMesh>(
+      scene::Rectangle{lower[0], upper[0], lower[1], upper[1]},
+      std::array<int, 2>{source.elements[0], source.elements[1]});
+}
+
+/// Whether two bodies are meshed and cut alike: their partitions are the same.
+bool areCutAlike(const fem::Mesh& a, const scene::Decomposition& cut, const fem::Mesh& b,
+                 const scene::Decomposition& other) {
+  if (elementCounts(a) != elementCounts(b) || elementCounts(a)[0] == 0 || cut.method != other.method)
+    return false;
+  return cut.method == scene::Decomposition::Method::metis ? cut.parts == other.parts
+                                                           : cut.counts == other.counts;
+}
+
+/// Collective.
+std::shared_ptr<const Partition> makePartition(const scene::Decomposition& cut, const fem::Mesh& mesh,
+                                               const Comm& comm) {
+  if (cut.method == scene::Decomposition::Method::metis)
+    return std::make_shared<const GraphPartition>(mesh, cut.parts, comm);
+  if (const auto* box = dynamic_cast<const fem::BoxMesh*>(&mesh))
+    return std::make_shared<const GridPartition>(*box, cut.counts);
+  return std::make_shared<const GridPartition>(dynamic_cast<const fem::RectangleMesh&>(mesh),
+                                               std::array<int, 2>{cut.counts[0], cut.counts[1]});
+}
+
+int componentsOf(const scene::Body& body) {
+  return scene::componentsOf(body.solid ? body.solid->physics : Physics::membrane);
+}
+
+/// Bodies that touch have the same unknowns; a vector of the dual problem knows no other.
+void requireSameComponents(const scene::Scene& scene) {
+  for (const scene::Body& body : scene.bodies)
+    if (componentsOf(body) != componentsOf(scene.bodies.front()))
+      throw InputError(
+          "the bodies '" + scene.bodies.front().name + "' and '" + body.name + "' have " +
+          std::to_string(componentsOf(scene.bodies.front())) + " and " + std::to_string(componentsOf(body)) +
+          " unknowns a node; all bodies of a scene must have the same physics or the same dimension");
+}
+
+} // namespace
+
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
+  std::vector<BodyLayout> bodies;
+  collectively(comm, [&] {
+    requireSameComponents(scene);
+    for (const scene::Body& body : scene.bodies) {
+      bodies.push_back({body.name, makeMesh(body), nullptr, 0});
+      requireCut(body, *bodies.back().mesh);
+    }
+  });
+  int firstSubdomain = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::size_t alike = 0; // the first body that is cut like this one, perhaps itself
+    while (alike < b && !areCutAlike(*bodies[alike].mesh, scene.bodies[alike].decomposition, *bodies[b].mesh,
+                                     scene.bodies[b].decomposition))
+      ++alike;
+    bodies[b].partition = alike < b ? bodies[alike].partition
+                                    : makePartition(scene.bodies[b].decomposition, *bodies[b].mesh, comm);
+    bodies[b].firstSubdomain = firstSubdomain;
+    firstSubdomain += bodies[b].partition->numParts();
+  }
+  return bodies;
+}
+
+std::unique_ptr<fem::BodyModel> makeModel(const scene::Body& body, const fem::Mesh& mesh) {
+  if (body.solid)
+    return std::make_unique<fem::SolidModel>(body.name, *body.solid, mesh);
+  return std::make_unique<fem::MembraneModel>(body, dynamic_cast<const fem::RectangleMesh&>(mesh));
+}
+
+} // namespace epafi::decomposition

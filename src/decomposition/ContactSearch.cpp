@@ -1,0 +1,189 @@
+#include "epafi/decomposition/ContactSearch.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/SurfaceNodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace epafi::decomposition {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Nodes face each other if what lies between them is normal to the surfaces up to this share of their spacing.
+constexpr double matchTolerance = 1e-2;
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+InputError refusal(const scene::SurfaceContact& contact, const std::string& what) {
+  return InputError("contact '" + contact.name + "': " + what);
+}
+
+std::string text(const Vector3d& point) {
+  std::ostringstream result;
+  result << '(' << point[0] << ", " << point[1] << ", " << point[2] << ')';
+  return result.str();
+}
+
+SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLayout& body,
+                     const std::string& surface) {
+  const std::vector<std::string> names = body.mesh->surfaceNames();
+  if (std::find(names.begin(), names.end(), surface) == names.end())
+    throw refusal(contact, "body '" + body.name + "' has no surface '" + surface + "'");
+  return surfaceNodes(*body.mesh, body.mesh->surface(surface));
+}
+
+/// Direction from a point to the nearest one of an obstacle, and the distance.
+struct Approach {
+  Vector3d direction;
+  double gap;
+};
+
+Approach approachTo(const scene::Obstacle& obstacle, const Vector3d& point, int dimension) {
+  const Vector3d origin(obstacle.point[0], obstacle.point[1], obstacle.point[2]);
+  Vector3d offset = point - origin;
+  if (dimension == 2)
+    offset[2] = 0;
+  if (obstacle.kind == scene::Obstacle::Kind::plane) {
+    const Vector3d normal(obstacle.normal[0], obstacle.normal[1], obstacle.normal[2]);
+    return {-normal, normal.dot(offset)};
+  }
+  return {-offset.normalized(), offset.norm() - obstacle.radius};
+}
+
+void addRow(const Vector3d& direction, double gap, double area, int components, ContactLayout& layout) {
+  for (int c = 0; c < components; ++c)
+    layout.directions.push_back(components == 1 ? 1.0 : direction[c]);
+  layout.gaps.push_back(gap);
+  layout.areas.push_back(area);
+}
+
+void meetObstacle(const scene::SurfaceContact& contact, const SurfaceNodes& first, int dimension,
+                  ContactLayout& layout) {
+  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
+    const auto [direction, gap] = approachTo(contact.obstacle, first.points[i], dimension);
+    if (gap > contact.distance)
+      continue;
+    if (!direction.allFinite() || direction.norm() < 0.5)
+      throw refusal(contact, "the node at " + text(first.points[i]) + " lies in the centre of the obstacle");
+    layout.firstNodes.push_back(first.nodes[i]);
+    addRow(direction, gap, first.areas[i], dimension, layout);
+  }
+}
+
+/// Spacing of the nodes around one of them.
+double spacing(const SurfaceNodes& surface, std::size_t place, int dimension) {
+  return dimension == 2 ? surface.areas[place] : std::sqrt(surface.areas[place]);
+}
+
+/// For each node of a surface the node of the other that it faces, or none. Nodes are sorted along one axis, so that few of
+/// them are looked at.
+std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNodes& second, double distance,
+                                      int dimension) {
+  std::vector<std::size_t> order(second.nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  Vector3d lower = first.points.front(), upper = lower;
+  for (const Vector3d& point : first.points) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  int axis = 0;
+  (upper - lower).maxCoeff(&axis);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return second.points[a][axis] < second.points[b][axis]; });
+
+  std::vector<std::size_t> partner(first.nodes.size(), none);
+  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
+    const double tolerance = matchTolerance * spacing(first, i, dimension);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::size_t j : order) {
+      const Vector3d between = second.points[j] - first.points[i];
+      if (std::abs(between[axis]) > distance + tolerance)
+        continue;
+      const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
+      const double along = normal.dot(between);
+      if (std::abs(along) <= distance && (between - along * normal).norm() <= tolerance &&
+          std::abs(along) < nearest && first.normals[i].dot(second.normals[j]) < 0) {
+        nearest = std::abs(along);
+        partner[i] = j;
+      }
+    }
+  }
+  return partner;
+}
+
+/// Throws if both surfaces have nodes left over that are near the other one.
+void requireMatch(const scene::SurfaceContact& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+                  const std::vector<std::size_t>& partner, int dimension) {
+  std::vector<char> isUsed(second.nodes.size(), 0);
+  for (const std::size_t j : partner)
+    if (j != none)
+      isUsed[j] = 1;
+  const auto isNear = [&](const SurfaceNodes& surface, std::size_t place, const SurfaceNodes& other) {
+    const double reach = std::min(contact.distance, 2 * spacing(surface, place, dimension));
+    return std::any_of(other.points.begin(), other.points.end(), [&](const Vector3d& point) {
+      return (point - surface.points[place]).norm() <= reach;
+    });
+  };
+  std::size_t lonelyFirst = none, lonelySecond = none;
+  for (std::size_t i = 0; i < partner.size() && lonelyFirst == none; ++i)
+    if (partner[i] == none && isNear(first, i, second))
+      lonelyFirst = i;
+  for (std::size_t j = 0; j < isUsed.size() && lonelySecond == none; ++j)
+    if (isUsed[j] == 0 && isNear(second, j, first))
+      lonelySecond = j;
+  if (lonelyFirst != none && lonelySecond != none)
+    throw refusal(contact, "the surfaces do not match: neither the node at " +
+                               text(first.points[lonelyFirst]) + " of the first nor that at " +
+                               text(second.points[lonelySecond]) +
+                               " of the second faces a node of the other; mesh them alike");
+}
+
+void meetBody(const scene::SurfaceContact& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+              int dimension, int components, ContactLayout& layout) {
+  const std::vector<std::size_t> partner = findPartners(first, second, contact.distance, dimension);
+  requireMatch(contact, first, second, partner, dimension);
+  for (std::size_t i = 0; i < partner.size(); ++i) {
+    if (partner[i] == none)
+      continue;
+    const std::size_t j = partner[i];
+    const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
+    layout.firstNodes.push_back(first.nodes[i]);
+    layout.secondNodes.push_back(second.nodes[j]);
+    addRow(normal, components == 1 ? 0.0 : normal.dot(second.points[j] - first.points[i]), first.areas[i],
+           components, layout);
+  }
+  std::vector<GlobalOrdinal> used = layout.secondNodes;
+  std::sort(used.begin(), used.end());
+  if (std::adjacent_find(used.begin(), used.end()) != used.end())
+    throw refusal(contact, "two nodes of the first surface face the same one of the second; mesh them alike");
+}
+
+} // namespace
+
+ContactLayout searchContact(const scene::SurfaceContact& contact, const std::vector<BodyLayout>& bodies,
+                            int components) {
+  const BodyLayout& firstBody = bodies[static_cast<std::size_t>(contact.first)];
+  const int dimension = dimensionOf(firstBody.mesh->cellType());
+  const SurfaceNodes first = nodesOf(contact, firstBody, contact.firstSurface);
+  ContactLayout layout;
+  layout.name = contact.name;
+  layout.firstBody = contact.first;
+  layout.secondBody = contact.second;
+  if (contact.second < 0)
+    meetObstacle(contact, first, dimension, layout);
+  else
+    meetBody(contact, first,
+             nodesOf(contact, bodies[static_cast<std::size_t>(contact.second)], contact.secondSurface),
+             dimension, components, layout);
+  if (layout.firstNodes.empty())
+    throw refusal(contact, "no node of the surface '" + contact.firstSurface +
+                               "' is near enough to the other side to meet it; enlarge the distance");
+  return layout;
+}
+
+} // namespace epafi::decomposition
