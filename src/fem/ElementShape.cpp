@@ -50,31 +50,48 @@ void measureQuadrilateral(std::span<const Point> p, ElementShape& shape) {
 constexpr std::array<std::array<double, 3>, 8> cube{
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-/// Determinant of the trilinear map's Jacobian at a point of the unit cube.
-double hexahedronJacobian(std::span<const Point> p, const std::array<double, 3>& at) {
-  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+using Gradients = Eigen::Matrix<double, 8, 3>;
+
+/// Gradients of the trilinear shape functions at a point of the unit cube.
+Gradients gradientsAt(const std::array<double, 3>& at) {
+  Gradients gradients;
   for (std::size_t i = 0; i < 8; ++i) {
     std::array<double, 3> factor{}, sign{};
     for (std::size_t k = 0; k < 3; ++k) {
       factor[k] = cube[i][k] > 0 ? at[k] : 1 - at[k];
       sign[k] = cube[i][k] > 0 ? 1 : -1;
     }
-    const Vector3 gradient(sign[0] * factor[1] * factor[2], factor[0] * sign[1] * factor[2],
-                           factor[0] * factor[1] * sign[2]);
-    jacobian += vectorOf(p[i]) * gradient.transpose();
+    gradients.row(static_cast<Eigen::Index>(i)) << sign[0] * factor[1] * factor[2],
+        factor[0] * sign[1] * factor[2], factor[0] * factor[1] * sign[2];
   }
-  return jacobian.determinant();
+  return gradients;
 }
 
+/// The same at the corners, and at the Gauss points nearest to them.
+struct CubeGradients {
+  std::array<Gradients, 8> corners, gauss;
+
+  CubeGradients() {
+    const double offset = 0.5 / std::sqrt(3.0);
+    for (std::size_t i = 0; i < 8; ++i) {
+      std::array<double, 3> inside{};
+      for (std::size_t k = 0; k < 3; ++k)
+        inside[k] = cube[i][k] > 0 ? 0.5 + offset : 0.5 - offset;
+      corners[i] = gradientsAt(cube[i]);
+      gauss[i] = gradientsAt(inside);
+    }
+  }
+};
+
 void measureHexahedron(std::span<const Point> p, ElementShape& shape) {
-  const double offset = 0.5 / std::sqrt(3.0);
+  static const CubeGradients gradients;
+  Eigen::Matrix<double, 3, 8> x;
+  for (std::size_t i = 0; i < 8; ++i)
+    x.col(static_cast<Eigen::Index>(i)) = vectorOf(p[i]);
   for (std::size_t i = 0; i < 8; ++i) {
-    std::array<double, 3> gauss{};
-    for (std::size_t k = 0; k < 3; ++k)
-      gauss[k] = cube[i][k] > 0 ? 0.5 + offset : 0.5 - offset;
-    const double inside = hexahedronJacobian(p, gauss);
+    const double inside = (x * gradients.gauss[i]).determinant();
     shape.measure += inside / 8; // exact: the determinant is quadratic in each coordinate
-    noteJacobian(shape, hexahedronJacobian(p, cube[i]), static_cast<int>(i));
+    noteJacobian(shape, (x * gradients.corners[i]).determinant(), static_cast<int>(i));
     noteJacobian(shape, inside, -1);
   }
 }
@@ -85,7 +102,8 @@ ElementShape shapeOf(CellType type, std::span<const Point> corners) {
   ElementShape shape;
   for (std::size_t i = 0; i < corners.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      shape.diameter = std::max(shape.diameter, (vectorOf(corners[i]) - vectorOf(corners[j])).norm());
+      shape.diameter = std::max(shape.diameter, (vectorOf(corners[i]) - vectorOf(corners[j])).squaredNorm());
+  shape.diameter = std::sqrt(shape.diameter);
   shape.leastJacobian = std::numeric_limits<double>::infinity();
   switch (type) {
   case CellType::triangle:

@@ -167,8 +167,8 @@ void Checker::refuseShape(LocalOrdinal first, const ElementShape& bad) const {
 void Checker::checkPlaces(const PointTree& tree) const {
   const double tolerance = placeTolerance * size_;
   std::vector<LocalOrdinal> found;
-  for (std::size_t n = 0; n < mesh_.points.size(); ++n) {
-    Point lower = mesh_.points[n], upper = lower;
+  for (const Point& point : mesh_.points) {
+    Point lower = point, upper = point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lower[axis] -= tolerance;
       upper[axis] += tolerance;

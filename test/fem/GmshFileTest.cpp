@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <type_traits>
 
 namespace epafi::fem {
 namespace {
@@ -206,6 +208,21 @@ void expectEqual(const UnstructuredMesh& a, const UnstructuredMesh& b) {
   }
 }
 
+/// Text with numbers between as they lie in memory.
+struct BinaryText {
+  std::string text;
+
+  BinaryText& operator<<(const std::string& more) {
+    text += more;
+    return *this;
+  }
+  template <class Number>
+  requires std::is_arithmetic_v<Number> BinaryText& operator<<(Number number) {
+    text.append(reinterpret_cast<const char*>(&number), sizeof number);
+    return *this;
+  }
+};
+
 class GmshFileTest : public testing::Test {
 protected:
   [[nodiscard]] GmshFile plate(const std::string& text) const {
@@ -262,25 +279,69 @@ TEST_F(GmshFileTest, GroupsWithoutANameAreCalledByTheirNumber) {
 }
 
 TEST_F(GmshFileTest, BinaryFilesAreRead) {
-  const auto append = [](std::string& text, const auto& value) {
-    text.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  std::string text = "$MeshFormat\n2.2 1 8\n";
-  append(text, std::int32_t{1});
-  text +=
-      "\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"left\"\n2 2 \"west\"\n2 3 \"right\"\n$EndPhysicalNames\n";
-  text += "$Nodes\n6\n";
-  for (std::int32_t n = 0; n < 6; ++n) {
-    append(text, n + 1);
-    for (const double x : {1.0 * (n % 3), 1.0 * (n / 3), 0.0})
-      append(text, x);
-  }
-  text += "\n$EndNodes\n$Elements\n3\n";
+  const std::string names =
+      "$PhysicalNames\n3\n1 1 \"left\"\n2 2 \"west\"\n2 3 \"right\"\n$EndPhysicalNames\n";
+  BinaryText two;
+  two << "$MeshFormat\n2.2 1 8\n" << std::int32_t{1} << "\n$EndMeshFormat\n" << names;
+  two << "$Nodes\n6\n";
+  const std::array<double, 6> x{0, 1, 2, 0, 1, 2}, y{0, 0, 0, 1, 1, 1};
+  for (std::size_t n = 0; n < 6; ++n)
+    two << static_cast<std::int32_t>(n + 1) << x[n] << y[n] << 0.0;
+  two << "\n$EndNodes\n$Elements\n3\n";
   for (const std::int32_t i : {1, 1, 2, 1, 1, 1, 1, 4, 3, 2, 2, 2, 2, 1, 1, 2, 5, 4, 3, 3, 2, 2, 3, 6, 5})
-    append(text, i); // kind, how many, tags; number, group, entity, nodes
-  text += "\n$EndElements\n";
-  const GmshFile binary = plate(text), ascii = plate(plate41);
-  expectEqual(binary.body(""), ascii.body(""));
+    two << i; // kind, how many, tags; number, group, entity, nodes
+  two << "\n$EndElements\n";
+
+  using Int = std::int32_t;
+  using Size = std::uint64_t;
+  BinaryText four;
+  four << "$MeshFormat\n4.1 1 8\n" << Int{1} << "\n$EndMeshFormat\n" << names;
+  four << "$Entities\n" << Size{0} << Size{1} << Size{2} << Size{0};
+  Int group = 0;
+  for (const Int entity :
+       {1, 1, 2}) { // the curve, then the surfaces; each with a box, a group, and no boundary
+    four << entity;
+    for (const double corner : {0.0, 0.0, 0.0, 2.0, 1.0, 0.0})
+      four << corner;
+    four << Size{1} << ++group << Size{0};
+  }
+  four << "\n$EndEntities\n$Nodes\n" << Size{1} << Size{6} << Size{1} << Size{6};
+  four << Int{2} << Int{1} << Int{0} << Size{6};
+  for (Size n = 1; n <= 6; ++n)
+    four << n;
+  for (std::size_t n = 0; n < 6; ++n)
+    four << x[n] << y[n] << 0.0;
+  four << "\n$EndNodes\n$Elements\n" << Size{3} << Size{3} << Size{1} << Size{3};
+  four << Int{1} << Int{1} << Int{1} << Size{1} << Size{1} << Size{1} << Size{4};
+  four << Int{2} << Int{1} << Int{3} << Size{1} << Size{2} << Size{1} << Size{2} << Size{5} << Size{4};
+  four << Int{2} << Int{2} << Int{3} << Size{1} << Size{3} << Size{2} << Size{3} << Size{6} << Size{5};
+  four << "\n$EndElements\n";
+
+  const GmshFile ascii = plate(plate41);
+  for (const BinaryText& binary : {two, four})
+    expectEqual(plate(binary.text).body(""), ascii.body(""));
+}
+
+TEST_F(GmshFileTest, IsSilentAndReadsNoConfigurationOfTheUser) {
+  const std::string order = folder.write(".gmsh-options", "Mesh.ElementOrder = 2;\n");
+  const char* before = std::getenv("GMSH_HOME");
+  const std::string home = before == nullptr ? "" : before;
+  ::setenv("GMSH_HOME", std::filesystem::path(order).parent_path().c_str(), 1);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const GmshFile file(folder.write("square.geo", R"(
+SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 1, 1};
+Printf("Nobody should see this.");
+)"));
+  expectRefused("Point(1) = {0, 0, 0};\nLine(1) = {1, 2};\n", {"Gmsh says"}, "", "bad.geo");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(file.body("").cellType(), CellType::triangle);
+  if (before == nullptr)
+    ::unsetenv("GMSH_HOME");
+  else
+    ::setenv("GMSH_HOME", home.c_str(), 1);
 }
 
 TEST_F(GmshFileTest, MeshesTrianglesOfAGeometry) {
@@ -293,7 +354,6 @@ Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 Physical Surface("ring") = {1};
 Physical Curve("inner") = {4}; Physical Curve("outer") = {2}; Physical Curve("cuts") = {1, 3};
-Printf("Nobody should see this.");
 )"));
   const UnstructuredMesh mesh = file.body("ring");
   EXPECT_EQ(mesh.cellType(), CellType::triangle);
@@ -447,6 +507,29 @@ TEST_F(GmshFileTest, RefusesWhatTheChecksRefuseByTheFilesNumbers) {
   const std::string doubled = replaced(replaced(plate22, "$Elements\n4", "$Elements\n5"), "3 3 2 3 2 2 3 6 5",
                                        "3 3 2 3 2 2 3 6 5\n7 3 2 2 2 2 3 6 5");
   expectRefused(doubled, {"element 3 and element 7 have the same nodes", "format 4.1"});
+}
+
+TEST_F(GmshFileTest, RefusesSolidElementsNumberedTheOtherWayRound) {
+  const std::string sound = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 0 0 -1
+$EndNodes
+$Elements
+2
+11 4 2 1 1 1 2 3 4
+12 4 2 1 1 1 3 2 5
+$EndElements
+)";
+  EXPECT_EQ(plate(sound).body("1").numElements(), 2);
+  expectRefused(replaced(sound, "1 3 2 5", "1 2 3 5"),
+                {"Body \"1\"", "element 12 is inverted (volume -0.166"}, "1");
 }
 
 TEST_F(GmshFileTest, RefusesNodesOfTheBodyOrASurfaceWithoutAnElement) {

@@ -64,9 +64,9 @@ inline std::vector<Eigen::Vector3d> areaVectors(const Mesh& mesh, const Surface&
     if (count == 2)
       vectors.emplace_back(x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0);
     else if (count == 3)
-      vectors.push_back((x[1] - x[0]).cross(x[2] - x[0]) / 2);
+      vectors.emplace_back((x[1] - x[0]).cross(x[2] - x[0]) / 2);
     else
-      vectors.push_back((x[2] - x[0]).cross(x[3] - x[1]) / 2);
+      vectors.emplace_back((x[2] - x[0]).cross(x[3] - x[1]) / 2);
   }
   return vectors;
 }
