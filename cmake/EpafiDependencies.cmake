@@ -53,5 +53,24 @@ add_library(Epafi::hdf5 ALIAS epafi_hdf5)
 target_include_directories(epafi_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(epafi_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
 
+# Gmsh reads mesh files. It is loaded at first use and not linked, because it brings some eighty other libraries along:
+# what counts is the name by which the run-time linker knows it.
+find_path(GMSH_INCLUDE_DIR gmshc.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
+file(REAL_PATH "${GMSH_LIBRARY}" epafi_gmsh_file)
+get_filename_component(epafi_gmsh_soname "${epafi_gmsh_file}" NAME)
+if(CMAKE_READELF)
+  execute_process(COMMAND "${CMAKE_READELF}" -d "${epafi_gmsh_file}" OUTPUT_VARIABLE epafi_gmsh_header ERROR_QUIET)
+  if(epafi_gmsh_header MATCHES "SONAME[^[]*\\[([^]]+)\\]")
+    set(epafi_gmsh_soname "${CMAKE_MATCH_1}")
+  endif()
+endif()
+add_library(epafi_gmsh INTERFACE)
+add_library(Epafi::gmsh ALIAS epafi_gmsh)
+target_include_directories(epafi_gmsh SYSTEM INTERFACE "${GMSH_INCLUDE_DIR}")
+target_compile_definitions(epafi_gmsh INTERFACE EPAFI_GMSH_SONAME="${epafi_gmsh_soname}"
+                                                EPAFI_GMSH_FILE="${epafi_gmsh_file}")
+target_link_libraries(epafi_gmsh INTERFACE ${CMAKE_DL_LIBS})
+
 # Debian's own interpreter: it has Debian's matplotlib and h5py, another python3 on the PATH may not.
 find_program(EPAFI_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

@@ -1,0 +1,302 @@
+#include "epafi/fem/GmshFile.hpp"
+
+#include "epafi/base/Errors.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+namespace epafi::fem {
+namespace {
+
+using Blocks = std::vector<const GmshBlock*>;
+
+std::size_t index(LocalOrdinal number) {
+  return static_cast<std::size_t>(number);
+}
+
+std::string inQuotes(const std::string& text) {
+  return '"' + text + '"';
+}
+
+/// `"a", "b" and "c"`, or `a and b`.
+std::string listed(const std::vector<std::string>& words, bool areQuoted) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0)
+      text += i + 1 < words.size() ? ", " : " and ";
+    text += areQuoted ? inQuotes(words[i]) : words[i];
+  }
+  return text;
+}
+
+bool holds(const GmshGroup& group, int entity) {
+  return std::binary_search(group.entities.begin(), group.entities.end(), entity);
+}
+
+std::vector<std::string> namesOf(const std::vector<GmshGroup>& groups) {
+  std::vector<std::string> names;
+  for (const GmshGroup& group : groups)
+    names.push_back(group.name);
+  return names;
+}
+
+/// Which facets of the file, in its order, have all their nodes in one of the elements.
+std::vector<bool> facetsIn(const GmshContents& file, const Blocks& elements) {
+  struct Facet {
+    std::span<const LocalOrdinal> nodes;
+    std::size_t next; ///< facet with the same first node, noted before; itself: none
+  };
+  std::vector<Facet> facets;
+  std::vector<std::size_t> last(file.points.size(), std::numeric_limits<std::size_t>::max());
+  for (const GmshBlock& block : file.facets) {
+    const auto count = index(numNodesOfGmsh(block.type));
+    for (std::size_t i = 0; i < block.nodes.size(); i += count) {
+      std::size_t& before = last[index(block.nodes[i])];
+      facets.push_back(
+          {std::span(block.nodes).subspan(i, count), before < facets.size() ? before : facets.size()});
+      before = facets.size() - 1;
+    }
+  }
+  std::vector<bool> isIn(facets.size(), false);
+  const auto note = [&](std::span<const LocalOrdinal> element) {
+    const auto isNode = [&](LocalOrdinal node) {
+      return std::find(element.begin(), element.end(), node) != element.end();
+    };
+    for (const LocalOrdinal node : element)
+      for (std::size_t f = last[index(node)]; f < facets.size();) {
+        if (std::all_of(facets[f].nodes.begin(), facets[f].nodes.end(), isNode))
+          isIn[f] = true;
+        f = facets[f].next == f ? facets.size() : facets[f].next;
+      }
+  };
+  for (const GmshBlock* block : elements) {
+    const auto count = index(numNodesOfGmsh(block->type));
+    for (std::size_t i = 0; i < block->nodes.size(); i += count)
+      note(std::span(block->nodes).subspan(i, count));
+  }
+  return isIn;
+}
+
+Blocks allBlocks(const GmshContents& file) {
+  Blocks blocks;
+  for (const GmshBlock& block : file.elements)
+    blocks.push_back(&block);
+  return blocks;
+}
+
+/// Named surfaces must be surfaces of something.
+void checkSurfaces(const GmshContents& file) {
+  const auto nameOf = [&](int entity) {
+    const auto found = std::find_if(file.surfaces.begin(), file.surfaces.end(),
+                                    [&](const GmshGroup& surface) { return holds(surface, entity); });
+    return found == file.surfaces.end() ? std::string() : found->name;
+  };
+  const std::vector<bool> isIn = facetsIn(file, allBlocks(file));
+  std::size_t facet = 0;
+  for (const GmshBlock& block : file.facets)
+    for (const GlobalOrdinal tag : block.tags)
+      if (!isIn[facet++])
+        throw InputError("Mesh file " + inQuotes(file.file) + ": the surface " +
+                         inQuotes(nameOf(block.entity)) + " has a facet (element " + std::to_string(tag) +
+                         ") that belongs to no element of dimension " + std::to_string(file.dimension) +
+                         "; mesh and save surfaces and bodies together, or drop that physical group");
+  std::vector<bool> isUsed(file.points.size(), false);
+  for (const GmshBlock& block : file.elements)
+    for (const LocalOrdinal node : block.nodes)
+      isUsed[index(node)] = true;
+  for (std::size_t n = 0; n < isUsed.size(); ++n) {
+    const auto [dimension, entity] = file.nodeEntities[n];
+    if (isUsed[n] || dimension != file.dimension - 1)
+      continue;
+    if (const std::string name = nameOf(entity); !name.empty())
+      throw InputError("Mesh file " + inQuotes(file.file) + ": node " + std::to_string(file.nodeTags[n]) +
+                       " is listed with the surface " + inQuotes(name) +
+                       " but belongs to no element; remove it from the file, or mesh anew");
+  }
+}
+
+/// Makes the arrays of one body.
+class BodyMaker {
+public:
+  BodyMaker(const GmshContents& file, const std::string& group) : file_(file), group_(group) {}
+
+  MeshArrays make();
+
+private:
+  void chooseBlocks();
+  void chooseCellType();
+  void numberNodes();
+  void addCells();
+  void addGroups();
+  void addSurfaces();
+  [[noreturn]] void refuseGroup() const;
+  [[nodiscard]] bool isOfBody(int entity) const { return chosen_ == nullptr || holds(*chosen_, entity); }
+
+  const GmshContents& file_;
+  const std::string& group_;
+  const GmshGroup* chosen_ = nullptr; ///< null: all elements
+  Blocks blocks_;
+  std::vector<LocalOrdinal> newNumber_; ///< of each node of the file; −1: not of the body
+  std::vector<int> entities_;           ///< of each element
+  MeshArrays arrays_;
+};
+
+MeshArrays BodyMaker::make() {
+  arrays_.name = group_.empty() ? "Mesh file " + inQuotes(file_.file)
+                                : "Body " + inQuotes(group_) + " of the mesh file " + inQuotes(file_.file);
+  chooseBlocks();
+  chooseCellType();
+  numberNodes();
+  addCells();
+  addGroups();
+  addSurfaces();
+  return std::move(arrays_);
+}
+
+void BodyMaker::chooseBlocks() {
+  if (!group_.empty()) {
+    const auto found = std::find_if(file_.groups.begin(), file_.groups.end(),
+                                    [&](const GmshGroup& group) { return group.name == group_; });
+    if (found == file_.groups.end())
+      refuseGroup();
+    chosen_ = &*found;
+  }
+  for (const GmshBlock& block : file_.elements)
+    if (isOfBody(block.entity))
+      blocks_.push_back(&block);
+  if (blocks_.empty())
+    throw InputError(arrays_.name + " has no elements; mesh it first");
+}
+
+void BodyMaker::refuseGroup() const {
+  const std::vector<std::string> names = namesOf(file_.groups);
+  std::vector<std::string> lower = namesOf(file_.surfaces);
+  for (const GmshGroup& group : file_.lesser)
+    lower.push_back(group.name);
+  std::string text = "The mesh file " + inQuotes(file_.file) + " has no physical group " + inQuotes(group_) +
+                     " of dimension " + std::to_string(file_.dimension);
+  if (std::find(lower.begin(), lower.end(), group_) != lower.end())
+    text += " (there is one of lower dimension, which is no body)";
+  if (names.empty())
+    throw InputError(text + ", and no other either; name its groups in Gmsh, or take all its elements");
+  text += names.size() == 1 ? "; there is " : "; there are ";
+  text += listed(names, true);
+  const std::string near = nearestName(group_, names);
+  throw InputError(near.empty() ? text : text + "; did you mean " + inQuotes(near) + '?');
+}
+
+void BodyMaker::chooseCellType() {
+  static const std::array<std::string, 8> names{"",           "lines",     "triangles", "quadrilaterals",
+                                                "tetrahedra", "hexahedra", "prisms",    "pyramids"};
+  constexpr std::array<CellType, 4> types{CellType::triangle, CellType::quadrilateral, CellType::tetrahedron,
+                                          CellType::hexahedron};
+  const std::string allowed =
+      file_.dimension == 2 ? "a body in the plane is made of triangles alone or of quadrilaterals alone"
+                           : "a solid body is made of tetrahedra alone or of hexahedra alone";
+  std::set<int> kinds;
+  for (const GmshBlock* block : blocks_)
+    kinds.insert(block->type);
+  if (kinds.size() > 1) {
+    std::vector<std::string> found;
+    for (const int kind : kinds)
+      found.push_back(names[static_cast<std::size_t>(kind)]);
+    throw InputError(arrays_.name + " mixes " + listed(found, false) + "; " + allowed);
+  }
+  const int kind = *kinds.begin();
+  if (kind > 5)
+    throw InputError(arrays_.name + " is made of " + names[static_cast<std::size_t>(kind)] + "; " + allowed);
+  arrays_.cellType = types[static_cast<std::size_t>(kind - 2)];
+}
+
+/// Nodes that the file lists inside the body count even if no element has them: the checks refuse them.
+void BodyMaker::numberNodes() {
+  newNumber_.assign(file_.points.size(), -1);
+  for (const GmshBlock* block : blocks_)
+    for (const LocalOrdinal node : block->nodes)
+      newNumber_[index(node)] = 0;
+  for (std::size_t n = 0; n < newNumber_.size(); ++n) {
+    const auto [dimension, entity] = file_.nodeEntities[n];
+    if (newNumber_[n] < 0 && !(dimension == file_.dimension && isOfBody(entity)))
+      continue;
+    newNumber_[n] = static_cast<LocalOrdinal>(arrays_.points.size());
+    arrays_.points.push_back(file_.points[n]);
+    arrays_.nodeTags.push_back(file_.nodeTags[n]);
+  }
+}
+
+void BodyMaker::addCells() {
+  struct Place {
+    GlobalOrdinal tag;
+    std::uint32_t block, element;
+  };
+  std::vector<Place> order;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (std::size_t e = 0; e < blocks_[b]->tags.size(); ++e)
+      order.push_back({blocks_[b]->tags[e], static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(e)});
+  std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.tag < b.tag; });
+  const auto count = index(numNodesOf(arrays_.cellType));
+  arrays_.cells.reserve(order.size() * count);
+  for (const Place& place : order) {
+    const GmshBlock& block = *blocks_[place.block];
+    for (const LocalOrdinal node : std::span(block.nodes).subspan(place.element * count, count))
+      arrays_.cells.push_back(newNumber_[index(node)]);
+    arrays_.elementTags.push_back(place.tag);
+    entities_.push_back(block.entity);
+  }
+}
+
+void BodyMaker::addGroups() {
+  for (const GmshGroup& group : file_.groups) {
+    if (&group == chosen_)
+      continue;
+    NamedElements part{group.name, {}};
+    for (std::size_t e = 0; e < entities_.size(); ++e)
+      if (holds(group, entities_[e]))
+        part.elements.push_back(static_cast<LocalOrdinal>(e));
+    if (!part.elements.empty())
+      arrays_.groups.push_back(std::move(part));
+  }
+}
+
+void BodyMaker::addSurfaces() {
+  const auto perFacet = index(nodesPerFacet(arrays_.cellType));
+  const std::vector<bool> isIn = facetsIn(file_, blocks_);
+  for (const GmshGroup& surface : file_.surfaces) {
+    NamedFacets part{surface.name, {}};
+    std::size_t facet = 0;
+    for (const GmshBlock& block : file_.facets) {
+      const auto count = index(numNodesOfGmsh(block.type));
+      for (std::size_t i = 0; i < block.tags.size(); ++i) {
+        if (!isIn[facet++] || !holds(surface, block.entity))
+          continue;
+        if (count != perFacet)
+          throw InputError(arrays_.name + ": the surface " + inQuotes(surface.name) + " has a facet of " +
+                           std::to_string(count) + " nodes (element " + std::to_string(block.tags[i]) +
+                           "), but those of the body's elements have " + std::to_string(perFacet) +
+                           "; mesh surface and body together");
+        for (const LocalOrdinal node : std::span(block.nodes).subspan(i * count, count))
+          part.nodes.push_back(newNumber_[index(node)]);
+      }
+    }
+    if (!part.nodes.empty())
+      arrays_.surfaces.push_back(std::move(part));
+  }
+}
+
+} // namespace
+
+GmshFile::GmshFile(const std::string& file) : contents_(readGmshFile(file)) {
+  checkSurfaces(contents_);
+}
+
+std::vector<std::string> GmshFile::groupNames() const {
+  return namesOf(contents_.groups);
+}
+
+UnstructuredMesh GmshFile::body(const std::string& group) const {
+  return UnstructuredMesh(BodyMaker(contents_, group).make());
+}
+
+} // namespace epafi::fem

@@ -1,0 +1,40 @@
+#pragma once
+
+/// Meshes of bodies from a file of Gmsh, formats 2.2 and 4.1 in text or binary, or from a geometry (.geo) that Gmsh meshes.
+///
+/// A body is a physical group of the file's highest dimension d; its named surfaces are the physical groups of dimension
+/// d − 1 as far as they bound it, its element groups the other groups of dimension d as far as they lie in it. Groups without
+/// a name are called by their number.
+///
+/// Nothing is collective: every rank that makes an object reads the whole file. Meant for meshes of a body or a few, not for
+/// ones that only many ranks can hold: a million hexahedra take 500 MB while they are read, of which the object keeps 80, and
+/// each body made of them 140 (tetrahedra: 200, 35 and 70).
+
+#include "epafi/fem/GmshReader.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+
+namespace epafi::fem {
+
+class GmshFile {
+public:
+  /// Reads the file, once for all its bodies. Throws InputError that names the file if it is not there, Gmsh refuses it, its
+  /// elements are not linear, or a facet or node of a named surface belongs to no element; Error if the Gmsh library cannot
+  /// be loaded.
+  explicit GmshFile(const std::string& file);
+
+  [[nodiscard]] const std::string& file() const { return contents_.file; }
+  /// 2 or 3: the highest dimension of any element.
+  [[nodiscard]] int dimension() const { return contents_.dimension; }
+  /// Physical groups that can be bodies.
+  [[nodiscard]] std::vector<std::string> groupNames() const;
+
+  /// The mesh of a group, or of all elements of the highest dimension if `group` is empty. Nodes and elements are numbered in
+  /// the order of their numbers in the file. Throws InputError if there is no such group, it mixes shapes of elements, or
+  /// UnstructuredMesh refuses it.
+  [[nodiscard]] UnstructuredMesh body(const std::string& group) const;
+
+private:
+  GmshContents contents_;
+};
+
+} // namespace epafi::fem

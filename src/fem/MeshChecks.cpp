@@ -1,0 +1,245 @@
+#include "epafi/fem/MeshChecks.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/fem/ElementShape.hpp"
+#include "epafi/fem/HangingNodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace epafi::fem {
+namespace {
+
+/// Measures and Jacobians below this, in powers of the element's diameter, are none.
+constexpr double shapeTolerance = 1e-10;
+/// Nodes nearer than this, in diameters of the body, are at the same place.
+constexpr double placeTolerance = 1e-10;
+
+std::size_t index(LocalOrdinal number) {
+  return static_cast<std::size_t>(number);
+}
+
+/// The checks of one mesh; what they say of nodes and elements is in the file's numbers.
+class Checker {
+public:
+  Checker(const MeshArrays& mesh, const MeshTopology& topology) : mesh_(mesh), topology_(topology) {}
+
+  void checkNodes() const;
+  void checkPoints();
+  void checkShapes() const;
+  void checkPlaces(const PointTree& tree) const;
+  void checkSharing() const;
+  void checkHangingNodes(const PointTree& tree) const;
+
+private:
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(mesh_.name + ": " + what); }
+  [[nodiscard]] std::string element(LocalOrdinal number) const {
+    return std::string("element ") + std::to_string(mesh_.elementTags[index(number)]);
+  }
+  [[nodiscard]] std::string node(LocalOrdinal number) const {
+    return std::string("node ") + std::to_string(mesh_.nodeTags[index(number)]);
+  }
+  /// "(0.5, 1)"
+  [[nodiscard]] std::string place(LocalOrdinal number) const;
+  [[nodiscard]] ElementShape shape(LocalOrdinal number) const;
+  [[nodiscard]] std::span<const LocalOrdinal> nodes(LocalOrdinal number) const {
+    return nodesOf(mesh_.cellType, mesh_.cells, number);
+  }
+  [[nodiscard]] bool haveSameNodes(LocalOrdinal a, LocalOrdinal b) const;
+  [[noreturn]] void refuseShape(LocalOrdinal first, const ElementShape& bad) const;
+  [[noreturn]] void refuseCopies(LocalOrdinal a, LocalOrdinal b) const;
+
+  const MeshArrays& mesh_;
+  const MeshTopology& topology_;
+  double size_ = 0; ///< diagonal of the body's box
+};
+
+std::string Checker::place(LocalOrdinal number) const {
+  const Point& point = mesh_.points[index(number)];
+  std::ostringstream text;
+  text << '(' << point[0] << ", " << point[1];
+  if (dimensionOf(mesh_.cellType) == 3)
+    text << ", " << point[2];
+  text << ')';
+  return text.str();
+}
+
+ElementShape Checker::shape(LocalOrdinal number) const {
+  std::array<Point, 8> corners{};
+  const auto places = nodes(number);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    corners[i] = mesh_.points[index(places[i])];
+  return shapeOf(mesh_.cellType, std::span<const Point>(corners.data(), places.size()));
+}
+
+bool Checker::haveSameNodes(LocalOrdinal a, LocalOrdinal b) const {
+  return std::is_permutation(nodes(a).begin(), nodes(a).end(), nodes(b).begin());
+}
+
+void Checker::checkNodes() const {
+  for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e) {
+    const auto own = nodes(e);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (std::find(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(i), own[i]) !=
+          own.begin() + static_cast<std::ptrdiff_t>(i))
+        refuse(element(e) + " has " + node(own[i]) + " twice; give it " +
+               std::to_string(numNodesOf(mesh_.cellType)) + " different nodes, or use elements of one shape");
+  }
+  for (std::size_t n = 0; n < mesh_.points.size(); ++n)
+    if (const auto number = static_cast<LocalOrdinal>(n); topology_.elementsOf(number).empty())
+      refuse(node(number) + " at " + place(number) +
+             " is listed with the body but belongs to none of its elements; remove it from the file, or mesh "
+             "anew");
+}
+
+void Checker::checkPoints() {
+  Point lower = mesh_.points.front(), upper = lower;
+  for (std::size_t n = 0; n < mesh_.points.size(); ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double value = mesh_.points[n][axis];
+      if (!std::isfinite(value))
+        refuse(node(static_cast<LocalOrdinal>(n)) +
+               " has a coordinate that is not a finite number; mesh anew");
+      lower[axis] = std::min(lower[axis], value);
+      upper[axis] = std::max(upper[axis], value);
+    }
+  size_ = std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
+  if (dimensionOf(mesh_.cellType) == 3)
+    return;
+  for (std::size_t n = 0; n < mesh_.points.size(); ++n)
+    if (std::abs(mesh_.points[n][2]) > placeTolerance * size_) {
+      std::ostringstream height;
+      height << mesh_.points[n][2];
+      refuse(node(static_cast<LocalOrdinal>(n)) + " lies at z = " + height.str() + ", but a body of " +
+             toString(mesh_.cellType) +
+             "s lies in the plane z = 0; move it there, or, if the body is solid, mesh its volume (gmsh -3)");
+    }
+}
+
+void Checker::checkShapes() const {
+  const int dimension = dimensionOf(mesh_.cellType);
+  LocalOrdinal first = -1;
+  ElementShape bad;
+  LocalOrdinal others = 0; // inverted as well
+  for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e) {
+    const ElementShape own = shape(e);
+    const double none = shapeTolerance * std::pow(own.diameter, dimension);
+    if (own.leastJacobian > none)
+      continue;
+    if (first < 0) {
+      first = e;
+      bad = own;
+      if (own.measure >= -none)
+        break;
+    } else if (own.measure < -none) {
+      ++others;
+    }
+  }
+  if (first < 0)
+    return;
+  const double none = shapeTolerance * std::pow(bad.diameter, dimension);
+  if (bad.measure >= -none)
+    refuseShape(first, bad);
+  std::ostringstream text;
+  const std::string more = others == 0   ? ""
+                           : others == 1 ? " and another one"
+                                         : " and " + std::to_string(others) + " others";
+  text << element(first) << more << (others == 0 ? " is inverted (" : " are inverted (")
+       << (dimension == 2 ? "area " : "volume ") << bad.measure << "); ";
+  if (dimension == 2)
+    text << "number nodes counter-clockwise, in a .geo file by turning the curve loop of the surface round";
+  else
+    text << "number the nodes of these elements the other way round, as Gmsh does, or mesh anew";
+  refuse(text.str());
+}
+
+void Checker::refuseShape(LocalOrdinal first, const ElementShape& bad) const {
+  const int dimension = dimensionOf(mesh_.cellType);
+  if (bad.measure <= shapeTolerance * std::pow(bad.diameter, dimension))
+    refuse(element(first) + " near " + place(nodes(first)[0]) + " is flat: its " +
+           (dimension == 2 ? "area" : "volume") + " is 0; move its nodes, or mesh anew");
+  refuse(element(first) + " is folded " +
+         (bad.corner < 0 ? std::string("inside") : "at " + node(nodes(first)[index(bad.corner)])) +
+         ": its Jacobian is not positive there; move its nodes, or mesh anew");
+}
+
+void Checker::checkPlaces(const PointTree& tree) const {
+  const double tolerance = placeTolerance * size_;
+  std::vector<LocalOrdinal> found;
+  for (const Point& point : mesh_.points) {
+    Point lower = point, upper = point;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower[axis] -= tolerance;
+      upper[axis] += tolerance;
+    }
+    tree.inBox(lower, upper, found);
+    if (found.size() < 2)
+      continue;
+    std::sort(found.begin(), found.end());
+    refuse(node(found[0]) + " and " + node(found[1]) + " are both at " + place(found[0]) +
+           ", so that the body is cut there; merge them (in a .geo file \"Coherence Mesh;\" after meshing)");
+  }
+}
+
+void Checker::refuseCopies(LocalOrdinal a, LocalOrdinal b) const {
+  refuse(element(a) + " and " + element(b) +
+         " have the same nodes; list an element once (Gmsh writes it once per physical group in format 2.2, "
+         "so save "
+         "overlapping groups in format 4.1)");
+}
+
+void Checker::checkSharing() const {
+  if (topology_.crowdedFacet()) {
+    const auto [a, b, c] = *topology_.crowdedFacet();
+    if (haveSameNodes(a, b))
+      refuseCopies(a, b);
+    if (haveSameNodes(b, c))
+      refuseCopies(b, c);
+    if (haveSameNodes(a, c))
+      refuseCopies(a, c);
+    refuse("the elements " + std::to_string(mesh_.elementTags[index(a)]) + ", " +
+           std::to_string(mesh_.elementTags[index(b)]) + " and " +
+           std::to_string(mesh_.elementTags[index(c)]) + " share one " +
+           (dimensionOf(mesh_.cellType) == 2 ? "edge" : "face") +
+           ", which two elements at most can do; remove those that overlap others");
+  }
+  const std::size_t perElement = facetsOf(mesh_.cellType).size();
+  for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e)
+    for (std::size_t f = 0; f < perElement; ++f)
+      for (std::size_t g = 0; g < f; ++g) {
+        const LocalOrdinal other = topology_.across(e, f);
+        if (other < 0 || topology_.across(e, g) != other)
+          continue;
+        if (haveSameNodes(e, other))
+          refuseCopies(e, other);
+        refuse(element(e) + " and " + element(other) + " share more than one " +
+               (dimensionOf(mesh_.cellType) == 2 ? "edge" : "face") + ", so that they overlap; mesh anew");
+      }
+}
+
+void Checker::checkHangingNodes(const PointTree& tree) const {
+  if (const auto hanging = findHangingNode(mesh_, topology_, tree))
+    refuse(node(hanging->node) + " at " + place(hanging->node) + " lies on the boundary of " +
+           element(hanging->element) +
+           " without belonging to it (a hanging node); let the elements there share all their nodes, in a "
+           ".geo file "
+           "by \"Coherence;\" or BooleanFragments before meshing");
+}
+
+} // namespace
+
+void checkMesh(const MeshArrays& mesh, const MeshTopology& topology) {
+  if (mesh.numElements() == 0)
+    throw InputError(mesh.name + " has no elements; mesh it first");
+  Checker checker(mesh, topology);
+  checker.checkNodes();
+  checker.checkPoints();
+  checker.checkShapes();
+  const PointTree tree(mesh.points);
+  checker.checkPlaces(tree);
+  checker.checkSharing();
+  checker.checkHangingNodes(tree);
+}
+
+} // namespace epafi::fem

@@ -1,0 +1,175 @@
+#include "GmshPlate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace epafi::fem {
+namespace {
+
+using test::areaVectors;
+using test::expectRefusal;
+using test::measureOf;
+
+using GmshGeometryTest = test::GmshTest;
+
+/// Neighbours are mutual and share a facet's nodes; nodes and elements know each other; boundary nodes are those of
+/// facets without a neighbour.
+void expectConsistent(const Mesh& mesh) {
+  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement())), other = nodes, list,
+                                                                                      back;
+  std::vector<int> counts(static_cast<std::size_t>(mesh.numNodes()), 0);
+  for (GlobalOrdinal e = 0; e < mesh.numElements(); ++e) {
+    mesh.elementNodes(e, nodes);
+    for (const GlobalOrdinal node : nodes) {
+      ++counts[static_cast<std::size_t>(node)];
+      mesh.nodeElements(node, list);
+      EXPECT_TRUE(std::find(list.begin(), list.end(), e) != list.end());
+    }
+    mesh.elementNeighbours(e, list);
+    EXPECT_FALSE(list.empty());
+    for (const GlobalOrdinal neighbour : list) {
+      mesh.elementNeighbours(neighbour, back);
+      EXPECT_EQ(std::count(back.begin(), back.end(), e), 1);
+      mesh.elementNodes(neighbour, other);
+      const auto common = std::count_if(nodes.begin(), nodes.end(), [&](GlobalOrdinal node) {
+        return std::find(other.begin(), other.end(), node) != other.end();
+      });
+      EXPECT_EQ(common, nodesPerFacet(mesh.cellType()));
+    }
+  }
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
+    mesh.nodeElements(node, list);
+    EXPECT_EQ(static_cast<int>(list.size()), counts[static_cast<std::size_t>(node)]);
+  }
+}
+
+/// All surfaces together enclose the body: Σ a = 0 and ⅓ Σ x·a (in the plane ½) is its volume, which is positive only if
+/// normals point outwards; their nodes are the boundary nodes.
+void expectEnclosed(const Mesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double measure = 0;
+  std::vector<bool> isOnSurface(static_cast<std::size_t>(mesh.numNodes()), false);
+  for (const std::string& name : mesh.surfaceNames()) {
+    const Surface surface = mesh.surface(name);
+    const std::vector<Eigen::Vector3d> areas = areaVectors(mesh, surface);
+    const auto count = static_cast<std::size_t>(surface.nodesPerFacet);
+    for (std::size_t f = 0; f < areas.size(); ++f) {
+      Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+      for (std::size_t i = 0; i < count; ++i) {
+        const GlobalOrdinal node = surface.facetNodes[count * f + i];
+        centre += test::vectorOf(mesh.point(node)) / static_cast<double>(count);
+        isOnSurface[static_cast<std::size_t>(node)] = true;
+      }
+      sum += areas[f];
+      measure += centre.dot(areas[f]) / dimensionOf(mesh.cellType());
+    }
+  }
+  EXPECT_NEAR(sum.norm(), 0, 1e-12);
+  EXPECT_NEAR(measure, measureOf(mesh), 1e-12);
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+    EXPECT_EQ(mesh.isBoundaryNode(node), isOnSurface[static_cast<std::size_t>(node)]);
+}
+
+TEST_F(GmshGeometryTest, MeshesTrianglesOfAGeometry) {
+  const GmshFile file(folder.write("ring.geo", R"(
+lc = 0.2;
+Point(1) = {0, 0, 0, lc}; Point(2) = {1, 0, 0, lc}; Point(3) = {3, 0, 0, lc};
+Point(4) = {0, 3, 0, lc}; Point(5) = {0, 1, 0, lc};
+Line(1) = {2, 3}; Circle(2) = {3, 1, 4}; Line(3) = {4, 5}; Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Physical Surface("ring") = {1};
+Physical Curve("inner") = {4}; Physical Curve("outer") = {2}; Physical Curve("cuts") = {1, 3};
+)"));
+  const UnstructuredMesh mesh = file.body("ring");
+  EXPECT_EQ(mesh.cellType(), CellType::triangle);
+  EXPECT_NEAR(measureOf(mesh), 2 * 3.14159265, 0.03);
+  expectConsistent(mesh);
+  expectEnclosed(mesh);
+  const Surface inner = mesh.surface("inner");
+  for (const Eigen::Vector3d& normal : areaVectors(mesh, inner)) // away from the ring
+    EXPECT_LT(normal[0] + normal[1], 0);
+}
+
+TEST_F(GmshGeometryTest, MeshesQuadrilateralsOfAGeometry) {
+  const GmshFile file(folder.write("plate.geo", R"(
+SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 2, 1};
+Rectangle(2) = {2, 0, 0, 1, 1};
+Coherence;
+Mesh.CharacteristicLengthMax = 0.2;
+Recombine Surface {1, 2};
+Mesh.SubdivisionAlgorithm = 1;
+Physical Surface("both") = {1, 2};
+Physical Surface("soft") = {2};
+edges() = CombinedBoundary{ Surface{1, 2}; };
+Physical Curve("edge") = {edges()};
+)"));
+  const UnstructuredMesh mesh = file.body("both");
+  EXPECT_EQ(mesh.cellType(), CellType::quadrilateral);
+  EXPECT_NEAR(measureOf(mesh), 3, 1e-12);
+  expectConsistent(mesh);
+  expectEnclosed(mesh);
+  EXPECT_EQ(mesh.groupNames(), (std::vector<std::string>{"soft"}));
+  double soft = 0;
+  for (const GlobalOrdinal element : mesh.group("soft"))
+    soft += measureOf(mesh, element);
+  EXPECT_NEAR(soft, 1, 1e-12);
+}
+
+TEST_F(GmshGeometryTest, MeshesTetrahedraOfAGeometry) {
+  const GmshFile file(folder.write("box.geo", R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 2, 1, 1};
+Box(2) = {0, 0, 1, 2, 1, 1}; // on top of the other, with nodes of its own
+Mesh.CharacteristicLengthMax = 0.5;
+Physical Volume("lower") = {1};
+Physical Volume("upper") = {2};
+Physical Surface("skin") = {1:4, 6, 7:10, 12};
+Physical Surface("contact") = {5, 11};
+Physical Surface("top of the lower one") = {6};
+)"));
+  for (const char* group : {"lower", "upper"}) {
+    const UnstructuredMesh mesh = file.body(group);
+    EXPECT_EQ(mesh.cellType(), CellType::tetrahedron);
+    EXPECT_NEAR(measureOf(mesh), 2, 1e-12);
+    expectConsistent(mesh);
+    EXPECT_EQ(mesh.surfaceNames().size(), group == std::string("lower") ? 3 : 2);
+    EXPECT_TRUE(mesh.groupNames().empty());
+  }
+  expectEnclosed(file.body("upper"));
+  const UnstructuredMesh lower = file.body("lower");
+  for (const Eigen::Vector3d& area : areaVectors(lower, lower.surface("top of the lower one")))
+    EXPECT_GT(area[2], 0);
+  for (const Eigen::Vector3d& area : areaVectors(lower, lower.surface("contact")))
+    EXPECT_LT(area[2], 0);
+  // Nodes of the two bodies lie at the same places, which is right for bodies and wrong inside one.
+  expectRefusal([&] { (void)file.body(""); }, {"Mesh file", "are both at"});
+}
+
+TEST_F(GmshGeometryTest, MeshesHexahedraOfAnExtrusion) {
+  const GmshFile file(folder.write("block.geo", R"(
+Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Point(3) = {2, 1, 0}; Point(4) = {0, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve {1, 3} = 5; Transfinite Curve {2, 4} = 4;
+Transfinite Surface {1}; Recombine Surface {1};
+out() = Extrude {0, 0, 3} { Surface{1}; Layers{2}; Recombine; };
+Physical Volume("block") = {out(1)};
+Physical Surface("bottom") = {1};
+Physical Surface("top") = {out(0)};
+Physical Surface("sides") = {out(2), out(3), out(4), out(5)};
+)"));
+  const UnstructuredMesh mesh = file.body("block");
+  EXPECT_EQ(mesh.cellType(), CellType::hexahedron);
+  EXPECT_EQ(mesh.numElements(), 4 * 3 * 2);
+  EXPECT_EQ(mesh.numNodes(), 5 * 4 * 3);
+  EXPECT_NEAR(measureOf(mesh), 6, 1e-12);
+  expectConsistent(mesh);
+  expectEnclosed(mesh);
+}
+
+} // namespace
+} // namespace epafi::fem
