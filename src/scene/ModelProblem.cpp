@@ -10,7 +10,7 @@ Scene modelProblem(bool coercive, int counts, int elements) {
   left.name = "left";
   left.rectangle = {0, 1, 0, 1};
   left.elements = {elements, elements};
-  left.decomposition.counts = {counts, counts};
+  left.decomposition.counts = {counts, counts, 1};
   left.supports = {{"wall", Edge::left, 0.0}};
   left.loads = {{"upper strip", {0, 1, 0.75, 1}, coercive ? -1.0 : -5.0}};
 

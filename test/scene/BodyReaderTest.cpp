@@ -45,7 +45,7 @@ TEST(BodyReaderTest, TakesDefaultsForWhatMayBeLeftOut) {
   ParameterList list = twoBodies();
   const scene::Body left = scene::readScene(list, "a.xml").bodies[0];
   EXPECT_EQ(left.conductivity, 1.0);
-  EXPECT_EQ(left.decomposition.counts, (std::array<int, 2>{2, 2}));
+  EXPECT_EQ(left.decomposition.counts, (std::array<int, 3>{2, 2, 1}));
 }
 
 TEST(BodyReaderTest, RefusesABodyWithoutElements) {

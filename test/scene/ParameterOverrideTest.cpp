@@ -52,7 +52,7 @@ TEST(ParameterOverrideTest, AddsParametersAndListsThatTheSchemaKnows) {
 
 TEST(ParameterOverrideTest, IsReadLikeAValueOfTheFile) {
   const auto bodies = scene::readScene(overridden("Decomposition/Grid={4, 1}"), "a.xml").bodies;
-  EXPECT_EQ(bodies[1].decomposition.counts, (std::array<int, 2>{4, 1}));
+  EXPECT_EQ(bodies[1].decomposition.counts, (std::array<int, 3>{4, 1, 1}));
 }
 
 TEST(ParameterOverrideTest, RefusesATextWithoutEqualsSign) {

@@ -123,7 +123,7 @@ TEST(SceneFilesTest, TheMiddleOneOfThreeBodiesFloatsBetweenTwoContacts) {
 TEST(SceneFilesTest, SingleMembranesHaveNoContact) {
   EXPECT_TRUE(sceneOf("no_contact.xml").contacts.empty());
   EXPECT_TRUE(sceneOf("single_subdomain.xml").contacts.empty());
-  EXPECT_EQ(sceneOf("single_subdomain.xml").bodies.at(0).decomposition.counts, (std::array<int, 2>{1, 1}));
+  EXPECT_EQ(sceneOf("single_subdomain.xml").bodies.at(0).decomposition.counts, (std::array<int, 3>{1, 1, 1}));
 }
 
 TEST(SceneFilesTest, RegionsReplaceTheConductivityInBoxes) {

@@ -68,7 +68,7 @@ TEST(SceneReaderTest, GivesEachBodyTheDecompositionOfTheScene) {
   ParameterList list = twoBodies();
   list.sublist("Decomposition").set("Grid", counts({3, 1}));
   for (const auto& body : readScene(list, "a.xml").bodies)
-    EXPECT_EQ(body.decomposition.counts, (std::array<int, 2>{3, 1}));
+    EXPECT_EQ(body.decomposition.counts, (std::array<int, 3>{3, 1, 1}));
 }
 
 TEST(SceneReaderTest, LetsABodyOverrideSingleEntriesOfTheDecomposition) {
@@ -80,14 +80,14 @@ TEST(SceneReaderTest, LetsABodyOverrideSingleEntriesOfTheDecomposition) {
   EXPECT_EQ(scene.bodies[0].decomposition.method, scene::Decomposition::Method::metis);
   EXPECT_EQ(scene.bodies[0].decomposition.parts, 5);
   EXPECT_EQ(scene.bodies[1].decomposition.method, scene::Decomposition::Method::grid);
-  EXPECT_EQ(scene.bodies[1].decomposition.counts, (std::array<int, 2>{1, 2}));
+  EXPECT_EQ(scene.bodies[1].decomposition.counts, (std::array<int, 3>{1, 2, 1}));
 }
 
 TEST(SceneReaderTest, InheritsAlsoInAListThatWasValidatedBefore) {
   ParameterList list = twoBodies();
   list.sublist("Decomposition").set("Grid", counts({3, 1}));
   const ParameterList complete = validated(list, scene::sceneSchema(), "a.xml");
-  EXPECT_EQ(readScene(complete, "a.xml").bodies[0].decomposition.counts, (std::array<int, 2>{3, 1}));
+  EXPECT_EQ(readScene(complete, "a.xml").bodies[0].decomposition.counts, (std::array<int, 3>{3, 1, 1}));
 }
 
 TEST(SceneReaderTest, FindsMissingParametersInAListThatWasValidatedBefore) {
