@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace epafi::fem {
 namespace {
@@ -48,8 +49,8 @@ std::string text(const Point& point) {
 
 } // namespace
 
-SolidModel::SolidModel(const std::string& name, const scene::Solid& solid, const Mesh& mesh)
-    : name_(name), solid_(solid), mesh_(mesh), components_(componentsOf(solid.physics)),
+SolidModel::SolidModel(std::string name, const scene::Solid& solid, const Mesh& mesh)
+    : name_(std::move(name)), solid_(solid), mesh_(mesh), components_(componentsOf(solid.physics)),
       shape_(shapeOf(mesh)), rigidModes_(makeRigidModes()) {
   requireDimension();
   if (components_ > 1 && !isCongruent())

@@ -17,10 +17,10 @@ namespace epafi::fem {
 
 class SolidModel final : public BodyModel {
 public:
-  /// Keeps references to all. \throws InputError, with the body's name, if a surface or group that the scene names is not in
+  /// Keeps references to scene and mesh. \throws InputError, with the body's name, if a surface or group that the scene names is not in
   /// the mesh, a region or load meets no element, a point load no node, supports contradict each other, the physics does
   /// not go with the mesh's dimension, or parts of an elastic body are joined in nodes or edges only: a mechanism.
-  SolidModel(const std::string& name, const scene::Solid& solid, const Mesh& mesh);
+  SolidModel(std::string name, const scene::Solid& solid, const Mesh& mesh);
 
   [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
   [[nodiscard]] int components() const override { return components_; }
@@ -72,7 +72,7 @@ private:
   [[nodiscard]] RigidModes makeRigidModes() const;
   [[nodiscard]] GlobalOrdinal nodeAt(const scene::SolidLoad& load) const;
 
-  const std::string& name_;
+  std::string name_;
   const scene::Solid& solid_;
   const Mesh& mesh_;
   int components_;

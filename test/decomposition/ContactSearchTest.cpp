@@ -1,0 +1,123 @@
+#include "epafi/decomposition/ContactSearch.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace epafi::decomposition {
+namespace {
+
+BodyLayout box(const std::string& name, const scene::Box& extent, std::array<int, 3> elements) {
+  return {name, std::make_unique<const fem::BoxMesh>(extent, elements), nullptr, 0};
+}
+
+BodyLayout rectangle(const std::string& name, const scene::Rectangle& extent, std::array<int, 2> elements) {
+  return {name, std::make_unique<const fem::RectangleMesh>(extent, elements), nullptr, 0};
+}
+
+scene::SurfaceContact topOnBottom() {
+  scene::SurfaceContact contact;
+  contact.name = "joint";
+  contact.firstSurface = "top";
+  contact.second = 1;
+  contact.secondSurface = "bottom";
+  return contact;
+}
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+std::string complaint(const scene::SurfaceContact& contact, const std::vector<BodyLayout>& bodies,
+                      int components) {
+  try {
+    searchContact(contact, bodies, components);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ContactSearchTest, FindsTheNodesThatFaceEachOther) {
+  for (const double gap : {0.0, 0.25}) {
+    std::vector<BodyLayout> bodies;
+    bodies.push_back(box("lower", {{0, 0, 0}, {2, 1, 1}}, {4, 3, 2}));
+    bodies.push_back(box("upper", {{0, 0, 1 + gap}, {2, 1, 2 + gap}}, {4, 3, 1}));
+    const ContactLayout contact = searchContact(topOnBottom(), bodies, 3);
+    ASSERT_EQ(contact.numRows(), 20);
+    EXPECT_NEAR(sum(contact.areas), 2.0, 1e-13);
+    for (std::size_t row = 0; row < 20; ++row) {
+      const fem::Point a = bodies[0].mesh->point(contact.firstNodes[row]),
+                       b = bodies[1].mesh->point(contact.secondNodes[row]);
+      EXPECT_NEAR(a[0], b[0], 1e-13);
+      EXPECT_NEAR(a[1], b[1], 1e-13);
+      EXPECT_NEAR(contact.gaps[row], gap, 1e-13);
+      EXPECT_NEAR(contact.directions[3 * row + 2], 1.0, 1e-13); // the second body lies above
+      EXPECT_NEAR(contact.directions[3 * row], 0.0, 1e-13);
+    }
+  }
+}
+
+TEST(ContactSearchTest, NodesBesideAPunchGetNoRow) {
+  std::vector<BodyLayout> bodies;
+  bodies.push_back(rectangle("ground", {0, 4, 0, 1}, {8, 2}));
+  bodies.push_back(rectangle("punch", {1, 2, 1, 3}, {2, 2}));
+  const ContactLayout contact = searchContact(topOnBottom(), bodies, 2);
+  EXPECT_EQ(contact.numRows(), 3);
+}
+
+TEST(ContactSearchTest, NodesTooFarFromTheOtherSideGetNoRow) {
+  std::vector<BodyLayout> bodies;
+  bodies.push_back(rectangle("ground", {0, 1, 0, 1}, {4, 2}));
+  bodies.push_back(rectangle("far", {0, 1, 1.5, 3}, {4, 2}));
+  scene::SurfaceContact contact = topOnBottom();
+  contact.distance = 0.4;
+  EXPECT_NE(complaint(contact, bodies, 2).find("distance"), std::string::npos);
+  contact.distance = 0.6;
+  EXPECT_EQ(searchContact(contact, bodies, 2).numRows(), 5);
+}
+
+TEST(ContactSearchTest, RefusesSurfacesThatDoNotMatch) {
+  std::vector<BodyLayout> bodies;
+  bodies.push_back(rectangle("lower", {0, 1, 0, 1}, {4, 2}));
+  bodies.push_back(rectangle("upper", {0, 1, 1, 2}, {5, 2}));
+  EXPECT_NE(complaint(topOnBottom(), bodies, 2).find("do not match"), std::string::npos);
+  scene::SurfaceContact unknown = topOnBottom();
+  unknown.secondSurface = "sole";
+  EXPECT_NE(complaint(unknown, bodies, 2).find("'sole'"), std::string::npos);
+}
+
+TEST(ContactSearchTest, ObstaclesHaveTheGapOfTheirGeometry) {
+  std::vector<BodyLayout> bodies;
+  bodies.push_back(rectangle("block", {-1, 1, 0, 1}, {8, 2}));
+  scene::SurfaceContact contact = topOnBottom();
+  contact.second = -1;
+  contact.obstacle.kind = scene::Obstacle::Kind::sphere;
+  contact.obstacle.point = {0, 3.5, 0};
+  contact.obstacle.radius = 2.4;
+  const ContactLayout all = searchContact(contact, bodies, 2);
+  ASSERT_EQ(all.numRows(), 9);
+  EXPECT_TRUE(all.secondNodes.empty());
+  for (std::size_t row = 0; row < 9; ++row) {
+    const fem::Point x = bodies[0].mesh->point(all.firstNodes[row]);
+    const double distance = std::hypot(x[0], 2.5);
+    EXPECT_NEAR(all.gaps[row], distance - 2.4, 1e-14);
+    EXPECT_NEAR(all.directions[2 * row], -x[0] / distance, 1e-14); // towards the centre
+    EXPECT_NEAR(all.directions[2 * row + 1], 2.5 / distance, 1e-14);
+  }
+  contact.distance = 0.12; // only the middle is as near as that
+  EXPECT_EQ(searchContact(contact, bodies, 2).numRows(), 3);
+
+  contact.obstacle = {scene::Obstacle::Kind::plane, {0, 1.2, 0}, {0, -1, 0}, 1};
+  contact.distance = 1;
+  for (const double gap : searchContact(contact, bodies, 2).gaps)
+    EXPECT_NEAR(gap, 0.2, 1e-15);
+}
+
+} // namespace
+} // namespace epafi::decomposition

@@ -1,0 +1,131 @@
+#include "epafi/decomposition/EdgeAverages.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/decomposition/Corners.hpp"
+#include "epafi/decomposition/Decompose.hpp"
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace epafi::decomposition {
+namespace {
+
+/// A body in space, cut as a grid.
+scene::Scene cube(int subdomains, int elementsPerSubdomain) {
+  scene::Solid solid;
+  solid.mesh.box = {{0, 0, 0}, {1, 1, 1}};
+  const int n = subdomains * elementsPerSubdomain;
+  solid.mesh.elements = {n, n, n};
+  solid.supports = {{"floor", "bottom", {0.0, 0.0, 0.0}}};
+  scene::SolidLoad weight;
+  weight.value = {0.5, 0.25, -1};
+  solid.loads = {weight};
+  scene::Body body;
+  body.name = "cube";
+  body.decomposition.counts = {subdomains, subdomains, subdomains};
+  body.solid = solid;
+  scene::Scene scene;
+  scene.bodies = {body};
+  return scene;
+}
+
+Decomposition decomposed(int subdomains, int elementsPerSubdomain) {
+  return decompose(cube(subdomains, elementsPerSubdomain), rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)));
+}
+
+TEST(EdgeAveragesTest, AGridHasCornersAtTheEndsOfItsEdges) {
+  const Decomposition two = decomposed(2, 3);
+  // The middle, and where the six edges end on the cube's faces; supported ones count.
+  EXPECT_EQ(two.problem.numCrosspoints, 7);
+  for (const Subdomain& subdomain : two.problem.subdomains)
+    EXPECT_LE(subdomain.averages.size(), 9U); // three edges of two nodes, three components each
+}
+
+TEST(EdgeAveragesTest, ValuesOfNodesComeBack) {
+  const Decomposition cut = decomposed(2, 4);
+  for (const Subdomain& subdomain : cut.problem.subdomains) {
+    ASSERT_FALSE(subdomain.averages.empty());
+    const Eigen::VectorXd changed = Eigen::VectorXd::Random(subdomain.load.size());
+    Eigen::VectorXd nodal = changed;
+    toNodalValues(subdomain, nodal);
+    for (const Average& average : subdomain.averages) {
+      double sum = nodal[average.carrier];
+      for (const int other : average.others) {
+        sum += nodal[other];
+        EXPECT_NEAR(nodal[other] - changed[average.carrier], changed[other], 1e-14);
+      }
+      EXPECT_NEAR(sum / static_cast<double>(average.others.size() + 1), changed[average.carrier], 1e-14);
+    }
+  }
+}
+
+TEST(EdgeAveragesTest, EnergyIsThatOfTheValuesOfNodes) {
+  const scene::Scene scene = cube(2, 3);
+  const Decomposition cut = decomposed(2, 3);
+  const fem::Mesh& mesh = *cut.bodies[0].mesh;
+  const auto model = makeModel(scene.bodies[0], mesh);
+  for (const Subdomain& subdomain : cut.problem.subdomains) {
+    const fem::AssembledSubdomain plain =
+        fem::assemble(*model, cut.bodies[0].partition->elementsOf(subdomain.number));
+    const Eigen::VectorXd changed = Eigen::VectorXd::Random(subdomain.load.size());
+    Eigen::VectorXd nodal = changed;
+    toNodalValues(subdomain, nodal);
+    const double energy = nodal.dot(plain.stiffness * nodal);
+    EXPECT_NEAR(changed.dot(*subdomain.stiffness * changed), energy, 1e-12 * energy);
+    EXPECT_NEAR(subdomain.load.dot(changed), plain.load.dot(nodal), 1e-13 * plain.load.norm() * nodal.norm());
+    EXPECT_EQ((*subdomain.stiffness - SparseMatrix(subdomain.stiffness->transpose())).norm(), 0);
+  }
+}
+
+TEST(EdgeAveragesTest, RowsActOnTheSameValues) {
+  const std::vector<Average> averages{{2, {0, 1, 4}}, {3, {6}}};
+  std::vector<RowEntry> rows{{7, 0, 1.5}, {7, 2, -2.0}, {8, 3, 1.0}, {8, 5, 4.0}, {9, 6, 1.0}, {9, 3, 1.0}};
+  const std::vector<RowEntry> nodalRows = rows;
+  changeBasisOfRows(averages, 0, rows);
+  Subdomain subdomain;
+  subdomain.averages = averages;
+  const Eigen::VectorXd changed = Eigen::VectorXd::Random(7);
+  Eigen::VectorXd nodal = changed;
+  toNodalValues(subdomain, nodal);
+  for (const GlobalOrdinal row : {7, 8, 9}) {
+    double expected = 0, value = 0;
+    for (const RowEntry& entry : nodalRows)
+      expected += entry.row == row ? entry.coefficient * nodal[entry.unknown] : 0;
+    for (const RowEntry& entry : rows)
+      value += entry.row == row ? entry.coefficient * changed[entry.unknown] : 0;
+    EXPECT_NEAR(value, expected, 1e-14);
+  }
+  std::set<std::pair<GlobalOrdinal, int>> places;
+  for (const RowEntry& entry : rows)
+    EXPECT_TRUE(places.insert({entry.row, entry.unknown}).second);
+}
+
+TEST(EdgeAveragesTest, EqualSubdomainsStillShareTheirStiffness) {
+  const Decomposition cut = decomposed(4, 3);
+  std::set<const SparseMatrix*> different;
+  for (const Subdomain& subdomain : cut.problem.subdomains)
+    different.insert(subdomain.stiffness.get());
+  EXPECT_LT(different.size(), cut.problem.subdomains.size());
+}
+
+TEST(HoldingPointsTest, TakeAsManyPointsAsHoldABody) {
+  const std::vector<fem::Point> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  std::vector<fem::Point> plane = line;
+  plane.push_back({1, 2, 0});
+  EXPECT_EQ(HoldingPoints(1).complete(line).size(), 1U);
+  EXPECT_EQ(HoldingPoints(2).complete(line).size(), 2U);
+  EXPECT_EQ(HoldingPoints(3).complete(line).size(), 2U); // they cannot hold it
+  EXPECT_EQ(HoldingPoints(3).complete(plane).size(), 3U);
+  HoldingPoints held(2);
+  held.add({0, 0, 0});
+  held.add({0, 0, 0});
+  EXPECT_FALSE(held.hold());
+  held.add({1, 0, 0});
+  EXPECT_TRUE(held.hold());
+  EXPECT_TRUE(held.complete(plane).empty());
+}
+
+} // namespace
+} // namespace epafi::decomposition

@@ -1,0 +1,183 @@
+#include "epafi/fem/SolidModel.hpp"
+
+#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/SubdomainAssembly.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace epafi::fem {
+namespace {
+
+using scene::Physics;
+using Value = std::optional<double>;
+
+std::unique_ptr<Mesh> meshFor(Physics physics) {
+  if (physics == Physics::elasticity3d)
+    return std::make_unique<BoxMesh>(scene::Box{{1, -1, 0}, {3, 1, 1}}, std::array<int, 3>{3, 2, 2});
+  return std::make_unique<RectangleMesh>(scene::Rectangle{1, 3, -1, 1}, std::array<int, 2>{4, 3});
+}
+
+scene::Solid solidOf(Physics physics) {
+  scene::Solid solid;
+  solid.physics = physics;
+  solid.material = {2.0, 10.0, 0.3, 0.5};
+  return solid;
+}
+
+/// The whole body as one subdomain.
+AssembledSubdomain assembled(const BodyModel& model) {
+  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(model.mesh().numElements()));
+  std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
+  return assemble(model, elements);
+}
+
+int numZeroEigenvalues(const AssembledSubdomain& body) {
+  const Eigen::MatrixXd k = body.stiffness;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(k);
+  return static_cast<int>((solver.eigenvalues().array() < 1e-9 * solver.eigenvalues().maxCoeff()).count());
+}
+
+struct Supported {
+  std::string name;
+  Physics physics;
+  std::vector<scene::SolidSupport> supports;
+  int numModes;
+};
+
+std::vector<Supported> supportedBodies() {
+  const Value free, held = 0.0;
+  return {
+      {"membrane, free", Physics::membrane, {}, 1},
+      {"membrane, held", Physics::membrane, {{"s", "left", {held, free, free}}}, 0},
+      {"plane, free", Physics::planeStrain, {}, 3},
+      {"plane, one slide", Physics::planeStress, {{"s", "bottom", {free, held, free}}}, 1},
+      {"plane, two slides",
+       Physics::planeStrain,
+       {{"s", "bottom", {free, held, free}}, {"t", "left", {held, free, free}}},
+       0},
+      {"plane, held", Physics::planeStrain, {{"s", "left", {held, held, free}}}, 0},
+      {"space, free", Physics::elasticity3d, {}, 6},
+      {"space, one slide", Physics::elasticity3d, {{"s", "bottom", {free, free, held}}}, 3},
+      {"space, two slides",
+       Physics::elasticity3d,
+       {{"s", "bottom", {free, free, held}}, {"t", "left", {held, free, free}}},
+       1},
+      {"space, held", Physics::elasticity3d, {{"s", "top", {held, held, held}}}, 0},
+  };
+}
+
+TEST(SolidModelTest, KernelIsExactlyWhatSupportsLeaveFree) {
+  for (const Supported& body : supportedBodies()) {
+    SCOPED_TRACE(body.name);
+    const auto mesh = meshFor(body.physics);
+    scene::Solid solid = solidOf(body.physics);
+    solid.supports = body.supports;
+    const SolidModel model("block", solid, *mesh);
+    EXPECT_EQ(model.kernelDimension(), body.numModes);
+    const AssembledSubdomain whole = assembled(model);
+    EXPECT_EQ(whole.kernel.cols(), body.numModes);
+    EXPECT_LE((whole.stiffness * whole.kernel).norm(), 1e-12 * whole.stiffness.norm());
+    EXPECT_EQ(numZeroEigenvalues(whole), body.numModes);
+  }
+}
+
+/// Sum of the loads' components over all nodes.
+Eigen::Vector3d resultant(const SolidModel& model) {
+  const AssembledSubdomain whole = assembled(model);
+  Eigen::Vector3d sum(0, 0, 0);
+  for (std::size_t i = 0; i < whole.unknownPosition.size(); ++i)
+    sum[whole.unknownPosition[i] % model.components()] += whole.load[static_cast<Eigen::Index>(i)];
+  return sum;
+}
+
+TEST(SolidModelTest, LoadsAddUpToTheirForces) {
+  using Kind = scene::SolidLoad::Kind;
+  const auto space = meshFor(Physics::elasticity3d), plane = meshFor(Physics::planeStress);
+  scene::Solid solid = solidOf(Physics::elasticity3d), plate = solidOf(Physics::planeStress);
+  solid.loads = {{"weight", Kind::body, {}, "", {}, {1, 2, 3}},
+                 {"half", Kind::body, {{1, -1, 0}, {3, 0, 1}}, "", {}, {0, 0, 1}},
+                 {"pull", Kind::traction, {}, "right", {}, {0, 5, 0}},
+                 {"press", Kind::pressure, {}, "top", {}, {7, 0, 0}},
+                 {"pin", Kind::point, {}, "", {3, 1, 1}, {0, 0, 11}}};
+  // Volume 4, half of it 2, right face 2, top face 4.
+  const Eigen::Vector3d expected(4 * 1, 4 * 2 + 2 * 5, 4 * 3 + 2 * 1 - 4 * 7 + 11);
+  EXPECT_LE((resultant(SolidModel("block", solid, *space)) - expected).norm(), 1e-12);
+
+  plate.loads = {{"weight", Kind::body, {}, "", {}, {1, 2, 0}},
+                 {"press", Kind::pressure, {}, "left", {}, {3, 0, 0}}};
+  // Area 4, left edge 2, thickness 0.5.
+  EXPECT_LE(
+      (resultant(SolidModel("plate", plate, *plane)) - Eigen::Vector3d(4 * 0.5 + 2 * 3 * 0.5, 4, 0)).norm(),
+      1e-12);
+}
+
+TEST(SolidModelTest, RegionsHaveTheirMaterial) {
+  const auto mesh = meshFor(Physics::planeStrain);
+  scene::Solid solid = solidOf(Physics::planeStrain);
+  scene::Material hard = solid.material;
+  hard.youngsModulus *= 8;
+  solid.regions = {{"right half", {{2, -1, 0}, {3, 1, 0}}, "", hard}};
+  const scene::Solid plain = solidOf(Physics::planeStrain);
+  const SolidModel model("block", solid, *mesh), uniform("block", plain, *mesh);
+  for (GlobalOrdinal element = 0; element < mesh->numElements(); ++element) {
+    Eigen::MatrixXd k, reference;
+    Eigen::VectorXd load;
+    model.element(element, k, load);
+    uniform.element(element, reference, load);
+    const double factor = element % 4 >= 2 ? 8 : 1;
+    EXPECT_LE((k - factor * reference).norm(), 1e-13 * k.norm());
+    EXPECT_EQ(model.materialOf(element).youngsModulus, factor * 10.0);
+  }
+}
+
+std::string complaint(const scene::Solid& solid, const Mesh& mesh) {
+  try {
+    const SolidModel model("block", solid, mesh);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SolidModelTest, SaysWhatDoesNotGoTogether) {
+  using Kind = scene::SolidLoad::Kind;
+  const Value free, held = 0.0, other = 1.0;
+  const auto mesh = meshFor(Physics::elasticity3d);
+  const auto expectSays = [&](const auto& change, const std::string& words) {
+    scene::Solid solid = solidOf(Physics::elasticity3d);
+    change(solid);
+    const std::string said = complaint(solid, *mesh);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find("block"), std::string::npos) << said;
+  };
+  expectSays([&](scene::Solid& s) { s.supports = {{"foot", "sole", {held, free, free}}}; }, "'sole'");
+  expectSays([&](scene::Solid& s) { s.regions = {{"inlay", {}, "steel", {}}}; }, "'steel'");
+  expectSays([&](scene::Solid& s) { s.regions = {{"inlay", {{8, 8, 8}, {9, 9, 9}}, "", {}}}; }, "inlay");
+  expectSays([&](scene::Solid& s) { s.loads = {{"pin", Kind::point, {}, "", {1.1, 0, 0}, {}}}; }, "no node");
+  expectSays([&](scene::Solid& s) { s.physics = Physics::planeStrain; }, "hexahedron");
+  expectSays(
+      [&](scene::Solid& s) {
+        s.supports = {{"a", "left", {held, free, free}}, {"b", "top", {other, free, free}}};
+      },
+      "different values");
+}
+
+TEST(SolidModelTest, RefusesPartsThatHangTogetherByANode) {
+  MeshArrays arrays;
+  arrays.name = "hinge";
+  arrays.cellType = CellType::triangle;
+  arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  arrays.cells = {0, 1, 2, 0, 3, 4};
+  arrays.nodeTags = {1, 2, 3, 4, 5};
+  arrays.elementTags = {1, 2};
+  const UnstructuredMesh mesh(arrays);
+  EXPECT_NE(complaint(solidOf(Physics::planeStrain), mesh).find("mechanism"), std::string::npos);
+  EXPECT_EQ(complaint(solidOf(Physics::membrane), mesh), ""); // a membrane cannot turn
+}
+
+} // namespace
+} // namespace epafi::fem
