@@ -5,11 +5,15 @@
 namespace epafi::fem {
 namespace {
 
-/// A grid has four shapes of subdomains, if it does not divide the mesh evenly, and each of them nine ways to
-/// lie on the body's edges.
-constexpr std::size_t maxNumberings = 8, maxPatterns = 40;
-/// Elements of all that is kept: some 10 MB for quadrilaterals with one component.
-constexpr std::size_t maxElements = 1U << 16U;
+/// A grid that does not divide the mesh evenly has four shapes of subdomains in the plane, eight in space; shapes and ways
+/// to lie on the body's surfaces make 16 and 64 combinations.
+constexpr std::size_t maxNumberings = 8, maxPatterns = 64;
+/// Numbers of all that is kept: some 10 MB.
+constexpr std::size_t maxNumbers = 1U << 20U;
+
+std::size_t square(std::size_t n) {
+  return n * n;
+}
 
 void fillKernel(const BodyModel& model, AssembledSubdomain& subdomain) {
   const int components = model.components(), modes = model.kernelDimension();
@@ -26,7 +30,7 @@ void fillKernel(const BodyModel& model, AssembledSubdomain& subdomain) {
 
 SubdomainAssembler::SubdomainAssembler(const BodyModel& model)
     : model_(model), components_(static_cast<std::size_t>(model.components())),
-      numberings_(maxNumberings, maxElements), patterns_(maxPatterns, maxElements) {}
+      numberings_(maxNumberings, maxNumbers), patterns_(maxPatterns, maxNumbers) {}
 
 void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, AssembledSubdomain& subdomain) {
   const std::shared_ptr<const LocalNumbering> numbering = number(elements, subdomain);
@@ -35,8 +39,9 @@ void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, Assem
   std::shared_ptr<const StiffnessPattern> pattern = patterns_.find(
       [&](const StiffnessPattern& known) { return known.fits(*numbering, subdomain.unknownOf); });
   if (!pattern)
-    pattern =
-        patterns_.add(StiffnessPattern(numbering, model_.components(), subdomain.unknownOf), elements.size());
+    pattern = patterns_.add(
+        StiffnessPattern(numbering, model_.components(), subdomain.unknownOf),
+        elements.size() * square(static_cast<std::size_t>(model_.mesh().nodesPerElement()) * components_));
 
   kinds_.resize(elements.size());
   model_.kinds(elements, kinds_);
@@ -59,7 +64,7 @@ std::shared_ptr<const LocalNumbering> SubdomainAssembler::number(std::span<const
     return firstNode.has_value();
   });
   if (!numbering) {
-    numbering = numberings_.add(LocalNumbering(corners_, perElement), elements.size());
+    numbering = numberings_.add(LocalNumbering(corners_, perElement), corners_.size());
     firstNode = numbering->firstNodeIfShifted(corners_);
   }
   subdomain.nodes = numbering->nodes(firstNode.value_or(0));
