@@ -131,6 +131,8 @@ bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const C
   row.unknowns = static_cast<double>(problem.primalDimension);
   row.multipliers = static_cast<double>(problem.dualDimension());
   row.problemBytes = matrixBytes(problem) + vectorBytes(problem);
+  row.preconditionerBytes =
+      sumOverRanks(*comm, static_cast<double>(run.solver->dualProblem().preconditionerBytes()));
   if (measuresProducts) {
     measureProducts(run.solver->dualProblem(), *comm, row);
     measureBlocks(run.solver->dualProblem().dualOperator()->inverse(), *comm, row);

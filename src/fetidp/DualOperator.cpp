@@ -6,8 +6,8 @@ namespace epafi::fetidp {
 
 DualOperator::DualOperator(const decomposition::DecomposedProblem& problem,
                            std::shared_ptr<GeneralizedInverse> inverse)
-    : map_(problem.multiplierMap), inverse_(std::move(inverse)), input_(problem), output_(problem),
-      result_(rcp(new MultiVector(map_, 1))) {}
+    : map_(problem.multiplierMap), inverse_(std::move(inverse)), input_(inverse_->multiplierPlan()),
+      output_(inverse_->multiplierPlan()), result_(rcp(new MultiVector(map_, 1))) {}
 
 void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                          double beta) const {

@@ -31,7 +31,8 @@ DualPreconditioner::DualPreconditioner(const decomposition::DecomposedProblem& p
                                        std::shared_ptr<GeneralizedInverse> inverse,
                                        const PreconditionerParameters& parameters)
     : map_(problem.multiplierMap), inverse_(std::move(inverse)), crosspoints_(problem, *inverse_),
-      input_(problem), output_(problem), result_(rcp(new MultiVector(map_, 1))) {
+      input_(inverse_->multiplierPlan()), output_(inverse_->multiplierPlan()),
+      result_(rcp(new MultiVector(map_, 1))) {
   collectively(*problem.comm, [&] { makeBlocks(problem, parameters.type, parameters.isSingle); });
   scale(problem, parameters.scaling);
   findFollowers(problem);

@@ -147,7 +147,7 @@ DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer) {
 RCP<Vector> DualProblem::rightHandSide() {
   SubdomainVectors u;
   inverse_->apply(loadsOf(problem_), u);
-  MultiplierExchange exchange(problem_);
+  MultiplierExchange exchange(inverse_->multiplierPlan());
   inverse_->constraint(u, exchange.values());
   const RCP<Vector> rhs = rcp(new Vector(problem_.multiplierMap));
   exchange.sumToOwners(*rhs);

@@ -3,6 +3,8 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/CostModel.hpp"
 
+#include <Tpetra_Import.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -25,7 +27,8 @@ std::vector<GlobalOrdinal> crosspointsOf(const decomposition::DecomposedProblem&
 
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
                                        const DirectSolvers& solvers)
-    : crosspoints_(crosspointsOf(problem)) {
+    : multiplierPlan_(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap))),
+      crosspoints_(crosspointsOf(problem)) {
   auto groups = groupIdentical(problem, solvers.shareIdentical);
   collectively(*problem.comm, [&] {
     direct::Factorizer factorizer(solvers.subdomains);

@@ -54,10 +54,13 @@ public:
   /// Bytes of this rank's factors and dense blocks.
   [[nodiscard]] std::size_t factorBytes() const;
   [[nodiscard]] const CoarseProblem& coarseProblem() const { return *coarseProblem_; }
+  /// From multiplierMap to multiplierGhostMap.
+  [[nodiscard]] const RCP<const Import>& multiplierPlan() const { return multiplierPlan_; }
 
 private:
   void prepareCoarse(int numColumns);
 
+  RCP<const Import> multiplierPlan_;
   std::vector<GlobalOrdinal> crosspoints_; ///< this rank's coarse unknowns, ascending
   std::vector<SubdomainGroup> groups_;
   std::unique_ptr<CoarseProblem> coarseProblem_;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Between the multipliers that a rank owns and those that its subdomains touch, of several vectors at once. Plans are built
-/// once.
+/// Between the multipliers that a rank owns and those that its subdomains touch, of several vectors at once. The plan is
+/// built once and shared.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
@@ -10,20 +10,20 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 
 namespace epafi::fetidp {
 
 class MultiplierExchange {
 public:
-  /// Collective.
-  explicit MultiplierExchange(const decomposition::DecomposedProblem& problem)
-      : import_(problem.multiplierMap, problem.multiplierGhostMap),
-        ghost_(rcp(new MultiVector(problem.multiplierGhostMap, 1))) {}
+  /// \param plan  from multiplierMap to multiplierGhostMap. Not collective.
+  explicit MultiplierExchange(RCP<const Import> plan)
+      : import_(std::move(plan)), ghost_(rcp(new MultiVector(import_->getTargetMap(), 1))) {}
 
   /// Brings the owners' values to the ranks that touch them, column after column; valid until the next call. Collective.
   std::span<const double> toSubdomains(const MultiVector& owned) {
     prepare(owned.getNumVectors());
-    ghost_->doImport(owned, import_, Tpetra::INSERT);
+    ghost_->doImport(owned, *import_, Tpetra::INSERT);
     return view();
   }
   /// Where a rank puts its contributions before `sumToOwners`, column after column. Not collective.
@@ -34,7 +34,7 @@ public:
   /// owned = sum of the contributions of all ranks. Precondition: it has as many columns. Collective.
   void sumToOwners(MultiVector& owned) {
     owned.putScalar(0.0);
-    owned.doExport(*ghost_, import_, Tpetra::ADD);
+    owned.doExport(*ghost_, *import_, Tpetra::ADD);
   }
 
 private:
@@ -48,7 +48,7 @@ private:
     return {values.data(), values.extent(0) * values.extent(1)};
   }
 
-  Import import_;
+  RCP<const Import> import_;
   RCP<MultiVector> ghost_;
 };
 

@@ -17,7 +17,7 @@ using decomposition::DecomposedProblem;
 /// c − B̄u on the owners' multipliers.
 void slackOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse, const SubdomainVectors& u,
              Vector& slack) {
-  MultiplierExchange exchange(problem);
+  MultiplierExchange exchange(inverse.multiplierPlan());
   inverse.constraint(u, exchange.values());
   exchange.sumToOwners(slack);
   slack.update(1.0, *problem.gap, -1.0);
@@ -95,7 +95,7 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
   solution.active = rcp(new Vector(problem.multiplierMap));
 
   SubdomainVectors forces = loadsOf(problem), u;
-  MultiplierExchange exchange(problem);
+  MultiplierExchange exchange(inverse.multiplierPlan());
   inverse.subtractForces(exchange.toSubdomains(*dual.lambda), forces); // f̄ − B̄ᵀλ
   inverse.apply(forces, u);                                            // K̄⁺(f̄ − B̄ᵀλ)
   forces = {};

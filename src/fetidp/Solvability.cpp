@@ -174,7 +174,7 @@ void requireContactForEveryMotion(const DecomposedProblem& problem, const std::v
 }
 
 void requireFeasibleGaps(const DecomposedProblem& problem) {
-  MultiplierExchange exchange(problem);
+  MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
   const std::span<double> magnitude = exchange.values();
   std::fill(magnitude.begin(), magnitude.end(), 0.0);
   for (const auto& subdomain : problem.subdomains)

@@ -1,6 +1,5 @@
-#include "epafi/fem/Cell.hpp"
+#include "SampleCells.hpp"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -8,28 +7,12 @@
 namespace epafi::fem {
 namespace {
 
-/// The element of side 1 at the origin.
-std::vector<Eigen::Vector3d> unitPoints(CellType type) {
-  switch (type) {
-  case CellType::triangle:
-    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  case CellType::quadrilateral:
-    return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  case CellType::tetrahedron:
-    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  case CellType::hexahedron:
-    return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  }
-  return {};
-}
-
-constexpr CellType allTypes[] = {CellType::triangle, CellType::quadrilateral, CellType::tetrahedron,
-                                 CellType::hexahedron};
-
 TEST(CellTest, FacetsLookOutwards) {
-  for (const CellType type : allTypes) {
+  for (const CellType type : allCellTypes) {
     SCOPED_TRACE(toString(type));
-    const auto points = unitPoints(type);
+    std::vector<Eigen::Vector3d> points;
+    for (const Point& point : unitCell(type))
+      points.push_back(vectorOf(point));
     ASSERT_EQ(points.size(), static_cast<std::size_t>(numNodesOf(type)));
     Eigen::Vector3d centre(0, 0, 0);
     for (const auto& point : points)
@@ -46,7 +29,7 @@ TEST(CellTest, FacetsLookOutwards) {
 
 /// Each edge between facets is run through once in both directions: the boundary is closed.
 TEST(CellTest, FacetsCloseTheBoundary) {
-  for (const CellType type : allTypes) {
+  for (const CellType type : allCellTypes) {
     SCOPED_TRACE(toString(type));
     const auto n = static_cast<std::size_t>(numNodesOf(type));
     std::vector<int> balance(n * n, 0);

@@ -18,7 +18,7 @@ TEST(MultiplierExchangeTest, BringsEveryTouchedMultiplierToItsSubdomains) {
     SCOPED_TRACE(c.name);
     const auto decomposition = decompose(c.scene, world());
     const DecomposedProblem& problem = decomposition.problem;
-    MultiplierExchange exchange(problem);
+    MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
     const Eigen::VectorXd lambda = randomVector(static_cast<Eigen::Index>(problem.dualDimension()), 3);
     const std::span<const double> mine = exchange.toSubdomains(*spread(problem.multiplierMap, lambda));
     ASSERT_EQ(mine.size(), numLocal(*problem.multiplierGhostMap));
@@ -31,7 +31,7 @@ TEST(MultiplierExchangeTest, BringsEveryTouchedMultiplierToItsSubdomains) {
 TEST(MultiplierExchangeTest, SumsTheContributionsOfAllRanks) {
   const auto decomposition = decompose(twoMembranes(true, 6, grid(2, 2)), world());
   const DecomposedProblem& problem = decomposition.problem;
-  MultiplierExchange exchange(problem);
+  MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
   Eigen::VectorXd touching = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dualDimension()));
   for (const GlobalOrdinal row : localIndices(*problem.multiplierGhostMap))
     touching[static_cast<Eigen::Index>(row)] += 1; // ranks that touch a multiplier
@@ -49,7 +49,7 @@ TEST(MultiplierExchangeTest, BothDirectionsAreAdjoint) {
     SCOPED_TRACE(c.name);
     const auto decomposition = decompose(c.scene, world());
     const DecomposedProblem& problem = decomposition.problem;
-    MultiplierExchange exchange(problem);
+    MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
     const Eigen::VectorXd x = randomVector(static_cast<Eigen::Index>(problem.dualDimension()), 5);
     std::mt19937 random(static_cast<unsigned>(11 + world()->getRank()));
     std::normal_distribution<double> normal;
