@@ -8,7 +8,7 @@ namespace {
 
 template <class T>
 bool areEqual(const T* a, const T* b, Eigen::Index count) {
-  return std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0;
+  return count == 0 || std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0;
 }
 
 } // namespace
