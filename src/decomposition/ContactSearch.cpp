@@ -80,8 +80,8 @@ double spacing(const SurfaceNodes& surface, std::size_t place, int dimension) {
   return dimension == 2 ? surface.areas[place] : std::sqrt(surface.areas[place]);
 }
 
-/// For each node of a surface the node of the other that it faces, or none. Nodes are sorted along one axis, so that few of
-/// them are looked at.
+/// For each node of a surface the node of the other that it faces, or none. Nodes are sorted along one axis: those
+/// farther away along it than the distance are not looked at; without a distance all are.
 std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNodes& second, double distance,
                                       int dimension) {
   std::vector<std::size_t> order(second.nodes.size());
@@ -100,10 +100,12 @@ std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNo
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     const double tolerance = matchTolerance * spacing(first, i, dimension);
     double nearest = std::numeric_limits<double>::infinity();
-    for (const std::size_t j : order) {
+    const double reach = distance + tolerance, from = first.points[i][axis] - reach;
+    auto next = std::lower_bound(order.begin(), order.end(), from,
+                                 [&](std::size_t j, double x) { return second.points[j][axis] < x; });
+    for (; next != order.end() && second.points[*next][axis] <= first.points[i][axis] + reach; ++next) {
+      const std::size_t j = *next;
       const Vector3d between = second.points[j] - first.points[i];
-      if (std::abs(between[axis]) > distance + tolerance)
-        continue;
       const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
       const double along = normal.dot(between);
       if (std::abs(along) <= distance && (between - along * normal).norm() <= tolerance &&
