@@ -2,13 +2,12 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/MeshFiles.hpp"
 #include "epafi/fem/BoxMesh.hpp"
-#include "epafi/fem/GmshFile.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
 #include "epafi/fem/SolidModel.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace epafi::decomposition {
@@ -47,16 +46,12 @@ void requireCut(const scene::Body& body, const fem::Mesh& mesh) {
                        " subdomains there; choose between 1 and " + std::to_string(elements[d]));
 }
 
-/// Files that were read, each once.
-using MeshFiles = std::map<std::string, fem::GmshFile>;
-
-std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, MeshFiles& files) {
+std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, const MeshFiles& files) {
   if (!body.solid)
     return std::make_unique<const fem::RectangleMesh>(body.rectangle, body.elements);
   const scene::MeshSource& source = body.solid->mesh;
   if (!source.file.empty())
-    return std::make_unique<const fem::UnstructuredMesh>(
-        files.try_emplace(source.file, source.file).first->second.body(source.group));
+    return std::make_unique<const fem::UnstructuredMesh>(files.of(source).body(source.group));
   const scene::Vector3 &lower = source.box.lower, &upper = source.box.upper;
   if (source.elements[2] > 0)
     return std::make_unique<const fem::BoxMesh>(source.box, source.elements);
@@ -103,9 +98,9 @@ void requireSameComponents(const scene::Scene& scene) {
 
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
   std::vector<BodyLayout> bodies;
+  collectively(comm, [&] { requireSameComponents(scene); });
+  const MeshFiles files(scene, comm);
   collectively(comm, [&] {
-    requireSameComponents(scene);
-    MeshFiles files;
     for (const scene::Body& body : scene.bodies) {
       bodies.push_back({body.name, makeMesh(body, files), nullptr, 0});
       requireCut(body, *bodies.back().mesh);

@@ -287,7 +287,9 @@ void BodyMaker::addSurfaces() {
 
 } // namespace
 
-GmshFile::GmshFile(const std::string& file) : contents_(readGmshFile(file)) {
+GmshFile::GmshFile(const std::string& file) : GmshFile(readGmshFile(file)) {}
+
+GmshFile::GmshFile(GmshContents contents) : contents_(std::move(contents)) {
   checkSurfaces(contents_);
 }
 

@@ -6,7 +6,7 @@
 /// d − 1 as far as they bound it, its element groups the other groups of dimension d as far as they lie in it. Groups without
 /// a name are called by their number.
 ///
-/// Nothing is collective: every rank that makes an object reads the whole file. Meant for meshes of a body or a few, not for
+/// Nothing is collective: every rank that makes an object holds the whole file. Meant for meshes of a body or a few, not for
 /// ones that only many ranks can hold: a million hexahedra take 500 MB while they are read, of which the object keeps 80, and
 /// each body made of them 140 (tetrahedra: 200, 35 and 70).
 
@@ -21,6 +21,7 @@ public:
   /// elements are not linear, or a facet or node of a named surface belongs to no element; Error if the Gmsh library cannot
   /// be loaded.
   explicit GmshFile(const std::string& file);
+  explicit GmshFile(GmshContents contents);
 
   [[nodiscard]] const std::string& file() const { return contents_.file; }
   /// 2 or 3: the highest dimension of any element.

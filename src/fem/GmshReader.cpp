@@ -41,7 +41,7 @@ class Reader {
 public:
   explicit Reader(const std::string& file) : session_(file), gmsh_(session_.gmsh()) { contents_.file = file; }
 
-  GmshContents read();
+  GmshContents read(double meshSizeFactor);
 
 private:
   void mesh();
@@ -58,7 +58,8 @@ private:
   GmshContents contents_;
 };
 
-GmshContents Reader::read() {
+GmshContents Reader::read(double meshSizeFactor) {
+  session_.call(gmsh_.setNumber, "Mesh.MeshSizeFactor", meshSizeFactor);
   session_.call(gmsh_.open, contents_.file.c_str());
   mesh();
   readGroups();
@@ -208,9 +209,9 @@ int numNodesOfGmsh(int type) {
   return type > 0 && type < 8 ? counts[static_cast<std::size_t>(type)] : 0;
 }
 
-GmshContents readGmshFile(const std::string& file) {
+GmshContents readGmshFile(const std::string& file, double meshSizeFactor) {
   checkFile(file);
-  return Reader(file).read();
+  return Reader(file).read(meshSizeFactor);
 }
 
 } // namespace epafi::fem

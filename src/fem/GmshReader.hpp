@@ -42,6 +42,9 @@ int numNodesOfGmsh(int type);
 
 /// Reads .msh, meshes .geo (unless it holds elements already). Throws InputError if there is no such file, Gmsh refuses it,
 /// it has no elements of dimension 2 or 3, or some that are not linear.
-GmshContents readGmshFile(const std::string& file);
+///
+/// \param meshSizeFactor  of a .geo that is meshed: by which all its mesh sizes are multiplied (Gmsh's option
+///        Mesh.MeshSizeFactor, which the geometry itself can read, for what it does not apply to)
+GmshContents readGmshFile(const std::string& file, double meshSizeFactor = 1);
 
 } // namespace epafi::fem

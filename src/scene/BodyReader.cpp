@@ -132,7 +132,7 @@ Physics physicsOf(const std::string& word) {
 void readMembrane(const ListReader& list, Body& body) {
   refuseElastic(list);
   list.refuseGiven({"Box"}, "a membrane has a \"Rectangle\"");
-  list.refuseGiven({"Group"}, noMesh);
+  list.refuseGiven({"Group", "Mesh Size Factor"}, noMesh);
   for (const char* const needed : {"Rectangle", "Elements"})
     list.require(needed);
   body.rectangle = list.rectangle("Rectangle");

@@ -44,6 +44,9 @@ void describeMesh(ParameterList& list) {
   list.set("Mesh", "",
            "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
            "directory. Linear triangles, quadrilaterals, tetrahedra or hexahedra.");
+  addReal(list, "Mesh Size Factor", MeshSource().sizeFactor,
+          "With a .geo file: by which all its mesh sizes are multiplied; 0.5 halves the elements.", 0.0,
+          infinity, true);
   list.set("Group", "",
            "Physical group of the mesh file that is this body; without it all elements. Surfaces are the "
            "physical groups of one dimension less.");

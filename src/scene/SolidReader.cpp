@@ -54,10 +54,13 @@ MeshSource readMesh(const ListReader& list, int dimension) {
   if (list.hasEntries("Mesh")) {
     list.refuseGiven({"Rectangle", "Box", "Elements"}, "the body has a mesh file; remove one of them");
     source.file = list.file("Mesh");
+    source.sizeFactor = list.positive("Mesh Size Factor");
+    if (!source.file.ends_with(".geo"))
+      list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
     source.group = list.word("Group");
     return source;
   }
-  list.refuseGiven({"Group"}, "the body has no mesh file that it could be a group of");
+  list.refuseGiven({"Group", "Mesh Size Factor"}, "the body has no mesh file that it could apply to");
   list.refuseGiven({dimension == 3 ? "Rectangle" : "Box"},
                    "a body in " +
                        std::string(dimension == 3 ? "space has a \"Box\"" : "the plane has a \"Rectangle\""));

@@ -1,0 +1,320 @@
+#include "SceneLists.hpp"
+
+#include <cmath>
+#include <functional>
+
+namespace {
+
+using namespace epafi;
+using namespace epafi::test;
+using Teuchos::ParameterList;
+
+/// A cube of 2×2×2 elements on a rigid floor.
+ParameterList cubeOnFloor() {
+  ParameterList list("Epafi");
+  ParameterList& cube = bodyOf(list, "cube");
+  cube.set("Physics", "elasticity 3-D").set("Box", numbers({0, 1, 0, 1, 0, 1}));
+  cube.set("Elements", counts({2, 2, 2})).set("Young's Modulus", 200.0).set("Poisson's Ratio", 0.3);
+  list.sublist("Obstacles").sublist("floor").set("Kind", "plane").set("Point", numbers({0, 0, 0}));
+  list.sublist("Obstacles").sublist("floor").set("Normal", numbers({0, 0, 2}));
+  ParameterList& pair = list.sublist("Contact").sublist("rest");
+  pair.set("First Body", "cube").set("First Surface", "bottom").set("Obstacle", "floor");
+  return list;
+}
+
+template <class Change>
+std::string refusalOf(const Change& change) {
+  ParameterList list = cubeOnFloor();
+  change(list);
+  return refusal([&] { scene::readScene(list, "scenes/a.xml"); });
+}
+
+/// … after a change of the cube's list.
+template <class Value>
+std::string cubeRefusal(const std::string& name, const Value& value) {
+  return refusalOf([&](ParameterList& list) { bodyOf(list, "cube").set(name, value); });
+}
+
+/// … of a new entry in one of the cube's lists.
+template <class Change>
+std::string entryRefusal(const std::string& kind, const Change& change) {
+  return refusalOf([&](ParameterList& list) { change(bodyOf(list, "cube").sublist(kind).sublist("new")); });
+}
+
+scene::Solid solidOf(const ParameterList& list) {
+  return scene::readScene(list, "scenes/a.xml").bodies.at(0).solid.value();
+}
+
+TEST(SolidReaderTest, ReadsMeshAndMaterialOfABodyInSpace) {
+  const scene::Solid solid = solidOf(cubeOnFloor());
+  EXPECT_EQ(solid.physics, scene::Physics::elasticity3d);
+  EXPECT_EQ(solid.mesh.elements, (std::array<int, 3>{2, 2, 2}));
+  EXPECT_EQ(solid.mesh.box.upper[2], 1.0);
+  EXPECT_EQ(solid.material.youngsModulus, 200.0);
+  EXPECT_EQ(solid.material.poissonsRatio, 0.3);
+}
+
+TEST(SolidReaderTest, ReadsBodiesInThePlaneWithThickness) {
+  for (const auto& [word, physics] : {std::pair("plane strain", scene::Physics::planeStrain),
+                                      std::pair("plane stress", scene::Physics::planeStress)}) {
+    ParameterList list;
+    ParameterList& plate = bodyOf(list, "plate");
+    plate.set("Physics", word).set("Rectangle", numbers({0, 4, 0, 2})).set("Elements", counts({4, 2}));
+    plate.set("Young's Modulus", 1.0).set("Poisson's Ratio", 0.0).set("Thickness", 5.0);
+    const scene::Solid solid = solidOf(list);
+    EXPECT_EQ(solid.physics, physics);
+    EXPECT_EQ(solid.material.thickness, 5.0);
+    EXPECT_EQ(solid.mesh.elements, (std::array<int, 3>{4, 2, 0}));
+  }
+}
+
+TEST(SolidReaderTest, FindsMeshFilesBesideTheScene) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  cube.remove("Box");
+  cube.remove("Elements");
+  cube.set("Mesh", "parts/cube.geo").set("Group", "cube").set("Mesh Size Factor", 0.5);
+  const scene::Scene scene = scene::readScene(list, "scenes/a.xml");
+  EXPECT_EQ(scene.bodies[0].solid->mesh.file, "scenes/parts/cube.geo");
+  EXPECT_EQ(scene.bodies[0].solid->mesh.group, "cube");
+  EXPECT_EQ(scene.bodies[0].solid->mesh.sizeFactor, 0.5);
+  EXPECT_EQ(scene.bodies[0].decomposition.method, scene::Decomposition::Method::metis)
+      << "a mesh file has no grid";
+  cube.set("Mesh", "/parts/cube.geo");
+  EXPECT_EQ(solidOf(list).mesh.file, "/parts/cube.geo");
+}
+
+TEST(SolidReaderTest, ReadsAMembraneOnAMeshFile) {
+  ParameterList list;
+  ParameterList& body = bodyOf(list, "skin");
+  body.set("Mesh", "skin.msh").set("Conductivity", 3.0);
+  body.sublist("Supports").sublist("rim").set("Surface", "rim").set("Value", 0.5);
+  body.sublist("Loads").sublist("wind").set("Value", -2.0);
+  const scene::Solid solid = solidOf(list);
+  EXPECT_EQ(solid.physics, scene::Physics::membrane);
+  EXPECT_EQ(solid.material.conductivity, 3.0);
+  EXPECT_EQ(solid.supports.at(0).value[0], 0.5);
+  EXPECT_EQ(solid.loads.at(0).value[0], -2.0);
+}
+
+TEST(SolidReaderTest, HoldsOnlyTheComponentsThatAreGiven) {
+  ParameterList list = cubeOnFloor();
+  bodyOf(list, "cube")
+      .sublist("Supports")
+      .sublist("wall")
+      .set("Surface", "left")
+      .set("X", 0.0)
+      .set("Z", -1.0);
+  const scene::SolidSupport support = solidOf(list).supports.at(0);
+  EXPECT_EQ(support.surface, "left");
+  EXPECT_EQ(support.value[0], 0.0);
+  EXPECT_FALSE(support.value[1]);
+  EXPECT_EQ(support.value[2], -1.0);
+}
+
+TEST(SolidReaderTest, ReadsEveryKindOfLoad) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& loads = bodyOf(list, "cube").sublist("Loads");
+  loads.sublist("weight").set("Force", numbers({0, 0, -9.81}));
+  loads.sublist("push").set("Kind", "traction").set("Surface", "left").set("Force", numbers({1, 0, 0}));
+  loads.sublist("press").set("Kind", "pressure").set("Surface", "top").set("Value", 7.0);
+  loads.sublist("hook")
+      .set("Kind", "point")
+      .set("Point", numbers({0, 0, 1}))
+      .set("Force", numbers({0, 2, 0}));
+  const std::vector<scene::SolidLoad> read = solidOf(list).loads;
+  ASSERT_EQ(read.size(), 4u);
+  EXPECT_EQ(read[0].kind, scene::SolidLoad::Kind::body);
+  EXPECT_EQ(read[0].value[2], -9.81);
+  EXPECT_EQ(read[1].kind, scene::SolidLoad::Kind::traction);
+  EXPECT_EQ(read[1].where, "left");
+  EXPECT_EQ(read[2].kind, scene::SolidLoad::Kind::pressure);
+  EXPECT_EQ(read[2].value[0], 7.0);
+  EXPECT_EQ(read[3].kind, scene::SolidLoad::Kind::point);
+  EXPECT_EQ(read[3].point[2], 1.0);
+  EXPECT_EQ(read[3].value[1], 2.0);
+}
+
+TEST(SolidReaderTest, ARegionKeepsWhatItDoesNotChange) {
+  ParameterList list = cubeOnFloor();
+  bodyOf(list, "cube")
+      .sublist("Regions")
+      .sublist("soft")
+      .set("Box", numbers({0, 1, 0, 1, 0, 0.5}))
+      .set("Young's Modulus", 2.0);
+  const scene::SolidRegion region = solidOf(list).regions.at(0);
+  EXPECT_EQ(region.material.youngsModulus, 2.0);
+  EXPECT_EQ(region.material.poissonsRatio, 0.3);
+  EXPECT_EQ(region.box.upper[2], 0.5);
+}
+
+TEST(SolidReaderTest, ReadsObstaclesWithNormalsOfLengthOne) {
+  const scene::SurfaceContact contact = scene::readScene(cubeOnFloor(), "a.xml").surfaceContacts.at(0);
+  EXPECT_EQ(contact.second, -1);
+  EXPECT_EQ(contact.obstacle.kind, scene::Obstacle::Kind::plane);
+  EXPECT_EQ(contact.obstacle.normal, (scene::Vector3{0, 0, 1}));
+  EXPECT_TRUE(std::isinf(contact.distance)) << "no limit unless one is given";
+  ParameterList list = cubeOnFloor();
+  list.sublist("Obstacles").sublist("floor") = ParameterList();
+  list.sublist("Obstacles")
+      .sublist("floor")
+      .set("Kind", "sphere")
+      .set("Point", numbers({0, 0, -3}))
+      .set("Radius", 3.0);
+  list.sublist("Contact").sublist("rest").set("Distance", 0.25).set("Gap", -0.1);
+  const scene::SurfaceContact ball = scene::readScene(list, "a.xml").surfaceContacts.at(0);
+  EXPECT_EQ(ball.obstacle.kind, scene::Obstacle::Kind::sphere);
+  EXPECT_EQ(ball.obstacle.radius, 3.0);
+  EXPECT_EQ(ball.distance, 0.25);
+  EXPECT_EQ(ball.gap, -0.1);
+}
+
+TEST(SolidReaderTest, CutsABoxInThreeDirections) {
+  EXPECT_EQ(scene::readScene(cubeOnFloor(), "a.xml").bodies[0].decomposition.counts,
+            (std::array<int, 3>{2, 2, 2}));
+  ParameterList list = cubeOnFloor();
+  bodyOf(list, "cube").set("Elements", counts({1, 4, 4}));
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].decomposition.counts, (std::array<int, 3>{1, 2, 2}))
+      << "a default is no more than the elements allow";
+  list.sublist("Decomposition").set("Grid", counts({1, 4, 2}));
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].decomposition.counts, (std::array<int, 3>{1, 4, 2}));
+  list.sublist("Decomposition").set("Grid", counts({2, 2}));
+  expectSays(refusal([&] { scene::readScene(list, "a.xml"); }),
+             {"\"Grid\"", "3 entries {nx, ny, nz}, not 2"});
+}
+
+TEST(SolidReaderTest, RefusesABodyWithoutMeshOrMaterial) {
+  for (const char* const name : {"Box", "Elements", "Young's Modulus", "Poisson's Ratio"})
+    expectSays(refusalOf([&](ParameterList& list) { bodyOf(list, "cube").remove(name); }),
+               {"scenes/a.xml: ", "\"Bodies/cube\"", '"' + std::string(name) + '"', "must be given"});
+}
+
+TEST(SolidReaderTest, RefusesWhatThePhysicsHasNoUseFor) {
+  expectSays(cubeRefusal("Conductivity", 2.0), {"\"Conductivity\"", "elasticity 3-D", "remove it"});
+  expectSays(cubeRefusal("Thickness", 2.0), {"\"Thickness\"", "elasticity 3-D", "remove it"});
+  expectSays(cubeRefusal("Rectangle", numbers({0, 1, 0, 1})), {"\"Rectangle\"", "has a \"Box\""});
+  expectSays(cubeRefusal("Group", "cube"), {"\"Group\"", "no mesh file"});
+  expectSays(cubeRefusal("Mesh", "a.msh"), {"\"Box\"", "mesh file", "remove one"});
+  for (const char* const name : {"Young's Modulus", "Thickness"})
+    expectSays(sceneRefusal([&](ParameterList& list) { bodyOf(list, "right").set(name, 2.0); }),
+               {"\"Bodies/right\"", '"' + std::string(name) + '"', "membranes have none"});
+}
+
+TEST(SolidReaderTest, RefusesPoissonsRatiosThatNoMaterialHas) {
+  for (const double ratio : {0.5, 0.7, -1.0})
+    expectSays(cubeRefusal("Poisson's Ratio", ratio), {"\"Poisson's Ratio\"", "> -1", "< 0.5"});
+}
+
+TEST(SolidReaderTest, RefusesAMeshSizeForAMeshThatIsThere) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  cube.remove("Box");
+  cube.remove("Elements");
+  cube.set("Mesh", "cube.msh").set("Mesh Size Factor", 0.5);
+  expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh Size Factor\"", ".geo"});
+}
+
+TEST(SolidReaderTest, RefusesSupportsThatHoldNothingOrTooMuch) {
+  expectSays(entryRefusal("Supports", [](ParameterList& s) { s.set("X", 0.0); }),
+             {"\"Bodies/cube/Supports/new\"", "\"Surface\"", "must be given"});
+  expectSays(entryRefusal("Supports", [](ParameterList& s) { s.set("Surface", "left"); }),
+             {"\"Bodies/cube/Supports/new\"", "holds nothing", "\"X\", \"Y\", \"Z\""});
+  expectSays(entryRefusal("Supports", [](ParameterList& s) { s.set("Surface", "left").set("Value", 1.0); }),
+             {"\"Value\"", "\"X\", \"Y\" and \"Z\""});
+  expectSays(entryRefusal("Supports", [](ParameterList& s) { s.set("Edge", "left").set("X", 1.0); }),
+             {"\"Edge\"", "\"Surface\""});
+}
+
+TEST(SolidReaderTest, RefusesLoadsWithTheWrongPlaceOrValue) {
+  const auto says = [](const std::function<void(ParameterList&)>& change,
+                       std::initializer_list<std::string> parts) {
+    expectSays(entryRefusal("Loads", change), parts);
+  };
+  says([](ParameterList& l) { l.set("Value", 1.0); }, {"\"Value\"", "\"Force\""});
+  says([](ParameterList&) {}, {"\"Bodies/cube/Loads/new\"", "\"Force\"", "must be given"});
+  says(
+      [](ParameterList& l) {
+        l.set("Force", numbers({1, 2}));
+      },
+      {"\"Force\"", "3 entries {x, y, z}, not 2"});
+  says(
+      [](ParameterList& l) {
+        l.set("Force", numbers({1, 2, 3})).set("Surface", "top");
+      },
+      {"\"Surface\"", "\"body\"", "no use"});
+  says([](ParameterList& l) { l.set("Kind", "pressure").set("Value", 1.0); },
+       {"\"Surface\"", "must be given"});
+  says([](ParameterList& l) { l.set("Kind", "pressure").set("Surface", "top"); },
+       {"\"Value\"", "must be given"});
+  says(
+      [](ParameterList& l) {
+        l.set("Kind", "point").set("Force", numbers({1, 2, 3}));
+      },
+      {"\"Point\"", "must be given"});
+  says(
+      [](ParameterList& l) {
+        l.set("Force", numbers({0, 0, 1})).set("Box", numbers({2, 3, 0, 1, 0, 1}));
+      },
+      {"\"Box\"", "must overlap the body, which in x goes from 0 to 1"});
+}
+
+TEST(SolidReaderTest, RefusesRegionsWithoutPlace) {
+  expectSays(entryRefusal("Regions", [](ParameterList& r) { r.set("Young's Modulus", 2.0); }),
+             {"\"Bodies/cube/Regions/new\"", "\"Box\"", "must be given"});
+  expectSays(
+      entryRefusal("Regions", [](ParameterList& r) { r.set("Group", "soft").set("Young's Modulus", 2.0); }),
+      {"\"Group\"", "no mesh file"});
+}
+
+TEST(SolidReaderTest, RefusesContactsThatDoNotSayWhereOrWithWhat) {
+  const auto says = [](const std::function<void(ParameterList&)>& change,
+                       std::initializer_list<std::string> parts) {
+    expectSays(refusalOf([&](ParameterList& list) { change(list.sublist("Contact").sublist("rest")); }),
+               parts);
+  };
+  says([](ParameterList& p) { p.remove("First Surface"); }, {"\"First Surface\"", "must be given"});
+  says([](ParameterList& p) { p.set("First Edge", "bottom"); }, {"\"First Edge\"", "only membranes"});
+  says([](ParameterList& p) { p.set("Second Body", "cube"); }, {"\"Second Body\"", "obstacle"});
+  says([](ParameterList& p) { p.set("Second Surface", "top"); }, {"\"Second Surface\"", "obstacle"});
+  says([](ParameterList& p) { p.set("Obstacle", "flor"); }, {"\"Obstacle\"", "did you mean \"floor\"?"});
+  says([](ParameterList& p) { p.set("Distance", -1.0); }, {"\"Distance\"", "-1"});
+  says([](ParameterList& p) { p.remove("Obstacle"); }, {"\"Second Body\"", "unless there is an obstacle"});
+}
+
+TEST(SolidReaderTest, RefusesObstaclesThatLackTheirShape) {
+  const auto says = [](const std::function<void(ParameterList&)>& change,
+                       std::initializer_list<std::string> parts) {
+    expectSays(refusalOf([&](ParameterList& list) { change(list.sublist("Obstacles").sublist("floor")); }),
+               parts);
+  };
+  says([](ParameterList& o) { o.remove("Normal"); }, {"\"Obstacles/floor\"", "\"Normal\"", "must be given"});
+  says(
+      [](ParameterList& o) {
+        o.set("Normal", numbers({0, 0, 0}));
+      },
+      {"\"Normal\"", "must have a direction"});
+  says([](ParameterList& o) { o.set("Radius", 1.0); }, {"\"Radius\"", "\"plane\"", "no use"});
+  says([](ParameterList& o) { o.set("Kind", "circle").remove("Normal"); }, {"\"Point\"", "2 entries"});
+  says(
+      [](ParameterList& o) {
+        o.set("Point", numbers({0, 0})).set("Normal", numbers({0, 1}));
+      },
+      {"\"Obstacle\"", "in the plane"});
+  expectSays(refusalOf([](ParameterList& list) {
+               list.sublist("Obstacles").sublist("roof") = list.sublist("Obstacles").sublist("floor");
+             }),
+             {"\"Contact\"", "no pair with the obstacle \"roof\""});
+}
+
+TEST(SolidReaderTest, RefusesMembranesOnObstacles) {
+  expectSays(sceneRefusal([](ParameterList& list) {
+               list.sublist("Obstacles").sublist("floor").set("Kind", "plane").set("Point", numbers({0, 0}));
+               list.sublist("Obstacles").sublist("floor").set("Normal", numbers({0, 1}));
+               ParameterList pair;
+               pair.set("First Body", "left").set("First Surface", "bottom").set("Obstacle", "floor");
+               list.sublist("Contact").sublist("rest") = pair;
+             }),
+             {"\"Obstacle\"", "body \"left\" is a membrane"});
+}
+
+} // namespace
