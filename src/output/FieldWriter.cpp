@@ -98,9 +98,10 @@ XdmfGrid putBody(Hdf5File& file, const std::string& group, const SolvedScene& so
 }
 
 XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string& name,
-                    const ContactFields& fields) {
+                    const std::string& firstBody, const ContactFields& fields) {
   file.createGroup(group);
   file.attribute(group, "name", name);
+  file.attribute(group, "first_body", firstBody);
   const GlobalOrdinal n = fields.numRows;
   XdmfGrid grid;
   grid.name = name;
@@ -194,6 +195,7 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
   const auto contactGroups = groupNames(decomposition.contacts);
   for (std::size_t c = 0; c < contactGroups.size(); ++c)
     grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
+                               bodyGroups[static_cast<std::size_t>(decomposition.contacts[c].firstBody)],
                                gatherContactFields(solved, static_cast<int>(c), evaluation.areas[c])));
   putHistory(file, history, *problem.comm);
   file.close();

@@ -28,7 +28,8 @@ struct FieldFiles {
 ///    by rows; n×1, each point one, for pairs of membranes' edges), `normal` n×3 (of length 1, towards the other side; of
 ///    membranes z), `area` n (each node's share of the surface; of plane bodies length times thickness, of membranes
 ///    length), `initial_gap` c, `gap` c − Bu (what remains open), `multiplier` λ_I (force a node, positive pushes apart),
-///    `pressure` λ_I/area, `active` (int32, 1 where closed); the force on the first body is −λ_I `normal`;
+///    `pressure` λ_I/area, `active` (int32, 1 where closed); the force on the first body, whose group the
+///    attribute `first_body` names, is −λ_I `normal`;
 ///  - `/history/iteration`, `outer`, `step` (int8, the code of the letter s, c, e or p), `projected_gradient`,
 ///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a step.
 /// Groups of bodies and pairs are named as safeNames says (Names.hpp); their attribute `name` is the scene's
