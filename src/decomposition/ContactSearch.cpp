@@ -66,12 +66,12 @@ void meetObstacle(const scene::SurfaceContact& contact, const SurfaceNodes& firs
                   ContactLayout& layout) {
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     const auto [direction, gap] = approachTo(contact.obstacle, first.points[i], dimension);
-    if (gap > contact.distance)
+    if (gap > contact.distance || first.normals[i].dot(direction) <= 0) // far away, or on the other side
       continue;
     if (!direction.allFinite() || direction.norm() < 0.5)
       throw refusal(contact, "the node at " + text(first.points[i]) + " lies in the centre of the obstacle");
     layout.firstNodes.push_back(first.nodes[i]);
-    addRow(direction, gap, first.areas[i], dimension, layout);
+    addRow(direction, gap + contact.gap, first.areas[i], dimension, layout);
   }
 }
 
@@ -156,8 +156,8 @@ void meetBody(const scene::SurfaceContact& contact, const SurfaceNodes& first, c
     const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
     layout.firstNodes.push_back(first.nodes[i]);
     layout.secondNodes.push_back(second.nodes[j]);
-    addRow(normal, components == 1 ? 0.0 : normal.dot(second.points[j] - first.points[i]), first.areas[i],
-           components, layout);
+    const double gap = components == 1 ? 0.0 : normal.dot(second.points[j] - first.points[i]);
+    addRow(normal, gap + contact.gap, first.areas[i], components, layout);
   }
   std::vector<GlobalOrdinal> used = layout.secondNodes;
   std::sort(used.begin(), used.end());

@@ -1,6 +1,7 @@
 #include "epafi/scene/BodyReader.hpp"
 
 #include "epafi/base/ParameterValue.hpp"
+#include "epafi/scene/SolidReader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,30 +18,14 @@ std::string text(const Rectangle& box) {
          valueText(box.y1) + '}';
 }
 
-std::string text(const std::array<int, 2>& counts) {
-  return '{' + std::to_string(counts[0]) + ", " + std::to_string(counts[1]) + '}';
+const std::string noMesh = "the body has no mesh file with groups and surfaces";
+
+void refuseElastic(const ListReader& list) {
+  list.refuseGiven({"Young's Modulus", "Poisson's Ratio", "Thickness"}, "membranes have none; remove it");
 }
 
 bool isVertical(Edge edge) {
   return edge == Edge::left || edge == Edge::right;
-}
-
-/// Nodes are counted by int, and their coordinates must be told apart by a double with digits to spare.
-void checkMesh(const ListReader& list, const Body& body) {
-  constexpr long long mostNodes = std::numeric_limits<int>::max();
-  const auto [nx, ny] = body.elements;
-  const long long numNodes = (static_cast<long long>(nx) + 1) * (static_cast<long long>(ny) + 1);
-  if (numNodes > mostNodes)
-    list.refuseValue("Elements", "that makes " + std::to_string(numNodes) +
-                                     " nodes and a body may have at most " + std::to_string(mostNodes));
-  const Rectangle& box = body.rectangle;
-  constexpr double relativeWidth = 1e-12;
-  const auto isTooThin = [](double from, double to, int count) {
-    return (to - from) / count <= relativeWidth * std::max(std::abs(from), std::abs(to));
-  };
-  if (isTooThin(box.x0, box.x1, nx) || isTooThin(box.y0, box.y1, ny))
-    list.refuseValue("Rectangle", "elements of its size over " + text(body.elements) +
-                                      " are too thin at that distance from the origin to be told apart");
 }
 
 Rectangle boxInside(const ListReader& list, const Body& body) {
@@ -55,6 +40,10 @@ std::vector<Region> readRegions(const ListReader& list, const Body& body) {
   std::vector<Region> regions;
   for (const std::string& name : list.names()) {
     const ListReader region = list.inside(name);
+    refuseElastic(region);
+    region.refuseGiven({"Group"}, noMesh);
+    for (const char* const needed : {"Box", "Conductivity"})
+      region.require(needed);
     regions.push_back({name, boxInside(region, body), region.positive("Conductivity")});
   }
   return regions;
@@ -64,6 +53,9 @@ std::vector<Support> readSupports(const ListReader& list) {
   std::vector<Support> supports;
   for (const std::string& name : list.names()) {
     const ListReader entry = list.inside(name);
+    entry.refuseGiven({"Surface"}, "a membrane on a rectangle is supported on an \"Edge\"");
+    entry.refuseGiven({"X", "Y", "Z"}, "a membrane's deflection is its \"Value\"");
+    entry.require("Edge");
     const Support support{name, entry.edge("Edge"), entry.real("Value")};
     for (const Support& other : supports) {
       if (other.edge == support.edge)
@@ -81,29 +73,76 @@ std::vector<Load> readLoads(const ListReader& list, const Body& body) {
   std::vector<Load> loads;
   for (const std::string& name : list.names()) {
     const ListReader load = list.inside(name);
+    if (load.word("Kind") != "body")
+      load.refuseValue("Kind", "a membrane on a rectangle carries loads of the kind \"body\" only");
+    load.refuseGiven({"Group", "Surface"}, noMesh);
+    load.refuseGiven({"Point"}, "a load of the kind \"body\" has no use for it");
+    load.refuseGiven({"Force"}, "a membrane's load is a number, its \"Value\"");
+    load.require("Value");
     loads.push_back(
         {name, load.hasEntries("Box") ? boxInside(load, body) : body.rectangle, load.real("Value")});
   }
   return loads;
 }
 
+/// Elements in x, y and z of a structured mesh; zeros of another one.
+std::array<int, 3> elementsOf(const Body& body) {
+  return body.solid ? body.solid->mesh.elements : std::array<int, 3>{body.elements[0], body.elements[1], 0};
+}
+
+std::string text(const std::array<int, 3>& counts) {
+  return '{' + std::to_string(counts[0]) + ", " + std::to_string(counts[1]) +
+         (counts[2] > 0 ? ", " + std::to_string(counts[2]) : "") + '}';
+}
+
 Decomposition readDecomposition(const ListReader& list, const Body& body) {
   Decomposition cut;
-  const auto [nx, ny] = body.elements;
-  const std::string elements = "body \"" + body.name + "\" has only " + text(body.elements) + " elements";
-  if (list.word("Method") == "grid") {
+  const std::array<int, 3> elements = elementsOf(body);
+  const bool isStructured = elements[0] > 0;
+  const std::string tooMany = "body \"" + body.name + "\" has only " + text(elements) + " elements";
+  if (list.word("Method") == "grid" && (isStructured || list.has("Method"))) {
+    if (!isStructured)
+      list.refuseValue("Method", "body \"" + body.name + "\" has a mesh file; cut it by \"metis\"");
     cut.method = Decomposition::Method::grid;
-    const std::array<int, 2> counts = list.counts("Grid");
-    cut.counts = {counts[0], counts[1], 1};
-    if (cut.counts[0] > nx || cut.counts[1] > ny)
-      list.refuseValue("Grid", elements);
+    if (const int dimension = elements[2] > 0 ? 3 : 2; list.has("Grid") || dimension == 2)
+      cut.counts = list.counts("Grid", dimension);
+    else
+      for (std::size_t d = 0; d < 3; ++d)
+        cut.counts[d] = std::min(cut.counts[d], elements[d]);
+    for (std::size_t d = 0; d < 3; ++d)
+      if (cut.counts[d] > std::max(elements[d], 1))
+        list.refuseValue("Grid", tooMany);
   } else {
     cut.method = Decomposition::Method::metis;
     cut.parts = list.integer("Parts");
-    if (cut.parts > static_cast<long long>(nx) * ny)
-      list.refuseValue("Parts", elements);
+    if (isStructured &&
+        cut.parts > static_cast<long long>(elements[0]) * elements[1] * std::max(elements[2], 1))
+      list.refuseValue("Parts", tooMany);
   }
   return cut;
+}
+
+Physics physicsOf(const std::string& word) {
+  for (const Physics physics : {Physics::planeStrain, Physics::planeStress, Physics::elasticity3d})
+    if (toString(physics) == word)
+      return physics;
+  return Physics::membrane;
+}
+
+void readMembrane(const ListReader& list, Body& body) {
+  refuseElastic(list);
+  list.refuseGiven({"Box"}, "a membrane has a \"Rectangle\"");
+  list.refuseGiven({"Group"}, noMesh);
+  for (const char* const needed : {"Rectangle", "Elements"})
+    list.require(needed);
+  body.rectangle = list.rectangle("Rectangle");
+  const std::array<int, 3> elements = list.counts("Elements", 2);
+  requireTellableNodes(list, "Rectangle", list.box("Rectangle", 2), elements, 2);
+  body.elements = {elements[0], elements[1]};
+  body.conductivity = list.positive("Conductivity");
+  body.regions = readRegions(list.inside("Regions"), body);
+  body.supports = readSupports(list.inside("Supports"));
+  body.loads = readLoads(list.inside("Loads"), body);
 }
 
 } // namespace
@@ -111,13 +150,11 @@ Decomposition readDecomposition(const ListReader& list, const Body& body) {
 Body readBody(const std::string& name, const ListReader& list) {
   Body body;
   body.name = name;
-  body.rectangle = list.rectangle("Rectangle");
-  body.elements = list.counts("Elements");
-  checkMesh(list, body);
-  body.conductivity = list.positive("Conductivity");
-  body.regions = readRegions(list.inside("Regions"), body);
-  body.supports = readSupports(list.inside("Supports"));
-  body.loads = readLoads(list.inside("Loads"), body);
+  const Physics physics = physicsOf(list.word("Physics"));
+  if (physics == Physics::membrane && !list.hasEntries("Mesh"))
+    readMembrane(list, body);
+  else
+    body.solid = readSolid(list, physics);
   body.decomposition = readDecomposition(list.inside("Decomposition"), body);
   return body;
 }

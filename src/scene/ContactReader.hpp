@@ -3,15 +3,19 @@
 /// The contact pairs out of a scene's list `Contact`.
 
 #include "epafi/scene/ListReader.hpp"
+#include "epafi/scene/ObstacleReader.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <vector>
 
 namespace epafi::scene {
 
-/// \throws InputError if a body is unknown (the nearest name is suggested) or in contact with itself, if an
-///         edge is supported or in another pair, or if the two edges do not coincide or have different
-///         numbers of elements.
-std::vector<ContactPair> readContacts(const ListReader& list, const std::vector<Body>& bodies);
+/// Fills contacts and surface contacts of a scene whose bodies are there: pairs of membranes on rectangles meet along edges,
+/// all others on surfaces.
+/// \throws InputError if a body or obstacle is unknown (the nearest name is suggested), a body in contact with itself, or an
+///         obstacle in no contact; of membranes on rectangles, if an edge is supported or in another pair, or the two edges
+///         do not coincide or have different numbers of elements; of all others, if surfaces are not named. Whether the
+///         surfaces are in the meshes is not looked at here.
+void readContacts(const ListReader& list, const std::vector<NamedObstacle>& obstacles, Scene& scene);
 
 } // namespace epafi::scene

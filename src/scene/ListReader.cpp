@@ -5,7 +5,9 @@
 
 #include <Teuchos_Array.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace epafi::scene {
 namespace {
@@ -56,28 +58,82 @@ Edge ListReader::edge(const std::string& name) const {
   refuseValue(name, "must be one of \"left\", \"right\", \"bottom\", \"top\"");
 }
 
-Rectangle ListReader::rectangle(const std::string& name) const {
+Box ListReader::box(const std::string& name, int dimension) const {
+  const std::string form = dimension == 3 ? "{x0, x1, y0, y1, z0, z1}" : "{x0, x1, y0, y1}";
   const auto& values = list_.get<Teuchos::Array<double>>(name);
-  if (values.size() != 4)
-    refuseValue(name, "must have 4 entries {x0, x1, y0, y1}, not " + std::to_string(values.size()));
-  for (const double value : values)
-    if (value != 0 && !isModerate(value))
-      refuseValue(name, "its entries must be 0 or " + moderateMagnitude);
-  const Rectangle box{values[0], values[1], values[2], values[3]};
-  if (!(box.x0 < box.x1) || !(box.y0 < box.y1))
-    refuseValue(name, "must have a positive size, x0 < x1 and y0 < y1 in {x0, x1, y0, y1}");
-  if (!isModerate(box.x1 - box.x0) || !isModerate(box.y1 - box.y0))
-    refuseValue(name, "its sides must be " + moderateMagnitude);
+  requireLength(name, 2 * dimension, form);
+  requireModerate(name);
+  Box box;
+  for (int d = 0; d < dimension; ++d) {
+    const double lower = values[2 * d], upper = values[2 * d + 1];
+    if (!(lower < upper))
+      refuseValue(name, std::string("must have a positive size, x0 < x1") +
+                            (dimension == 3 ? ", y0 < y1 and z0 < z1 in " : " and y0 < y1 in ") + form);
+    if (!isModerate(upper - lower))
+      refuseValue(name, "its sides must be " + moderateMagnitude);
+    box.lower[static_cast<std::size_t>(d)] = lower;
+    box.upper[static_cast<std::size_t>(d)] = upper;
+  }
   return box;
 }
 
-std::array<int, 2> ListReader::counts(const std::string& name) const {
+Rectangle ListReader::rectangle(const std::string& name) const {
+  const Box plane = box(name, 2);
+  return {plane.lower[0], plane.upper[0], plane.lower[1], plane.upper[1]};
+}
+
+std::array<int, 3> ListReader::counts(const std::string& name, int dimension) const {
   const auto& values = list_.get<Teuchos::Array<int>>(name);
-  if (values.size() != 2)
-    refuseValue(name, "must have 2 entries {nx, ny}, not " + std::to_string(values.size()));
-  if (values[0] < 1 || values[1] < 1)
+  requireLength(name, dimension, dimension == 3 ? "{nx, ny, nz}" : "{nx, ny}");
+  std::array<int, 3> counts{1, 1, 1};
+  std::copy(values.begin(), values.end(), counts.begin());
+  if (*std::min_element(counts.begin(), counts.end()) < 1)
     refuseValue(name, "must have entries of at least 1");
-  return {values[0], values[1]};
+  return counts;
+}
+
+Vector3 ListReader::vector(const std::string& name, int dimension) const {
+  const auto& values = list_.get<Teuchos::Array<double>>(name);
+  requireLength(name, dimension, dimension == 3 ? "{x, y, z}" : "{x, y}");
+  requireModerate(name);
+  Vector3 vector{0, 0, 0};
+  std::copy(values.begin(), values.end(), vector.begin());
+  return vector;
+}
+
+int ListReader::length(const std::string& name) const {
+  const Teuchos::ParameterEntry& entry = list_.getEntry(name);
+  return static_cast<int>(entry.isType<Teuchos::Array<int>>()
+                              ? Teuchos::getValue<Teuchos::Array<int>>(entry).size()
+                              : Teuchos::getValue<Teuchos::Array<double>>(entry).size());
+}
+
+std::string ListReader::file(const std::string& name) const {
+  return (std::filesystem::path(file_).parent_path() / word(name)).string();
+}
+
+void ListReader::require(const std::string& name, const std::string& needs) const {
+  if (!hasEntries(name))
+    refuseList("lacks its parameter \"" + name + "\" of type " + typeName(list_.getEntry(name)) +
+               ", which must be given" + needs);
+}
+
+void ListReader::refuseGiven(std::initializer_list<const char*> names, const std::string& reason) const {
+  for (const char* const name : names)
+    if (hasEntries(name))
+      refuseValue(name, reason);
+}
+
+void ListReader::requireLength(const std::string& name, int expected, const std::string& form) const {
+  if (length(name) != expected)
+    refuseValue(name, "must have " + std::to_string(expected) + " entries " + form + ", not " +
+                          std::to_string(length(name)));
+}
+
+void ListReader::requireModerate(const std::string& name) const {
+  for (const double value : list_.get<Teuchos::Array<double>>(name))
+    if (value != 0 && !isModerate(value))
+      refuseValue(name, "its entries must be 0 or " + moderateMagnitude);
 }
 
 void ListReader::refuseValue(const std::string& name, const std::string& objection) const {

@@ -7,6 +7,7 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -40,17 +41,33 @@ public:
   }
   /// A word that names an edge.
   [[nodiscard]] Edge edge(const std::string& name) const;
-  /// {x0, x1, y0, y1}, of positive size; coordinates as real(), sides 1e-30 … 1e30.
+  /// {x0, x1, y0, y1} in the plane, {x0, x1, y0, y1, z0, z1} in space, of positive size; coordinates as real(),
+  /// sides 1e-30 … 1e30. In the plane z is unbounded.
+  [[nodiscard]] Box box(const std::string& name, int dimension) const;
+  /// The same in the plane.
   [[nodiscard]] Rectangle rectangle(const std::string& name) const;
-  /// {nx, ny}, each ≥ 1.
-  [[nodiscard]] std::array<int, 2> counts(const std::string& name) const;
+  /// {nx, ny} in the plane, {nx, ny, nz} in space, each ≥ 1; nz = 1 in the plane.
+  [[nodiscard]] std::array<int, 3> counts(const std::string& name, int dimension) const;
+  /// {x, y} or {x, y, z}, as real(); z = 0 in the plane.
+  [[nodiscard]] Vector3 vector(const std::string& name, int dimension) const;
+  /// Number of entries of an array of real numbers.
+  [[nodiscard]] int length(const std::string& name) const;
+  /// The file that a word names: beside the scene's file unless the path is absolute.
+  [[nodiscard]] std::string file(const std::string& name) const;
 
+  /// Throws unless the parameter is given. \param needs  why it must be, "which … must have"
+  void require(const std::string& name, const std::string& needs = "") const;
+  /// Throws if one of the parameters is given. \param reason  follows "but "
+  void refuseGiven(std::initializer_list<const char*> names, const std::string& reason) const;
   /// Throws: 'file: parameter "name" in list "path" is value, but `objection`.' No full stop follows a '?'.
   [[noreturn]] void refuseValue(const std::string& name, const std::string& objection) const;
   /// Throws: 'file: list "path" `objection`.'
   [[noreturn]] void refuseList(const std::string& objection) const;
 
 private:
+  void requireLength(const std::string& name, int expected, const std::string& form) const;
+  void requireModerate(const std::string& name) const;
+
   const Teuchos::ParameterList& list_;
   const std::string& file_;
   std::string path_;

@@ -4,6 +4,7 @@
 #include "epafi/scene/BodyReader.hpp"
 #include "epafi/scene/ContactReader.hpp"
 #include "epafi/scene/GapConsistency.hpp"
+#include "epafi/scene/ObstacleReader.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 namespace epafi::scene {
@@ -35,7 +36,8 @@ Scene readScene(const ParameterList& list, const std::string& where) {
     scene.bodies.push_back(readBody(name, bodies.inside(name)));
   if (scene.bodies.empty())
     bodies.refuseList("has no bodies, but a scene needs at least one");
-  scene.contacts = readContacts(ListReader(complete.sublist("Contact"), where, "Contact"), scene.bodies);
+  readContacts(ListReader(complete.sublist("Contact"), where, "Contact"),
+               readObstacles(ListReader(complete.sublist("Obstacles"), where, "Obstacles")), scene);
   requireConsistentGaps(scene);
   return scene;
 }

@@ -5,6 +5,8 @@
 
 #include <Teuchos_Array.hpp>
 
+#include <limits>
+
 namespace epafi::scene {
 namespace {
 
@@ -13,46 +15,100 @@ using Teuchos::ParameterList;
 
 const std::vector<std::string> edges = {"left", "right", "bottom", "top"};
 /// What the arrays may hold, for the reference; ListReader checks it.
-const std::string box = "x0 < x1, y0 < y1", counts = "each ≥ 1";
+const std::string box = "x0 < x1, y0 < y1, z0 < z1", counts = "each ≥ 1";
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void describeMaterial(ParameterList& list, const std::string& of) {
+  const Material material;
+  addReal(list, "Conductivity", material.conductivity, "Membranes: conductivity (tension) " + of + '.', 0.0,
+          infinity, true);
+  addReal(list, "Young's Modulus", material.youngsModulus,
+          "Elastic bodies, required: E " + of + ", force per area.", 0.0, infinity, true);
+  addReal(list, "Poisson's Ratio", material.poissonsRatio, "Elastic bodies, required: ν " + of + '.', -1.0,
+          0.5, true, true);
+  addReal(list, "Thickness", material.thickness, "Plane strain and plane stress: thickness " + of + '.', 0.0,
+          infinity, true);
+}
+
+void describeMesh(ParameterList& list) {
+  addArray(list, "Rectangle", Array<double>(),
+           "Extent {x0, x1, y0, y1} of a body in the plane; required unless it has a mesh file.", box);
+  addArray(list, "Box", Array<double>(),
+           "Extent {x0, x1, y0, y1, z0, z1} of a body in space; required unless it has a mesh file. Its "
+           "surfaces are left and right (x), front and back (y), bottom and top (z).",
+           box);
+  addArray(
+      list, "Elements", Array<int>(),
+      "Number of elements {nx, ny} in x and y, in space {nx, ny, nz}; required unless there is a mesh file.",
+      counts);
+  list.set("Mesh", "",
+           "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
+           "directory. Linear triangles, quadrilaterals, tetrahedra or hexahedra.");
+  list.set("Group", "",
+           "Physical group of the mesh file that is this body; without it all elements. Surfaces are the "
+           "physical groups of one dimension less.");
+}
 
 void describeRegions(ParameterList& body) {
   ParameterList& region =
-      body.sublist("Regions", false, "Parts of the body with another conductivity.")
-          .sublist("<region>", false, "Where regions overlap, the last one in the file holds.");
+      body.sublist("Regions", false, "Parts of the body of another material.")
+          .sublist("<region>", false,
+                   "Elements in a box or of a group. Where regions overlap, the last one in the file holds; "
+                   "what is not given here is as in the body.");
   addArray(region, "Box", Array<double>(),
-           "Rectangle {x0, x1, y0, y1}; it holds for elements whose centre lies in it.", box);
-  addReal(region, "Conductivity", Region().conductivity, "Conductivity of these elements.", 0.0,
-          std::numeric_limits<double>::infinity(), true);
-  setRequired(region, {"Box", "Conductivity"});
+           "Extent {x0, x1, y0, y1}, in space {x0, x1, y0, y1, z0, z1}; the region are the elements whose "
+           "centre lies in it. Required unless there is a group.",
+           box);
+  region.set("Group", "", "Physical group of the mesh file.");
+  describeMaterial(region, "of these elements");
 }
 
 void describeSupports(ParameterList& body) {
-  ParameterList& support = body.sublist("Supports", false, "Edges along which the deflection is prescribed.")
-                               .sublist("<support>", false, "One supported edge.");
-  addChoice(support, "Edge", "", "The supported edge.", edges);
-  setRequired(support, {"Edge"});
-  addReal(support, "Value", Support().value, "Deflection along the edge.");
+  ParameterList& support = body.sublist("Supports", false, "Where deflection or displacement is prescribed.")
+                               .sublist("<support>", false,
+                                        "One supported edge or surface. Of an elastic body those components "
+                                        "are held that are given: one alone makes a sliding support.");
+  addChoice(support, "Edge", "", "Membranes on rectangles, required: the supported edge.", edges);
+  support.set("Surface", "", "All other bodies, required: the supported surface.");
+  addReal(support, "Value", Support().value, "Membranes: deflection along it.");
+  addReal(support, "X", 0.0, "Elastic bodies: displacement in x; free if not given.");
+  addReal(support, "Y", 0.0, "Elastic bodies: displacement in y; free if not given.");
+  addReal(support, "Z", 0.0, "Elastic bodies in space: displacement in z; free if not given.");
 }
 
 void describeLoads(ParameterList& body) {
-  ParameterList& load = body.sublist("Loads", false, "Forces on the body; loads that overlap add up.")
-                            .sublist("<load>", false, "One constant load.");
-  addArray(load, "Box", Array<double>(),
-           "Rectangle {x0, x1, y0, y1} that carries the load; {} is the whole body.", box);
-  addReal(load, "Value", Load().value, "Force per area, positive upwards.");
-  setRequired(load, {"Value"});
+  ParameterList& load = body.sublist("Loads", false, "Forces on the body; loads add up.")
+                            .sublist("<load>", false, "One load, constant in space.");
+  addChoice(
+      load, "Kind", "body",
+      "body: force per volume (per area of a membrane) in the elements of a box or group; traction: force "
+      "per area on a surface (per length on a membrane's); pressure: force per area against a surface's "
+      "outward normal; point: force at a node.",
+      {"body", "traction", "pressure", "point"});
+  addArray(
+      load, "Box", Array<double>(),
+      "Kind body: extent {x0, x1, y0, y1}, in space {x0, x1, y0, y1, z0, z1}, of what carries the load; {} "
+      "is the whole body.",
+      box);
+  load.set("Group", "", "Kind body: physical group of the mesh file that carries the load.");
+  load.set("Surface", "", "Kinds traction and pressure, required: the loaded surface.");
+  addArray(load, "Point", Array<double>(), "Kind point, required: where the node lies, {x, y} or {x, y, z}.",
+           "");
+  addReal(load, "Value", Load().value,
+          "Membranes, required: force, positive upwards. Kind pressure, required: the pressure.");
+  addArray(load, "Force", Array<double>(),
+           "Elastic bodies, required but for pressure: components {x, y} or {x, y, z} of the force.", "");
 }
 
 void describeBody(ParameterList& bodies) {
-  const Body body;
   ParameterList& list = bodies.sublist("<body>", false, "One body, under a name of your choice.");
-  addChoice(list, "Physics", "membrane", "What the body is: a membrane, −∇·(κ∇u) = f.", {"membrane"});
-  addArray(list, "Rectangle", Array<double>(), "The body's extent {x0, x1, y0, y1}.", box);
-  addArray(list, "Elements", Array<int>(), "Number of elements {nx, ny} in x and y.", counts);
-  setRequired(list, {"Rectangle", "Elements"});
-  addReal(list, "Conductivity", body.conductivity,
-          "Conductivity (tension) of the body outside of its regions.", 0.0,
-          std::numeric_limits<double>::infinity(), true);
+  addChoice(
+      list, "Physics", "membrane",
+      "What the body is: a membrane, −∇·(κ∇u) = f, or linearly elastic. All bodies of a scene have the same "
+      "number of unknowns a node.",
+      {"membrane", "plane strain", "plane stress", "elasticity 3-D"});
+  describeMesh(list);
+  describeMaterial(list, "of the body outside of its regions");
   describeRegions(list);
   describeSupports(list);
   describeLoads(list);
@@ -61,16 +117,40 @@ void describeBody(ParameterList& bodies) {
       .setParameters(decompositionSchema());
 }
 
+void describeObstacle(ParameterList& obstacles) {
+  ParameterList& obstacle = obstacles.sublist("<obstacle>", false, "One obstacle, which does not move.");
+  addChoice(obstacle, "Kind", "", "A half-space, a circle (in the plane) or a sphere.",
+            {"plane", "circle", "sphere"});
+  addArray(obstacle, "Point", Array<double>(), "A point on the plane, or the centre: {x, y} or {x, y, z}.",
+           "");
+  setRequired(obstacle, {"Kind", "Point"});
+  addArray(obstacle, "Normal", Array<double>(),
+           "Plane, required: its normal {x, y} or {x, y, z} towards the body, of any length.", "");
+  addReal(obstacle, "Radius", 1.0, "Circle and sphere, required: the radius.", 0.0, infinity, true);
+}
+
 void describePair(ParameterList& contact) {
-  ParameterList& pair = contact.sublist(
-      "<pair>", false, "Two coinciding edges; the second body must stay above the first one.");
-  pair.set("First Body", "", "Name of the lower body.");
-  addChoice(pair, "First Edge", "", "Edge of the first body.", edges);
-  pair.set("Second Body", "", "Name of the upper body.");
-  addChoice(pair, "Second Edge", "", "Edge of the second body.", edges);
-  setRequired(pair, {"First Body", "First Edge", "Second Body", "Second Edge"});
+  ParameterList& pair =
+      contact.sublist("<pair>", false,
+                      "Two edges or surfaces whose nodes face each other, or a surface and an obstacle. "
+                      "Membranes on rectangles: "
+                      "two coinciding edges; the second body must stay above the first one.");
+  pair.set("First Body", "", "Name of the first (of membranes: the lower) body.");
+  setRequired(pair, {"First Body"});
+  addChoice(pair, "First Edge", "", "Membranes on rectangles, required: edge of the first body.", edges);
+  pair.set("First Surface", "", "All other bodies, required: surface of the first body.");
+  pair.set("Second Body", "", "Name of the second (of membranes: the upper) body.");
+  addChoice(pair, "Second Edge", "", "Membranes on rectangles, required: edge of the second body.", edges);
+  pair.set("Second Surface", "", "All other bodies, required: surface of the second body.");
+  pair.set("Obstacle", "", "Name of the obstacle that the first body meets instead of a second one.");
   addReal(pair, "Gap", ContactPair().gap,
-          "Initial gap g: u_second − u_first ≥ −g along the edge; negative means initial penetration.");
+          "Initial gap g between membranes: u_second − u_first ≥ −g; of elastic bodies what is added to the "
+          "gap that "
+          "their shapes leave. Negative means initial penetration.");
+  addReal(pair, "Distance", 0.0,
+          "Nodes that are farther than this from the other side cannot meet it and get no inequality; 0: no "
+          "limit. Not of membranes on rectangles.",
+          0.0);
 }
 
 } // namespace
@@ -78,10 +158,16 @@ void describePair(ParameterList& contact) {
 ParameterList decompositionSchema() {
   const Decomposition cut;
   ParameterList list("Decomposition");
-  addChoice(list, "Method", "grid", "A grid of rectangles, or METIS on the graph of the elements.",
+  addChoice(list, "Method", "grid",
+            "A grid of rectangles or boxes (structured meshes), or METIS on the graph of the elements. "
+            "Bodies with a "
+            "mesh file are cut by METIS unless told otherwise.",
             {"grid", "metis"});
-  addArray(list, "Grid", Array<int>(cut.counts.begin(), cut.counts.begin() + 2),
-           "With the method grid: number of subdomains {nx, ny} in x and y of each body.", counts);
+  addArray(
+      list, "Grid", Array<int>(cut.counts.begin(), cut.counts.begin() + 2),
+      "With the method grid: number of subdomains {nx, ny} in x and y of each body, in space {nx, ny, nz} "
+      "(if not given {2, 2, 2}).",
+      counts);
   addInteger(list, "Parts", cut.parts, "With the method metis: number of subdomains of each body.", 1);
   return list;
 }
@@ -89,10 +175,14 @@ ParameterList decompositionSchema() {
 ParameterList sceneSchema() {
   ParameterList list("Epafi");
   list.set("Title", "", "What the scene shows, in a few words.");
-  describeBody(list.sublist(
-      "Bodies", false,
-      "The bodies, at least one. Real numbers in a scene are 0 or between 1e-30 and 1e30 in magnitude."));
-  describePair(list.sublist("Contact", false, "The pairs of edges that cannot penetrate each other."));
+  describeBody(list.sublist("Bodies", false,
+                            "The bodies, at least one. Lengths, forces and moduli are in one consistent "
+                            "system of units of your choice "
+                            "(mm, N and MPa, say); results are in the same. Real numbers in a scene are 0 or "
+                            "between 1e-30 and 1e30 in "
+                            "magnitude."));
+  describeObstacle(list.sublist("Obstacles", false, "Rigid obstacles that elastic bodies may meet."));
+  describePair(list.sublist("Contact", false, "What cannot penetrate each other."));
   list.sublist("Decomposition", false, "How each body is cut into subdomains, unless it says so itself.")
       .setParameters(decompositionSchema());
   return list;

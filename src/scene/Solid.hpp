@@ -107,6 +107,7 @@ struct SurfaceContact {
   int second = -1; ///< −1: the obstacle
   std::string secondSurface;
   Obstacle obstacle;
+  double gap = 0; ///< added to the gap that geometry leaves (membranes: all there is); negative: penetration
   /// Nodes farther from the other side than this get no inequality: they cannot meet.
   double distance = std::numeric_limits<double>::infinity();
 };
