@@ -38,7 +38,7 @@ def window(place, active):
 
 def draw_points(axes, place, pair):
     """Where no facet of the surface is whole: the nodes alone."""
-    return axes.scatter(*place.T, c=pair.pressure, cmap="magma_r", vmin=0, s=60, edgecolors=style.BLACK, linewidths=0.5)
+    return axes.scatter(*place.T, c=pair.pressure, cmap="YlOrRd", vmin=0, s=60, edgecolors=style.BLACK, linewidths=0.5)
 
 
 def fan(place, facets, *values):
@@ -55,7 +55,7 @@ def draw_facets(axes, place, pair):
     triangulation, shades, closed = fan(place, pair.cells, numpy.maximum(pair.pressure, 0.0), pair.active.astype(float))
     largest = float(pair.pressure.max())
     shown = axes.tripcolor(triangulation, shades, shading="gouraud",
-                           cmap="magma_r", vmin=0, vmax=largest if largest > 0 else 1.0, rasterized=True)
+                           cmap="YlOrRd", vmin=0, vmax=largest if largest > 0 else 1.0, rasterized=True)
     ends, meeting = cells.edges(pair.cells)
     axes.add_collection(LineCollection(place[ends], colors=[(0, 0, 0, 0.18 if len(ends) < 6000 else 0.05)], linewidths=0.3))
     axes.add_collection(LineCollection(place[ends[meeting[:, 1] < 0]], colors=style.BLACK, linewidths=1.0))

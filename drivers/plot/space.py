@@ -66,20 +66,22 @@ def paint(axes, surfaces, view):
     return picture
 
 
-def triad(axes, view, points):
-    """Directions of the coordinates below the picture's left corner, and how large the bodies are."""
-    inset = axes.inset_axes([-0.02, -0.13, 0.14, 0.14])
-    inset.set_axis_off()
-    inset.set_aspect("equal")
-    for name, direction in zip("xyz", view.axes.T):
-        inset.annotate("", direction[:2], (0, 0), arrowprops=dict(arrowstyle="-|>", color=style.BLACK, lw=1.1,
-                                                                  shrinkA=0, shrinkB=0, mutation_scale=9))
-        inset.text(*(1.28 * direction[:2]), name, ha="center", va="center", fontsize=10)
-    inset.set_xlim(-1.1, 1.4)
-    inset.set_ylim(-1.1, 1.4)
+def triad(axes, pixels, view, points):
+    """Directions of the coordinates below the picture's left corner, and how large the bodies are; returns where a legend
+    goes, below both."""
+    left, right, bottom, top = pixels.extent()
+    unit = 0.06 * max(right - left, top - bottom)
+    origin = numpy.array([left + unit, bottom - 1.2 * unit])
+    for name, direction in zip("xyz", unit * view.axes.T[:, :2]):
+        axes.annotate("", origin + direction, origin, annotation_clip=False,
+                      arrowprops=dict(arrowstyle="-|>", color=style.BLACK, lw=1.1, shrinkA=0, shrinkB=0, mutation_scale=9))
+        axes.text(*(origin + 1.3 * direction), name, ha="center", va="center", fontsize=10)
     low, high = points.min(axis=0), points.max(axis=0)
+    noise = 1e-9 * (high - low).max()
+    low, high = (numpy.where(numpy.abs(ends) < noise, 0.0, ends) for ends in (low, high))
     sizes = ", ".join(f"{name} {a:.4g} … {b:.4g}" for name, a, b in zip("xyz", low, high))
-    axes.text(0.14, -0.06, f"{sizes} [length]", transform=axes.transAxes, fontsize=10, color="#444444", va="center")
+    axes.text(origin[0] + 1.9 * unit, origin[1], f"{sizes} [length]", fontsize=10, color="#444444", va="center")
+    return origin + unit * numpy.array([1.6, -0.3])
 
 
 def draw_closed(axes, picture, run, view, factor):
@@ -94,7 +96,7 @@ def draw_closed(axes, picture, run, view, factor):
             continue
         ends, meeting = cells.edges(closed)
         rim = view.project(points[ends[meeting[:, 1] < 0]])
-        seen = picture.visible(rim, 0.012 * run.size())
+        seen = picture.visible(rim, 0.010 * run.size())
         axes.add_collection(LineCollection(seen, colors=style.ACTIVE, linewidths=2.2, zorder=3, capstyle="round"))
         drawn = drawn or len(seen) > 0
     return drawn
@@ -107,14 +109,14 @@ def figure(run):
     picture, axes = pyplot.subplots(figsize=(9.2, 6.8))
     pixels = paint(axes, surfaces, view)
     closed = draw_closed(axes, pixels, run, view, factor)
-    triad(axes, view, numpy.concatenate([body.points for body in run.bodies]))
+    below = triad(axes, pixels, view, numpy.concatenate([body.points for body in run.bodies]))
     bar = picture.colorbar(matplotlib.cm.ScalarMappable(norm, style.STRESS), ax=axes, shrink=0.72, pad=0.02, aspect=24)
     bar.set_label("von Mises stress [force per area]")
     bar.outline.set_visible(False)
     axes.set_title(f"{deformation.names(run)}: {deformation.text(factor)} — {run.title}", pad=10)
     if closed:
         axes.legend(handles=[Line2D([], [], color=style.ACTIVE, linewidth=2.2, label="rim of the closed contact")],
-                    loc="lower right", bbox_to_anchor=(1.0, -0.13))
+                    loc="upper left", bbox_to_anchor=below, bbox_transform=axes.transData)
     return picture
 
 
@@ -142,8 +144,8 @@ def parts(run, colour):
 def decomposition(run):
     view, colour = render.View(), subdomains.colouring(run)
     picture, axes = pyplot.subplots(figsize=(8.2, 6.8))
-    paint(axes, parts(run, colour), view)
-    triad(axes, view, numpy.concatenate([body.points for body in run.bodies]))
+    pixels = paint(axes, parts(run, colour), view)
+    triad(axes, pixels, view, numpy.concatenate([body.points for body in run.bodies]))
     crosspoints = sum(len(body.crosspoints) for body in run.bodies)
     count = len(colour)
     axes.set_title(f"{count} subdomain{'s' if count != 1 else ''}, moved apart; {crosspoints} crosspoints — {run.title}", pad=10)

@@ -65,7 +65,8 @@ def draw_cells(axes, body, colour):
     shape = body.grid_shape()
     if shape is None:
         axes.add_collection(PolyCollection(body.points[body.cells][:, :, :2], array=shades, cmap=palette,
-                                           clim=(-0.5, len(style.AREAS) - 0.5), rasterized=True))
+                                           clim=(-0.5, len(style.AREAS) - 0.5), edgecolors="face", linewidths=0.4,
+                                           rasterized=True))
         return
     x, y = body.points[:, 0].reshape(shape), body.points[:, 1].reshape(shape)
     axes.pcolormesh(x, y, shades.reshape(shape[0] - 1, shape[1] - 1), cmap=palette, vmin=-0.5,
