@@ -121,7 +121,10 @@ class Picture:
         line = numpy.repeat(numpy.arange(len(ends)), count)
         step = (numpy.arange(len(line)) - numpy.repeat(numpy.cumsum(count) - count, count))
         pieces = [ends[line, 0] + ((step + s) / count[line])[:, None] * (ends[line, 1] - ends[line, 0]) for s in (0, 0.5, 1)]
-        column = numpy.clip(((pieces[1][:, 0] - self.low[0]) / self.pixel).astype(int), 0, self.shape[1] - 1)
-        row = numpy.clip(((pieces[1][:, 1] - self.low[1]) / self.pixel).astype(int), 0, self.shape[0] - 1)
-        seen = pieces[1][:, 2] >= self.depth[row * self.shape[1] + column] - tolerance
+        column, row = ((pieces[1][:, :2] - self.low) / self.pixel).astype(int).T
+        nearest = numpy.full(len(line), numpy.inf)  # of the neighbouring pixels' depths the least: outlines lie between pixels
+        for x, y in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)):
+            pixel = (numpy.clip(row + y, 0, self.shape[0] - 1) * self.shape[1] + numpy.clip(column + x, 0, self.shape[1] - 1))
+            nearest = numpy.minimum(nearest, self.depth[pixel])
+        seen = pieces[1][:, 2] >= nearest - tolerance
         return numpy.stack([pieces[0][seen, :2], pieces[2][seen, :2]], axis=1)
