@@ -25,8 +25,14 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   const double assembly = maxOverRanks(*comm, Teuchos::Time::wallTime() - run.started);
   run.solver->setup(run.decomposition->problem);
   run.solution = run.solver->solve(nullptr, observer);
+  const double solved = Teuchos::Time::wallTime();
+  run.evaluation = output::evaluate(run.solved());
   run.report = run.solver->reportList(run.solution);
-  run.report.sublist("Time").set("Assembly", assembly);
+  output::addResults(run.solved(), run.evaluation, run.report);
+  const double evaluation = maxOverRanks(*comm, Teuchos::Time::wallTime() - solved);
+  run.report.sublist("Time")
+      .set("Assembly", assembly)
+      .set("Recovery", run.solver->times().recovery + evaluation);
   run.report.sublist("Problem").set("Title", scene.title);
   return run;
 }

@@ -5,6 +5,7 @@
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/decomposition/Decompose.hpp"
+#include "epafi/output/Evaluation.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -23,8 +24,11 @@ struct SceneRun {
   std::unique_ptr<decomposition::Decomposition> decomposition;
   std::unique_ptr<ContactSolver> solver;
   fetidp::ContactSolution solution;
+  output::Evaluation evaluation;
   Teuchos::ParameterList report; ///< complete but for Time/Output and Time/Total
   double started = 0;            ///< wall time at the start
+
+  [[nodiscard]] output::SolvedScene solved() const { return {scene, *decomposition, solution}; }
 };
 
 /// Decomposes, assembles and solves.

@@ -102,6 +102,41 @@ void describeAccuracy(std::ostream& text, const SceneRun& run) {
   text << '\n';
 }
 
+std::string rounded(const ParameterList& list, const char* name) {
+  std::ostringstream text;
+  text << std::setprecision(5) << list.get<double>(name);
+  return text.str();
+}
+
+/// One line a list, the first ones only if there are many. `line` adds what a list says.
+template <class Line>
+void describeEach(std::ostream& text, const ParameterList& lists, const std::string& label, Line line) {
+  constexpr int most = 8;
+  int number = 0;
+  for (auto entry = lists.begin(); entry != lists.end(); ++entry)
+    if (++number <= most) {
+      text << "  " << std::left << std::setw(12) << label << lists.name(entry) << ": ";
+      line(Teuchos::getValue<ParameterList>(lists.entry(entry)));
+      text << '\n';
+    }
+  if (number > most)
+    text << "              and " << number - most << " more in the report\n";
+}
+
+void describeResults(std::ostream& text, const SceneRun& run) {
+  if (run.report.isSublist("Body"))
+    describeEach(text, run.report.sublist("Body"), "body", [&](const ParameterList& body) {
+      text << "largest displacement " << rounded(body, "Largest Displacement")
+           << ", largest von Mises stress " << rounded(body, "Largest von Mises Stress");
+    });
+  if (run.report.isSublist("Contact"))
+    describeEach(text, run.report.sublist("Contact"), "contact", [&](const ParameterList& contact) {
+      text << count(contact, "Active Nodes") << " of " << counted(contact, "Candidates", "node")
+           << " closed, area " << rounded(contact, "Contact Area") << ", force " << rounded(contact, "Force")
+           << ", largest pressure " << rounded(contact, "Largest Pressure");
+    });
+}
+
 void describeCosts(std::ostream& text, const SceneRun& run) {
   const ParameterList& time = run.report.sublist("Time");
   const ParameterList& memory = run.report.sublist("Memory");
@@ -122,6 +157,7 @@ std::string summary(const SceneRun& run) {
   describeProblem(text, run);
   describeSolution(text, run);
   describeAccuracy(text, run);
+  describeResults(text, run);
   describeCosts(text, run);
   const ParameterList& status = run.report.sublist("Status");
   text << "  status      " << status.get<std::string>("Status") << ": " << status.get<std::string>("Reason")

@@ -62,7 +62,7 @@ std::string writeFiles(const Options& options, SceneRun& run, const Comm& comm) 
   if (!options.output.empty()) {
     const std::string name = std::filesystem::path(options.scene).stem().string();
     const auto files =
-        output::writeFields(directory, name, *run.decomposition, run.solution, run.solver->report().history);
+        output::writeFields(directory, name, run.solved(), run.evaluation, run.solver->report().history);
     output::writeHistory(run.solver->report().history, directory / "history.csv", comm);
     lines += "  fields      " + files.hdf5.string() + " and " + files.xdmf.string() + "\n  history     " +
              (directory / "history.csv").string() + "\n";

@@ -26,35 +26,54 @@ def show_noise_as_zero(axes, pair, run):
                   fontsize=10, color="#555555")
 
 
+def pieces(pair):
+    """The curves of a contact, one after the other with a space between: list of (arclength, contact of its nodes)."""
+    curves = [pair.along(curve) for curve in pair.curves()]
+    total, offset, result = sum(curve.arclength()[-1] for curve in curves), 0.0, []
+    for curve in curves:
+        result.append((offset + curve.arclength(), curve))
+        offset = result[-1][0][-1] + 0.05 * total
+    return result
+
+
 def figure(run, pair):
-    s = pair.arclength()
-    closed = spans(s, pair.active) if len(s) > 1 else []
-    dots = dict(marker="o", markersize=3.6) if len(s) <= 130 else {}
+    """Gap and multiplier; of elastic bodies the pressure, that is the multiplier by area."""
+    curves = pieces(pair)
+    closed = [span for s, curve in curves if len(s) > 1 for span in spans(s, curve.active)]
+    dots = dict(marker="o", markersize=3.6) if len(pair.points) <= 130 else {}
     picture, (gap, multiplier, active) = pyplot.subplots(
         3, 1, sharex=True, figsize=(8.2, 7.4), gridspec_kw=dict(height_ratios=[3, 3, 1], hspace=0.14))
     for axes in (gap, multiplier, active):
         for a, b in closed:
             axes.axvspan(a, b, color=style.VERMILLION, alpha=0.10, linewidth=0)
 
-    gap.plot(s, pair.gap, color=style.BLUE, linewidth=1.6, clip_on=False, label="remaining gap", **dots)
-    if pair.initial_gap is not None and numpy.any(pair.initial_gap != 0):
-        gap.plot(s, pair.initial_gap, color=style.GREY, linewidth=1.2, linestyle="--", label="initial gap")
+    has_initial = pair.initial_gap is not None and bool(numpy.any(pair.initial_gap != 0))
+    for number, (s, curve) in enumerate(curves):
+        first = number == 0
+        gap.plot(s, curve.gap, color=style.BLUE, linewidth=1.6, clip_on=False, label="remaining gap" if first else None, **dots)
+        if has_initial:
+            gap.plot(s, curve.initial_gap, color=style.GREY, linewidth=1.2, linestyle="--",
+                     label="initial gap" if first else None)
+    if has_initial:
         gap.legend(loc="best")
     gap.set_ylabel("gap c − Bu [length]")
     show_noise_as_zero(gap, pair, run)
 
     multiplier.axhline(0, color=style.GREY, linewidth=0.8)
-    multiplier.plot(s, pair.multiplier, color=style.VERMILLION, linewidth=1.6, clip_on=False, **dots)
-    multiplier.set_ylabel("multiplier λ [force a node]")
+    for s, curve in curves:
+        multiplier.plot(s, curve.pressure if run.is_elastic() else curve.multiplier, color=style.VERMILLION, linewidth=1.6,
+                        clip_on=False, **dots)
+        active.step(s, curve.active.astype(float), where="mid", color=style.BLACK, linewidth=1.4)
+    multiplier.set_ylabel("pressure λ / area\n[force per area]" if run.is_elastic() else "multiplier λ [force a node]")
 
-    active.step(s, pair.active.astype(float), where="mid", color=style.BLACK, linewidth=1.4)
     active.set_yticks([0, 1], ["open", "closed"])
     active.set_ylim(-0.25, 1.25)
     active.set_ylabel("active set")
     active.set_xlabel("arclength along the contact line [length]")
-    active.set_xlim(s[0], s[-1] if s[-1] > s[0] else s[0] + 1)
+    end = curves[-1][0][-1]
+    active.set_xlim(0, end if end > 0 else 1)
     picture.align_ylabels([gap, multiplier, active])
-    gap.set_title(f"Contact {pair.name}: {int(pair.active.sum())} of {len(s)} nodes closed, "
+    gap.set_title(f"Contact {pair.name}: {int(pair.active.sum())} of {len(pair.points)} nodes closed, "
                   f"total force {pair.multiplier.sum():.4g} — {run.title}")
     for axes in (gap, multiplier):
         axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 4))

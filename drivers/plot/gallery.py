@@ -1,6 +1,6 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import contact, convergence, qp, scaling, subdomains, surface, table, tables
+from . import contact, convergence, plane, pressure, qp, scaling, space, subdomains, surface, table, tables
 from .errors import PlotError
 from .run import read_run
 from .style import Canvas
@@ -37,11 +37,16 @@ def find(source):
 def draw_run(file, canvas):
     run = read_run(file)
     stem = file.stem
-    yield canvas.save(surface.figure(run), f"{stem}_deflection")
-    yield canvas.save(subdomains.figure(run), f"{stem}_decomposition")
+    in_space = not run.is_plane()
+    if run.is_elastic():
+        yield canvas.save(space.figure(run) if in_space else plane.figure(run), f"{stem}_deformed")
+    else:
+        yield canvas.save(surface.figure(run), f"{stem}_deflection")
+    yield canvas.save(space.decomposition(run) if in_space else subdomains.figure(run), f"{stem}_decomposition")
     for pair in run.contacts:
         if len(pair.points) > 0:
-            yield canvas.save(contact.figure(run, pair), f"{stem}_contact_{pair.group}")
+            drawn = pressure.figure(run, pair) if in_space else contact.figure(run, pair)
+            yield canvas.save(drawn, f"{stem}_contact_{pair.group}")
     if convergence.can_draw(run.history):
         yield canvas.save(convergence.figure(run.history, run.title), f"{stem}_convergence")
 

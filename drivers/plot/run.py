@@ -5,6 +5,7 @@ import dataclasses
 import h5py
 import numpy
 
+from .cells import chain, is_plane
 from .errors import PlotError
 
 
@@ -16,6 +17,13 @@ class Body:
     u: numpy.ndarray  # n x components
     subdomain: numpy.ndarray  # n_e
     crosspoints: numpy.ndarray  # m x 3
+    cell_type: str = "quadrilateral"
+    von_mises: numpy.ndarray = None  # n, of elastic bodies
+    group: str = ""
+
+    def displacement(self):
+        """n x 3; of elastic bodies."""
+        return numpy.column_stack([self.u, numpy.zeros((len(self.u), 3 - self.u.shape[1]))])
 
     def deflection(self):
         """What is drawn upwards: u itself for membranes, its length for vector fields."""
@@ -44,6 +52,24 @@ class Contact:
     multiplier: numpy.ndarray
     active: numpy.ndarray  # bool
     initial_gap: numpy.ndarray  # or None
+    pressure: numpy.ndarray = None
+    normal: numpy.ndarray = None  # n x 3
+    cells: numpy.ndarray = None  # m x 1, 2, 3 or 4, rows
+    first_body: str = ""  # name of its group
+
+    def curves(self):
+        """Rows in their order along the contact line, in the plane; several lists if the line has gaps."""
+        if self.cells is not None and self.cells.shape[1] == 2:
+            return chain(self.cells, len(self.points))
+        return [numpy.arange(len(self.points))]
+
+    def along(self, curve):
+        """The contact of the nodes `curve` alone."""
+        def chosen(values):
+            return None if values is None else values[curve]
+        return dataclasses.replace(self, points=self.points[curve], gap=self.gap[curve], multiplier=self.multiplier[curve],
+                                   active=self.active[curve], initial_gap=chosen(self.initial_gap),
+                                   pressure=chosen(self.pressure), normal=chosen(self.normal), cells=None)
 
     def arclength(self):
         steps = numpy.linalg.norm(numpy.diff(self.points, axis=0), axis=1)
@@ -65,6 +91,12 @@ class Run:
     bodies: list
     contacts: list
     history: History  # or None
+
+    def is_elastic(self):
+        return all(body.von_mises is not None for body in self.bodies)
+
+    def is_plane(self):
+        return all(is_plane(body.cell_type) for body in self.bodies)
 
     def size(self):
         """Extent of all bodies together."""
@@ -92,13 +124,21 @@ def read_body(name, group):
     if len(u) != len(points) or len(subdomain) != len(cells) or (cells.size and cells.max() >= len(points)):
         raise ValueError(f"the datasets of body {name} do not fit each other")
     crosspoints = group["crosspoints"][:] if "crosspoints" in group else numpy.zeros((0, 3))
-    return Body(title(name, group), points, cells, u.reshape(len(points), -1), subdomain, crosspoints)
+    cell_type = text(group.attrs.get("cell_type", "quadrilateral"))
+    corners = {"triangle": 3, "quadrilateral": 4, "tetrahedron": 4, "hexahedron": 8}
+    if cells.ndim != 2 or cells.shape[1] != corners[cell_type]:
+        raise ValueError(f"the cells of body {name} are no {cell_type}s")
+    von_mises = group["von_mises"][:] if "von_mises" in group else None
+    if von_mises is not None and len(von_mises) != len(points):
+        raise ValueError(f"the datasets of body {name} do not fit each other")
+    return Body(title(name, group), points, cells, u.reshape(len(points), -1), subdomain, crosspoints, cell_type, von_mises, name)
 
 
 def read_contact(name, group):
     initial = group["initial_gap"][:] if "initial_gap" in group else None
+    later = {key: group[key][:] if key in group else None for key in ("pressure", "normal", "cells")}
     return Contact(title(name, group), name, group["points"][:], group["gap"][:], group["multiplier"][:],
-                   group["active"][:] > 0.5, initial)
+                   group["active"][:] > 0.5, initial, **later, first_body=text(group.attrs.get("first_body", "")))
 
 
 def read_history(group):
@@ -110,5 +150,8 @@ def read_history(group):
 
 
 def title(name, group):
-    given = group.attrs.get("name", name)
+    return text(group.attrs.get("name", name))
+
+
+def text(given):
     return given.decode() if isinstance(given, bytes) else str(given)

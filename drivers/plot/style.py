@@ -3,10 +3,12 @@
 import os
 
 import matplotlib
+import matplotlib.colors
 
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as pyplot  # noqa: E402
+from matplotlib.transforms import ScaledTranslation  # noqa: E402
 
 from .errors import PlotError  # noqa: E402
 
@@ -17,6 +19,8 @@ SERIES = [BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY]
 # The same hues, paled, for areas under lines and text.
 AREAS = ["#9CC9E5", "#F5D28A", "#8FD3BC", "#EDB9A0", "#DDB6CC", "#F3EE9E", "#C3C3C3", "#B7A6DB"]
 ACTIVE = VERMILLION
+# Viridis, lightened so that shades and lines on dark parts are still seen.
+STRESS = matplotlib.colors.ListedColormap(0.16 + 0.84 * matplotlib.colormaps["viridis"](range(256))[:, :3], "stress")
 
 matplotlib.rcParams.update({
     "font.size": 11,
@@ -36,6 +40,11 @@ matplotlib.rcParams.update({
     "svg.fonttype": "none",
     "pdf.fonttype": 42,
 })
+
+
+def below(figure, axes):
+    """A transform for legends under the axes: clear of their label, however flat they are."""
+    return axes.transAxes + ScaledTranslation(0, -0.55, figure.dpi_scale_trans)
 
 
 class Canvas:

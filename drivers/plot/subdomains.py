@@ -6,7 +6,6 @@ import numpy
 from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.transforms import ScaledTranslation
 
 from . import style
 
@@ -16,13 +15,13 @@ MOST_NUMBERS = 40  # subdomains that still get their number written on them
 def neighbours(run):
     """Pairs of subdomains that share a point, also across bodies, as two arrays."""
     size = run.size()
-    places = numpy.concatenate([body.points[body.cells.ravel(), :2] for body in run.bodies])
+    places = numpy.concatenate([body.points[body.cells.ravel()] for body in run.bodies])
     owners = numpy.concatenate([numpy.repeat(body.subdomain, body.cells.shape[1]) for body in run.bodies]).astype(numpy.int64)
-    rounded = numpy.round((places - places.min(axis=0)) / size * 1e7).astype(numpy.int64)
-    place = rounded[:, 0] * (rounded[:, 1].max() + 1) + rounded[:, 1]
+    rounded = numpy.round((places - places.min(axis=0)) / size * 1e6).astype(numpy.int64)
+    place = (rounded[:, 0] * 1_000_003 + rounded[:, 1]) * 1_000_003 + rounded[:, 2]
     key = numpy.unique(numpy.column_stack([place, owners]).view([("place", "i8"), ("owner", "i8")]).ravel())
     pairs = []
-    for distance in range(1, 8):  # more than 8 subdomains at a point do not occur in a sensible cut
+    for distance in range(1, 12):  # more than 12 subdomains at a point do not occur in a sensible cut
         same = key["place"][distance:] == key["place"][:-distance]
         if not same.any():
             break
@@ -66,7 +65,8 @@ def draw_cells(axes, body, colour):
     shape = body.grid_shape()
     if shape is None:
         axes.add_collection(PolyCollection(body.points[body.cells][:, :, :2], array=shades, cmap=palette,
-                                           clim=(-0.5, len(style.AREAS) - 0.5), rasterized=True))
+                                           clim=(-0.5, len(style.AREAS) - 0.5), edgecolors="face", linewidths=0.4,
+                                           rasterized=True))
         return
     x, y = body.points[:, 0].reshape(shape), body.points[:, 1].reshape(shape)
     axes.pcolormesh(x, y, shades.reshape(shape[0] - 1, shape[1] - 1), cmap=palette, vmin=-0.5,
@@ -105,8 +105,8 @@ def figure(run):
     dots = float(numpy.clip(900 / max(len(crosspoints), 1), 5, 42))
     axes.scatter(crosspoints[:, 0], crosspoints[:, 1], s=dots, color=style.BLACK, zorder=5, linewidths=0, clip_on=False)
     for pair in run.contacts:
-        axes.plot(pair.points[:, 0], pair.points[:, 1], color=style.VERMILLION, linewidth=3.4, zorder=4,
-                  solid_capstyle="butt")
+        for curve in pair.curves():
+            axes.plot(*pair.points[curve, :2].T, color=style.VERMILLION, linewidth=3.4, zorder=4, solid_capstyle="butt")
     axes.set_aspect("equal")
     axes.use_sticky_edges = False
     axes.margins(0.02)
@@ -124,5 +124,5 @@ def legend(picture, axes, run, crosspoints):
         handles.append(Line2D([], [], color=style.BLACK, marker="o", markersize=5, linestyle="none", label="crosspoint"))
     if run.contacts:
         handles.append(Line2D([], [], color=style.VERMILLION, linewidth=3.4, label="contact line"))
-    below = axes.transAxes + ScaledTranslation(0, -0.55, picture.dpi_scale_trans)  # clear of the label, however flat the axes
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=below, ncol=len(handles))
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=style.below(picture, axes),
+                ncol=len(handles))

@@ -22,7 +22,8 @@ def facets(body):
     shape = body.grid_shape()
     if shape is None:
         chosen = thinned(len(body.cells), 4 * CELLS_A_SIDE**2 - 1)
-        return points[body.cells[chosen]]
+        corners = points[body.cells[chosen]]
+        return corners if corners.shape[1] == 4 else numpy.concatenate([corners, corners[:, -1:]], axis=1)
     lattice = points.reshape(*shape, 3)[numpy.ix_(thinned(shape[0], CELLS_A_SIDE), thinned(shape[1], CELLS_A_SIDE))]
     return numpy.stack([lattice[:-1, :-1], lattice[:-1, 1:], lattice[1:, 1:], lattice[1:, :-1]], axis=2).reshape(-1, 4, 3)
 

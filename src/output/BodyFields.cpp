@@ -14,7 +14,6 @@ namespace epafi::output {
 namespace {
 
 using decomposition::BodyLayout;
-using decomposition::Decomposition;
 using decomposition::Subdomain;
 
 /// The parts that hold a node, ascending, without repetition.
@@ -36,10 +35,14 @@ struct NodeKinds {
       : free(subdomain.nodes.size(), 0), crosspoint(subdomain.nodes.size(), 0) {
     for (const int position : subdomain.unknownPosition)
       free[static_cast<std::size_t>(position / components)] = 1;
-    for (const int unknown : subdomain.crosspointUnknowns) {
+    const auto mark = [&](int unknown, char value) {
       const int position = subdomain.unknownPosition[static_cast<std::size_t>(unknown)];
-      crosspoint[static_cast<std::size_t>(position / components)] = 1;
-    }
+      crosspoint[static_cast<std::size_t>(position / components)] = value;
+    };
+    for (const int unknown : subdomain.crosspointUnknowns)
+      mark(unknown, 1);
+    for (const decomposition::Average& average : subdomain.averages)
+      mark(average.carrier, 0);
   }
 };
 
@@ -53,6 +56,7 @@ void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
                      const Eigen::VectorXd& displacement, int components, NodeValues& result) {
   const int ownPart = subdomain.number - layout.firstSubdomain;
   const NodeKinds kinds(subdomain, components);
+  const bool isPlane = fem::dimensionOf(layout.mesh->cellType()) == 2;
   std::vector<GlobalOrdinal> elements;
   std::vector<int> parts;
   for (std::size_t k = 0; k < subdomain.nodes.size(); ++k) {
@@ -63,14 +67,15 @@ void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
     result.nodes.push_back(node);
     for (int component = 0; component < components; ++component)
       result.values.push_back(displacement[static_cast<Eigen::Index>(k) * components + component]);
-    const bool wouldBe = parts.size() > 2 || (parts.size() == 2 && layout.mesh->isBoundaryNode(node));
+    const bool wouldBe =
+        isPlane && (parts.size() > 2 || (parts.size() == 2 && layout.mesh->isBoundaryNode(node)));
     const bool isCrosspoint = kinds.free[k] != 0 ? kinds.crosspoint[k] != 0 : wouldBe;
     result.values.push_back(isCrosspoint ? 1 : 0);
   }
 }
 
-NodeValues valuesOfSubdomains(const Decomposition& decomposition, const fetidp::ContactSolution& solution,
-                              int body) {
+NodeValues valuesOfSubdomains(const SolvedScene& solved, int body) {
+  const auto& [scene, decomposition, solution] = solved;
   const auto& problem = decomposition.problem;
   if (solution.displacement.size() != problem.subdomains.size())
     throw Error("The solution has displacements of " + std::to_string(solution.displacement.size()) +
@@ -136,7 +141,7 @@ void fillNodes(const fem::Mesh& mesh, const MultiVector& values, int components,
 }
 
 void fillCells(const BodyLayout& layout, BodyFields& fields) {
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(fields.nodesPerCell));
+  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(numNodesOf(fields.cellType)));
   for (GlobalOrdinal row = 0; row < fields.cells.count; ++row) {
     const GlobalOrdinal cell = fields.cells.first + row;
     layout.mesh->elementNodes(cell, nodes);
@@ -155,19 +160,18 @@ void numberCrosspoints(const Comm& comm, BodyFields& fields) {
 
 } // namespace
 
-BodyFields gatherBodyFields(const Decomposition& decomposition, const fetidp::ContactSolution& solution,
-                            int body) {
-  const auto& problem = decomposition.problem;
-  const BodyLayout& layout = decomposition.bodies[static_cast<std::size_t>(body)];
+BodyFields gatherBodyFields(const SolvedScene& solved, int body) {
+  const auto& problem = solved.decomposition.problem;
+  const BodyLayout& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
   NodeValues sent;
-  collectively(*problem.comm, [&] { sent = valuesOfSubdomains(decomposition, solution, body); });
+  collectively(*problem.comm, [&] { sent = valuesOfSubdomains(solved, body); });
 
   BodyFields fields;
   fields.numNodes = layout.mesh->numNodes();
   fields.nodes = evenShare(fields.numNodes, *problem.comm);
   fields.numCells = layout.mesh->numElements();
   fields.cells = evenShare(fields.numCells, *problem.comm);
-  fields.nodesPerCell = layout.mesh->nodesPerElement();
+  fields.cellType = layout.mesh->cellType();
   const auto columns = static_cast<std::size_t>(problem.components) + 1;
   const MultiVector values = toSlab(sent, columns, fields.numNodes, fields.nodes, problem.comm);
   fillNodes(*layout.mesh, values, problem.components, fields);

@@ -2,9 +2,9 @@
 
 /// The fields of one body, each rank holding a contiguous slab of its nodes and of its cells.
 
-#include "epafi/decomposition/Decompose.hpp"
-#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/fem/Cell.hpp"
 #include "epafi/output/Slab.hpp"
+#include "epafi/output/SolvedScene.hpp"
 
 #include <vector>
 
@@ -18,9 +18,9 @@ struct BodyFields {
   std::vector<double> u;      ///< n × components
 
   GlobalOrdinal numCells = 0; ///< n_e
-  int nodesPerCell = 0;
+  fem::CellType cellType = fem::CellType::quadrilateral;
   RowRange cells;                 ///< this rank's cells
-  std::vector<long long> corners; ///< n_e × nodesPerCell, node numbers
+  std::vector<long long> corners; ///< n_e × nodes of a cell, node numbers in the order of Cell.hpp
   std::vector<int> subdomain;     ///< n_e, numbered over the whole problem
 
   GlobalOrdinal numCrosspoints = 0;     ///< m
@@ -31,9 +31,9 @@ struct BodyFields {
 /// Brings the fields of body `body` from the subdomains to the slabs. Each node's u is that of the
 /// lowest-numbered subdomain that holds it (copies agree up to the solver's tolerance). Crosspoints are the
 /// nodes with crosspoint unknowns, and, among the nodes without any unknown (supported), those that would be:
-/// shared by three parts, or by two on the body's boundary. Collective. \throws Error (the same on all ranks)
+/// shared by three parts, or by two on the body's boundary (in the plane only); nodes whose unknowns stand for averages
+/// along edges are none. Collective. \throws Error (the same on all ranks)
 /// if the solution does not fit the decomposition.
-BodyFields gatherBodyFields(const decomposition::Decomposition& decomposition,
-                            const fetidp::ContactSolution& solution, int body);
+BodyFields gatherBodyFields(const SolvedScene& solved, int body);
 
 } // namespace epafi::output

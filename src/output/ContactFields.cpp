@@ -1,12 +1,20 @@
 #include "epafi/output/ContactFields.hpp"
 
+#include "epafi/output/ContactGeometry.hpp"
+
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+
 namespace epafi::output {
 namespace {
+
+using decomposition::ContactLayout;
 
 std::vector<double> rowsOf(const Vector& whole, const Import& toSlab) {
   Vector slab(toSlab.getTargetMap());
@@ -15,33 +23,73 @@ std::vector<double> rowsOf(const Vector& whole, const Import& toSlab) {
   return {data.begin(), data.end()};
 }
 
+/// Facets of the first surface, as rows, whose nodes all have one.
+std::vector<long long> completeFacets(const ContactLayout& layout, const fem::Surface& surface) {
+  std::unordered_map<GlobalOrdinal, long long> rowOf;
+  for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
+    rowOf.emplace(layout.firstNodes[row], static_cast<long long>(row));
+  const auto perFacet = static_cast<std::size_t>(surface.nodesPerFacet);
+  std::vector<long long> corners;
+  for (std::size_t first = 0; first < surface.facetNodes.size(); first += perFacet) {
+    const auto nodes = std::span(surface.facetNodes).subspan(first, perFacet);
+    if (std::all_of(nodes.begin(), nodes.end(), [&](GlobalOrdinal node) { return rowOf.contains(node); }))
+      for (const GlobalOrdinal node : nodes)
+        corners.push_back(rowOf.at(node));
+  }
+  return corners;
+}
+
+void fillFacets(const SolvedScene& solved, int contact, ContactFields& fields) {
+  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+  std::vector<long long> corners;
+  if (const scene::SurfaceContact* between = solved.surfaceContact(contact)) {
+    const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
+    const fem::Surface surface = mesh.surface(between->firstSurface);
+    corners = completeFacets(layout, surface);
+    fields.nodesPerFacet = surface.nodesPerFacet;
+  }
+  if (corners.empty()) {
+    fields.nodesPerFacet = 1;
+    corners.resize(layout.firstNodes.size());
+    std::iota(corners.begin(), corners.end(), 0LL);
+  }
+  fields.numFacets = static_cast<GlobalOrdinal>(corners.size()) / fields.nodesPerFacet;
+  fields.facets = evenShare(fields.numFacets, solved.comm());
+  const auto begin = corners.begin() + fields.facets.first * fields.nodesPerFacet;
+  fields.corners.assign(begin, begin + fields.facets.count * fields.nodesPerFacet);
+}
+
 } // namespace
 
-ContactFields gatherContactFields(const decomposition::Decomposition& decomposition,
-                                  const fetidp::ContactSolution& solution, int contact) {
-  const auto& problem = decomposition.problem;
-  const auto& pair = decomposition.contacts[static_cast<std::size_t>(contact)];
-  const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(pair.firstBody)].mesh;
+ContactFields gatherContactFields(const SolvedScene& solved, int contact, std::span<const double> areas) {
+  const auto& problem = solved.decomposition.problem;
+  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+  const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
 
   ContactFields fields;
-  fields.numRows = pair.numRows();
-  fields.rows = evenShare(pair.numRows(), *problem.comm);
+  fields.numRows = layout.numRows();
+  fields.rows = evenShare(layout.numRows(), *problem.comm);
   std::vector<GlobalOrdinal> multipliers;
   for (GlobalOrdinal k = fields.rows.first; k < fields.rows.first + fields.rows.count; ++k) {
-    multipliers.push_back(pair.firstRow + k);
-    const fem::Point point = mesh.point(pair.firstNodes[static_cast<std::size_t>(k)]);
+    const auto row = static_cast<std::size_t>(k);
+    multipliers.push_back(layout.firstRow + k);
+    const fem::Point point = mesh.point(layout.firstNodes[row]);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
+    const std::array<double, 3> normal = directionOf(layout, row);
+    fields.normals.insert(fields.normals.end(), normal.begin(), normal.end());
+    fields.areas.push_back(areas[row]);
   }
+  fillFacets(solved, contact, fields);
 
-  const Teuchos::ArrayView<const GlobalOrdinal> indices(multipliers.data(),
-                                                        static_cast<Teuchos::Ordinal>(multipliers.size()));
-  const auto slab =
-      rcp(new Map(static_cast<Tpetra::global_size_t>(pair.numRows()), indices, 0, problem.comm));
+  const auto slab = rcp(new Map(static_cast<Tpetra::global_size_t>(layout.numRows()),
+                                Teuchos::arrayViewFromVector(multipliers), 0, problem.comm));
   const Import toSlab(problem.multiplierMap, slab);
   fields.initialGap = rowsOf(*problem.gap, toSlab);
-  fields.gap = rowsOf(*solution.slack, toSlab);
-  fields.multiplier = rowsOf(*solution.multiplier, toSlab);
-  for (const double value : rowsOf(*solution.active, toSlab))
+  fields.gap = rowsOf(*solved.solution.slack, toSlab);
+  fields.multiplier = rowsOf(*solved.solution.multiplier, toSlab);
+  for (std::size_t k = 0; k < fields.multiplier.size(); ++k)
+    fields.pressure.push_back(fields.multiplier[k] / fields.areas[k]);
+  for (const double value : rowsOf(*solved.solution.active, toSlab))
     fields.active.push_back(value > 0.5 ? 1 : 0);
   return fields;
 }

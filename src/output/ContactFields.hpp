@@ -1,29 +1,40 @@
 #pragma once
 
-/// The fields of one contact pair, each rank holding a contiguous slab of its rows.
+/// The fields of one contact, each rank holding a contiguous slab of its rows.
 
-#include "epafi/decomposition/Decompose.hpp"
-#include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/output/Slab.hpp"
+#include "epafi/output/SolvedScene.hpp"
 
+#include <span>
 #include <vector>
 
 namespace epafi::output {
 
-/// One row a contact node, in the order of the first body's edge.
+/// n rows, one a contact node, in the order of ContactLayout::firstNodes; m facets.
 struct ContactFields {
-  GlobalOrdinal numRows = 0;
-  RowRange rows;                  ///< this rank's rows
-  std::vector<double> points;     ///< n × 3, on the first body's edge
+  GlobalOrdinal numRows = 0;  ///< n
+  RowRange rows;              ///< this rank's rows
+  std::vector<double> points; ///< n × 3, on the first body's surface
+  std::vector<double>
+      normals; ///< n × 3, direction of the other side; of membranes along z, as their deflection
+  std::vector<double> areas;      ///< n, on which the multipliers act
   std::vector<double> initialGap; ///< c
   std::vector<double> gap;        ///< c − Bu, what remains open
   std::vector<double> multiplier; ///< λ_I, force that pushes the bodies apart
+  std::vector<double> pressure;   ///< λ_I / area
   std::vector<int> active;        ///< 1 where contact is closed
+
+  GlobalOrdinal numFacets =
+      0; ///< m, of the first body's surface between nodes that all have a row; perhaps none
+  int nodesPerFacet =
+      1;           ///< 1 where each row is a facet of its own: edges of membranes, or no facet is complete
+  RowRange facets; ///< this rank's facets
+  std::vector<long long> corners; ///< m × nodesPerFacet, rows, the normal outwards
 };
 
-/// Brings the rows of contact pair `contact` from multiplierMap to the slabs.
+/// Brings the rows of contact `contact` from multiplierMap to the slabs.
+/// \param areas  of all its rows (pressureAreas)
 /// Collective. Precondition: the solution's vectors lie on the problem's multiplierMap.
-ContactFields gatherContactFields(const decomposition::Decomposition& decomposition,
-                                  const fetidp::ContactSolution& solution, int contact);
+ContactFields gatherContactFields(const SolvedScene& solved, int contact, std::span<const double> areas);
 
 } // namespace epafi::output

@@ -8,7 +8,7 @@
 #include "epafi/output/Names.hpp"
 #include "epafi/output/Xdmf.hpp"
 
-#include <numeric>
+#include <array>
 
 namespace epafi::output {
 namespace {
@@ -27,42 +27,99 @@ XdmfData put(Hdf5File& file, const std::string& dataset, GlobalOrdinal rows, int
   return {dataset, rows, columns, type};
 }
 
-XdmfGrid putBody(Hdf5File& file, const std::string& group, const std::string& name, const BodyFields& fields,
-                 int components) {
+XdmfTopology topologyOf(fem::CellType type) {
+  switch (type) {
+  case fem::CellType::triangle:
+    return XdmfTopology::triangles;
+  case fem::CellType::quadrilateral:
+    return XdmfTopology::quadrilaterals;
+  case fem::CellType::tetrahedron:
+    return XdmfTopology::tetrahedra;
+  case fem::CellType::hexahedron:
+    return XdmfTopology::hexahedra;
+  }
+  return XdmfTopology::points;
+}
+
+/// Of a facet with 1 to 4 corners.
+XdmfTopology topologyOfFacet(int corners) {
+  constexpr std::array topologies{XdmfTopology::points, XdmfTopology::lines, XdmfTopology::triangles,
+                                  XdmfTopology::quadrilaterals};
+  return topologies.at(static_cast<std::size_t>(corners - 1));
+}
+
+/// Rows of two numbers become rows of three, the last one 0.
+std::vector<double> inSpace(const std::vector<double>& plane) {
+  std::vector<double> space;
+  space.reserve(plane.size() / 2 * 3);
+  for (std::size_t k = 0; k + 1 < plane.size(); k += 2)
+    space.insert(space.end(), {plane[k], plane[k + 1], 0.0});
+  return space;
+}
+
+/// What elastic bodies have beside membranes: a vector to warp by, and stress.
+void putElastic(Hdf5File& file, const std::string& group, const BodyFields& fields, const XdmfData& u,
+                const std::vector<double>& vonMises, XdmfGrid& grid) {
+  const GlobalOrdinal n = fields.numNodes;
+  const XdmfData displacement =
+      u.columns == 3 ? u : put(file, group + "/displacement", n, 3, fields.nodes, inSpace(fields.u));
+  grid.attributes.push_back({"displacement", Center::node, displacement});
+  grid.attributes.push_back(
+      {"von_mises", Center::node, put(file, group + "/von_mises", n, 0, fields.nodes, vonMises)});
+}
+
+XdmfGrid putBody(Hdf5File& file, const std::string& group, const SolvedScene& solved,
+                 const Evaluation& evaluation, int body) {
+  const BodyFields fields = gatherBodyFields(solved, body);
+  const auto place = static_cast<std::size_t>(body);
+  const std::string& name = solved.decomposition.bodies[place].name;
+  const auto& solid = solved.scene.bodies[place].solid;
   file.createGroup(group);
   file.attribute(group, "name", name);
+  file.attribute(group, "cell_type", std::string(fem::toString(fields.cellType)));
+  file.attribute(group, "physics", toString(solid ? solid->physics : scene::Physics::membrane));
   const GlobalOrdinal n = fields.numNodes;
   const GlobalOrdinal cells = fields.numCells;
   XdmfGrid grid;
   grid.name = name;
   grid.points = put(file, group + "/points", n, 3, fields.nodes, fields.points);
-  grid.cells = put(file, group + "/cells", cells, fields.nodesPerCell, fields.cells, fields.corners);
-  const XdmfData u = put(file, group + "/u", n, components, fields.nodes, fields.u);
+  grid.topology = topologyOf(fields.cellType);
+  grid.cells = put(file, group + "/cells", cells, numNodesOf(fields.cellType), fields.cells, fields.corners);
+  const XdmfData u =
+      put(file, group + "/u", n, solved.decomposition.problem.components, fields.nodes, fields.u);
   const XdmfData subdomain = put(file, group + "/subdomain", cells, 0, fields.cells, fields.subdomain);
   put(file, group + "/crosspoints", fields.numCrosspoints, 3, fields.crosspoints, fields.crosspointPoints);
-  grid.attributes = {{"u", Center::node, u}, {"subdomain", Center::cell, subdomain}};
+  if (solved.elasticBody(body) != nullptr)
+    putElastic(file, group, fields, u, evaluation.vonMises[place], grid);
+  else
+    grid.attributes.push_back({"u", Center::node, u});
+  grid.attributes.push_back({"subdomain", Center::cell, subdomain});
   return grid;
 }
 
 XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string& name,
-                    const ContactFields& fields) {
+                    const std::string& firstBody, const ContactFields& fields) {
   file.createGroup(group);
   file.attribute(group, "name", name);
+  file.attribute(group, "first_body", firstBody);
   const GlobalOrdinal n = fields.numRows;
   XdmfGrid grid;
   grid.name = name;
   grid.points = put(file, group + "/points", n, 3, fields.rows, fields.points);
-  std::vector<long long> vertices(
-      static_cast<std::size_t>(fields.rows.count)); // readers draw nothing without
-  std::iota(vertices.begin(), vertices.end(), fields.rows.first);
-  grid.cells = put(file, group + "/cells", n, 1, fields.rows, vertices);
+  grid.topology = topologyOfFacet(fields.nodesPerFacet);
+  grid.cells =
+      put(file, group + "/cells", fields.numFacets, fields.nodesPerFacet, fields.facets, fields.corners);
+  grid.attributes.push_back(
+      {"normal", Center::node, put(file, group + "/normal", n, 3, fields.rows, fields.normals)});
   const auto column = [&](const std::string& field, const auto& values) {
     grid.attributes.push_back(
         {field, Center::node, put(file, group + "/" + field, n, 0, fields.rows, values)});
   };
+  column("area", fields.areas);
   column("initial_gap", fields.initialGap);
   column("gap", fields.gap);
   column("multiplier", fields.multiplier);
+  column("pressure", fields.pressure);
   column("active", fields.active);
   return grid;
 }
@@ -120,27 +177,26 @@ std::vector<std::string> groupNames(const Layouts& layouts) {
 } // namespace
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
-                       const decomposition::Decomposition& decomposition,
-                       const fetidp::ContactSolution& solution, const qp::History& history) {
+                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history) {
   if (name.empty() || name.find('/') != std::string::npos) // the same on all ranks
     throw InputError("'" + name + "' is no name for an output file; it must not be empty nor contain '/'.");
+  const decomposition::Decomposition& decomposition = solved.decomposition;
   const auto& problem = decomposition.problem;
   FieldFiles files{directory / (name + ".h5"), directory / (name + ".xdmf")};
 
   std::vector<XdmfGrid> grids;
   Hdf5File file(files.hdf5, problem.comm);
-  putHead(file, decomposition, solution);
+  putHead(file, decomposition, solved.solution);
   file.createGroup("/bodies");
   file.createGroup("/contact");
   const auto bodyGroups = groupNames(decomposition.bodies);
   for (std::size_t b = 0; b < bodyGroups.size(); ++b)
-    grids.push_back(putBody(file, "/bodies/" + bodyGroups[b], decomposition.bodies[b].name,
-                            gatherBodyFields(decomposition, solution, static_cast<int>(b)),
-                            problem.components));
+    grids.push_back(putBody(file, "/bodies/" + bodyGroups[b], solved, evaluation, static_cast<int>(b)));
   const auto contactGroups = groupNames(decomposition.contacts);
   for (std::size_t c = 0; c < contactGroups.size(); ++c)
     grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
-                               gatherContactFields(decomposition, solution, static_cast<int>(c))));
+                               bodyGroups[static_cast<std::size_t>(decomposition.contacts[c].firstBody)],
+                               gatherContactFields(solved, static_cast<int>(c), evaluation.areas[c])));
   putHistory(file, history, *problem.comm);
   file.close();
   writeTextFile(

@@ -2,8 +2,7 @@
 
 /// The solution of a scene as files that other programs open.
 
-#include "epafi/decomposition/Decompose.hpp"
-#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/output/Evaluation.hpp"
 #include "epafi/qp/SolveReport.hpp"
 
 #include <filesystem>
@@ -18,24 +17,30 @@ struct FieldFiles {
 
 /// Writes `directory`/`name`.h5 and `directory`/`name`.xdmf; creates the directory, replaces older files.
 ///
-/// Datasets (lengths, deflections and forces in the scene's units; each body's nodes appear once):
-///  - `/bodies/<body>/points` n×3, `cells` n_e×4 (int64, node numbers, counter-clockwise), `u` n×components,
-///    `subdomain` n_e (int32, numbered over all bodies), `crosspoints` m×3 (where they lie, supported ones too);
-///  - `/contact/<pair>/points` n×3 (first body's edge), `cells` n×1 (each point one, for viewers),
-///    `initial_gap` c, `gap` c − Bu (what remains open), `multiplier` λ_I (force a node, positive pushes
-///    apart), `active` (int32, 1 where closed);
+/// Datasets (lengths, deflections, forces and stresses in the scene's units; each body's nodes appear once):
+///  - `/bodies/<body>/points` n×3, `cells` n_e×corners (int64, node numbers in the order of fem/Cell.hpp, which is VTK's),
+///    `u` n×components, `subdomain` n_e (int32, numbered over all bodies), `crosspoints` m×3 (where they lie, supported
+///    ones too in the plane);
+///    of elastic bodies `von_mises` n (NodalStress.hpp), and of plane ones `displacement` n×3: u with a third column of
+///    zeros, which viewers take as a vector (in space that is u itself);
+///    attributes `name`, `cell_type` (as fem::toString says) and `physics` (as scene::toString says);
+///  - `/contact/<pair>/points` n×3 (nodes of the first body's surface), `cells` m×2, 3 or 4 (that surface's edges or faces,
+///    by rows; n×1, each point one, for pairs of membranes' edges), `normal` n×3 (of length 1, towards the other side; of
+///    membranes z), `area` n (each node's share of the surface; of plane bodies length times thickness, of membranes
+///    length), `initial_gap` c, `gap` c − Bu (what remains open), `multiplier` λ_I (force a node, positive pushes apart),
+///    `pressure` λ_I/area, `active` (int32, 1 where closed); the force on the first body, whose group the
+///    attribute `first_body` names, is −λ_I `normal`;
 ///  - `/history/iteration`, `outer`, `step` (int8, the code of the letter s, c, e or p), `projected_gradient`,
 ///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a step.
 /// Groups of bodies and pairs are named as safeNames says (Names.hpp); their attribute `name` is the scene's
 /// name. The file itself has attributes `program`, `format` (1), `components`, `energy` and `contact_force`.
 ///
 /// Every rank writes a contiguous slab of each table; nothing of global size lies on one rank. `history` must
-/// be the same on all ranks (rank 0's is written). Precondition: `solution` belongs to `decomposition`.
+/// be the same on all ranks (rank 0's is written). Precondition: `evaluation` is that of `solved`.
 /// Collective. \throws InputError if the directory cannot be made or written to or `name` is empty or
 /// contains '/';
 ///             Error if writing fails; then no incomplete file is left.
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
-                       const decomposition::Decomposition& decomposition,
-                       const fetidp::ContactSolution& solution, const qp::History& history);
+                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history);
 
 } // namespace epafi::output

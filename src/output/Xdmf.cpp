@@ -28,6 +28,25 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// Value of TopologyType, and the attribute that goes with it where cells are of any length.
+const char* nameOf(XdmfTopology topology) {
+  switch (topology) {
+  case XdmfTopology::points:
+    return "Polyvertex\" NodesPerElement=\"1";
+  case XdmfTopology::lines:
+    return "Polyline\" NodesPerElement=\"2";
+  case XdmfTopology::triangles:
+    return "Triangle";
+  case XdmfTopology::quadrilaterals:
+    return "Quadrilateral";
+  case XdmfTopology::tetrahedra:
+    return "Tetrahedron";
+  case XdmfTopology::hexahedra:
+    return "Hexahedron";
+  }
+  return "";
+}
+
 /// Writes the document's elements with the name of the HDF5 file at hand.
 class Writer {
 public:
@@ -35,9 +54,8 @@ public:
 
   void grid(const XdmfGrid& grid) {
     text_ << "      <Grid Name=\"" << escaped(grid.name) << "\" GridType=\"Uniform\">\n";
-    const char* const shape = grid.cells.columns == 1 ? "Polyvertex\" NodesPerElement=\"1" : "Quadrilateral";
-    text_ << "        <Topology TopologyType=\"" << shape << "\" NumberOfElements=\"" << grid.cells.rows
-          << "\">\n";
+    text_ << "        <Topology TopologyType=\"" << nameOf(grid.topology) << "\" NumberOfElements=\""
+          << grid.cells.rows << "\">\n";
     item(grid.cells);
     text_ << "        </Topology>\n";
     text_ << "        <Geometry GeometryType=\"XYZ\">\n";

@@ -25,11 +25,15 @@ struct XdmfAttribute {
   XdmfData data; ///< one column (or one dimension): scalar, three: vector, else matrix
 };
 
-/// A mesh of quadrilaterals, or of points alone.
+/// What cells are; corners in the order of VTK, which is that of fem::CellType.
+enum class XdmfTopology { points, lines, triangles, quadrilaterals, tetrahedra, hexahedra };
+
+/// A mesh of cells of one kind.
 struct XdmfGrid {
   std::string name;
   XdmfData points; ///< n × 3
-  XdmfData cells;  ///< n_e × 4 corners, or n × 1 where each point is a cell
+  XdmfTopology topology = XdmfTopology::points;
+  XdmfData cells; ///< n_e × corners of a cell; points: n × 1
   std::vector<XdmfAttribute> attributes;
 };
 

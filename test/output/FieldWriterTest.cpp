@@ -21,11 +21,14 @@ using Names = std::set<std::string>;
 struct FieldWriterTest : testing::Test {
   RCP<const Comm> comm = Tpetra::getDefaultComm();
   test::TemporaryDirectory directory{comm};
-  decomposition::Decomposition decomposition = decomposition::decompose(test::sampleScene(), comm);
+  scene::Scene scene = test::sampleScene();
+  decomposition::Decomposition decomposition = decomposition::decompose(scene, comm);
   fetidp::ContactSolution solution = test::sampleSolution(decomposition);
+  SolvedScene solved{scene, decomposition, solution};
+  Evaluation evaluation = evaluate(solved);
 
   [[nodiscard]] FieldFiles write() const {
-    return writeFields(directory.path(), "run", decomposition, solution, test::sampleHistory());
+    return writeFields(directory.path(), "run", solved, evaluation, test::sampleHistory());
   }
 };
 
@@ -91,6 +94,11 @@ TEST_F(FieldWriterTest, ContactRowsFollowTheFirstBodysEdge) {
   }
   EXPECT_EQ(test::readTable(file, group + "/cells").values, (std::vector<double>{0, 1, 2, 3, 4}));
   EXPECT_EQ(test::readTable(file, group + "/multiplier").values, (std::vector<double>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(test::readTable(file, group + "/area").values,
+            (std::vector<double>{0.125, 0.25, 0.25, 0.25, 0.125}));
+  EXPECT_EQ(test::readTable(file, group + "/pressure").values, (std::vector<double>{8, 8, 12, 16, 40}));
+  EXPECT_EQ(test::readTable(file, group + "/normal").values,
+            (std::vector<double>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}));
   EXPECT_EQ(test::readTable(file, group + "/gap").values, (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
   EXPECT_EQ(test::readTable(file, group + "/active").values, (std::vector<double>{1, 0, 1, 0, 1}));
   EXPECT_EQ(test::readTable(file, group + "/initial_gap").values, std::vector<double>(5, 0.25));
@@ -107,7 +115,7 @@ TEST_F(FieldWriterTest, HistoryHasOneEntryAStep) {
 }
 
 TEST_F(FieldWriterTest, EmptyHistoryIsWrittenToo) {
-  writeFields(directory.path(), "run", decomposition, solution, {});
+  writeFields(directory.path(), "run", solved, evaluation, {});
   EXPECT_EQ(test::readTable(directory.path() / "run.h5", "/history/step").values.size(), 0U);
 }
 
@@ -120,7 +128,7 @@ TEST_F(FieldWriterTest, SolutionOfAnotherProblemIsAnErrorAndLeavesNoFile) {
 
 TEST_F(FieldWriterTest, BadNamesAndDirectoriesAreInputErrorsOnAllRanks) {
   const auto at = [&](const std::filesystem::path& place, const std::string& name) {
-    static_cast<void>(writeFields(place, name, decomposition, solution, {}));
+    static_cast<void>(writeFields(place, name, solved, evaluation, {}));
   };
   EXPECT_THROW(at(directory.path(), ""), InputError);
   EXPECT_THROW(at(directory.path(), "a/b"), InputError);

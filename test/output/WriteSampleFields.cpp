@@ -1,27 +1,64 @@
 // Writes the sample run into the directory named by its argument, for tests that look at the files from
-// outside.
+// outside; or, if a cell type is named too, the patch test of two elastic blocks of such cells.
 
+#include "ElasticSample.hpp"
 #include "SampleRun.hpp"
 
+#include "epafi/ContactSolver.hpp"
 #include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/HistoryTable.hpp"
 
 #include <Tpetra_Core.hpp>
 
+#include <algorithm>
 #include <iostream>
+#include <stdexcept>
+
+namespace {
+
+using namespace epafi;
+
+void writeMembranes(const std::filesystem::path& directory, const RCP<const Comm>& comm) {
+  using namespace output;
+  const scene::Scene scene = test::sampleScene();
+  const auto decomposition = decomposition::decompose(scene, comm);
+  const auto solution = test::sampleSolution(decomposition);
+  const SolvedScene solved{scene, decomposition, solution};
+  writeFields(directory, "run", solved, evaluate(solved), test::sampleHistory());
+  writeHistory(test::sampleHistory(), directory / "history.csv", *comm);
+}
+
+void writeBlocks(const std::filesystem::path& directory, const std::string& cells,
+                 const RCP<const Comm>& comm) {
+  using namespace output;
+  const auto kind = std::find_if(test::kinds().begin(), test::kinds().end(),
+                                 [&](const test::Kind& k) { return fem::toString(k.cell) == cells; });
+  if (kind == test::kinds().end())
+    throw std::invalid_argument("no cells are called " + cells);
+  const test::TemporaryDirectory meshes(comm);
+  const scene::Scene scene = test::stackedBlocks(*kind, 3, 3.0, meshes, *comm);
+  const auto decomposition = decomposition::decompose(scene, comm);
+  ContactSolver solver{Teuchos::ParameterList()};
+  solver.setup(decomposition.problem);
+  const auto solution = solver.solve();
+  const SolvedScene solved{scene, decomposition, solution};
+  writeFields(directory, "run", solved, evaluate(solved), solver.report().history);
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
   const Tpetra::ScopeGuard scope(&argc, &argv);
-  using namespace epafi::output;
-  if (argc != 2) {
-    std::cerr << "usage: write_sample_fields DIRECTORY\n";
+  if (argc != 2 && argc != 3) {
+    std::cerr << "usage: write_sample_fields DIRECTORY [CELLS]\n";
     return 2;
   }
   try {
     const auto comm = Tpetra::getDefaultComm();
-    const auto decomposition = epafi::decomposition::decompose(test::sampleScene(), comm);
-    writeFields(argv[1], "run", decomposition, test::sampleSolution(decomposition), test::sampleHistory());
-    writeHistory(test::sampleHistory(), std::filesystem::path(argv[1]) / "history.csv", *comm);
+    if (argc == 2)
+      writeMembranes(argv[1], comm);
+    else
+      writeBlocks(argv[1], argv[2], comm);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;

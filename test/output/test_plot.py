@@ -7,12 +7,15 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+import elastic_runs  # noqa: E402
 import h5py  # noqa: E402
 import model_problem  # noqa: E402
+import numpy  # noqa: E402
 
 PROGRAM = sys.argv[1]
 TABLE = """problem,H_inverse,H_over_h,primal_dimension,dual_dimension,corners,cg_iterations,paper_cg_iterations
@@ -146,6 +149,53 @@ class Plot(unittest.TestCase):
                 for name in ("cells", "subdomain"):
                     body[name][...] = body[name][:][::-1]
         self.assertEqual(len(self.pictures(self.directory)), 4)
+
+    def test_elastic_bodies_of_all_cells_give_four_pictures(self):
+        for cell_type in elastic_runs.CUTS:
+            elastic_runs.write(self.directory / f"{cell_type}.h5", cell_type)
+            found = self.pictures(self.directory / f"{cell_type}.h5", "--dpi", 60)
+            self.assertEqual([picture.name for picture in found],
+                             [f"{cell_type}_{what}.png" for what in ("deformed", "decomposition", "contact_joint", "convergence")])
+
+    def test_elastic_bodies_without_contact_or_with_loose_contact_nodes_are_drawn_too(self):
+        for cell_type in ("triangle", "hexahedron"):
+            file = self.directory / f"{cell_type}.h5"
+            elastic_runs.write(file, cell_type, n=3)
+            with h5py.File(file, "a") as content:
+                group = content["contact/joint"]
+                del group["cells"]
+                group["cells"] = numpy.arange(len(group["points"]))[:, None]
+            self.assertEqual(len(self.pictures(file, "--dpi", 60)), 4)
+            with h5py.File(file, "a") as content:
+                content["contact/joint/active"][...] = 0
+                for name in ("pressure", "multiplier"):
+                    content[f"contact/joint/{name}"][...] = 0
+            self.assertEqual(len(self.pictures(file, "--dpi", 60)), 4)
+            with h5py.File(file, "a") as content:
+                del content["contact"]
+                for body in content["bodies"].values():
+                    body["u"][...] = 0
+                    body["von_mises"][...] = 0
+            self.assertEqual(len(self.pictures(file, "--dpi", 60)), 3)
+
+    def test_titles_state_how_much_displacements_are_enlarged(self):
+        for amplitude, gap, said in ((0.002, 0.0, "20 times enlarged"), (0.2, 0.0, "as they are"),
+                                     (0.002, 0.01, "2 times enlarged")):  # more would let the bodies cross
+            elastic_runs.write(self.directory / "run.h5", "quadrilateral", amplitude=amplitude, gap=gap)
+            self.pictures(self.directory / "run.h5", "--format", "svg")
+            self.assertTrue(said in (self.directory / "run_deformed.svg").read_text(), said)
+
+    def test_a_hundred_thousand_nodes_in_space_take_seconds(self):
+        elastic_runs.write(self.directory / "run.h5", "hexahedron", n=36)  # twice 37³ nodes
+        start = time.monotonic()
+        self.pictures(self.directory / "run.h5")
+        self.assertLess(time.monotonic() - start, 60)  # about 5 s for 100 000 nodes
+
+    def test_cells_of_another_kind_than_said_are_refused(self):
+        elastic_runs.write(self.directory / "run.h5", "triangle")
+        with h5py.File(self.directory / "run.h5", "a") as content:
+            content["bodies/lower"].attrs["cell_type"] = "hexahedron"
+        self.assertIn("lower", self.refused(self.directory / "run.h5"))
 
     def test_what_cannot_be_drawn_is_refused_in_one_sentence(self):
         (self.directory / "text.h5").write_text("no HDF5")

@@ -1,0 +1,97 @@
+"""Cells, facets and edges as arrays of node numbers (order of corners: src/fem/Cell.hpp)."""
+
+import numpy
+
+FACETS = {
+    "triangle": [(0, 1), (1, 2), (2, 0)],
+    "quadrilateral": [(0, 1), (1, 2), (2, 3), (3, 0)],
+    "tetrahedron": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
+    "hexahedron": [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
+}
+
+
+def is_plane(cell_type):
+    return cell_type in ("triangle", "quadrilateral")
+
+
+def keys(tuples):
+    """One number for each row of node numbers, the same for rows of the same nodes in any order."""
+    ordered = numpy.sort(tuples, axis=1).astype(numpy.uint64)
+    factor = ordered.max(initial=0) + numpy.uint64(1)
+    key = ordered[:, 0]
+    for column in (1, ordered.shape[1] - 1) if ordered.shape[1] > 2 else (1,):  # least, next and greatest tell facets apart
+        key = key * factor + ordered[:, column]
+    return key
+
+
+def facets(cell_type, cells):
+    """All facets of all cells, each with its cell."""
+    sides = FACETS[cell_type]
+    return (numpy.concatenate([cells[:, list(side)] for side in sides]),
+            numpy.tile(numpy.arange(len(cells)), len(sides)))
+
+
+def outer_facets(cell_type, cells, owner=None):
+    """Facets that one cell alone has, normal outwards, each with its cell; if cells have owners, those between two too."""
+    all_facets, cell = facets(cell_type, cells)
+    key = keys(all_facets)
+    order = numpy.argsort(key, kind="stable")
+    twin = key[order][1:] == key[order][:-1]
+    if owner is not None:
+        twin &= owner[cell[order]][1:] == owner[cell[order]][:-1]
+    alone = ~(numpy.concatenate([[False], twin]) | numpy.concatenate([twin, [False]]))
+    chosen = numpy.sort(order[alone])
+    return all_facets[chosen], cell[chosen]
+
+
+def triangles(polygons):
+    """Polygons of three or four corners cut into triangles, each with its polygon."""
+    number = numpy.arange(len(polygons))
+    if polygons.shape[1] == 3:
+        return polygons, number
+    return numpy.concatenate([polygons[:, [0, 1, 2]], polygons[:, [0, 2, 3]]]), numpy.concatenate([number, number])
+
+
+def edges(polygons):
+    """Every edge once, n x 2, with the one or two polygons (-1: none) that meet there, n x 2."""
+    corners = polygons.shape[1]
+    ends = numpy.concatenate([polygons[:, [k, (k + 1) % corners]] for k in range(corners)])
+    polygon = numpy.tile(numpy.arange(len(polygons)), corners)
+    order = numpy.argsort(keys(ends), kind="stable")
+    ends, polygon, key = ends[order], polygon[order], keys(ends)[order]
+    first = numpy.concatenate([[True], key[1:] != key[:-1]]) if len(key) else numpy.zeros(0, bool)
+    start = numpy.flatnonzero(first)
+    following = numpy.minimum(start + 1, len(key) - 1)
+    second = numpy.where(first[following] | (following == start), -1, polygon[following])
+    return ends[start], numpy.column_stack([polygon[start], second])
+
+
+def chain(links, count):
+    """Rows of open or closed curves in their order, curve after curve, from links (row to following row) that each row has
+    at most one of in each direction: list of arrays."""
+    following = numpy.full(count, -1)
+    following[links[:, 0]] = links[:, 1]
+    has_previous = numpy.zeros(count, bool)
+    has_previous[links[:, 1]] = True
+    seen, curves = numpy.zeros(count, bool), []
+    for start in [*numpy.flatnonzero(~has_previous), *range(count)]:  # open curves from their beginnings, then loops
+        if seen[start]:
+            continue
+        curve, row = [], start
+        while row >= 0 and not seen[row]:
+            seen[row] = True
+            curve.append(row)
+            row = following[row]
+        curves.append(numpy.array(curve))
+    return curves
+
+
+def places(points, wanted):
+    """Index in `points` of each of the `wanted` points, which are among them to the last digit; -1 where not."""
+    def whole(rows):
+        return numpy.ascontiguousarray(rows + 0.0).view([("x", "f8"), ("y", "f8"), ("z", "f8")]).ravel()
+
+    known, asked = whole(points), whole(wanted)
+    order = numpy.argsort(known, order=("x", "y", "z"))
+    place = order[numpy.minimum(numpy.searchsorted(known[order], asked), len(known) - 1)]
+    return numpy.where(known[place] == asked, place, -1)

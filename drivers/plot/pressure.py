@@ -1,0 +1,89 @@
+"""Contact pressure of elastic bodies: along a contact line in the plane, on a contact surface in space."""
+
+import matplotlib.pyplot as pyplot
+import numpy
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+from matplotlib.tri import Triangulation
+
+from . import cells, style
+
+MARGIN = 0.35  # of the closed part's size is shown around it
+
+
+def frame(pair):
+    """Two directions in the contact surface and what to call them: coordinates where the surface is normal to one."""
+    normal = pair.normal.mean(axis=0)
+    length = numpy.linalg.norm(normal)
+    normal = normal / length if length > 1e-6 else numpy.array([0.0, 0.0, 1.0])
+    across = int(numpy.argmax(numpy.abs(normal)))
+    kept = [d for d in range(3) if d != across]
+    if abs(normal[across]) > 0.999:
+        return numpy.eye(3)[kept], [f"{'xyz'[d]} [length]" for d in kept]
+    first = numpy.eye(3)[kept[0]] - normal[kept[0]] * normal
+    first /= numpy.linalg.norm(first)
+    return numpy.array([first, numpy.cross(normal, first)]), ["along the surface [length]", "across [length]"]
+
+
+def window(place, active):
+    """Limits that show the closed part with a margin; everything if nothing is closed."""
+    low, high = place.min(axis=0), place.max(axis=0)
+    if active.any():
+        inner = place[active]
+        margin = MARGIN * max(float(numpy.ptp(inner, axis=0).max()), 0.1 * float((high - low).max()))
+        low, high = numpy.maximum(low, inner.min(axis=0) - margin), numpy.minimum(high, inner.max(axis=0) + margin)
+    edge = 0.015 * float((high - low).max())
+    return low - edge, high + edge
+
+
+def draw_points(axes, place, pair):
+    """Where no facet of the surface is whole: the nodes alone."""
+    return axes.scatter(*place.T, c=pair.pressure, cmap="YlOrRd", vmin=0, s=60, edgecolors=style.BLACK, linewidths=0.5)
+
+
+def fan(place, facets, *values):
+    """Quadrilaterals cut into four triangles about their middles, which favours no diagonal; the values there are means."""
+    if facets.shape[1] == 3:
+        return (Triangulation(*place.T, facets), *values)
+    middle = len(place) + numpy.arange(len(facets))
+    triangles = numpy.concatenate([numpy.column_stack([facets[:, k], facets[:, (k + 1) % 4], middle]) for k in range(4)])
+    every = numpy.concatenate([place, place[facets].mean(axis=1)])
+    return (Triangulation(*every.T, triangles), *(numpy.concatenate([value, value[facets].mean(axis=1)]) for value in values))
+
+
+def draw_facets(axes, place, pair):
+    triangulation, shades, closed = fan(place, pair.cells, numpy.maximum(pair.pressure, 0.0), pair.active.astype(float))
+    largest = float(pair.pressure.max())
+    shown = axes.tripcolor(triangulation, shades, shading="gouraud",
+                           cmap="YlOrRd", vmin=0, vmax=largest if largest > 0 else 1.0, rasterized=True)
+    ends, meeting = cells.edges(pair.cells)
+    axes.add_collection(LineCollection(place[ends], colors=[(0, 0, 0, 0.18 if len(ends) < 6000 else 0.05)], linewidths=0.3))
+    axes.add_collection(LineCollection(place[ends[meeting[:, 1] < 0]], colors=style.BLACK, linewidths=1.0))
+    if pair.active.any() and not pair.active.all():
+        axes.tricontour(triangulation, closed, levels=[0.5], colors=[style.BLUE], linewidths=1.8)
+    return shown
+
+
+def figure(run, pair):
+    axes_of, labels = frame(pair)
+    place = pair.points @ axes_of.T
+    low, high = window(place, pair.active)
+    ratio = float((high - low)[1] / (high - low)[0])
+    picture, axes = pyplot.subplots(figsize=(8.4, float(numpy.clip(6.6 * ratio + 1.4, 3.4, 8.2))))
+    axes.grid(False)
+    draw = draw_facets if pair.cells is not None and pair.cells.shape[1] >= 3 else draw_points
+    shown = draw(axes, place, pair)
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_aspect("equal")
+    axes.set_xlabel(labels[0])
+    axes.set_ylabel(labels[1])
+    bar = picture.colorbar(shown, ax=axes, shrink=0.85, pad=0.03, aspect=26)
+    bar.set_label("contact pressure λ / area [force per area]")
+    bar.outline.set_visible(False)
+    axes.set_title(f"Contact {pair.name}: {int(pair.active.sum())} of {len(pair.points)} nodes closed, "
+                   f"force {pair.multiplier.sum():.4g}, largest pressure {pair.pressure.max():.4g} — {run.title}", fontsize=12)
+    if draw is draw_facets and pair.active.any() and not pair.active.all():
+        axes.legend(handles=[Line2D([], [], color=style.BLUE, linewidth=1.8, label="boundary of the active set")],
+                    loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=style.below(picture, axes))
+    return picture

@@ -1,0 +1,223 @@
+// Stress at nodes, contact pressure and the report's results: closed forms, whatever the cells, the cut and the ranks.
+
+#include "ElasticSample.hpp"
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/fem/HookesLaw.hpp"
+#include "epafi/output/ContactFields.hpp"
+#include "epafi/output/Evaluation.hpp"
+#include "epafi/output/NodalStress.hpp"
+#include "epafi/output/Slab.hpp"
+
+#include <Teuchos_Array.hpp>
+#include <Tpetra_Core.hpp>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace epafi::output {
+namespace {
+
+using scene::Physics;
+
+struct EvaluationTest : testing::Test {
+  RCP<const Comm> comm = Tpetra::getDefaultComm();
+  test::TemporaryDirectory directory{comm};
+
+  [[nodiscard]] static std::string text(const test::Kind& kind) {
+    return toString(kind.physics) + ", " + fem::toString(kind.cell) + "s";
+  }
+  [[nodiscard]] std::vector<double> stress(const scene::Scene& scene, const test::Field& field, int body,
+                                           const RCP<const Comm>& ranks) const {
+    const auto decomposition = decomposition::decompose(scene, ranks);
+    const auto solution = test::solutionWith(decomposition, field);
+    return vonMisesAtNodes({scene, decomposition, solution}, body);
+  }
+};
+
+TEST_F(EvaluationTest, StressOfALinearDisplacementIsExactAtEveryNode) {
+  // ε_xy = γ/2 alone: √3 μ γ, beside a turn and a shift, which have no stress.
+  const double shear = 0.02, turn = 0.3;
+  const auto field = [&](const fem::Point& x) {
+    return std::array<double, 3>{1 + (shear - turn) * x[1], 2 + turn * x[0], 0.0};
+  };
+  for (const test::Kind& kind : test::kinds())
+    for (const int parts : {1, 3, 7}) {
+      SCOPED_TRACE(text(kind));
+      const scene::Scene scene = test::stackedBlocks(kind, parts, 1, directory, *comm);
+      const double mu = fem::lameConstants(kind.physics, scene.bodies[0].solid->material).mu;
+      for (const int body : {0, 1}) {
+        const std::vector<double> values = stress(scene, field, body, comm);
+        const GlobalOrdinal numNodes = fem::dimensionOf(kind.cell) == 2 ? 25 : 125;
+        ASSERT_EQ(static_cast<GlobalOrdinal>(values.size()), evenShare(numNodes, *comm).count);
+        for (const double value : values)
+          EXPECT_NEAR(value, std::sqrt(3.0) * mu * shear, 1e-11);
+      }
+    }
+}
+
+TEST_F(EvaluationTest, StressIsTheSameForEveryCutAndNumberOfRanks) {
+  const auto field = [](const fem::Point& x) {
+    return std::array<double, 3>{x[0] * x[0] - x[1] * x[2], std::sin(x[0] + 2 * x[1]), x[2] * x[0] * x[1]};
+  };
+  for (const test::Kind& kind : test::kinds()) {
+    SCOPED_TRACE(text(kind));
+    const std::vector<double> whole =
+        stress(test::stackedBlocks(kind, 1, 1, directory, *comm), field, 1, comm->split(comm->getRank(), 0));
+    EXPECT_GT(*std::max_element(whole.begin(), whole.end()),
+              1.1 * *std::min_element(whole.begin(), whole.end()));
+    for (const int parts : {2, 6}) {
+      const std::vector<double> slab =
+          stress(test::stackedBlocks(kind, parts, 1, directory, *comm), field, 1, comm);
+      const RowRange range = evenShare(static_cast<GlobalOrdinal>(whole.size()), *comm);
+      ASSERT_EQ(static_cast<GlobalOrdinal>(slab.size()), range.count);
+      for (std::size_t k = 0; k < slab.size(); ++k)
+        EXPECT_NEAR(slab[k], whole[static_cast<std::size_t>(range.first) + k], 1e-10);
+    }
+  }
+}
+
+TEST_F(EvaluationTest, ElementsCountByTheirSize) {
+  // Cells of width 1 and 3, stretched by 1 and 2 of a hundred: in between the stress is (1 · 1 + 3 · 2)/4 of E/100.
+  const test::Kind kind{Physics::planeStress, fem::CellType::quadrilateral};
+  scene::Scene scene;
+  scene.bodies = {test::elasticBlock(kind, "strip", 0, 1, directory, *comm)};
+  scene::Solid& solid = *scene.bodies[0].solid;
+  solid.mesh = {};
+  solid.mesh.file =
+      test::writeMesh(directory, *comm, "strip.msh", kind.cell, test::GridLines{{{0, 1, 4}, {0, 1}, {}}});
+  solid.material.poissonsRatio = 0;
+  const auto field = [](const fem::Point& x) {
+    return std::array<double, 3>{0.01 * (x[0] + std::max(0.0, x[0] - 1)), 0, 0};
+  };
+  const std::vector<double> values = stress(scene, field, 0, comm->split(comm->getRank(), 0));
+  const std::array<double, 3> expected{2, 3.5, 4};
+  ASSERT_EQ(values.size(), 6U);
+  for (std::size_t node = 0; node < 6; ++node)
+    EXPECT_NEAR(values[node], expected[node % 3], 1e-12);
+}
+
+TEST_F(EvaluationTest, StressKnowsTheMaterialOfRegions) {
+  const test::Kind kind{Physics::elasticity3d, fem::CellType::hexahedron};
+  scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
+  scene::SolidRegion stiff;
+  stiff.box.lower[0] = 0.5;
+  stiff.material = scene.bodies[0].solid->material;
+  stiff.material.youngsModulus *= 3;
+  scene.bodies[0].solid->regions.push_back(stiff);
+  const auto field = [](const fem::Point& x) { return std::array<double, 3>{0, 0.01 * x[2], 0}; };
+  const double soft = std::sqrt(3.0) * 200 / 2.6 * 0.01;
+  const std::vector<double> values = stress(scene, field, 0, comm);
+  const GlobalOrdinal first = evenShare(125, *comm).first;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const GlobalOrdinal column = (first + static_cast<GlobalOrdinal>(k)) % 5;
+    EXPECT_NEAR(values[k], soft * (column < 2 ? 1 : column == 2 ? 2 : 3), 1e-12);
+  }
+}
+
+TEST_F(EvaluationTest, MembranesHaveNoStress) {
+  scene::Scene scene;
+  scene.bodies.resize(1);
+  scene.bodies[0].name = "membrane";
+  scene.bodies[0].supports = {{"wall", scene::Edge::left, 0.0}};
+  const auto decomposition = decomposition::decompose(scene, comm);
+  const auto solution = test::solutionWith(decomposition, [](const fem::Point& x) {
+    return std::array{x[0], 0.0, 0.0};
+  });
+  const Evaluation evaluation = evaluate({scene, decomposition, solution});
+  ASSERT_EQ(evaluation.vonMises.size(), 1U);
+  EXPECT_TRUE(evaluation.vonMises[0].empty());
+  Teuchos::ParameterList report;
+  addResults({scene, decomposition, solution}, evaluation, report);
+  EXPECT_EQ(report.numParams(), 0);
+}
+
+TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheReport) {
+  const double pressure = 3;
+  for (const test::Kind& kind : test::kinds()) {
+    SCOPED_TRACE(text(kind));
+    const bool isPlane = fem::dimensionOf(kind.cell) == 2;
+    const scene::Scene scene = test::stackedBlocks(kind, 3, pressure, directory, *comm);
+    const auto decomposition = decomposition::decompose(scene, comm);
+    Teuchos::ParameterList parameters;
+    parameters.set("Tolerance", 1e-12).set("Equilibrium Tolerance", 1e-12);
+    ContactSolver solver(parameters);
+    solver.setup(decomposition.problem);
+    const fetidp::ContactSolution solution = solver.solve();
+    const SolvedScene solved{scene, decomposition, solution};
+    const Evaluation evaluation = evaluate(solved);
+
+    const double area = isPlane ? 0.5 : 1; // the thickness is 0.5
+    const ContactFields fields = gatherContactFields(solved, 0, evaluation.areas[0]);
+    for (const double value : fields.pressure)
+      EXPECT_NEAR(value, pressure, 1e-8);
+    for (std::size_t k = 0; k < fields.normals.size(); ++k)
+      EXPECT_NEAR(fields.normals[k], k % 3 == (isPlane ? 1 : 2) ? 1 : 0, 1e-14);
+    EXPECT_EQ(fields.nodesPerFacet, fem::nodesPerFacet(kind.cell));
+    EXPECT_EQ(fields.numFacets, isPlane ? 4 : kind.cell == fem::CellType::tetrahedron ? 32 : 16);
+
+    Teuchos::ParameterList report;
+    addResults(solved, evaluation, report);
+    const Teuchos::ParameterList& joint = report.sublist("Contact").sublist("joint");
+    EXPECT_EQ(joint.get<GlobalOrdinal>("Candidates"), isPlane ? 5 : 25);
+    EXPECT_EQ(joint.get<GlobalOrdinal>("Active Nodes"), isPlane ? 5 : 25);
+    EXPECT_NEAR(joint.get<double>("Force"), pressure * area, 1e-9);
+    EXPECT_NEAR(joint.get<double>("Contact Area"), area, 1e-12);
+    EXPECT_NEAR(joint.get<double>("Largest Pressure"), pressure, 1e-8);
+    const auto& resultant = joint.get<Teuchos::Array<double>>("Resultant");
+    ASSERT_EQ(resultant.size(), 3);
+    for (int d = 0; d < 3; ++d)
+      EXPECT_NEAR(resultant[d], d == (isPlane ? 1 : 2) ? -pressure * area : 0, 1e-9);
+
+    // Stress −p along the stack, in plane strain −νp across the plane; the upper block sinks by both strains.
+    const double nu = 0.3, along = kind.physics == Physics::planeStrain ? 1 - nu * nu : 1,
+                 across = kind.physics == Physics::planeStrain ? nu * (1 + nu) : nu;
+    const Teuchos::ParameterList& upper = report.sublist("Body").sublist("upper");
+    EXPECT_NEAR(upper.get<double>("Largest von Mises Stress"),
+                kind.physics == Physics::planeStrain ? pressure * std::sqrt(1 - nu + nu * nu) : pressure,
+                1e-7);
+    EXPECT_NEAR(upper.get<double>("Largest Displacement"),
+                pressure / 200 * std::sqrt(4 * along * along + (isPlane ? 1 : 2) * across * across), 1e-9);
+  }
+}
+
+TEST_F(EvaluationTest, ReportCountsActiveRowsAndSumsAllForces) {
+  const test::Kind kind{Physics::planeStrain, fem::CellType::quadrilateral};
+  scene::Scene scene = test::stackedBlocks(kind, 2, 1, directory, *comm);
+  scene::SolidRegion thick; // the right half of the lower block
+  thick.box.lower[0] = 0.5;
+  thick.material = scene.bodies[0].solid->material;
+  thick.material.thickness = 2;
+  scene.bodies[0].solid->regions.push_back(thick);
+  const auto decomposition = decomposition::decompose(scene, comm);
+  const auto solution = test::solutionWith(decomposition, [](const fem::Point&) {
+    return std::array{3.0, 4.0, 0.0};
+  });
+  for (GlobalOrdinal row = 0; row < 5; ++row)
+    if (decomposition.problem.multiplierMap->isNodeGlobalElement(row)) {
+      solution.multiplier->replaceGlobalValue(row, static_cast<double>(row));
+      solution.active->replaceGlobalValue(row, row > 2 ? 1.0 : 0.0);
+    }
+  const SolvedScene solved{scene, decomposition, solution};
+  const Evaluation evaluation = evaluate(solved);
+  // Quarters of the length: 0.5 thick left of the middle, 2 thick right of it.
+  EXPECT_EQ(evaluation.areas[0].size(), 5U);
+  const std::vector<double> areas{0.0625, 0.125, 0.3125, 0.5, 0.25};
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_NEAR(evaluation.areas[0][k], areas[k], 1e-14);
+
+  Teuchos::ParameterList report;
+  addResults(solved, evaluation, report);
+  const Teuchos::ParameterList& joint = report.sublist("Contact").sublist("joint");
+  EXPECT_EQ(joint.get<GlobalOrdinal>("Candidates"), 5);
+  EXPECT_EQ(joint.get<GlobalOrdinal>("Active Nodes"), 2);
+  EXPECT_DOUBLE_EQ(joint.get<double>("Force"), 10);
+  EXPECT_DOUBLE_EQ(joint.get<double>("Largest Pressure"), 16);
+  EXPECT_NEAR(joint.get<double>("Contact Area"), 0.75, 1e-14);
+  EXPECT_DOUBLE_EQ(report.sublist("Body").sublist("lower").get<double>("Largest Displacement"), 5);
+  EXPECT_NEAR(report.sublist("Body").sublist("lower").get<double>("Largest von Mises Stress"), 0, 1e-11);
+}
+
+} // namespace
+} // namespace epafi::output
