@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -37,9 +36,5 @@ void requireContactForEveryMotion(const decomposition::DecomposedProblem& proble
 /// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap
 /// contradict each other. Collective.
 void requireFeasibleGaps(const decomposition::DecomposedProblem& problem);
-
-/// Names of the floating bodies that take part in a rigid motion: "the floating body 'plate'". Not
-/// collective.
-std::string bodiesOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
 
 } // namespace epafi::fetidp
