@@ -95,6 +95,25 @@ INSTANTIATE_TEST_SUITE_P(Stacks, TurnedSolidTest,
                                   (c.simplices ? "Simplices" : "Cubes") + (c.coercive ? "Held" : "Floating");
                          });
 
+TEST(TurnedContactTest, TheCutOfATurnedSceneDoesNotMatter) {
+  const Placement placement = fem::test::placed(3, 0.8, {4, 7, -3});
+  const MeshFolder folder;
+  const SolidRun whole(stack({3, false, false, 1}, placement, folder), 1e-12),
+      cut(stack({3, false, false, 9}, placement, folder), 1e-12);
+  ASSERT_EQ(whole.solver.report().status, qp::Status::converged);
+  ASSERT_EQ(cut.solver.report().status, qp::Status::converged);
+  double sharedFrames = 0; // of nodes that several subdomains have: copies beyond those of the whole
+  for (const auto* run : {&whole, &cut})
+    for (const auto& subdomain : run->decomposition.problem.subdomains)
+      sharedFrames += (run == &cut ? 1.0 : -1.0) * static_cast<double>(subdomain.frames.size());
+  EXPECT_GT(sumOverRanks(*cut.decomposition.problem.comm, sharedFrames), 10);
+  for (int body = 0; body < 2; ++body) {
+    const Eigen::VectorXd u = whole.displacement(body);
+    EXPECT_LE((cut.displacement(body) - u).norm(), 1e-8 * u.norm());
+  }
+  EXPECT_NEAR(cut.solution.energy, whole.solution.energy, 1e-10 * std::abs(whole.solution.energy));
+}
+
 TEST(TurnedContactTest, AFloatingBlockOnATurnedPlaneKeepsItsModes) {
   for (const int dimension : {2, 3}) {
     const Placement placement = fem::test::placed(dimension, 0.8, {20, 7, dimension == 3 ? -3.0 : 0.0});
