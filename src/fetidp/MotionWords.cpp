@@ -92,6 +92,14 @@ std::string verbOf(const Body& body, const Eigen::VectorXd& coordinates, int com
          (std::abs(pitch) > small * size ? " while it slides along it" : "");
 }
 
+/// "a, b and c".
+std::string enumerated(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < parts.size() ? ", " : " and ") + parts[k];
+  return text;
+}
+
 /// Gauss–Jordan: rows that span the same, each beginning with a 1 where all others have a 0.
 Eigen::MatrixXd reduced(Eigen::MatrixXd rows) {
   Eigen::Index done = 0;
@@ -146,7 +154,7 @@ std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd&
     rows.row(m).normalize();
   rows = reduced(rows);
 
-  std::map<std::vector<std::size_t>, std::string> verbs; // of the bodies that do it together
+  std::map<std::vector<std::size_t>, std::vector<std::string>> verbs; // of the bodies that do it together
   for (Eigen::Index m = 0; m < rows.rows(); ++m) {
     std::vector<std::size_t> who;
     std::vector<std::string> what;
@@ -163,12 +171,11 @@ std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd&
     std::string text = what.empty() ? "move" : what[0];
     if (std::any_of(what.begin(), what.end(), [&](const std::string& verb) { return verb != what[0]; }))
       text = "move together";
-    std::string& known = verbs[who];
-    known += (known.empty() ? "" : ", ") + text;
+    verbs[who].push_back(text);
   }
   std::string all;
   for (const auto& [who, what] : verbs)
-    all += (all.empty() ? "" : ", and ") + named(problem, who) + " can " + what;
+    all += (all.empty() ? "" : "; ") + named(problem, who) + " can " + enumerated(what);
   return all;
 }
 

@@ -188,7 +188,8 @@ void requireFeasibleGaps(const DecomposedProblem& problem) {
             SolvabilityError::Kind::noSolution,
             "no solution: contact row " +
                 std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
-                " joins two supported nodes that overlap by " + number(-gaps[i]));
+                " lies where supports hold both sides, and they overlap by " + number(-gaps[i]) +
+                "; change a gap, an obstacle or a support");
   });
 }
 

@@ -101,7 +101,7 @@ TEST(ContactNodesTest, SupportsThatHoldAContactNodeDecideItsRow) {
   scene.surfaceContacts[0].obstacle.point[1] = -0.0625;
   const Refusal refusal = refusalOf(scene);
   EXPECT_EQ(refusal.kind, SolvabilityError::Kind::noSolution);
-  EXPECT_TRUE(refusal.says("supported nodes that overlap by 0.0625")) << refusal.text;
+  EXPECT_TRUE(refusal.says("overlap by 0.0625")) << refusal.text;
 }
 
 } // namespace
