@@ -55,7 +55,7 @@ public:
     const double length = rest.norm();
     if (length <= sameDirection)
       return Known{known, 2 * length + 1e-12};
-    axes_.push_back(rest / length);
+    axes_.emplace_back(rest / length);
     values_.push_back((value - known) / length);
     return std::nullopt;
   }

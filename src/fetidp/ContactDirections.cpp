@@ -39,7 +39,7 @@ void DistinctDirections::add(const Eigen::VectorXd& direction, double value) {
     key.push_back(std::llround(entry / norm / resolution));
   const auto [place, isNew] = places_.try_emplace(std::move(key), values_.size());
   if (isNew) {
-    directions_.push_back(direction / norm);
+    directions_.emplace_back(direction / norm);
     values_.push_back(value / norm);
   } else {
     values_[place->second] = std::min(values_[place->second], value / norm);
