@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace epafi::decomposition {
@@ -51,6 +52,23 @@ KnownRows::Entry KnownRows::entryOf(const ContactLayout& contact, std::size_t pl
   return {{from, to}, row};
 }
 
+/// Rows of one place in opposite directions leave a slot between them, which must not be narrower than nothing.
+void KnownRows::requireRoom(const Entry& entry, Iterator first, Iterator last) {
+  for (auto other = first; other != last; ++other) {
+    const double slot = entry.second.gap + other->second.gap;
+    if ((other->second.direction + entry.second.direction).norm() > same ||
+        slot >= -same * entry.second.spacing)
+      continue;
+    std::ostringstream overlap;
+    overlap << -slot;
+    throw SolvabilityError(SolvabilityError::Kind::noSolution,
+                           "no solution: the contacts '" + other->second.contact + "' and '" +
+                               entry.second.contact +
+                               "' push the same node from opposite sides, which overlap by " + overlap.str() +
+                               "; move an obstacle or change the surfaces");
+  }
+}
+
 void KnownRows::dropFrom(ContactLayout& contact) {
   std::vector<std::size_t> kept;
   std::vector<Entry> added;
@@ -62,6 +80,7 @@ void KnownRows::dropFrom(ContactLayout& contact) {
       return (other.second.direction - entry.second.direction).norm() <= same &&
              std::abs(other.second.gap - entry.second.gap) <= same * entry.second.spacing;
     });
+    requireRoom(entry, first, last);
     if (known != last) {
       repeated = known->second.contact;
       continue;

@@ -18,7 +18,8 @@ namespace epafi::decomposition {
 /// all stay, also several at one node.
 class KnownRows {
 public:
-  /// Leaves out the rows that earlier contacts have, and keeps the others in mind. \throws InputError if none is left.
+  /// Leaves out the rows that earlier contacts have, and keeps the others in mind. \throws InputError if none is left,
+  /// SolvabilityError (no solution) if rows of two contacts at the same node oppose each other without room between them.
   void dropFrom(ContactLayout& contact);
 
 private:
@@ -32,6 +33,9 @@ private:
 
   using Entry = std::pair<std::pair<Place, Place>, Row>;
 
+  using Iterator = std::multimap<std::pair<Place, Place>, Row>::const_iterator;
+
+  static void requireRoom(const Entry& entry, Iterator first, Iterator last);
   static Entry entryOf(const ContactLayout& contact, std::size_t place);
 
   std::multimap<std::pair<Place, Place>, Row> rows_;

@@ -64,6 +64,17 @@ TEST(ContactNodesTest, AContactThatSaysNothingNewIsRefused) {
   }
 }
 
+TEST(ContactNodesTest, ANodeBetweenOppositeContactsNeedsRoom) {
+  scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
+  scene.surfaceContacts.push_back(onPlane("ceiling", 0, "bottom", {0, 0.125, 0}, {0, -1, 0}));
+  EXPECT_FALSE(refusalOf(scene).kind);                     // the bottom lies between floor and ceiling
+  scene.surfaceContacts.back().obstacle.point[1] = -0.125; // a ceiling below the floor
+  const Refusal refusal = refusalOf(scene);
+  EXPECT_EQ(refusal.kind, SolvabilityError::Kind::noSolution);
+  for (const char* word : {"'floor'", "'ceiling'", "overlap by 0.125"})
+    EXPECT_TRUE(refusal.says(word)) << refusal.text;
+}
+
 TEST(ContactNodesTest, APairSeenFromBothSidesIsTheSamePair) {
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
