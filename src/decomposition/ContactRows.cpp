@@ -2,11 +2,14 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/ContactSearch.hpp"
+#include "epafi/decomposition/KnownRows.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
 #include "epafi/scene/EdgeSegment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace epafi::decomposition {
@@ -110,19 +113,44 @@ std::vector<Side> sidesOf(const std::vector<ContactLayout>& contacts) {
   return sides;
 }
 
+/// A node that can move in a row's direction by no more than this share of what it is moved by does not count in it: the
+/// rest is round-off of normals.
+constexpr double heldDirection = 1e-6;
+/// Coefficients that would be 0 without round-off of normals and frames.
+constexpr double roundOff = 1e-14;
+
+/// d in the unknowns of a node: its components, or Qᵀd where the node has a frame Q. All rows of a contact have the same
+/// number of components.
+Eigen::Vector3d directionAt(const fem::BodyModel& model, GlobalOrdinal node, const ContactLayout& contact,
+                            std::size_t place) {
+  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
+  Eigen::Vector3d direction(0, 0, 0);
+  for (std::size_t c = 0; c < components; ++c)
+    direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];
+  if (const Eigen::Matrix3d* frame = model.frame(node))
+    direction = frame->transpose() * direction;
+  return direction;
+}
+
 /// Enters one row at a node of a piece; returns whether the piece has a free unknown in it.
-bool enterRow(const Side& side, std::size_t place, std::size_t node, GlobalOrdinal row, Piece& piece) {
-  const std::size_t components = side.contact->directions.size() / side.contact->firstNodes.size();
-  bool isTouched = false;
+bool enterRow(const fem::BodyModel& model, const Side& side, std::size_t place, std::size_t node,
+              GlobalOrdinal row, Piece& piece) {
+  const auto components = static_cast<std::size_t>(model.components());
+  const Eigen::Vector3d direction = directionAt(model, piece.assembled.nodes[node], *side.contact, place);
+  const std::span<const int> unknowns =
+      std::span(piece.assembled.unknownOf).subspan(node * components, components);
+  double free = 0;
+  for (std::size_t c = 0; c < components; ++c)
+    if (unknowns[c] >= 0)
+      free = std::hypot(free, direction[static_cast<Eigen::Index>(c)]);
+  if (free <= heldDirection)
+    return false;
   for (std::size_t c = 0; c < components; ++c) {
-    const double coefficient = side.sign * side.contact->directions[place * components + c];
-    const int unknown = piece.assembled.unknownOf[node * components + c];
-    if (coefficient == 0 || unknown < 0)
-      continue;
-    piece.rows.push_back({row, unknown, coefficient});
-    isTouched = true;
+    const double coefficient = side.sign * direction[static_cast<Eigen::Index>(c)];
+    if (unknowns[c] >= 0 && std::abs(coefficient) > roundOff)
+      piece.rows.push_back({row, unknowns[c], coefficient});
   }
-  return isTouched;
+  return true;
 }
 
 } // namespace
@@ -143,17 +171,20 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
     contact.firstRow = firstRow;
     firstRow += contact.numRows();
   }
+  KnownRows known;
   for (const scene::SurfaceContact& search : scene.surfaceContacts) {
     const auto& body = scene.bodies[static_cast<std::size_t>(search.first)];
     const int components = body.solid ? componentsOf(body.solid->physics) : 1;
     ContactLayout& contact = contacts.emplace_back(searchContact(search, bodies, components));
+    known.dropFrom(contact);
     contact.firstRow = firstRow;
     firstRow += contact.numRows();
   }
   return contacts;
 }
 
-Rows contactRows(const std::vector<ContactLayout>& contacts, std::vector<Piece>& pieces) {
+Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
+                 std::vector<Piece>& pieces) {
   Rows rows;
   const std::vector<Side> sides = sidesOf(contacts);
   for (Piece& piece : pieces) {
@@ -173,7 +204,8 @@ Rows contactRows(const std::vector<ContactLayout>& contacts, std::vector<Piece>&
         const GlobalOrdinal row = side.contact->firstRow + static_cast<GlobalOrdinal>(entry->second);
         if (side.sign > 0)
           rows.owned.push_back(row);
-        if (enterRow(side, entry->second, node, row, piece))
+        if (enterRow(*layout.models[static_cast<std::size_t>(piece.body)], side, entry->second, node, row,
+                     piece))
           rows.touched.push_back(row);
       }
     }
@@ -185,13 +217,12 @@ double contactGap(const Layout& layout, const std::vector<ContactLayout>& contac
   const auto contact = std::find_if(contacts.begin(), contacts.end(),
                                     [row](const ContactLayout& c) { return row < c.firstRow + c.numRows(); });
   const auto place = static_cast<std::size_t>(row - contact->firstRow);
-  const std::size_t components = contact->directions.size() / contact->firstNodes.size();
   const auto prescribed = [&](int body, GlobalOrdinal node) {
+    const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(body)];
+    const Eigen::Vector3d direction = directionAt(model, node, *contact, place);
     double sum = 0;
-    for (std::size_t c = 0; c < components; ++c)
-      sum +=
-          contact->directions[place * components + c] *
-          layout.models[static_cast<std::size_t>(body)]->prescribed(node, static_cast<int>(c)).value_or(0.0);
+    for (int c = 0; c < model.components(); ++c)
+      sum += direction[c] * model.prescribed(node, c).value_or(0.0);
     return sum;
   };
   double gap = contact->gaps[place] - prescribed(contact->firstBody, contact->firstNodes[place]);

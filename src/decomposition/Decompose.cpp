@@ -82,12 +82,25 @@ void takeAssembled(Piece& piece, Subdomain& subdomain) {
   subdomain.kernel = std::move(assembled.kernel);
 }
 
+std::vector<NodeFrame> framesOf(const fem::BodyModel& model, const std::vector<GlobalOrdinal>& nodes) {
+  std::vector<NodeFrame> frames;
+  if (!model.hasFrames())
+    return frames;
+  for (std::size_t place = 0; place < nodes.size(); ++place)
+    if (const Eigen::Matrix3d* axes = model.frame(nodes[place]))
+      frames.push_back({static_cast<int>(place), *axes});
+  return frames;
+}
+
 std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout) {
   std::vector<Body> bodies;
   int offset = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const int modes = layout.models[b]->kernelDimension();
-    bodies.push_back({scene.bodies[b].name, modes, offset});
+    Body& body = bodies.emplace_back(Body{scene.bodies[b].name, modes, offset});
+    if (const auto motions = modes > 0 ? layout.models[b]->rigidMotions() : std::nullopt)
+      body.motions = {
+          {motions->centre[0], motions->centre[1], motions->centre[2]}, motions->size, motions->twists};
     offset += modes;
   }
   return bodies;
@@ -125,6 +138,16 @@ void describe(const scene::Scene& scene, const Layout& layout, DecomposedProblem
 
 } // namespace
 
+void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values) {
+  if (subdomain.frames.empty())
+    return;
+  const Eigen::Index components = values.size() / static_cast<Eigen::Index>(subdomain.nodes.size());
+  for (const NodeFrame& frame : subdomain.frames) {
+    auto own = values.segment(frame.node * components, components);
+    own = (frame.axes.topLeftCorner(components, components) * own).eval();
+  }
+}
+
 Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) {
   Decomposition result;
   result.bodies = layoutBodies(scene, *comm);
@@ -147,7 +170,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   problem.numCrosspoints = crosspoints.numNodes();
   for (const ContactLayout& contact : result.contacts)
     problem.numInequalities += contact.numRows();
-  const Rows contact = contactRows(result.contacts, pieces);
+  const Rows contact = contactRows(layout, result.contacts, pieces);
   const std::vector<std::vector<Average>> averages = changeBasis(layout, pieces);
   const Rows gluing = gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities);
 
@@ -161,6 +184,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
                   subdomain, ownedCrosspoints);
     takeAssembled(pieces[p], subdomain);
     subdomain.averages = averages[p];
+    subdomain.frames = framesOf(*layout.models[body], subdomain.nodes);
     positions += subdomain.prescribed.size();
     remainders += static_cast<GlobalOrdinal>(subdomain.remainderUnknowns.size());
   }

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ namespace epafi::decomposition {
 
 /// Sparse symmetric matrix of one subdomain, both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+/// Rigid modes of a body as motions in space.
+struct RigidMotions {
+  Eigen::Vector3d centre{0, 0, 0}; ///< of the body
+  double size = 1;                 ///< half its largest extent
+  Eigen::MatrixXd twists;          ///< 6 × kernelDimension: displacement of the centre, rotation vector
+};
 
 /// One entry of B in a subdomain: row (local index in DecomposedProblem::multiplierGhostMap), column
 /// (unknown), value.
@@ -33,6 +41,12 @@ struct Average {
   bool operator==(const Average& other) const = default;
 };
 
+/// A node whose unknowns are the components of its displacement along axes of its own, not those of space.
+struct NodeFrame {
+  int node = 0;         ///< place among the subdomain's nodes
+  Eigen::Matrix3d axes; ///< a rotation; its columns are the axes. In the plane it turns about z
+};
+
 /// One subdomain Ω^s. Its *unknowns* are the free values v of its nodes (components a node, supported ones
 /// left out), numbered 0 … n_s − 1 in the order of its nodes; some may stand for averages and deviations.
 struct Subdomain {
@@ -47,19 +61,26 @@ struct Subdomain {
   std::vector<Average> averages;                 ///< where unknowns are no values of nodes; most often none
   std::vector<ConstraintEntry> constraint;       ///< B^s
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
-  Eigen::VectorXd load;       ///< f^s, n_s, supports' prescribed values already moved to the right
-  Eigen::VectorXd prescribed; ///< value at each position; 0 at the free ones
-  double energyOffset = 0;    ///< energy that prescribed values alone contribute
-  Eigen::MatrixXd kernel;     ///< R^s, n_s × kernelDimension of its body
+  Eigen::VectorXd load;          ///< f^s, n_s, supports' prescribed values already moved to the right
+  std::vector<NodeFrame> frames; ///< where positions are not components in space; most often none
+  Eigen::VectorXd prescribed;    ///< value at each position; 0 at the free ones
+  double energyOffset = 0;       ///< energy that prescribed values alone contribute
+  Eigen::MatrixXd kernel;        ///< R^s, n_s × kernelDimension of its body
 };
 
 /// Turns unknowns ũ of a subdomain into values of its nodes, in place.
 void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u);
 
+/// Turns values at all positions of a subdomain (nodes × components) into components in space, in place.
+void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values);
+
 struct Body {
   std::string name;
   int kernelDimension = 0; ///< rigid modes that its supports leave free; > 0 means that the body floats
   int kernelOffset = 0;    ///< column of its first mode in R
+  /// What the modes are in space, for errors that say how a body can move; most often there where a body with
+  /// several unknowns a node floats. Nothing is computed from it.
+  std::optional<RigidMotions> motions = std::nullopt;
 };
 
 /// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are

@@ -1,11 +1,14 @@
 #include "epafi/decomposition/Pieces.hpp"
 
+#include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
 
 #include <Teuchos_Comm.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <string>
 
 namespace epafi::decomposition {
 
@@ -42,6 +45,34 @@ int bodyOf(const Layout& layout, int number) {
   return static_cast<int>(next - layout.bodies.begin()) - 1;
 }
 
+namespace {
+
+/// What K R may keep of the sum of its terms' magnitudes: far above round-off, far below a mode that is none.
+constexpr double kernelTolerance = 1e-6;
+
+/// The modes come from geometry and supports, K from integrals: one proves the other. One product a mode.
+/// \throws Error if K R does not vanish.
+void requireKernel(const Piece& piece, const std::string& body) {
+  const SparseMatrix& k = *piece.stiffness;
+  const Eigen::MatrixXd& r = piece.assembled.kernel;
+  for (Eigen::Index mode = 0; mode < r.cols(); ++mode)
+    for (Eigen::Index j = 0; j < k.cols(); ++j) {
+      double sum = 0, magnitude = 0;
+      for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry) { // K is symmetric: columns are rows
+        const double term = entry.value() * r(entry.row(), mode);
+        sum += term;
+        magnitude += std::abs(term);
+      }
+      if (!(std::abs(sum) <= kernelTolerance * magnitude))
+        throw Error("body '" + body + "': its stiffness does not vanish on the rigid motion number " +
+                    std::to_string(mode) + " that its supports seem to leave free (" + std::to_string(sum) +
+                    " beside terms of " + std::to_string(magnitude) +
+                    "); this is a fault of Epafi, please report the scene");
+    }
+}
+
+} // namespace
+
 std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
   const auto first = [&](GlobalOrdinal rank) {
     return static_cast<int>(rank * layout.numSubdomains / comm.getSize());
@@ -65,6 +96,8 @@ std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm) {
     assembler->assemble(body.partition->elementsOf(piece.part), piece.assembled);
     piece.stiffness = matrices.store(piece.assembled.stiffness);
     scratch.swap(piece.assembled.stiffness);
+    if (layout.models[b]->components() > 1) // of a scalar field R = 1, and nothing can go wrong
+      requireKernel(piece, body.name);
     piece.sharing = Sharing(body, piece.assembled);
   }
   return pieces;

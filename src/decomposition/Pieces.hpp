@@ -70,7 +70,8 @@ struct Layout {
 /// Body of a subdomain. Precondition: 0 ≤ number < layout.numSubdomains.
 int bodyOf(const Layout& layout, int number);
 
-/// Assembles this rank's subdomains, in the order of their numbers. Not collective.
+/// Assembles this rank's subdomains, in the order of their numbers. \throws Error if K R of an elastic body is not 0. Not
+/// collective.
 std::vector<Piece> assemblePieces(const Layout& layout, const Comm& comm);
 
 /// Rows of B by their global indices.

@@ -22,6 +22,15 @@ struct PrescribedValue {
   double value = 0;
 };
 
+/// The rigid motions that supports leave free, as motions in space.
+struct RigidMotions {
+  Point centre{};         ///< of the body
+  double size = 1;        ///< half its largest extent
+  Eigen::MatrixXd twists; ///< 6 × kernelDimension: displacement of the centre, rotation vector
+};
+
+/// A node's unknowns are its displacement's components along the axes of space, or of its frame if it has one. Stiffness,
+/// loads, prescribed values and kernel are all in these unknowns.
 class BodyModel {
 public:
   virtual ~BodyModel() = default;
@@ -32,6 +41,13 @@ public:
   [[nodiscard]] virtual int kernelDimension() const = 0;
   /// Value of a rigid mode at a node and component, mode < kernelDimension().
   [[nodiscard]] virtual double kernelValue(GlobalOrdinal node, int component, int mode) const = 0;
+  /// The rigid motions as motions in space; nothing of a scalar field.
+  [[nodiscard]] virtual std::optional<RigidMotions> rigidMotions() const { return std::nullopt; }
+  /// The node's frame, a rotation whose columns are the axes of its unknowns, or null where these are those of space. In
+  /// the plane it turns about z.
+  [[nodiscard]] virtual const Eigen::Matrix3d* frame(GlobalOrdinal /*node*/) const { return nullptr; }
+  /// Whether any node has one.
+  [[nodiscard]] virtual bool hasFrames() const { return false; }
   /// Prescribed value of a node's component, or nothing where it is free.
   [[nodiscard]] virtual std::optional<double> prescribed(GlobalOrdinal node, int component) const = 0;
   /// All prescribed values at some ascending nodes, in any order, a value that two supports give perhaps

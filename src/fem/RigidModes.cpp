@@ -1,8 +1,46 @@
 #include "epafi/fem/RigidModes.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <cmath>
+#include <limits>
 
 namespace epafi::fem {
+namespace {
+
+/// R of the QR factorisation of rows that come one by one: singular values to round-off, which those of a Gram matrix
+/// would have to half the digits only.
+class RowFactor {
+public:
+  explicit RowFactor(Eigen::Index columns) : rows_(Eigen::MatrixXd::Zero(columns + chunk, columns)) {}
+
+  void add(const Eigen::VectorXd& row) {
+    rows_.row(rows_.cols() + numNew_) = row.transpose();
+    if (++numNew_ == chunk)
+      compress();
+  }
+  [[nodiscard]] Eigen::MatrixXd factor() {
+    compress();
+    return rows_.topRows(rows_.cols());
+  }
+
+private:
+  static constexpr Eigen::Index chunk = 64;
+
+  void compress() {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_);
+    const Eigen::MatrixXd upper = qr.matrixQR().topRows(rows_.cols()).template triangularView<Eigen::Upper>();
+    rows_.setZero();
+    rows_.topRows(rows_.cols()) = upper;
+    numNew_ = 0;
+  }
+
+  Eigen::MatrixXd rows_; ///< R, and below it the rows since
+  Eigen::Index numNew_ = 0;
+};
+
+} // namespace
 
 Eigen::VectorXd RigidModes::at(const Point& point, int component) const {
   Eigen::VectorXd modes = Eigen::VectorXd::Zero(number());
@@ -19,22 +57,38 @@ Eigen::VectorXd RigidModes::at(const Point& point, int component) const {
   return modes;
 }
 
-Eigen::MatrixXd RigidModes::freeOf(std::span<const HeldComponent> held) const {
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(number(), number());
-  for (const HeldComponent& value : held) {
-    const Eigen::VectorXd modes = at(value.point, value.component);
-    gram += modes * modes.transpose();
-  }
+Eigen::VectorXd RigidModes::along(const Point& point, const Eigen::Vector3d& direction) const {
+  Eigen::VectorXd modes = Eigen::VectorXd::Zero(number());
+  for (int c = 0; c < components_; ++c)
+    if (direction[c] != 0)
+      modes += direction[c] * at(point, c);
+  return modes;
+}
+
+FreeModes RigidModes::freeOf(std::span<const HeldDirection> held) const {
   if (held.empty())
-    return Eigen::MatrixXd::Identity(number(), number());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
-  // A motion that moves no held node by more than 1e-7 of itself is free: points off a line by less are on it.
-  constexpr double threshold = 1e-14;
-  Eigen::Index numFree = 0;
-  while (numFree < gram.rows() &&
-         solver.eigenvalues()[numFree] <= threshold * static_cast<double>(held.size()))
-    ++numFree;
-  return solver.eigenvectors().leftCols(numFree);
+    return {Eigen::MatrixXd::Identity(number(), number()), std::numeric_limits<double>::infinity()};
+  RowFactor rows(number());
+  for (const HeldDirection& value : held)
+    rows.add(along(value.point, value.direction));
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.factor(), Eigen::ComputeFullV);
+  const Eigen::VectorXd hold = svd.singularValues() / std::sqrt(static_cast<double>(held.size()));
+  Eigen::Index numHeld = 0;
+  while (numHeld < hold.size() && hold[numHeld] > freeUpTo)
+    ++numHeld;
+  return {svd.matrixV().rightCols(number() - numHeld),
+          numHeld > 0 ? hold[numHeld - 1] : std::numeric_limits<double>::infinity()};
+}
+
+Eigen::MatrixXd RigidModes::twists() const {
+  Eigen::MatrixXd twists = Eigen::MatrixXd::Zero(6, number());
+  if (components_ == 2) {
+    twists(0, 0) = twists(1, 1) = 1;
+    twists(5, 2) = 1 / size_;
+  } else if (components_ == 3) {
+    twists.diagonal() << 1, 1, 1, 1 / size_, 1 / size_, 1 / size_;
+  }
+  return twists;
 }
 
 } // namespace epafi::fem

@@ -37,12 +37,13 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   return energy.value();
 }
 
-/// Values at all positions of a subdomain: the unknowns' and the prescribed ones.
+/// Values at all positions of a subdomain, the unknowns' and the prescribed ones, in space.
 Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, Eigen::MatrixXd& u) {
   Eigen::VectorXd all = subdomain.prescribed;
   decomposition::toNodalValues(subdomain, u.col(0));
   for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
     all[subdomain.unknownPosition[i]] = u(static_cast<Eigen::Index>(i));
+  decomposition::toSpace(subdomain, all);
   return all;
 }
 

@@ -2,8 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/ContactDirections.hpp"
+#include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/NonNegativeLeastSquares.hpp"
-#include "epafi/fetidp/Solvability.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Tpetra_Map.hpp>
@@ -12,20 +13,13 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 
 namespace epafi::fetidp {
 namespace {
 
 using decomposition::DecomposedProblem;
-using Rows = std::map<int, Eigen::VectorXd>;
-
-/// This rank's rows of G̃ᵀ.
-Rows rowsOf(const std::vector<KernelEntry>& entries, Eigen::Index numModes) {
-  Rows rows;
-  for (const KernelEntry& entry : entries)
-    rows.try_emplace(entry.row, Eigen::VectorXd::Zero(numModes)).first->second[entry.mode] += entry.value;
-  return rows;
-}
+using Rows = std::map<int, Eigen::VectorXd>; // of G̃ᵀ, this rank's, by local index
 
 /// [G̃_A G̃_Aᵀ, G̃_A slack_A] of the rows A that carry force. Collective.
 Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda,
@@ -45,63 +39,75 @@ Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& ro
   return normal;
 }
 
-/// What the contacts allow: directionsᵀα ≤ room, one column a distinct direction.
+/// What the contacts allow: directionsᵀβ ≤ room, one column a distinct direction.
 struct Room {
-  Eigen::MatrixXd directions; ///< k × (a few)
+  Eigen::MatrixXd directions; ///< k × (as many as differ)
   Eigen::VectorXd room;
 };
-
-/// Adds a row, or tightens the one of the same direction.
-void addRow(std::vector<Eigen::VectorXd>& rows, const Eigen::VectorXd& row) {
-  const Eigen::Index k = row.size() - 1;
-  const auto same = std::find_if(rows.begin(), rows.end(), [&](const Eigen::VectorXd& other) {
-    return (other - row).head(k).norm() < 1e-12;
-  });
-  if (same == rows.end())
-    rows.push_back(row);
-  else
-    (*same)[k] = std::min((*same)[k], row[k]);
-}
 
 /// Collective.
 Room roomOf(const DecomposedProblem& problem, const Rows& rows, const Vector& slack,
             const Eigen::VectorXd& alpha) {
-  const Eigen::Index k = problem.kernelDimension;
   const auto gap = slack.getData();
-  std::vector<Eigen::VectorXd> distinct; // direction and room
-  for (const auto& [row, vector] : rows) {
-    Eigen::VectorXd entry(k + 1);
-    entry << vector, gap[row] - vector.dot(alpha);
-    addRow(distinct, entry / vector.norm());
-  }
-  std::vector<double> mine;
-  for (const Eigen::VectorXd& entry : distinct)
-    mine.insert(mine.end(), entry.begin(), entry.end());
-  const std::vector<double> all = gatherOnAll(*problem.comm, mine);
-  distinct.clear();
-  for (std::size_t first = 0; first < all.size(); first += static_cast<std::size_t>(k) + 1)
-    addRow(distinct, Eigen::Map<const Eigen::VectorXd>(all.data() + first, k + 1));
-  Room room{Eigen::MatrixXd(k, distinct.size()), Eigen::VectorXd(distinct.size())};
-  for (std::size_t j = 0; j < distinct.size(); ++j) {
-    room.directions.col(static_cast<Eigen::Index>(j)) = distinct[j].head(k);
-    room.room[static_cast<Eigen::Index>(j)] = distinct[j][k];
-  }
-  return room;
+  DistinctDirections distinct(problem.kernelDimension);
+  for (const auto& [row, vector] : rows)
+    distinct.add(vector, gap[row] - vector.dot(alpha));
+  distinct.gather(*problem.comm);
+  return {distinct.matrix(), distinct.values()};
 }
 
-/// Shortest x with Cᵀx ≤ s (to 1e-9), or nothing if there is none (Lawson, Hanson, *Solving Least Squares Problems*,
-/// 1974, ch. 23.4: least distance programming).
-std::optional<Eigen::VectorXd> shortest(const Eigen::MatrixXd& c, const Eigen::VectorXd& s) {
+/// Shortest x with Cᵀx ≤ s (to 1e-9), or if there is none the columns of C that exclude it: those that forces y ≥ 0 with
+/// Cy = 0, yᵀs < 0 act along (Lawson, Hanson, *Solving Least Squares Problems*, 1974, ch. 23.4: least distance
+/// programming).
+struct Shortest {
+  std::optional<Eigen::VectorXd> x;
+  std::vector<Eigen::Index> excluding;
+};
+
+Shortest shortest(const Eigen::MatrixXd& c, const Eigen::VectorXd& s) {
   const Eigen::Index n = c.rows();
   Eigen::MatrixXd e(n + 1, c.cols());
   e << -c, -s.transpose();
-  const Eigen::VectorXd residual = nonNegativeLeastSquares(e, Eigen::VectorXd::Unit(n + 1, n)).residual;
-  if (residual[n] <= 0)
-    return std::nullopt;
-  const Eigen::VectorXd x = -residual.head(n) / residual[n]; // round-off of a residual 0 would give anything
-  if (!((c.transpose() * x - s).maxCoeff() <= 1e-9))
-    return std::nullopt;
-  return x;
+  const NonNegativeSolution dual = nonNegativeLeastSquares(e, Eigen::VectorXd::Unit(n + 1, n));
+  Shortest result;
+  if (dual.residual[n] > 0) { // round-off of a residual 0 would give anything
+    const Eigen::VectorXd x = -dual.residual.head(n) / dual.residual[n];
+    if ((c.transpose() * x - s).maxCoeff() <= 1e-9)
+      result.x = x;
+  }
+  for (Eigen::Index j = 0; j < dual.x.size() && !result.x; ++j)
+    if (dual.x[j] > 0)
+      result.excluding.push_back(j);
+  return result;
+}
+
+/// A motion in the span of `open` that all contacts leave some room for, or nothing if they leave none: then those that
+/// exclude it hold the motions across them, and the search goes on along them.
+std::optional<Eigen::VectorXd> looseMotion(const Room& room, Eigen::MatrixXd open) {
+  constexpr double margin = 1e-6; // narrower than this beside the largest gap, a gap counts as closed
+  while (open.cols() > 0) {
+    const Eigen::MatrixXd all = open.transpose() * room.directions;
+    std::vector<Eigen::Index> meeting; // contacts that the motions meet at all
+    for (Eigen::Index j = 0; j < all.cols(); ++j)
+      if (all.col(j).norm() > margin)
+        meeting.push_back(j);
+    if (meeting.empty())
+      return open.col(0);
+    const Eigen::MatrixXd directions = all(Eigen::all, meeting);
+    const Eigen::VectorXd least =
+        room.room(meeting) - Eigen::VectorXd::Constant(static_cast<Eigen::Index>(meeting.size()), margin);
+    const Shortest found = shortest(directions, least);
+    if (found.x)
+      return open * (found.x->norm() > 0 ? *found.x : Eigen::VectorXd::Unit(open.cols(), 0));
+    if (found.excluding.empty())
+      return std::nullopt;
+    const Eigen::MatrixXd excluding = directions(Eigen::all, found.excluding);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(excluding * excluding.transpose());
+    const auto numLeft =
+        (spectrum.eigenvalues().array() <= 1e-12 * spectrum.eigenvalues().maxCoeff()).count();
+    open = (open * spectrum.eigenvectors().leftCols(numLeft)).eval();
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -109,7 +115,8 @@ std::optional<Eigen::VectorXd> shortest(const Eigen::MatrixXd& c, const Eigen::V
 Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
                             const Vector& lambda, const Vector& slack, bool isSolved) {
   const Eigen::Index k = problem.kernelDimension;
-  const Rows rows = rowsOf(entries, k);
+  const Eigen::VectorXd lengths = modeLengths(problem);
+  const Rows rows = contactRows(entries, lengths);
   const Eigen::MatrixXd normal = normalEquations(problem, rows, lambda, slack);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(normal.leftCols(k));
   const double threshold = 1e-12 * spectrum.eigenvalues().maxCoeff();
@@ -120,20 +127,23 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<
       held * (held.transpose() * normal.col(k)).cwiseQuotient(spectrum.eigenvalues().tail(k - numOpen));
   const double length = slack.normInf();
   if (numOpen == 0 || length == 0)
-    return alpha;
+    return alpha.cwiseQuotient(lengths);
 
-  const Room room = roomOf(problem, rows, slack, alpha);
-  const Eigen::MatrixXd directions = open.transpose() * room.directions;
-  const Eigen::VectorXd relative = room.room / length;
-  constexpr double margin = 1e-6; // narrower than this, a gap counts as closed
-  if (isSolved && shortest(directions, relative - Eigen::VectorXd::Constant(relative.size(), margin)))
-    throw SolvabilityError(
-        SolvabilityError::Kind::notUnique,
-        "not unique: no contact force holds " + bodiesOf(problem, open.col(0)) +
-            ", which may come to rest anywhere between its contacts; add a load or a support");
-  if (const auto further = shortest(directions, relative))
-    alpha += length * (open * *further);
-  return alpha;
+  Room room = roomOf(problem, rows, slack, alpha);
+  room.room /= length;
+  if (isSolved)
+    if (const auto loose = looseMotion(room, open)) {
+      const Eigen::VectorXd motion = loose->cwiseQuotient(lengths);
+      const std::string words = wordsOf(problem, motion);
+      throw SolvabilityError(SolvabilityError::Kind::notUnique,
+                             "not unique: no contact force holds " + bodiesOf(problem, motion) +
+                                 ", which may come to rest anywhere between its contacts" +
+                                 (words == "move" ? "" : " (free to " + words + ")") +
+                                 "; add a load or a support");
+    }
+  if (const Shortest further = shortest(open.transpose() * room.directions, room.room); further.x)
+    alpha += length * (open * *further.x);
+  return alpha.cwiseQuotient(lengths);
 }
 
 } // namespace epafi::fetidp

@@ -2,17 +2,18 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/ContactDirections.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
+#include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
 #include "epafi/fetidp/NonNegativeLeastSquares.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Eigenvalues>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 #include <string>
 
@@ -21,51 +22,24 @@ namespace {
 
 using decomposition::DecomposedProblem;
 
-/// The distinct directions among the columns of G̃, of length 1, from all ranks: k × (a few).
-Eigen::MatrixXd contactDirections(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  const Eigen::Index k = problem.kernelDimension;
-  std::map<int, Eigen::VectorXd> rows;
-  for (const KernelEntry& entry : entries)
-    rows.try_emplace(entry.row, Eigen::VectorXd::Zero(k)).first->second[entry.mode] += entry.value;
-  const auto isNew = [](const std::vector<Eigen::VectorXd>& known, const Eigen::VectorXd& direction) {
-    return std::none_of(known.begin(), known.end(),
-                        [&](const Eigen::VectorXd& other) { return (other - direction).norm() < 1e-12; });
-  };
-  std::vector<Eigen::VectorXd> directions;
-  for (const auto& [row, vector] : rows)
-    if (vector.norm() > 0 && isNew(directions, vector.normalized()))
-      directions.push_back(vector.normalized());
-
-  std::vector<double> mine;
-  for (const auto& direction : directions)
-    mine.insert(mine.end(), direction.begin(), direction.end());
-  const std::vector<double> all = gatherOnAll(*problem.comm, mine);
-  directions.clear();
-  for (std::size_t first = 0; first < all.size(); first += static_cast<std::size_t>(k)) {
-    const Eigen::VectorXd direction = Eigen::Map<const Eigen::VectorXd>(all.data() + first, k);
-    if (isNew(directions, direction))
-      directions.push_back(direction);
-  }
-  Eigen::MatrixXd result(k, static_cast<Eigen::Index>(directions.size()));
-  for (std::size_t j = 0; j < directions.size(); ++j)
-    result.col(static_cast<Eigen::Index>(j)) = directions[j];
-  return result;
-}
-
-/// Is ẽ in the cone of the directions? With each body's mode measured by its own load (one of the lightest where a
-/// mode carries none) and the directions of length 1 again: neither changes the answer, but a heavy body does not
-/// hide a light one.
+/// Is ẽ in the cone of the directions? With each body's modes measured by the load on it (by that of the least loaded
+/// one where a body carries none) and the directions of length 1 again: neither changes the answer, but a heavy body
+/// does not hide a light one.
 struct ScaledCone {
   Eigen::VectorXd unit;       ///< by which a mode's resultant is divided
-  Eigen::MatrixXd directions; ///< k × (a few)
+  Eigen::MatrixXd directions; ///< k × (as many as differ)
   Eigen::VectorXd resultant;  ///< k
 
-  ScaledCone(const Eigen::MatrixXd& contacts, const Eigen::VectorXd& kernelLoad,
-             const Eigen::VectorXd& magnitudes)
-      : unit(magnitudes) {
+  ScaledCone(const DecomposedProblem& problem, const Eigen::MatrixXd& contacts,
+             const Eigen::VectorXd& kernelLoad, const Eigen::VectorXd& magnitudes)
+      : unit(Eigen::VectorXd::Zero(magnitudes.size())) {
     double least = std::numeric_limits<double>::infinity();
-    for (const double magnitude : magnitudes)
-      least = magnitude > 0 ? std::min(least, magnitude) : least;
+    for (const auto& body : problem.bodies)
+      if (body.kernelDimension > 0) {
+        const double load = magnitudes.segment(body.kernelOffset, body.kernelDimension).maxCoeff();
+        unit.segment(body.kernelOffset, body.kernelDimension).setConstant(load);
+        least = load > 0 ? std::min(least, load) : least;
+      }
     for (double& value : unit)
       value = value > 0 ? value : std::isfinite(least) ? least : 1.0;
     directions = unit.cwiseInverse().asDiagonal() * contacts;
@@ -97,80 +71,97 @@ std::string number(double value) {
   return text.str();
 }
 
-/// A motion that no contact hinders in either direction: ẽᵀα must vanish, and even then α is undetermined.
+/// `before` and what the motion is, if it is more than a move of a scalar field.
+std::string along(const DecomposedProblem& problem, const Eigen::VectorXd& motion,
+                  const std::string& before) {
+  const std::string words = wordsOf(problem, motion);
+  return words == "move" ? "" : before + words;
+}
+
+/// A motion that contacts hinder by less than this share of it, in the root mean square, they do not hinder: the rest is
+/// round-off of their normals.
+constexpr double hindered = 1e-6;
+
+/// Motions that no contact hinders in either direction, orthonormal columns: G̃ᵀ free = 0.
+Eigen::MatrixXd freeMotions(const Eigen::MatrixXd& directions) {
+  if (directions.cols() == 0)
+    return Eigen::MatrixXd::Identity(directions.rows(), directions.rows());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(directions * directions.transpose() /
+                                                                static_cast<double>(directions.cols()));
+  const auto numFree = (spectrum.eigenvalues().array() <= hindered * hindered).count();
+  return spectrum.eigenvectors().leftCols(numFree);
+}
+
+/// ẽᵀα must vanish for a motion α that nothing hinders, and even then α is undetermined. All measured by the modes'
+/// lengths.
 void refuseFreeMotion(const DecomposedProblem& problem, const Eigen::MatrixXd& directions,
-                      const Eigen::VectorXd& kernelLoad, const Eigen::VectorXd& magnitudes) {
-  const Eigen::Index k = problem.kernelDimension;
-  Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(k, std::max<Eigen::Index>(directions.cols(), 1));
-  padded.leftCols(directions.cols()) = directions;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(padded);
-  if (qr.rank() == k)
+                      const Eigen::VectorXd& kernelLoad, const Eigen::VectorXd& magnitudes,
+                      const Eigen::VectorXd& lengths) {
+  const Eigen::MatrixXd free = freeMotions(directions);
+  if (free.cols() == 0)
     return;
-  const Eigen::MatrixXd q = qr.householderQ();
-  const Eigen::MatrixXd free = q.rightCols(k - qr.rank()); // G̃ᵀ free = 0
-  Eigen::VectorXd motion = free * (free.transpose() * kernelLoad);
-  const bool isPulled = motion.norm() > resultantTolerance * magnitudes.norm();
-  if (!isPulled)
-    motion = free.col(0);
-  const std::string who = bodiesOf(problem, motion);
-  if (isPulled)
+  const Eigen::VectorXd motion = free * (free.transpose() * kernelLoad);
+  if (motion.norm() > resultantTolerance * magnitudes.norm()) {
+    const Eigen::VectorXd alpha = motion.cwiseQuotient(lengths);
     refuse(SolvabilityError::Kind::noSolution,
-           who + " can move without meeting a support or a contact, and the load moves it (resultant " +
-               number(kernelLoad.dot(motion) / motion.norm()) + "); add a support or a contact pair");
+           bodiesOf(problem, alpha) +
+               " can move without meeting a support or a contact, and the load moves it "
+               "(resultant " +
+               number(kernelLoad.dot(motion) / motion.norm()) + along(problem, alpha, " to ") +
+               "); add a support or a contact pair");
+  }
   refuse(SolvabilityError::Kind::notUnique,
-         who + " can move without meeting a support or a contact; add a support or a contact pair");
+         abilitiesOf(problem, lengths.cwiseInverse().asDiagonal() * free) +
+             " without meeting a support or a contact; add a support or a contact pair");
 }
 
 } // namespace
-
-std::string bodiesOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
-  std::string names;
-  int count = 0;
-  for (const auto& body : problem.bodies)
-    if (body.kernelDimension > 0 &&
-        motion.segment(body.kernelOffset, body.kernelDimension).norm() > 1e-6 * motion.norm()) {
-      names += (count > 0 ? "', '" : "'") + body.name;
-      ++count;
-    }
-  return (count > 1 ? "the floating bodies " : "the floating body ") + names + "'";
-}
 
 void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
                            const Eigen::VectorXd& kernelLoad) {
   if (problem.kernelDimension == 0)
     return;
-  const Eigen::MatrixXd directions = contactDirections(problem, entries);
-  const Eigen::VectorXd magnitudes = kernelLoadMagnitude(problem, loadsOf(problem));
-  refuseFreeMotion(problem, directions, kernelLoad, magnitudes);
+  const Eigen::VectorXd lengths = modeLengths(problem);
+  const Eigen::MatrixXd directions = contactDirections(problem, entries, lengths);
+  const Eigen::VectorXd load = kernelLoad.cwiseQuotient(lengths),
+                        magnitudes = kernelLoadMagnitude(problem, loadsOf(problem)).cwiseQuotient(lengths);
+  refuseFreeMotion(problem, directions, load, magnitudes, lengths);
 
-  const ScaledCone cone(directions, kernelLoad, magnitudes);
+  const ScaledCone cone(problem, directions, load, magnitudes);
+  const Eigen::VectorXd scale = cone.unit.cwiseProduct(lengths);
   const Eigen::VectorXd pulled = cone.imbalance(cone.resultant, resultantTolerance);
   if (pulled.norm() > 0) {
-    const Eigen::VectorXd motion = pulled.cwiseQuotient(cone.unit); // allowed, and driven by the load
+    const Eigen::VectorXd motion = pulled.cwiseQuotient(scale); // allowed, and driven by the load
     refuse(SolvabilityError::Kind::noSolution,
-           "the load pulls " + bodiesOf(problem, pulled) + " away from its contacts (resultant " +
-               number(kernelLoad.dot(motion) / motion.norm()) +
-               " along a motion that no contact hinders); turn the load or add a support");
+           "the load pulls " + bodiesOf(problem, pulled.cwiseQuotient(lengths)) +
+               " away from its contacts (resultant " +
+               number(kernelLoad.dot(motion) / motion.cwiseProduct(lengths).norm()) +
+               " along a motion that no contact hinders" + along(problem, motion, ": ") +
+               "); turn the load or add a support");
   }
 
   // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
-  const Eigen::VectorXd all = cone.directions.rowwise().sum();
-  if (all.norm() <= 1e-12)
+  const Eigen::VectorXd mean = cone.directions.rowwise().mean();
+  if (mean.norm() <= 1e-12)
     return; // the contacts oppose each other: any resultant is balanced
   const bool isLoaded = magnitudes.sum() > 0;
   const Eigen::VectorXd loose =
-      isLoaded ? cone.imbalance(cone.resultant - 10 * resultantTolerance * all, resultantTolerance) : all;
+      isLoaded ? cone.imbalance(cone.resultant - 10 * resultantTolerance * mean, resultantTolerance)
+               : cone.imbalance(-mean, resultantTolerance);
   if (loose.norm() > 0)
     refuse(SolvabilityError::Kind::notUnique,
-           "the load does not press " + bodiesOf(problem, loose) +
-               " onto its contacts (zero resultant), so that it may come to rest anywhere; add a load or a "
-               "support");
+           "the load does not press " + bodiesOf(problem, loose.cwiseQuotient(lengths)) +
+               " onto its contacts (zero resultant" +
+               along(problem, loose.cwiseQuotient(scale), " along a motion that no contact hinders: ") +
+               "), so that it may come to rest anywhere; add a load or a support");
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
   const SubdomainVectors load = loadsOf(problem);
-  refuseFreeMotion(problem, contactDirections(problem, entries), kernelLoad(problem, load),
-                   kernelLoadMagnitude(problem, load));
+  const Eigen::VectorXd lengths = modeLengths(problem);
+  refuseFreeMotion(problem, contactDirections(problem, entries, lengths),
+                   kernelLoad(problem, load).cwiseQuotient(lengths),
+                   kernelLoadMagnitude(problem, load).cwiseQuotient(lengths), lengths);
 }
 
 void requireFeasibleGaps(const DecomposedProblem& problem) {
@@ -197,7 +188,8 @@ void requireFeasibleGaps(const DecomposedProblem& problem) {
             SolvabilityError::Kind::noSolution,
             "no solution: contact row " +
                 std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
-                " joins two supported nodes that overlap by " + number(-gaps[i]));
+                " lies where supports hold both sides, and they overlap by " + number(-gaps[i]) +
+                "; change a gap, an obstacle or a support");
   });
 }
 

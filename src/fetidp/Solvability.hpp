@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -21,8 +20,10 @@ inline constexpr double resultantTolerance = 1e-9;
 
 /// Throws SolvabilityError, the same on all ranks, that names the body and the reason if
 ///  - a rigid motion of the floating bodies meets no contact at all (no solution, or not unique),
-///  - the load pulls a floating body off its contacts (no solution),
-///  - the load on it has no resultant against its contacts (not unique).
+///  - the load pulls, turns or tips a floating body off its contacts (no solution),
+///  - the load on it has no resultant against its contacts, or against a motion that they do not hinder, such as one that
+///    acts exactly above the edge of the base (not unique).
+/// Bodies whose modes are known as motions in space (Body::motions) are said to slide or turn, with direction and axis.
 /// \param entries  this rank's rows of G̃ᵀ;
 /// \param kernelLoad  ẽ
 /// Collective.
@@ -37,9 +38,5 @@ void requireContactForEveryMotion(const decomposition::DecomposedProblem& proble
 /// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap
 /// contradict each other. Collective.
 void requireFeasibleGaps(const decomposition::DecomposedProblem& problem);
-
-/// Names of the floating bodies that take part in a rigid motion: "the floating body 'plate'". Not
-/// collective.
-std::string bodiesOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
 
 } // namespace epafi::fetidp

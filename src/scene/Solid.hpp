@@ -50,11 +50,13 @@ struct SolidRegion {
   Material material;
 };
 
-/// Components of the displacement prescribed on a surface. One alone makes a sliding support.
+/// Components of the displacement prescribed on a surface, or the displacement along its outward normal. One alone makes a
+/// sliding support.
 struct SolidSupport {
   std::string name;
   std::string surface; ///< "left" … "top" of a structured mesh, or a physical group
   std::array<std::optional<double>, 3> value;
+  std::optional<double> normal = std::nullopt; ///< uᵀn, n the outward normal; the surface slides along itself
 };
 
 /// A load; loads add up.

@@ -108,5 +108,29 @@ TEST(NonNegativeLeastSquaresTest, DoesNotDependOnUnits) {
   }
 }
 
+TEST(NonNegativeLeastSquaresTest, DecidesOnThousandsOfColumns) {
+  // Normals at the nodes of three flat faces: whether a resultant lies in their cone is known.
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> place(-1, 1);
+  Eigen::MatrixXd faces(18, 9000);
+  faces.setZero();
+  for (Eigen::Index j = 0; j < faces.cols();
+       ++j) { // (force, moment) of a unit force along z at (x, y), on one of 3 bodies
+    const double x = place(random), y = place(random);
+    faces.col(j).segment(6 * (j % 3), 6) << 0, 0, 1, y, -x, 0;
+  }
+  Eigen::VectorXd inside(18), outside(18);
+  for (Eigen::Index body = 0; body < 3; ++body) {
+    inside.segment(6 * body, 6) << 0, 0, 2, 0.5, -1.5, 0;
+    outside.segment(6 * body, 6) << 0, 0, 2, 0.5, body == 2 ? -2.1 : 0.0, 0; // beside the face at x = 1
+  }
+  expectOptimal(faces, inside);
+  EXPECT_LE(nonNegativeLeastSquares(faces, inside).residual.norm(), 1e-12);
+  expectOptimal(faces, outside);
+  const Eigen::VectorXd residual = nonNegativeLeastSquares(faces, outside).residual;
+  EXPECT_LE(residual.head(12).norm(), 1e-12);
+  EXPECT_GT(residual.tail(6).norm(), 0.01);
+}
+
 } // namespace
 } // namespace epafi::fetidp

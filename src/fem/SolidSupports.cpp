@@ -1,0 +1,216 @@
+#include "epafi/fem/SolidSupports.hpp"
+
+#include "epafi/fem/SupportNormals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace epafi::fem {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A direction that others hold up to this angle adds nothing to them; it must agree with them as well.
+constexpr double sameDirection = 1e-6;
+/// Axes of a frame that are nearer to those of space than this are these.
+constexpr double onAxis = 1e-12;
+
+std::string text(const Vector3d& direction) {
+  std::ostringstream result;
+  result << '(' << direction[0] << ", " << direction[1] << ", " << direction[2] << ')';
+  return result.str();
+}
+
+std::string number(double value) {
+  std::ostringstream result;
+  result << value;
+  return result.str();
+}
+
+/// The axis of space that a direction of length 1 is, up to its sign, or −1.
+int axisOf(const Vector3d& direction) {
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return (direction.cwiseAbs() - Vector3d::Unit(axis)).norm() <= onAxis ? static_cast<int>(axis) : -1;
+}
+
+/// What is known of directionᵀu, up to a share of the values.
+struct Known {
+  double value, uncertainty;
+};
+
+/// Axes held at a node, orthonormal, and how far it is moved along them.
+class HeldAxes {
+public:
+  /// Takes directionᵀu = value in; returns what the axes before say of directionᵀu where they hold it already.
+  std::optional<Known> add(const Vector3d& direction, double value) {
+    Vector3d rest = direction;
+    double known = 0;
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+      const double share = axes_[k].dot(direction);
+      rest -= share * axes_[k];
+      known += share * values_[k];
+    }
+    const double length = rest.norm();
+    if (length <= sameDirection)
+      return Known{known, 2 * length + 1e-12};
+    axes_.emplace_back(rest / length);
+    values_.push_back((value - known) / length);
+    return std::nullopt;
+  }
+  [[nodiscard]] std::span<const Vector3d> axes() const { return axes_; }
+  [[nodiscard]] std::span<const double> values() const { return values_; }
+
+private:
+  std::vector<Vector3d> axes_;
+  std::vector<double> values_;
+};
+
+} // namespace
+
+SolidSupports::SolidSupports(const SolidBody& body) : components_(body.components()) {
+  const std::vector<Condition> conditions = conditionsOf(body);
+  for (auto first = conditions.begin(); first != conditions.end();) {
+    const auto next = std::find_if(first, conditions.end(),
+                                   [&](const Condition& condition) { return condition.node != first->node; });
+    hold(body, {first, next});
+    first = next;
+  }
+}
+
+/// By ascending node; at each first the components, so that frames arise only where normals add something.
+std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBody& body) {
+  std::vector<Condition> conditions;
+  for (const scene::SolidSupport& support : body.solid.supports) {
+    const Surface surface = body.surfaceOf("support '" + support.name + "'", support.surface);
+    std::vector<GlobalOrdinal> nodes = surface.facetNodes;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (const GlobalOrdinal node : nodes)
+      for (int c = 0; c < body.components(); ++c)
+        if (const auto& value = support.value[static_cast<std::size_t>(c)])
+          conditions.push_back({node, Vector3d::Unit(c), *value, c, &support});
+    if (!support.normal)
+      continue;
+    if (body.components() == 1)
+      throw body.refusal("support '" + support.name +
+                         "' holds the displacement along the normal, which a membrane does not have; give "
+                         "its value instead");
+    for (const NodeNormal& at : supportNormals(body.mesh, surface))
+      conditions.push_back({at.node, at.normal, *support.normal, -1, &support});
+  }
+  std::stable_sort(conditions.begin(), conditions.end(), [](const Condition& a, const Condition& b) {
+    return a.node != b.node ? a.node < b.node : a.component >= 0 && b.component < 0;
+  });
+  return conditions;
+}
+
+/// All conditions at one node.
+void SolidSupports::hold(const SolidBody& body, std::span<const Condition> conditions) {
+  HeldAxes held;
+  for (const Condition& condition : conditions) {
+    const std::optional<Known> known = held.add(condition.direction, condition.value);
+    if (!known)
+      continue;
+    double scale = std::abs(condition.value);
+    for (const double value : held.values())
+      scale = std::max(scale, std::abs(value));
+    if (std::abs(known->value - condition.value) > known->uncertainty * scale)
+      throw body.refusal("supports hold the node at " + text(body.mesh.point(condition.node)) +
+                         (condition.component >= 0
+                              ? std::string(" in component ") + "xyz"[condition.component]
+                              : " along " + text(condition.direction) + ", the normal of the surface of '" +
+                                    condition.support->name + "',") +
+                         " at different values, " + number(known->value) + " and " + number(condition.value));
+  }
+  holdInFrame(conditions.front().node, body.components(), held.axes(), held.values());
+}
+
+/// Where the axes are those of space, or hold the node altogether, its unknowns stay the components in space.
+void SolidSupports::holdInFrame(GlobalOrdinal node, int components, std::span<const Vector3d> axes,
+                                std::span<const double> values) {
+  const bool isAlong =
+      std::all_of(axes.begin(), axes.end(), [](const Vector3d& axis) { return axisOf(axis) >= 0; });
+  if (isAlong || static_cast<int>(axes.size()) == components) {
+    Vector3d value(0, 0, 0), isHeld(0, 0, 0);
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      value += values[k] * axes[k];
+      if (isAlong)
+        isHeld[axisOf(axes[k])] = 1;
+    }
+    for (int c = 0; c < components; ++c)
+      if (!isAlong || isHeld[c] == 1)
+        held_.push_back({node, c, value[c]});
+    return;
+  }
+  Eigen::Matrix3d frame;
+  int numAxes = 0;
+  for (const Vector3d& axis : axes) {
+    held_.push_back({node, numAxes, values[static_cast<std::size_t>(numAxes)]});
+    frame.col(numAxes++) = axis;
+  }
+  while (numAxes < 3) { // the axis of space that is farthest from those so far, z last in the plane
+    Vector3d best(0, 0, 0);
+    for (int c = 0; c < (numAxes < components ? components : 3); ++c) {
+      Vector3d rest = Vector3d::Unit(c);
+      for (int k = 0; k < numAxes; ++k)
+        rest -= frame.col(k).dot(rest) * frame.col(k);
+      if (rest.norm() > best.norm() * (1 + 1e-9))
+        best = rest;
+    }
+    frame.col(numAxes++) = best.normalized();
+  }
+  frames_.emplace_back(node, frame);
+}
+
+std::optional<double> SolidSupports::value(GlobalOrdinal node, int component) const {
+  const auto found = std::lower_bound(held_.begin(), held_.end(), std::pair(node, component),
+                                      [](const Held& held, const std::pair<GlobalOrdinal, int>& wanted) {
+                                        return std::pair(held.node, held.component) < wanted;
+                                      });
+  if (found == held_.end() || found->node != node || found->component != component)
+    return std::nullopt;
+  return found->value;
+}
+
+void SolidSupports::values(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const {
+  values.clear();
+  if (nodes.empty())
+    return;
+  auto held = std::lower_bound(held_.begin(), held_.end(), nodes.front(),
+                               [](const Held& h, GlobalOrdinal node) { return h.node < node; });
+  for (auto node = nodes.begin(); held != held_.end() && held->node <= nodes.back(); ++held) {
+    node = std::lower_bound(node, nodes.end(), held->node);
+    if (node != nodes.end() && *node == held->node)
+      values.push_back(
+          {static_cast<std::size_t>(node - nodes.begin()) * static_cast<std::size_t>(components_) +
+               static_cast<std::size_t>(held->component),
+           held->value});
+  }
+}
+
+const Eigen::Matrix3d* SolidSupports::frame(GlobalOrdinal node) const {
+  const auto found = std::lower_bound(frames_.begin(), frames_.end(), node,
+                                      [](const auto& entry, GlobalOrdinal n) { return entry.first < n; });
+  return found == frames_.end() || found->first != node ? nullptr : &found->second;
+}
+
+std::vector<GlobalOrdinal> SolidSupports::framedNodes() const {
+  std::vector<GlobalOrdinal> nodes;
+  for (const auto& [node, frame] : frames_)
+    nodes.push_back(node);
+  return nodes;
+}
+
+std::vector<HeldDirection> SolidSupports::directions(const Mesh& mesh) const {
+  std::vector<HeldDirection> directions;
+  for (const Held& held : held_) {
+    const Eigen::Matrix3d* own = frame(held.node);
+    directions.push_back({mesh.point(held.node), own != nullptr ? Vector3d(own->col(held.component))
+                                                                : Vector3d(Vector3d::Unit(held.component))});
+  }
+  return directions;
+}
+
+} // namespace epafi::fem

@@ -1,0 +1,62 @@
+#pragma once
+
+/// What the supports of a solid hold: components of nodes, in the axes of space or in a frame of the node's own.
+
+#include "epafi/fem/BodyModel.hpp"
+#include "epafi/fem/RigidModes.hpp"
+#include "epafi/fem/SolidBody.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace epafi::fem {
+
+class SolidSupports {
+public:
+  /// \throws InputError if a surface is not there, a membrane is to slide, or supports contradict each other.
+  explicit SolidSupports(const SolidBody& body);
+
+  /// Prescribed value of a component in the node's frame.
+  [[nodiscard]] std::optional<double> value(GlobalOrdinal node, int component) const;
+  /// See BodyModel::prescribed.
+  void values(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const;
+
+  /// The frame of a node, or null where it is the axes of space: a rotation whose columns are the axes of its unknowns.
+  [[nodiscard]] const Eigen::Matrix3d* frame(GlobalOrdinal node) const;
+  /// Nodes with frames, ascending.
+  [[nodiscard]] std::vector<GlobalOrdinal> framedNodes() const;
+  [[nodiscard]] bool hasFrames() const { return !frames_.empty(); }
+
+  /// All that is held, as directions at points.
+  [[nodiscard]] std::vector<HeldDirection> directions(const Mesh& mesh) const;
+
+private:
+  struct Held {
+    GlobalOrdinal node;
+    int component;
+    double value;
+  };
+  /// directionᵀu = value at a node, as a support says.
+  struct Condition {
+    GlobalOrdinal node;
+    Eigen::Vector3d direction;
+    double value;
+    int component; ///< −1: along a normal
+    const scene::SolidSupport* support;
+  };
+
+  [[nodiscard]] static std::vector<Condition> conditionsOf(const SolidBody& body);
+  void hold(const SolidBody& body, std::span<const Condition> conditions);
+  void holdInFrame(GlobalOrdinal node, int components, std::span<const Eigen::Vector3d> axes,
+                   std::span<const double> values);
+
+  int components_;
+  std::vector<Held> held_;                                        ///< ascending by node and component
+  std::vector<std::pair<GlobalOrdinal, Eigen::Matrix3d>> frames_; ///< ascending by node
+};
+
+} // namespace epafi::fem

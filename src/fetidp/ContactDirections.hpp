@@ -1,0 +1,49 @@
+#pragma once
+
+/// In which directions contact hinders the rigid motions of the floating bodies: the columns of G̃, without repetitions.
+
+#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/fetidp/NaturalCoarseSpace.hpp"
+
+#include <Eigen/Core>
+
+#include <map>
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// Largest entry of each mode: by how much it moves a node at most, and with which motions are measured in lengths, whatever
+/// the modes' scaling is. 1 for a mode without entries. Collective.
+Eigen::VectorXd modeLengths(const decomposition::DecomposedProblem& problem);
+
+/// Directions of length 1 in k dimensions, each with a number; those that agree to 1e-9 are one, with the least number.
+class DistinctDirections {
+public:
+  explicit DistinctDirections(Eigen::Index dimension) : dimension_(dimension) {}
+
+  /// Takes in `direction`/‖direction‖ with `value`/‖direction‖. A direction 0 is left out. Logarithmic in their number.
+  void add(const Eigen::VectorXd& direction, double value);
+  /// Takes in those of all ranks, in the order of the ranks. Collective.
+  void gather(const Comm& comm);
+
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(values_.size()); }
+  /// k × size.
+  [[nodiscard]] Eigen::MatrixXd matrix() const;
+  [[nodiscard]] Eigen::VectorXd values() const;
+
+private:
+  Eigen::Index dimension_;
+  std::map<std::vector<long long>, std::size_t> places_; ///< by the rounded direction
+  std::vector<Eigen::VectorXd> directions_;
+  std::vector<double> values_;
+};
+
+/// This rank's rows of G̃ᵀ, with modes of the given lengths: by local index in multiplierMap.
+std::map<int, Eigen::VectorXd> contactRows(const std::vector<KernelEntry>& entries,
+                                           const Eigen::VectorXd& lengths);
+
+/// The directions of all contacts, k × (as many as differ): 𝒪(n log n) in the number of rows. Collective.
+Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,
+                                  const std::vector<KernelEntry>& entries, const Eigen::VectorXd& lengths);
+
+} // namespace epafi::fetidp

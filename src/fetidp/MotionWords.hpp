@@ -1,0 +1,24 @@
+#pragma once
+
+/// Rigid motions in words, for errors: which bodies take part, and how each moves.
+
+#include "epafi/decomposition/DecomposedProblem.hpp"
+
+#include <Eigen/Core>
+
+#include <string>
+
+namespace epafi::fetidp {
+
+/// Names of the floating bodies that take part in a rigid motion α: "the floating body 'plate'".
+std::string bodiesOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
+
+/// What they do, such as "slide along x" or "turn about the axis through (0, 1, 0) along z"; of several bodies each with
+/// its name. "move" where the problem does not say what the modes are.
+std::string wordsOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
+
+/// All that bodies can do by combinations of some motions (columns), in the simplest ones: "the floating body 'cube' can
+/// slide along x, slide along y, turn about …".
+std::string abilitiesOf(const decomposition::DecomposedProblem& problem, const Eigen::MatrixXd& motions);
+
+} // namespace epafi::fetidp

@@ -1,0 +1,341 @@
+// Surfaces that slide along themselves, in any direction, and the rigid motions that supports leave.
+
+#include "MeshFiles.hpp"
+#include "TurnedMesh.hpp"
+
+#include "epafi/fem/SolidModel.hpp"
+#include "epafi/fem/SubdomainAssembly.hpp"
+#include "epafi/fem/SupportNormals.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <random>
+
+namespace epafi::fem {
+namespace {
+
+using scene::Physics;
+using scene::SolidSupport;
+using test::arraysOf;
+using test::expectRefusal;
+using test::placed;
+using Value = std::optional<double>;
+
+const Value none;
+
+SolidSupport slide(const std::string& surface, double normal = 0) {
+  return {"slide " + surface, surface, {none, none, none}, normal};
+}
+
+std::unique_ptr<Mesh> structured(int dimension) {
+  if (dimension == 3)
+    return std::make_unique<BoxMesh>(scene::Box{{0, 0, 0}, {2, 1, 1.5}}, std::array<int, 3>{3, 2, 2});
+  return std::make_unique<RectangleMesh>(scene::Rectangle{0, 2, 0, 1}, std::array<int, 2>{4, 3});
+}
+
+UnstructuredMesh turned(int dimension, double angle, bool simplices, double shift = 17) {
+  const Eigen::Vector3d far(shift, -shift / 2, dimension == 3 ? 3 : 0);
+  return UnstructuredMesh(arraysOf(*structured(dimension), placed(dimension, angle, far), simplices));
+}
+
+scene::Solid solidWith(int dimension, std::vector<SolidSupport> supports) {
+  scene::Solid solid;
+  solid.physics = dimension == 3 ? Physics::elasticity3d : Physics::planeStrain;
+  solid.supports = std::move(supports);
+  return solid;
+}
+
+AssembledSubdomain assembled(const BodyModel& model) {
+  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(model.mesh().numElements()));
+  std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
+  return assemble(model, elements);
+}
+
+/// The kernel that geometry tells must be the kernel of the matrix: K R = 0, and no further eigenvalue vanishes.
+void expectKernelOfMatrix(const SolidModel& model) {
+  const AssembledSubdomain whole = assembled(model);
+  ASSERT_EQ(whole.kernel.cols(), model.kernelDimension());
+  EXPECT_LE((whole.stiffness * whole.kernel).norm(), 1e-11 * whole.stiffness.norm());
+  EXPECT_EQ(Eigen::MatrixXd(whole.stiffness), Eigen::MatrixXd(whole.stiffness.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(Eigen::MatrixXd(whole.stiffness));
+  const auto numZero = (spectrum.eigenvalues().array() < 1e-10 * spectrum.eigenvalues().maxCoeff()).count();
+  EXPECT_EQ(numZero, model.kernelDimension());
+}
+
+TEST(SolidSupportsTest, NormalsOfAxisParallelPlanesAreComponents) {
+  for (const int dimension : {2, 3}) {
+    const auto mesh = structured(dimension);
+    SolidSupport left{"left", "left", {-0.25, none, none}}, bottom{"bottom", "bottom", {}};
+    bottom.value[static_cast<std::size_t>(dimension - 1)] = 0.5;
+    const scene::Solid byComponents = solidWith(dimension, {left, bottom}),
+                       byNormals = solidWith(dimension, {slide("left", 0.25), slide("bottom", -0.5)});
+    const SolidModel a("block", byComponents, *mesh), b("block", byNormals, *mesh);
+    EXPECT_FALSE(b.hasFrames());
+    const AssembledSubdomain x = assembled(a), y = assembled(b);
+    EXPECT_EQ(x.unknownOf, y.unknownOf);
+    EXPECT_EQ(x.prescribed, y.prescribed);
+    EXPECT_EQ(Eigen::MatrixXd(x.stiffness), Eigen::MatrixXd(y.stiffness));
+    EXPECT_EQ(x.load, y.load);
+  }
+}
+
+TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
+  const std::vector<std::pair<std::vector<SolidSupport>, int>> plane{
+      {{slide("left")}, 1}, {{slide("left"), slide("right")}, 1}, {{slide("left"), slide("bottom")}, 0}},
+      space{{{slide("left")}, 3},
+            {{slide("left"), slide("bottom")}, 1},
+            {{slide("left"), slide("right"), slide("bottom")}, 1},
+            {{slide("left"), slide("bottom"), slide("front")}, 0}};
+  for (const int dimension : {2, 3})
+    for (const bool simplices : {false, true})
+      for (const auto& [supports, numModes] : dimension == 2 ? plane : space) {
+        const scene::Solid solid = solidWith(dimension, supports);
+        const UnstructuredMesh mesh = turned(dimension, 0.7, simplices);
+        const SolidModel model("block", solid, mesh);
+        EXPECT_TRUE(model.hasFrames());
+        EXPECT_EQ(model.kernelDimension(), numModes);
+        expectKernelOfMatrix(model);
+      }
+}
+
+/// u of all unknowns, prescribed ones included, turned back into space.
+Eigen::VectorXd inSpace(const SolidModel& model, const AssembledSubdomain& whole, const Eigen::VectorXd& u) {
+  Eigen::VectorXd all = whole.prescribed;
+  for (std::size_t i = 0; i < whole.unknownPosition.size(); ++i)
+    all[whole.unknownPosition[i]] = u[static_cast<Eigen::Index>(i)];
+  const int n = model.components();
+  for (std::size_t node = 0; node < whole.nodes.size(); ++node)
+    if (const Eigen::Matrix3d* frame = model.frame(whole.nodes[node])) {
+      auto own = all.segment(static_cast<Eigen::Index>(node) * n, n);
+      own = (frame->topLeftCorner(n, n) * own).eval();
+    }
+  return all;
+}
+
+TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
+  for (const int dimension : {2, 3})
+    for (const bool simplices : {false, true}) {
+      std::vector<SolidSupport> supports{slide("left", 0.0), slide("right", 0.3), slide("bottom", 0.0)};
+      if (dimension == 3)
+        supports.push_back(slide("front"));
+      const scene::Solid solid = solidWith(dimension, supports);
+      const test::Placement placement = placed(dimension, 0.7, {11, -5, dimension == 3 ? 3.0 : 0.0});
+      const auto straightMesh = structured(dimension);
+      const UnstructuredMesh mesh(arraysOf(*straightMesh, placement, simplices)),
+          original(arraysOf(*straightMesh, {}, simplices));
+      const SolidModel model("turned", solid, mesh), straight("straight", solid, original);
+      const auto solution = [](const SolidModel& m) {
+        const AssembledSubdomain whole = assembled(m);
+        return inSpace(m, whole, Eigen::MatrixXd(whole.stiffness).ldlt().solve(whole.load));
+      };
+      const Eigen::VectorXd u = solution(model), v = solution(straight);
+      EXPECT_NEAR(v[dimension == 2 ? 8 : 9], 0.3, 1e-12); // x = 2: the straight one is stretched at all
+      for (Eigen::Index node = 0; node < u.size() / dimension; ++node)
+        EXPECT_LE(
+            (u.segment(dimension * node, dimension) -
+             placement.turn.topLeftCorner(dimension, dimension) * v.segment(dimension * node, dimension))
+                .norm(),
+            1e-11);
+      EXPECT_NEAR(assembled(model).energyOffset, assembled(straight).energyOffset, 1e-10);
+    }
+}
+
+TEST(SolidSupportsTest, LoadsAndEnergyTurnWithTheFrames) {
+  using Kind = scene::SolidLoad::Kind;
+  for (const int dimension : {2, 3}) {
+    scene::Solid framed = solidWith(dimension, {slide("left")}), plain = solidWith(dimension, {});
+    framed.loads = {{"press", Kind::pressure, {}, "left", {}, {7, 0, 0}},
+                    {"weight", Kind::body, {}, "", {}, {1, 2, dimension == 3 ? 3.0 : 0.0}}};
+    plain.loads = framed.loads;
+    const UnstructuredMesh mesh = turned(dimension, 1.1, false);
+    const SolidModel a("framed", framed, mesh), b("plain", plain, mesh);
+    for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+      Eigen::MatrixXd k, reference;
+      Eigen::VectorXd f, expected;
+      a.element(element, k, f);
+      b.element(element, reference, expected);
+      std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+      mesh.elementNodes(element, nodes);
+      Eigen::MatrixXd q = Eigen::MatrixXd::Identity(k.rows(), k.cols());
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (const Eigen::Matrix3d* frame = a.frame(nodes[i])) {
+          EXPECT_LE((*frame * frame->transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+          q.block(static_cast<Eigen::Index>(i) * dimension, static_cast<Eigen::Index>(i) * dimension,
+                  dimension, dimension) = frame->topLeftCorner(dimension, dimension);
+        }
+      EXPECT_LE((q * k * q.transpose() - reference).norm(), 1e-13 * reference.norm());
+      EXPECT_LE((q * f - expected).norm(), 1e-13 * (1 + expected.norm()));
+    }
+  }
+}
+
+TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
+  std::mt19937 random(20);
+  const std::vector<std::string> plane{"left", "right", "bottom", "top"},
+      space{"left", "right", "bottom", "top", "front", "back"};
+  const auto draw = [&](int below) { return std::uniform_int_distribution<int>(0, below - 1)(random); };
+  std::array<int, 7> seen{};
+  for (int trial = 0; trial < 60; ++trial) {
+    const int dimension = 2 + trial % 2;
+    const std::vector<std::string>& names = dimension == 2 ? plane : space;
+    std::vector<SolidSupport> supports;
+    for (int s = draw(4); s > 0; --s) {
+      SolidSupport support{"support " + std::to_string(s),
+                           names[static_cast<std::size_t>(draw(static_cast<int>(names.size())))],
+                           {none, none, none}};
+      if (draw(3) > 0)
+        support.normal = 0.0;
+      else
+        support.value[static_cast<std::size_t>(draw(dimension))] = 0.0;
+      supports.push_back(support);
+    }
+    const scene::Solid solid = solidWith(dimension, supports);
+    const UnstructuredMesh mesh = turned(dimension, trial % 4 < 2 ? 0.0 : 0.1 * trial, trial % 3 == 0);
+    const SolidModel model("block", solid, mesh);
+    SCOPED_TRACE(trial);
+    expectKernelOfMatrix(model);
+    ++seen[static_cast<std::size_t>(model.kernelDimension())];
+  }
+  for (const std::size_t dimension : {0U, 1U, 3U, 6U})
+    EXPECT_GT(seen[dimension], 0) << dimension;
+}
+
+TEST(SolidSupportsTest, NormalsAndComponentsMeetInANode) {
+  const double s = std::sqrt(0.5);
+  const UnstructuredMesh mesh = turned(2, std::atan(1.0), false, 0); // left: outward (−s, −s)
+  const scene::Solid solid =
+      solidWith(2, {{"pull", "left", {1.0, none, none}}, slide("left", 0.0)}); // held altogether: (1, −1)
+  const SolidModel model("block", solid, mesh);
+  EXPECT_FALSE(model.hasFrames());
+  const Surface left = mesh.surface("left");
+  EXPECT_NEAR(*model.prescribed(left.facetNodes[0], 0), 1.0, 1e-14);
+  EXPECT_NEAR(*model.prescribed(left.facetNodes[0], 1), -1.0, 1e-14);
+  EXPECT_NEAR(supportNormals(mesh, left)[0].normal.dot(Eigen::Vector3d(-s, -s, 0)), 1.0, 1e-14);
+}
+
+TEST(SolidSupportsTest, ContradictionsAreRefused) {
+  const UnstructuredMesh mesh = turned(3, 0.4, false);
+  const auto refused = [&](std::vector<SolidSupport> supports, const std::vector<std::string>& words) {
+    const scene::Solid solid = solidWith(3, std::move(supports));
+    expectRefusal([&] { SolidModel("block", solid, mesh); }, words);
+  };
+  SolidSupport held{"glue", "left", {0.0, 0.0, 0.0}};
+  refused({held, slide("left", 0.1)}, {"'block'", "'slide left'", "different values"});
+  refused({slide("left", 0.0), slide("left", 0.2)}, {"different values"});
+  refused({held, {"twist", "bottom", {0.0, 0.5, 0.0}}}, {"component y", "different values"});
+  const scene::Solid agreeing =
+      solidWith(3, {held, slide("left", 0.0), slide("bottom", 0.0), slide("front", 0.0)});
+  EXPECT_NO_THROW(SolidModel("block", agreeing, mesh));
+
+  scene::Solid membrane = solidWith(2, {slide("left")});
+  membrane.physics = Physics::membrane;
+  const auto flat = structured(2);
+  expectRefusal([&] { SolidModel("skin", membrane, *flat); }, {"'skin'", "membrane", "normal"});
+}
+
+/// A ring of quadrilaterals, its outer edge "rim"; spacing of the spokes: `angle(i)`.
+template <class Angle>
+UnstructuredMesh ring(int spokes, const Angle& angle) {
+  MeshArrays arrays;
+  arrays.cellType = CellType::quadrilateral;
+  arrays.surfaces = {{"rim", {}}};
+  for (const double radius : {1.0, 2.0})
+    for (int i = 0; i < spokes; ++i)
+      arrays.points.push_back({3 + radius * std::cos(angle(i)), radius * std::sin(angle(i)), 0});
+  for (int i = 0; i < spokes; ++i) {
+    const int next = (i + 1) % spokes;
+    arrays.cells.insert(arrays.cells.end(), {i, spokes + i, spokes + next, next});
+    arrays.surfaces[0].nodes.insert(arrays.surfaces[0].nodes.end(), {spokes + i, spokes + next});
+  }
+  for (GlobalOrdinal n = 1; n <= 2 * spokes; ++n)
+    arrays.nodeTags.push_back(n);
+  for (GlobalOrdinal e = 1; e <= spokes; ++e)
+    arrays.elementTags.push_back(e);
+  return UnstructuredMesh(arrays);
+}
+
+TEST(SolidSupportsTest, ARimThatSlidesAlongItselfLeavesTheTurnWhereItsNormalsDo) {
+  const scene::Solid solid = solidWith(2, {slide("rim")});
+  const UnstructuredMesh even = ring(24, [](int i) { return i * M_PI / 12; });
+  for (const NodeNormal& at : supportNormals(even, even.surface("rim"))) {
+    const Point x = even.point(at.node); // the mean of two chords' normals is the circle's
+    EXPECT_LE((2 * at.normal - Eigen::Vector3d(x[0] - 3, x[1], 0)).norm(), 1e-14);
+  }
+  const SolidModel turns("ring", solid, even);
+  EXPECT_EQ(turns.kernelDimension(), 1);
+  expectKernelOfMatrix(turns);
+  // Uneven chords: their mean normals are no radii, and hold the turn; K says so too.
+  const UnstructuredMesh uneven = ring(24, [](int i) { return (i + 0.3 * (i % 3)) * M_PI / 12; });
+  const SolidModel holds("ring", solid, uneven);
+  EXPECT_EQ(holds.kernelDimension(), 0);
+  expectKernelOfMatrix(holds);
+}
+
+TEST(SolidSupportsTest, AnEdgeOfASurfaceHoldsAlongBothNormals) {
+  const UnstructuredMesh square = ring(4, [](int i) { return i * M_PI / 2; });
+  const auto normals = supportNormals(square, square.surface("rim"));
+  EXPECT_EQ(normals.size(), 8U);
+  const scene::Solid solid = solidWith(2, {slide("rim")});
+  const SolidModel model("square", solid, square);
+  EXPECT_EQ(model.kernelDimension(), 0);
+  EXPECT_FALSE(model.hasFrames());
+}
+
+/// Points moved at random by up to `size`.
+UnstructuredMesh disturbed(MeshArrays arrays, double size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> move(-size, size);
+  for (Point& point : arrays.points)
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimensionOf(arrays.cellType)); ++d)
+      point[d] += move(random);
+  return UnstructuredMesh(std::move(arrays));
+}
+
+TEST(SolidSupportsTest, TinyChangesOfTheGeometryKeepTheMotionsOfSlidingPlanes) {
+  for (const int dimension : {2, 3})
+    for (const double size : {1e-12, 1e-9, 1e-7}) {
+      const MeshArrays arrays = arraysOf(*structured(dimension), placed(dimension, 0.7, {11, -5, 0}), true);
+      const UnstructuredMesh mesh = disturbed(arrays, size, 5);
+      const scene::Solid solid = solidWith(dimension, {slide("left")});
+      const SolidModel model("block", solid, mesh);
+      EXPECT_EQ(model.kernelDimension(), dimension == 2 ? 1 : 3) << size;
+      const AssembledSubdomain whole = assembled(model);
+      EXPECT_LE((whole.stiffness * whole.kernel).norm(), 1e-12 * whole.stiffness.norm()) << size;
+    }
+}
+
+TEST(RigidModesTest, ALineHoldsNothingAboutItselfUntilItClearlyBends) {
+  const RigidModes modes(3, {0, 0, 0}, 1);
+  const auto numFree = [&](double bend) -> int {
+    std::vector<HeldDirection> held;
+    for (const Point& point : {Point{-1, 0, 0}, Point{0, bend, 0}, Point{1, 0, 0}})
+      for (int c = 0; c < 3; ++c)
+        held.push_back({point, Eigen::Vector3d::Unit(c)});
+    const FreeModes free = modes.freeOf(held);
+    return free.leastHold < RigidModes::heldFrom ? -1 : static_cast<int>(free.modes.cols());
+  };
+  for (const double bend : {0.0, 1e-15, 1e-12, 1e-10})
+    EXPECT_EQ(numFree(bend), 1) << bend; // turns about the line
+  for (const double bend : {1e-5, 1e-3, 1.0})
+    EXPECT_EQ(numFree(bend), 0) << bend;
+  EXPECT_EQ(numFree(1e-7), -1); // in between it is said, not guessed
+}
+
+TEST(SolidSupportsTest, ABodyThatIsHardlyHeldIsRefused) {
+  // A long strip slides on two planes at its ends that meet at an angle of 1e-7 only: too little to hold its height.
+  MeshArrays arrays = arraysOf(*structured(2), {}, false);
+  for (Point& point : arrays.points)
+    if (point[0] == 2)
+      point[0] += 1e-7 * 3 * point[1];
+  const UnstructuredMesh mesh(arrays);
+  const scene::Solid solid = solidWith(2, {slide("left"), slide("right")});
+  expectRefusal([&] { SolidModel("strip", solid, mesh); }, {"'strip'", "hardly hold"});
+}
+
+} // namespace
+} // namespace epafi::fem

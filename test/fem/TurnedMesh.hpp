@@ -1,0 +1,148 @@
+#pragma once
+
+/// Structured meshes as arrays, turned, shifted and cut into simplices, and their files.
+
+#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/MeshArrays.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace epafi::fem::test {
+
+/// x ↦ Qx + shift.
+struct Placement {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d shift{0, 0, 0};
+
+  [[nodiscard]] Eigen::Vector3d of(const Point& point) const {
+    return turn * Eigen::Vector3d(point[0], point[1], point[2]) + shift;
+  }
+};
+
+inline Placement placed(int dimension, double angle, const Eigen::Vector3d& shift) {
+  const Eigen::Vector3d axis =
+      dimension == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, 2, -0.5).normalized();
+  return {Eigen::AngleAxisd(angle, axis).toRotationMatrix(), shift};
+}
+
+/// The six tetrahedra of a hexahedron around its diagonal, of four corners each; neighbours fit.
+inline const std::vector<std::array<int, 4>>& tetrahedraOfCube() {
+  static const std::vector<std::array<int, 4>> cut{{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                                   {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  return cut;
+}
+
+inline std::vector<std::vector<int>> pieces(CellType type, bool simplices) {
+  if (!simplices)
+    return type == CellType::quadrilateral ? std::vector<std::vector<int>>{{0, 1, 2, 3}}
+                                           : std::vector<std::vector<int>>{{0, 1, 2, 3, 4, 5, 6, 7}};
+  if (type == CellType::quadrilateral)
+    return {{0, 1, 2}, {0, 2, 3}};
+  std::vector<std::vector<int>> result;
+  for (const auto& cut : tetrahedraOfCube())
+    result.emplace_back(cut.begin(), cut.end());
+  return result;
+}
+
+/// Boundary facets all of whose nodes belong to a surface of the structured mesh.
+inline NamedFacets facetsOn(const Mesh& mesh, const std::string& name, const MeshArrays& arrays) {
+  const Surface surface = mesh.surface(name);
+  const std::set<GlobalOrdinal> on(surface.facetNodes.begin(), surface.facetNodes.end());
+  std::map<std::vector<LocalOrdinal>, std::pair<int, std::vector<LocalOrdinal>>>
+      seen; // sorted: count, ordered
+  for (LocalOrdinal e = 0; e < arrays.numElements(); ++e) {
+    const auto nodes = nodesOf(arrays.cellType, arrays.cells, e);
+    for (const std::array<int, 4>& facet : facetsOf(arrays.cellType)) {
+      std::vector<LocalOrdinal> own;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(nodesPerFacet(arrays.cellType)); ++i)
+        own.push_back(nodes[static_cast<std::size_t>(facet[i])]);
+      std::vector<LocalOrdinal> key = own;
+      std::sort(key.begin(), key.end());
+      auto& entry = seen[key];
+      ++entry.first;
+      entry.second = own;
+    }
+  }
+  NamedFacets facets{name, {}};
+  for (const auto& [key, entry] : seen)
+    if (entry.first == 1 &&
+        std::all_of(key.begin(), key.end(), [&](LocalOrdinal node) { return on.count(node) > 0; }))
+      facets.nodes.insert(facets.nodes.end(), entry.second.begin(), entry.second.end());
+  return facets;
+}
+
+/// A structured mesh as arrays with all its surfaces.
+inline MeshArrays arraysOf(const Mesh& mesh, const Placement& placement, bool simplices) {
+  MeshArrays arrays;
+  arrays.name = "turned";
+  const bool isPlane = mesh.cellType() == CellType::quadrilateral;
+  arrays.cellType = !simplices ? mesh.cellType() : isPlane ? CellType::triangle : CellType::tetrahedron;
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
+    const Eigen::Vector3d x = placement.of(mesh.point(node));
+    arrays.points.push_back({x[0], x[1], isPlane ? 0.0 : x[2]});
+    arrays.nodeTags.push_back(node + 1);
+  }
+  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    mesh.elementNodes(element, nodes);
+    for (const auto& piece : pieces(mesh.cellType(), simplices))
+      for (const int corner : piece)
+        arrays.cells.push_back(static_cast<LocalOrdinal>(nodes[static_cast<std::size_t>(corner)]));
+  }
+  for (LocalOrdinal element = 0; element < arrays.numElements(); ++element)
+    arrays.elementTags.push_back(element + 1);
+  for (const std::string& name : mesh.surfaceNames())
+    arrays.surfaces.push_back(facetsOn(mesh, name, arrays));
+  return arrays;
+}
+
+inline int gmshTypeOf(std::size_t numNodes, int dimension) {
+  if (dimension == 1)
+    return 1;
+  if (dimension == 2)
+    return numNodes == 3 ? 2 : 3;
+  return numNodes == 4 ? 4 : 5;
+}
+
+/// A file of format 2.2 with one group for the body and one for each surface.
+inline std::string fileOf(const MeshArrays& arrays) {
+  const int dimension = dimensionOf(arrays.cellType);
+  std::ostringstream file;
+  file.precision(17);
+  file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" << arrays.surfaces.size() + 1 << '\n';
+  file << dimension << " 1 \"body\"\n";
+  for (std::size_t s = 0; s < arrays.surfaces.size(); ++s)
+    file << dimension - 1 << ' ' << s + 2 << " \"" << arrays.surfaces[s].name << "\"\n";
+  file << "$EndPhysicalNames\n$Nodes\n" << arrays.points.size() << '\n';
+  for (std::size_t n = 0; n < arrays.points.size(); ++n)
+    file << n + 1 << ' ' << arrays.points[n][0] << ' ' << arrays.points[n][1] << ' ' << arrays.points[n][2]
+         << '\n';
+  std::ostringstream elements;
+  std::size_t count = 0;
+  const auto write = [&](const std::vector<LocalOrdinal>& nodes, std::size_t perElement, int d,
+                         std::size_t group) {
+    for (std::size_t first = 0; first < nodes.size(); first += perElement) {
+      elements << ++count << ' ' << gmshTypeOf(perElement, d) << " 2 " << group << ' ' << group;
+      for (std::size_t i = 0; i < perElement; ++i)
+        elements << ' ' << nodes[first + i] + 1;
+      elements << '\n';
+    }
+  };
+  const auto perFacet = static_cast<std::size_t>(nodesPerFacet(arrays.cellType));
+  for (std::size_t s = 0; s < arrays.surfaces.size(); ++s)
+    write(arrays.surfaces[s].nodes, perFacet, dimension - 1, s + 2);
+  write(arrays.cells, static_cast<std::size_t>(numNodesOf(arrays.cellType)), dimension, 1);
+  file << "$EndNodes\n$Elements\n" << count << '\n' << elements.str() << "$EndElements\n";
+  return file.str();
+}
+
+} // namespace epafi::fem::test

@@ -1,0 +1,47 @@
+#include "epafi/fetidp/ContactDirections.hpp"
+
+#include "DenseProblem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace epafi::fetidp {
+namespace {
+
+TEST(ContactDirectionsTest, KeepsEachDirectionOnceWithItsLeastNumber) {
+  DistinctDirections directions(2);
+  directions.add(Eigen::Vector2d(2, 0), 6);      // 3 for length 1
+  directions.add(Eigen::Vector2d(5, 1e-14), 10); // the same one, 2
+  directions.add(Eigen::Vector2d(0, 0), -1);     // none
+  directions.add(Eigen::Vector2d(-1, 0), 1);     // the opposite one
+  directions.add(Eigen::Vector2d(1, 1e-6), 7);   // another one
+  ASSERT_EQ(directions.size(), 3);
+  EXPECT_EQ(directions.values()[0], 2);
+  EXPECT_LE((directions.matrix().col(0) - Eigen::Vector2d(1, 0)).norm(), 1e-12);
+  EXPECT_EQ(directions.values()[1], 1);
+}
+
+TEST(ContactDirectionsTest, AllRanksHaveThoseOfAll) {
+  DistinctDirections directions(2);
+  const int rank = world()->getRank();
+  directions.add(Eigen::Vector2d(1, 0), 10.0 - rank);
+  directions.add(Eigen::Vector2d(std::cos(1.0 + rank), std::sin(1.0 + rank)), rank);
+  directions.gather(*world());
+  ASSERT_EQ(directions.size(), 1 + world()->getSize());
+  EXPECT_EQ(directions.values()[0], 11.0 - world()->getSize());
+}
+
+TEST(ContactDirectionsTest, ThousandsAreToldApartQuickly) {
+  DistinctDirections directions(18);
+  for (int repeat = 0; repeat < 2; ++repeat)
+    for (int j = 0; j < 20000; ++j) // 4·10⁸ comparisons if each were compared with each
+      directions.add(Eigen::VectorXd::Unit(18, j % 18) +
+                         1e-5 * (j / 18) * Eigen::VectorXd::Unit(18, (j + 1) % 18),
+                     repeat);
+  EXPECT_EQ(directions.size(), 20000);
+  EXPECT_EQ(directions.values().maxCoeff(), 0);
+}
+
+} // namespace
+} // namespace epafi::fetidp

@@ -1,0 +1,119 @@
+// Nodes that take part in several contacts, or carry supports as well.
+
+#include "SolidScenes.hpp"
+
+#include <cmath>
+
+namespace epafi {
+namespace {
+
+using namespace test;
+
+const scene::Vector3 origin{0, 0, 0};
+
+/// A square in the corner of a floor and a wall, pressed into it.
+scene::Scene inCorner(const scene::Decomposition& cut) {
+  scene::Scene scene;
+  scene.bodies = {block("square", {{0, 0, 0}, {1, 1, 0}}, {4, 4, 0}, cut)};
+  scene.bodies[0].solid->loads = {weight({-0.5, -1, 0})};
+  scene.surfaceContacts = {onPlane("floor", 0, "bottom", origin, {0, 1, 0}),
+                           onPlane("wall", 0, "left", origin, {1, 0, 0})};
+  return scene;
+}
+
+/// Both solutions agree in what is unique: displacements, energy, total force.
+void expectSame(const SolidRun& a, const SolidRun& b) {
+  EXPECT_EQ(a.solver.report().status, qp::Status::converged);
+  EXPECT_EQ(b.solver.report().status, qp::Status::converged);
+  EXPECT_LE((a.displacement(0) - b.displacement(0)).norm(), 1e-7 * a.displacement(0).norm());
+  EXPECT_NEAR(a.solution.energy, b.solution.energy, 1e-9 * std::abs(a.solution.energy));
+}
+
+TEST(ContactNodesTest, ANodeInACornerHasARowForEachWall) {
+  const SolidRun reference(inCorner(cutInGrid({1, 1, 1})));
+  EXPECT_EQ(reference.decomposition.problem.numInequalities, 10);
+  EXPECT_NEAR(reference.solution.contactForce, 1.5, 1e-8);
+  const Eigen::VectorXd u = reference.displacement(0);
+  EXPECT_GE(std::min(u[0], u[1]), -1e-8); // the corner stays in front of both
+  for (const auto& cut : {cutInGrid({2, 2, 1}), cutByMetis(4)})
+    expectSame(reference, SolidRun(inCorner(cut)));
+}
+
+TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
+  const SolidRun reference(inCorner(cutInGrid({2, 2, 1})));
+  scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
+  scene.surfaceContacts.push_back(
+      onPlane("foot", 0, "left", origin, {0, 1, 0})); // the corner again, and above it
+  const SolidRun run(scene);
+  EXPECT_EQ(run.decomposition.problem.numInequalities, 14);
+  EXPECT_EQ(run.solution.activeContactNodes, reference.solution.activeContactNodes);
+  EXPECT_NEAR(run.solution.contactForce, reference.solution.contactForce, 1e-8);
+  expectSame(reference, run);
+}
+
+TEST(ContactNodesTest, AContactThatSaysNothingNewIsRefused) {
+  scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
+  scene.surfaceContacts.push_back(scene.surfaceContacts[0]);
+  scene.surfaceContacts.back().name = "again";
+  try {
+    SolidRun run(scene);
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'again'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'floor'"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ContactNodesTest, ANodeBetweenOppositeContactsNeedsRoom) {
+  scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
+  scene.surfaceContacts.push_back(onPlane("ceiling", 0, "bottom", {0, 0.125, 0}, {0, -1, 0}));
+  EXPECT_FALSE(refusalOf(scene).kind);                     // the bottom lies between floor and ceiling
+  scene.surfaceContacts.back().obstacle.point[1] = -0.125; // a ceiling below the floor
+  const Refusal refusal = refusalOf(scene);
+  EXPECT_EQ(refusal.kind, SolvabilityError::Kind::noSolution);
+  for (const char* word : {"'floor'", "'ceiling'", "overlap by 0.125"})
+    EXPECT_TRUE(refusal.says(word)) << refusal.text;
+}
+
+TEST(ContactNodesTest, APairSeenFromBothSidesIsTheSamePair) {
+  scene::Scene scene;
+  for (int level = 0; level < 2; ++level) {
+    scene.bodies.push_back(block(level == 0 ? "lower" : "upper", {{0, 1.0 * level, 0}, {1, 1.0 + level, 0}},
+                                 {4, 4, 0}, cutInGrid({2, 1, 1})));
+    scene.bodies.back().solid->supports = {slide("left")};
+  }
+  scene.bodies[0].solid->supports.push_back(slide("bottom"));
+  scene.bodies[1].solid->loads = {weight({0, -1, 0})};
+  scene.surfaceContacts = {between("joint", 0, "top", 1, "bottom"), between("again", 1, "bottom", 0, "top")};
+  EXPECT_THROW(SolidRun{scene}, InputError);
+}
+
+TEST(ContactNodesTest, RedundantRowsAtANodeDoNoHarm) {
+  const double s = std::sqrt(0.5);
+  for (const auto& cut : {cutInGrid({1, 1, 1}), cutInGrid({2, 2, 1})}) {
+    const SolidRun reference(inCorner(cut));
+    scene::Scene scene = inCorner(cut);
+    scene::SurfaceContact edge = onPlane("edge", 0, "left", origin, {s, s, 0}); // meets the corner alone
+    scene.surfaceContacts.push_back(edge);
+    const SolidRun run(scene);
+    EXPECT_EQ(run.decomposition.problem.numInequalities, 15);
+    expectSame(reference, run);
+  }
+}
+
+TEST(ContactNodesTest, SupportsThatHoldAContactNodeDecideItsRow) {
+  scene::Scene scene;
+  scene.bodies = {block("square", {{0, 0, 0}, {1, 1, 0}}, {4, 4, 0}, cutInGrid({2, 2, 1}))};
+  scene.bodies[0].solid->supports = {slide("bottom", 0.125), slide("left")}; // moved down by ⅛
+  scene.surfaceContacts = {onPlane("floor", 0, "bottom", {0, -0.25, 0}, {0, 1, 0})};
+  const SolidRun run(scene); // nothing left to decide: no row has a free unknown
+  EXPECT_EQ(run.solution.contactForce, 0);
+  EXPECT_NEAR(run.displacement(0)[1], -0.125, 1e-12);
+  scene.surfaceContacts[0].obstacle.point[1] = -0.0625;
+  const Refusal refusal = refusalOf(scene);
+  EXPECT_EQ(refusal.kind, SolvabilityError::Kind::noSolution);
+  EXPECT_TRUE(refusal.says("overlap by 0.0625")) << refusal.text;
+}
+
+} // namespace
+} // namespace epafi

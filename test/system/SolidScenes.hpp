@@ -1,0 +1,170 @@
+#pragma once
+
+/// Scenes of blocks for tests, built without files, and their solutions.
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/Decompose.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epafi::test {
+
+using scene::Physics;
+
+inline scene::Decomposition cutByMetis(int parts) {
+  scene::Decomposition cut;
+  cut.method = scene::Decomposition::Method::metis;
+  cut.parts = parts;
+  return cut;
+}
+
+inline scene::Decomposition cutInGrid(std::array<int, 3> counts) {
+  scene::Decomposition cut;
+  cut.counts = counts;
+  return cut;
+}
+
+inline scene::SolidSupport slide(const std::string& surface, double normal = 0) {
+  return {"slide on " + surface, surface, {}, normal};
+}
+
+/// A block in the plane (z: 0) or in space.
+inline scene::Body block(const std::string& name, const scene::Box& box, std::array<int, 3> elements,
+                         const scene::Decomposition& cut) {
+  scene::Body body;
+  body.name = name;
+  scene::Solid solid;
+  solid.physics = elements[2] > 0 ? Physics::elasticity3d : Physics::planeStrain;
+  solid.material.youngsModulus = 200;
+  solid.mesh.box = box;
+  solid.mesh.elements = elements;
+  body.solid = solid;
+  body.decomposition = cut;
+  return body;
+}
+
+inline scene::SolidLoad weight(const scene::Vector3& force) {
+  return {"weight", scene::SolidLoad::Kind::body, {}, "", {0, 0, 0}, force};
+}
+
+inline scene::SolidLoad pointForce(const scene::Vector3& point, const scene::Vector3& force) {
+  return {"force", scene::SolidLoad::Kind::point, {}, "", point, force};
+}
+
+inline scene::SurfaceContact onPlane(const std::string& name, int body, const std::string& surface,
+                                     const scene::Vector3& point, const scene::Vector3& normal) {
+  scene::SurfaceContact contact;
+  contact.name = name;
+  contact.first = body;
+  contact.firstSurface = surface;
+  contact.obstacle.point = point;
+  contact.obstacle.normal = normal;
+  return contact;
+}
+
+inline scene::SurfaceContact between(const std::string& name, int first, const std::string& firstSurface,
+                                     int second, const std::string& secondSurface) {
+  scene::SurfaceContact contact;
+  contact.name = name;
+  contact.first = first;
+  contact.firstSurface = firstSurface;
+  contact.second = second;
+  contact.secondSurface = secondSurface;
+  return contact;
+}
+
+/// A solved scene.
+struct SolidRun {
+  decomposition::Decomposition decomposition;
+  ContactSolver solver;
+  fetidp::ContactSolution solution;
+
+  explicit SolidRun(const scene::Scene& scene, double tolerance = 1e-10)
+      : decomposition(decomposition::decompose(scene, Tpetra::getDefaultComm())),
+        solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
+    solver.setup(decomposition.problem);
+    solution = solver.solve();
+  }
+
+  /// u of a body at its nodes, on every rank.
+  [[nodiscard]] Eigen::VectorXd displacement(int body) const {
+    const decomposition::DecomposedProblem& problem = decomposition.problem;
+    const int n = problem.components;
+    const auto numNodes =
+        static_cast<std::size_t>(decomposition.bodies[static_cast<std::size_t>(body)].mesh->numNodes());
+    std::vector<double> sums(numNodes * static_cast<std::size_t>(n), 0.0), copies(numNodes, 0.0);
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+      const auto& subdomain = problem.subdomains[s];
+      for (std::size_t k = 0; subdomain.body == body && k < subdomain.nodes.size(); ++k) {
+        const auto node = static_cast<std::size_t>(subdomain.nodes[k]);
+        copies[node] += 1;
+        for (int c = 0; c < n; ++c)
+          sums[node * static_cast<std::size_t>(n) + static_cast<std::size_t>(c)] +=
+              solution.displacement[s][static_cast<Eigen::Index>(k) * n + c];
+      }
+    }
+    sumOverRanks(*problem.comm, sums);
+    sumOverRanks(*problem.comm, copies);
+    Eigen::VectorXd u(static_cast<Eigen::Index>(sums.size()));
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      u[static_cast<Eigen::Index>(i)] = sums[i] / copies[i / static_cast<std::size_t>(n)];
+    return u;
+  }
+
+  /// λ of the contact rows, on every rank.
+  [[nodiscard]] std::vector<double> forces() const {
+    const decomposition::DecomposedProblem& problem = decomposition.problem;
+    std::vector<double> forces(static_cast<std::size_t>(problem.numInequalities), 0.0);
+    const auto values = solution.multiplier->getData();
+    for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
+      if (const auto row = problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i));
+          row < problem.numInequalities)
+        forces[static_cast<std::size_t>(row)] = values[i];
+    sumOverRanks(*problem.comm, forces);
+    return forces;
+  }
+};
+
+/// What became of a scene: nothing if it was solved.
+struct Refusal {
+  std::optional<SolvabilityError::Kind> kind;
+  std::string text;
+
+  [[nodiscard]] bool says(const std::string& words) const { return text.find(words) != std::string::npos; }
+};
+
+inline Refusal refusalOf(const scene::Scene& scene) {
+  try {
+    const SolidRun run(scene);
+    EXPECT_EQ(run.solver.report().status, qp::Status::converged) << run.solver.report().reason;
+  } catch (const SolvabilityError& error) {
+    return {error.kind(), error.what()};
+  }
+  return {};
+}
+
+inline void expectNotUnique(const scene::Scene& scene, const std::vector<std::string>& words) {
+  const Refusal refusal = refusalOf(scene);
+  EXPECT_EQ(refusal.kind, SolvabilityError::Kind::notUnique) << refusal.text;
+  for (const std::string& word : words)
+    EXPECT_TRUE(refusal.says(word)) << word << " is not in: " << refusal.text;
+}
+
+inline void expectNoSolution(const scene::Scene& scene, const std::vector<std::string>& words) {
+  const Refusal refusal = refusalOf(scene);
+  EXPECT_EQ(refusal.kind, SolvabilityError::Kind::noSolution) << refusal.text;
+  for (const std::string& word : words)
+    EXPECT_TRUE(refusal.says(word)) << word << " is not in: " << refusal.text;
+}
+
+} // namespace epafi::test
