@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/ContactSearch.hpp"
+#include "epafi/decomposition/SharedValues.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
 #include "epafi/scene/EdgeSegment.hpp"
 
@@ -110,16 +111,81 @@ std::vector<Side> sidesOf(const std::vector<ContactLayout>& contacts) {
   return sides;
 }
 
+/// One row at a node of a piece.
+struct Place {
+  const Side* side;
+  std::size_t row; ///< place among those of the contact
+  std::size_t piece, node;
+};
+
+/// In the order of the pieces, their sides and the sides' nodes.
+std::vector<Place> placesOf(const std::vector<Side>& sides, const std::vector<Piece>& pieces) {
+  std::vector<Place> places;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const std::vector<GlobalOrdinal>& nodes = pieces[p].assembled.nodes;
+    for (const Side& side : sides) {
+      if (side.body != pieces[p].body)
+        continue;
+      auto entry =
+          std::lower_bound(side.nodes.begin(), side.nodes.end(), std::pair(nodes.front(), std::size_t{0}));
+      for (auto found = nodes.begin(); entry != side.nodes.end() && entry->first <= nodes.back(); ++entry) {
+        found = std::lower_bound(found, nodes.end(), entry->first);
+        if (*found == entry->first)
+          places.push_back({&side, entry->second, p, static_cast<std::size_t>(found - nodes.begin())});
+      }
+    }
+  }
+  return places;
+}
+
+/// The share that each copy has in a node's mean, component by component, at places in order; nothing for nodes that are
+/// not shared, and crosspoints. Collective.
+class Shares {
+public:
+  Shares(const Layout& layout, const std::vector<Place>& places, const std::vector<Piece>& pieces,
+         const RCP<const Comm>& comm) {
+    std::vector<SharedNode> nodes;
+    for (const Place& place : places) {
+      const Piece& piece = pieces[place.piece];
+      if (const auto k = piece.sharing.find(place.node);
+          k && piece.isCrosspoint[place.node] == 0 && numberOf_.try_emplace(key(place), nodes.size()).second)
+        nodes.push_back({place.piece, *k});
+    }
+    const auto components = static_cast<std::size_t>(layout.models.front()->components());
+    Eigen::MatrixXd own(static_cast<Eigen::Index>(nodes.size()), static_cast<Eigen::Index>(components));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Piece& piece = pieces[nodes[i].piece];
+      own.row(static_cast<Eigen::Index>(i)) =
+          stiffnessOf(piece, piece.sharing.node(nodes[i].place), components);
+    }
+    const std::vector<Eigen::MatrixXd> copies = valuesOfCopies(layout, pieces, nodes, own, comm);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      shares_.emplace_back(own.row(static_cast<Eigen::Index>(i)).array() / copies[i].colwise().sum().array());
+  }
+  /// Null if the node has no shares.
+  [[nodiscard]] const Eigen::RowVectorXd* at(const Place& place) const {
+    const auto found = numberOf_.find(key(place));
+    return found == numberOf_.end() ? nullptr : &shares_[found->second];
+  }
+
+private:
+  static std::pair<std::size_t, std::size_t> key(const Place& place) { return {place.piece, place.node}; }
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> numberOf_;
+  std::vector<Eigen::RowVectorXd> shares_;
+};
+
 /// Enters one row at a node of a piece; returns whether the piece has a free unknown in it.
-bool enterRow(const Side& side, std::size_t place, std::size_t node, GlobalOrdinal row, Piece& piece) {
-  const std::size_t components = side.contact->directions.size() / side.contact->firstNodes.size();
+bool enterRow(const Place& place, GlobalOrdinal row, const Eigen::RowVectorXd* share, Piece& piece) {
+  const ContactLayout& contact = *place.side->contact;
+  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
   bool isTouched = false;
   for (std::size_t c = 0; c < components; ++c) {
-    const double coefficient = side.sign * side.contact->directions[place * components + c];
-    const int unknown = piece.assembled.unknownOf[node * components + c];
+    const double coefficient = place.side->sign * contact.directions[place.row * components + c];
+    const int unknown = piece.assembled.unknownOf[place.node * components + c];
     if (coefficient == 0 || unknown < 0)
       continue;
-    piece.rows.push_back({row, unknown, coefficient});
+    const double weight = share == nullptr ? 1.0 : (*share)[static_cast<Eigen::Index>(c)];
+    piece.rows.push_back({row, unknown, weight * coefficient});
     isTouched = true;
   }
   return isTouched;
@@ -153,30 +219,23 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
   return contacts;
 }
 
-Rows contactRows(const std::vector<ContactLayout>& contacts, std::vector<Piece>& pieces) {
+Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
+                 const RCP<const Comm>& comm, std::vector<Piece>& pieces) {
   Rows rows;
+  if (contacts.empty())
+    return rows;
   const std::vector<Side> sides = sidesOf(contacts);
-  for (Piece& piece : pieces) {
-    const std::vector<GlobalOrdinal>& nodes = piece.assembled.nodes;
-    for (const Side& side : sides) {
-      if (side.body != piece.body)
-        continue;
-      auto entry =
-          std::lower_bound(side.nodes.begin(), side.nodes.end(), std::pair(nodes.front(), std::size_t{0}));
-      for (auto found = nodes.begin(); entry != side.nodes.end() && entry->first <= nodes.back(); ++entry) {
-        found = std::lower_bound(found, nodes.end(), entry->first);
-        if (*found != entry->first)
-          continue;
-        const auto node = static_cast<std::size_t>(found - nodes.begin());
-        if (!piece.sharing.isLowest(piece.part, node))
-          continue;
-        const GlobalOrdinal row = side.contact->firstRow + static_cast<GlobalOrdinal>(entry->second);
-        if (side.sign > 0)
-          rows.owned.push_back(row);
-        if (enterRow(side, entry->second, node, row, piece))
-          rows.touched.push_back(row);
-      }
-    }
+  const std::vector<Place> places = placesOf(sides, pieces);
+  const Shares shares(layout, places, pieces, comm);
+  for (const Place& place : places) {
+    Piece& piece = pieces[place.piece];
+    const bool isLowest = piece.sharing.isLowest(piece.part, place.node);
+    const Eigen::RowVectorXd* share = shares.at(place);
+    const GlobalOrdinal row = place.side->contact->firstRow + static_cast<GlobalOrdinal>(place.row);
+    if (isLowest && place.side->sign > 0)
+      rows.owned.push_back(row);
+    if ((isLowest || share != nullptr) && enterRow(place, row, share, piece))
+      rows.touched.push_back(row);
   }
   return rows;
 }
