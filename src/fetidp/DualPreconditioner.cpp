@@ -216,7 +216,9 @@ void DualPreconditioner::subtractJumps() const {
       for (Eigen::Index member = 0; member < block.near.cols(); ++member)
         for (Eigen::Index c = 0; c < block.near.rows(); ++c)
           block.motion(c, member + j * block.near.cols()) = nearDisplacement_(block.near(c, member), j);
-    block.input.noalias() = group.condensed().boundaryResponse() * block.motion;
+    for (Eigen::Index column = 0; column < block.motion.cols();
+         ++column) // one by one: see SymmetricBlock::Use
+      block.input.col(column).noalias() = group.condensed().boundaryResponse() * block.motion.col(column);
     for (Eigen::Index j = 0; j < numColumns; ++j) {
       const double* displacement = block.input.data() + j * block.input.size() / numColumns;
       double* jump = jumps.data() + j * static_cast<Eigen::Index>(jumps.size()) / numColumns;
@@ -274,7 +276,9 @@ void DualPreconditioner::passForcesOn() const {
       for (const InterfaceEntry& entry : group.boundaryEntries())
         force[entry.place] += entry.coefficient * values[entry.multiplier];
     }
-    block.motion.noalias() = group.condensed().boundaryResponse().transpose() * block.input;
+    for (Eigen::Index column = 0; column < block.motion.cols(); ++column)
+      block.motion.col(column).noalias() =
+          group.condensed().boundaryResponse().transpose() * block.input.col(column);
     for (Eigen::Index j = 0; j < numColumns; ++j)
       for (Eigen::Index member = 0; member < block.near.cols(); ++member)
         for (Eigen::Index c = 0; c < block.near.rows(); ++c)
