@@ -22,6 +22,7 @@ Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParamet
              double operatorNorm, RCP<const Operator> preconditioner)
     : a_(std::move(a)), preconditioner_(std::move(preconditioner)), set_(std::move(set)),
       parameters_(parameters),
+      proportioningConstant_(parameters.proportioningConstant > 0 ? parameters.proportioningConstant : 1.0),
       sufficientShare_(parameters.sufficientShare > 0 ? parameters.sufficientShare : 1.0),
       scale_(operatorNorm > 0 ? 1.0 / operatorNorm : 1.0), norm_(operatorNorm > 0 ? 1.0 : 0.0),
       comm_(a_->getDomainMap()->getComm()),
@@ -76,14 +77,14 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
 }
 
 bool Mprgp::isProportional() const {
-  const double gamma = parameters_.proportioningConstant;
+  const double gamma = proportioningConstant_;
   return choppedSquared_ <= gamma * gamma * reducedTimesFree_; // βᵀβ ≤ Γ² φ̃ᵀφ
 }
 
 /// Whether the iterate is so far from leaving its face that the next one will hardly do so either.
 bool Mprgp::isWellProportional() const {
   constexpr double margin = 0.1;
-  const double gamma = parameters_.proportioningConstant;
+  const double gamma = proportioningConstant_;
   return choppedSquared_ <= margin * gamma * gamma * reducedTimesFree_;
 }
 

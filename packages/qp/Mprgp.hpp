@@ -140,9 +140,10 @@ private:
   RCP<const Operator> a_, preconditioner_;
   RCP<const ConvexSet> set_;
   MprgpParameters parameters_;
-  double sufficientShare_; ///< of a CG step that meets the boundary
-  double scale_;           ///< 1/‖A‖ as estimated at the start
-  double norm_;            ///< of scale · A: 1 until it is corrected
+  double proportioningConstant_; ///< Γ
+  double sufficientShare_;       ///< of a CG step that meets the boundary
+  double scale_;                 ///< 1/‖A‖ as estimated at the start
+  double norm_;                  ///< of scale · A: 1 until it is corrected
   RCP<const Comm> comm_;
   RCP<Teuchos::Time> hessianTimer_, preconditionerTimer_;
 

@@ -46,9 +46,9 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
   Teuchos::ParameterList list("MPRGP");
   addReal(list, "Proportioning Constant", defaults.proportioningConstant,
           "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
-          "longer than Γ "
-          "times the free one.",
-          0.0, 1e6, true);
+          "longer than "
+          "Γ times the free one. 0: 0.1 for FETI-DP with a preconditioner and averages along edges, else 1.",
+          0.0, 1e6);
   addChoice(list, "Expansion", expansions.front().first,
             "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
             "step, or "

@@ -21,7 +21,7 @@ enum class Release {
 };
 
 struct MprgpParameters {
-  double proportioningConstant = 1.0; ///< Γ > 0
+  double proportioningConstant = 0; ///< Γ > 0; 0: not chosen, which is 1 but where the caller knows better
   Expansion expansion = Expansion::projectedCg;
   /// Of a CG step that meets the boundary: with at least this share it is good enough, and ends there (a cut to the share
   /// s has 1 − (1 − s)² of the decrease); 1: never; 0: not chosen, which is 1 but where the caller

@@ -15,11 +15,13 @@ namespace epafi::decomposition {
 /// if two contacts leave a node no room. Not collective (every rank finds the same).
 std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies);
 
-/// Enters the rows in the pieces. This rank owns those whose first node lies, at its lowest subdomain, on
-/// this rank. A node that several subdomains share has its entry in the lowest-numbered one; nodes that supports hold in
-/// the row's direction have none. `touched` has a row twice if both its nodes are here. Not collective.
+/// Enters the rows in the pieces. This rank owns those whose first node lies, at its lowest subdomain, on this rank. Nodes
+/// that supports hold in the row's direction have no entry. A crosspoint has its entry in the lowest-numbered subdomain that
+/// shares it, another shared node in all of them: contact acts on the mean of its copies, Σ δ_i u_i / Σ δ_i with δ = diag
+/// K^s, which makes the row orthogonal in D⁻¹ to the gluing of the node (see GluingRows.hpp). `touched` may have rows twice.
+/// Precondition: the pieces' bases are not changed yet. Collective.
 Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
-                 std::vector<Piece>& pieces);
+                 const RCP<const Comm>& comm, std::vector<Piece>& pieces);
 
 /// The right-hand side c of a contact row: its gap, less what supported nodes contribute.
 double contactGap(const Layout& layout, const std::vector<ContactLayout>& contacts, GlobalOrdinal row);

@@ -64,15 +64,23 @@ void addRow(const Vector3d& direction, double gap, double area, int components, 
 
 void meetObstacle(const scene::SurfaceContact& contact, const SurfaceNodes& first, int dimension,
                   ContactLayout& layout) {
+  bool isAnyNear = false;
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
     const auto [direction, gap] = approachTo(contact.obstacle, first.points[i], dimension);
-    if (gap > contact.distance || first.normals[i].dot(direction) <= 0) // far away, or on the other side
+    if (gap > contact.distance)
+      continue;
+    isAnyNear = true;
+    if (first.normals[i].dot(direction) <= 0)
       continue;
     if (!direction.allFinite() || direction.norm() < 0.5)
       throw refusal(contact, "the node at " + text(first.points[i]) + " lies in the centre of the obstacle");
     layout.firstNodes.push_back(first.nodes[i]);
     addRow(direction, gap + contact.gap, first.areas[i], dimension, layout);
   }
+  if (isAnyNear && layout.firstNodes.empty())
+    throw refusal(contact,
+                  "the surface '" + contact.firstSurface +
+                      "' faces away from the obstacle; does the obstacle's normal point to the body?");
 }
 
 /// Spacing of the nodes around one of them.

@@ -188,15 +188,19 @@ CrosspointNumbering::CrosspointNumbering(const Layout& layout, std::vector<Piece
 /// Averages along edges become coarse unknowns in the place of one node's values, the carrier's. Collective.
 void CrosspointNumbering::addCarriers(const Layout& layout, std::vector<Piece>& pieces, const Comm& comm) {
   std::vector<Key> carriers;
-  for (Piece& piece : pieces)
-    if (fem::dimensionOf(layout.bodies[static_cast<std::size_t>(piece.body)].mesh->cellType()) == 3) {
-      findEdgeAverages(componentsOf(layout, piece.body), piece);
-      for (const EdgeAverage& average : piece.averages) {
-        piece.isCrosspoint[average.carrier] = 1;
-        if (piece.sharing.isLowest(piece.part, average.carrier))
-          carriers.emplace_back(piece.body, piece.assembled.nodes[average.carrier]);
-      }
+  for (Piece& piece : pieces) {
+    const int dimension =
+        fem::dimensionOf(layout.bodies[static_cast<std::size_t>(piece.body)].mesh->cellType());
+    const std::size_t components = componentsOf(layout, piece.body);
+    if (!hasEdgeAverages(dimension, components))
+      continue;
+    findEdgeAverages(dimension, components, piece);
+    for (const EdgeAverage& average : piece.averages) {
+      piece.isCrosspoint[average.carrier] = 1;
+      if (piece.sharing.isLowest(piece.part, average.carrier))
+        carriers.emplace_back(piece.body, piece.assembled.nodes[average.carrier]);
     }
+  }
   carriers = gatherKeys(comm, carriers);
   std::vector<Key> all;
   std::set_union(nodes_.begin(), nodes_.end(), carriers.begin(), carriers.end(), std::back_inserter(all));

@@ -7,8 +7,8 @@
 ///    free nodes of its own that do, unless supports alone hold both its sides: each subdomain is then regular, and K̄ has
 ///    no kernel but the bodies' own;
 ///  - a floating body in one piece gets free nodes that hold it.
-/// In space the averages along edges are coarse unknowns too (EdgeAverages.hpp): they take the place of one node's values
-/// on each edge, which counts as a crosspoint from then on.
+/// In space, and of elastic bodies in the plane, the averages along edges are coarse unknowns too (EdgeAverages.hpp): they
+/// take the place of one node's values on each edge, which counts as a crosspoint from then on.
 
 #include "epafi/decomposition/Pieces.hpp"
 

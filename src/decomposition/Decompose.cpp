@@ -170,7 +170,7 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
   problem.numCrosspoints = crosspoints.numNodes();
   for (const ContactLayout& contact : result.contacts)
     problem.numInequalities += contact.numRows();
-  const Rows contact = contactRows(layout, result.contacts, pieces);
+  const Rows contact = contactRows(layout, result.contacts, comm, pieces);
   const std::vector<std::vector<Average>> averages = changeBasis(layout, pieces);
   const Rows gluing = gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities);
 

@@ -33,12 +33,17 @@ SparseMatrix basisOf(const std::vector<Average>& averages, Eigen::Index size) {
 
 } // namespace
 
-void findEdgeAverages(std::size_t components, Piece& piece) {
+bool hasEdgeAverages(int dimension, std::size_t components) {
+  return dimension == 3 || components > 1;
+}
+
+void findEdgeAverages(int dimension, std::size_t components, Piece& piece) {
+  const std::size_t leastParts = dimension == 3 ? 3 : 2;
   std::map<std::vector<int>, std::vector<std::size_t>> edges; // in the order of their parts
   for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
     const std::span<const int> parts = piece.sharing.parts(k);
     const std::size_t node = piece.sharing.node(k);
-    if (parts.size() >= 3 && piece.isCrosspoint[node] == 0 && numFree(piece, node, components) > 0)
+    if (parts.size() >= leastParts && piece.isCrosspoint[node] == 0 && numFree(piece, node, components) > 0)
       edges[{parts.begin(), parts.end()}].push_back(node);
   }
   piece.averages.clear();

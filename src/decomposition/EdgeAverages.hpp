@@ -1,8 +1,11 @@
 #pragma once
 
-/// Averages along the edges of subdomains in space as coarse unknowns. Corners alone do not make FETI-DP scalable there;
-/// averages do (Klawonn, Widlund, Dryja, *SIAM J. Numer. Anal.* 40 (2002)), here by a change of basis (Klawonn, Widlund,
-/// *Comm. Pure Appl. Math.* 59 (2006); Li, Widlund, *Int. J. Numer. Meth. Engng* 66 (2006)).
+/// Averages along the edges of subdomains as coarse unknowns: in space, where corners alone do not make FETI-DP scalable
+/// (Klawonn, Widlund, Dryja, *SIAM J. Numer. Anal.* 40 (2002)), and for elastic bodies in the plane, where they take 40 % of
+/// the iterations away (22 become 14 products with F for two blocks, 1/H = 8, H/h = 8; METIS parts 25 become 16). Membranes
+/// in the plane do without: their corners suffice, and the coarse problem stays small.
+/// Made by a change of basis (Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006); Li, Widlund, *Int. J. Numer. Meth.
+/// Engng* 66 (2006)).
 ///
 /// On an edge of m nodes the unknowns of one component become the average a and m − 1 deviations ũ_i from it:
 ///   u_i = ũ_i + a for all but the carrier,   u_carrier = a − Σ ũ_i,   in short u = T ũ.
@@ -16,9 +19,13 @@
 
 namespace epafi::decomposition {
 
-/// Fills the averages of a piece: an edge are the free nodes that just the same three or more parts share, crosspoints left
-/// out, if they are two or more. All pieces of an edge choose the same carrier. Precondition: crosspoints are marked.
-void findEdgeAverages(std::size_t components, Piece& piece);
+/// Whether bodies of so many dimensions and unknowns a node have averages.
+bool hasEdgeAverages(int dimension, std::size_t components);
+
+/// Fills the averages of a piece: an edge are the free nodes that just the same parts share, three or more in space and two
+/// in the plane, crosspoints left out, if they are two or more. All pieces of an edge choose the same carrier.
+/// Precondition: crosspoints are marked.
+void findEdgeAverages(int dimension, std::size_t components, Piece& piece);
 
 /// The averages of a piece by their unknowns, component by component.
 std::vector<Average> averagesOf(const Piece& piece, std::size_t components);

@@ -1,6 +1,7 @@
 #include "epafi/decomposition/GluingRows.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/decomposition/SharedValues.hpp"
 
 #include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Import.hpp>
@@ -8,21 +9,20 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <span>
 
 namespace epafi::decomposition {
 namespace {
-
-/// Copies a node can have at most, for the keys.
-constexpr GlobalOrdinal maxCopies = 64;
 
 /// A piece's side of the rows at one node, one row a free component, between it and the next higher or lower
 /// part there.
 struct Side {
   std::size_t piece = 0;
   GlobalOrdinal node = 0;
-  int link = 0;         ///< place of the lower part among those at the node
-  int otherNumber = 0;  ///< of the subdomain on the other side
-  int firstUnknown = 0; ///< of the node's free components in the piece
+  std::size_t place = 0; ///< of the node in the piece's Sharing
+  int link = 0;          ///< place of the lower part among those at the node
+  int otherNumber = 0;   ///< of the subdomain on the other side
+  int firstUnknown = 0;  ///< of the node's free components in the piece
   int numRows = 0;
   GlobalOrdinal firstRow = 0;
 };
@@ -50,7 +50,7 @@ Sides findSides(const Layout& layout, const std::vector<Piece>& pieces) {
       const std::size_t node = piece.sharing.node(k);
       if (parts.size() < 2 || piece.isCrosspoint[node] != 0)
         continue;
-      Side side{p, piece.assembled.nodes[node]};
+      Side side{p, piece.assembled.nodes[node], k};
       for (const int unknown : std::span(piece.assembled.unknownOf).subspan(node * components, components))
         if (unknown >= 0 && side.numRows++ == 0)
           side.firstUnknown = unknown;
@@ -122,9 +122,7 @@ void findRowsHere(const std::vector<Piece>& pieces, const std::vector<Side>& low
 /// Names the sides on all ranks before the higher ones know their rows.
 RCP<const Map> mapOfKeys(const Layout& layout, const std::vector<Piece>& pieces,
                          const std::vector<Side*>& sides, const RCP<const Comm>& comm) {
-  std::vector<GlobalOrdinal> firstKey{0};
-  for (const BodyLayout& body : layout.bodies)
-    firstKey.push_back(firstKey.back() + body.mesh->numNodes());
+  const std::vector<GlobalOrdinal> firstKey = firstNodesOf(layout);
   std::vector<GlobalOrdinal> keys;
   keys.reserve(sides.size());
   for (const Side* side : sides)
@@ -158,10 +156,66 @@ void findRowsElsewhere(const Layout& layout, const std::vector<Piece>& pieces, c
     higher[k]->firstRow = static_cast<GlobalOrdinal>(values[static_cast<Teuchos_Ordinal>(k)]);
 }
 
-void enter(const std::vector<Side>& sides, double coefficient, std::vector<Piece>& pieces) {
-  for (const Side& side : sides)
-    for (int r = 0; r < side.numRows; ++r)
-      pieces[side.piece].rows.push_back({side.firstRow + r, side.firstUnknown + r, coefficient});
+void enter(const Side& side, double coefficient, Piece& piece) {
+  for (int r = 0; r < side.numRows; ++r)
+    piece.rows.push_back({side.firstRow + r, side.firstUnknown + r, coefficient});
+}
+
+/// The copies of nodes with three or more.
+std::vector<SharedNode> nodesWithManyCopies(const Layout& layout, const std::vector<Piece>& pieces) {
+  std::vector<SharedNode> nodes;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Piece& piece = pieces[p];
+    const auto components =
+        static_cast<std::size_t>(layout.models[static_cast<std::size_t>(piece.body)]->components());
+    for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
+      const std::size_t node = piece.sharing.node(k);
+      const auto unknowns = std::span(piece.assembled.unknownOf).subspan(node * components, components);
+      if (piece.sharing.parts(k).size() >= 3 && piece.isCrosspoint[node] == 0 &&
+          std::any_of(unknowns.begin(), unknowns.end(), [](int unknown) { return unknown >= 0; }))
+        nodes.push_back({p, k});
+    }
+  }
+  return nodes;
+}
+
+/// The weighted part of the rows at nodes with three or more copies: those of its own link and of the later ones, which it
+/// adds to `touched`. Collective.
+void enterMeans(const Layout& layout, const std::vector<Side>& lower, const RCP<const Comm>& comm,
+                std::vector<Piece>& pieces, std::vector<GlobalOrdinal>& touched) {
+  const std::vector<SharedNode> nodes = nodesWithManyCopies(layout, pieces);
+  const auto numComponents = static_cast<std::size_t>(layout.models.front()->components());
+  const auto firstRow = static_cast<Eigen::Index>(numComponents); // column of the first row of a copy's link
+  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(nodes.size()), firstRow + 1);
+  auto side = lower.begin(); // in the order of `nodes`, but the last copies have none
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Piece& piece = pieces[nodes[i].piece];
+    const auto row = static_cast<Eigen::Index>(i);
+    own.row(row).head(firstRow) = stiffnessOf(piece, piece.sharing.node(nodes[i].place), numComponents);
+    if (piece.sharing.parts(nodes[i].place).back() == piece.part)
+      continue;
+    side = std::find_if(side, lower.end(), [&](const Side& s) {
+      return s.piece == nodes[i].piece && s.place == nodes[i].place;
+    });
+    own(row, firstRow) = static_cast<double>(side->firstRow);
+  }
+  const std::vector<Eigen::MatrixXd> copies = valuesOfCopies(layout, pieces, nodes, own, comm);
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    Piece& piece = pieces[nodes[i].piece];
+    const std::span<const int> parts = piece.sharing.parts(nodes[i].place);
+    const auto copy = std::find(parts.begin(), parts.end(), piece.part) - parts.begin();
+    const auto unknowns = std::span(piece.assembled.unknownOf)
+                              .subspan(piece.sharing.node(nodes[i].place) * numComponents, numComponents);
+    for (Eigen::Index link = copy; link + 1 < copies[i].rows(); ++link) {
+      auto row = static_cast<GlobalOrdinal>(copies[i](link, firstRow));
+      for (std::size_t c = 0; c < numComponents; ++c)
+        if (unknowns[c] >= 0) {
+          const auto stiffness = copies[i].col(static_cast<Eigen::Index>(c));
+          touched.push_back(row);
+          piece.rows.push_back({row++, unknowns[c], stiffness[copy] / stiffness.head(link + 1).sum()});
+        }
+    }
+  }
 }
 
 } // namespace
@@ -174,8 +228,11 @@ Rows gluingRows(const Layout& layout, std::vector<Piece>& pieces, GlobalOrdinal 
   findRowsElsewhere(layout, pieces, comm, sides);
   for (Piece& piece : pieces)
     piece.rows.reserve(piece.rows.size() + 2 * piece.sharing.size());
-  enter(sides.lower, 1.0, pieces);
-  enter(sides.higher, -1.0, pieces);
+  for (const Side& side : sides.lower)
+    if (Piece& piece = pieces[side.piece]; piece.sharing.parts(side.place).size() == 2)
+      enter(side, 1.0, piece);
+  for (const Side& side : sides.higher)
+    enter(side, -1.0, pieces[side.piece]);
 
   Rows rows;
   for (const Side& side : sides.lower)
@@ -186,6 +243,8 @@ Rows gluingRows(const Layout& layout, std::vector<Piece>& pieces, GlobalOrdinal 
     if (!isHere(pieces, side.otherNumber))
       for (int r = 0; r < side.numRows; ++r)
         rows.touched.push_back(side.firstRow + r);
+  if (!layout.models.empty())
+    enterMeans(layout, sides.lower, comm, pieces, rows.touched);
   return rows;
 }
 

@@ -1,7 +1,13 @@
 #pragma once
 
-/// The rows of B_E: at every node that several subdomains share and that is no crosspoint, the copies are
-/// chained, u_lower − u_higher = 0: one row less than copies, so that no row is redundant.
+/// The rows of B_E: at every node that several subdomains share and that is no crosspoint, each copy but the first
+/// equals the mean of those before it,
+///   Σ_{i<k} δ_i u_i / Σ_{i<k} δ_i − u_k = 0,   δ = diag K^s,
+/// which is u_0 − u_1 = 0 where there are two: one row less than copies, so that no row is redundant. Weighted like this
+/// the rows are orthogonal in D⁻¹, D = diag δ; where they are not, as in a chain u_{k−1} − u_k, preconditioners have to
+/// invert B D⁻¹ Bᵀ at each node, or lose the lower bound of their spectrum (Klawonn, Widlund, *Comm. Pure Appl. Math.* 54
+/// (2001), section 4; orthonormal rows with equal weights: Dostál, Kozubek, Sadowská, Vondrák, *Scalable Algorithms for
+/// Contact Problems*).
 
 #include "epafi/decomposition/Pieces.hpp"
 
@@ -9,9 +15,9 @@
 
 namespace epafi::decomposition {
 
-/// Rows are numbered from `firstRow` by lower subdomain, then node, then component, whatever the number of
-/// ranks; the lower side's rank owns a row and tells its number to the other side. Enters the rows in the
-/// pieces.
+/// Row k − 1 of a node is that of copies k − 1 and k. Rows are numbered from `firstRow` by the lower one's subdomain, then
+/// node, then component, whatever the number of ranks; the lower side's rank owns a row and tells its number to the others.
+/// Enters the rows in the pieces. Precondition: the pieces' bases are changed already.
 /// \param[out] numRows  of the whole problem.
 /// Collective.
 Rows gluingRows(const Layout& layout, std::vector<Piece>& pieces, GlobalOrdinal firstRow,

@@ -32,10 +32,16 @@ Sharing::Sharing(const BodyLayout& body, const fem::AssembledSubdomain& piece) {
   }
 }
 
-bool Sharing::isLowest(int part, std::size_t node) const {
+std::optional<std::size_t> Sharing::find(std::size_t node) const {
   const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), node);
-  return found == nodes_.end() || *found != node ||
-         parts(static_cast<std::size_t>(found - nodes_.begin())).front() == part;
+  if (found == nodes_.end() || *found != node)
+    return std::nullopt;
+  return static_cast<std::size_t>(found - nodes_.begin());
+}
+
+bool Sharing::isLowest(int part, std::size_t node) const {
+  const std::optional<std::size_t> k = find(node);
+  return !k || parts(*k).front() == part;
 }
 
 int bodyOf(const Layout& layout, int number) {

@@ -8,6 +8,7 @@
 #include "epafi/fem/SubdomainAssembly.hpp"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,8 @@ public:
   [[nodiscard]] std::span<const int> parts(std::size_t k) const {
     return {parts_.data() + start_[k], parts_.data() + start_[k + 1]};
   }
+  /// The k of a node of the piece; nothing if no other part has it.
+  [[nodiscard]] std::optional<std::size_t> find(std::size_t node) const;
   /// Whether no lower part than `part`, the piece's own, has the node.
   [[nodiscard]] bool isLowest(int part, std::size_t node) const;
 

@@ -22,25 +22,26 @@ Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
   return unknowns;
 }
 
-/// Coarse unknowns that rows of contact touch, and all those of the subdomains that contact touches. Collective.
+/// Coarse unknowns that rows of contact touch, and all those of the bodies that these belong to. Collective.
 void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& near) {
   Unknowns myTouched, myNear;
+  std::vector<double> isTouched(problem.bodies.size(), 0.0); // of each body
   std::vector<int> crosspointOf;
   for (const auto& subdomain : problem.subdomains) {
     crosspointOf.assign(static_cast<std::size_t>(subdomain.stiffness->rows()), -1);
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
       crosspointOf[static_cast<std::size_t>(subdomain.crosspointUnknowns[i])] = static_cast<int>(i);
-    bool isNear = false;
-    for (const auto& entry : subdomain.constraint) {
-      isNear =
-          isNear || problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities;
-      if (const int i = crosspointOf[static_cast<std::size_t>(entry.unknown)]; i >= 0)
+    for (const auto& entry : subdomain.constraint)
+      if (const int i = crosspointOf[static_cast<std::size_t>(entry.unknown)]; i >= 0) {
         myTouched.push_back(subdomain.crosspointIndices[static_cast<std::size_t>(i)]);
-    }
-    if (isNear)
-      myNear.insert(myNear.end(), subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
+        isTouched[static_cast<std::size_t>(subdomain.body)] = 1;
+      }
   }
   touched = unionOverRanks(*problem.comm, myTouched);
+  sumOverRanks(*problem.comm, isTouched);
+  for (const auto& subdomain : problem.subdomains)
+    if (isTouched[static_cast<std::size_t>(subdomain.body)] > 0)
+      myNear.insert(myNear.end(), subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
   near = unionOverRanks(*problem.comm, myNear);
 }
 

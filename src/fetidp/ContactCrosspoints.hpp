@@ -4,9 +4,8 @@
 /// does, and the body follows as a whole. A preconditioner made of single subdomains, the others held, would be far too
 /// stiff there: its condition would grow with the number of subdomains along the contact. So the displacement that
 /// contact asks of a body is split: the crosspoints that contact touches move against Ŝ, the stiffness of the whole body
-/// condensed to them (the Schur complement of S_cc), and take the others along; what is left on the edges is measured
-/// against what follows these crosspoints, −Ψ_Δ u_c (a hierarchical basis, as in Smith, Widlund, *SIAM J. Sci. Stat.
-/// Comput.* 11 (1990)).
+/// condensed to them (the Schur complement of S_cc), and take all others of the body along (a hierarchical basis, as in
+/// Smith, Widlund, *SIAM J. Sci. Stat. Comput.* 11 (1990)); DualPreconditioner.hpp says what is left for the boundaries.
 
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 
@@ -26,9 +25,9 @@ public:
   [[nodiscard]] Eigen::Index size() const { return stiffness_.rows(); }
   /// Index of a coarse unknown among them, or −1.
   [[nodiscard]] int indexOf(GlobalOrdinal coarseUnknown) const;
-  /// Index of a coarse unknown among the n_N *near* ones, those of the subdomains that contact touches, or −1.
+  /// Index of a coarse unknown among the n_N *near* ones, all those of bodies with touched ones, or −1.
   [[nodiscard]] int nearIndexOf(GlobalOrdinal coarseUnknown) const;
-  /// How the near ones follow: n_N × n_C, on every rank.
+  /// How the near ones follow, X: n_N × n_C, on every rank.
   [[nodiscard]] const Eigen::MatrixXd& extension() const { return extension_; }
   /// Ŝ, n_C × n_C, symmetric positive definite, on every rank.
   [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }

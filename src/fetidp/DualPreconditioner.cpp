@@ -32,10 +32,11 @@ DualPreconditioner::DualPreconditioner(const decomposition::DecomposedProblem& p
                                        const PreconditionerParameters& parameters)
     : map_(problem.multiplierMap), inverse_(std::move(inverse)), crosspoints_(problem, *inverse_),
       input_(inverse_->multiplierPlan()), output_(inverse_->multiplierPlan()),
-      result_(rcp(new MultiVector(map_, 1))) {
+      smooth_(rcp(new MultiVector(map_, 1))), result_(rcp(new MultiVector(map_, 1))) {
   collectively(*problem.comm, [&] { makeBlocks(problem, parameters.type, parameters.isSingle); });
-  scale(problem, parameters.scaling);
-  findFollowers(problem);
+  const Weights weights = scale(problem, parameters.scaling);
+  if (crosspoints_.size() > 0)
+    prepareCrosspoints(weights);
 }
 
 void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& problem,
@@ -49,7 +50,7 @@ void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& prob
             ? boundaryBlock(problem.subdomains[groups[g].members().front()], condensed)
             : condensed.factor().schurComplement();
     const auto precision = isSingle ? Precision::single : Precision::full;
-    blocks_.push_back({g, direct::SymmetricBlock(matrix, groups[g].use(), precision), {}, {}, {}});
+    blocks_.push_back({g, direct::SymmetricBlock(matrix, groups[g].use(), precision), {}, {}, {}, {}, {}});
   }
 }
 
@@ -71,8 +72,8 @@ Eigen::VectorXd DualPreconditioner::crosspointStiffness(const decomposition::Dec
 }
 
 /// The weights (b_i/δ_i) / Σ_k b_k²/δ_k. Collective.
-void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
-                               PreconditionerParameters::Scaling scaling) {
+DualPreconditioner::Weights DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
+                                                      PreconditionerParameters::Scaling scaling) {
   const Eigen::VectorXd atCrosspoints = crosspointStiffness(problem);
   const auto stiffnessAt = [&](const decomposition::Subdomain& subdomain, int unknown) {
     if (scaling == PreconditionerParameters::Scaling::multiplicity)
@@ -95,6 +96,7 @@ void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
       untouched_.push_back(static_cast<int>(row));
 
   const std::span<const double> totals = input_.toSubdomains(*result_);
+  Weights weights{{}, std::vector<double>(totals.size(), 0.0)};
   for (Block& block : blocks_) {
     const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
     for (const std::size_t member : group.members()) {
@@ -103,13 +105,17 @@ void DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
         const double weight = entry.coefficient / stiffnessAt(subdomain, entry.unknown) /
                               totals[static_cast<std::size_t>(entry.multiplier)];
         if (group.condensed().interface().positionOf[static_cast<std::size_t>(entry.unknown)] <
-            group.condensed().numBoundary())
+            group.condensed().numBoundary()) {
           block.weights.push_back(weight);
-        else
-          crosspointEntries_.push_back({entry.multiplier, touchedIndexOf(subdomain, entry.unknown), weight});
+          weights.boundaryShares[static_cast<std::size_t>(entry.multiplier)] += weight * entry.coefficient;
+        } else {
+          weights.atCrosspoints.push_back(
+              {entry.multiplier, touchedIndexOf(subdomain, entry.unknown), weight});
+        }
       }
     }
   }
+  return weights;
 }
 
 /// Index among the crosspoint values that contact touches, of an unknown that is one.
@@ -120,41 +126,53 @@ int DualPreconditioner::touchedIndexOf(const decomposition::Subdomain& subdomain
       subdomain.crosspointIndices[static_cast<std::size_t>(found - crosspoints.begin())]);
 }
 
-void DualPreconditioner::findFollowers(const decomposition::DecomposedProblem& problem) {
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const SubdomainGroup& group = std::as_const(*inverse_).groups()[blocks_[b].group];
-    const auto numMembers = static_cast<Eigen::Index>(group.members().size());
-    for (Eigen::Index member = 0; member < numMembers; ++member) {
-      Follower follower{b, member, numMembers, {}, {}, {}};
-      for (const auto& entry :
-           problem.subdomains[group.members()[static_cast<std::size_t>(member)]].constraint) {
-        const int position =
-            group.condensed().interface().positionOf[static_cast<std::size_t>(entry.unknown)];
-        if (problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities &&
-            position < group.condensed().numBoundary())
-          follower.boundary.push_back(position);
-      }
-      if (follower.boundary.empty())
-        continue;
-      std::sort(follower.boundary.begin(),
-                follower.boundary.end()); // where two contacts meet, an unknown is in both
-      follower.boundary.erase(std::unique(follower.boundary.begin(), follower.boundary.end()),
-                              follower.boundary.end());
-      for (const GlobalOrdinal crosspoint : group.crosspointIndices(static_cast<std::size_t>(member)))
-        follower.crosspoints.push_back(crosspoints_.nearIndexOf(crosspoint));
-      follower.response = group.condensed().boundaryResponse()(follower.boundary, Eigen::all);
-      followers_.push_back(std::move(follower));
+/// C and the shares go to the owners of their rows; groups learn which of their crosspoints may move. Collective.
+void DualPreconditioner::prepareCrosspoints(const Weights& weights) {
+  std::copy(weights.boundaryShares.begin(), weights.boundaryShares.end(), output_.values().begin());
+  output_.sumToOwners(*result_);
+  for (const double share : result_->getData(0))
+    inverseShares_.push_back(share > 0 ? 1 / share : 0.0);
+
+  const Map& ghosts = *inverse_->multiplierPlan()->getTargetMap();
+  std::vector<double> mine; // row, touched, weight
+  for (const CrosspointWeight& entry : weights.atCrosspoints)
+    mine.insert(mine.end(), {static_cast<double>(ghosts.getGlobalElement(entry.multiplier)),
+                             static_cast<double>(entry.touched), entry.weight});
+  const std::vector<double> all = gatherOnAll(*map_->getComm(), mine);
+  for (std::size_t k = 0; k < all.size(); k += 3)
+    if (const LocalOrdinal row = map_->getLocalElement(static_cast<GlobalOrdinal>(all[k])); row >= 0)
+      crosspointWeights_.push_back({row, static_cast<int>(all[k + 1]), all[k + 2]});
+  std::sort(crosspointWeights_.begin(), crosspointWeights_.end(),
+            [](const CrosspointWeight& a, const CrosspointWeight& b) {
+              return std::pair(a.multiplier, a.touched) < std::pair(b.multiplier, b.touched);
+            });
+
+  for (Block& block : blocks_) {
+    const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
+    const auto first = group.crosspointIndices(0);
+    if (first.empty() || crosspoints_.nearIndexOf(first.front()) < 0)
+      continue; // contact touches no crosspoint of this body
+    block.near.resize(group.condensed().numCrosspoints(), static_cast<Eigen::Index>(group.members().size()));
+    for (Eigen::Index member = 0; member < block.near.cols(); ++member) {
+      const auto crosspoints = group.crosspointIndices(static_cast<std::size_t>(member));
+      for (Eigen::Index c = 0; c < block.near.rows(); ++c)
+        block.near(c, member) = crosspoints_.nearIndexOf(crosspoints[static_cast<std::size_t>(c)]);
     }
   }
 }
 
-/// Work space for k columns; sums and inputs begin at 0.
+/// Work space for k columns; sums begin at 0.
 void DualPreconditioner::prepareColumns(Eigen::Index numColumns) const {
+  if (result_->getNumVectors() != static_cast<std::size_t>(numColumns)) {
+    result_ = rcp(new MultiVector(map_, static_cast<std::size_t>(numColumns)));
+    smooth_ = rcp(new MultiVector(map_, static_cast<std::size_t>(numColumns)));
+  }
   for (Block& block : blocks_) {
     const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
-    block.input.setZero(group.condensed().numBoundary(),
-                        static_cast<Eigen::Index>(group.members().size()) * numColumns);
+    block.input.resize(group.condensed().numBoundary(),
+                       static_cast<Eigen::Index>(group.members().size()) * numColumns);
     block.output.resizeLike(block.input);
+    block.motion.resize(block.near.rows(), block.near.cols() * numColumns);
   }
   displacement_.resize(crosspoints_.size(), numColumns);
   forces_.resizeLike(displacement_);
@@ -164,78 +182,122 @@ void DualPreconditioner::prepareColumns(Eigen::Index numColumns) const {
   nearSums_.assign(static_cast<std::size_t>(nearForces_.size()), AccurateSum());
 }
 
-/// B_Dᵀ λ: the members' inputs, and `displacement_` summed over the ranks.
-void DualPreconditioner::gather(std::span<const double> lambda) const {
-  const Eigen::Index numColumns = displacement_.cols();
-  for (Eigen::Index j = 0; j < numColumns; ++j) {
-    const double* values = lambda.data() + j * static_cast<Eigen::Index>(lambda.size()) / numColumns;
-    for (Block& block : blocks_) {
-      double* input = block.input.data() + j * block.input.size() / numColumns;
-      const double* weight = block.weights.data();
-      for (const InterfaceEntry& entry : std::as_const(*inverse_).groups()[block.group].boundaryEntries())
-        input[entry.place] += *weight++ * values[entry.multiplier];
-    }
-    for (const CrosspointEntry& entry : crosspointEntries_)
-      touchedSums_[static_cast<std::size_t>(j * crosspoints_.size() + entry.touched)].add(
+/// u = C λ, X u, and λ − J u.
+void DualPreconditioner::moveCrosspoints(const MultiVector& lambda) const {
+  for (Eigen::Index j = 0; j < displacement_.cols(); ++j) {
+    const auto values = lambda.getData(static_cast<std::size_t>(j));
+    for (const CrosspointWeight& entry : crosspointWeights_)
+      touchedSums_[static_cast<std::size_t>(entry.touched + j * displacement_.rows())].add(
           entry.weight * values[entry.multiplier]);
   }
-  if (touchedSums_.empty())
-    return;
   sumOverRanks(*map_->getComm(), touchedSums_);
   for (std::size_t i = 0; i < touchedSums_.size(); ++i)
     displacement_.data()[i] = touchedSums_[i].value();
-}
-
-/// Takes from the displacement of the edges what follows their crosspoints: u_Δ + Ψ_Δ u_c is left.
-void DualPreconditioner::followCrosspoints() const {
-  if (touchedSums_.empty())
-    return;
   nearDisplacement_.noalias() = crosspoints_.extension() * displacement_;
-  for (Eigen::Index column = 0; column < displacement_.cols(); ++column)
-    for (const Follower& follower : followers_)
-      for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
-        for (std::size_t i = 0; i < follower.boundary.size(); ++i)
-          blocks_[follower.block].input(follower.boundary[i],
-                                        follower.member + column * follower.numMembers) +=
-              follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-              nearDisplacement_(follower.crosspoints[j], column);
+  subtractJumps();
+  for (Eigen::Index j = 0; j < displacement_.cols(); ++j) {
+    const auto values = lambda.getData(static_cast<std::size_t>(j));
+    const auto jumps = smooth_->getDataNonConst(static_cast<std::size_t>(j));
+    for (Teuchos_Ordinal row = 0; row < jumps.size(); ++row)
+      jumps[row] = values[row] + jumps[row] * inverseShares_[static_cast<std::size_t>(row)];
+  }
 }
 
-/// Forces at the boundaries, and at the crosspoints that contact touches: Ŝ u_c, and what the boundaries pass on, Ψ_Δᵀ of
-/// theirs.
-void DualPreconditioner::multiply() const {
-  for (Block& block : blocks_)
+/// −J u but for the shares: boundaries move by −Ψ_Δ X u, each subdomain for itself.
+void DualPreconditioner::subtractJumps() const {
+  const Eigen::Index numColumns = displacement_.cols();
+  const std::span<double> jumps = output_.values(static_cast<std::size_t>(numColumns));
+  std::fill(jumps.begin(), jumps.end(), 0.0);
+  for (Block& block : blocks_) {
+    if (block.near.size() == 0)
+      continue;
+    const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
+    for (Eigen::Index j = 0; j < numColumns; ++j)
+      for (Eigen::Index member = 0; member < block.near.cols(); ++member)
+        for (Eigen::Index c = 0; c < block.near.rows(); ++c)
+          block.motion(c, member + j * block.near.cols()) = nearDisplacement_(block.near(c, member), j);
+    for (Eigen::Index column = 0; column < block.motion.cols();
+         ++column) // one by one: see SymmetricBlock::Use
+      block.input.col(column).noalias() = group.condensed().boundaryResponse() * block.motion.col(column);
+    for (Eigen::Index j = 0; j < numColumns; ++j) {
+      const double* displacement = block.input.data() + j * block.input.size() / numColumns;
+      double* jump = jumps.data() + j * static_cast<Eigen::Index>(jumps.size()) / numColumns;
+      for (const InterfaceEntry& entry : group.boundaryEntries())
+        jump[entry.multiplier] += entry.coefficient * displacement[entry.place];
+    }
+  }
+  output_.sumToOwners(*smooth_);
+}
+
+/// Σ B_D S_Δ B_Dᵀ at the boundaries.
+void DualPreconditioner::multiplyBlocks(std::span<const double> lambda, std::span<double> result) const {
+  const Eigen::Index numColumns = displacement_.cols();
+  const auto stride = static_cast<Eigen::Index>(lambda.size()) / numColumns;
+  std::fill(result.begin(), result.end(), 0.0);
+  for (Block& block : blocks_) {
+    const auto entries = std::as_const(*inverse_).groups()[block.group].boundaryEntries();
+    block.input.setZero();
+    for (Eigen::Index j = 0; j < numColumns; ++j) {
+      double* input = block.input.data() + j * block.input.size() / numColumns;
+      const double* values = lambda.data() + j * stride;
+      const double* weight = block.weights.data();
+      for (const InterfaceEntry& entry : entries)
+        input[entry.place] += *weight++ * values[entry.multiplier];
+    }
     block.stiffness.apply(block.input, block.output);
-  if (touchedSums_.empty())
-    return;
-  for (Eigen::Index column = 0; column < displacement_.cols(); ++column)
-    for (const Follower& follower : followers_)
-      for (std::size_t j = 0; j < follower.crosspoints.size(); ++j)
-        for (std::size_t i = 0; i < follower.boundary.size(); ++i)
-          nearSums_[static_cast<std::size_t>(column * nearForces_.rows() + follower.crosspoints[j])].add(
-              follower.response(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-              blocks_[follower.block].output(follower.boundary[i],
-                                             follower.member + column * follower.numMembers));
+    for (Eigen::Index j = 0; j < numColumns; ++j) {
+      const double* output = block.output.data() + j * block.output.size() / numColumns;
+      double* values = result.data() + j * stride;
+      const double* weight = block.weights.data();
+      for (const InterfaceEntry& entry : entries)
+        values[entry.multiplier] += *weight++ * output[entry.place];
+    }
+  }
+}
+
+/// What forces at the boundaries, −Jᵀ of the result, are at the near crosspoints.
+void DualPreconditioner::passForcesOn() const {
+  const Eigen::Index numColumns = displacement_.cols();
+  for (Eigen::Index j = 0; j < numColumns; ++j) {
+    const auto result = result_->getData(static_cast<std::size_t>(j));
+    const auto shared = smooth_->getDataNonConst(static_cast<std::size_t>(j));
+    for (Teuchos_Ordinal row = 0; row < shared.size(); ++row)
+      shared[row] = result[row] * inverseShares_[static_cast<std::size_t>(row)];
+  }
+  const std::span<const double> forces = input_.toSubdomains(*smooth_);
+  for (Block& block : blocks_) {
+    if (block.near.size() == 0)
+      continue;
+    const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
+    block.input.setZero();
+    for (Eigen::Index j = 0; j < numColumns; ++j) {
+      double* force = block.input.data() + j * block.input.size() / numColumns;
+      const double* values = forces.data() + j * static_cast<Eigen::Index>(forces.size()) / numColumns;
+      for (const InterfaceEntry& entry : group.boundaryEntries())
+        force[entry.place] += entry.coefficient * values[entry.multiplier];
+    }
+    for (Eigen::Index column = 0; column < block.motion.cols(); ++column)
+      block.motion.col(column).noalias() =
+          group.condensed().boundaryResponse().transpose() * block.input.col(column);
+    for (Eigen::Index j = 0; j < numColumns; ++j)
+      for (Eigen::Index member = 0; member < block.near.cols(); ++member)
+        for (Eigen::Index c = 0; c < block.near.rows(); ++c)
+          nearSums_[static_cast<std::size_t>(block.near(c, member) + j * nearForces_.rows())].add(
+              block.motion(c, member + j * block.near.cols()));
+  }
   sumOverRanks(*map_->getComm(), nearSums_);
   for (std::size_t i = 0; i < nearSums_.size(); ++i)
     nearForces_.data()[i] = nearSums_[i].value();
-  forces_.noalias() = crosspoints_.stiffness() * displacement_;
-  forces_.noalias() += crosspoints_.extension().transpose() * nearForces_;
 }
 
-/// B_D times the forces.
-void DualPreconditioner::scatter(std::span<double> result) const {
-  std::fill(result.begin(), result.end(), 0.0);
-  const Eigen::Index numColumns = displacement_.cols();
-  for (Eigen::Index j = 0; j < numColumns; ++j) {
-    double* values = result.data() + j * static_cast<Eigen::Index>(result.size()) / numColumns;
-    for (const Block& block : blocks_) {
-      const double* output = block.output.data() + j * block.output.size() / numColumns;
-      const double* weight = block.weights.data();
-      for (const InterfaceEntry& entry : std::as_const(*inverse_).groups()[block.group].boundaryEntries())
-        values[entry.multiplier] += *weight++ * output[entry.place];
-    }
-    for (const CrosspointEntry& entry : crosspointEntries_)
+/// Adds Cᵀ (Ŝ u + Xᵀ of the forces at the near crosspoints) to the result.
+void DualPreconditioner::addCrosspointForces() const {
+  passForcesOn();
+  forces_.noalias() = crosspoints_.stiffness() * displacement_;
+  forces_.noalias() += crosspoints_.extension().transpose() * nearForces_;
+  for (Eigen::Index j = 0; j < displacement_.cols(); ++j) {
+    const auto values = result_->getDataNonConst(static_cast<std::size_t>(j));
+    for (const CrosspointWeight& entry : crosspointWeights_)
       values[entry.multiplier] += entry.weight * forces_(entry.touched, j);
   }
 }
@@ -243,14 +305,15 @@ void DualPreconditioner::scatter(std::span<double> result) const {
 void DualPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
                                double beta) const {
   const std::size_t numColumns = x.getNumVectors();
-  if (result_->getNumVectors() != numColumns)
-    result_ = rcp(new MultiVector(map_, numColumns));
   prepareColumns(static_cast<Eigen::Index>(numColumns));
-  gather(input_.toSubdomains(x));
-  followCrosspoints();
-  multiply();
-  scatter(output_.values(numColumns));
+  const bool movesCrosspoints = crosspoints_.size() > 0;
+  if (movesCrosspoints)
+    moveCrosspoints(x);
+  const auto input = input_.toSubdomains(movesCrosspoints ? *smooth_ : x);
+  multiplyBlocks(input, output_.values(numColumns));
   output_.sumToOwners(*result_);
+  if (movesCrosspoints)
+    addCrosspointForces();
   for (std::size_t j = 0; j < numColumns && !untouched_.empty(); ++j) {
     const auto result = result_->getDataNonConst(j);
     const auto given = x.getData(j);

@@ -1,14 +1,24 @@
 #pragma once
 
-/// Preconditioners of F, built from the condensed subdomains: M = Σ B_D S_Δ B_Dᵀ + what contact at crosspoints needs
-/// (ContactCrosspoints.hpp), where S_Δ is
-///   dirichlet  the stiffness of a subdomain condensed to its boundary, S_ΔΔ (Farhat, Roux, *Int. J. Numer. Meth.
-///              Engng* 32 (1991); for FETI-DP Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006))
-///   lumped     the block K_ΔΔ of the boundary alone: cheaper, and weaker
-/// and B_D is B with its entries scaled row by row,
+/// Preconditioners of F: M = Eᵀ S̃ E, where E makes of multipliers a displacement that jumps just as they say, B E = I, and
+/// S̃ is the stiffness of the subdomains condensed to boundaries and crosspoints. Then λᵀMλ ≥ λᵀF⁻¹λ, which is the least
+/// energy of all such displacements: no eigenvalue of MF is below 1 (Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006),
+/// for gluing).
+///
+/// On the boundaries E is B_D, which is B with its entries scaled row by row,
 ///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
-/// δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at crosspoints, of K̄) for stiffness (ρ) scaling. Rows of contact are treated like
-/// those of gluing. MPRGP uses M restricted to its free set ("in face").
+/// δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at crosspoints, of K̄) for stiffness (ρ) scaling. Rows of contact
+/// are treated like those of gluing. B B_Dᵀ = I asks for rows that are orthogonal in D⁻¹, which decompose() gives for
+/// stiffness scaling.
+/// Where contact touches crosspoints these move by u = C λ, C = B_Dᵀ there, and the others of the body follow, X u
+/// (ContactCrosspoints.hpp). The boundaries follow too, each subdomain for itself, −Ψ_Δ X u, and so come apart: they jump by
+/// J u. What B_D still has to do is λ − J u, and
+///   M = (I − J C)ᵀ [Σ B_D S_Δ B_Dᵀ] (I − J C) + Cᵀ Ŝ C,   S_Δ =
+///   dirichlet  the stiffness of a subdomain condensed to its boundary, S_ΔΔ (Farhat, Roux, *Int. J. Numer. Meth.
+///              Engng* 32 (1991))
+///   lumped     the block K_ΔΔ of the boundary alone: cheaper, and weaker
+/// Jumps count in every subdomain of the body: smooth motions reach far, and B E = I must hold all over it. MPRGP uses M
+/// restricted to its free set ("in face").
 
 #include "epafi/fetidp/ContactCrosspoints.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"
@@ -32,7 +42,8 @@ public:
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
   /// y = alpha M x + beta y, all columns in one pass: two neighbour exchanges, one dense product a subdomain and column,
-  /// and, where contact touches crosspoints, two messages of n_C and n_N numbers a column. Collective.
+  /// and, where contact touches crosspoints, two exchanges and two products with Ψ_Δ more, and two messages of n_C and n_N
+  /// numbers a column. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
              double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
@@ -46,43 +57,43 @@ private:
     direct::SymmetricBlock stiffness;
     std::vector<double> weights;   ///< B_D's entries in the order of SubdomainGroup::boundaryEntries
     Eigen::MatrixXd input, output; ///< work, n_Δ × mk
+    Eigen::MatrixXi near;          ///< n_c × m: of each member's crosspoint values; empty where none moves
+    Eigen::MatrixXd motion;        ///< work, n_c × mk: of these crosspoint values, or the forces there
   };
-  /// An entry of B_D at a crosspoint value.
-  struct CrosspointEntry {
-    int multiplier, touched; ///< on the ghost map; index in ContactCrosspoints
+  /// An entry of C.
+  struct CrosspointWeight {
+    int multiplier, touched; ///< among this rank's own; index in ContactCrosspoints
     double weight;
   };
-  /// A member that contact touches next to a crosspoint: u_Δ follows −Ψ_Δ u_c in the rows of contact.
-  struct Follower {
-    std::size_t block;
-    Eigen::Index member, numMembers;
-    std::vector<int> boundary;    ///< positions in Δ that contact touches
-    std::vector<int> crosspoints; ///< the near crosspoints (see ContactCrosspoints) of a column of `response`
-    Eigen::MatrixXd response;     ///< Ψ there
+  /// B_D on the ghost map.
+  struct Weights {
+    std::vector<CrosspointWeight> atCrosspoints;
+    std::vector<double> boundaryShares; ///< Σ b_i B_D,i of each row over the boundary entries, 1 for most
   };
   void makeBlocks(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Type type,
                   bool isSingle);
-  void findFollowers(const decomposition::DecomposedProblem& problem);
   Eigen::VectorXd crosspointStiffness(const decomposition::DecomposedProblem& problem);
-  void scale(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Scaling scaling);
+  Weights scale(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Scaling scaling);
+  void prepareCrosspoints(const Weights& weights);
   [[nodiscard]] int touchedIndexOf(const decomposition::Subdomain& subdomain, int unknown) const;
   void prepareColumns(Eigen::Index numColumns) const;
-  void gather(std::span<const double> lambda) const;
-  void followCrosspoints() const;
-  void multiply() const;
-  void scatter(std::span<double> result) const;
+  void moveCrosspoints(const MultiVector& lambda) const;
+  void subtractJumps() const;
+  void multiplyBlocks(std::span<const double> lambda, std::span<double> result) const;
+  void passForcesOn() const;
+  void addCrosspointForces() const;
 
   RCP<const Map> map_;
   std::shared_ptr<GeneralizedInverse> inverse_;
   ContactCrosspoints crosspoints_;
   mutable std::vector<Block> blocks_;
-  std::vector<CrosspointEntry> crosspointEntries_;
-  std::vector<Follower> followers_;
+  std::vector<CrosspointWeight> crosspointWeights_; ///< row by row
+  std::vector<double> inverseShares_; ///< of the rows of this rank: 1/Σ b_i B_D,i over the boundary
   mutable std::vector<AccurateSum> touchedSums_, nearSums_;                       ///< work, n_C k and n_N k
   mutable Eigen::MatrixXd displacement_, forces_, nearDisplacement_, nearForces_; ///< work, likewise
   std::vector<int> untouched_; ///< rows without a free unknown, local indices
   mutable MultiplierExchange input_, output_;
-  mutable RCP<MultiVector> result_;
+  mutable RCP<MultiVector> smooth_, result_; ///< work: λ − J u, M λ
 };
 
 } // namespace epafi::fetidp

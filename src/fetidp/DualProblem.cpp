@@ -63,12 +63,25 @@ DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
   precondition();
 }
 
+namespace {
+
+/// Whether averages along edges are coarse unknowns, somewhere. Collective.
+bool hasAverages(const decomposition::DecomposedProblem& problem) {
+  const bool isHere = std::any_of(problem.subdomains.begin(), problem.subdomains.end(),
+                                  [](const auto& subdomain) { return !subdomain.averages.empty(); });
+  return maxOverRanks(*problem.comm, isHere ? 1.0 : 0.0) > 0;
+}
+
+} // namespace
+
 /// Makes M, or PMP + ρ⁻¹Q for the penalty ρ that SMALBE starts with.
 void DualProblem::precondition() {
   if (parameters_.preconditioner.type == PreconditionerParameters::Type::none)
     return;
   if (parameters_.mprgp.sufficientShare == 0)
     parameters_.mprgp.sufficientShare = 0.25; // most expansions would fix one multiplier or two
+  if (parameters_.mprgp.proportioningConstant == 0 && hasAverages(problem_))
+    parameters_.mprgp.proportioningConstant = 0.1; // few steps solve a face: those in a wrong one are lost
   const RCP<const DualPreconditioner> m =
       rcp(new DualPreconditioner(problem_, inverse_, parameters_.preconditioner));
   preconditionerBytes_ = m->bytes();

@@ -7,7 +7,10 @@
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
+#include <vector>
 
 namespace epafi::decomposition {
 namespace {
@@ -108,6 +111,37 @@ TEST(EdgeAveragesTest, EqualSubdomainsStillShareTheirStiffness) {
   for (const Subdomain& subdomain : cut.problem.subdomains)
     different.insert(subdomain.stiffness.get());
   EXPECT_LT(different.size(), cut.problem.subdomains.size());
+}
+
+/// Where four subdomains meet a chain of rows would not do.
+TEST(EdgeAveragesTest, GluingRowsAreOrthogonalInTheStiffness) {
+  for (const int parts : {8, 11}) {
+    scene::Scene scene = cube(2, 3);
+    if (parts != 8) {
+      scene.bodies.front().decomposition.method = scene::Decomposition::Method::metis;
+      scene.bodies.front().decomposition.parts = parts;
+    }
+    const Decomposition cut = decompose(scene, rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)));
+    const auto n = static_cast<Eigen::Index>(cut.problem.dualDimension());
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, n); // B D⁻¹ Bᵀ
+    std::size_t mostRows = 0;
+    for (const Subdomain& subdomain : cut.problem.subdomains) {
+      std::map<int, std::vector<const ConstraintEntry*>> entriesOf; // by unknown
+      for (const ConstraintEntry& entry : subdomain.constraint)
+        entriesOf[entry.unknown].push_back(&entry);
+      for (const auto& [unknown, entries] : entriesOf) {
+        mostRows = std::max(mostRows, entries.size());
+        for (const ConstraintEntry* a : entries)
+          for (const ConstraintEntry* b : entries)
+            products(a->multiplier, b->multiplier) +=
+                a->coefficient * b->coefficient / subdomain.stiffness->coeff(unknown, unknown);
+      }
+    }
+    EXPECT_GE(mostRows, 3U); // there are such edges
+    const Eigen::VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
+    products = scale.asDiagonal() * products * scale.asDiagonal();
+    EXPECT_LE((products - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), 1e-13) << parts;
+  }
 }
 
 TEST(HoldingPointsTest, TakeAsManyPointsAsHoldABody) {

@@ -27,12 +27,17 @@ struct Crosspoints {
     bodyOf = Eigen::VectorXd::Zero(n);
     for (const auto& subdomain : problem.subdomains)
       add(subdomain);
-    for (auto* values : {&isTouched, &isNear, &bodyOf})
+    for (auto* values : {&isTouched, &bodyOf})
       for (double& value : *values)
         value = maxOverRanks(*problem.comm, value);
     sumOverRanks(*problem.comm, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
     for (Eigen::Index i = 0; i < n; ++i)
       (isTouched[i] > 0 ? touched : others).push_back(i);
+    for (Eigen::Index i = 0; i < n; ++i)
+      isNear[i] =
+          std::any_of(touched.begin(), touched.end(), [&](Eigen::Index t) { return bodyOf[t] == bodyOf[i]; })
+              ? 1
+              : 0;
   }
 
   void add(const decomposition::Subdomain& subdomain) {
@@ -44,18 +49,14 @@ struct Crosspoints {
       s -= krc.transpose() * krr.llt().solve(krc);
     const Indices indices(subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
     stiffness(indices, indices) += s;
-    bool isInContact = false;
     for (const auto& entry : subdomain.constraint)
       if (problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities) {
-        isInContact = true;
         const auto at = std::find(c.begin(), c.end(), entry.unknown);
         if (at != c.end())
           isTouched[indices[static_cast<std::size_t>(at - c.begin())]] = 1;
       }
-    for (const Eigen::Index i : indices) {
-      isNear[i] = isInContact ? 1 : isNear[i];
+    for (const Eigen::Index i : indices)
       bodyOf[i] = subdomain.body;
-    }
   }
 
   /// Schur complement of S_cc on the crosspoints that contact touches.

@@ -41,7 +41,7 @@ Eigen::MatrixXd kernelOf(const Eigen::MatrixXd& columns) {
   return q.rightCols(n - k);
 }
 
-double conditionNumber(const Preconditioned& preconditioned) {
+Eigen::VectorXd spectrum(const Preconditioned& preconditioned) {
   const Eigen::MatrixXd f = matrixOf(preconditioned.f), m = matrixOf(preconditioned.m);
   std::vector<Eigen::Index> touched;
   for (Eigen::Index i = 0; i < f.rows(); ++i)
@@ -55,7 +55,12 @@ double conditionNumber(const Preconditioned& preconditioned) {
   const Eigen::MatrixXd product = lower.transpose() * fz * lower; // similar to MF
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (product + product.transpose()),
                                                               Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff() / solver.eigenvalues().minCoeff();
+  return solver.eigenvalues();
+}
+
+double conditionNumber(const Preconditioned& preconditioned) {
+  const Eigen::VectorXd eigenvalues = spectrum(preconditioned);
+  return eigenvalues.maxCoeff() / eigenvalues.minCoeff();
 }
 
 Eigen::VectorXd scaledSpectrum(const Eigen::MatrixXd& symmetric) {

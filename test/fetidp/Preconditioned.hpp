@@ -34,8 +34,9 @@ Eigen::MatrixXd kernelRows(const DecomposedProblem& problem);
 /// Orthonormal columns that span what the given ones (n × k, of full rank) are orthogonal to.
 Eigen::MatrixXd kernelOf(const Eigen::MatrixXd& columns);
 
-/// Condition number of MF on Ker G: largest over smallest λ with F x = λ M⁻¹ x there. Rows of B that touch nothing are
-/// left out. Collective.
+/// Eigenvalues of MF on Ker G, ascending: λ with F x = λ M⁻¹ x there. Rows of B that touch nothing are left out. Collective.
+Eigen::VectorXd spectrum(const Preconditioned& preconditioned);
+/// Condition number of MF on Ker G: its largest over its smallest eigenvalue. Collective.
 double conditionNumber(const Preconditioned& preconditioned);
 
 /// Eigenvalues of D^(−1/2) A D^(−1/2), D the diagonal of A (which must be positive), ascending: what is left of a

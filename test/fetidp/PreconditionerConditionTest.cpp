@@ -52,6 +52,19 @@ TEST(PreconditionerConditionTest, DirichletGrowsWithTheLogarithmSquaredOfTheSubd
   }
 }
 
+/// λᵀMλ is the energy of a displacement that jumps as λ says, λᵀF⁻¹λ the least of all such.
+TEST(PreconditionerConditionTest, NoEigenvalueIsBelowOneWhereAllBodiesAreHeld) {
+  for (const int cuts : {2, 4, 5})
+    for (const Type type : {Type::lumped, Type::dirichlet})
+      for (const bool isGrid : {true, false}) {
+        SCOPED_TRACE(testing::Message() << cuts << ' ' << toString(type) << (isGrid ? "" : " METIS"));
+        const scene::Scene scene =
+            twoMembranes(true, 2 * cuts, isGrid ? grid(cuts, cuts) : metis(cuts * cuts));
+        const Preconditioned preconditioned(scene, {type, Scaling::stiffness, false});
+        EXPECT_GE(spectrum(preconditioned).minCoeff(), 1 - 1e-9);
+      }
+}
+
 /// Contact has as many crosspoints as there are subdomains along it; their number must not spoil M.
 TEST(PreconditionerConditionTest, DirichletSettlesWithTheNumberOfSubdomains) {
   for (const bool coercive : {true, false}) {

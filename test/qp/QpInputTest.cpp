@@ -232,7 +232,7 @@ TEST(QpInputTest, ParametersAreCheckedWhenTheSolverIsMade) {
   EXPECT_THROW(make("", "Maximum Dense Rows", -1), InputError);
   EXPECT_THROW(make("MPRGP", "Expansion", std::string("sideways")), InputError);
   EXPECT_THROW(make("MPRGP", "Expansion Step", 2.0), InputError);
-  EXPECT_THROW(make("MPRGP", "Proportioning Constant", 0.0), InputError);
+  EXPECT_THROW(make("MPRGP", "Proportioning Constant", -1.0), InputError);
   EXPECT_THROW(make("SMALBE", "Update", std::string("neither")), InputError);
   EXPECT_NO_THROW(qp::QpSolver{qp::QpSolver::validParameters()});
 }

@@ -87,7 +87,7 @@ Eigen::VectorXd slack(const Whole& whole, const Eigen::VectorXd& u) {
 } // namespace
 
 UndecomposedSolution solveUndecomposed(const scene::Scene& scene) {
-  const auto decomposition = decomposition::decompose(cutInGrid(scene, 1), thisRankOnly());
+  const auto decomposition = decomposition::decompose(cutByMetis(scene, 1), thisRankOnly());
   const auto& problem = decomposition.problem;
   const Whole whole = assemble(problem);
   const Eigen::Index n = whole.load.size(), m = whole.gap.size();
@@ -118,6 +118,7 @@ UndecomposedSolution solveUndecomposed(const scene::Scene& scene) {
     Eigen::VectorXd values = subdomain.prescribed;
     for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
       values[subdomain.unknownPosition[i]] = u[whole.offset[s] + static_cast<Eigen::Index>(i)];
+    decomposition::toSpace(subdomain, values);
     solution.deflection.push_back(values);
     solution.energy += subdomain.energyOffset;
   }

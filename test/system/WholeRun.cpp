@@ -72,17 +72,18 @@ RCP<const Comm> thisRankOnly() {
 Eigen::VectorXd deflection(const drivers::SceneRun& run, int body) {
   const auto& problem = run.decomposition->problem;
   const auto& mesh = *run.decomposition->bodies[static_cast<std::size_t>(body)].mesh;
+  const Eigen::Index n = problem.components;
   const auto numNodes = static_cast<Eigen::Index>(mesh.numNodes());
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(numNodes), copies = Eigen::VectorXd::Zero(numNodes);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n * numNodes), copies = Eigen::VectorXd::Zero(n * numNodes);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
     if (problem.subdomains[s].body == body)
       for (std::size_t i = 0; i < problem.subdomains[s].nodes.size(); ++i) {
         const auto node = static_cast<Eigen::Index>(problem.subdomains[s].nodes[i]);
-        sum[node] += run.solution.displacement[s][static_cast<Eigen::Index>(i)];
-        copies[node] += 1;
+        sum.segment(n * node, n) += run.solution.displacement[s].segment(n * static_cast<Eigen::Index>(i), n);
+        copies.segment(n * node, n).array() += 1;
       }
-  sumOverRanks(*problem.comm, {sum.data(), static_cast<std::size_t>(numNodes)});
-  sumOverRanks(*problem.comm, {copies.data(), static_cast<std::size_t>(numNodes)});
+  sumOverRanks(*problem.comm, {sum.data(), static_cast<std::size_t>(sum.size())});
+  sumOverRanks(*problem.comm, {copies.data(), static_cast<std::size_t>(copies.size())});
   return sum.cwiseQuotient(copies);
 }
 

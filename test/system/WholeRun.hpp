@@ -37,7 +37,7 @@ drivers::SceneRun solve(const scene::Scene& scene, double tolerance);
 /// This rank alone.
 RCP<const Comm> thisRankOnly();
 
-/// u at the nodes of a body, each node once, in the order of its mesh, on every rank. Collective.
+/// u at the nodes of a body, component by component, each node once, in the order of its mesh, on every rank. Collective.
 Eigen::VectorXd deflection(const drivers::SceneRun& run, int body);
 
 } // namespace epafi::test

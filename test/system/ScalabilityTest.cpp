@@ -1,0 +1,151 @@
+// Two elastic blocks, one on the other: the number of products with F hardly depends on how many subdomains there are,
+// nor on their shape, and the answer not at all.
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/decomposition/Decompose.hpp"
+
+#include <Tpetra_Core.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace epafi {
+namespace {
+
+using scene::Decomposition;
+
+/// How the upper block is loaded: its lid pressed down, so that all contact closes, or half of the block lifted.
+enum class Load { pressed, halfLifted };
+
+scene::Body block(const std::string& name, int dimension, double bottom, int elements) {
+  const bool isSolid = dimension == 3;
+  scene::Solid solid;
+  solid.physics = isSolid ? scene::Physics::elasticity3d : scene::Physics::planeStrain;
+  solid.material = {1, 200, 0.3, 1};
+  solid.mesh.box = isSolid ? scene::Box{{0, 0, bottom}, {1, 1, bottom + 1}}
+                           : scene::Box{{0, bottom, 0}, {1, bottom + 1, 0}};
+  solid.mesh.elements = {elements, elements, isSolid ? elements : 0};
+  scene::Body body;
+  body.name = name;
+  body.solid = solid;
+  return body;
+}
+
+/// \param cuts  1/H; METIS makes as many parts as a grid would. \param elements  H/h
+scene::Scene twoBlocks(int dimension, Load load, Decomposition::Method method, int cuts, int elements) {
+  const auto up = static_cast<std::size_t>(dimension - 1);
+  scene::Scene scene;
+  scene.bodies = {block("lower", dimension, 0, cuts * elements),
+                  block("upper", dimension, 1, cuts * elements)};
+  scene::SolidSupport floor{"floor", "bottom", {0.0, 0.0, std::nullopt}},
+      lid{"lid", "top", {0.0, 0.0, std::nullopt}};
+  if (dimension == 3)
+    floor.value[2] = lid.value[2] = 0.0;
+  lid.value[up] = -0.01;
+  scene.bodies[0].solid->supports = {floor};
+  scene.bodies[1].solid->supports = {lid};
+  scene::SolidLoad weight;
+  weight.name = "weight";
+  weight.value[up] = -1;
+  weight.box.upper[0] = 0.5;
+  scene::SolidLoad lift = weight;
+  lift.name = "lift";
+  lift.value[up] = 8;
+  lift.box = scene::Box{};
+  lift.box.lower[0] = 0.5;
+  scene.bodies[1].solid->loads = {weight};
+  if (load == Load::halfLifted)
+    scene.bodies[1].solid->loads.push_back(lift);
+  for (scene::Body& body : scene.bodies) {
+    body.decomposition.method = method;
+    body.decomposition.counts = {cuts, cuts, dimension == 3 ? cuts : 1};
+    body.decomposition.parts = dimension == 3 ? cuts * cuts * cuts : cuts * cuts;
+  }
+  scene::SurfaceContact contact;
+  contact.name = "joint";
+  contact.first = 0;
+  contact.firstSurface = "top";
+  contact.second = 1;
+  contact.secondSurface = "bottom";
+  scene.surfaceContacts = {contact};
+  return scene;
+}
+
+struct Solved {
+  int products = 0;
+  double energy = 0, projectedGradient = 0;
+};
+
+Solved solve(const scene::Scene& scene, double tolerance) {
+  const decomposition::Decomposition cut = decomposition::decompose(scene, Tpetra::getDefaultComm());
+  Teuchos::ParameterList parameters;
+  parameters.set("Tolerance", tolerance);
+  ContactSolver solver(parameters);
+  solver.setup(cut.problem);
+  const fetidp::ContactSolution solution = solver.solve();
+  EXPECT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
+  return {solver.report().counts.hessianMultiplications, solution.energy, solution.relativeProjectedGradient};
+}
+
+int products(int dimension, Load load, Decomposition::Method method, int cuts, int elements) {
+  const Solved solved = solve(twoBlocks(dimension, load, method, cuts, elements), 1e-6);
+  EXPECT_LE(solved.projectedGradient, 1e-6);
+  return solved.products;
+}
+
+constexpr auto grid = Decomposition::Method::grid, metis = Decomposition::Method::metis;
+
+TEST(ScalabilityTest, InThePlaneAClosedContactTakesHardlyMoreProductsWithMoreSubdomains) {
+  const int two = products(2, Load::pressed, grid, 2, 8), eight = products(2, Load::pressed, grid, 8, 8);
+  EXPECT_LE(two, 11); // 8 was measured
+  EXPECT_LT(eight, 1.5 * two);
+  EXPECT_LE(products(2, Load::pressed, grid, 16, 8), eight + 3);
+}
+
+/// What grows is the search for the contact zone, and it settles.
+TEST(ScalabilityTest, InThePlaneAHalfOpenContactSettles) {
+  const int four = products(2, Load::halfLifted, grid, 4, 8),
+            sixteen = products(2, Load::halfLifted, grid, 16, 8);
+  EXPECT_LE(four, 14);    // 11 was measured, 20 without averages
+  EXPECT_LE(sixteen, 18); // 13 to 16 with round-off; 34 without averages
+}
+
+TEST(ScalabilityTest, InSpaceProductsGrowLittle) {
+  for (const Load load : {Load::pressed, Load::halfLifted}) {
+    const int two = products(3, load, grid, 2, 4);
+    EXPECT_LE(two, 24); // 20 was measured; 36 with chained rows of gluing
+    EXPECT_LT(products(3, load, grid, 3, 4), 1.5 * two);
+    EXPECT_LT(products(3, load, grid, 4, 4), 1.5 * two);
+  }
+}
+
+TEST(ScalabilityTest, MetisPartsCostLittleMoreThanGridParts) {
+  for (const Load load : {Load::pressed, Load::halfLifted}) {
+    for (const int cuts : {2, 4, 8})
+      EXPECT_LT(products(2, load, metis, cuts, 8), 1.6 * products(2, load, grid, cuts, 8)) << cuts;
+    for (const int cuts : {2, 3})
+      EXPECT_LT(products(3, load, metis, cuts, 4), 1.6 * products(3, load, grid, cuts, 4)) << cuts;
+  }
+}
+
+/// Factorisations fail where a part is loose.
+TEST(ScalabilityTest, AnyNumberOfMetisPartsIsRegularAndGivesTheSameEnergy) {
+  for (const int dimension : {2, 3}) {
+    const int elements = dimension == 2 ? 16 : 6;
+    scene::Scene scene = twoBlocks(dimension, Load::halfLifted, grid, 1, elements);
+    const double energy = solve(scene, 1e-10).energy;
+    for (const int parts : {2, 3, 4, 5, 8, 11, 16, 23, 32}) {
+      for (scene::Body& body : scene.bodies) {
+        body.decomposition.method = metis;
+        body.decomposition.parts = parts;
+      }
+      EXPECT_NEAR(solve(scene, 1e-10).energy, energy, 1e-9 * std::abs(energy)) << dimension << ' ' << parts;
+    }
+    EXPECT_NEAR(solve(twoBlocks(dimension, Load::halfLifted, grid, 2, elements / 2), 1e-10).energy, energy,
+                1e-9 * std::abs(energy));
+  }
+}
+
+} // namespace
+} // namespace epafi
