@@ -67,16 +67,20 @@ void describeRegions(ParameterList& body) {
 }
 
 void describeSupports(ParameterList& body) {
-  ParameterList& support = body.sublist("Supports", false, "Where deflection or displacement is prescribed.")
-                               .sublist("<support>", false,
-                                        "One supported edge or surface. Of an elastic body those components "
-                                        "are held that are given: one alone makes a sliding support.");
+  ParameterList& support =
+      body.sublist("Supports", false, "Where deflection or displacement is prescribed.")
+          .sublist("<support>", false,
+                   "One supported edge or surface. Of an elastic body those components "
+                   "are held that are given: one alone, or the normal, makes a sliding support.");
   addChoice(support, "Edge", "", "Membranes on rectangles, required: the supported edge.", edges);
   support.set("Surface", "", "All other bodies, required: the supported surface.");
   addReal(support, "Value", Support().value, "Membranes: deflection along it.");
   addReal(support, "X", 0.0, "Elastic bodies: displacement in x; free if not given.");
   addReal(support, "Y", 0.0, "Elastic bodies: displacement in y; free if not given.");
   addReal(support, "Z", 0.0, "Elastic bodies in space: displacement in z; free if not given.");
+  addReal(
+      support, "Normal", 0.0,
+      "Elastic bodies: displacement along the surface's outward normal; the surface slides along itself.");
 }
 
 void describeLoads(ParameterList& body) {

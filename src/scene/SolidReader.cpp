@@ -114,9 +114,9 @@ std::vector<SolidSupport> readSupports(const ListReader& list, Physics physics) 
     const ListReader entry = list.inside(name);
     entry.refuseGiven({"Edge"}, "only membranes on rectangles have edges; name the \"Surface\"");
     entry.require("Surface");
-    SolidSupport support{name, entry.word("Surface"), {}};
+    SolidSupport support{name, entry.word("Surface"), {}, {}};
     if (!isElastic(physics)) {
-      entry.refuseGiven({"X", "Y", "Z"}, "a membrane's deflection is its \"Value\"");
+      entry.refuseGiven({"X", "Y", "Z", "Normal"}, "a membrane's deflection is its \"Value\"");
       support.value[0] = entry.real("Value");
     } else {
       entry.refuseGiven({"Value"},
@@ -129,10 +129,14 @@ std::vector<SolidSupport> readSupports(const ListReader& list, Physics physics) 
           support.value[static_cast<std::size_t>(c)] = entry.real(component);
           holds = true;
         }
+      if (entry.has("Normal")) {
+        support.normal = entry.real("Normal");
+        holds = true;
+      }
       if (!holds)
         entry.refuseList(
             "holds nothing; give at least one of the components that it prescribes, \"X\", \"Y\"" +
-            std::string(dimensionOf(physics) == 3 ? ", \"Z\"" : ""));
+            std::string(dimensionOf(physics) == 3 ? ", \"Z\"" : "") + ", or \"Normal\"");
     }
     supports.push_back(support);
   }

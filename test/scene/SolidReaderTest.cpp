@@ -112,6 +112,26 @@ TEST(SolidReaderTest, HoldsOnlyTheComponentsThatAreGiven) {
   EXPECT_EQ(support.value[2], -1.0);
 }
 
+TEST(SolidReaderTest, HoldsASurfaceAlongItsNormal) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& supports = bodyOf(list, "cube").sublist("Supports");
+  supports.sublist("rail").set("Surface", "left").set("Normal", -0.25);
+  supports.sublist("wall").set("Surface", "right").set("X", 0.0);
+  const scene::Solid solid = solidOf(list);
+  ASSERT_EQ(solid.supports.size(), 2u);
+  EXPECT_EQ(solid.supports[0].normal, -0.25);
+  EXPECT_FALSE(solid.supports[0].value[0]);
+  EXPECT_FALSE(solid.supports[1].normal);
+}
+
+TEST(SolidReaderTest, AMembraneIsNotHeldAlongItsNormal) {
+  ParameterList list;
+  ParameterList& body = bodyOf(list, "skin");
+  body.set("Mesh", "skin.msh");
+  body.sublist("Supports").sublist("rim").set("Surface", "rim").set("Normal", 0.5);
+  EXPECT_NE(refusal([&] { scene::readScene(list, "scenes/a.xml"); }).find("\"Value\""), std::string::npos);
+}
+
 TEST(SolidReaderTest, ReadsEveryKindOfLoad) {
   ParameterList list = cubeOnFloor();
   ParameterList& loads = bodyOf(list, "cube").sublist("Loads");
