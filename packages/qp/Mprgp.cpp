@@ -38,6 +38,7 @@ Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParamet
     lastX_ = rcp(new Vector(a_->getDomainMap()));
     lastG_ = rcp(new Vector(a_->getDomainMap()));
   }
+  predicts_ = parameters_.expansion == Expansion::activeSet;
   if (parameters_.timeLimit > 0)
     deadline_ = Teuchos::Time::wallTime() + parameters_.timeLimit;
 }
@@ -67,7 +68,7 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
       measure(rule);
       record(rule, intent, observer);
     } else {
-      const auto status = expansionStep(sizes);
+      const auto status = expansionStep(sizes, intent);
       measure(rule);
       record(rule, StepKind::expansion, observer);
       if (status)

@@ -122,8 +122,11 @@ private:
   // Its steps.
   std::optional<Status> setDirection(StepKind intent);
   void step(const StepSizes& sizes, StepKind kind);
-  std::optional<Status> expansionStep(const StepSizes& sizes);
+  std::optional<Status> expansionStep(const StepSizes& sizes, StepKind intent);
   std::optional<Status> safeTrial(Trial trial);
+  bool predictActiveSet(StepKind intent, double halfObjective);
+  void takeBoundsOff(StepKind intent, bool isFirst);
+  bool minimiseOnFace(double& target);
   // Passes over the vectors.
   void applyHessian(const Vector& x, Vector& ax);
   void precondition();
@@ -132,6 +135,7 @@ private:
   void move(double length, const StepSizes& sizes);
   double expansionLength(const StepSizes& sizes);
   Trial tryAlong(const Vector& direction, double length);
+  Trial tryPoint();
   void accept(const Trial& trial);
   void correctNorm(double rayleighQuotient);
   void measure(StoppingRule& rule);
@@ -150,6 +154,8 @@ private:
   Vector x_, b_, g_, p_, ap_;    ///< g scaled, b and Ap not
   RCP<Vector> residual_, z_;     ///< for the preconditioner: φ or φ + β, and M times it
   RCP<Vector> lastX_, lastG_;    ///< for Barzilai–Borwein: after the last expansion
+  RCP<Vector> face_, released_;  ///< for predictions: 1 in the face, else 0; β
+  RCP<Vector> bestX_, bestG_;    ///< likewise: the best trial point
   FusedReduction stepReduction_; ///< pᵀAp, gᵀp, pᵀp; α_f; also every other pair of sums
   static constexpr int numOwnSums = 9;
   FusedReduction
@@ -170,6 +176,8 @@ private:
   bool gradientIsFresh_ = false;
   bool isSatisfied_ = false; ///< what the rule says of the present iterate
   bool timeIsUp_ = false;
+  bool predicts_ = false;        ///< whether expansions predict the active set
+  int pause_ = 0, failures_ = 0; ///< of predictions: expansions until the next one; failures in a row
   double deadline_ = 0;
   int refreshes_ = 0;
   ProgressWatch progress_{150};

@@ -10,11 +10,13 @@
 namespace epafi::qp {
 namespace {
 
-constexpr std::array<std::pair<const char*, Expansion>, 4> expansions{{
+constexpr std::array<std::pair<const char*, Expansion>, 6> expansions{{
+    {"auto", Expansion::automatic},
     {"projected CG", Expansion::projectedCg},
     {"fixed step", Expansion::fixedStep},
     {"optimal", Expansion::optimal},
     {"Barzilai-Borwein", Expansion::barzilaiBorwein},
+    {"active set", Expansion::activeSet},
 }};
 
 constexpr std::array<std::pair<const char*, Release>, 2> releases{{
@@ -51,10 +53,11 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
           0.0, 1e6);
   addChoice(list, "Expansion", expansions.front().first,
             "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
-            "step, or "
-            "from the boundary along the free gradient with a fixed, an optimal, or a Barzilai–Borwein step "
-            "length. "
-            "One that raises the objective is repeated with the fixed step.",
+            "step ('projected CG'); from the boundary along the free gradient with a fixed, an optimal, or a "
+            "Barzilai–Borwein step length; or where CG in the face and projections lead in turns ('active "
+            "set'). One that raises the objective is repeated with the fixed step. 'auto': projected CG and, "
+            "with a "
+            "preconditioner, once one of its steps has raised the objective, active set.",
             namesOf(expansions));
   addReal(
       list, "Sufficient Share", defaults.sufficientShare,

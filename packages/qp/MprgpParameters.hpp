@@ -8,10 +8,12 @@ namespace epafi::qp {
 
 /// Where a conjugate gradient step that would leave the set goes from its feasible half step x^½ = x − α_f p.
 enum class Expansion {
-  fixedStep,      ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
-  projectedCg,    ///< P(x − α_cg p) (MPPCG; Kružík, Horák, Čermák, Pospíšil, Pecha 2020)
-  optimal,        ///< P(x^½ − α φ), α the exact minimiser along φ; one more product
-  barzilaiBorwein ///< P(x^½ − α φ), α = sᵀs/sᵀy of the change of x and g since the last expansion
+  automatic,   ///< projectedCg; with a preconditioner, once one of its steps raised the objective, activeSet
+  fixedStep,   ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
+  projectedCg, ///< P(x − α_cg p) (MPPCG; Kružík, Horák, Čermák, Pospíšil, Pecha 2020)
+  optimal,     ///< P(x^½ − α φ), α the exact minimiser along φ; one more product
+  barzilaiBorwein, ///< P(x^½ − α φ), α = sᵀs/sᵀy of the change of x and g since the last expansion
+  activeSet ///< where a primal–dual active set method leads (Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003))
 };
 
 /// The direction that leaves a face which is no longer proportional.
@@ -22,7 +24,7 @@ enum class Release {
 
 struct MprgpParameters {
   double proportioningConstant = 0; ///< Γ > 0; 0: not chosen, which is 1 but where the caller knows better
-  Expansion expansion = Expansion::projectedCg;
+  Expansion expansion = Expansion::automatic;
   /// Of a CG step that meets the boundary: with at least this share it is good enough, and ends there (a cut to the share
   /// s has 1 − (1 − s)² of the decrease); 1: never; 0: not chosen, which is 1 but where the caller
   /// knows better.

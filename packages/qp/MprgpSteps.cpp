@@ -157,14 +157,25 @@ void Mprgp::move(double length, const StepSizes& sizes) {
 
 /// x^½ = x − α_f p, then, if that is only a small part of the step, a trial point beyond it that must not raise the
 /// objective.
-std::optional<Status> Mprgp::expansionStep(const StepSizes& sizes) {
+std::optional<Status> Mprgp::expansionStep(const StepSizes& sizes, StepKind intent) {
   ++counts_.expansion;
-  move(sizes.feasible, sizes);
+  const bool hasCurvature = sizes.curvature > 1e-14 * norm_ * sizes.squared;
   conjugate_ = false;
+  if (predicts_ && hasCurvature && pause_-- <= 0) {
+    const double half =
+        objective_ + sizes.feasible * (0.5 * sizes.feasible * sizes.curvature - sizes.slope); // f(x^½)
+    if (predictActiveSet(intent, half))
+      return std::nullopt;
+    set_->projectedGradient(x_, g_, 0.0, ap_); // p is gone
+    return safeTrial(tryAlong(ap_, parameters_.expansionStep / (norm_ > 0 ? norm_ : 1.0)));
+  }
+  move(sizes.feasible, sizes);
   if (sufficientShare_ < 1 && sizes.feasible * sizes.curvature >= sufficientShare_ * sizes.slope)
     return std::nullopt; // x^½ is good enough
-  const bool hasCurvature = sizes.curvature > 1e-14 * norm_ * sizes.squared;
-  if (parameters_.expansion == Expansion::projectedCg && hasCurvature) {
+  const bool projects = parameters_.expansion == Expansion::projectedCg ||
+                        parameters_.expansion == Expansion::automatic ||
+                        parameters_.expansion == Expansion::activeSet;
+  if (projects && hasCurvature) {
     set_->subtractFromFreeGradient(x_, g_, 0.0, ap_); // φ(x^½), for the safeguard
     return safeTrial(tryAlong(p_, sizes.slope / sizes.curvature - sizes.feasible));
   }
@@ -218,6 +229,7 @@ std::optional<Status> Mprgp::safeTrial(Trial trial) {
       return std::nullopt;
     }
     ++counts_.safeguards;
+    predicts_ = predicts_ || (parameters_.expansion == Expansion::automatic && !preconditioner_.is_null());
     if (counts_.hessianMultiplications >= parameters_.maxMultiplications)
       break;
     const bool wasFixed = repeats > 0 || parameters_.expansion == Expansion::fixedStep;
@@ -238,6 +250,11 @@ Mprgp::Trial Mprgp::tryAlong(const Vector& direction, double length) {
   for (std::size_t i = 0; i < trialPoint.size(); ++i)
     trialPoint[i] = start[i] - length * along[i];
   set_->project(p_);
+  return tryPoint();
+}
+
+/// The gradient at the point that p holds goes into g.
+Mprgp::Trial Mprgp::tryPoint() {
   applyHessian(p_, g_);
   const auto trial = localData(p_), half = localData(x_), b = localData(b_), free = localData(ap_);
   const auto g = localDataNonConst(g_);

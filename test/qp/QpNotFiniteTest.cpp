@@ -68,10 +68,11 @@ TEST_P(QpLateFaultTest, IsNamedWhereverItAppears) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Faults, QpLateFaultTest,
-    testing::Combine(testing::Bool(), testing::Values(std::nan(""), unlimited, -unlimited),
-                     testing::Values("projected CG", "fixed step", "optimal", "Barzilai-Borwein")));
+INSTANTIATE_TEST_SUITE_P(Faults, QpLateFaultTest,
+                         testing::Combine(testing::Bool(),
+                                          testing::Values(std::nan(""), unlimited, -unlimited),
+                                          testing::Values("projected CG", "fixed step", "optimal",
+                                                          "Barzilai-Borwein", "active set")));
 
 TEST(QpNotFiniteTest, NanInAFixedEntryIsNotOverlooked) {
   const DenseProgram program = mixedProgram(10, 10, 71); // entry 4 is fixed
