@@ -70,10 +70,21 @@ bool areCutAlike(const fem::Mesh& a, const scene::Decomposition& cut, const fem:
 }
 
 /// Collective.
-std::shared_ptr<const Partition> makePartition(const scene::Decomposition& cut, const fem::Mesh& mesh,
+std::shared_ptr<const Partition> cutByMetis(const scene::Body& body, const fem::Mesh& mesh,
+                                            const Comm& comm) {
+  try {
+    return std::make_shared<const GraphPartition>(mesh, body.decomposition.parts, comm);
+  } catch (const InputError& error) { // the same on all ranks
+    throw InputError("body '" + body.name + "': " + error.what());
+  }
+}
+
+/// Collective.
+std::shared_ptr<const Partition> makePartition(const scene::Body& body, const fem::Mesh& mesh,
                                                const Comm& comm) {
+  const scene::Decomposition& cut = body.decomposition;
   if (cut.method == scene::Decomposition::Method::metis)
-    return std::make_shared<const GraphPartition>(mesh, cut.parts, comm);
+    return cutByMetis(body, mesh, comm);
   if (const auto* box = dynamic_cast<const fem::BoxMesh*>(&mesh))
     return std::make_shared<const GridPartition>(*box, cut.counts);
   return std::make_shared<const GridPartition>(dynamic_cast<const fem::RectangleMesh&>(mesh),
@@ -112,8 +123,8 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
     while (alike < b && !areCutAlike(*bodies[alike].mesh, scene.bodies[alike].decomposition, *bodies[b].mesh,
                                      scene.bodies[b].decomposition))
       ++alike;
-    bodies[b].partition = alike < b ? bodies[alike].partition
-                                    : makePartition(scene.bodies[b].decomposition, *bodies[b].mesh, comm);
+    bodies[b].partition =
+        alike < b ? bodies[alike].partition : makePartition(scene.bodies[b], *bodies[b].mesh, comm);
     bodies[b].firstSubdomain = firstSubdomain;
     firstSubdomain += bodies[b].partition->numParts();
   }

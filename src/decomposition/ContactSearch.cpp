@@ -70,17 +70,19 @@ void meetObstacle(const scene::SurfaceContact& contact, const SurfaceNodes& firs
     if (gap > contact.distance)
       continue;
     isAnyNear = true;
+    if (direction.norm() < 0.5) // a node in the centre of a sphere has no nearest point
+      throw refusal(contact, "the node at " + text(first.points[i]) +
+                                 " lies in the centre of the obstacle; move the obstacle");
     if (first.normals[i].dot(direction) <= 0)
       continue;
-    if (!direction.allFinite() || direction.norm() < 0.5)
-      throw refusal(contact, "the node at " + text(first.points[i]) + " lies in the centre of the obstacle");
     layout.firstNodes.push_back(first.nodes[i]);
     addRow(direction, gap + contact.gap, first.areas[i], dimension, layout);
   }
   if (isAnyNear && layout.firstNodes.empty())
-    throw refusal(contact,
-                  "the surface '" + contact.firstSurface +
-                      "' faces away from the obstacle; does the obstacle's normal point to the body?");
+    throw refusal(contact, "the surface '" + contact.firstSurface + "' faces away from the obstacle; " +
+                               (contact.obstacle.kind == scene::Obstacle::Kind::plane
+                                    ? "does the obstacle's normal point to the body?"
+                                    : "is the centre of the obstacle inside the body?"));
 }
 
 /// Spacing of the nodes around one of them.
@@ -192,7 +194,9 @@ ContactLayout searchContact(const scene::SurfaceContact& contact, const std::vec
              dimension, components, layout);
   if (layout.firstNodes.empty())
     throw refusal(contact, "no node of the surface '" + contact.firstSurface +
-                               "' is near enough to the other side to meet it; enlarge the distance");
+                               (std::isfinite(contact.distance)
+                                    ? "' is near enough to the other side to meet it; enlarge the distance"
+                                    : "' faces a node of the other side; check which surfaces are to meet"));
   return layout;
 }
 

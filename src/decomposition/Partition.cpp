@@ -36,9 +36,35 @@ DualGraph dualGraphOf(const fem::Mesh& mesh) {
   return graph;
 }
 
+/// METIS would refuse in words of its own. \throws InputError
+void requireConnected(const DualGraph& graph, const fem::Mesh& mesh) {
+  std::vector<char> isReached(static_cast<std::size_t>(mesh.numElements()), 0);
+  std::vector<idx_t> front{0};
+  isReached[0] = 1;
+  GlobalOrdinal numReached = 1;
+  while (!front.empty()) {
+    const auto element = static_cast<std::size_t>(front.back());
+    front.pop_back();
+    for (idx_t k = graph.start[element]; k < graph.start[element + 1]; ++k)
+      if (const idx_t other = graph.neighbours[static_cast<std::size_t>(k)];
+          isReached[static_cast<std::size_t>(other)] == 0) {
+        isReached[static_cast<std::size_t>(other)] = 1;
+        ++numReached;
+        front.push_back(other);
+      }
+  }
+  if (numReached < mesh.numElements())
+    throw InputError("only " + std::to_string(numReached) + " of its " + std::to_string(mesh.numElements()) +
+                     " elements are joined with each other in whole " +
+                     (dimensionOf(mesh.cellType()) == 2 ? "edges" : "faces") +
+                     ", so that it cannot be cut into parts that hang together; make each part a body of its "
+                     "own, or join the parts in the mesh");
+}
+
 /// METIS on the dual graph of the mesh; the part of every element.
 std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts, const std::vector<int>& weights) {
   DualGraph graph = dualGraphOf(mesh);
+  requireConnected(graph, mesh);
   std::vector<idx_t> cost(weights.begin(), weights.end());
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);

@@ -25,12 +25,12 @@ SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface) {
     std::transform(nodes.begin(), nodes.end(), corners.begin(),
                    [&](GlobalOrdinal node) { return mesh.point(node); });
     const Eigen::Vector3d normal = fem::areaVector(corners);
-    const double share = fem::facetMeasure(corners) / static_cast<double>(perFacet);
-    for (const GlobalOrdinal node : nodes) {
+    const std::array<double, 4> shares = fem::nodalShares(corners);
+    for (std::size_t a = 0; a < perFacet; ++a) {
       const auto place = static_cast<std::size_t>(
-          std::lower_bound(result.nodes.begin(), result.nodes.end(), node) - result.nodes.begin());
+          std::lower_bound(result.nodes.begin(), result.nodes.end(), nodes[a]) - result.nodes.begin());
       result.normals[place] += normal;
-      result.areas[place] += share;
+      result.areas[place] += shares[a];
     }
   }
   for (Eigen::Vector3d& normal : result.normals)

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <span>
 
 namespace epafi::fem {
@@ -18,17 +19,9 @@ Point centreOf(std::span<const Point> points);
 /// Area or volume; exact, negative if the element is inside out.
 double measureOf(CellType type, std::span<const Point> points);
 
-/// Smallest determinant of ∂x/∂ξ at the corners and Gauss points; an element is usable only where it is positive. Of
-/// triangles, quadrilaterals and tetrahedra it is the smallest anywhere.
-double smallestJacobian(CellType type, std::span<const Point> points);
-
-/// The same without units, −1 to 1: the determinant over the product of the lengths of ∂x/∂ξ's columns, smallest at the
-/// corners and Gauss points (P. M. Knupp's scaled Jacobian). 1 for rectangles and boxes, equilateral triangles and regular
-/// tetrahedra; 0 for flat or degenerate elements, negative for inverted ones.
-double scaledJacobian(CellType type, std::span<const Point> points);
-
-/// Length of an edge (2 points) or area of a face (3 or 4, exact if they lie in a plane).
-double facetMeasure(std::span<const Point> points);
+/// ∫N_a over a facet of 2, 3 or 4 points: what of its length or area node a has, all of it together. Exact if the points lie
+/// in a plane. What is not a node has 0.
+std::array<double, 4> nodalShares(std::span<const Point> points);
 
 /// ∫n over a facet, exact; the normal points outwards if the nodes are in the order of facetsOf() or Surface.
 Eigen::Vector3d areaVector(std::span<const Point> points);

@@ -3,7 +3,7 @@
 /// Stiffness and loads of one linear element of a body, and what its displacements mean. Rows are node by node: node ×
 /// components + component, with one component for membranes and as many as the element has dimensions otherwise.
 /// Preconditions of all: points are the element's corners in the order of Cell.hpp; plane elements go with membranes, plane
-/// strain and plane stress, solid ones with elasticity in space; smallestJacobian() is positive. Nothing is allocated if
+/// strain and plane stress, solid ones with elasticity in space; their leastJacobian (ElementShape.hpp) is positive. Nothing is allocated if
 /// the result has its size already; calls from several threads do not disturb each other.
 
 #include "epafi/fem/Cell.hpp"

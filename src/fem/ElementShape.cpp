@@ -1,6 +1,7 @@
 #include "epafi/fem/ElementShape.hpp"
 
-#include <Eigen/Dense>
+#include "epafi/fem/ElementMap.hpp"
+#include "epafi/fem/ShapeFunctions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,24 +10,16 @@
 namespace epafi::fem {
 namespace {
 
-using Vector3 = Eigen::Vector3d;
-
-Vector3 vectorOf(const Point& point) {
-  return {point[0], point[1], point[2]};
-}
-
-/// The z-component of a × b.
-double cross(const Vector3& a, const Vector3& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-
-double triangleArea(std::span<const Point> p) {
-  return cross(vectorOf(p[1]) - vectorOf(p[0]), vectorOf(p[2]) - vectorOf(p[0])) / 2;
-}
-
-double tetrahedronVolume(std::span<const Point> p) {
-  const Vector3 origin = vectorOf(p[0]);
-  return (vectorOf(p[1]) - origin).cross(vectorOf(p[2]) - origin).dot(vectorOf(p[3]) - origin) / 6;
+double diameterOf(std::span<const Point> corners) {
+  double square = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      double sum = 0;
+      for (std::size_t d = 0; d < 3; ++d)
+        sum += (corners[i][d] - corners[j][d]) * (corners[i][d] - corners[j][d]);
+      square = std::max(square, sum);
+    }
+  return std::sqrt(square);
 }
 
 void noteJacobian(ElementShape& shape, double value, int corner) {
@@ -36,63 +29,21 @@ void noteJacobian(ElementShape& shape, double value, int corner) {
   }
 }
 
-/// The determinant of a bilinear map is linear, so that its least value lies at a corner.
-void measureQuadrilateral(std::span<const Point> p, ElementShape& shape) {
-  shape.measure = cross(vectorOf(p[2]) - vectorOf(p[0]), vectorOf(p[3]) - vectorOf(p[1])) / 2;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector3 corner = vectorOf(p[i]);
-    noteJacobian(shape, cross(vectorOf(p[(i + 1) % 4]) - corner, vectorOf(p[(i + 3) % 4]) - corner),
-                 static_cast<int>(i));
+/// Of a simplex the determinant is the same everywhere; of a quadrilateral it is linear, so that its least value lies at a
+/// corner.
+template <class Shape>
+void measure(std::span<const Point> points, ElementShape& shape) {
+  constexpr double reference = Shape::numGaussPoints * Shape::gaussWeight; // measure of the reference element
+  const auto corners = relativeCorners<Shape>(points);
+  if constexpr (Shape::numGaussPoints > 1) {
+    int corner = 0;
+    for (const auto& sample : cornerSamples<Shape>())
+      noteJacobian(shape, reference * ElementMap<Shape>(corners, sample).determinant(), corner++);
   }
-}
-
-/// Corners of the unit cube in the order of a hexahedron's nodes.
-constexpr std::array<std::array<double, 3>, 8> cube{
-    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
-
-using Gradients = Eigen::Matrix<double, 8, 3>;
-
-/// Gradients of the trilinear shape functions at a point of the unit cube.
-Gradients gradientsAt(const std::array<double, 3>& at) {
-  Gradients gradients;
-  for (std::size_t i = 0; i < 8; ++i) {
-    std::array<double, 3> factor{}, sign{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      factor[k] = cube[i][k] > 0 ? at[k] : 1 - at[k];
-      sign[k] = cube[i][k] > 0 ? 1 : -1;
-    }
-    gradients.row(static_cast<Eigen::Index>(i)) << sign[0] * factor[1] * factor[2],
-        factor[0] * sign[1] * factor[2], factor[0] * factor[1] * sign[2];
-  }
-  return gradients;
-}
-
-/// The same at the corners, and at the Gauss points nearest to them.
-struct CubeGradients {
-  std::array<Gradients, 8> corners, gauss;
-
-  CubeGradients() {
-    const double offset = 0.5 / std::sqrt(3.0);
-    for (std::size_t i = 0; i < 8; ++i) {
-      std::array<double, 3> inside{};
-      for (std::size_t k = 0; k < 3; ++k)
-        inside[k] = cube[i][k] > 0 ? 0.5 + offset : 0.5 - offset;
-      corners[i] = gradientsAt(cube[i]);
-      gauss[i] = gradientsAt(inside);
-    }
-  }
-};
-
-void measureHexahedron(std::span<const Point> p, ElementShape& shape) {
-  static const CubeGradients gradients;
-  Eigen::Matrix<double, 3, 8> x;
-  for (std::size_t i = 0; i < 8; ++i)
-    x.col(static_cast<Eigen::Index>(i)) = vectorOf(p[i]);
-  for (std::size_t i = 0; i < 8; ++i) {
-    const double inside = (x * gradients.gauss[i]).determinant();
-    shape.measure += inside / 8; // exact: the determinant is quadratic in each coordinate
-    noteJacobian(shape, (x * gradients.corners[i]).determinant(), static_cast<int>(i));
-    noteJacobian(shape, inside, -1);
+  for (const auto& sample : gaussSamples<Shape>()) {
+    const double inside = ElementMap<Shape>(corners, sample).determinant();
+    shape.measure += Shape::gaussWeight * inside; // exact, see Brick
+    noteJacobian(shape, reference * inside, -1);
   }
 }
 
@@ -100,25 +51,9 @@ void measureHexahedron(std::span<const Point> p, ElementShape& shape) {
 
 ElementShape shapeOf(CellType type, std::span<const Point> corners) {
   ElementShape shape;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      shape.diameter = std::max(shape.diameter, (vectorOf(corners[i]) - vectorOf(corners[j])).squaredNorm());
-  shape.diameter = std::sqrt(shape.diameter);
+  shape.diameter = diameterOf(corners);
   shape.leastJacobian = std::numeric_limits<double>::infinity();
-  switch (type) {
-  case CellType::triangle:
-    shape.measure = shape.leastJacobian = triangleArea(corners);
-    break;
-  case CellType::quadrilateral:
-    measureQuadrilateral(corners, shape);
-    break;
-  case CellType::tetrahedron:
-    shape.measure = shape.leastJacobian = tetrahedronVolume(corners);
-    break;
-  case CellType::hexahedron:
-    measureHexahedron(corners, shape);
-    break;
-  }
+  withShape(type, [&](auto reference) { measure<decltype(reference)>(corners, shape); });
   return shape;
 }
 

@@ -1,5 +1,6 @@
 #include "epafi/fem/FacetLoads.hpp"
 
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
@@ -20,19 +21,15 @@ using scene::Physics;
 void tractionLoad(std::span<const Point> points, Physics physics, const scene::Material& material,
                   const scene::Vector3& traction, Eigen::VectorXd& load) {
   assert(fits(points, physics));
-  withFacetShape(points.size(), [&](auto shape) {
-    using Shape = decltype(shape);
-    const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
-    typename Shape::Values integrals = Shape::Values::Zero(); // ∫N_a
-    for (const auto& sample : gaussSamples<Shape>())
-      integrals += (Shape::gaussWeight * facetNormal<Shape>(corners, sample).norm()) * sample.values;
-    const int components = physics == Physics::membrane ? 1 : Shape::dimension + 1;
-    const double thickness = thicknessOf(physics, material);
-    load.resize(Shape::numNodes * components);
-    for (int a = 0; a < Shape::numNodes; ++a)
-      for (int i = 0; i < components; ++i)
-        load[a * components + i] = thickness * integrals[a] * traction[static_cast<std::size_t>(i)];
-  });
+  const std::array<double, 4> shares = nodalShares(points);
+  const auto numNodes = static_cast<int>(points.size());
+  const int components = physics == Physics::membrane ? 1 : numNodes == 2 ? 2 : 3;
+  const double thickness = thicknessOf(physics, material);
+  load.resize(static_cast<Eigen::Index>(numNodes) * components);
+  for (int a = 0; a < numNodes; ++a)
+    for (int i = 0; i < components; ++i)
+      load[a * components + i] =
+          thickness * shares[static_cast<std::size_t>(a)] * traction[static_cast<std::size_t>(i)];
 }
 
 void pressureLoad(std::span<const Point> points, Physics physics, const scene::Material& material,

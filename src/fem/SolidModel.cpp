@@ -13,7 +13,7 @@ namespace {
 
 SolidBody checked(SolidBody body) {
   requireDimension(body);
-  requireNoMechanism(body);
+  requireJoined(body);
   return body;
 }
 

@@ -22,8 +22,8 @@ class SolidModel final : public BodyModel {
 public:
   /// Keeps references to scene and mesh. \throws InputError, with the body's name, if a surface or group that the scene names is not in
   /// the mesh, a region or load meets no element, a point load no node, supports contradict each other or hardly hold the
-  /// body, the physics does not go with the mesh's dimension, or parts of an elastic body are joined in nodes or edges
-  /// only: a mechanism.
+  /// body, the physics does not go with the mesh's dimension, parts of the body are not joined, or
+  /// those of an elastic one in nodes or edges only: a mechanism.
   SolidModel(std::string name, const scene::Solid& solid, const Mesh& mesh);
 
   [[nodiscard]] const Mesh& mesh() const override { return body_.mesh; }

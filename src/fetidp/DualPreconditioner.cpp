@@ -34,9 +34,15 @@ DualPreconditioner::DualPreconditioner(const decomposition::DecomposedProblem& p
       input_(inverse_->multiplierPlan()), output_(inverse_->multiplierPlan()),
       smooth_(rcp(new MultiVector(map_, 1))), result_(rcp(new MultiVector(map_, 1))) {
   collectively(*problem.comm, [&] { makeBlocks(problem, parameters.type, parameters.isSingle); });
-  const Weights weights = scale(problem, parameters.scaling);
+  ScaledConstraint scaled =
+      scaleConstraint(problem, crosspoints_, parameters.scaling, inverse_->multiplierPlan());
+  for (Block& block : blocks_)
+    for (const std::size_t member : std::as_const(*inverse_).groups()[block.group].members())
+      block.weights.insert(block.weights.end(), scaled.boundary[member].begin(),
+                           scaled.boundary[member].end());
+  untouched_ = std::move(scaled.untouched);
   if (crosspoints_.size() > 0)
-    prepareCrosspoints(weights);
+    prepareCrosspoints(scaled);
 }
 
 void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& problem,
@@ -54,88 +60,16 @@ void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& prob
   }
 }
 
-/// The diagonal of K̄ at the crosspoint values that contact touches: B has an entry for one copy of each, whose own
-/// stiffness may be far from that of all. Collective.
-Eigen::VectorXd DualPreconditioner::crosspointStiffness(const decomposition::DecomposedProblem& problem) {
-  touchedSums_.assign(static_cast<std::size_t>(crosspoints_.size()), AccurateSum());
-  for (const auto& subdomain : problem.subdomains)
-    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
-      if (const int touched = crosspoints_.indexOf(subdomain.crosspointIndices[i]); touched >= 0) {
-        const int unknown = subdomain.crosspointUnknowns[i];
-        touchedSums_[static_cast<std::size_t>(touched)].add(subdomain.stiffness->coeff(unknown, unknown));
-      }
-  sumOverRanks(*map_->getComm(), touchedSums_);
-  Eigen::VectorXd diagonal(crosspoints_.size());
-  for (std::size_t i = 0; i < touchedSums_.size(); ++i)
-    diagonal[static_cast<Eigen::Index>(i)] = touchedSums_[i].value();
-  return diagonal;
-}
-
-/// The weights (b_i/δ_i) / Σ_k b_k²/δ_k. Collective.
-DualPreconditioner::Weights DualPreconditioner::scale(const decomposition::DecomposedProblem& problem,
-                                                      PreconditionerParameters::Scaling scaling) {
-  const Eigen::VectorXd atCrosspoints = crosspointStiffness(problem);
-  const auto stiffnessAt = [&](const decomposition::Subdomain& subdomain, int unknown) {
-    if (scaling == PreconditionerParameters::Scaling::multiplicity)
-      return 1.0;
-    if (const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
-        std::binary_search(crosspoints.begin(), crosspoints.end(), unknown))
-      return atCrosspoints[touchedIndexOf(subdomain, unknown)];
-    return subdomain.stiffness->coeff(unknown, unknown);
-  };
-  const std::span<double> sums = output_.values();
-  std::fill(sums.begin(), sums.end(), 0.0);
-  for (const auto& subdomain : problem.subdomains)
-    for (const auto& entry : subdomain.constraint)
-      sums[static_cast<std::size_t>(entry.multiplier)] +=
-          entry.coefficient * entry.coefficient / stiffnessAt(subdomain, entry.unknown);
-  output_.sumToOwners(*result_);
-  const auto total = result_->getData(0);
-  for (Teuchos_Ordinal row = 0; row < total.size(); ++row)
-    if (total[row] == 0)
-      untouched_.push_back(static_cast<int>(row));
-
-  const std::span<const double> totals = input_.toSubdomains(*result_);
-  Weights weights{{}, std::vector<double>(totals.size(), 0.0)};
-  for (Block& block : blocks_) {
-    const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
-    for (const std::size_t member : group.members()) {
-      const decomposition::Subdomain& subdomain = problem.subdomains[member];
-      for (const auto& entry : subdomain.constraint) {
-        const double weight = entry.coefficient / stiffnessAt(subdomain, entry.unknown) /
-                              totals[static_cast<std::size_t>(entry.multiplier)];
-        if (group.condensed().interface().positionOf[static_cast<std::size_t>(entry.unknown)] <
-            group.condensed().numBoundary()) {
-          block.weights.push_back(weight);
-          weights.boundaryShares[static_cast<std::size_t>(entry.multiplier)] += weight * entry.coefficient;
-        } else {
-          weights.atCrosspoints.push_back(
-              {entry.multiplier, touchedIndexOf(subdomain, entry.unknown), weight});
-        }
-      }
-    }
-  }
-  return weights;
-}
-
-/// Index among the crosspoint values that contact touches, of an unknown that is one.
-int DualPreconditioner::touchedIndexOf(const decomposition::Subdomain& subdomain, int unknown) const {
-  const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
-  const auto found = std::lower_bound(crosspoints.begin(), crosspoints.end(), unknown);
-  return crosspoints_.indexOf(
-      subdomain.crosspointIndices[static_cast<std::size_t>(found - crosspoints.begin())]);
-}
-
 /// C and the shares go to the owners of their rows; groups learn which of their crosspoints may move. Collective.
-void DualPreconditioner::prepareCrosspoints(const Weights& weights) {
-  std::copy(weights.boundaryShares.begin(), weights.boundaryShares.end(), output_.values().begin());
+void DualPreconditioner::prepareCrosspoints(const ScaledConstraint& scaled) {
+  std::copy(scaled.boundaryShares.begin(), scaled.boundaryShares.end(), output_.values().begin());
   output_.sumToOwners(*result_);
   for (const double share : result_->getData(0))
     inverseShares_.push_back(share > 0 ? 1 / share : 0.0);
 
   const Map& ghosts = *inverse_->multiplierPlan()->getTargetMap();
   std::vector<double> mine; // row, touched, weight
-  for (const CrosspointWeight& entry : weights.atCrosspoints)
+  for (const ScaledConstraint::CrosspointEntry& entry : scaled.atCrosspoints)
     mine.insert(mine.end(), {static_cast<double>(ghosts.getGlobalElement(entry.multiplier)),
                              static_cast<double>(entry.touched), entry.weight});
   const std::vector<double> all = gatherOnAll(*map_->getComm(), mine);
@@ -143,7 +77,7 @@ void DualPreconditioner::prepareCrosspoints(const Weights& weights) {
     if (const LocalOrdinal row = map_->getLocalElement(static_cast<GlobalOrdinal>(all[k])); row >= 0)
       crosspointWeights_.push_back({row, static_cast<int>(all[k + 1]), all[k + 2]});
   std::sort(crosspointWeights_.begin(), crosspointWeights_.end(),
-            [](const CrosspointWeight& a, const CrosspointWeight& b) {
+            [](const ScaledConstraint::CrosspointEntry& a, const ScaledConstraint::CrosspointEntry& b) {
               return std::pair(a.multiplier, a.touched) < std::pair(b.multiplier, b.touched);
             });
 
@@ -186,7 +120,7 @@ void DualPreconditioner::prepareColumns(Eigen::Index numColumns) const {
 void DualPreconditioner::moveCrosspoints(const MultiVector& lambda) const {
   for (Eigen::Index j = 0; j < displacement_.cols(); ++j) {
     const auto values = lambda.getData(static_cast<std::size_t>(j));
-    for (const CrosspointWeight& entry : crosspointWeights_)
+    for (const ScaledConstraint::CrosspointEntry& entry : crosspointWeights_)
       touchedSums_[static_cast<std::size_t>(entry.touched + j * displacement_.rows())].add(
           entry.weight * values[entry.multiplier]);
   }
@@ -297,7 +231,7 @@ void DualPreconditioner::addCrosspointForces() const {
   forces_.noalias() += crosspoints_.extension().transpose() * nearForces_;
   for (Eigen::Index j = 0; j < displacement_.cols(); ++j) {
     const auto values = result_->getDataNonConst(static_cast<std::size_t>(j));
-    for (const CrosspointWeight& entry : crosspointWeights_)
+    for (const ScaledConstraint::CrosspointEntry& entry : crosspointWeights_)
       values[entry.multiplier] += entry.weight * forces_(entry.touched, j);
   }
 }

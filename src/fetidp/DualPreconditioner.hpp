@@ -5,11 +5,9 @@
 /// energy of all such displacements: no eigenvalue of MF is below 1 (Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006),
 /// for gluing).
 ///
-/// On the boundaries E is B_D, which is B with its entries scaled row by row,
-///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
-/// δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at crosspoints, of K̄) for stiffness (ρ) scaling. Rows of contact
-/// are treated like those of gluing. B B_Dᵀ = I asks for rows that are orthogonal in D⁻¹, which decompose() gives for
-/// stiffness scaling.
+/// On the boundaries E is B_D, which is B with its entries scaled row by row (ScaledConstraint.hpp). Rows of contact are
+/// treated like those of gluing. B B_Dᵀ = I asks for rows that are orthogonal in D⁻¹, which decompose() gives for stiffness
+/// scaling.
 /// Where contact touches crosspoints these move by u = C λ, C = B_Dᵀ there, and the others of the body follow, X u
 /// (ContactCrosspoints.hpp). The boundaries follow too, each subdomain for itself, −Ψ_Δ X u, and so come apart: they jump by
 /// J u. What B_D still has to do is λ − J u, and
@@ -24,6 +22,7 @@
 #include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
+#include "epafi/fetidp/ScaledConstraint.hpp"
 
 #include <Tpetra_Operator.hpp>
 
@@ -60,22 +59,9 @@ private:
     Eigen::MatrixXi near;          ///< n_c × m: of each member's crosspoint values; empty where none moves
     Eigen::MatrixXd motion;        ///< work, n_c × mk: of these crosspoint values, or the forces there
   };
-  /// An entry of C.
-  struct CrosspointWeight {
-    int multiplier, touched; ///< among this rank's own; index in ContactCrosspoints
-    double weight;
-  };
-  /// B_D on the ghost map.
-  struct Weights {
-    std::vector<CrosspointWeight> atCrosspoints;
-    std::vector<double> boundaryShares; ///< Σ b_i B_D,i of each row over the boundary entries, 1 for most
-  };
   void makeBlocks(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Type type,
                   bool isSingle);
-  Eigen::VectorXd crosspointStiffness(const decomposition::DecomposedProblem& problem);
-  Weights scale(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Scaling scaling);
-  void prepareCrosspoints(const Weights& weights);
-  [[nodiscard]] int touchedIndexOf(const decomposition::Subdomain& subdomain, int unknown) const;
+  void prepareCrosspoints(const ScaledConstraint& scaled);
   void prepareColumns(Eigen::Index numColumns) const;
   void moveCrosspoints(const MultiVector& lambda) const;
   void subtractJumps() const;
@@ -87,7 +73,8 @@ private:
   std::shared_ptr<GeneralizedInverse> inverse_;
   ContactCrosspoints crosspoints_;
   mutable std::vector<Block> blocks_;
-  std::vector<CrosspointWeight> crosspointWeights_; ///< row by row
+  std::vector<ScaledConstraint::CrosspointEntry>
+      crosspointWeights_;             ///< C, of the rows of this rank, row by row
   std::vector<double> inverseShares_; ///< of the rows of this rank: 1/Σ b_i B_D,i over the boundary
   mutable std::vector<AccurateSum> touchedSums_, nearSums_;                       ///< work, n_C k and n_N k
   mutable Eigen::MatrixXd displacement_, forces_, nearDisplacement_, nearForces_; ///< work, likewise

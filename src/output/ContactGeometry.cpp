@@ -29,11 +29,11 @@ std::vector<double> areasOfRegions(const SolvedScene& solved, int contact) {
     const auto nodes = std::span(surface.facetNodes).subspan(f * perFacet, perFacet);
     std::transform(nodes.begin(), nodes.end(), corners.begin(),
                    [&](GlobalOrdinal node) { return body.mesh->point(node); });
-    const double share = fem::thicknessOf(solid.physics, materials.of(surface.elements[f])) *
-                         fem::facetMeasure(corners) / static_cast<double>(perFacet);
-    for (const GlobalOrdinal node : nodes)
-      if (const auto row = rowOf.find(node); row != rowOf.end())
-        areas[row->second] += share;
+    const double thickness = fem::thicknessOf(solid.physics, materials.of(surface.elements[f]));
+    const std::array<double, 4> shares = fem::nodalShares(corners);
+    for (std::size_t a = 0; a < perFacet; ++a)
+      if (const auto row = rowOf.find(nodes[a]); row != rowOf.end())
+        areas[row->second] += thickness * shares[a];
   }
   return areas;
 }

@@ -3,6 +3,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/BoxMesh.hpp"
 #include "epafi/fem/RectangleMesh.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -117,6 +118,47 @@ TEST(ContactSearchTest, ObstaclesHaveTheGapOfTheirGeometry) {
   contact.distance = 1;
   for (const double gap : searchContact(contact, bodies, 2).gaps)
     EXPECT_NEAR(gap, 0.2, 1e-15);
+}
+
+TEST(ContactSearchTest, SaysWhyNothingMeets) {
+  std::vector<BodyLayout> bodies;
+  bodies.push_back(rectangle("block", {-1, 1, 0, 1}, {8, 2}));
+  bodies.push_back(rectangle("aside", {5, 7, 1, 2}, {8, 2}));
+  const auto says = [&](const scene::SurfaceContact& contact, const std::string& words) {
+    const std::string said = complaint(contact, bodies, 2);
+    EXPECT_NE(said.find("contact 'joint'"), std::string::npos) << said;
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  scene::SurfaceContact contact = topOnBottom();
+  says(contact, "check which surfaces are to meet"); // no distance is too small
+  contact.second = -1;
+  contact.obstacle = {scene::Obstacle::Kind::plane, {0, 1.2, 0}, {0, 1, 0}, 1};
+  says(contact, "does the obstacle's normal point to the body?");
+  contact.obstacle.kind = scene::Obstacle::Kind::sphere;
+  contact.obstacle.point = {0, 0.5, 0};
+  says(contact, "is the centre of the obstacle inside the body?");
+  contact.obstacle.point = {0, 1, 0};
+  says(contact, "the node at (0, 1, 0) lies in the centre of the obstacle");
+}
+
+/// An even pressure loads them so, see FacetLoads.hpp.
+TEST(ContactSearchTest, NodesHaveTheShareOfTheirShapeFunctions) {
+  fem::MeshArrays arrays; // one hexahedron, its top a trapezium
+  arrays.cellType = fem::CellType::hexahedron;
+  arrays.points = {{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 0, 1}, {3, 0, 1}, {2, 1, 1}, {1, 1, 1}};
+  arrays.cells = {0, 1, 2, 3, 4, 5, 6, 7};
+  arrays.nodeTags = {1, 2, 3, 4, 5, 6, 7, 8};
+  arrays.elementTags = {1};
+  arrays.surfaces = {{"top", {4, 5, 6, 7}}};
+  std::vector<BodyLayout> bodies;
+  bodies.push_back({"block", std::make_unique<const fem::UnstructuredMesh>(arrays), nullptr, 0});
+  scene::SurfaceContact contact = topOnBottom();
+  contact.second = -1;
+  contact.obstacle = {scene::Obstacle::Kind::plane, {0, 0, 2}, {0, 0, -1}, 1};
+  const std::vector<double> areas = searchContact(contact, bodies, 3).areas;
+  ASSERT_EQ(areas.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(areas[k], (k < 2 ? 7.0 : 5.0) / 12, 1e-15);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/ConnectedParts.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
@@ -330,6 +331,25 @@ TEST(PartitionTest, ImpossibleCountsAreRefused) {
   EXPECT_THROW(GraphPartition(mesh, 0, *world()), InputError);
   EXPECT_THROW(GraphPartition(mesh, 7, *world()), InputError);
   EXPECT_NO_THROW(GraphPartition(mesh, 6, *world()));
+}
+
+TEST(PartitionTest, MeshesInPiecesAreNotCut) {
+  fem::MeshArrays arrays;
+  arrays.name = "hinge";
+  arrays.cellType = fem::CellType::triangle;
+  arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  arrays.cells = {0, 1, 2, 0, 3, 4}; // joined in a node
+  arrays.nodeTags = {1, 2, 3, 4, 5};
+  arrays.elementTags = {1, 2};
+  const fem::UnstructuredMesh mesh(arrays);
+  EXPECT_EQ(GraphPartition(mesh, 1, *world()).numParts(), 1);
+  try {
+    GraphPartition(mesh, 2, *world());
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("only 1 of its 2 elements are joined"), std::string::npos)
+        << error.what();
+  }
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "epafi/fem/ElementShape.hpp"
 
+#include "SampleCells.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,6 +33,37 @@ TEST(ElementShapeTest, HexahedraMayBeFrusta) {
   frustum[6] = {0.4, 0.4, 3}; // its top has a corner turned inwards
   EXPECT_EQ(shapeOf(CellType::hexahedron, frustum).corner, 6);
   EXPECT_LT(shapeOf(CellType::hexahedron, frustum).leastJacobian, 0);
+}
+
+TEST(ElementShapeTest, JacobiansOfInvertedElementsAreNegative) {
+  for (const CellType type : allCellTypes) {
+    const std::vector<Point> good = distortedCell(type, 4);
+    EXPECT_GT(shapeOf(type, good).leastJacobian, 0) << toString(type);
+    EXPECT_LT(shapeOf(type, inverted(type, good)).leastJacobian, 0) << toString(type);
+  }
+}
+
+TEST(ElementShapeTest, OneReentrantCornerIsFound) {
+  const std::vector<Point> dart{{0, 0, 0}, {1, 0, 0}, {0.2, 0.2, 0}, {0, 1, 0}}; // of positive area
+  EXPECT_GT(shapeOf(CellType::quadrilateral, dart).measure, 0);
+  EXPECT_NEAR(shapeOf(CellType::quadrilateral, dart).leastJacobian, 0.2 * 0.2 - 0.8 * 0.8, 1e-15);
+  EXPECT_EQ(shapeOf(CellType::quadrilateral, dart).corner, 2);
+  std::vector<Point> pushed = unitCell(CellType::hexahedron);
+  pushed[6] = {0.3, 0.3, 0.3};
+  EXPECT_GT(shapeOf(CellType::hexahedron, pushed).measure, 0);
+  EXPECT_LT(shapeOf(CellType::hexahedron, pushed).leastJacobian, 0);
+}
+
+TEST(ElementShapeTest, FlatAndCollapsedElementsHaveNoJacobian) {
+  for (const CellType type : allCellTypes) {
+    const std::vector<Point> flat = mapped(unitCell(type), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+      return dimensionOf(type) == 2 ? Eigen::Vector3d(x[0], 0, 0) : Eigen::Vector3d(x[0], x[1], 0);
+    });
+    std::vector<Point> collapsed = unitCell(type);
+    collapsed[1] = collapsed[0];
+    for (const std::vector<Point>& points : {flat, collapsed, std::vector<Point>(flat.size(), {1, 2, 3})})
+      EXPECT_EQ(shapeOf(type, points).leastJacobian, 0) << toString(type);
+  }
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -101,6 +102,17 @@ inline std::vector<Point> planeFacedCell(CellType type) {
       image[2] = 0;
     return image / (1 + 0.3 * x[0] - 0.2 * x[1] + 0.25 * x[2]);
   });
+}
+
+/// The cell inside out: two neighbouring nodes exchanged, or below and above.
+inline std::vector<Point> inverted(CellType type, std::vector<Point> points) {
+  if (type == CellType::hexahedron)
+    std::swap_ranges(points.begin(), points.begin() + 4, points.begin() + 4);
+  else if (type == CellType::quadrilateral)
+    std::reverse(points.begin(), points.end());
+  else
+    std::swap(points[0], points[1]);
+  return points;
 }
 
 /// Rotation by an angle about z, in space about an oblique axis.

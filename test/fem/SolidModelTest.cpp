@@ -179,5 +179,19 @@ TEST(SolidModelTest, RefusesPartsThatHangTogetherByANode) {
   EXPECT_EQ(complaint(solidOf(Physics::membrane), mesh), ""); // a membrane cannot turn
 }
 
+TEST(SolidModelTest, RefusesPartsThatDoNotHangTogether) {
+  MeshArrays arrays;
+  arrays.name = "islands";
+  arrays.cellType = CellType::triangle;
+  arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {-2, -1, 0}, {-1, -2, 0}};
+  arrays.cells = {0, 1, 2, 3, 4, 5};
+  arrays.nodeTags = {1, 2, 3, 4, 5, 6};
+  arrays.elementTags = {1, 2};
+  const UnstructuredMesh mesh(arrays);
+  for (const Physics physics : {Physics::planeStrain, Physics::membrane})
+    EXPECT_NE(complaint(solidOf(physics), mesh).find("only 1 of its 2 elements are joined"),
+              std::string::npos);
+}
+
 } // namespace
 } // namespace epafi::fem

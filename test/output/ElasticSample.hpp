@@ -43,6 +43,7 @@ inline std::vector<double> evenLines(double from, double to, int cells) {
 inline std::string writeMesh(const TemporaryDirectory& directory, const Comm& comm, const std::string& name,
                              fem::CellType type, const GridLines& lines) {
   const std::filesystem::path file = directory.path() / name;
+  comm.barrier(); // other ranks may still read an older file of the name
   if (comm.getRank() == 0)
     std::ofstream(file) << GmshBox(type, lines).text();
   comm.barrier();

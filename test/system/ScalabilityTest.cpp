@@ -1,11 +1,7 @@
 // Two elastic blocks, one on the other: the number of products with F hardly depends on how many subdomains there are,
 // nor on their shape, and the answer not at all.
 
-#include "epafi/ContactSolver.hpp"
-#include "epafi/decomposition/Decompose.hpp"
-
-#include <Tpetra_Core.hpp>
-#include <gtest/gtest.h>
+#include "SolidScenes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,26 +14,22 @@ using scene::Decomposition;
 /// How the upper block is loaded: its lid pressed down, so that all contact closes, or half of the block lifted.
 enum class Load { pressed, halfLifted };
 
-scene::Body block(const std::string& name, int dimension, double bottom, int elements) {
-  const bool isSolid = dimension == 3;
-  scene::Solid solid;
-  solid.physics = isSolid ? scene::Physics::elasticity3d : scene::Physics::planeStrain;
-  solid.material = {1, 200, 0.3, 1};
-  solid.mesh.box = isSolid ? scene::Box{{0, 0, bottom}, {1, 1, bottom + 1}}
-                           : scene::Box{{0, bottom, 0}, {1, bottom + 1, 0}};
-  solid.mesh.elements = {elements, elements, isSolid ? elements : 0};
-  scene::Body body;
-  body.name = name;
-  body.solid = solid;
-  return body;
-}
-
 /// \param cuts  1/H; METIS makes as many parts as a grid would. \param elements  H/h
 scene::Scene twoBlocks(int dimension, Load load, Decomposition::Method method, int cuts, int elements) {
   const auto up = static_cast<std::size_t>(dimension - 1);
   scene::Scene scene;
-  scene.bodies = {block("lower", dimension, 0, cuts * elements),
-                  block("upper", dimension, 1, cuts * elements)};
+  Decomposition cut;
+  cut.method = method;
+  cut.counts = {cuts, cuts, dimension == 3 ? cuts : 1};
+  cut.parts = dimension == 3 ? cuts * cuts * cuts : cuts * cuts;
+  const int n = cuts * elements;
+  for (int level = 0; level < 2; ++level) {
+    const double low = level, high = 1.0 + level;
+    scene.bodies.push_back(
+        dimension == 3
+            ? test::block(level == 0 ? "lower" : "upper", {{0, 0, low}, {1, 1, high}}, {n, n, n}, cut)
+            : test::block(level == 0 ? "lower" : "upper", {{0, low, 0}, {1, high, 0}}, {n, n, 0}, cut));
+  }
   scene::SolidSupport floor{"floor", "bottom", {0.0, 0.0, std::nullopt}},
       lid{"lid", "top", {0.0, 0.0, std::nullopt}};
   if (dimension == 3)
@@ -57,18 +49,7 @@ scene::Scene twoBlocks(int dimension, Load load, Decomposition::Method method, i
   scene.bodies[1].solid->loads = {weight};
   if (load == Load::halfLifted)
     scene.bodies[1].solid->loads.push_back(lift);
-  for (scene::Body& body : scene.bodies) {
-    body.decomposition.method = method;
-    body.decomposition.counts = {cuts, cuts, dimension == 3 ? cuts : 1};
-    body.decomposition.parts = dimension == 3 ? cuts * cuts * cuts : cuts * cuts;
-  }
-  scene::SurfaceContact contact;
-  contact.name = "joint";
-  contact.first = 0;
-  contact.firstSurface = "top";
-  contact.second = 1;
-  contact.secondSurface = "bottom";
-  scene.surfaceContacts = {contact};
+  scene.surfaceContacts = {test::between("joint", 0, "top", 1, "bottom")};
   return scene;
 }
 
@@ -78,14 +59,10 @@ struct Solved {
 };
 
 Solved solve(const scene::Scene& scene, double tolerance) {
-  const decomposition::Decomposition cut = decomposition::decompose(scene, Tpetra::getDefaultComm());
-  Teuchos::ParameterList parameters;
-  parameters.set("Tolerance", tolerance);
-  ContactSolver solver(parameters);
-  solver.setup(cut.problem);
-  const fetidp::ContactSolution solution = solver.solve();
-  EXPECT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
-  return {solver.report().counts.hessianMultiplications, solution.energy, solution.relativeProjectedGradient};
+  const test::SolidRun run(scene, tolerance);
+  EXPECT_EQ(run.solver.report().status, qp::Status::converged) << run.solver.report().reason;
+  return {run.solver.report().counts.hessianMultiplications, run.solution.energy,
+          run.solution.relativeProjectedGradient};
 }
 
 int products(int dimension, Load load, Decomposition::Method method, int cuts, int elements) {
@@ -136,10 +113,8 @@ TEST(ScalabilityTest, AnyNumberOfMetisPartsIsRegularAndGivesTheSameEnergy) {
     scene::Scene scene = twoBlocks(dimension, Load::halfLifted, grid, 1, elements);
     const double energy = solve(scene, 1e-10).energy;
     for (const int parts : {2, 3, 4, 5, 8, 11, 16, 23, 32}) {
-      for (scene::Body& body : scene.bodies) {
-        body.decomposition.method = metis;
-        body.decomposition.parts = parts;
-      }
+      for (scene::Body& body : scene.bodies)
+        body.decomposition = test::cutByMetis(parts);
       EXPECT_NEAR(solve(scene, 1e-10).energy, energy, 1e-9 * std::abs(energy)) << dimension << ' ' << parts;
     }
     EXPECT_NEAR(solve(twoBlocks(dimension, Load::halfLifted, grid, 2, elements / 2), 1e-10).energy, energy,

@@ -89,8 +89,9 @@ struct SolidRun {
   ContactSolver solver;
   fetidp::ContactSolution solution;
 
-  explicit SolidRun(const scene::Scene& scene, double tolerance = 1e-10)
-      : decomposition(decomposition::decompose(scene, Tpetra::getDefaultComm())),
+  explicit SolidRun(const scene::Scene& scene, double tolerance = 1e-10,
+                    const RCP<const Comm>& comm = Tpetra::getDefaultComm())
+      : decomposition(decomposition::decompose(scene, comm)),
         solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
     solver.setup(decomposition.problem);
     solution = solver.solve();
@@ -122,16 +123,21 @@ struct SolidRun {
   }
 
   /// λ of the contact rows, on every rank.
-  [[nodiscard]] std::vector<double> forces() const {
+  [[nodiscard]] std::vector<double> forces() const { return onContactRows(*solution.multiplier); }
+  /// 1 where contact is closed, 0 elsewhere, on every rank.
+  [[nodiscard]] std::vector<double> active() const { return onContactRows(*solution.active); }
+
+private:
+  [[nodiscard]] std::vector<double> onContactRows(const Vector& vector) const {
     const decomposition::DecomposedProblem& problem = decomposition.problem;
-    std::vector<double> forces(static_cast<std::size_t>(problem.numInequalities), 0.0);
-    const auto values = solution.multiplier->getData();
+    std::vector<double> rows(static_cast<std::size_t>(problem.numInequalities), 0.0);
+    const auto values = vector.getData();
     for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
       if (const auto row = problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i));
           row < problem.numInequalities)
-        forces[static_cast<std::size_t>(row)] = values[i];
-    sumOverRanks(*problem.comm, forces);
-    return forces;
+        rows[static_cast<std::size_t>(row)] = values[i];
+    sumOverRanks(*problem.comm, rows);
+    return rows;
   }
 };
 

@@ -64,11 +64,6 @@ drivers::SceneRun solve(const scene::Scene& scene, double tolerance) {
   return solve(scene, tolerance, Tpetra::getDefaultComm());
 }
 
-RCP<const Comm> thisRankOnly() {
-  const RCP<const Comm> all = Tpetra::getDefaultComm();
-  return all->split(all->getRank(), 0);
-}
-
 Eigen::VectorXd deflection(const drivers::SceneRun& run, int body) {
   const auto& problem = run.decomposition->problem;
   const auto& mesh = *run.decomposition->bodies[static_cast<std::size_t>(body)].mesh;

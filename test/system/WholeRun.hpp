@@ -2,6 +2,7 @@
 
 /// Whole runs for the system tests, and what they are compared with.
 
+#include "OneRank.hpp"
 #include "SceneRun.hpp"
 
 #include "epafi/base/Types.hpp"
@@ -33,9 +34,6 @@ drivers::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<c
                         Teuchos::ParameterList solver = Teuchos::ParameterList());
 /// Over all ranks.
 drivers::SceneRun solve(const scene::Scene& scene, double tolerance);
-
-/// This rank alone.
-RCP<const Comm> thisRankOnly();
 
 /// u at the nodes of a body, component by component, each node once, in the order of its mesh, on every rank. Collective.
 Eigen::VectorXd deflection(const drivers::SceneRun& run, int body);

@@ -1,0 +1,35 @@
+#pragma once
+
+/// B_D, the matrix B with its entries scaled row by row,
+///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
+/// δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at crosspoints, of K̄) for stiffness (ρ) scaling: what takes
+/// multipliers to displacements in preconditioners of F (Klawonn, Widlund, *Comm. Pure Appl. Math.* 54 (2001)).
+
+#include "epafi/fetidp/ContactCrosspoints.hpp"
+#include "epafi/fetidp/FetiParameters.hpp"
+#include "epafi/fetidp/MultiplierExchange.hpp"
+
+#include <vector>
+
+namespace epafi::fetidp {
+
+struct ScaledConstraint {
+  /// An entry at a crosspoint: multiplier (ghost map), index in ContactCrosspoints, value.
+  struct CrosspointEntry {
+    int multiplier, touched;
+    double weight;
+  };
+  std::vector<std::vector<double>>
+      boundary; ///< of this rank's subdomains, in the order of their entries at remainders
+  std::vector<CrosspointEntry> atCrosspoints; ///< of this rank's subdomains
+  std::vector<double>
+      boundaryShares;         ///< Σ b_i B_D,i of each row (ghost map) over this rank's entries at remainders
+  std::vector<int> untouched; ///< rows of this rank (multiplierMap) without any entry
+};
+
+/// Collective.
+ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem,
+                                 const ContactCrosspoints& crosspoints,
+                                 PreconditionerParameters::Scaling scaling, const RCP<const Import>& plan);
+
+} // namespace epafi::fetidp
