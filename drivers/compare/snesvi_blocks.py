@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """snesvi_blocks.py cholmod|hypre|gamg FILE: a contact problem that epafi-export wrote, by PETSc's SNESVI (reduced-space
-Newton), for `peers-blocks`. On any number of ranks, CHOLMOD on one. Prints its measurements as one line of JSON.
+Newton), for `peers`. On any number of ranks, CHOLMOD on one. Prints its measurements as one line of JSON.
 
 Exit codes: 0 solved, 1 not solved (the reason on stderr), 2 wrong usage, 3 a package is missing (its name on stderr).
 """
@@ -17,11 +17,11 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
 import snesvi  # noqa: E402
 
-# What was fastest here among: of hypre strong thresholds 0.25 ... 0.9, interpolation of 4 entries or any number, HMIS and
+# The fastest of what was tried. hypre: strong thresholds 0.25 ... 0.9, interpolation from 4 neighbours or any number, HMIS with
 # extended interpolation, 0 ... 2 levels of aggressive coarsening with 1 or 2 paths, nodal coarsening with and without
-# interpolation of the rigid motions; of GAMG thresholds -1 ... 0.05, squared graphs, 2 ... 4 smoothing steps, SOR, interpolation
-# kept between Newton steps; of both 1e-1 ... 1e-3 for CG. On the reduced matrix as SNESVI hands it over hypre takes twice as
-# many CG steps, and GAMG stops with an error when the active set changes.
+# interpolation of the rigid motions. GAMG: thresholds -1 ... 0.05, squared graphs on 0 ... 2 levels, 2 ... 4 smoothing steps,
+# SOR (CG breaks down), interpolation kept between Newton steps. Both: 1e-1 ... 1e-3 for CG. On the reduced matrix as SNESVI
+# hands it over hypre takes twice as many CG steps, and GAMG stops with an error when the active set changes.
 MULTIGRID = {"ksp_type": "cg", "ksp_rtol": 1e-2, "snes_linesearch_type": "basic"}
 SOLVERS = {
     "cholmod": {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "cholmod"},

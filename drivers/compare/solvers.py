@@ -1,4 +1,4 @@
-"""Starts the solvers, each as a process of its own, and reads what they measured.
+"""Starts the solvers of the membranes, each as a process of its own, and reads what they measured.
 
 A run is a dictionary: unknowns, total_seconds, assembly_seconds, iterations, energy, peak_bytes (of the whole process), and
 where they are known apart, setup_seconds and linear_iterations. What is counted:
@@ -17,6 +17,7 @@ import xml.etree.ElementTree
 
 from reference import ROOT
 
+# What peers and table.py ask of a family of problems, with programs, Case and run below: this one, or block_solvers.py.
 TITLE = "membranes, 1/h"
 LARGEST_RANKS = 1
 DEFAULT_SIZE = 512

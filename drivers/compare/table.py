@@ -39,7 +39,8 @@ def summarised(runs):
     total = [run["total_seconds"] for run in runs]
     result = {name: statistics.median(run[name] for run in runs)
               for name in ("assembly_seconds", "setup_seconds") if name in runs[0]}
-    result.update({name: runs[-1].get(name, "") for name in ("unknowns", "iterations", "linear_iterations", "energy", "closed_nodes")})
+    result.update({name: runs[-1].get(name, "")
+                   for name in ("unknowns", "iterations", "linear_iterations", "energy", "closed_nodes")})
     result.update(total_seconds=statistics.median(total), minimum=min(total), maximum=max(total), repeats=len(runs),
                   peak_bytes=max(run["peak_bytes"] for run in runs))
     return result
