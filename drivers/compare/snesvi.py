@@ -69,13 +69,13 @@ def assemble(problem, size):
     return membranes.with_jump(problem == "coercive", size)
 
 
-def newton(PETSc, solver, stiffness, load, lower, tolerance):
-    """The solver, ready to run; all of PETSc's own setup is in its solve()."""
+def newton(PETSc, defaults, stiffness, load, lower, upper, tolerance):
+    """The solver, ready to run; all of PETSc's own setup is in its solve(). A bound that is None is infinite."""
     settings = PETSc.Options()
-    for name, value in SOLVERS[solver].items():
+    for name, value in defaults.items():
         if not settings.hasName(name):
             settings[name] = value
-    snes = PETSc.SNES().create(PETSc.COMM_SELF)
+    snes = PETSc.SNES().create(stiffness.comm)
     snes.setType("vinewtonrsls")
 
     def residual(_, z, result):
@@ -84,9 +84,11 @@ def newton(PETSc, solver, stiffness, load, lower, tolerance):
 
     snes.setFunction(residual, load.duplicate())
     snes.setJacobian(lambda *_: None, stiffness)  # constant
-    upper = load.duplicate()
-    upper.set(PETSc.INFINITY)
-    snes.setVariableBounds(lower, upper)
+    bounds = [load.duplicate() if bound is None else bound for bound in (lower, upper)]
+    for bound, given, infinity in zip(bounds, (lower, upper), (PETSc.NINFINITY, PETSc.INFINITY)):
+        if given is None:
+            bound.set(infinity)
+    snes.setVariableBounds(*bounds)
     snes.setTolerances(rtol=tolerance, atol=0.0, stol=0.0, max_it=200)
     snes.setFromOptions()
     return snes
@@ -114,7 +116,7 @@ def measure(options):
     z = load.duplicate()
     z.set(0.0)
     try:
-        snes = newton(PETSc, options.solver, stiffness, load, lower, options.tolerance)
+        snes = newton(PETSc, SOLVERS[options.solver], stiffness, load, lower, None, options.tolerance)
         snes.solve(None, z)
     except PETSc.Error as error:
         raise NotSolved("PETSc says: " + str(error).splitlines()[-1].strip()) from error

@@ -1,4 +1,4 @@
-"""Starts the solvers, each as a process of its own, and reads what they measured.
+"""Starts the solvers of the membranes, each as a process of its own, and reads what they measured.
 
 A run is a dictionary: unknowns, total_seconds, assembly_seconds, iterations, energy, peak_bytes (of the whole process), and
 where they are known apart, setup_seconds and linear_iterations. What is counted:
@@ -17,11 +17,22 @@ import xml.etree.ElementTree
 
 from reference import ROOT
 
+# What peers and table.py ask of a family of problems, with programs, Case and run below: this one, or block_solvers.py.
+TITLE = "membranes, 1/h"
+LARGEST_RANKS = 1
+DEFAULT_SIZE = 512
+SIZES = "a multiple of 4 within 8 ... 4096"
+NOTE = ("Times: epafi from assembly to u; its peers without their assembly, and linear_* is one linear solve with the contact "
+        "zone given.")
 NAMES = ("epafi", "snesvi_cholmod", "snesvi_hypre", "linear_cholmod", "linear_muelu")
 COMPARE = pathlib.Path(__file__).resolve().parent
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1",
                "PYTHONDONTWRITEBYTECODE": "1"}
 EXIT_WRONG_INPUT, EXIT_MISSING = 2, 3
+
+
+def is_size(size):
+    return 8 <= size <= 4096 and size % 4 == 0
 
 
 class UsageError(Exception):
@@ -39,7 +50,7 @@ class Trouble(Exception):
 class Case:
     """What is solved, and how."""
 
-    def __init__(self, options, programs, known):
+    def __init__(self, options, programs, known, _):
         self.problem, self.size, self.tolerance = options.problem, options.size, options.tolerance
         self.epafi_options, self.time_limit = options.epafi_options, options.time_limit
         self.programs = programs
@@ -55,10 +66,15 @@ class Case:
         return (self.size + 1) * (2 * self.size + (self.problem == "semicoercive"))
 
 
+def programs(names):
+    """What has to be built for these solvers."""
+    return {"epafi" if name == "epafi" else "epafi-linear" for name in names if not name.startswith("snesvi")}
+
+
 def find_programs(options, script):
-    """The folder of epafi and epafi-linear."""
+    """The folder of epafi and what is built for its peers."""
     places = [options.programs] if options.programs else [script.absolute().parent.parent, ROOT / "build/release/drivers"]
-    needed = {"epafi" if name == "epafi" else "epafi-linear" for name in options.solvers if not name.startswith("snesvi")}
+    needed = options.family.programs(options.solvers)
     for place in places:
         if all(os.access(place / program, os.X_OK) and (place / program).is_file() for program in needed):
             return place.absolute()
@@ -66,13 +82,17 @@ def find_programs(options, script):
                      "call ./setup build first, or name the folder by --programs")
 
 
-def start(command, case):
-    """The finished process."""
-    try:
-        return subprocess.run([str(word) for word in command], capture_output=True, text=True, stdin=subprocess.DEVNULL,
-                              env={**os.environ, **ENVIRONMENT}, timeout=case.time_limit, check=False)
-    except subprocess.TimeoutExpired:
-        raise Trouble("failed", f"took longer than {case.time_limit:g} s") from None
+def start(command, case, further=None):
+    """The finished process; `further`: more of its environment."""
+    with subprocess.Popen([str(word) for word in command], text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, env={**os.environ, **ENVIRONMENT, **(further or {})}) as process:
+        try:
+            output, errors = process.communicate(timeout=case.time_limit)
+        except subprocess.TimeoutExpired:
+            process.terminate()  # mpirun ends its ranks then; it could not if it were killed
+            process.communicate()
+            raise Trouble("failed", f"took longer than {case.time_limit:g} s") from None
+    return subprocess.CompletedProcess(command, process.returncode, output, errors)
 
 
 def why(process):
@@ -91,13 +111,18 @@ def run_epafi(case):
         report = pathlib.Path(place) / "report.xml"
         process = start([case.programs / "epafi", ROOT / "xml" / f"{case.problem}.xml", "--quiet", "--report", report,
                          *(f"--set={change}" for change in changes)], case)
-        if process.returncode == EXIT_WRONG_INPUT:
-            raise UsageError(process.stderr.strip())
-        values = read_report(report) if report.exists() else {}
+        return {"unknowns": case.unknowns(), **reported(process, report)}
+
+
+def reported(process, report):
+    """The run of an epafi that has finished. \\raises UsageError, Trouble"""
+    if process.returncode == EXIT_WRONG_INPUT:
+        raise UsageError(process.stderr.strip())
+    values = read_report(report) if report.exists() else {}
     if process.returncode != 0:
         raise Trouble("failed", values.get(("Status", "Reason")) or why(process))
     times = {part: float(values["Time", part]) for part in ("Assembly", "Setup", "Solve", "Recovery")}
-    return {"unknowns": case.unknowns(), "total_seconds": sum(times.values()), "assembly_seconds": times["Assembly"],
+    return {"total_seconds": sum(times.values()), "assembly_seconds": times["Assembly"],
             "setup_seconds": times["Setup"], "iterations": int(values["Iterations", "Hessian Multiplications"]),
             "energy": float(values["Accuracy", "Energy"]), "peak_bytes": int(float(values["Memory", "Peak Bytes"])),
             "closed_nodes": int(values["Accuracy", "Active Contact Nodes"])}
@@ -111,10 +136,14 @@ def read_report(file):
 
 
 def run_snesvi(solver, case):
-    process = start([COMPARE / "snesvi.py", solver, "--size", case.size, "--problem", case.problem,
-                     "--tolerance", case.tolerance], case)
+    return measured_snesvi(start([COMPARE / "snesvi.py", solver, "--size", case.size, "--problem", case.problem,
+                                  "--tolerance", case.tolerance], case))
+
+
+def measured_snesvi(process):
+    """The run that a script of PETSc's printed. \\raises Trouble"""
     if process.returncode == EXIT_MISSING:
-        package = process.stderr.strip()
+        package = process.stderr.split()[0]  # each rank says so
         raise Trouble("missing", f"install the package {package}, or all of the peers by ./setup packages peers")
     return measured(process)
 

@@ -8,7 +8,7 @@ import tempfile
 
 COLUMNS = ["problem", "unknowns", "solver", "total_seconds", "iterations", "energy", "peak_bytes", "ratio", "repeats",
            "minimum", "maximum", "assembly_seconds", "setup_seconds", "linear_iterations", "energy_error", "size",
-           "tolerance", "status", "reason"]
+           "tolerance", "status", "reason", "ranks", "closed_nodes"]
 ENERGY_TOLERANCE = 1e-6  # relative
 
 
@@ -19,7 +19,8 @@ def rows(options, runs, trouble, known):
     result = []
     for name in options.solvers:
         row = dict.fromkeys(COLUMNS, "")
-        row.update(problem=options.problem, solver=name, size=options.size, tolerance=options.tolerance)
+        row.update(problem=options.problem, solver=name, size=options.size, tolerance=options.tolerance,
+                   ranks=options.ranks)
         if name in trouble:
             row.update(status=trouble[name].status, reason=str(trouble[name]), repeats=len(runs[name]))
         else:
@@ -38,7 +39,8 @@ def summarised(runs):
     total = [run["total_seconds"] for run in runs]
     result = {name: statistics.median(run[name] for run in runs)
               for name in ("assembly_seconds", "setup_seconds") if name in runs[0]}
-    result.update({name: runs[-1].get(name, "") for name in ("unknowns", "iterations", "linear_iterations", "energy")})
+    result.update({name: runs[-1].get(name, "")
+                   for name in ("unknowns", "iterations", "linear_iterations", "energy", "closed_nodes")})
     result.update(total_seconds=statistics.median(total), minimum=min(total), maximum=max(total), repeats=len(runs),
                   peak_bytes=max(run["peak_bytes"] for run in runs))
     return result
@@ -70,8 +72,9 @@ def write(file, content):
 
 
 def text(options, content, known):
-    lines = ["", f"{options.problem} membranes, 1/h = {options.size}, tolerance {options.tolerance:g}: medians of "
-                 f"{options.repeats}, one rank, one thread", ""]
+    cores = "one rank, one thread" if options.ranks == 1 else f"{options.ranks} ranks (CHOLMOD: threads)"
+    lines = ["", f"{options.problem} {options.family.TITLE} = {options.size}, tolerance {options.tolerance:g}: medians of "
+                 f"{options.repeats}, {cores}", ""]
     cells = [["solver", "seconds", "least", "greatest", "x epafi", "iterations", "memory", "energy", "off by"]]
     cells += [printed(row) for row in content]
     widths = [max(len(line[k]) for line in cells) for k in range(len(cells[0]))]
@@ -82,15 +85,14 @@ def text(options, content, known):
     lines += [f"{row['solver']} {row['status']}: {row['reason']}" for row in content if row["reason"]]
     lines.append("Energies are compared with " + ("test/reference/membranes.csv." if known else
                  "epafi's, because test/reference/membranes.csv has none for this size."))
-    lines.append("Times: epafi from assembly to u; its peers without their assembly, and linear_* is one linear solve with "
-                 "the contact zone given.")
+    lines.append(options.family.NOTE)
     return "\n".join(lines)
 
 
 def printed(row):
     if row["total_seconds"] == "":
         return [row["solver"], row["status"], *[""] * 7]
-    inner = f" ({row['linear_iterations']} CG)" if row["solver"] == "snesvi_hypre" else ""
+    inner = f" ({row['linear_iterations']} CG)" if row["solver"] in ("snesvi_hypre", "snesvi_gamg") else ""
     return [row["solver"], *(f"{row[name]:.3f}" for name in ("total_seconds", "minimum", "maximum")),
             "" if row["ratio"] == "" else f"{row['ratio']:.2f}", f"{row['iterations']}{inner}",
             f"{row['peak_bytes'] / 1e6:.0f} MB", f"{row['energy']:.12g}",

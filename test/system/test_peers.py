@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""test_peers.py PEERS SOURCE_DIR: the side-by-side runs from outside. Needs no PETSc: where it would be called, the test
-stands for a machine that lacks it."""
+"""test_peers.py PEERS SOURCE_DIR: the side-by-side runs from outside. Needs no PETSc: most tests that would call it stand for
+a machine that lacks it, the others are skipped there."""
 
 import csv
+import glob
 import os
 import pathlib
 import subprocess
@@ -10,11 +11,46 @@ import sys
 import tempfile
 import unittest
 
+import numpy
+
 PEERS, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 COMPLETE, FAILED, WRONG_USAGE = range(3)
 LIMIT = 120  # seconds
 COLUMNS = ["problem", "unknowns", "solver", "total_seconds", "iterations", "energy", "peak_bytes"]
 OURS = "epafi,linear_cholmod,linear_muelu"
+BLOCKS = "epafi,epafi_separate,snesvi_cholmod,snesvi_hypre,snesvi_gamg"
+HAS_PETSC = glob.glob("/usr/lib/petscdir/petsc*/*-real/lib/python3/dist-packages/petsc4py")
+
+sys.path.insert(0, str(SOURCE / "drivers/compare"))
+import contact_bounds  # noqa: E402
+
+
+def active_set_energy(file):
+    """Energy of an exported problem by dense linear algebra, without a change of variables: rows with a force or a penetration
+    are equations, until the set of them settles."""
+    source = contact_bounds.PetscFile(file)
+    k, f = dense(source), source.array(">f8")
+    b, c = dense(source), source.array(">f8")
+    offset = source.array(">f8")[0]
+    active = numpy.ones(len(c), dtype=bool)
+    for _ in range(50):
+        rows = b[active]
+        matrix = numpy.block([[k, rows.T], [rows, numpy.zeros((len(rows), len(rows)))]])
+        both = numpy.linalg.solve(matrix, numpy.concatenate([f, c[active]]))
+        u, force = both[:len(f)], numpy.zeros(len(c))
+        force[active] = both[len(f):]
+        following = force + numpy.abs(numpy.diag(k)).max() * (b @ u - c) > 0
+        if (following == active).all():
+            return 0.5 * u @ k @ u - f @ u + offset, int(active.sum())
+        active = following
+    raise AssertionError("the active set does not settle")
+
+
+def dense(source):
+    starts, columns, values, shape = source.matrix(lambda size: (0, size))
+    result = numpy.zeros(shape)
+    result[numpy.repeat(numpy.arange(shape[0]), numpy.diff(starts)), columns] = values
+    return result
 
 
 def reference_energy(problem, size):
@@ -97,10 +133,97 @@ class Peers(unittest.TestCase):
                          {"epafi": "inaccurate", "linear_cholmod": "ok"})
         self.assertIn("the energy is off", run.stdout)
 
+    def export(self, scene, *arguments):
+        file = self.place / "system.petsc"
+        run = subprocess.run([pathlib.Path(PEERS).parent.parent / "epafi-export", scene, file, *arguments], capture_output=True,
+                             text=True, timeout=LIMIT, check=False)
+        return run, file
+
+    def export_blocks(self, problem, size):
+        mesh = [f"--set=Bodies/{body}/Elements={{{size},{size},{size}}}" for body in ("lower", "upper")]
+        run, file = self.export(SOURCE / "drivers/compare" / f"{problem}.xml", *mesh)
+        self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""))
+        return file
+
+    def test_an_exported_problem_has_the_solution_of_the_scene(self):
+        for problem, unknowns in (("held_blocks", 600), ("floating_blocks", 625)):
+            energy, closed = active_set_energy(self.export_blocks(problem, 4))
+            run = self.peers("--problem", problem, "--size", 4, "--solvers", "epafi,epafi_separate", "--repeats", 1,
+                             "--tolerance", 1e-8)
+            self.assertEqual(run.returncode, COMPLETE, run.stdout + run.stderr)
+            for row in self.table().values():
+                self.assertEqual((int(row["unknowns"]), int(row["closed_nodes"]), row["ranks"]), (unknowns, closed, "2"))
+                self.assertLess(abs(float(row["energy"]) - energy), 1e-7 * abs(energy))
+                self.assertTrue(5 <= closed <= 20, closed)  # of 25: neither all open nor all closed
+
+    def test_exported_places_and_directions_make_the_rigid_motions(self):
+        source = contact_bounds.PetscFile(self.export_blocks("floating_blocks", 4))
+        k = dense(source)
+        source.array(">f8"), dense(source), source.array(">f8"), source.array(">f8")  # f, B, c, e
+        bodies, nodes = source.array(">i4"), source.array(">i4")
+        self.assertEqual((nodes.min(), nodes.max()), (0, 124))
+        modes = contact_bounds.rigid_modes(source.array(">f8").reshape(-1, 3), source.array(">f8").reshape(-1, 3))
+        lift = modes[:, 2] * (bodies == 1)
+        self.assertGreater(numpy.linalg.norm(lift), 1)
+        self.assertLess(numpy.linalg.norm(k @ lift), 1e-10 * numpy.linalg.norm(k) * numpy.linalg.norm(lift))
+        free = numpy.flatnonzero(numpy.linalg.norm(k @ (modes * (bodies == 1)[:, None]), axis=0) < 1e-10 * numpy.linalg.norm(k))
+        self.assertEqual(free.tolist(), [2])  # sliding planes hold the five others
+
+    def test_the_change_of_variables_makes_jumps_bounds(self):
+        # b = (2, -1) on unknowns 0, 2 and b = (0, 3) on 3: z = T^-1 u has b u in the pivots' places.
+        rows = contact_bounds.Rows(numpy.array([0, 2, 2, 3]), numpy.array([0, 2, 3]), numpy.array([2.0, -1.0, 3.0]),
+                                   numpy.array([0.5, 9.0, 0.25]))
+        change = numpy.eye(4)
+        for i, j, value in rows.change_of_variables():
+            change[i, j] += value
+        u = numpy.arange(8.0).reshape(4, 2)**2
+        z = u.copy()
+        rows.invert(z)
+        numpy.testing.assert_allclose(change @ z, u, rtol=1e-14)
+        self.assertEqual(rows.pivots.tolist(), [0, 3])
+        self.assertEqual(rows.gap.tolist(), [0.5, 0.25])
+        numpy.testing.assert_allclose(z[[0, 3]], [2 * u[0] - u[2], 3 * u[3]])
+        with self.assertRaisesRegex(ValueError, "share an unknown"):
+            contact_bounds.Rows(numpy.array([0, 2, 3]), numpy.array([0, 2, 2]), numpy.ones(3), numpy.zeros(2))
+
+    @unittest.skipUnless(HAS_PETSC, "PETSc for Python is not installed: ./setup packages peers")
+    def test_all_solvers_find_the_same_energy_of_blocks(self):
+        for problem in ("held_blocks", "floating_blocks"):
+            run = self.peers("--problem", problem, "--size", 6, "--repeats", 1)
+            self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""), run.stdout)
+            rows = self.table()
+            self.assertEqual(",".join(rows), BLOCKS)
+            for name, row in rows.items():
+                self.assertEqual((row["problem"], row["status"]), (problem, "ok"), row["reason"])
+                self.assertLessEqual(float(row["energy_error"]), 1e-6, name)
+                self.assertEqual(row["closed_nodes"], rows["epafi"]["closed_nodes"], name)
+                self.assertEqual(row["unknowns"], rows["epafi"]["unknowns"], name)
+                self.assertIn(f"{float(row['ratio']):.2f}", run.stdout)
+
+    def test_blocks_name_a_missing_package_on_two_ranks(self):
+        (self.place / "petsc4py.py").write_text("raise ImportError('not here')\n", encoding="utf-8")
+        run = self.peers("--problem", "held_blocks", "--size", 4, "--solvers", "epafi,snesvi_gamg", "--repeats", 1,
+                         PYTHONPATH=str(self.place))
+        self.assertEqual(run.returncode, COMPLETE, run.stdout + run.stderr)
+        self.assertIn("install the package python3-petsc4py,", run.stdout)
+        self.assertEqual(self.table()["snesvi_gamg"]["status"], "missing")
+
+    def test_what_cannot_be_exported_is_said(self):
+        run, _ = self.export(SOURCE / "xml/coercive.xml")
+        self.assertEqual(run.returncode, WRONG_USAGE, run.stderr)
+        self.assertIn("'left' is a membrane", run.stderr)
+        for arguments in (("--set",), ("--nonsense",), ("one", "two")):
+            run, _ = self.export(SOURCE / "drivers/compare/held_blocks.xml", *arguments)
+            self.assertEqual(run.returncode, WRONG_USAGE, run.stderr)
+            self.assertIn("epafi-export --help", run.stderr)
+
     def test_wrong_usage(self):
         for word, arguments in (("abaqus", ["--solvers", "epafi,abaqus"]), ("--size", ["--size", "18"]),
                                 ("--repeats", ["--repeats", "0"]), ("--tolerance", ["--tolerance", "0"]),
                                 ("Grd", ["--size", "8", "--solvers", "epafi", "--epafi-options", "Decomposition/Grd={2,2}"]),
+                                ("membranes: 1", ["--ranks", "2"]), ("--ranks", ["--problem", "held_blocks", "--ranks", "0"]),
+                                ("within 4 ... 128", ["--problem", "held_blocks", "--size", "512"]),
+                                ("snesvi_gamg", ["--problem", "held_blocks", "--solvers", "linear_muelu"]),
                                 ("setup build", ["--programs", str(self.place)])):
             run = self.peers(*arguments)
             self.assertEqual(run.returncode, WRONG_USAGE, run.stdout + run.stderr)
