@@ -122,11 +122,8 @@ UndecomposedSolution solveUndecomposed(const scene::Scene& scene) {
     solution.deflection.push_back(values);
     solution.energy += subdomain.energyOffset;
   }
-  for (Eigen::Index i = 0; i < m; ++i)
-    solution.activeContactNodes += !whole.rows[static_cast<std::size_t>(i)].empty() &&
-                                           std::abs(gap[i]) <= 1e-9 * u.lpNorm<Eigen::Infinity>()
-                                       ? 1
-                                       : 0;
+  for (std::size_t i = 0; i < active.size(); ++i)
+    solution.activeContactNodes += active[i] && !whole.rows[i].empty() ? 1 : 0;
   return solution;
 }
 

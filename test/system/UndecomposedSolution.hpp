@@ -16,7 +16,7 @@ struct UndecomposedSolution {
   std::vector<Eigen::VectorXd> deflection; ///< of each body at its nodes
   double energy = 0;
   double contactForce = 0;
-  int activeContactNodes = 0; ///< nodes with a gap of zero (to 1e-9 of the largest deflection)
+  int activeContactNodes = 0; ///< of the active set
 };
 
 /// Each rank computes it alone. \throws std::runtime_error if the active set does not settle.
