@@ -32,8 +32,13 @@ std::string text(const Vector3d& point) {
 SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLayout& body,
                      const std::string& surface) {
   const std::vector<std::string> names = body.mesh->surfaceNames();
-  if (std::find(names.begin(), names.end(), surface) == names.end())
-    throw refusal(contact, "body '" + body.name + "' has no surface '" + surface + "'");
+  if (std::find(names.begin(), names.end(), surface) == names.end()) {
+    std::string known;
+    for (const std::string& name : names)
+      known += (known.empty() ? "'" : ", '") + name + "'";
+    throw refusal(contact, "body '" + body.name + "' has no surface '" + surface + "'; " +
+                               (known.empty() ? "its mesh names none" : "there are " + known));
+  }
   return surfaceNodes(*body.mesh, body.mesh->surface(surface));
 }
 

@@ -23,6 +23,8 @@ NamedObstacle readObstacle(const std::string& name, const ListReader& list) {
   const std::string& kind = list.word("Kind");
   const std::string useless = "an obstacle of the kind \"" + kind + "\" has no use for it";
   result.dimension = kind == "plane" ? std::clamp(list.length("Point"), 2, 3) : kind == "circle" ? 2 : 3;
+  if (kind == "sphere" && list.length("Point") == 2)
+    list.refuseValue("Kind", "a centre of two coordinates is that of a \"circle\"");
   result.obstacle.point = list.vector("Point", result.dimension);
   if (kind == "plane") {
     list.refuseGiven({"Radius"}, useless);

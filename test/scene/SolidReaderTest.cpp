@@ -189,6 +189,17 @@ TEST(SolidReaderTest, ReadsObstaclesWithNormalsOfLengthOne) {
   EXPECT_EQ(ball.gap, -0.1);
 }
 
+TEST(SolidReaderTest, ASphereInThePlaneIsACircle) {
+  const std::string text = refusalOf([](ParameterList& list) {
+    list.sublist("Obstacles")
+        .sublist("ball")
+        .set("Kind", "sphere")
+        .set("Point", numbers({0, -3}))
+        .set("Radius", 3.0);
+  });
+  EXPECT_NE(text.find("\"circle\""), std::string::npos) << text;
+}
+
 TEST(SolidReaderTest, CutsABoxInThreeDirections) {
   EXPECT_EQ(scene::readScene(cubeOnFloor(), "a.xml").bodies[0].decomposition.counts,
             (std::array<int, 3>{2, 2, 2}));
