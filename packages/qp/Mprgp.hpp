@@ -3,7 +3,7 @@
 /// MPRGP: modified proportioning with reduced gradient projections, for min ½xᵀAx − bᵀx over a convex set Ω.
 /// Dostál, Schöberl, *Comput. Optim. Appl.* 30 (2005) 23–43; Dostál, *Optimal Quadratic Programming
 /// Algorithms* (2009), algorithm 5.8. Expansion by projected CG: Kružík, Horák, Čermák, Pospíšil, Pecha,
-/// *Adv. Eng. Softw.* 149 (2020). Preconditioning in face: Kružík, Horák, arXiv 2507.00617 (2025).
+/// *Adv. Eng. Softw.* 149 (2020); by a prediction of the active set: MprgpActiveSet.cpp. Preconditioning in face: Kružík, Horák, arXiv 2507.00617 (2025).
 
 #include "epafi/base/Types.hpp"
 #include "epafi/qp/ConvexSet.hpp"
@@ -41,7 +41,8 @@ namespace epafi::qp {
 /// With a preconditioner: 1 application for each direction, 4 vectors more a CG step; 1 reduction more where a
 /// proportioning step may come next (βᵀβ > Γ²φ̃ᵀφ/10). Elsewhere M is applied before it is known that the iteration
 /// goes on in the face: one application in vain at the end, and where proportioning comes as a surprise.
-/// All work vectors are allocated by the constructor, none in a step.
+///   prediction     1 product a CG step in a face and a round (see MprgpActiveSet.cpp), 10 to 150 in all, 3 reductions each
+/// All work vectors are allocated by the constructor, those of predictions before the first of these; none in any other step.
 ///
 /// Preconditions: A symmetric positive semidefinite on the unknowns' map; the preconditioner symmetric positive
 /// definite. An operator norm that was estimated too small is corrected as soon as a step shows it.
