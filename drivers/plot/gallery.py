@@ -1,14 +1,14 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import contact, convergence, plane, pressure, qp, scaling, space, subdomains, surface, table, tables
+from . import contact, convergence, hertz, part, plane, pressure, qp, scaling, space, subdomains, surface, table, tables
 from .errors import PlotError
 from .run import read_run
 from .style import Canvas
 
-STUDIES = ("tables.csv", "qp.csv", "scaling.csv")
+STUDIES = ("tables.csv", "qp.csv", "scaling.csv", "hertz.csv")
 
 
-def draw(source, output, extension, dpi):
+def draw(source, output, extension, dpi, box=None):
     """Yields the path of each picture once it is written."""
     files = find(source)
     for file in files:
@@ -16,7 +16,7 @@ def draw(source, output, extension, dpi):
         if file.suffix == ".csv":
             yield from draw_table(file, canvas)
         else:
-            yield from draw_run(file, canvas)
+            yield from draw_run(file, canvas, box)
 
 
 def find(source):
@@ -34,14 +34,15 @@ def find(source):
     return found
 
 
-def draw_run(file, canvas):
+def draw_run(file, canvas, box):
     run = read_run(file)
+    shown = run if box is None else part.of(run, box)
     stem = file.stem
     in_space = not run.is_plane()
     if run.is_elastic():
-        yield canvas.save(space.figure(run) if in_space else plane.figure(run), f"{stem}_deformed")
+        yield canvas.save(space.figure(shown) if in_space else plane.figure(shown, box), f"{stem}_deformed")
     else:
-        yield canvas.save(surface.figure(run), f"{stem}_deflection")
+        yield canvas.save(surface.figure(shown), f"{stem}_deflection")
     yield canvas.save(space.decomposition(run) if in_space else subdomains.figure(run), f"{stem}_decomposition")
     for pair in run.contacts:
         if len(pair.points) > 0:
@@ -59,6 +60,8 @@ def draw_table(file, canvas):
         yield canvas.save(qp.figure(file, rows), file.stem)
     elif table.has(rows, scaling.COLUMNS):
         yield canvas.save(scaling.figure(file, rows), file.stem)
+    elif table.has(rows, hertz.COLUMNS):
+        yield canvas.save(hertz.figure(file, rows), file.stem)
     elif table.has(rows, convergence.COLUMNS):
         history = convergence.history_of_table(file, rows)
         if not convergence.can_draw(history):
@@ -68,4 +71,5 @@ def draw_table(file, canvas):
         raise PlotError(f"'{file}' has neither the columns of tables.csv ({', '.join(tables.COLUMNS)}) "
                         f"nor those of qp.csv ({', '.join(qp.COLUMNS)}) "
                         f"nor those of scaling.csv ({', '.join(scaling.COLUMNS)}) "
+                        f"nor those of hertz.csv ({', '.join(hertz.COLUMNS)}) "
                         f"nor those of history.csv ({', '.join(convergence.COLUMNS)}).")

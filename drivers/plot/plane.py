@@ -41,11 +41,14 @@ def draw_closed(axes, run, factor):
     return drawn
 
 
-def figure(run):
+def figure(run, box=None):
+    """Of what lies in `box`, {x0, x1, y0, y1, …}, if there is one."""
     factor = deformation.scale(run)
     places = [deformation.deformed(body, factor) for body in run.bodies]
     every = numpy.concatenate(places)
     low, high = every[:, :2].min(axis=0), every[:, :2].max(axis=0)
+    if box is not None:
+        low, high = numpy.array(box[:4:2]), numpy.array(box[1:4:2])
     picture, axes = pyplot.subplots(figsize=proportions(low, high))
     axes.grid(False)
     norm = matplotlib.colors.Normalize(*deformation.stress_range(run))
@@ -68,6 +71,9 @@ def figure(run):
     axes.use_sticky_edges = False
     axes.margins(0.02)
     axes.autoscale_view()
+    if box is not None:
+        axes.set_xlim(low[0], high[0])
+        axes.set_ylim(low[1], high[1])
     axes.set_xlabel("x [length]")
     axes.set_ylabel("y [length]")
     bar = picture.colorbar(matplotlib.cm.ScalarMappable(norm, style.STRESS), ax=axes, shrink=0.85, pad=0.03, aspect=26)

@@ -40,6 +40,12 @@ SCALING = "problem,H_inverse,H_over_h,ranks,operator,preconditioner,hessian_mult
 ONE_RANK = "".join(f"coercive,{inverse},8,1,{form},dirichlet,20,0.1,0.2,0.3,1e-3,1e6,1e10,double,1000\n"
                    for inverse in (2, 4, 8) for form in ("implicit", "explicit", "shared"))
 TWO_RANKS = "coercive,8,8,2,shared,dirichlet,20,0.1,0.2,0.3,1e-3,1e6,1e10,double,1000\n"
+HERTZ = """scene,block_factor,h,hertz_radius,radius_error,radius_by_area_error,pressure_error
+hertz_cylinder,1,0.1,0.5,0.04,0.2,0.03
+hertz_cylinder,1,0.05,0.5,0.01,0.1,0.02
+hertz_cylinder,4,0.1,0.5,0.04,0.2,0
+hertz_sphere,1,0.1,0.5,0.04,0.2,0.03
+"""
 PREDICTION = """ranks,subdomains_per_rank,local_seconds,neighbour_seconds,reduction_seconds,coarse_sum_seconds,coarse_solve_seconds
 1,1,1e-3,0,0,0,1e-6
 1000,1,1e-3,1e-5,1e-5,1e-5,1e-3
@@ -131,6 +137,14 @@ class Plot(unittest.TestCase):
         (self.directory / "scaling.csv").write_text(SCALING + ONE_RANK.splitlines()[0])
         self.assertIn("no series", self.refused(self.directory))
 
+    def test_errors_of_hertzs_contacts_are_drawn(self):
+        (self.directory / "hertz.csv").write_text(HERTZ)
+        (picture,) = self.pictures(self.directory, "--format", "svg")
+        for words in ("Hertz: cylinder", "Hertz: sphere", "block 4 times as large", "largest pressure"):
+            self.assertIn(words, picture.read_text())
+        (self.directory / "hertz.csv").write_text(HERTZ.replace("0.05", "fine"))
+        self.assertIn("fine", self.refused(self.directory))
+
     def test_a_history_table_alone_gives_the_convergence(self):
         (self.directory / "history.csv").write_text(HISTORY)
         self.assertEqual([picture.name for picture in self.pictures(self.directory)], ["history_convergence.png"])
@@ -184,6 +198,19 @@ class Plot(unittest.TestCase):
             elastic_runs.write(self.directory / "run.h5", "quadrilateral", amplitude=amplitude, gap=gap)
             self.pictures(self.directory / "run.h5", "--format", "svg")
             self.assertTrue(said in (self.directory / "run_deformed.svg").read_text(), said)
+
+    def test_a_box_shows_a_part_of_the_shape_alone(self):
+        for cell_type, box in (("triangle", "0.2,0.8,0.6,1.4"), ("hexahedron", "0,0.6,0,0.6,0,2")):
+            elastic_runs.write(self.directory / f"{cell_type}.h5", cell_type)
+            whole, part = self.directory / "whole", self.directory / "part"
+            self.pictures(self.directory / f"{cell_type}.h5", "--dpi", 40, "--output", whole)
+            self.pictures(self.directory / f"{cell_type}.h5", "--dpi", 40, "--output", part, f"--box={box}")
+            differ = {file.name for file in whole.iterdir() if file.read_bytes() != (part / file.name).read_bytes()}
+            self.assertEqual({name for name in differ if name.startswith(cell_type)}, {f"{cell_type}_deformed.png"})
+        beside = self.refused(self.directory / "hexahedron.h5", "--box", "3,4,0,1")
+        self.assertIn("the bodies fill x 0 … 1, y 0 … 1.", beside)
+        for wrong in ("0,1,0", "0,1,1,0", "0,1,nan,1", "a,b,c,d", "0,inf,0,1"):
+            self.assertIn("argument --box", run(self.directory / "hexahedron.h5", f"--box={wrong}").stderr)
 
     def test_a_hundred_thousand_nodes_in_space_take_seconds(self):
         elastic_runs.write(self.directory / "run.h5", "hexahedron", n=36)  # twice 37³ nodes

@@ -3,6 +3,7 @@
 
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
@@ -10,7 +11,9 @@ sys.path[:0] = [str(pathlib.Path(__file__).resolve().parent), sys.argv[1]]
 
 import elastic_runs  # noqa: E402
 import numpy  # noqa: E402
-from plot import cells, render  # noqa: E402
+from plot import cells, part, render  # noqa: E402
+from plot.errors import PlotError  # noqa: E402
+from plot.run import read_run  # noqa: E402
 
 
 class Surfaces(unittest.TestCase):
@@ -31,6 +34,32 @@ class Surfaces(unittest.TestCase):
         points, mesh = elastic_runs.block("hexahedron", 4, 0.0)
         owner = (points[mesh].mean(axis=1)[:, 0] > 0.5).astype(int)
         self.assertEqual(len(cells.outer_facets("hexahedron", mesh, owner)[0]), 96 + 2 * 16)
+
+    def test_a_part_keeps_what_the_box_holds_and_the_contact_on_it(self):
+        for cell_type, box in (("hexahedron", [0, 0.5, 0, 1, 0.5, 1.5]), ("quadrilateral", [0, 0.45, 0.55, 1.45])):
+            with tempfile.TemporaryDirectory() as place:
+                file = pathlib.Path(place) / "run.h5"
+                elastic_runs.write(file, cell_type, n=10)
+                run = read_run(file)
+            kept = part.of(run, box)
+            self.assertEqual([body.name for body in kept.bodies], ["lower", "upper"])
+            for body in kept.bodies:  # 5 of 10 columns and layers each; in the plane the rim of 10 % is kept too
+                self.assertEqual(len(body.cells), {"hexahedron": 5 * 10 * 5, "quadrilateral": 5 * 5}[cell_type])
+                self.assertEqual(len(body.u), body.cells.max() + 1)
+                self.assertEqual((len(body.points), len(body.von_mises)), (len(body.u), len(body.u)))
+                self.assertLessEqual(body.points[:, 0].max(), 0.5 + 1e-12)
+            whole, pair = run.contacts[0], kept.contacts[0]
+            self.assertEqual(len(pair.points), 6 * 11 if cell_type == "hexahedron" else 6)
+            self.assertEqual(len(pair.cells), 5 * 10 if cell_type == "hexahedron" else 5)
+            places = cells.places(whole.points, pair.points)
+            numpy.testing.assert_array_equal(pair.pressure, whole.pressure[places])
+            sides = numpy.linalg.norm(pair.points[pair.cells[:, 0]] - pair.points[pair.cells[:, 1]], axis=1)
+            numpy.testing.assert_allclose(sides, 0.1, rtol=1e-9)  # still links of neighbours
+            lower = part.of(run, [0, 1, 0, 0.4] if cell_type == "quadrilateral" else [0, 1, 0, 1, 0, 0.4])
+            self.assertEqual([body.name for body in lower.bodies], ["lower"])
+            self.assertEqual(len(lower.contacts[0].points), 0)
+            with self.assertRaisesRegex(PlotError, "bodies fill"):
+                part.of(run, [5, 6, 0, 1])
 
     def test_every_edge_is_found_once_with_the_polygons_that_meet_there(self):
         ends, meeting = cells.edges(numpy.array([[0, 1, 2], [0, 2, 3]]))
