@@ -35,10 +35,11 @@ TEST(ContactDirectionsTest, AllRanksHaveThoseOfAll) {
 TEST(ContactDirectionsTest, ThousandsAreToldApartQuickly) {
   DistinctDirections directions(18);
   for (int repeat = 0; repeat < 2; ++repeat)
-    for (int j = 0; j < 20000; ++j) // 4·10⁸ comparisons if each were compared with each
-      directions.add(Eigen::VectorXd::Unit(18, j % 18) +
-                         1e-5 * (j / 18) * Eigen::VectorXd::Unit(18, (j + 1) % 18),
-                     repeat);
+    for (int j = 0; j < 20000; ++j) { // 4·10⁸ comparisons if each were compared with each
+      const int round = j / 18;
+      directions.add(
+          Eigen::VectorXd::Unit(18, j % 18) + 1e-5 * round * Eigen::VectorXd::Unit(18, (j + 1) % 18), repeat);
+    }
   EXPECT_EQ(directions.size(), 20000);
   EXPECT_EQ(directions.values().maxCoeff(), 0);
 }
