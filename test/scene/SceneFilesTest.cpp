@@ -73,6 +73,8 @@ void expectSame(const Scene& a, const Scene& b) {
 TEST(SceneFilesTest, AllCanBeReadAndSurviveBeingWrittenByTeuchos) {
   int numFiles = 0;
   for (const auto& file : std::filesystem::directory_iterator(EPAFI_SOURCE_DIR "/xml")) {
+    if (file.path().extension() != ".xml")
+      continue; // geometries
     const std::string path = file.path().string();
     SCOPED_TRACE(path);
     const auto list = scene::readParameterFile(path, *Tpetra::getDefaultComm());
@@ -85,7 +87,7 @@ TEST(SceneFilesTest, AllCanBeReadAndSurviveBeingWrittenByTeuchos) {
     EXPECT_TRUE(Teuchos::haveSameValues(list, again));
     expectSame(readScene(list, path), readScene(again, path));
   }
-  EXPECT_GE(numFiles, 8);
+  EXPECT_GE(numFiles, 15);
 }
 
 TEST(SceneFilesTest, CoerciveIsTheModelProblemOfThePaper) {
