@@ -28,7 +28,10 @@ target_link_libraries(epafi_muelu INTERFACE ${epafi_muelu_libraries} Epafi::tril
 # Sparse Cholesky factors of subdomains. Its dense parts go through the BLAS that Trilinos names; OpenBLAS it should be.
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
-find_package(OpenMP REQUIRED COMPONENTS CXX) # its run-time library alone, to keep CHOLMOD from making threads
+find_package(OpenMP COMPONENTS CXX) # its run-time library alone, to keep CHOLMOD from making threads
+if(NOT OpenMP_CXX_FOUND)
+  set(OpenMP_CXX_LIBRARIES gomp) # CHOLMOD's own, where another compiler than GCC brings none
+endif()
 add_library(epafi_cholmod INTERFACE)
 add_library(Epafi::cholmod ALIAS epafi_cholmod)
 target_include_directories(epafi_cholmod SYSTEM INTERFACE "${CHOLMOD_INCLUDE_DIR}")

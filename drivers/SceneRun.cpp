@@ -1,10 +1,13 @@
 #include "SceneRun.hpp"
 
+#include "epafi/accuracy/Transfer.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
+
+#include <cmath>
 
 namespace epafi::drivers {
 
@@ -12,27 +15,64 @@ Teuchos::ParameterList driverSchema() {
   Teuchos::ParameterList schema = scene::sceneSchema();
   schema.sublist("Solver", false, "How the problem is solved; the defaults suit most scenes.")
       .setParameters(ContactSolver::validParameters());
+  AccuracyParameters::addTo(schema);
   return schema;
 }
 
+double SceneRun::relativeError() const {
+  const double algebraic = std::isfinite(solution.algebraicError) ? solution.algebraicError : 0;
+  const double absolute = std::hypot(error->discretisation, algebraic);
+  const double whole = std::hypot(error->energyNorm, absolute);
+  return whole > 0 ? absolute / whole : 0;
+}
+
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
-                    const RCP<const Comm>& comm, qp::Observer* observer) {
+                    const RCP<const Comm>& comm, const RunOptions& options) {
   SceneRun run;
   run.started = Teuchos::Time::wallTime();
   run.scene = scene;
   run.solver = std::make_unique<ContactSolver>(solverParameters);
   run.decomposition = std::make_unique<decomposition::Decomposition>(decomposition::decompose(scene, comm));
   const double assembly = maxOverRanks(*comm, Teuchos::Time::wallTime() - run.started);
+  RCP<const Vector> start;
+  if (options.companion != nullptr)
+    start = options.companion->begin(run.decomposition->problem);
   run.solver->setup(run.decomposition->problem);
-  run.solution = run.solver->solve(nullptr, observer);
+  if (options.companion != nullptr)
+    options.companion->beforeIteration();
+  std::optional<accuracy::ErrorEstimator> estimator;
+  if (options.estimatesError || run.solver->isBalanced())
+    estimator.emplace(run.scene, *run.decomposition);
+  fetidp::ErrorBalance balance;
+  balance.fraction = run.solver->algebraicFraction();
+  balance.estimate = [&](std::span<const Eigen::VectorXd> u) { return (*estimator)(u).toBalance(); };
+  if (options.coarser != nullptr) {
+    const SceneRun& coarser = *options.coarser;
+    start = run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
+                                                        *run.decomposition, accuracy::NodesOf::interfaces));
+    if (coarser.error) // of linear elements it is halved at best
+      balance.expected = 0.5 * coarser.error->discretisation;
+  }
+  run.solution =
+      run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
   const double solved = Teuchos::Time::wallTime();
-  run.evaluation = output::evaluate(run.solved());
+  if (options.estimatesError)
+    run.error = (*estimator)(run.solution.displacement);
+  const double estimated = Teuchos::Time::wallTime();
+  run.evaluation = output::evaluate(run.solved(), run.error ? &*run.error : nullptr);
   run.report = run.solver->reportList(run.solution);
   output::addResults(run.solved(), run.evaluation, run.report);
-  const double evaluation = maxOverRanks(*comm, Teuchos::Time::wallTime() - solved);
+  const double evaluation = maxOverRanks(*comm, Teuchos::Time::wallTime() - estimated);
   run.report.sublist("Time")
       .set("Assembly", assembly)
       .set("Recovery", run.solver->times().recovery + evaluation);
+  if (run.error) {
+    run.report.sublist("Time").set("Error Estimate", maxOverRanks(*comm, estimated - solved));
+    run.report.sublist("Accuracy")
+        .set("Energy Norm", run.error->energyNorm)
+        .set("Discretisation Error", run.error->discretisation)
+        .set("Relative Error", run.relativeError());
+  }
   run.report.sublist("Problem").set("Title", scene.title);
   return run;
 }

@@ -3,7 +3,10 @@
 /// One scene from its parameter list to its solution, report and files: what the driver, the studies and the
 /// system tests share.
 
+#include "AccuracyParameters.hpp"
+
 #include "epafi/ContactSolver.hpp"
+#include "epafi/accuracy/ErrorEstimate.hpp"
 #include "epafi/decomposition/Decompose.hpp"
 #include "epafi/output/Evaluation.hpp"
 #include "epafi/scene/Scene.hpp"
@@ -12,10 +15,25 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace epafi::drivers {
 
-/// The schema of a whole XML file: the scene, and the sublist Solver.
+struct SceneRun;
+
+/// Goes along with a run: looks on, may stop it, may know where to start.
+class RunCompanion : public qp::Observer {
+public:
+  /// Called when the problem is assembled, before anything is factorised. Returns λ to start from, or null. Collective; may
+  /// throw what all ranks agree on.
+  virtual RCP<const Vector> begin(const decomposition::DecomposedProblem& /*problem*/) {
+    return Teuchos::null;
+  }
+  /// Called when all is ready for the iteration. Likewise.
+  virtual void beforeIteration() {}
+};
+
+/// The schema of a whole XML file: the scene, and the sublists Solver and Accuracy.
 Teuchos::ParameterList driverSchema();
 
 /// A solved scene. Heap members keep their addresses: the solver refers to the problem.
@@ -24,11 +42,22 @@ struct SceneRun {
   std::unique_ptr<decomposition::Decomposition> decomposition;
   std::unique_ptr<ContactSolver> solver;
   fetidp::ContactSolution solution;
+  std::optional<accuracy::ErrorEstimate> error; ///< if asked for
   output::Evaluation evaluation;
   Teuchos::ParameterList report; ///< complete but for Time/Output and Time/Total
   double started = 0;            ///< wall time at the start
 
+  /// Both errors together relative to the energy norm. Precondition: `error`.
+  [[nodiscard]] double relativeError() const;
   [[nodiscard]] output::SolvedScene solved() const { return {scene, *decomposition, solution}; }
+};
+
+/// What a run can start from and what it is to tell.
+struct RunOptions {
+  bool estimatesError = false;
+  const SceneRun* coarser =
+      nullptr; ///< the same scene on a coarser mesh: its solution is where this run starts
+  RunCompanion* companion = nullptr;
 };
 
 /// Decomposes, assembles and solves.
@@ -36,6 +65,6 @@ struct SceneRun {
 /// Collective.
 /// \throws InputError, SolvabilityError or Error, the same on all ranks.
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
-                    const RCP<const Comm>& comm, qp::Observer* observer = nullptr);
+                    const RCP<const Comm>& comm, const RunOptions& options = {});
 
 } // namespace epafi::drivers

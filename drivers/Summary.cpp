@@ -1,5 +1,6 @@
 #include "Summary.hpp"
 
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -88,13 +89,39 @@ void describeSolution(std::ostream& text, const SceneRun& run) {
        << " proportioning steps, " << count(iterations, "Outer") << " outer\n";
 }
 
+/// "1.2 %", "0.00034 %".
+std::string percent(double share) {
+  std::ostringstream text;
+  text << std::setprecision(2) << 100 * share << " %";
+  return text.str();
+}
+
+/// What of the error the mesh and what the iteration is to blame for.
+void describeError(std::ostream& text, const SceneRun& run) {
+  const accuracy::ErrorEstimate& error = *run.error;
+  const double whole = std::hypot(error.energyNorm, error.discretisation);
+  text << "\n              estimated error " << percent(run.relativeError())
+       << " of the energy norm: " << percent(error.relative()) << " of the mesh, ";
+  if (std::isfinite(run.solution.algebraicError))
+    text << percent(whole > 0 ? run.solution.algebraicError / whole : 0) << " of the iteration";
+  else
+    text << "that of the iteration not measured without preconditioner";
+}
+
 void describeAccuracy(std::ostream& text, const SceneRun& run) {
   const ParameterList& accuracy = run.report.sublist("Accuracy");
+  std::ostringstream asked;
+  if (run.solver->isBalanced())
+    asked << "balanced";
+  else
+    asked << run.solver->tolerance();
   text << "  accuracy    projected gradient " << scientific(accuracy, "Relative Projected Gradient", 2)
-       << " (asked " << run.solver->tolerance() << "), feasibility " << scientific(accuracy, "Feasibility", 2)
+       << " (asked " << asked.str() << "), feasibility " << scientific(accuracy, "Feasibility", 2)
        << ", complementarity " << scientific(accuracy, "Complementarity", 2);
   if (!floatingBodies(run).empty())
     text << ", equilibrium " << scientific(accuracy, "Equilibrium", 2);
+  if (run.error)
+    describeError(text, run);
   text << "\n  solution    energy " << scientific(accuracy, "Energy", 9);
   if (count(run.report.sublist("Problem"), "Inequality Multipliers") > 0)
     text << ", contact force " << scientific(accuracy, "Contact Force", 9) << " on "
@@ -142,6 +169,8 @@ void describeCosts(std::ostream& text, const SceneRun& run) {
   const ParameterList& memory = run.report.sublist("Memory");
   text << "  time        assembly " << seconds(time, "Assembly") << ", setup " << seconds(time, "Setup")
        << ", solve " << seconds(time, "Solve") << ", recovery " << seconds(time, "Recovery");
+  if (time.isParameter("Error Estimate"))
+    text << ", error estimate " << seconds(time, "Error Estimate");
   if (time.isParameter("Output"))
     text << ", output " << seconds(time, "Output");
   if (time.isParameter("Total"))
@@ -162,6 +191,18 @@ std::string summary(const SceneRun& run) {
   const ParameterList& status = run.report.sublist("Status");
   text << "  status      " << status.get<std::string>("Status") << ": " << status.get<std::string>("Reason")
        << '\n';
+  return text.str();
+}
+
+std::string describe(const Level& level) {
+  const double scale = level.discretisationError > 0
+                           ? level.relativeError / std::hypot(level.discretisationError, level.algebraicError)
+                           : 0;
+  std::ostringstream text;
+  text << "  mesh        " << counted(level.unknowns, "primal unknown") << ", "
+       << counted(level.multiplications, "product") << " with F: estimated error "
+       << percent(level.relativeError) << " (" << percent(scale * level.discretisationError)
+       << " of the mesh, " << percent(scale * level.algebraicError) << " of the iteration)\n";
   return text.str();
 }
 

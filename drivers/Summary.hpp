@@ -2,6 +2,7 @@
 
 /// What a finished run tells its user.
 
+#include "AccurateRun.hpp"
 #include "SceneRun.hpp"
 
 #include <string>
@@ -10,5 +11,8 @@ namespace epafi::drivers {
 
 /// The report in lines for people: problem, algorithm and why, iterations, accuracy, time, memory, status.
 std::string summary(const SceneRun& run);
+
+/// One line about a mesh of a run with an accuracy target, ends with a newline.
+std::string describe(const Level& level);
 
 } // namespace epafi::drivers

@@ -1,17 +1,18 @@
 /// `epafi SCENE.xml`: one contact problem from its XML scene to fields, report and exit code.
 
+#include "AccurateRun.hpp"
+#include "JointEnd.hpp"
 #include "Options.hpp"
-#include "Progress.hpp"
+#include "RunFiles.hpp"
+#include "RunWatch.hpp"
 #include "SceneRun.hpp"
+#include "StopSignals.hpp"
 #include "Summary.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/output/AtomicFile.hpp"
-#include "epafi/output/FieldWriter.hpp"
-#include "epafi/output/HistoryTable.hpp"
-#include "epafi/output/Report.hpp"
 #include "epafi/scene/ParameterFile.hpp"
 #include "epafi/scene/ParameterOverride.hpp"
 #include "epafi/scene/SceneReader.hpp"
@@ -20,28 +21,15 @@
 #include <Teuchos_Time.hpp>
 #include <Tpetra_Core.hpp>
 
+#include <cerrno>
+#include <cstring>
 #include <iostream>
-#include <optional>
-#include <vector>
+#include <string>
 
 namespace {
 
 using namespace epafi;
 using namespace epafi::drivers;
-
-enum ExitCode : int { solved = 0, notConverged = 1, wrongInput = 2, notSolvable = 3 };
-
-/// DIR/report.xml and the file of --report, as far as they were asked for; not twice the same.
-std::vector<std::filesystem::path> reportsOf(const Options& options) {
-  std::vector<std::filesystem::path> files;
-  if (!options.output.empty())
-    files.push_back(std::filesystem::path(options.output) / "report.xml");
-  if (!options.report.empty() &&
-      (files.empty() ||
-       files[0].lexically_normal() != std::filesystem::path(options.report).lexically_normal()))
-    files.emplace_back(options.report);
-  return files;
-}
 
 /// What is printed instead of solving.
 std::string information(const Options& options) {
@@ -54,27 +42,42 @@ std::string information(const Options& options) {
                             "as `epafi --print-parameters` prints them.");
 }
 
-/// Writes what was asked for; returns the lines that say where.
-std::string writeFiles(const Options& options, SceneRun& run, const Comm& comm) {
-  std::string lines;
-  const double start = Teuchos::Time::wallTime();
-  const std::filesystem::path directory = options.output;
-  if (!options.output.empty()) {
-    const std::string name = std::filesystem::path(options.scene).stem().string();
-    const auto files =
-        output::writeFields(directory, name, run.solved(), run.evaluation, run.solver->report().history);
-    output::writeHistory(run.solver->report().history, directory / "history.csv", comm);
-    lines += "  fields      " + files.hdf5.string() + " and " + files.xdmf.string() + "\n  history     " +
-             (directory / "history.csv").string() + "\n";
-  }
-  const double now = Teuchos::Time::wallTime();
-  run.report.sublist("Time").set("Output", maxOverRanks(comm, now - start));
-  run.report.sublist("Time").set("Total", maxOverRanks(comm, now - run.started));
-  for (const std::filesystem::path& file : reportsOf(options)) {
-    output::writeReport(run.report, file, comm);
-    lines += "  report      " + file.string() + "\n";
-  }
-  return lines;
+/// How to go on after a signal.
+std::string farewell(const std::string& signal, const RunWatch& watch) {
+  const std::string file = watch.checkpoint().string();
+  return "  stopped     by " + signal +
+         (file.empty() ? ", without a checkpoint: that takes --output\n"
+                       : "; to go on: --restart " + file + '\n');
+}
+
+/// Whether the standard output took the text, or nobody wanted to read it; says so if not: a disk may be full.
+bool print(const std::string& text) {
+  std::cout.clear(); // what was lost before, lines about progress, is no matter
+  errno = 0;
+  std::cout << text << std::flush;
+  if (std::cout || errno == EPIPE)
+    return true;
+  std::cerr << "epafi: the results could not be written to the standard output: " << std::strerror(errno)
+            << "; check the free space where it leads.\n";
+  return false;
+}
+
+/// On the scene's own mesh, or on finer ones until the error is small enough.
+SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& list,
+                      const RCP<const Comm>& comm, RunWatch& watch, bool speaks) {
+  const auto accuracy = AccuracyParameters::from(list.sublist("Accuracy"));
+  const Teuchos::ParameterList& solver = list.sublist("Solver");
+  if (accuracy.target == 0)
+    return solveScene(scene, solver, comm, {.estimatesError = accuracy.estimate, .companion = &watch});
+  if (watch.restarts())
+    throw InputError("--restart goes on with the iteration on one mesh, and \"Target\" in list \"Accuracy\" "
+                     "asks for a series of "
+                     "meshes; set it to 0, and refine the scene's mesh to the one of the checkpoint");
+  const auto tell = [speaks](const Level& level) {
+    if (speaks)
+      std::cout << describe(level) << std::flush;
+  };
+  return std::move(solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
 }
 
 int solve(const Options& options, const RCP<const Comm>& comm) {
@@ -89,8 +92,10 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   for (const auto& file : reportsOf(options)) {
     collectively(*comm, [&] {
       std::error_code ignored;
-      if (std::filesystem::equivalent(file, options.scene, ignored))
-        throw InputError("the report " + file.string() + " would overwrite the scene; choose another name");
+      for (const std::string& input : {options.scene, options.restart})
+        if (std::filesystem::equivalent(file, input, ignored))
+          throw InputError("the report " + file.string() +
+                           " would overwrite what is read; choose another name");
     });
     output::prepareTarget(file, *comm); // better now than after an hour
   }
@@ -98,40 +103,26 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
     std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
               << std::flush;
 
-  std::optional<Progress> progress;
-  if (speaks)
-    progress.emplace(std::cout, 5.0);
-  SceneRun run = solveScene(scene, list.sublist("Solver"), comm, progress ? &*progress : nullptr);
+  RunWatch watch(options, comm);
+  SceneRun run = solveAsAsked(scene, list, comm, watch, speaks);
   run.started = start;
-  const std::string files = writeFiles(options, run, *comm);
-  if (speaks)
-    std::cout << summary(run) << files << std::flush;
-  return run.solver->report().status == qp::Status::converged ? solved : notConverged;
+  const bool isInterrupted = run.solver->report().status == qp::Status::interrupted;
+  const std::string signal = isInterrupted ? watch.signal() : "";
+  const WrittenFiles files = writeFiles(options, watch, run, *comm);
+  bool isComplete = run.report.sublist("Status").get<bool>("Converged") && files.failures.empty();
+  if (speaks && !print(summary(run) + files.lines + (isInterrupted ? farewell(signal, watch) : "")))
+    isComplete = false;
+  for (const std::string& failure : files.failures)
+    if (comm->getRank() == 0)
+      std::cerr << "epafi: " << failure << '\n';
+  return isComplete ? solved : notConverged;
 }
 
 int run(int argc, char** argv, const RCP<const Comm>& comm) {
-  const bool isFirst = comm->getRank() == 0;
-  try {
-    const Options options = parseOptions(argc, argv);
-    if (options.help || options.version || options.printParameters) {
-      if (isFirst)
-        std::cout << information(options) << std::flush;
-      return solved;
-    }
+  const Options options = parseOptions(argc, argv);
+  if (!options.help && !options.version && !options.printParameters)
     return solve(options, comm);
-  } catch (const InputError& error) {
-    if (isFirst)
-      std::cerr << "epafi: " << error.what() << '\n';
-    return wrongInput;
-  } catch (const SolvabilityError& error) {
-    if (isFirst)
-      std::cerr << "epafi: " << error.what() << '\n';
-    return notSolvable;
-  } catch (const Error& error) { // agreed on by all ranks
-    if (isFirst)
-      std::cerr << "epafi: " << error.what() << '\n';
-    return notConverged;
-  }
+  return comm->getRank() > 0 || print(information(options)) ? solved : notConverged;
 }
 
 } // namespace
@@ -139,12 +130,7 @@ int run(int argc, char** argv, const RCP<const Comm>& comm) {
 int main(int argc, char** argv) {
   int programNameOnly = 1; // Kokkos would answer --help itself
   Tpetra::ScopeGuard scope(&programNameOnly, &argv);
+  listenToStopSignals();
   const RCP<const Comm> comm = Tpetra::getDefaultComm();
-  try {
-    return run(argc, argv, comm);
-  } catch (const std::exception& error) { // on this rank alone, perhaps: the others must not wait for it
-    std::cerr << "epafi: rank " << comm->getRank() << " failed: " << error.what() << std::endl;
-    MPI_Abort(MPI_COMM_WORLD, notConverged);
-  }
-  return notConverged;
+  return endTogether(*comm, [&] { return run(argc, argv, comm); });
 }

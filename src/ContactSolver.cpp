@@ -1,16 +1,23 @@
 #include "epafi/ContactSolver.hpp"
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
+#include "epafi/fetidp/FiniteData.hpp"
 #include "epafi/fetidp/Recovery.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Operator.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -33,9 +40,18 @@ double longest(const Comm& comm, double since) {
 Teuchos::ParameterList ContactSolver::validParameters() {
   const fetidp::DualParameters dual;
   Teuchos::ParameterList list("Solver");
-  addReal(list, "Tolerance", dual.tolerance,
-          "The iteration stops when the projected gradient is this small relative to the right-hand side of "
-          "the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies.",
+  addRealOrWord(
+      list, "Tolerance", dual.tolerance, {"balanced"},
+      "The iteration stops when the projected gradient is this small relative to the right-hand side of "
+      "the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies. 'balanced': when the "
+      "error that is left of the iteration is the Algebraic Fraction of what the mesh allows, both estimated "
+      "in "
+      "the energy norm; no digit more than the mesh can use.",
+      0.0, 1.0);
+  addReal(list, "Algebraic Fraction", fetidp::ErrorBalance().fraction,
+          "With Tolerance 'balanced': algebraic error as a fraction of the discretisation error. With 0.1 "
+          "the two "
+          "together are half a per cent more than the discretisation error alone.",
           0.0, 1.0, true);
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
           "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes.",
@@ -49,52 +65,140 @@ Teuchos::ParameterList ContactSolver::validParameters() {
 
 ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters) {
   const Teuchos::ParameterList list = validated(parameters, validParameters(), "");
-  dualParameters_.tolerance = list.get<double>("Tolerance");
+  dualParameters_.isBalanced = list.isType<std::string>("Tolerance");
+  if (!dualParameters_.isBalanced)
+    dualParameters_.tolerance = list.get<double>("Tolerance");
+  algebraicFraction_ = list.get<double>("Algebraic Fraction");
   dualParameters_.equilibriumTolerance = list.get<double>("Equilibrium Tolerance");
   dualParameters_.mprgp = qp::MprgpParameters::from(list.sublist("MPRGP"));
   dualParameters_.smalbe = qp::SmalbeParameters::from(list.sublist("SMALBE"));
   dualParameters_.norm = qp::NormEstimateParameters::from(list.sublist("Norm Estimate"));
   dualParameters_.dualOperator = fetidp::dualOperatorFrom(list.sublist("Dual Operator"));
   dualParameters_.preconditioner = fetidp::preconditionerFrom(list.sublist("Preconditioner"));
+  dualParameters_.adaptiveConstraints = fetidp::adaptiveConstraintsFrom(list.sublist("Adaptive Constraints"));
   directSolvers_ = fetidp::directSolversFrom(list.sublist("Direct Solvers"));
+  if (dualParameters_.isBalanced &&
+      dualParameters_.preconditioner.type == fetidp::PreconditionerParameters::Type::none)
+    throw InputError(
+        "parameter \"Tolerance\" in list \"Solver\" is \"balanced\", which measures the algebraic error by "
+        "the "
+        "preconditioner, but the parameter \"Type\" in list \"Solver/Preconditioner\" is \"none\"; choose "
+        "\"dirichlet\" or \"lumped\", or a tolerance that is a number.");
 }
 
 void ContactSolver::setup(const decomposition::DecomposedProblem& problem) {
   const double start = Teuchos::Time::wallTime();
   dual_.reset(); // should this setup fail, there is none
   problem_ = &problem;
+  fetidp::requireFiniteMatrices(problem);
   inverse_ = std::make_shared<fetidp::GeneralizedInverse>(problem, directSolvers_);
   dual_ = std::make_unique<fetidp::DualProblem>(problem, inverse_, dualParameters_);
   times_ = {};
   times_.setup = longest(*problem.comm, start);
 }
 
-fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* observer) {
+fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* observer,
+                                             const fetidp::ErrorBalance* balance) {
   if (!dual_)
     throw Error("ContactSolver::solve was called before ContactSolver::setup; call setup first");
   const double solveStart = Teuchos::Time::wallTime();
-  const fetidp::DualSolution dual = dual_->solve(start, observer);
+  const fetidp::DualSolution dual = dual_->solve(start, observer, {balance});
   report_ = dual.report;
   times_.solve = longest(*problem_->comm, solveStart);
 
   const double recoveryStart = Teuchos::Time::wallTime();
   fetidp::ContactSolution solution =
       fetidp::recover(*problem_, *inverse_, dual_->kernelEntries(), dual, dual_->norm().norm);
-  confirm(solution);
+  if (!dualParameters_.isBalanced)
+    tighten(dual, observer, solution);
+  solution.algebraicError = algebraicErrorOf(solution);
+  confirm(solution, dual.errorTarget);
   times_.recovery = longest(*problem_->comm, recoveryStart);
   return solution;
 }
 
+/// (g^Pᵀ M g^P)^½ of the gradient g = c − Bu: no eigenvalue of MF is below 1, so that it is the algebraic error in the energy
+/// norm at most (see qp/StoppingRule.hpp). Collective.
+double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) const {
+  if (dual_->algorithm() == fetidp::Algorithm::direct)
+    return 0;
+  if (dual_->preconditioner().is_null())
+    return std::numeric_limits<double>::quiet_NaN();
+  Vector gradient(*solution.slack, Teuchos::Copy), image(gradient.getMap());
+  {
+    const auto g = gradient.getDataNonConst();
+    const auto lambda = solution.multiplier->getData();
+    for (Teuchos_Ordinal i = 0; i < g.size(); ++i)
+      if (gradient.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem_->numInequalities &&
+          !(lambda[i] > 0))
+        g[i] = std::min(g[i], 0.0);
+  }
+  dual_->preconditioner()->apply(gradient, image);
+  return std::sqrt(std::max(0.0, accurateDot(gradient, image)));
+}
+
+namespace {
+
+/// What constraints may be violated by, relative to the largest displacement: 1000 tolerances, or what round-off leaves of
+/// differences of displacements in the worst of the problems that are solved well.
+double allowedViolation(double tolerance) {
+  return std::max(1e-7, 1e3 * tolerance);
+}
+
+/// Adds what a further solve did, its history numbered on.
+void append(const qp::SolveReport& further, qp::SolveReport& report) {
+  qp::StepCounts& counts = report.counts;
+  const int iterations = report.history.empty() ? 0 : report.history.back().iteration + 1;
+  for (qp::StepRecord record : further.history) {
+    record.iteration += iterations;
+    record.outer += counts.outer;
+    record.hessianMultiplications += counts.hessianMultiplications;
+    report.history.push_back(record);
+  }
+  counts.outer += further.counts.outer;
+  counts.conjugateGradient += further.counts.conjugateGradient;
+  counts.expansion += further.counts.expansion;
+  counts.proportioning += further.counts.proportioning;
+  counts.hessianMultiplications += further.counts.hessianMultiplications;
+  counts.preconditionerApplications += further.counts.preconditionerApplications;
+  counts.safeguards += further.counts.safeguards;
+  counts.normCorrections += further.counts.normCorrections;
+}
+
+} // namespace
+
+/// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the tolerance is met
+/// long before the constraints are. Goes on from there until they hold as well, or until round-off ends it.
+void ContactSolver::tighten(fetidp::DualSolution dual, qp::Observer* observer,
+                            fetidp::ContactSolution& solution) {
+  const double allowed = allowedViolation(dualParameters_.tolerance);
+  double tightening = 1;
+  for (int again = 0;
+       again < 4 && dual.report.status == qp::Status::converged && solution.feasibility > allowed; ++again) {
+    tightening *= std::max(1e-6, 0.01 * allowed / solution.feasibility);
+    const double violated = solution.feasibility;
+    dual = dual_->solve(dual.lambda.get(), observer, {nullptr, tightening});
+    append(dual.report, report_);
+    const fetidp::ContactSolution better =
+        fetidp::recover(*problem_, *inverse_, dual_->kernelEntries(), dual, dual_->norm().norm);
+    if (better.feasibility < violated)
+      solution = better;
+  }
+}
+
 /// What the iteration claims must hold for the displacements too: round-off in the subdomain solves can undo it, and
 /// a right-hand side that is huge beside the displacements can make it worth little.
-void ContactSolver::confirm(const fetidp::ContactSolution& solution) {
+void ContactSolver::confirm(const fetidp::ContactSolution& solution, double errorTarget) {
   if (report_.status != qp::Status::converged)
     return;
   const double tolerance = dualParameters_.tolerance;
   std::ostringstream reason;
-  if (solution.relativeProjectedGradient > 2 * tolerance)
+  if (dualParameters_.isBalanced && solution.algebraicError > 2 * errorTarget)
+    reason << "recomputed from the solution the algebraic error is " << solution.algebraicError << ", not "
+           << errorTarget;
+  else if (!dualParameters_.isBalanced && solution.relativeProjectedGradient > 2 * tolerance)
     reason << "recomputed from the solution the projected gradient is " << solution.relativeProjectedGradient;
-  else if (solution.feasibility > std::max(1e-3, 1e3 * tolerance))
+  else if (!dualParameters_.isBalanced && solution.feasibility > allowedViolation(tolerance))
     reason << "constraints are violated by " << solution.feasibility << " of the largest displacement";
   else
     return;
@@ -127,6 +231,22 @@ std::string ContactSolver::describeDualOperator() const {
   return text.str();
 }
 
+int ContactSolver::numAdaptiveConstraints() const {
+  return dual_->deflatedOperator().is_null() ? 0 : dual_->deflatedOperator()->numConstraints();
+}
+
+/// "dirichlet, stiffness scaling, 12 adaptive constraints".
+std::string ContactSolver::describePreconditioner() const {
+  std::ostringstream text;
+  text << (dual_->preconditioner().is_null() ? std::string("none")
+                                             : fetidp::describe(dualParameters_.preconditioner));
+  if (const int number = numAdaptiveConstraints(); number > 0)
+    text << ", " << number << (number == 1 ? " adaptive constraint" : " adaptive constraints");
+  if (!dual_->correctedPreconditioner().is_null())
+    text << ", corrected for " << dual_->correctedPreconditioner()->numColumns() << " jumps of contact";
+  return text.str();
+}
+
 Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& solution) const {
   const auto& problem = *problem_;
   const Comm& comm = *problem.comm;
@@ -134,6 +254,7 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
   for (const auto& body : problem.bodies)
     floating += body.kernelDimension > 0 ? 1 : 0;
 
+  const std::size_t deflated = dual_->deflatedOperator().is_null() ? 0 : dual_->deflatedOperator()->bytes();
   Teuchos::ParameterList list("Report");
   list.sublist("Problem")
       .set("Primal Dimension", problem.primalDimension)
@@ -141,6 +262,7 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
       .set("Equality Multipliers", problem.numEqualities)
       .set("Inequality Multipliers", problem.numInequalities)
       .set("Crosspoints", problem.numCrosspoints)
+      .set("Adaptive Constraints", numAdaptiveConstraints())
       .set("Subdomains", problem.numSubdomains)
       .set("Floating Bodies", floating)
       .set("Kernel Dimension", problem.kernelDimension)
@@ -148,9 +270,7 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
   list.sublist("Algorithm")
       .set("Name", fetidp::toString(dual_->algorithm()))
       .set("Reason", dual_->reason())
-      .set("Preconditioner", dual_->preconditioner().is_null()
-                                 ? std::string("none")
-                                 : fetidp::describe(dualParameters_.preconditioner))
+      .set("Preconditioner", describePreconditioner())
       .set("Dual Operator", describeDualOperator())
       .set("Subdomain Solver", directSolvers_.subdomains)
       .set("Coarse Solver", directSolvers_.coarse)
@@ -171,11 +291,13 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
       .set("Energy", solution.energy)
       .set("Active Contact Nodes", solution.activeContactNodes)
       .set("Contact Force", solution.contactForce);
+  if (std::isfinite(solution.algebraicError))
+    list.sublist("Accuracy").set("Algebraic Error", solution.algebraicError);
   list.sublist("Time").set("Setup", times_.setup).set("Solve", times_.solve).set("Recovery", times_.recovery);
   list.sublist("Memory")
       .set("Peak Bytes", sumOverRanks(comm, peakBytes()))
-      .set("Factor Bytes",
-           sumOverRanks(comm, static_cast<double>(inverse_->factorBytes() + dual_->preconditionerBytes())));
+      .set("Factor Bytes", sumOverRanks(comm, static_cast<double>(inverse_->factorBytes() +
+                                                                  dual_->preconditionerBytes() + deflated)));
   list.sublist("Status")
       .set("Converged", report_.status == qp::Status::converged)
       .set("Status", qp::toString(report_.status))

@@ -14,6 +14,7 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <memory>
+#include <span>
 #include <string>
 
 namespace epafi {
@@ -40,26 +41,43 @@ public:
   /// Solves for the loads and gaps that the problem holds now. A solution that misses the tolerance is
   /// returned as well: ask `report().status`.
   /// \param start     λ of an earlier solve to start from, or null
-  /// \param observer  told of every step, or null
+  /// \param observer  told of every step, shown λ where it wants to look, may end the iteration (`interrupted`); or null
+  /// \param balance   with the tolerance 'balanced': who estimates the discretisation error; else null
   /// Collective. Precondition: `setup` was called.
   /// \throws SolvabilityError or InputError (a load or gap that is not finite), the same on all ranks.
-  fetidp::ContactSolution solve(const Vector* start = nullptr, qp::Observer* observer = nullptr);
+  fetidp::ContactSolution solve(const Vector* start = nullptr, qp::Observer* observer = nullptr,
+                                const fetidp::ErrorBalance* balance = nullptr);
+
+  /// λ to start from, of a guess of the displacements, say from a coarser mesh: see fetidp::DualProblem::startFrom. Null
+  /// where there is nothing to iterate, or no preconditioner of type dirichlet. Precondition: `setup` was called. Collective.
+  [[nodiscard]] RCP<Vector> startFrom(std::span<const Eigen::VectorXd> displacement) const {
+    return dual_->startFrom(displacement);
+  }
 
   /// Of the last solve.
   [[nodiscard]] const qp::SolveReport& report() const { return report_; }
   [[nodiscard]] const SolverTimes& times() const { return times_; }
   [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return *dual_; }
   [[nodiscard]] double tolerance() const { return dualParameters_.tolerance; }
+  /// Whether the algebraic error is to be a fraction of the discretisation error.
+  [[nodiscard]] bool isBalanced() const { return dualParameters_.isBalanced; }
+  /// That fraction.
+  [[nodiscard]] double algebraicFraction() const { return algebraicFraction_; }
 
   /// The report of the last solve as a list: Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status.
   /// Collective.
   [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
 
 private:
-  void confirm(const fetidp::ContactSolution& solution);
+  void confirm(const fetidp::ContactSolution& solution, double errorTarget);
+  [[nodiscard]] double algebraicErrorOf(const fetidp::ContactSolution& solution) const;
+  void tighten(fetidp::DualSolution dual, qp::Observer* observer, fetidp::ContactSolution& solution);
   [[nodiscard]] std::string describeDualOperator() const;
+  [[nodiscard]] std::string describePreconditioner() const;
+  [[nodiscard]] int numAdaptiveConstraints() const;
 
   fetidp::DualParameters dualParameters_;
+  double algebraicFraction_ = 0.1;
   fetidp::DirectSolvers directSolvers_;
   const decomposition::DecomposedProblem* problem_ = nullptr;
   std::shared_ptr<fetidp::GeneralizedInverse> inverse_;

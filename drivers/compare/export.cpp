@@ -66,7 +66,11 @@ scene::Scene read(const Request& request) {
   const Teuchos::ParameterList schema = driverSchema();
   for (const std::string& text : request.overrides)
     scene::applyOverride(list, schema, text);
-  return scene::readScene(list, request.scene);
+  scene::Scene scene = scene::readScene(list, request.scene);
+  for (const scene::Body& body : scene.bodies) // x and d of FILE mean nothing to them
+    if (!body.solid || body.solid->physics == scene::Physics::membrane)
+      throw InputError("body '" + body.name + "' is a membrane; only elastic bodies can be exported");
+  return scene;
 }
 
 void write(const UndecomposedSystem& system, const std::string& name) {

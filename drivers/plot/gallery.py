@@ -1,11 +1,12 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import contact, convergence, hertz, part, plane, pressure, qp, scaling, space, subdomains, surface, table, tables
+from . import (accuracy, contact, convergence, hertz, heterogeneity, part, plane, pressure, qp, scaling, space, stability,
+               subdomains, surface, table, tables)
 from .errors import PlotError
 from .run import read_run
 from .style import Canvas
 
-STUDIES = ("tables.csv", "qp.csv", "scaling.csv", "hertz.csv")
+STUDIES = ("accuracy.csv", "tables.csv", "qp.csv", "scaling.csv", "stability.csv", "heterogeneity.csv", "hertz.csv")
 
 
 def draw(source, output, extension, dpi, box=None):
@@ -56,10 +57,17 @@ def draw_table(file, canvas):
     rows = table.read(file)
     if table.has(rows, tables.COLUMNS):
         yield canvas.save(tables.figure(rows), file.stem)
+    elif table.has(rows, accuracy.COLUMNS):
+        for name, picture in accuracy.figures(file, rows):
+            yield canvas.save(picture, f"{file.stem}_{name}")
     elif table.has(rows, qp.COLUMNS):
         yield canvas.save(qp.figure(file, rows), file.stem)
     elif table.has(rows, scaling.COLUMNS):
         yield canvas.save(scaling.figure(file, rows), file.stem)
+    elif table.has(rows, stability.COLUMNS):
+        yield canvas.save(stability.figure(file, rows), file.stem)
+    elif table.has(rows, heterogeneity.COLUMNS):
+        yield canvas.save(heterogeneity.figure(file, rows), file.stem)
     elif table.has(rows, hertz.COLUMNS):
         yield canvas.save(hertz.figure(file, rows), file.stem)
     elif table.has(rows, convergence.COLUMNS):
@@ -69,7 +77,10 @@ def draw_table(file, canvas):
         yield canvas.save(convergence.figure(history, file.stem), f"{file.stem}_convergence")
     else:
         raise PlotError(f"'{file}' has neither the columns of tables.csv ({', '.join(tables.COLUMNS)}) "
+                        f"nor those of accuracy.csv ({', '.join(accuracy.COLUMNS)}) "
                         f"nor those of qp.csv ({', '.join(qp.COLUMNS)}) "
                         f"nor those of scaling.csv ({', '.join(scaling.COLUMNS)}) "
+                        f"nor those of stability.csv ({', '.join(stability.COLUMNS)}) "
+                        f"nor those of heterogeneity.csv ({', '.join(heterogeneity.COLUMNS)}) "
                         f"nor those of hertz.csv ({', '.join(hertz.COLUMNS)}) "
                         f"nor those of history.csv ({', '.join(convergence.COLUMNS)}).")

@@ -32,7 +32,7 @@ Teuchos::ParameterList parametersOf(const ScalingRow& run) {
 }
 
 /// Reductions that conjugate gradient steps make, products included.
-class ReductionCount final : public qp::Observer {
+class ReductionCount final : public RunCompanion {
 public:
   void step(const qp::StepRecord& record) override {
     const auto now = static_cast<double>(messageCounts().reductions);
@@ -121,7 +121,7 @@ bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const C
              ScalingRow& row) {
   row.baseBytes = sumOverRanks(*comm, resetPeakBytes());
   ReductionCount reductions;
-  const SceneRun run = solveScene(scene, parametersOf(row), comm, &reductions);
+  const SceneRun run = solveScene(scene, parametersOf(row), comm, {.companion = &reductions});
   row.peakBytes = sumOverRanks(*comm, peakBytes());
   times.add(run.report);
   row.hessianMultiplications = run.solver->report().counts.hessianMultiplications;

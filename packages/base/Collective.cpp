@@ -64,7 +64,7 @@ void collectively(const Comm& comm, const std::function<void()>& work) {
     text = error.what();
   } catch (const std::exception& error) {
     mine = Failure::other;
-    text = error.what();
+    text = sentenceOf(error, comm.getRank());
   } catch (...) {
     mine = Failure::other;
     text = "an unknown error occurred on rank " + std::to_string(comm.getRank());

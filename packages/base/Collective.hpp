@@ -12,7 +12,8 @@
 namespace epafi {
 
 /// Runs `work` on every rank. If it throws anywhere, every rank throws the error of the lowest failing rank,
-/// with the same type (InputError, SolvabilityError, or Error for all else) and the same text.
+/// with the same type (InputError, SolvabilityError, or Error for all else) and the same text (sentenceOf what is no error
+/// of Epafi's).
 ///
 /// \param work  must contain no collective call itself, or only ones that all ranks reach before any can
 /// throw. Collective.

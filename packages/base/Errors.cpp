@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,39 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 std::string asSentence(const std::string& text) {
   return text.ends_with('?') || text.ends_with('.') ? text : text + '.';
+}
+
+std::string shortened(const std::string& text) {
+  constexpr std::size_t longest = 200;
+  std::size_t end = std::min(text.size(), longest);
+  const auto isInsideCharacter = [&](std::size_t place) { // of UTF-8
+    return (static_cast<unsigned char>(text[place]) & 0xC0) == 0x80;
+  };
+  while (end < text.size() && end > 0 && isInsideCharacter(end))
+    --end;
+  std::string result = text.substr(0, end);
+  std::replace_if(
+      result.begin(), result.end(),
+      [](char letter) { return std::iscntrl(static_cast<unsigned char>(letter)) != 0; }, '?');
+  return end < text.size() ? result + "..." : result;
+}
+
+std::string sentenceOf(const std::exception& error, int rank) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    std::string text = "rank ";
+    text += std::to_string(rank);
+    return text + " has no memory left; spread the run over more machines, or make the mesh or the "
+                  "subdomains smaller";
+  }
+  std::string text;
+  for (const char letter : std::string(error.what()))
+    if (std::isspace(static_cast<unsigned char>(letter)) == 0)
+      text += letter;
+    else if (!text.empty() && text.back() != ' ')
+      text += ' ';
+  while (text.ends_with(' '))
+    text.pop_back();
+  return text;
 }
 
 } // namespace epafi

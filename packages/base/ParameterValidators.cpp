@@ -44,6 +44,39 @@ std::string Range::allowed() const {
   return text;
 }
 
+bool RealOrWord::admits(const ParameterEntry& entry) const {
+  return entry.isType<std::string>()
+             ? std::find(words_.begin(), words_.end(), Teuchos::getValue<std::string>(entry)) != words_.end()
+             : range_.admits(entry);
+}
+
+std::string RealOrWord::allowed() const {
+  std::string text = range_.allowed();
+  for (const std::string& word : words_)
+    text += (text.empty() ? "\"" : ", or \"") + word + '"';
+  return text;
+}
+
+std::optional<double> Share::parsed(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(' ');
+  if (last == std::string::npos || text[last] != '%')
+    return std::nullopt;
+  try {
+    return Teuchos::getValue<double>(parseValue("double", text.substr(0, last))) / 100;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+bool Share::admits(const ParameterEntry& entry) const {
+  std::optional<double> value;
+  if (entry.isType<double>())
+    value = Teuchos::getValue<double>(entry);
+  else if (entry.isType<std::string>())
+    value = parsed(Teuchos::getValue<std::string>(entry));
+  return value && *value >= 0 && *value < 1;
+}
+
 Choice::Choice(const std::vector<std::string>& words)
     : words_(Teuchos::rcp(new Teuchos::Array<std::string>(words))) {}
 

@@ -5,6 +5,7 @@
 
 #include <Teuchos_ParameterEntryValidator.hpp>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,27 @@ public:
 private:
   double minimum_, maximum_;
   bool openBelow_, openAbove_;
+};
+
+/// A double in a range, or one of a few words in its place.
+class RealOrWord final : public AllowedValues {
+public:
+  RealOrWord(Range range, const std::vector<std::string>& words) : range_(std::move(range)), words_(words) {}
+  [[nodiscard]] bool admits(const Teuchos::ParameterEntry& entry) const override;
+  [[nodiscard]] std::string allowed() const override;
+
+private:
+  Range range_;
+  std::vector<std::string> words_;
+};
+
+/// A double in [0, 1), or a string of per cents in its place.
+class Share final : public AllowedValues {
+public:
+  [[nodiscard]] bool admits(const Teuchos::ParameterEntry& entry) const override;
+  [[nodiscard]] std::string allowed() const override { return "≥ 0 and < 1, or per cents such as \"1 %\""; }
+  /// The number that a text of per cents means; nothing if it is none.
+  [[nodiscard]] static std::optional<double> parsed(const std::string& text);
 };
 
 /// One word out of a few.

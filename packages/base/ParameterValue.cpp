@@ -36,6 +36,26 @@ std::string textOf(const Array<T>& values) {
   return text + '}';
 }
 
+std::string wholeText(const ParameterEntry& entry) {
+  if (entry.isType<int>())
+    return textOf(Teuchos::getValue<int>(entry));
+  if (entry.isType<double>())
+    return textOf(Teuchos::getValue<double>(entry));
+  if (entry.isType<bool>())
+    return textOf(Teuchos::getValue<bool>(entry));
+  if (entry.isType<std::string>())
+    return textOf(Teuchos::getValue<std::string>(entry));
+  if (entry.isType<Array<int>>())
+    return textOf(Teuchos::getValue<Array<int>>(entry));
+  if (entry.isType<Array<double>>())
+    return textOf(Teuchos::getValue<Array<double>>(entry));
+  if (entry.isList() || entry.getAny(false).empty())
+    return entry.isList() ? "a list" : "empty";
+  std::ostringstream text;
+  text << entry.getAny(false);
+  return text.str();
+}
+
 std::string trimmed(const std::string& text) {
   const char* const blanks = " \t\r\n";
   const auto first = text.find_first_not_of(blanks);
@@ -90,7 +110,7 @@ Array<T> parsedArray(const std::string& text, T (*parsed)(const std::string&)) {
     try {
       values.push_back(parsed(item));
     } catch (const InputError& error) {
-      throw InputError("has entry " + std::to_string(values.size() + 1) + ", \"" + trimmed(item) +
+      throw InputError("has entry " + std::to_string(values.size() + 1) + ", \"" + shortened(trimmed(item)) +
                        "\", which " + error.what());
     }
     begin = end + 1;
@@ -128,23 +148,7 @@ std::string typeName(const ParameterEntry& entry) {
 }
 
 std::string valueText(const ParameterEntry& entry) {
-  if (entry.isType<int>())
-    return textOf(Teuchos::getValue<int>(entry));
-  if (entry.isType<double>())
-    return textOf(Teuchos::getValue<double>(entry));
-  if (entry.isType<bool>())
-    return textOf(Teuchos::getValue<bool>(entry));
-  if (entry.isType<std::string>())
-    return textOf(Teuchos::getValue<std::string>(entry));
-  if (entry.isType<Array<int>>())
-    return textOf(Teuchos::getValue<Array<int>>(entry));
-  if (entry.isType<Array<double>>())
-    return textOf(Teuchos::getValue<Array<double>>(entry));
-  if (entry.isList() || entry.getAny(false).empty())
-    return entry.isList() ? "a list" : "empty";
-  std::ostringstream text;
-  text << entry.getAny(false);
-  return text.str();
+  return shortened(wholeText(entry));
 }
 
 ParameterEntry parseValue(const std::string& type, const std::string& text) {
@@ -158,6 +162,9 @@ ParameterEntry parseValue(const std::string& type, const std::string& text) {
     return ParameterEntry(parsedArray<int>(text, parsedInteger));
   if (type == "Array(double)")
     return ParameterEntry(parsedArray<double>(text, parsedReal));
+  constexpr std::size_t longest = 4096; // as long as a path can be
+  if (text.size() > longest)
+    throw InputError("has more than " + std::to_string(longest) + " letters");
   return ParameterEntry(text);
 }
 

@@ -17,12 +17,12 @@ const std::vector<std::string>& parameterTypes();
 std::string typeName(const Teuchos::ParameterEntry& entry);
 
 /// The value as a reader would write it: 0.1, "text", {1, 2}. Real numbers have as many digits as tell them
-/// apart.
+/// apart. Of an entry as shortened() shows it.
 std::string valueText(const Teuchos::ParameterEntry& entry);
 std::string valueText(double value);
 
 /// The value of a given type that a text spells out. The whole text must be the value, blanks around it
-/// aside.
+/// aside; a string has at most 4096 bytes.
 /// \param type  one of parameterTypes()
 /// \throws InputError that says what is wrong with the text, to follow the words "the value … ": "is not a
 ///         number".

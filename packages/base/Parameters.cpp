@@ -83,6 +83,9 @@ ParameterEntry converted(const ParameterEntry& given, const ParameterEntry& vali
     const auto& whole = Teuchos::getValue<Array<int>>(given);
     return ParameterEntry(Array<double>(whole.begin(), whole.end()), given.isDefault());
   }
+  if (given.isType<std::string>() && dynamic_cast<const Share*>(valid.validator().get()) != nullptr &&
+      Share().admits(given))
+    return ParameterEntry(*Share::parsed(Teuchos::getValue<std::string>(given)), given.isDefault());
   return bare(given, given.isDefault());
 }
 
@@ -127,7 +130,8 @@ ParameterEntry checkedParameter(const std::string& name, const ParameterEntry& g
     place.refuse("\"" + name + "\" in " + place.list() + " is a list, but must be a parameter of type " +
                  typeName(valid));
   ParameterEntry entry = converted(given, valid);
-  if (typeName(entry) != typeName(valid))
+  const bool isWord = takesWords(valid) && entry.isType<std::string>();
+  if (typeName(entry) != typeName(valid) && !isWord)
     place.refuse("parameter \"" + name + "\" in " + place.list() + " is " + valueText(given) + " of type " +
                  typeName(given) + ", but must be of type " + typeName(valid));
   if (!isFinite(entry)) {
@@ -207,7 +211,7 @@ void describeList(std::ostream& out, const ParameterList& schema, const std::str
     if (!hasParameters)
       out << "\n| Parameter | Type | Default | Allowed | Meaning |\n| --- | --- | --- | --- | --- |\n";
     hasParameters = true;
-    out << "| " << name << " | " << typeName(entry) << " | "
+    out << "| " << name << " | " << typeName(entry) << (takesWords(entry) ? " or string" : "") << " | "
         << (isRequired(entry) ? "required" : '`' + valueText(entry) + '`') << " | " << allowedText(entry)
         << " | " << entry.docString() << " |\n";
   }
@@ -227,6 +231,23 @@ ParameterList validated(const ParameterList& given, const ParameterList& schema,
 void addReal(ParameterList& schema, const std::string& name, double defaultValue, const std::string& doc,
              double minimum, double maximum, bool openBelow, bool openAbove) {
   schema.set(name, defaultValue, doc, Teuchos::rcp(new Range(minimum, maximum, openBelow, openAbove)));
+}
+
+void addRealOrWord(ParameterList& schema, const std::string& name, double defaultValue,
+                   const std::vector<std::string>& words, const std::string& doc, double minimum,
+                   double maximum) {
+  schema.set(name, defaultValue, doc,
+             Teuchos::rcp(new RealOrWord(Range(minimum, maximum, true, false), words)));
+}
+
+bool takesWords(const ParameterEntry& schemaEntry) {
+  const auto* validator = schemaEntry.validator().get();
+  return dynamic_cast<const RealOrWord*>(validator) != nullptr ||
+         dynamic_cast<const Share*>(validator) != nullptr;
+}
+
+void addShare(ParameterList& schema, const std::string& name, double defaultValue, const std::string& doc) {
+  schema.set(name, defaultValue, doc, Teuchos::rcp(new Share));
 }
 
 void addInteger(ParameterList& schema, const std::string& name, int defaultValue, const std::string& doc,

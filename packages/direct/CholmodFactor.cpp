@@ -77,7 +77,7 @@ using FactorHandle = std::unique_ptr<cholmod_factor, FreeFactor>;
 std::string failureText() {
   switch (common()->status) {
   case CHOLMOD_OUT_OF_MEMORY:
-    return "out of memory";
+    return "out of memory; spread the run over more machines, or make the mesh or the subdomains smaller";
   case CHOLMOD_TOO_LARGE:
     return "the factor is too large for 32-bit indices";
   default:

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/AmesosFactor.hpp"
+#include "epafi/direct/BlasMemory.hpp"
 #include "epafi/direct/CholmodFactor.hpp"
 
 #include <algorithm>
@@ -43,6 +44,7 @@ struct Factorizer::Patterns {
 Factorizer::Factorizer(std::string solver)
     : solver_(std::move(solver)), patterns_(std::make_unique<Patterns>()) {
   requireKnown(solver_);
+  takeBlasMemory();
 }
 Factorizer::Factorizer(Factorizer&&) noexcept = default;
 Factorizer& Factorizer::operator=(Factorizer&&) noexcept = default;

@@ -47,7 +47,7 @@ protected:
 /// tree) for the next one with the same pattern and the same unknowns kept.
 class Factorizer {
 public:
-  /// \param solver  one of `availableSolvers()`. \throws InputError for another name (lists the known ones).
+  /// \param solver  one of `availableSolvers()`. \throws InputError for another name (lists the known ones), std::bad_alloc (see BlasMemory.hpp).
   explicit Factorizer(std::string solver);
   Factorizer(const Factorizer&) = delete;
   Factorizer& operator=(const Factorizer&) = delete;

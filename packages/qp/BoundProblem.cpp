@@ -26,18 +26,23 @@ void describeEnd(Mprgp& solver, SolveReport& report) {
     report.certificate = solver.certificate();
 }
 
-SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, const GradientTolerance& tolerance,
+SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, StoppingRule& rule, double reference,
                               const MprgpParameters& parameters, Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
-  GradientRule rule(tolerance.relative, tolerance.reference, tolerance.absolute);
   Mprgp solver(problem.hessian, problem.set, parameters, problem.operatorNorm, problem.preconditioner);
   solver.start(*problem.linearTerm, x);
   report.status = runToCertificate(solver, rule, &recorder);
   x.assign(solver.solution());
   describeEnd(solver, report);
-  report.relativeProjectedGradient = relativeTo(tolerance.reference, solver.projectedGradient());
+  report.relativeProjectedGradient = relativeTo(reference, solver.projectedGradient());
   return report;
+}
+
+SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, const GradientTolerance& tolerance,
+                              const MprgpParameters& parameters, Observer* observer) {
+  GradientRule rule(tolerance.relative, tolerance.reference, tolerance.absolute);
+  return solveBoundProblem(problem, x, rule, tolerance.reference, parameters, observer);
 }
 
 } // namespace epafi::qp

@@ -25,9 +25,13 @@ struct GradientTolerance {
 /// round-off allows no more. Collective.
 Status runToCertificate(Mprgp& solver, StoppingRule& rule, Observer* observer);
 
-/// Solves by MPRGP, starting from the projection of x.
-/// \param x  in: start; out: always the last feasible iterate
+/// Solves by MPRGP until the rule holds, starting from the projection of x.
+/// \param x          in: start; out: always the last feasible iterate
+/// \param reference  what the report's gradient is relative to
 /// Precondition: the set is not empty. Collective.
+SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, StoppingRule& rule, double reference,
+                              const MprgpParameters& parameters, Observer* observer = nullptr);
+/// The same until the gradient is small enough.
 SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, const GradientTolerance& tolerance,
                               const MprgpParameters& parameters, Observer* observer = nullptr);
 

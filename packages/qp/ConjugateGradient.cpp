@@ -1,5 +1,6 @@
 #include "epafi/qp/ConjugateGradient.hpp"
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/qp/SolveReport.hpp"
 
 #include <BelosCGIter.hpp>
@@ -14,6 +15,7 @@
 #include <Tpetra_Vector.hpp>
 #include <Trilinos_version.h>
 
+#include <array>
 #include <cmath>
 
 namespace epafi::qp {
@@ -42,11 +44,13 @@ using Iteration = Belos::Iteration<double, MultiVector, Operator>;
 using Test = Belos::StatusTest<double, MultiVector, Operator>;
 using ResidualTest = Belos::StatusTestGenResNorm<double, MultiVector, Operator>;
 
-/// A status test that never stops the iteration; it tells the observer of every step.
+/// A status test that tells the observer of every step, and passes if one rank's wants to stop. Belos leaves no room in its
+/// own messages for that: the ranks agree by one more a step.
 class ObservingTest final : public Test {
 public:
-  ObservingTest(Observer& observer, const CountingOperator& a, double reference)
-      : observer_(observer), a_(a), reference_(reference) {}
+  /// \param x  where the iterates are
+  ObservingTest(Observer& observer, const CountingOperator& a, const Vector& x, double reference)
+      : observer_(observer), a_(a), x_(x), reference_(reference) {}
 
   Belos::StatusType checkStatus(Iteration* iteration) override {
     std::vector<double> norms(1, 0.0);
@@ -59,16 +63,24 @@ public:
     record.projectedGradient = norms[0] / reference_;
     record.hessianMultiplications = a_.count();
     observer_.step(record);
-    return Belos::Failed;
+    std::array<AccurateSum, 2> wishes{AccurateSum(observer_.wantsToStop() ? 1.0 : 0.0),
+                                      AccurateSum(observer_.wantsToLook() ? 1.0 : 0.0)};
+    sumOverRanks(*x_.getMap()->getComm(), wishes);
+    if (wishes[1].value() > 0)
+      observer_.look(x_);
+    status_ = wishes[0].value() > 0 ? Belos::Passed : Belos::Failed;
+    return status_;
   }
-  [[nodiscard]] Belos::StatusType getStatus() const override { return Belos::Failed; }
-  void reset() override {}
+  [[nodiscard]] Belos::StatusType getStatus() const override { return status_; }
+  void reset() override { status_ = Belos::Failed; }
   void print(std::ostream& /*stream*/, int /*indent*/) const override {}
 
 private:
   Observer& observer_;
   const CountingOperator& a_;
+  const Vector& x_;
   double reference_;
+  Belos::StatusType status_ = Belos::Failed;
 };
 
 /// Belos's CG iteration from the problem's present solution. Returns the number of steps.
@@ -112,14 +124,16 @@ SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vec
   if (reference == 0)
     x->putScalar(0.0);
   report.status = Status::converged;
+  bool isInterrupted = false;
   try {
     const RCP<Problem> problem = rcp(new Problem(counting, x, b));
     if (!preconditioning.is_null())
       problem->setLeftPrec(preconditioning);
     problem->setProblem();
+    const RCP<Test> observing = rcp(new ObservingTest(recorder, *counting, *x, reference));
     if (reference > 0)
-      report.counts.conjugateGradient = iterate(problem, tolerance, maxMultiplications,
-                                                rcp(new ObservingTest(recorder, *counting, reference)));
+      report.counts.conjugateGradient = iterate(problem, tolerance, maxMultiplications, observing);
+    isInterrupted = observing->getStatus() == Belos::Passed;
   } catch (const Belos::BelosError&) { // pᵀAp ≤ 0, or a norm that is NaN: the certificate below tells which
     report.status = Status::indefiniteOperator;
   }
@@ -137,8 +151,9 @@ SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vec
     report.status = Status::notFinite;
     x->assign(start);
   } else if (report.status == Status::converged && norm > tolerance * reference) {
-    report.status =
-        report.counts.conjugateGradient >= maxMultiplications ? Status::maxIterations : Status::stagnated;
+    report.status = isInterrupted                                           ? Status::interrupted
+                    : report.counts.conjugateGradient >= maxMultiplications ? Status::maxIterations
+                                                                            : Status::stagnated;
   }
   report.reason = explain(report.status);
   return report;

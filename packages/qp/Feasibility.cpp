@@ -20,9 +20,9 @@ public:
   void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override {
     equality_.addLocalSums(x, sums);
   }
-  bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override {
+  bool isSatisfied(const GradientNorms& gradient, std::span<const AccurateSum> sums) override {
     norm_ = equality_.finishResidual(sums, residual_);
-    isStationary_ = projectedGradient <= 1e-9 * norm_ * equality_.norm();
+    isStationary_ = gradient.euclidean <= 1e-9 * norm_ * equality_.norm();
     return norm_ <= smallest_ || isStationary_;
   }
   void describe(StepRecord& record) const override { record.constraintResidual = norm_; }

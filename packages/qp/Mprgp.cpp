@@ -46,12 +46,13 @@ Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParamet
 // The loop of the paper.
 Status Mprgp::run(StoppingRule& rule, Observer* observer) {
   measureReduction_ = FusedReduction(comm_, numOwnSums + rule.numSums());
+  observer_ = observer;
   progress_.restart();
   conjugate_ = staysInFace_ = false;
   refreshes_ = 0;
   measure(rule);
   startGradient_ = projectedGradient_;
-  record(rule, StepKind::start, observer);
+  record(rule, StepKind::start);
 
   while (true) {
     if (const auto status = ending(rule))
@@ -66,11 +67,11 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
     if (fits(sizes, intent)) { // α_cg = gᵀp/pᵀAp ≤ α_f
       step(sizes, intent);     // x −= α_cg p, g −= α_cg Ap
       measure(rule);
-      record(rule, intent, observer);
+      record(rule, intent);
     } else {
       const auto status = expansionStep(sizes, intent);
       measure(rule);
-      record(rule, StepKind::expansion, observer);
+      record(rule, StepKind::expansion);
       if (status)
         return *status;
     }
@@ -99,6 +100,8 @@ std::optional<Status> Mprgp::ending(StoppingRule& rule) {
       return Status::converged;
     if (counts_.hessianMultiplications >= parameters_.maxMultiplications)
       return Status::maxIterations;
+    if (isInterrupted_)
+      return Status::interrupted;
     if (timeIsUp_)
       return Status::timeLimit;
     // The gradient is a difference: below this it is round-off.
@@ -168,9 +171,17 @@ std::string Mprgp::description() const {
   return text.str();
 }
 
-void Mprgp::record(const StoppingRule& rule, StepKind kind, Observer* observer) {
+bool Mprgp::timeIsUpHere() const {
+  return deadline_ > 0 && Teuchos::Time::wallTime() > deadline_;
+}
+
+bool Mprgp::isToStopHere() const {
+  return observer_ != nullptr && observer_->wantsToStop();
+}
+
+void Mprgp::record(const StoppingRule& rule, StepKind kind) {
   progress_.look(projectedGradient_, objective_);
-  if (observer == nullptr)
+  if (observer_ == nullptr)
     return;
   StepRecord step;
   step.iteration = counts_.conjugateGradient + counts_.expansion + counts_.proportioning;
@@ -181,7 +192,9 @@ void Mprgp::record(const StoppingRule& rule, StepKind kind, Observer* observer) 
   step.activeBounds = active_;
   step.hessianMultiplications = counts_.hessianMultiplications;
   rule.describe(step);
-  observer->step(step);
+  observer_->step(step);
+  if (isLookedAt_)
+    observer_->look(x_);
 }
 
 } // namespace epafi::qp

@@ -59,7 +59,7 @@ public:
   void start(const Vector& b, const Vector& x0, double constant = 0);
 
   /// Runs until the rule is satisfied. Returns converged, or why it went no further: maxIterations, timeLimit,
-  /// stagnated, indefiniteOperator, indefinitePreconditioner, unbounded or notFinite. x is feasible and finite in any case.
+  /// interrupted, stagnated, indefiniteOperator, indefinitePreconditioner, unbounded or notFinite. x is feasible and finite in any case.
   /// \param observer  told of every step; may be null
   /// Collective.
   Status run(StoppingRule& rule, Observer* observer);
@@ -132,6 +132,7 @@ private:
   void applyHessian(const Vector& x, Vector& ax);
   void precondition();
   void addPreconditionedSums(std::span<AccurateSum> sums) const;
+  [[nodiscard]] double energyOfGradient();
   StepSizes stepSizes();
   void move(double length, const StepSizes& sizes);
   double expansionLength(const StepSizes& sizes);
@@ -140,8 +141,11 @@ private:
   void accept(const Trial& trial);
   void correctNorm(double rayleighQuotient);
   void measure(StoppingRule& rule);
-  void record(const StoppingRule& rule, StepKind kind, Observer* observer);
+  void record(const StoppingRule& rule, StepKind kind);
+  [[nodiscard]] bool timeIsUpHere() const;
+  [[nodiscard]] bool isToStopHere() const;
 
+  Observer* observer_ = nullptr; ///< of the present run
   RCP<const Operator> a_, preconditioner_;
   RCP<const ConvexSet> set_;
   MprgpParameters parameters_;
@@ -158,9 +162,9 @@ private:
   RCP<Vector> face_, released_;  ///< for predictions: 1 in the face, else 0; β
   RCP<Vector> bestX_, bestG_;    ///< likewise: the best trial point
   FusedReduction stepReduction_; ///< pᵀAp, gᵀp, pᵀp; α_f; also every other pair of sums
-  static constexpr int numOwnSums = 9;
-  FusedReduction
-      measureReduction_; ///< φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, xᵀx, active entries, time is up, rᵀz, zᵀAp; the rule's
+  static constexpr int numOwnSums = 11;
+  /// φᵀφ, βᵀβ, φ̃ᵀφ, φᵀAp, xᵀx, active entries; ranks whose time is up, that want to stop, to look; rᵀz, zᵀAp; the rule's
+  FusedReduction measureReduction_;
   double objective_ = 0, constant_ = 0; ///< f, and what is in it beside ½xᵀAx − bᵀx
   double linearNorm_ = 0;               ///< ‖b‖, scaled
   double projectedGradient_ = 0, startGradient_ = 0;
@@ -168,16 +172,18 @@ private:
   double reducedTimesFree_ = 0;                 ///< φ̃ᵀφ
   double directionTimesImage_ = 0;              ///< φᵀAp or zᵀAp, for the next conjugation
   double residualTimesZ_ = 0;                   ///< rᵀz, where z = Mr
-  double curvature_ = 0;                        ///< pᵀAp of the last step
-  double solutionNorm_ = 0;                     ///< ‖x‖
+  double energyShare_ = 0;  ///< rᵀMr/rᵀr of the last r it was computed for; 0: none yet
+  double curvature_ = 0;    ///< pᵀAp of the last step
+  double solutionNorm_ = 0; ///< ‖x‖
   long long active_ = 0;
   bool conjugate_ = false;   ///< whether the next direction is made conjugate to p
   bool staysInFace_ = false; ///< the next measurement is to precondition φ
   bool isForeseen_ = false;  ///< z = Mφ is there already
   bool gradientIsFresh_ = false;
   bool isSatisfied_ = false; ///< what the rule says of the present iterate
-  bool timeIsUp_ = false;
+  bool timeIsUp_ = false, isInterrupted_ = false, isLookedAt_ = false;
   bool predicts_ = false;        ///< whether expansions predict the active set
+  int projectionFailures_ = 0;   ///< projected CG steps that raised the objective, bad ones more than once
   int pause_ = 0, failures_ = 0; ///< of predictions: expansions until the next one; failures in a row
   double deadline_ = 0;
   int refreshes_ = 0;

@@ -93,7 +93,7 @@ void Mprgp::takeBoundsOff(StepKind intent, bool isFirst) {
 
 /// CG in the face, from x with its gradient g, until rᵀMr has fallen below `reduction`² times itself or what it was in the
 /// first round, `target` (0: this is the first). False if it does not get there, as on a face without a
-/// minimum: such problems are left to the other expansions.
+/// minimum (such problems are left to the other expansions), or if the run is to end.
 bool Mprgp::minimiseOnFace(double& target) {
   double curvature = 0, goal = 0;
   for (int k = 0; k <= maxFaceSteps; ++k) {
@@ -115,6 +115,7 @@ bool Mprgp::minimiseOnFace(double& target) {
     }
     stepReduction_.clear();
     addPreconditionedSums(stepReduction_.sums());
+    stepReduction_.sums()[2] = AccurateSum(timeIsUpHere() || isToStopHere() ? 1.0 : 0.0);
     stepReduction_.reduce();
     const double residual = stepReduction_.sum(0), image = scale_ * stepReduction_.sum(1);
     if (k == 0) {
@@ -123,7 +124,8 @@ bool Mprgp::minimiseOnFace(double& target) {
     }
     if (!(residual > goal))
       return true;
-    if (k == maxFaceSteps || counts_.hessianMultiplications >= parameters_.maxMultiplications)
+    if (k == maxFaceSteps || counts_.hessianMultiplications >= parameters_.maxMultiplications ||
+        stepReduction_.sum(2) > 0)
       return false;
     const double conjugation = k == 0 ? 0.0 : image / curvature;
     {

@@ -68,6 +68,8 @@ double Mprgp::expansionLength(const StepSizes& /*sizes*/) {
 /// should that one raise the objective too, ‖A‖ was underestimated, and the step shows by how much.
 std::optional<Status> Mprgp::safeTrial(Trial trial) {
   constexpr int maxCorrections = 40;
+  constexpr double slightRise = 1e-3; // of the objective beside its terms: a fixed step mends it
+  constexpr int patience = 3;         // with such steps; a bad one is a sign of a wide contact
   const double halfObjective = objective_;
   for (int repeats = 0; repeats <= maxCorrections; ++repeats) {
     if (!std::isfinite(trial.objective)) // x is x^½ still
@@ -82,7 +84,11 @@ std::optional<Status> Mprgp::safeTrial(Trial trial) {
       return std::nullopt;
     }
     ++counts_.safeguards;
-    predicts_ = predicts_ || (parameters_.expansion == Expansion::automatic && !preconditioner_.is_null());
+    if (repeats == 0 && parameters_.expansion == Expansion::automatic && !preconditioner_.is_null()) {
+      const bool isSlight = trial.objective - halfObjective <= slightRise * trial.size;
+      projectionFailures_ += isSlight ? 1 : patience;
+      predicts_ = projectionFailures_ >= patience;
+    }
     if (counts_.hessianMultiplications >= parameters_.maxMultiplications)
       break;
     const bool wasFixed = repeats > 0 || parameters_.expansion == Expansion::fixedStep;

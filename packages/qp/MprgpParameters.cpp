@@ -46,19 +46,22 @@ auto valueOf(const Choices& choices, const std::string& name) {
 Teuchos::ParameterList MprgpParameters::validParameters() {
   const MprgpParameters defaults;
   Teuchos::ParameterList list("MPRGP");
-  addReal(list, "Proportioning Constant", defaults.proportioningConstant,
-          "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
-          "longer than "
-          "Γ times the free one. 0: 0.1 for FETI-DP with a preconditioner and averages along edges, else 1.",
-          0.0, 1e6);
-  addChoice(list, "Expansion", expansions.front().first,
-            "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
-            "step ('projected CG'); from the boundary along the free gradient with a fixed, an optimal, or a "
-            "Barzilai–Borwein step length; or where CG in the face and projections lead in turns ('active "
-            "set'). One that raises the objective is repeated with the fixed step. 'auto': projected CG and, "
-            "with a "
-            "preconditioner, once one of its steps has raised the objective, active set.",
-            namesOf(expansions));
+  addReal(
+      list, "Proportioning Constant", defaults.proportioningConstant,
+      "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
+      "longer than "
+      "Γ times the free one. 0: 0.1 for FETI-DP with a preconditioner and floating bodies or averages along "
+      "edges, else 1.",
+      0.0, 1e6);
+  addChoice(
+      list, "Expansion", expansions.front().first,
+      "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
+      "step ('projected CG'); from the boundary along the free gradient with a fixed, an optimal, or a "
+      "Barzilai–Borwein step length; or where CG in the face and projections lead in turns ('active "
+      "set'). One that raises the objective is repeated with the fixed step. 'auto': projected CG and, "
+      "with a "
+      "preconditioner, once one of its steps has raised the objective by more than a little, active set.",
+      namesOf(expansions));
   addReal(
       list, "Sufficient Share", defaults.sufficientShare,
       "A CG step that would leave the feasible set, but of which at least this share fits, ends at the "

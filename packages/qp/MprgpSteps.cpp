@@ -169,25 +169,47 @@ void Mprgp::measure(StoppingRule& rule) {
   sums[3] = mine.freeTimesImage;
   sums[4] = mine.solutionSquared;
   sums[5] = AccurateSum(static_cast<double>(mine.active));
-  sums[6] = AccurateSum(deadline_ > 0 && Teuchos::Time::wallTime() > deadline_ ? 1.0 : 0.0);
+  sums[6] = AccurateSum(timeIsUpHere() ? 1.0 : 0.0);
+  sums[7] = AccurateSum(isToStopHere() ? 1.0 : 0.0);
+  sums[8] = AccurateSum(observer_ != nullptr && observer_->wantsToLook() ? 1.0 : 0.0);
   if (isForeseen_) {
     set_->subtractFromFreeGradient(x_, g_, 0.0, *residual_);
     precondition();
     set_->restrictToFree(x_, *z_);
-    addPreconditionedSums(sums.subspan(7));
+    addPreconditionedSums(sums.subspan(9));
   }
   rule.addLocalSums(x_, sums.subspan(numOwnSums));
   measureReduction_.reduce();
   freeSquared_ = measureReduction_.sum(0);
   choppedSquared_ = measureReduction_.sum(1);
   reducedTimesFree_ = measureReduction_.sum(2);
-  directionTimesImage_ = scale_ * measureReduction_.sum(isForeseen_ ? 8 : 3);
-  residualTimesZ_ = measureReduction_.sum(7);
+  directionTimesImage_ = scale_ * measureReduction_.sum(isForeseen_ ? 10 : 3);
+  residualTimesZ_ = measureReduction_.sum(9);
   solutionNorm_ = std::sqrt(measureReduction_.sum(4));
   active_ = static_cast<long long>(measureReduction_.sum(5));
   timeIsUp_ = measureReduction_.sum(6) > 0;
+  isInterrupted_ = measureReduction_.sum(7) > 0;
+  isLookedAt_ = measureReduction_.sum(8) > 0;
   projectedGradient_ = std::sqrt(freeSquared_ + choppedSquared_);
-  isSatisfied_ = rule.isSatisfied(projectedGradient(), sums.subspan(numOwnSums));
+  const double energy = rule.usesEnergy() ? energyOfGradient() : 0.0;
+  isSatisfied_ = rule.isSatisfied({projectedGradient(), energy}, sums.subspan(numOwnSums));
+}
+
+/// (g^Pᵀ M g^P)^½: computed where the gradient is fresh, estimated from φᵀMφ elsewhere, or from the last M r.
+double Mprgp::energyOfGradient() {
+  const double squared = freeSquared_ + choppedSquared_;
+  if (isForeseen_ && freeSquared_ > 0) {
+    energyShare_ = residualTimesZ_ / freeSquared_;
+  } else if ((gradientIsFresh_ || energyShare_ == 0) && squared > 0) {
+    set_->projectedGradient(x_, g_, 0.0, *residual_);
+    precondition();
+    stepReduction_.clear();
+    addPreconditionedSums(stepReduction_.sums());
+    stepReduction_.reduce();
+    energyShare_ = stepReduction_.sum(0) / squared;
+  }
+  // r is scaled by 1/‖A‖.
+  return std::sqrt(std::max(0.0, energyShare_ * squared)) / scale_;
 }
 
 } // namespace epafi::qp

@@ -1,33 +1,18 @@
 #include "epafi/qp/NormEstimate.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
-#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
-#include "epafi/qp/LocalData.hpp"
+#include "epafi/qp/StartVector.hpp"
 
 #include <Teuchos_LAPACK.hpp>
 #include <Tpetra_Operator.hpp>
 
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 namespace epafi::qp {
 namespace {
-
-/// Pseudo-random entries in (−1, 1) that depend on the global index alone (a 64-bit mixing function).
-void fillFromIndices(Vector& x) {
-  const auto indices = localIndices(*x.getMap());
-  const std::span<double> values = localDataNonConst(x);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    auto z = static_cast<std::uint64_t>(indices[static_cast<Teuchos_Ordinal>(i)]) + 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31U;
-    values[i] = 2.0 * (static_cast<double>(z >> 11U) / 9007199254740992.0) - 1.0;
-  }
-}
 
 void requireFinite(double value) {
   if (!std::isfinite(value))

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,23 +21,37 @@ namespace {
 /// Largest ρ‖B‖² as a multiple of ‖A‖: the round-off of ρBᵀ(Bx − c) limits the gradient that can be reached.
 constexpr double maxPenalty = 1e4;
 
+/// With an error's target: ‖Bx − c‖ relative to its reference at which x is worth being moved onto Bx = c, where the rows
+/// allow that. Whether the error is small enough shows there.
+constexpr double worthRestoring = 1e-2;
+
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
 class AdaptiveRule final : public StoppingRule {
 public:
   AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance,
                double forcing)
       : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
-        residual_(equality_->numEntries()) {}
+        residual_(equality_->numEntries()) {
+    if (tolerances.error != nullptr)
+      watch_.emplace(*tolerances.error);
+  }
 
   [[nodiscard]] int numSums() const override { return equality_->numSums(); }
   void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override {
+    x_ = &x;
     equality_->addLocalSums(x, sums);
   }
+  [[nodiscard]] bool usesEnergy() const override { return watch_.has_value(); }
 
-  bool isSatisfied(double projectedGradient, std::span<const AccurateSum> sums) override {
+  bool isSatisfied(const GradientNorms& gradient, std::span<const AccurateSum> sums) override {
+    const double projectedGradient = gradient.euclidean;
     residualNorm_ = equality_->finishResidual(sums, residual_);
-    isFinal_ = projectedGradient <= tolerances_.gradient * tolerances_.gradientReference &&
-               residualNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
+    const bool isRough = watch_ && equality_->isReplicated();
+    const double constraint =
+        isRough ? std::max(worthRestoring, tolerances_.constraint) : tolerances_.constraint;
+    isFinal_ = residualNorm_ <= constraint * tolerances_.constraintReference &&
+               (watch_ ? watch_->isSmallEnough(gradient.energy, *x_)
+                       : projectedGradient <= tolerances_.gradient * tolerances_.gradientReference);
     // After a thousand steps it is time for another multiplier, if only the gradient is small enough for the end.
     const bool isLong = ++steps_ > 1000;
     const double enough = isLong ? 0.1 * tolerances_.gradient * tolerances_.gradientReference : 0.0;
@@ -48,7 +63,12 @@ public:
     record.constraintResidual = relativeTo(tolerances_.constraintReference, residualNorm_);
   }
 
-  [[nodiscard]] bool isFinal() const { return isFinal_; } ///< both final tolerances hold
+  /// Both final tolerances hold, that of Bx = c as far as a restoration needs it.
+  [[nodiscard]] bool isFinal() const { return isFinal_; }
+  /// They hold as asked for.
+  [[nodiscard]] bool isMet() const {
+    return isFinal_ && residualNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
+  }
   [[nodiscard]] double residualNorm() const { return residualNorm_; }
   [[nodiscard]] std::span<const double> residual() const { return residual_; }
   void reduceBalance(double factor) { balance_ *= factor; }
@@ -60,7 +80,9 @@ private:
   double balance_, forcing_;
   std::vector<double> residual_;
   double residualNorm_ = 0;
-  int steps_ = 0; ///< of the inner loop
+  std::optional<ErrorWatch> watch_;
+  const Vector* x_ = nullptr; ///< of the measurement at hand
+  int steps_ = 0;             ///< of the inner loop
   bool isFinal_ = false;
 };
 
@@ -161,7 +183,7 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
     const Status status = inner_.run(rule_, observer); // ‖g^P‖ ≤ min(M‖Bx − c‖, η)
     if (status != Status::converged && !(status == Status::stagnated && toleratesRoundOff(previous)))
       return status;
-    if (rule_.isFinal() && inner_.gradientIsFresh())
+    if (rule_.isMet() && inner_.gradientIsFresh())
       return Status::converged;
     if (!restorationsHelp())
       return Status::stagnated;

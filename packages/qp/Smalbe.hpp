@@ -11,6 +11,7 @@
 
 #include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
+#include "epafi/qp/ErrorTarget.hpp"
 #include "epafi/qp/MprgpParameters.hpp"
 #include "epafi/qp/SolveReport.hpp"
 
@@ -37,10 +38,12 @@ struct SmalbeParameters {
   static SmalbeParameters from(const Teuchos::ParameterList& list);
 };
 
-/// What to stop at: ‖g^P‖ ≤ gradient · gradientReference and ‖Bx − c‖ ≤ constraint · constraintReference.
+/// What to stop at: ‖g^P‖ ≤ gradient · gradientReference, or the error's target if there is one, and
+/// ‖Bx − c‖ ≤ constraint · constraintReference.
 struct SmalbeTolerances {
   double gradient = 1e-6, gradientReference = 1;
   double constraint = 1e-6, constraintReference = 1;
+  ErrorTarget* error = nullptr; ///< takes the place of `gradient`; needs a preconditioner
 };
 
 /// The problem, as SMALBE needs it.

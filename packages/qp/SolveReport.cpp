@@ -10,6 +10,8 @@ std::string toString(Status status) {
     return "MaxIterations";
   case Status::timeLimit:
     return "TimeLimit";
+  case Status::interrupted:
+    return "Interrupted";
   case Status::stagnated:
     return "Stagnated";
   case Status::indefiniteOperator:
@@ -37,6 +39,9 @@ std::string explain(Status status) {
            "or the tolerance";
   case Status::timeLimit:
     return "the time limit was reached before the tolerance; raise 'Time Limit' or the tolerance";
+  case Status::interrupted:
+    return "the iteration was asked to stop before the tolerance was reached; it can go on from its last "
+           "iterate";
   case Status::stagnated:
     return "round-off allows no smaller residual (attainable accuracy reached); raise the tolerance";
   case Status::indefiniteOperator:
@@ -59,6 +64,11 @@ void HistoryRecorder::step(const StepRecord& record) {
   history_.push_back(record);
   if (next_ != nullptr)
     next_->step(record);
+}
+
+void HistoryRecorder::look(const Vector& x) {
+  if (next_ != nullptr)
+    next_->look(x);
 }
 
 } // namespace epafi::qp

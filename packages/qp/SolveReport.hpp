@@ -14,6 +14,7 @@ enum class Status {
   converged,
   maxIterations,
   timeLimit,
+  interrupted,        ///< an observer asked for it
   stagnated,          ///< attainable accuracy reached
   indefiniteOperator, ///< a direction of negative curvature was met
   indefinitePreconditioner,
@@ -86,11 +87,18 @@ struct SolveReport {
   History history; ///< every step, in order
 };
 
-/// Receives every step of a solver as it happens. Called on all ranks; must not throw.
+/// Receives every step of a solver as it happens, and may ask for more. Called on all ranks that have one; must not throw.
 class Observer {
 public:
   virtual ~Observer() = default;
   virtual void step(const StepRecord& record) = 0;
+  /// Whether this rank wants the iteration to end. Asked at every step; one rank is enough, and all stop at the same step
+  /// with the status `interrupted`: the wish travels with the sums that a step makes anyway.
+  [[nodiscard]] virtual bool wantsToStop() { return false; }
+  /// Whether this rank wants to see the iterate. Likewise; then `look` is called on all ranks that have an observer.
+  [[nodiscard]] virtual bool wantsToLook() { return false; }
+  /// \param x  the iterate, on the map of the unknowns; feasible but with CG's, which knows no bounds
+  virtual void look(const Vector& /*x*/) {}
 };
 
 /// Keeps every step and passes it on.
@@ -98,6 +106,9 @@ class HistoryRecorder final : public Observer {
 public:
   HistoryRecorder(History& history, Observer* next) : history_(history), next_(next) {}
   void step(const StepRecord& record) override;
+  [[nodiscard]] bool wantsToStop() override { return next_ != nullptr && next_->wantsToStop(); }
+  [[nodiscard]] bool wantsToLook() override { return next_ != nullptr && next_->wantsToLook(); }
+  void look(const Vector& x) override;
 
 private:
   History& history_;

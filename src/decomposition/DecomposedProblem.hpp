@@ -81,6 +81,9 @@ void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u);
 /// Turns values at all positions of a subdomain (nodes × components) into components in space, in place.
 void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values);
 
+/// The other way round: unknowns ũ of values at all positions in space; supported values are left out.
+Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values);
+
 struct Body {
   std::string name;
   int kernelDimension = 0; ///< rigid modes that its supports leave free; > 0 means that the body floats
@@ -96,8 +99,8 @@ struct DecomposedProblem {
   DecomposedProblem() = default;
   DecomposedProblem(const DecomposedProblem&) = delete;
   DecomposedProblem& operator=(const DecomposedProblem&) = delete;
-  DecomposedProblem(DecomposedProblem&&) = default;
-  DecomposedProblem& operator=(DecomposedProblem&&) = default;
+  DecomposedProblem(DecomposedProblem&&) noexcept = default;
+  DecomposedProblem& operator=(DecomposedProblem&&) noexcept = default;
   ~DecomposedProblem() = default;
 
   RCP<const Comm> comm;

@@ -119,11 +119,12 @@ void broadcastBytes(const Comm& comm, std::vector<char>& bytes) {
     Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), bytes.data() + first);
 }
 
-fem::GmshContents readOnFirstRank(const std::string& file, double meshSizeFactor, const Comm& comm) {
+fem::GmshContents readOnFirstRank(const std::string& file, double meshSizeFactor, int refinements,
+                                  const Comm& comm) {
   fem::GmshContents contents;
   collectively(comm, [&] {
     if (comm.getRank() == 0)
-      contents = fem::readGmshFile(file, meshSizeFactor);
+      contents = fem::readGmshFile(file, meshSizeFactor, refinements);
   });
   if (comm.getSize() == 1)
     return contents;
@@ -144,13 +145,15 @@ MeshFiles::MeshFiles(const scene::Scene& scene, const Comm& comm) {
   std::set<Key> keys;
   for (const scene::Body& body : scene.bodies)
     if (body.solid && !body.solid->mesh.file.empty())
-      keys.insert({body.solid->mesh.file, body.solid->mesh.sizeFactor});
-  for (const auto& [file, factor] : keys)
-    files_.emplace(Key{file, factor}, fem::GmshFile(readOnFirstRank(file, factor, comm)));
+      keys.insert({body.solid->mesh.file, body.solid->mesh.sizeFactor, body.solid->mesh.refinements});
+  for (const Key& key : keys) {
+    const auto& [file, factor, refinements] = key;
+    files_.emplace(key, fem::GmshFile(readOnFirstRank(file, factor, refinements, comm)));
+  }
 }
 
 const fem::GmshFile& MeshFiles::of(const scene::MeshSource& source) const {
-  return files_.at({source.file, source.sizeFactor});
+  return files_.at({source.file, source.sizeFactor, source.refinements});
 }
 
 } // namespace epafi::decomposition

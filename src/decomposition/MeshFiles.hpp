@@ -8,7 +8,7 @@
 
 #include <map>
 #include <string>
-#include <utility>
+#include <tuple>
 
 namespace epafi::decomposition {
 
@@ -23,7 +23,7 @@ public:
   [[nodiscard]] const fem::GmshFile& of(const scene::MeshSource& source) const;
 
 private:
-  using Key = std::pair<std::string, double>; ///< file, factor of mesh sizes
+  using Key = std::tuple<std::string, double, int>; ///< file, factor of mesh sizes, refinements
   std::map<Key, fem::GmshFile> files_;
 };
 

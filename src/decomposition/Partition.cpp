@@ -8,7 +8,9 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <csignal>
 #include <limits>
+#include <new>
 #include <numeric>
 #include <span>
 #include <string>
@@ -74,10 +76,20 @@ std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts, const std::vector<
   auto numVertices = static_cast<idx_t>(mesh.numElements());
   idx_t numConstraints = 1, numParts = parts, cut = 0;
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
-  const int status =
-      METIS_PartGraphKway(&numVertices, &numConstraints, graph.start.data(), graph.neighbours.data(),
-                          cost.empty() ? nullptr : cost.data(), nullptr, nullptr, &numParts, nullptr, nullptr,
-                          options, &cut, part.data());
+  const auto partition = [&] {
+    return METIS_PartGraphKway(&numVertices, &numConstraints, graph.start.data(), graph.neighbours.data(),
+                               cost.empty() ? nullptr : cost.data(), nullptr, nullptr, &numParts, nullptr,
+                               nullptr, options, &cut, part.data());
+  };
+  int status = partition();
+  // METIS takes a SIGTERM from outside for a failure of its own: such a one is passed on to whom it was meant for.
+  if (status == METIS_ERROR) {
+    status = partition();
+    if (status == METIS_OK)
+      std::raise(SIGTERM);
+  }
+  if (status == METIS_ERROR_MEMORY)
+    throw std::bad_alloc();
   if (status != METIS_OK)
     throw InputError("METIS could not cut a mesh of " + std::to_string(numVertices) + " elements into " +
                      std::to_string(parts) + " parts (its status " + std::to_string(status) + ")");

@@ -79,6 +79,10 @@ void BodyModel::element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen
   load = column.col(0);
 }
 
+void BodyModel::regions(std::span<const GlobalOrdinal> /*elements*/, std::span<GlobalOrdinal> regions) const {
+  std::fill(regions.begin(), regions.end(), GlobalOrdinal{0});
+}
+
 MembraneModel::MembraneModel(const scene::Body& body, const RectangleMesh& mesh) : body_(body), mesh_(mesh) {
   requireAgreement(body, mesh);
   const scene::Rectangle& r = mesh.rectangle();
@@ -109,8 +113,8 @@ void MembraneModel::prescribed(std::span<const GlobalOrdinal> nodes,
   }
 }
 
-void MembraneModel::kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const {
-  std::fill(kinds.begin(), kinds.end(), GlobalOrdinal{0});
+void MembraneModel::regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const {
+  std::fill(regions.begin(), regions.end(), GlobalOrdinal{0});
   const auto contains = [](const std::array<GlobalOrdinal, 2>& range, GlobalOrdinal value) {
     return range[0] <= value && value < range[1];
   };
@@ -119,7 +123,7 @@ void MembraneModel::kinds(std::span<const GlobalOrdinal> elements, std::span<Glo
     for (std::size_t e = 0; e < elements.size(); ++e) {
       walk.to(elements[e]);
       if (contains(patches_[p].columns, walk.column()) && contains(patches_[p].rows, walk.row()))
-        kinds[e] = static_cast<GlobalOrdinal>(p) + 1; // the last region in the file holds
+        regions[e] = static_cast<GlobalOrdinal>(p) + 1; // the last region in the file holds
     }
   }
 }

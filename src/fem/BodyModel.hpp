@@ -57,6 +57,8 @@ public:
 
   /// Kind of each element: elements of one kind have the same stiffness, to the last bit.
   virtual void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const = 0;
+  /// Region of the scene that each element lies in: the last one that contains it, counted from 1; 0 outside of all.
+  virtual void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const;
   /// Stiffness of the elements of a kind; size nodesPerElement · components, node by node.
   virtual void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const = 0;
   /// Loads of elements, one column each; rows as in the stiffness.
@@ -80,7 +82,10 @@ public:
   }
   [[nodiscard]] std::optional<double> prescribed(GlobalOrdinal node, int component) const override;
   void prescribed(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const override;
-  void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const override;
+  void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const override {
+    regions(elements, kinds);
+  }
+  void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const override;
   void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const override;
   void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const override;
 

@@ -7,8 +7,8 @@
 /// a name are called by their number.
 ///
 /// Nothing is collective: every rank that makes an object holds the whole file. Meant for meshes of a body or a few, not for
-/// ones that only many ranks can hold: a million hexahedra take 500 MB while they are read, of which the object keeps 80, and
-/// each body made of them 140 (tetrahedra: 200, 35 and 70).
+/// ones that only many ranks can hold: a million hexahedra take 330 MB while they are read (by Gmsh 500), of which the object keeps 80, and
+/// each body made of them 140 (tetrahedra: 130, 35 and 70).
 
 #include "epafi/fem/GmshReader.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
@@ -17,8 +17,8 @@ namespace epafi::fem {
 
 class GmshFile {
 public:
-  /// Reads the file, once for all its bodies. Throws InputError that names the file if it is not there, Gmsh refuses it, its
-  /// elements are not linear, or a facet or node of a named surface belongs to no element; Error if the Gmsh library cannot
+  /// Reads the file, once for all its bodies. Throws InputError that names the file if it is not there, is damaged, Gmsh refuses
+  /// it, its elements are not linear, or a facet or node of a named surface belongs to no element; Error if the Gmsh library cannot
   /// be loaded.
   explicit GmshFile(const std::string& file);
   explicit GmshFile(GmshContents contents);

@@ -43,6 +43,7 @@ GmshFunctions loadFunctions() {
   find(library, "gmshModelGetPhysicalName", gmsh.physicalName);
   find(library, "gmshModelGetEntitiesForPhysicalGroup", gmsh.entitiesOfGroup);
   find(library, "gmshModelMeshGenerate", gmsh.generate);
+  find(library, "gmshModelMeshRefine", gmsh.refine);
   find(library, "gmshModelMeshGetNodes", gmsh.nodes);
   find(library, "gmshModelMeshGetElementTypes", gmsh.elementTypes);
   find(library, "gmshModelMeshGetElementsByType", gmsh.elementsByType);

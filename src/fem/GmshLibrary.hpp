@@ -26,6 +26,7 @@ struct GmshFunctions {
   decltype(&gmshModelGetPhysicalName) physicalName = nullptr;
   decltype(&gmshModelGetEntitiesForPhysicalGroup) entitiesOfGroup = nullptr;
   decltype(&gmshModelMeshGenerate) generate = nullptr;
+  decltype(&gmshModelMeshRefine) refine = nullptr;
   decltype(&gmshModelMeshGetNodes) nodes = nullptr;
   decltype(&gmshModelMeshGetElementTypes) elementTypes = nullptr;
   decltype(&gmshModelMeshGetElementsByType) elementsByType = nullptr;

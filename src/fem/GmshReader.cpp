@@ -2,11 +2,13 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/GmshLibrary.hpp"
+#include "epafi/fem/MshReader.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <numeric>
+#include <string>
+#include <utility>
 
 namespace epafi::fem {
 namespace {
@@ -36,12 +38,12 @@ void checkFile(const std::string& file) {
                      " has no end, so that Gmsh would pass over it; end it with a line break");
 }
 
-/// One reading of a file.
+/// One reading of a geometry by Gmsh.
 class Reader {
 public:
   explicit Reader(const std::string& file) : session_(file), gmsh_(session_.gmsh()) { contents_.file = file; }
 
-  GmshContents read(double meshSizeFactor);
+  GmshContents read(double meshSizeFactor, int refinements);
 
 private:
   void mesh();
@@ -51,17 +53,18 @@ private:
   std::vector<int> entitiesOf(int dimension) const;
   bool hasElements(int dimension) const;
   void readElements(int dimension, int entity, std::vector<GmshBlock>& blocks) const;
-  LocalOrdinal nodeOf(std::size_t tag) const;
 
   GmshSession session_;
   const GmshFunctions& gmsh_;
   GmshContents contents_;
 };
 
-GmshContents Reader::read(double meshSizeFactor) {
+GmshContents Reader::read(double meshSizeFactor, int refinements) {
   session_.call(gmsh_.setNumber, "Mesh.MeshSizeFactor", meshSizeFactor);
   session_.call(gmsh_.open, contents_.file.c_str());
   mesh();
+  for (int i = 0; i < refinements; ++i)
+    session_.call(gmsh_.refine);
   readGroups();
   readNodes();
   for (const int entity : entitiesOf(contents_.dimension))
@@ -84,14 +87,11 @@ bool Reader::hasElements(int dimension) const {
 
 void Reader::mesh() {
   const int dimension = session_.call(gmsh_.dimension);
-  if (contents_.file.ends_with(".geo") && dimension > 0 && !hasElements(dimension))
+  if (dimension > 0 && !hasElements(dimension))
     session_.call(gmsh_.generate, dimension);
   contents_.dimension = hasElements(3) ? 3 : 2;
   if (!hasElements(contents_.dimension))
-    throw InputError(
-        "The mesh file " + inQuotes(contents_.file) +
-        " holds no elements of dimension 2 or 3; mesh its surfaces or volumes, and save all of them or "
-        "those in physical groups");
+    contents_.refuseNoElements();
 }
 
 void Reader::readGroups() {
@@ -112,16 +112,8 @@ std::vector<GmshGroup> Reader::groupsOf(int dimension) const {
     session_.call(gmsh_.physicalName, dimension, tag, name.data());
     GmshArray<int> entities;
     session_.call(gmsh_.entitiesOfGroup, dimension, tag, entities.data(), entities.size());
-    GmshGroup group{*name.data(), {entities.span().begin(), entities.span().end()}};
-    if (group.name.empty())
-      group.name = std::to_string(tag);
-    std::sort(group.entities.begin(), group.entities.end());
-    if (std::any_of(groups.begin(), groups.end(),
-                    [&](const GmshGroup& other) { return other.name == group.name; }))
-      throw InputError("The mesh file " + inQuotes(contents_.file) + " has two physical groups " +
-                       inQuotes(group.name) + " of dimension " + std::to_string(dimension) +
-                       "; give them different names");
-    groups.push_back(std::move(group));
+    contents_.addGroup(groups, dimension, tag,
+                       {*name.data(), {entities.span().begin(), entities.span().end()}});
   }
   return groups;
 }
@@ -154,28 +146,7 @@ void Reader::readNodes() {
         places.push_back({dimension, entity});
       }
     }
-  std::vector<std::size_t> order(tags.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  for (const std::size_t i : order) {
-    contents_.nodeTags.push_back(tags[i]);
-    contents_.points.push_back(points[i]);
-    contents_.nodeEntities.push_back(places[i]);
-  }
-}
-
-LocalOrdinal Reader::nodeOf(std::size_t tag) const {
-  const auto& tags = contents_.nodeTags;
-  const auto wanted = static_cast<GlobalOrdinal>(tag);
-  // Mostly numbers have no gaps, and there is nothing to search.
-  const auto guess = static_cast<std::size_t>(wanted - tags.front());
-  if (wanted >= tags.front() && guess < tags.size() && tags[guess] == wanted)
-    return static_cast<LocalOrdinal>(guess);
-  const auto found = std::lower_bound(tags.begin(), tags.end(), wanted);
-  if (found == tags.end() || *found != wanted)
-    throw InputError("The mesh file " + inQuotes(contents_.file) + " has an element with node " +
-                     std::to_string(tag) + ", but no such node; mesh anew");
-  return static_cast<LocalOrdinal>(found - tags.begin());
+  contents_.setNodes(tags, points, places);
 }
 
 void Reader::readElements(int dimension, int entity, std::vector<GmshBlock>& blocks) const {
@@ -187,31 +158,30 @@ void Reader::readElements(int dimension, int entity, std::vector<GmshBlock>& blo
     session_.call(gmsh_.elementsByType, type, tags.data(), tags.size(), nodes.data(), nodes.size(), entity,
                   task, numTasks);
     if (numNodesOfGmsh(type) == 0)
-      throw InputError("The mesh file " + inQuotes(contents_.file) +
-                       " has elements of second or higher order (element " +
-                       std::to_string(tags.span().front()) +
-                       "); only linear ones are allowed, so mesh with Mesh.ElementOrder = 1");
+      throw InputError("The mesh file " + inQuotes(contents_.file) + ": " +
+                       notLinear(type, static_cast<GlobalOrdinal>(tags.span().front())));
     GmshBlock block{entity, type, {tags.span().begin(), tags.span().end()}, {}};
     block.nodes.reserve(nodes.span().size());
     for (const std::size_t tag : nodes.span())
-      block.nodes.push_back(nodeOf(tag));
+      block.nodes.push_back(contents_.nodeOf(static_cast<GlobalOrdinal>(tag)));
     blocks.push_back(std::move(block));
   }
 }
 
 } // namespace
 
-int numNodesOfGmsh(int type) {
-  // point 15, line 1, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid 7
-  constexpr std::array<int, 8> counts{0, 2, 3, 4, 4, 8, 6, 5};
-  if (type == 15)
-    return 1;
-  return type > 0 && type < 8 ? counts[static_cast<std::size_t>(type)] : 0;
-}
-
-GmshContents readGmshFile(const std::string& file, double meshSizeFactor) {
+GmshContents readGmshFile(const std::string& file, double meshSizeFactor, int refinements) {
   checkFile(file);
-  return Reader(file).read(meshSizeFactor);
+  if (file.ends_with(".geo"))
+    return Reader(file).read(meshSizeFactor, refinements);
+  std::string text(std::filesystem::file_size(file), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream)
+    throw InputError("The mesh file " + inQuotes(file) + " could not be read to its end");
+  GmshContents contents = readMsh(file, std::move(text));
+  // A mesh is split by Gmsh's library, which is safe once the file is known to be sound.
+  return refinements == 0 ? std::move(contents) : Reader(file).read(meshSizeFactor, refinements);
 }
 
 } // namespace epafi::fem

@@ -19,8 +19,9 @@ std::string listOf(const std::vector<std::string>& names) {
   return all.empty() ? "none" : all;
 }
 
-/// Corners of an element of a structured mesh that begins at the origin.
-std::vector<Point> shapeOf(const Mesh& mesh) {
+} // namespace
+
+std::vector<Point> congruentCorners(const Mesh& mesh) {
   if (const auto* plane = dynamic_cast<const RectangleMesh*>(&mesh)) {
     const scene::Rectangle& r = plane->rectangle();
     const double a = (r.x1 - r.x0) / plane->elements()[0], b = (r.y1 - r.y0) / plane->elements()[1];
@@ -33,10 +34,8 @@ std::vector<Point> shapeOf(const Mesh& mesh) {
   return {};
 }
 
-} // namespace
-
 SolidBody::SolidBody(std::string bodyName, const scene::Solid& bodySolid, const Mesh& bodyMesh)
-    : name(std::move(bodyName)), solid(bodySolid), mesh(bodyMesh), shape(shapeOf(bodyMesh)) {}
+    : name(std::move(bodyName)), solid(bodySolid), mesh(bodyMesh), shape(congruentCorners(bodyMesh)) {}
 
 void SolidBody::cornersOf(GlobalOrdinal element, std::vector<Point>& points) const {
   if (isCongruent())

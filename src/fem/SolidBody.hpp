@@ -35,6 +35,9 @@ struct SolidBody {
   void cornersOf(GlobalOrdinal element, std::vector<Point>& points) const;
 };
 
+/// Corners of an element, from the origin on, where the mesh is structured and all are congruent; else empty.
+std::vector<Point> congruentCorners(const Mesh& mesh);
+
 /// "(1, 2, 3)", for errors.
 std::string text(const Point& point);
 

@@ -99,6 +99,11 @@ void SolidModel::kinds(std::span<const GlobalOrdinal> elements, std::span<Global
                                        : static_cast<GlobalOrdinal>(regions_.regionOf(body_, elements[e]));
 }
 
+void SolidModel::regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const {
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    regions[e] = static_cast<GlobalOrdinal>(regions_.regionOf(body_, elements[e]));
+}
+
 void SolidModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const {
   const auto numRegions = static_cast<GlobalOrdinal>(regions_.number());
   const scene::Physics physics = body_.solid.physics;

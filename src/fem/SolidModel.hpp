@@ -42,6 +42,7 @@ public:
     supports_.values(nodes, values);
   }
   void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const override;
+  void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const override;
   void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const override;
   void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const override;
 

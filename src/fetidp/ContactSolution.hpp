@@ -26,6 +26,10 @@ struct ContactSolution {
   double equilibrium =
       0; ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes (0 without floating bodies)
 
+  /// Energy norm of the difference to the solution of the discrete problem, at most; NaN where there is no
+  /// preconditioner to measure it by.
+  double algebraicError = 0;
+
   double energy = 0;       ///< ½uᵀKu − fᵀu
   double contactForce = 0; ///< Σ λ_I
   GlobalOrdinal activeContactNodes = 0;

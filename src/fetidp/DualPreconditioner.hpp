@@ -18,6 +18,7 @@
 /// Jumps count in every subdomain of the body: smooth motions reach far, and B E = I must hold all over it. MPRGP uses M
 /// restricted to its free set ("in face").
 
+#include "epafi/fetidp/ConstrainedCrosspoints.hpp"
 #include "epafi/fetidp/ContactCrosspoints.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
@@ -27,6 +28,7 @@
 #include <Tpetra_Operator.hpp>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -34,9 +36,12 @@ namespace epafi::fetidp {
 /// n_λ × n_λ, symmetric positive definite: every row of B touches a free unknown, or it gets a 1 on the diagonal.
 class DualPreconditioner final : public Operator {
 public:
-  /// Shares `inverse`, and keeps a reference to `problem`. Precondition: type is not none. Collective.
+  /// Shares `inverse`, and keeps a reference to `problem`. Precondition: type is not none.
+  /// \param deflated  F with adaptive constraints, which bodies then keep where they follow crosspoints; null without
+  /// Collective.
   DualPreconditioner(const decomposition::DecomposedProblem& problem,
-                     std::shared_ptr<GeneralizedInverse> inverse, const PreconditionerParameters& parameters);
+                     std::shared_ptr<GeneralizedInverse> inverse, const PreconditionerParameters& parameters,
+                     const RCP<const DeflatedDualOperator>& deflated = Teuchos::null);
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
@@ -46,6 +51,13 @@ public:
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
              double alpha = 1.0, double beta = 0.0) const override;
   [[nodiscard]] bool hasTransposeApply() const override { return true; }
+
+  /// λ = Eᵀ(f − K u): as B E = I, the multipliers of a solution u, and for a guess of it, ones as good in the energy norm.
+  /// \param given  u, of which the boundaries and crosspoints count; the interiors follow. n_s × 1 of each of this rank's
+  ///               subdomains
+  /// Precondition: type dirichlet. A sparse solve and a dense product a subdomain. Collective.
+  [[nodiscard]] RCP<Vector> multipliersOf(const decomposition::DecomposedProblem& problem,
+                                          const SubdomainVectors& given) const;
   /// Bytes of this rank's blocks; what an application reads.
   [[nodiscard]] std::size_t bytes() const;
 
@@ -62,16 +74,22 @@ private:
   void makeBlocks(const decomposition::DecomposedProblem& problem, PreconditionerParameters::Type type,
                   bool isSingle);
   void prepareCrosspoints(const ScaledConstraint& scaled);
+  void constrainCrosspoints(const decomposition::DecomposedProblem& problem,
+                            const DeflatedDualOperator& deflated);
   void prepareColumns(Eigen::Index numColumns) const;
   void moveCrosspoints(const MultiVector& lambda) const;
   void subtractJumps() const;
   void multiplyBlocks(std::span<const double> lambda, std::span<double> result) const;
+  void shareResult() const;
   void passForcesOn() const;
+  void addForcesOf(const decomposition::DecomposedProblem& problem, const SubdomainVectors& given,
+                   const SubdomainVectors& free, std::span<double> result) const;
   void addCrosspointForces() const;
 
   RCP<const Map> map_;
   std::shared_ptr<GeneralizedInverse> inverse_;
   ContactCrosspoints crosspoints_;
+  std::optional<ConstrainedCrosspoints> constrained_; ///< where there are adaptive constraints
   mutable std::vector<Block> blocks_;
   std::vector<ScaledConstraint::CrosspointEntry>
       crosspointWeights_;             ///< C, of the rows of this rank, row by row

@@ -20,6 +20,32 @@ std::string resolved(const std::string& solver) {
   return solver == "auto" ? direct::fastestSolver() : solver;
 }
 
+void addAdaptiveConstraintParameters(Teuchos::ParameterList& list) {
+  const AdaptiveConstraintParameters defaults;
+  addChoice(list, "Use", "auto",
+            "Whether jumps between subdomains that the preconditioner overrates are looked for along "
+            "interfaces, by "
+            "eigenproblems, and taken out of the iteration: along all ('yes'), or with a preconditioner "
+            "along those "
+            "where the stiffness jumps ('auto').",
+            {"auto", "yes", "no"});
+  addReal(
+      list, "Threshold", defaults.threshold,
+      "Jumps are constrained whose energy the preconditioner overrates by more than this factor. Lower: more "
+      "constraints, fewer products.",
+      1.0);
+  addReal(list, "Stiffness Ratio", defaults.stiffnessRatio,
+          "Largest over smallest stiffness, from which on 'auto' looks at an interface: along it within one "
+          "subdomain, at "
+          "contacts also between subdomains of an elastic body.",
+          1.0);
+  addInteger(list, "Maximum Number", defaults.maxNumber,
+             "Constraints at most, the worst jumps first. Each takes a product with F in the setup, and "
+             "memory for one "
+             "number a multiplier.",
+             1);
+}
+
 } // namespace
 
 std::string toString(PreconditionerParameters::Type type) {
@@ -73,6 +99,7 @@ void addFetiParameters(Teuchos::ParameterList& list) {
       {"multiplicity", "stiffness"});
   addChoice(preconditioner, "Precision", preconditionerDefaults.isSingle ? "single" : "double",
             "Of the preconditioner's blocks; the solution is as accurate with either.", {"single", "double"});
+  addAdaptiveConstraintParameters(list.sublist("Adaptive Constraints"));
 }
 
 DirectSolvers directSolversFrom(const Teuchos::ParameterList& list) {
@@ -99,6 +126,16 @@ PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list) 
                              : Type::dirichlet,
           list.get<std::string>("Scaling") == "stiffness" ? Scaling::stiffness : Scaling::multiplicity,
           list.get<std::string>("Precision") == "single"};
+}
+
+AdaptiveConstraintParameters adaptiveConstraintsFrom(const Teuchos::ParameterList& list) {
+  using Use = AdaptiveConstraintParameters::Use;
+  const auto& use = list.get<std::string>("Use");
+  return {use == "auto"  ? Use::automatic
+          : use == "yes" ? Use::yes
+                         : Use::no,
+          list.get<double>("Threshold"), list.get<double>("Stiffness Ratio"),
+          list.get<int>("Maximum Number")};
 }
 
 } // namespace epafi::fetidp

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What FETI-DP can be told: direct solvers, the form of F, the preconditioner.
+/// What FETI-DP can be told: direct solvers, the form of F, the preconditioner, adaptive constraints.
 
 #include <Teuchos_ParameterList.hpp>
 
@@ -32,16 +32,27 @@ struct PreconditionerParameters {
   bool isSingle = false; ///< blocks in single precision
 };
 
+struct AdaptiveConstraintParameters {
+  /// Nowhere; along interfaces with jumps of the stiffness, where there is a preconditioner; along all.
+  enum class Use { automatic, no, yes };
+  Use use = Use::automatic;
+  double threshold = 10; ///< τ: jumps that M overrates by more are constrained
+  /// Largest over smallest stiffness along an interface, from which on `automatic` looks at it.
+  double stiffnessRatio = 10;
+  int maxNumber = 1000; ///< constraints at most, n_U
+};
+
 /// "none", "lumped", "dirichlet".
 std::string toString(PreconditionerParameters::Type type);
 /// For people: "dirichlet, stiffness scaling, single precision".
 std::string describe(const PreconditionerParameters& parameters);
 
-/// Lists "Direct Solvers", "Dual Operator", "Preconditioner".
+/// Lists "Direct Solvers", "Dual Operator", "Preconditioner", "Adaptive Constraints".
 void addFetiParameters(Teuchos::ParameterList& list);
 /// From validated lists.
 DirectSolvers directSolversFrom(const Teuchos::ParameterList& list);
 DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list);
 PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list);
+AdaptiveConstraintParameters adaptiveConstraintsFrom(const Teuchos::ParameterList& list);
 
 } // namespace epafi::fetidp

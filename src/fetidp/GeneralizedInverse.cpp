@@ -74,6 +74,15 @@ void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u, i
     group.substitute(coarse_, b, u);
 }
 
+void GeneralizedInverse::solveRemainders(const SubdomainVectors& b, SubdomainVectors& u) {
+  prepareCoarse(1);
+  coarse_.setZero();
+  for (const SubdomainGroup& group : groups_)
+    group.takeCrosspoints(u, coarse_);
+  for (SubdomainGroup& group : groups_)
+    group.substitute(coarse_, b, u);
+}
+
 const Eigen::MatrixXd& GeneralizedInverse::coarseColumns(std::span<const GlobalOrdinal> unknowns,
                                                          const std::vector<bool>& isOwner) {
   prepareCoarse(static_cast<int>(unknowns.size()));

@@ -21,7 +21,7 @@ using SubdomainVectors = std::vector<Eigen::MatrixXd>;
 class GeneralizedInverse {
 public:
   /// Factorises the subdomains and the coarse problem. Keeps a reference to `problem`. Collective; throws
-  /// alike on all ranks.
+  /// alike on all ranks: Error if a factorisation fails. Precondition: all entries of K and B are finite (FiniteData.hpp).
   GeneralizedInverse(const decomposition::DecomposedProblem& problem, const DirectSolvers& solvers);
 
   /// Makes dense blocks where the mode asks for them, or where they pay off. Not collective.
@@ -34,6 +34,9 @@ public:
   /// u = K̄⁺ b. Crosspoint entries of b are contributions, summed over the subdomains; those of u agree.
   /// Collective; b has `numColumns` columns on every rank, also on one without subdomains.
   void apply(const SubdomainVectors& b, SubdomainVectors& u, int numColumns = 1);
+
+  /// u with the crosspoint values of `u` and the others in equilibrium: u_r = K_rr⁻¹(b_r − K_rc u_c). Not collective.
+  void solveRemainders(const SubdomainVectors& b, SubdomainVectors& u);
 
   /// b −= B̄ᵀ λ (λ on the ghost map × k). Not collective.
   void subtractForces(std::span<const double> lambda, SubdomainVectors& b) const;

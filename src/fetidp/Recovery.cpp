@@ -85,7 +85,26 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
   solution.activeContactNodes = static_cast<GlobalOrdinal>(sums[3].value());
 }
 
+/// K̄⁺(f̄ − B̄ᵀλ)
+SubdomainVectors unknownsOf(const DecomposedProblem& problem, GeneralizedInverse& inverse,
+                            const Vector& lambda) {
+  SubdomainVectors forces = loadsOf(problem), u;
+  MultiplierExchange exchange(inverse.multiplierPlan());
+  inverse.subtractForces(exchange.toSubdomains(lambda), forces); // f̄ − B̄ᵀλ
+  inverse.apply(forces, u);
+  return u;
+}
+
 } // namespace
+
+std::vector<Eigen::VectorXd> displacementOf(const DecomposedProblem& problem, GeneralizedInverse& inverse,
+                                            const Vector& lambda) {
+  SubdomainVectors u = unknownsOf(problem, inverse, lambda);
+  std::vector<Eigen::VectorXd> displacement;
+  for (std::size_t s = 0; s < u.size(); ++s)
+    displacement.push_back(atAllPositions(problem.subdomains[s], u[s]));
+  return displacement;
+}
 
 ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& inverse,
                         const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual,
@@ -95,11 +114,7 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
   solution.slack = rcp(new Vector(problem.multiplierMap));
   solution.active = rcp(new Vector(problem.multiplierMap));
 
-  SubdomainVectors forces = loadsOf(problem), u;
-  MultiplierExchange exchange(inverse.multiplierPlan());
-  inverse.subtractForces(exchange.toSubdomains(*dual.lambda), forces); // f̄ − B̄ᵀλ
-  inverse.apply(forces, u);                                            // K̄⁺(f̄ − B̄ᵀλ)
-  forces = {};
+  SubdomainVectors u = unknownsOf(problem, inverse, *dual.lambda);
   slackOf(problem, inverse, u, *solution.slack);
   solution.energy = energyOf(problem, u);
   if (problem.kernelDimension > 0) {

@@ -180,6 +180,14 @@ void SubdomainGroup::substitute(const Eigen::MatrixXd& coarse, const std::vector
   }
 }
 
+void SubdomainGroup::takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eigen::MatrixXd& coarse) const {
+  const std::vector<int>& unknowns = (*subdomains_)[members_.front()].crosspointUnknowns;
+  for (Eigen::Index member = 0; member < numMembers(); ++member)
+    for (Eigen::Index i = 0; i < coarseIndices_.rows(); ++i)
+      coarse(coarseIndices_(i, member), 0) =
+          u[members_[static_cast<std::size_t>(member)]](unknowns[static_cast<std::size_t>(i)], 0);
+}
+
 void SubdomainGroup::subtractForces(std::span<const double> lambda, std::vector<Eigen::MatrixXd>& b) const {
   for (const std::size_t member : members_)
     for (Eigen::Index j = 0; j < b[member].cols(); ++j) {

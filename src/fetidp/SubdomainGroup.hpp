@@ -66,6 +66,9 @@ public:
   void substitute(const Eigen::MatrixXd& coarse, const std::vector<Eigen::MatrixXd>& b,
                   std::vector<Eigen::MatrixXd>& u);
 
+  /// x_c of the members' crosspoint values, which agree: one column. \param coarse  this rank's coarse unknowns
+  void takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eigen::MatrixXd& coarse) const;
+
   /// b −= Bᵀ λ in the members. \param lambda  on the ghost map × k
   void subtractForces(std::span<const double> lambda, std::vector<Eigen::MatrixXd>& b) const;
   /// result += B u of the members. \param result  on the ghost map × k

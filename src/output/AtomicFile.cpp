@@ -3,7 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_Comm.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -85,20 +85,36 @@ void prepareTarget(const fs::path& file, const Comm& comm) {
 }
 
 fs::path temporaryBeside(const fs::path& file, const Comm& comm) {
-  int number = 0;
-  if (comm.getRank() == 0)
-    number = static_cast<int>(std::random_device{}() >> 1);
-  Teuchos::broadcast(comm, 0, 1, &number);
-  std::ostringstream name;
-  name << '.' << file.filename().string() << '.' << std::hex << number << ".partial";
-  return directoryOf(file) / name.str();
+  std::string path;
+  collectively(comm, [&] {
+    if (comm.getRank() > 0)
+      return;
+    std::ostringstream name;
+    name << '.' << file.filename().string() << '.' << std::hex << std::random_device{}() << ".partial";
+    path = fs::absolute(directoryOf(file) / name.str()).string(); // others may work in another directory
+  });
+  return agreedText(comm, path);
 }
 
-void reserveSpace(const fs::path& temporary, std::uintmax_t bytes, const Comm& comm) {
+void createForAll(const fs::path& temporary, const Comm& comm) {
+  collectively(comm, [&] {
+    if (comm.getRank() == 0)
+      writeOnThisRank(temporary, "");
+  });
+  collectively(comm, [&] {
+    std::error_code error;
+    if (!fs::exists(temporary, error))
+      throw InputError("Rank " + std::to_string(comm.getRank()) +
+                       " does not see the files that rank 0 makes in '" + directoryOf(temporary).string() +
+                       "'. Name a directory that all machines of the run share.");
+  });
+}
+
+void reserveSpace(const fs::path& temporary, std::uintmax_t bytes, const fs::path& file, const Comm& comm) {
   collectively(comm, [&] {
     const int error = comm.getRank() == 0 ? reserveOnThisRank(temporary, bytes) : 0;
     if (error != 0)
-      throw Error("There is no room for the " + std::to_string(bytes) + " bytes of '" + temporary.string() +
+      throw Error("There is no room for the " + std::to_string(bytes) + " bytes of '" + file.string() +
                   "': " + std::strerror(error) + ". Free some space or choose another directory.");
   });
 }

@@ -17,14 +17,19 @@ namespace epafi::output {
 /// or if `file` is there and no regular file.
 void prepareTarget(const std::filesystem::path& file, const Comm& comm);
 
-/// A new name beside `file` (same directory, hidden, ends in ".partial"), the same on all ranks. Makes no
-/// file. Collective.
+/// A new name beside rank 0's `file` (same directory, hidden, ends in ".partial"), absolute and the same on all ranks. Makes
+/// no file. Collective.
 std::filesystem::path temporaryBeside(const std::filesystem::path& file, const Comm& comm);
+
+/// Makes `temporary`, empty, from rank 0, for all ranks to open. Collective. \throws InputError if a rank does not see it
+/// there, on a disk of its own perhaps; Error if it cannot be made.
+void createForAll(const std::filesystem::path& temporary, const Comm& comm);
 
 /// Makes sure that the file system has room for the first `bytes` bytes of the file `temporary`, which
 /// exists; the file grows to that size. Does nothing on file systems that cannot reserve. Collective (rank 0
-/// does it). \throws Error naming the file if there is no room.
-void reserveSpace(const std::filesystem::path& temporary, std::uintmax_t bytes, const Comm& comm);
+/// does it). \throws Error naming `file`, which the temporary is to become, if there is no room.
+void reserveSpace(const std::filesystem::path& temporary, std::uintmax_t bytes,
+                  const std::filesystem::path& file, const Comm& comm);
 
 /// Renames `temporary` to `file`, which replaces an older `file` in one step; removes `temporary` if that
 /// fails. Collective. \throws Error naming the file.

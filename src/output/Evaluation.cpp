@@ -2,6 +2,7 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/output/CellErrors.hpp"
 #include "epafi/output/ContactGeometry.hpp"
 #include "epafi/output/NodalStress.hpp"
 
@@ -88,12 +89,16 @@ double largestDisplacement(const SolvedScene& solved, int body) {
 
 } // namespace
 
-Evaluation evaluate(const SolvedScene& solved) {
+Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* estimate) {
   Evaluation result;
+  result.hasErrors = estimate != nullptr;
   for (std::size_t body = 0; body < solved.scene.bodies.size(); ++body) {
     result.vonMises.emplace_back();
     if (solved.elasticBody(static_cast<int>(body)) != nullptr)
       result.vonMises.back() = vonMisesAtNodes(solved, static_cast<int>(body));
+    result.errors.emplace_back();
+    if (estimate != nullptr)
+      result.errors.back() = cellErrors(solved, *estimate, static_cast<int>(body));
   }
   for (std::size_t contact = 0; contact < solved.decomposition.contacts.size(); ++contact)
     result.areas.push_back(pressureAreas(solved, static_cast<int>(contact)));

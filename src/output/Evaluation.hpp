@@ -2,6 +2,7 @@
 
 /// What follows from displacements and multipliers, computed once for files and report.
 
+#include "epafi/accuracy/ErrorEstimate.hpp"
 #include "epafi/output/SolvedScene.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -13,12 +14,16 @@ namespace epafi::output {
 struct Evaluation {
   /// Of each body: von Mises stress at this rank's slab of nodes (vonMisesAtNodes); of membranes empty.
   std::vector<std::vector<double>> vonMises;
+  /// Of each body: estimated error of this rank's slab of cells (cellErrors); empty if it was not estimated.
+  std::vector<std::vector<double>> errors;
+  bool hasErrors = false; ///< on all ranks alike
   /// Of each contact: the area on which each row's multiplier acts (pressureAreas).
   std::vector<std::vector<double>> areas;
 };
 
+/// \param estimate  null if the error was not estimated
 /// Collective.
-Evaluation evaluate(const SolvedScene& solved);
+Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* estimate = nullptr);
 
 /// Adds to a report:
 ///   Contact/<name>  Candidates (rows), Active Nodes, Force Σλ, Resultant −Σλd (x, y, z; the force on the first body; of

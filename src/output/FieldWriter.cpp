@@ -94,6 +94,10 @@ XdmfGrid putBody(Hdf5File& file, const std::string& group, const SolvedScene& so
   else
     grid.attributes.push_back({"u", Center::node, u});
   grid.attributes.push_back({"subdomain", Center::cell, subdomain});
+  if (evaluation.hasErrors)
+    grid.attributes.push_back(
+        {"error", Center::cell,
+         put(file, group + "/error", cells, 0, fields.cells, evaluation.errors[place])});
   return grid;
 }
 

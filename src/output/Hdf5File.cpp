@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <exception>
 #include <type_traits>
 #include <utility>
 
@@ -148,26 +149,54 @@ void writeRows(hid_t dataset, const std::filesystem::path& path, const std::stri
 } // namespace
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm)
-    : path_(path), comm_(comm) {
+    : path_(path), comm_(comm), exceptions_(std::uncaught_exceptions()) {
   prepareTarget(path, *comm);
   temporary_ = temporaryBeside(path, *comm);
   const QuietHdf5 quiet;
   try {
+    createForAll(temporary_, *comm); // HDF5 would wait for a rank that cannot open it
     collectively(*comm, [&] { file_ = createFile(temporary_, rawComm(*comm)); });
     reserve(bytesOfFile);
-  } catch (...) {
+  } catch (const Error&) {
     abandon();
+    throw;
+  } catch (...) {
+    forget();
     throw;
   }
 }
 
 Hdf5File::~Hdf5File() {
-  if (file_ >= 0)
+  if (file_ < 0)
+    return;
+  if (std::uncaught_exceptions() > exceptions_ && !hasFailed_) // on this rank alone, perhaps
+    forget();
+  else
     abandon();
 }
 
+void Hdf5File::forget() noexcept {
+  file_ = -1;
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+/// Runs `work`, and remembers whether it threw what all ranks agree on: an Error of ours, nothing else.
+template <class Work>
+void Hdf5File::together(const Work& work) {
+  hasFailed_ = false;
+  try {
+    if (file_ < 0)
+      throw Error("File '" + path_.string() + "' is closed already.");
+    work();
+  } catch (const Error&) {
+    hasFailed_ = true;
+    throw;
+  }
+}
+
 void Hdf5File::reserve(std::uintmax_t bytes) {
-  reserveSpace(temporary_, reserved_ + bytes, *comm_);
+  reserveSpace(temporary_, reserved_ + bytes, path_, *comm_);
   reserved_ += bytes;
 }
 
@@ -193,19 +222,27 @@ void Hdf5File::abandon() noexcept {
 }
 
 void Hdf5File::createGroup(const std::string& group) {
-  reserve(bytesOfPath(group));
-  const QuietHdf5 quiet;
-  collectively(*comm_, [&] {
-    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(links, 1);
-    const Handle made(H5Gcreate2(file_, group.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-    checked<hid_t>(made, path_, "making group '" + group + "'");
+  together([&] {
+    reserve(bytesOfPath(group));
+    const QuietHdf5 quiet;
+    collectively(*comm_, [&] {
+      const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+      H5Pset_create_intermediate_group(links, 1);
+      const Handle made(H5Gcreate2(file_, group.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+      checked<hid_t>(made, path_, "making group '" + group + "'");
+    });
   });
 }
 
 template <class T>
 void Hdf5File::write(const std::string& dataset, GlobalOrdinal rows, int columns, const RowRange& range,
                      std::span<const T> values) {
+  together([&] { writeOrThrow(dataset, rows, columns, range, values); });
+}
+
+template <class T>
+void Hdf5File::writeOrThrow(const std::string& dataset, GlobalOrdinal rows, int columns,
+                            const RowRange& range, std::span<const T> values) {
   const GlobalOrdinal written = sumOverRanks(*comm_, range.count);
   collectively(*comm_, [&] {
     const auto expected = static_cast<std::size_t>(range.count * (columns == 0 ? 1 : columns));
@@ -240,15 +277,17 @@ template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowR
 
 void Hdf5File::writeAttribute(const std::string& object, const std::string& name, Identifier type,
                               const void* value) {
-  reserve(bytesOfObject + H5Tget_size(type));
-  collectively(*comm_, [&] {
-    const std::string what = "writing attribute '" + name + "' of '" + object + "'";
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle made(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                        H5P_DEFAULT, H5P_DEFAULT),
-                      H5Aclose);
-    checked<hid_t>(made, path_, what);
-    checked(H5Awrite(made, type, value), path_, what);
+  together([&] {
+    reserve(bytesOfObject + H5Tget_size(type));
+    collectively(*comm_, [&] {
+      const std::string what = "writing attribute '" + name + "' of '" + object + "'";
+      const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+      const Handle made(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                          H5P_DEFAULT, H5P_DEFAULT),
+                        H5Aclose);
+      checked<hid_t>(made, path_, what);
+      checked(H5Awrite(made, type, value), path_, what);
+    });
   });
 }
 
@@ -271,16 +310,16 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, lon
 }
 
 void Hdf5File::close() {
-  if (file_ < 0)
-    throw Error("File '" + path_.string() + "' is closed already.");
   const QuietHdf5 quiet;
-  try {
-    flush();
-    collectively(*comm_, [&] { checked(H5Fclose(std::exchange(file_, -1)), path_, "closing it"); });
-  } catch (...) {
-    abandon();
-    throw;
-  }
+  together([&] {
+    try {
+      flush();
+      collectively(*comm_, [&] { checked(H5Fclose(std::exchange(file_, -1)), path_, "closing it"); });
+    } catch (const Error&) {
+      abandon();
+      throw;
+    }
+  });
   publish(temporary_, path_, *comm_);
 }
 

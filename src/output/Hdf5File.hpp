@@ -18,8 +18,9 @@ namespace epafi::output {
 ///
 /// All methods, construction and destruction are collective over the communicator given, with the same
 /// arguments on all ranks (slab ranges and values apart). Their errors are agreed on by all ranks, so that
-/// all leave together. Code between the calls must keep to that rule: an exception on some ranks only would
-/// leave the others waiting. A rank may hold no rows. HDF5 itself leaves ranks waiting for each other when
+/// all leave together. Code between the calls should keep to that rule: an exception on some ranks only
+/// leaves the others waiting for them. Destruction by such an exception is not collective, so that it gets out; HDF5 then
+/// keeps the nameless file until MPI ends. A rank may hold no rows. HDF5 itself leaves ranks waiting for each other when
 /// one of them cannot write, so room for all that comes is reserved before HDF5 hears of it: a full disk is
 /// an error before anything is written. (A disk that breaks is not covered, nor one whose file system cannot
 /// reserve.) The communicator must be an MPI one or a serial one in a program that has initialised MPI.
@@ -61,11 +62,19 @@ private:
   void reserve(std::uintmax_t bytes);
   void flush();
   void abandon() noexcept;
+  void forget() noexcept;
+  template <class Work>
+  void together(const Work& work);
+  template <class T>
+  void writeOrThrow(const std::string& dataset, GlobalOrdinal rows, int columns, const RowRange& range,
+                    std::span<const T> values);
 
   std::filesystem::path path_;
   std::filesystem::path temporary_;
   RCP<const Comm> comm_;
   Identifier file_ = -1;
+  int exceptions_;              ///< under way when the file was opened
+  bool hasFailed_ = false;      ///< whether the last method threw, on all ranks
   std::uintmax_t reserved_ = 0; ///< bytes of the file that the file system has promised
 };
 

@@ -17,14 +17,17 @@ struct RowRange {
   GlobalOrdinal count = 0;
 };
 
-/// This rank's share of `rows` rows: contiguous, in the order of the ranks, sizes differ by at most one. Not
-/// collective.
-inline RowRange evenShare(GlobalOrdinal rows, const Comm& comm) {
-  const GlobalOrdinal ranks = comm.getSize();
-  const GlobalOrdinal rank = comm.getRank();
+/// The share of `rows` rows that one of several ranks has: contiguous, in the order of the ranks, sizes differ by at most
+/// one.
+inline RowRange evenShare(GlobalOrdinal rows, GlobalOrdinal rank, GlobalOrdinal ranks) {
   const GlobalOrdinal least = rows / ranks;
   const GlobalOrdinal longer = rows % ranks;
   return {rank * least + std::min(rank, longer), least + (rank < longer ? 1 : 0)};
+}
+
+/// This rank's. Not collective.
+inline RowRange evenShare(GlobalOrdinal rows, const Comm& comm) {
+  return evenShare(rows, comm.getRank(), comm.getSize());
 }
 
 /// All rows on rank 0, none elsewhere; for short tables that every rank holds whole. Not collective.

@@ -52,9 +52,34 @@ std::string textOfFile(const std::string& path) {
   reason = reason.substr(0, reason.find('\n'));
   const auto colon = reason.find(": ");
   if (colon == std::string::npos)
-    throw InputError(where + ": malformed XML in line " + reason + '.');
+    throw InputError(where + ": malformed XML in line " + shortened(reason) + '.');
   throw InputError(where + ", line " + reason.substr(0, colon) + ": malformed XML, " +
-                   reason.substr(colon + 2) + '.');
+                   shortened(reason.substr(colon + 2)) + '.');
+}
+
+/// How deep the elements of an XML text are nested. Of a malformed one up to where it is so.
+int nestingOf(const std::string& text) {
+  int depth = 0, deepest = 0;
+  for (std::size_t i = text.find('<'); i < text.size(); i = text.find('<', i + 1)) {
+    const char next = text[std::min(i + 1, text.size() - 1)];
+    if (text.compare(i, 4, "<!--") == 0) {
+      i = text.find("-->", i + 4);
+    } else if (next == '/') {
+      --depth;
+    } else if (next != '!' && next != '?') {
+      char quote = '\0'; // inside which '>' is a letter
+      for (++i; i < text.size() && (quote != '\0' || text[i] != '>'); ++i)
+        if (quote == '\0' && (text[i] == '"' || text[i] == '\''))
+          quote = text[i];
+        else if (text[i] == quote)
+          quote = '\0';
+      if (text[i - 1] != '/')
+        deepest = std::max(deepest, ++depth);
+    }
+    if (i == std::string::npos)
+      break;
+  }
+  return deepest;
 }
 
 XMLObject parsedXml(const std::string& text, const std::string& where) {
@@ -65,6 +90,10 @@ XMLObject parsedXml(const std::string& text, const std::string& where) {
     throw InputError(where + " is empty, but must hold a <ParameterList>.");
   if (content.find('\0') != std::string::npos)
     throw InputError(where + " is a binary file, but must be an XML file.");
+  constexpr int deepest = 100; // the parser goes one call deeper for each
+  if (nestingOf(content) > deepest)
+    throw InputError(where + " nests its elements more than " + std::to_string(deepest) +
+                     " deep, which no parameter file should.");
   try {
     Teuchos::StringInputSource source(content);
     return source.getObject();
@@ -74,6 +103,12 @@ XMLObject parsedXml(const std::string& text, const std::string& where) {
       throw InputError(where + " holds no XML element, but must hold a <ParameterList>.");
     refuseMalformed(where, report);
   }
+}
+
+/// `<name>`, for messages.
+std::string tagOf(const XMLObject& element) {
+  std::string tag = "<";
+  return tag.append(shortened(element.getTag())).append(">");
 }
 
 /// Turns XML elements into lists; `where` and the list's path stand in the messages.
@@ -90,7 +125,7 @@ public:
       else if (child.getTag() == "Parameter")
         addParameter(list, child, path);
       else if (child.getTag() != "Validators" || !path.empty()) // Teuchos ends the lists it writes with one
-        refuse("<" + child.getTag() + "> in " + named(path) +
+        refuse(tagOf(child) + " in " + named(path) +
                " is unknown; allowed are <ParameterList> and <Parameter>.");
     }
   }
@@ -108,13 +143,17 @@ private:
     for (int i = 0; i < element.numContentLines(); ++i)
       if (const std::string& line = element.getContentLine(i);
           line.find_first_not_of(" \t\r\n") != std::string::npos)
-        refuse("the text \"" + line + "\" in " + named(path) + " stands outside of any tag.");
+        refuse("the text \"" + shortened(line) + "\" in " + named(path) + " stands outside of any tag.");
   }
 
   std::string nameOf(const XMLObject& element, const ParameterList& list, const std::string& path) const {
     if (!element.hasAttribute("name"))
-      refuse("a <" + element.getTag() + "> in " + named(path) + " has no name; give it name=\"...\".");
+      refuse("a " + tagOf(element) + " in " + named(path) + " has no name; give it name=\"...\".");
     const std::string& name = element.getAttribute("name");
+    constexpr std::size_t longest = 200;
+    if (name.size() > longest || shortened(name) != name)
+      refuse("the name \"" + shortened(name) + "\" in " + named(path) + " must have at most " +
+             std::to_string(longest) + " letters and no control characters among them");
     if (list.isParameter(name))
       refuse("\"" + name + "\" appears twice in " + named(path) + "; remove or rename one of them.");
     return name;
@@ -135,13 +174,13 @@ private:
       if (!element.hasAttribute(attribute))
         refuse(what + " has no " + attribute + "; give it " + attribute + "=\"...\".");
     if (element.numChildren() > 0)
-      refuse(what + " holds <" + element.getChild(0).getTag() + ">, but must hold nothing.");
+      refuse(what + " holds " + tagOf(element.getChild(0)) + ", but must hold nothing.");
     checkNoText(element, path.empty() ? name : path + '/' + name);
     const std::string& type = element.getAttribute("type");
     const std::string& value = element.getAttribute("value");
     if (std::ranges::find(parameterTypes(), type) == parameterTypes().end()) {
       const std::string near = nearestName(type, parameterTypes());
-      refuse(what + " has the unknown type \"" + type + "\"; allowed are " + types +
+      refuse(what + " has the unknown type \"" + shortened(type) + "\"; allowed are " + types +
              (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
     }
     try {
@@ -151,7 +190,8 @@ private:
       entry.setAnyValue(entry.getAny(false), isDefault);
       list.setEntry(name, entry);
     } catch (const InputError& error) {
-      refuse(what + " of type " + type + " has the value \"" + value + "\", which " + error.what() + '.');
+      refuse(what + " of type " + type + " has the value \"" + shortened(value) + "\", which " +
+             error.what() + '.');
     }
   }
 
@@ -181,7 +221,7 @@ ParameterList readParameterFile(const std::string& path, const Comm& comm) {
 ParameterList parseParameters(const std::string& text, const std::string& where) {
   const XMLObject root = parsedXml(text, where);
   if (root.getTag() != "ParameterList")
-    throw InputError(where + ": the root element is <" + root.getTag() + ">, but must be <ParameterList>.");
+    throw InputError(where + ": the root element is " + tagOf(root) + ", but must be <ParameterList>.");
   ParameterList list(root.hasAttribute("name") ? root.getAttribute("name") : "");
   ListBuilder(where).fill(list, root, "");
   return list;

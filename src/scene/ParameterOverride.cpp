@@ -104,8 +104,9 @@ void applyOverride(ParameterList& list, const ParameterList& schema, const std::
     try {
       value = parseValue(type, text);
     } catch (const InputError& error) {
-      throw InputError(where + ": the value \"" + text + "\" " + error.what() + ", but must be of type " +
-                       type + '.');
+      if (!takesWords(*valid)) // else the word itself is checked below
+        throw InputError(where + ": the value \"" + text + "\" " + error.what() + ", but must be of type " +
+                         type + '.');
     }
   }
   // Alone in a list, the override meets all checks, and messages speak of it rather than of the file.

@@ -24,6 +24,7 @@ void inherit(ParameterList& body, const ParameterList& scene) {
 Scene readScene(const ParameterList& list, const std::string& where) {
   ParameterList own = list;
   own.remove("Solver", false);
+  own.remove("Accuracy", false);
   ParameterList complete = validated(own, sceneSchema(), where);
 
   Scene scene;

@@ -47,6 +47,10 @@ void describeMesh(ParameterList& list) {
   addReal(list, "Mesh Size Factor", MeshSource().sizeFactor,
           "With a .geo file: by which all its mesh sizes are multiplied; 0.5 halves the elements.", 0.0,
           infinity, true);
+  addInteger(
+      list, "Mesh Refinements", MeshSource().refinements,
+      "With a mesh file: how many times every element is split, into 4 in the plane and into 8 in space.", 0,
+      8);
   list.set("Group", "",
            "Physical group of the mesh file that is this body; without it all elements. Surfaces are the "
            "physical groups of one dimension less.");

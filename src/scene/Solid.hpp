@@ -81,6 +81,7 @@ struct MeshSource {
   std::array<int, 3> elements{0, 0, 0}; ///< in x, y and z (z: 0 in the plane); of a structured mesh
   std::string file;                     ///< if not empty, a file that Gmsh reads
   double sizeFactor = 1;                ///< by which all element sizes of a geometry (.geo) are multiplied
+  int refinements = 0;                  ///< how often every element of the file is split
   std::string group; ///< the physical group in it that is this body; empty: all its elements
 };
 

@@ -57,10 +57,12 @@ MeshSource readMesh(const ListReader& list, int dimension) {
     source.sizeFactor = list.positive("Mesh Size Factor");
     if (!source.file.ends_with(".geo"))
       list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
+    source.refinements = list.integer("Mesh Refinements");
     source.group = list.word("Group");
     return source;
   }
-  list.refuseGiven({"Group", "Mesh Size Factor"}, "the body has no mesh file that it could apply to");
+  list.refuseGiven({"Group", "Mesh Size Factor", "Mesh Refinements"},
+                   "the body has no mesh file that it could apply to");
   list.refuseGiven({dimension == 3 ? "Rectangle" : "Box"},
                    "a body in " +
                        std::string(dimension == 3 ? "space has a \"Box\"" : "the plane has a \"Rectangle\""));

@@ -5,6 +5,7 @@
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>
 
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -61,6 +62,24 @@ TEST_F(CollectiveTest, TurnsOtherExceptionsIntoAnErrorWithTheirText) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "index 7");
   }
+}
+
+TEST_F(CollectiveTest, NamesTheRankThatHasNoMemory) {
+  try {
+    collectively(*comm, [&] {
+      if (comm->getRank() == lastRank)
+        throw std::bad_alloc();
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    test::expectSays(error.what(),
+                     {"rank " + std::to_string(lastRank) + " has no memory left", "more machines"});
+  }
+}
+
+TEST_F(CollectiveTest, PutsTheTextOfAnExceptionOnOneLine) {
+  EXPECT_EQ(sentenceOf(std::runtime_error("\n first\n\n   second line\t \n"), 0), "first second line");
+  EXPECT_EQ(sentenceOf(std::runtime_error(""), 0), "");
 }
 
 TEST_F(CollectiveTest, NamesTheRankOfAnExceptionThatHasNoText) {

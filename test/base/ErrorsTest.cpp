@@ -46,3 +46,27 @@ TEST(NearestNameTest, SuggestsNothingWhereNothingIsNear) {
   EXPECT_EQ(nearestName("Zwölf", names), "");
   EXPECT_EQ(nearestName("Gap", std::vector<std::string>()), "");
 }
+
+TEST(NearestNameTest, LooksForNoneWhereWordsAreEndless) {
+  const std::string endless(5'000'000, 'a');
+  EXPECT_EQ(nearestName(endless, std::vector<std::string>{"Rectangle", endless}), "") << "and that soon";
+  EXPECT_EQ(nearestName("Rectangel", std::vector<std::string>{endless, "Rectangle"}), "Rectangle");
+}
+
+TEST(ShortenedTest, KeepsTheBeginningOfLongTexts) {
+  EXPECT_EQ(epafi::shortened(std::string(200, 'x')), std::string(200, 'x'));
+  EXPECT_EQ(epafi::shortened(std::string(201, 'x')), std::string(200, 'x') + "...");
+  EXPECT_EQ(epafi::shortened(""), "");
+}
+
+TEST(ShortenedTest, CutsBetweenCharacters) {
+  std::string letters = "x";
+  for (int i = 0; i < 150; ++i)
+    letters += "ß"; // two bytes: the 200th byte is the first half of one
+  EXPECT_EQ(epafi::shortened(letters), letters.substr(0, 199) + "...");
+  EXPECT_EQ(epafi::shortened(std::string(300, '\x80')), "...") << "no UTF-8 at all";
+}
+
+TEST(ShortenedTest, ShowsNoControlCharacters) {
+  EXPECT_EQ(epafi::shortened("a\n\x1b[31mß"), "a??[31mß");
+}

@@ -61,6 +61,16 @@ TEST(ParameterValueTest, RefusesWordsThatAreNeitherTrueNorFalse) {
     expectSays(refusalOf("bool", text), {"neither true nor false"});
 }
 
+TEST(ParameterValueTest, RefusesWordsLongerThanAnyPath) {
+  EXPECT_EQ(getValue<std::string>(parseValue("string", std::string(4096, 'x'))), std::string(4096, 'x'));
+  expectSays(refusalOf("string", std::string(4097, 'x')), {"more than 4096 letters"});
+}
+
+TEST(ParameterValueTest, ShowsTheBeginningOfLongValues) {
+  EXPECT_EQ(valueText(Teuchos::ParameterEntry(Teuchos::Array<int>(1000, 1))).size(), 203U);
+  EXPECT_LT(refusalOf("Array(int)", '{' + std::string(1000, 'x') + '}').size(), 300U);
+}
+
 TEST(ParameterValueTest, NamesTheEntryOfAnArrayThatIsWrong) {
   expectSays(refusalOf("Array(int)", "{4, 4.5}"), {"entry 2", "\"4.5\"", "not a whole number"});
   expectSays(refusalOf("Array(double)", "{0, nan}"), {"entry 2", "\"nan\"", "not a finite number"});

@@ -26,6 +26,8 @@ ParameterList schema() {
   list.set("Title", "", "A few words.");
   ParameterList& solver = list.sublist("Solver", false, "How to solve.");
   addReal(solver, "Tolerance", 1e-6, "Where to stop.", 0.0, 1.0, true);
+  addRealOrWord(solver, "Limit", 0.5, {"balanced"}, "A number, or what suits.", 0.0, 1.0);
+  addShare(solver, "Share", 0.0, "How much.");
   addReal(solver, "Shift", 0.0, "Any real number.");
   addInteger(solver, "Steps", 100, "How many steps.", 1, 1000);
   addReal(solver, "Factor", 0.5, "Between the two.", 0.0, 2.0, true, true);
@@ -94,14 +96,36 @@ TEST(ParametersTest, TakesWholeNumbersForRealOnes) {
   EXPECT_EQ(list.sublist("Solver").get<Array<double>>("Range"), numbers({1.0, 2.0}));
 }
 
+TEST(ParametersTest, TakesAWordForANumberWhereItMeansOne) {
+  ParameterList given;
+  given.sublist("Solver").set("Limit", std::string("balanced")).set("Share", std::string("2.5 %"));
+  const ParameterList list = validated(given, schema(), "a.xml");
+  EXPECT_EQ(list.sublist("Solver").get<std::string>("Limit"), "balanced");
+  EXPECT_EQ(list.sublist("Solver").get<double>("Share"), 0.025);
+  EXPECT_EQ(validated(list, schema(), "a.xml").sublist("Solver").get<std::string>("Limit"), "balanced");
+  given.sublist("Solver").set("Limit", 0.25).set("Share", 0.1);
+  EXPECT_EQ(validated(given, schema(), "a.xml").sublist("Solver").get<double>("Limit"), 0.25);
+  EXPECT_EQ(validated(given, schema(), "a.xml").sublist("Solver").get<double>("Share"), 0.1);
+}
+
+TEST(ParametersTest, RefusesOtherWordsAndNumbersThere) {
+  const std::string limit = "> 0 and ≤ 1, or \"balanced\"",
+                    share = "≥ 0 and < 1, or per cents such as \"1 %\"";
+  expectSays(refusalOf("Limit", std::string("ballanced")), {"\"Limit\"", "\"ballanced\"", limit});
+  expectSays(refusalOf("Limit", 0.0), {"\"Limit\"", limit});
+  for (const char* const wrong : {"100 %", "-1 %", "1", "% 1", "one %", "nan %"})
+    expectSays(refusalOf("Share", std::string(wrong)), {"\"Share\"", wrong, share});
+  expectSays(refusalOf("Share", 1.0), {"\"Share\"", share});
+}
+
 TEST(ParametersTest, RefusesAnUnknownParameterAndSuggestsTheNearest) {
   expectSays(refusalOf("Tolerence", 1e-3),
              {"a.xml: ", "\"Tolerence\"", "list \"Solver\"", "0.001", "did you mean \"Tolerance\"?"});
 }
 
 TEST(ParametersTest, ListsWhatIsAllowedWhereNoNameIsNear) {
-  expectSays(refusalOf("Xqwzj", 1),
-             {"a.xml: ", "\"Xqwzj\"", "list \"Solver\"", "\"Tolerance\", \"Shift\", \"Steps\""});
+  expectSays(refusalOf("Xqwzj", 1), {"a.xml: ", "\"Xqwzj\"", "list \"Solver\"",
+                                     "\"Tolerance\", \"Limit\", \"Share\", \"Shift\", \"Steps\""});
 }
 
 TEST(ParametersTest, RefusesAnUnknownListAndSuggestsTheNearest) {

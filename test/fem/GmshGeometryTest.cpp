@@ -10,6 +10,7 @@ namespace {
 using test::areaVectors;
 using test::expectRefusal;
 using test::measureOf;
+using test::vectorOf;
 
 using GmshGeometryTest = test::GmshTest;
 
@@ -169,6 +170,35 @@ Physical Surface("sides") = {out(2), out(3), out(4), out(5)};
   EXPECT_NEAR(measureOf(mesh), 6, 1e-12);
   expectConsistent(mesh);
   expectEnclosed(mesh);
+}
+
+/// Every element of a file, of a geometry and of an old mesh alike, is split; groups and surfaces keep their names and places.
+TEST_F(GmshGeometryTest, RefinesMeshesByHalvingAllEdges) {
+  const std::string plate = folder.write("plate.msh", test::plate41);
+  const UnstructuredMesh coarse = GmshFile(plate).body(""),
+                         fine = GmshFile(readGmshFile(plate, 1, 2)).body("");
+  EXPECT_EQ(fine.numElements(), 16 * coarse.numElements());
+  EXPECT_NEAR(measureOf(fine), measureOf(coarse), 1e-14);
+  EXPECT_EQ(fine.group("right").size(), 16 * coarse.group("right").size());
+  EXPECT_EQ(fine.surface("left").elements.size(), 4 * coarse.surface("left").elements.size());
+  for (GlobalOrdinal node = 0; node < coarse.numNodes(); ++node) { // coarse nodes are fine nodes
+    bool isThere = false;
+    for (GlobalOrdinal other = 0; other < fine.numNodes(); ++other)
+      isThere = isThere || (vectorOf(fine.point(other)) - vectorOf(coarse.point(node))).norm() < 1e-14;
+    EXPECT_TRUE(isThere);
+  }
+
+  const std::string disk = folder.write("disk.geo", R"(
+SetFactory("OpenCASCADE");
+Disk(1) = {0, 0, 0, 2};
+Mesh.CharacteristicLengthMax = 1;
+Physical Surface("disk") = {1};
+Physical Curve("rim") = {1};
+)");
+  const UnstructuredMesh round = GmshFile(readGmshFile(disk, 1, 1)).body("disk");
+  const Surface rim = round.surface("rim");
+  for (const GlobalOrdinal node : rim.facetNodes)
+    EXPECT_NEAR(vectorOf(round.point(node)).norm(), 2, 1e-9); // new nodes lie on the circle
 }
 
 } // namespace

@@ -10,7 +10,9 @@
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
+#include <memory>
 
 namespace epafi::fetidp {
 namespace {
@@ -185,6 +187,151 @@ TEST(ContactSolverTest, LoadsAndGapsThatAreNoNumbersAreRefused) {
         problem.gap->replaceGlobalValue(2, bad);
       test::expectSays(test::refusal([&] { solved.solver.solve(); }), {"gap", "contact row 2"});
     }
+}
+
+TEST(ContactSolverTest, MatricesAndRowsThatAreNoNumbersAreRefused) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const auto refusalOf = [&](const std::function<void(decomposition::Subdomain&)>& change) {
+      auto decomposition = decompose(membranes(true), world());
+      for (auto& subdomain : decomposition.problem.subdomains)
+        if (subdomain.number == 5) // on one rank; all ranks say so
+          change(subdomain);
+      ContactSolver solver(toleranceOf(1e-6));
+      return test::refusal([&] { solver.setup(decomposition.problem); });
+    };
+    test::expectSays(refusalOf([bad](auto& subdomain) {
+                       auto matrix = std::make_shared<decomposition::SparseMatrix>(*subdomain.stiffness);
+                       matrix->coeffRef(1, 1) = bad; // an infinite one would pass for a support
+                       subdomain.stiffness = matrix;
+                     }),
+                     {"stiffness", "'right'", "subdomain 5", "row 1, column 1"});
+    test::expectSays(refusalOf([bad](auto& subdomain) { subdomain.constraint.front().coefficient = bad; }),
+                     {"row", "coefficient", "'right'", "subdomain 5"});
+  }
+}
+
+TEST(ContactSolverTest, ABodyThatHardlyAnythingHoldsIsSolvedToItsDisplacements) {
+  // Held by springs of 1e-8, the right body makes ‖d̃‖ 1e8 times as large as any displacement of the solution.
+  scene::Scene scene = membranes(true);
+  scene::Body& right = scene.bodies[1];
+  const double h = (right.rectangle.x1 - right.rectangle.x0) / right.elements[0];
+  right.regions = {{"springs",
+                    {right.rectangle.x1 - h, right.rectangle.x1, right.rectangle.y0, right.rectangle.y1},
+                    1e-8}};
+  setLoad(right, -1.0);
+  const Solved solved(scene, 1e-8);
+  EXPECT_EQ(solved.solver.report().status, qp::Status::converged) << solved.solver.report().reason;
+  const PrimalSolution reference = solveUndecomposed(solved.decomposition);
+  EXPECT_LE(fieldError(fieldOf(solved.decomposition, solved.solution), reference.field), 1e-5);
+  EXPECT_LE(solved.solution.feasibility, 1e-5);
+  const auto& history = solved.solver.report().history; // one history of all that was done
+  for (std::size_t i = 1; i < history.size(); ++i) {
+    EXPECT_GE(history[i].iteration, history[i - 1].iteration);
+    EXPECT_GE(history[i].hessianMultiplications, history[i - 1].hessianMultiplications);
+  }
+  EXPECT_LE(history.back().hessianMultiplications, solved.solver.report().counts.hessianMultiplications);
+}
+
+TEST(ContactSolverTest, RowsThatContradictEachOtherHaveNoSolution) {
+  for (const auto& cut : {grid(1, 1), grid(2, 2), metis(3)}) {
+    scene::Scene scene = membranes(true);
+    for (scene::Body& body : scene.bodies)
+      body.decomposition = cut;
+    auto decomposition = decompose(scene, world());
+    DecomposedProblem& problem = decomposition.problem;
+    for (auto& subdomain : problem.subdomains) { // row 1 becomes −(row 0), which leaves no room for both
+      auto& entries = subdomain.constraint;
+      const int first = problem.multiplierGhostMap->getLocalElement(0),
+                second = problem.multiplierGhostMap->getLocalElement(1);
+      std::erase_if(entries, [&](const auto& entry) { return second >= 0 && entry.multiplier == second; });
+      const auto kept = entries;
+      for (const auto& entry : kept)
+        if (first >= 0 && second >= 0 && entry.multiplier == first)
+          entries.push_back({second, entry.unknown, -entry.coefficient});
+    }
+    if (problem.multiplierMap->isNodeGlobalElement(1))
+      problem.gap->replaceGlobalValue(1, -1.0);
+    ContactSolver solver(toleranceOf(1e-8));
+    solver.setup(problem);
+    try {
+      solver.solve();
+      ADD_FAILURE() << solver.report().reason;
+    } catch (const SolvabilityError& error) {
+      EXPECT_EQ(error.kind(), SolvabilityError::Kind::noSolution);
+      test::expectSays(error.what(), {"contradict", "gap"});
+    }
+  }
+}
+
+/// What setup and solve say, on every rank, of a problem whose subdomain 5 was changed; "" if nothing.
+std::string complaintAbout(bool coercive, const std::function<void(decomposition::Subdomain&)>& change) {
+  auto decomposition = decompose(membranes(coercive), world());
+  for (auto& subdomain : decomposition.problem.subdomains)
+    if (subdomain.number == 5)
+      change(subdomain);
+  ContactSolver solver(toleranceOf(1e-8));
+  try {
+    solver.setup(decomposition.problem);
+    solver.solve();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(ContactSolverTest, WhatIsNoNumberInOneSubdomainIsAnErrorOnAllRanks) {
+  const double bad = std::numeric_limits<double>::quiet_NaN();
+  for (const bool coercive : {true, false}) {
+    for (const int place : {0, 3}) {
+      const std::string stiffness = complaintAbout(coercive, [&](decomposition::Subdomain& subdomain) {
+        decomposition::SparseMatrix changed = *subdomain.stiffness;
+        changed.coeffRef(place, place) = bad;
+        subdomain.stiffness = std::make_shared<const decomposition::SparseMatrix>(changed);
+      });
+      test::expectSays(stiffness, {"stiffness", "subdomain 5"});
+    }
+    const std::string rows = complaintAbout(coercive, [&](decomposition::Subdomain& subdomain) {
+      subdomain.constraint.back().coefficient = bad;
+    });
+    test::expectSays(rows, {"row", "subdomain 5"});
+  }
+}
+
+/// Stops a solve at a step, on the last rank, and looks at every step.
+class Stopping final : public qp::Observer {
+public:
+  explicit Stopping(int stopAt) : stopAt_(stopAt) {}
+  void step(const qp::StepRecord& /*record*/) override { ++steps_; }
+  bool wantsToStop() override { return isLast_ && steps_ >= stopAt_; }
+  bool wantsToLook() override { return isLast_; }
+  void look(const Vector& lambda) override { seen = gathered(lambda); }
+  Eigen::VectorXd seen;
+
+private:
+  bool isLast_ = world()->getRank() == world()->getSize() - 1;
+  int steps_ = 0, stopAt_;
+};
+
+TEST(ContactSolverTest, AnInterruptedSolveGoesOnFromWhatItsObserverSaw) {
+  scene::Scene unheld = membranes(true); // no contact: CG
+  unheld.contacts.clear();
+  for (const scene::Scene& scene : {membranes(true), membranes(false), unheld}) {
+    const Solved whole(scene);
+    Solved half(scene, 1e-11);
+    Stopping observer(4);
+
+    const ContactSolution stopped = half.solver.solve(nullptr, &observer);
+
+    EXPECT_EQ(half.solver.report().status, qp::Status::interrupted);
+    EXPECT_EQ(observer.seen, gathered(*stopped.multiplier));
+    EXPECT_GT(stopped.relativeProjectedGradient, half.solver.tolerance());
+    const RCP<Vector> start = spread(half.decomposition.problem.multiplierMap, observer.seen);
+    const ContactSolution rest = half.solver.solve(start.get());
+    EXPECT_EQ(half.solver.report().status, qp::Status::converged);
+    EXPECT_LE(fieldError(fieldOf(half.decomposition, rest), fieldOf(whole.decomposition, whole.solution)),
+              1e-9);
+  }
 }
 
 TEST(ContactSolverTest, ReportsEverythingThatTheSolveKnows) {

@@ -112,7 +112,7 @@ DenseProblem densify(const DecomposedProblem& problem) {
 SubdomainVectors valuesOf(const DecomposedProblem& problem, const Eigen::VectorXd& merged) {
   SubdomainVectors values;
   for (const auto& columns : mergedColumns(problem))
-    values.push_back(merged(columns));
+    values.emplace_back(merged(columns));
   return values;
 }
 

@@ -94,7 +94,7 @@ PrimalProblem assemble(const decomposition::Decomposition& decomposition) {
 Field split(const PrimalProblem& primal, const Eigen::VectorXd& values) {
   Field field;
   for (std::size_t b = 0; b + 1 < primal.firstNode.size(); ++b)
-    field.push_back(values.segment(primal.firstNode[b], primal.firstNode[b + 1] - primal.firstNode[b]));
+    field.emplace_back(values.segment(primal.firstNode[b], primal.firstNode[b + 1] - primal.firstNode[b]));
   return field;
 }
 

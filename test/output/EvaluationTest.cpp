@@ -5,6 +5,7 @@
 #include "epafi/ContactSolver.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/fem/HookesLaw.hpp"
+#include "epafi/output/CellErrors.hpp"
 #include "epafi/output/ContactFields.hpp"
 #include "epafi/output/Evaluation.hpp"
 #include "epafi/output/NodalStress.hpp"
@@ -55,6 +56,39 @@ TEST_F(EvaluationTest, StressOfALinearDisplacementIsExactAtEveryNode) {
           EXPECT_NEAR(value, std::sqrt(3.0) * mu * shear, 1e-11);
       }
     }
+}
+
+TEST_F(EvaluationTest, ErrorsOfCellsAddUpToTheEstimateAndAreTheSameForEveryCutAndNumberOfRanks) {
+  const auto field = [](const fem::Point& x) {
+    return std::array<double, 3>{x[0] * x[0] - x[1] * x[2], std::sin(x[0] + 2 * x[1]), x[2] * x[0] * x[1]};
+  };
+  for (const test::Kind& kind : test::kinds()) {
+    SCOPED_TRACE(text(kind));
+    const auto errors = [&](int parts, const RCP<const Comm>& ranks) {
+      const scene::Scene scene = test::stackedBlocks(kind, parts, 1, directory, *comm);
+      const auto decomposition = decomposition::decompose(scene, ranks);
+      const auto solution = test::solutionWith(decomposition, field);
+      const auto estimate = accuracy::ErrorEstimator(scene, decomposition)(solution.displacement);
+      double sum = 0;
+      std::vector<double> upper;
+      for (const int body : {0, 1}) {
+        upper = cellErrors({scene, decomposition, solution}, estimate, body);
+        for (const double error : upper)
+          sum += error * error;
+      }
+      EXPECT_NEAR(std::sqrt(sumOverRanks(*ranks, sum)), estimate.discretisation,
+                  1e-12 * estimate.discretisation);
+      return upper;
+    };
+    const std::vector<double> whole = errors(1, comm->split(comm->getRank(), 0));
+    for (const int parts : {2, 6}) {
+      const std::vector<double> slab = errors(parts, comm);
+      const RowRange range = evenShare(static_cast<GlobalOrdinal>(whole.size()), *comm);
+      ASSERT_EQ(static_cast<GlobalOrdinal>(slab.size()), range.count);
+      for (std::size_t k = 0; k < slab.size(); ++k)
+        EXPECT_NEAR(slab[k], whole[static_cast<std::size_t>(range.first) + k], 1e-9 * (1 + slab[k]));
+    }
+  }
 }
 
 TEST_F(EvaluationTest, StressIsTheSameForEveryCutAndNumberOfRanks) {

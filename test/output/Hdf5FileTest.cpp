@@ -101,6 +101,21 @@ TEST_F(Hdf5FileTest, WrongSlabOnOneRankIsAnErrorOnAll) {
   EXPECT_EQ(test::readTable(path, "/z").values.size(), 8U);
 }
 
+TEST_F(Hdf5FileTest, AnExceptionOnOneRankAloneGetsOutOfItsScope) {
+  const bool isFirst = comm->getRank() == comm->getSize() - 1;
+  try {
+    Hdf5File file(path, comm);
+    writeTable<double>(file, "/x", 3, 0, evenShare(3, *comm));
+    if (!isFirst)
+      comm->barrier(); // whoever throws first must get to the other end of this without the others
+    throw std::bad_alloc();
+  } catch (const std::bad_alloc&) {
+    if (isFirst)
+      comm->barrier();
+  }
+  EXPECT_EQ(directory.content(), Names{});
+}
+
 TEST_F(Hdf5FileTest, ErrorsNameTheFileAndGiveHdf5sReason) {
   Hdf5File file(path, comm);
   file.createGroup("/a");

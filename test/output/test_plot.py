@@ -46,6 +46,34 @@ hertz_cylinder,1,0.05,0.5,0.01,0.1,0.02
 hertz_cylinder,4,0.1,0.5,0.04,0.2,0
 hertz_sphere,1,0.1,0.5,0.04,0.2,0.03
 """
+STABILITY = """case,parameter,expected,outcome,ok,hessian_multiplications,family,value,variant
+jump between the bodies,1e+0,solved,solved,1,20,jumps,1,default
+jump between the bodies,1e+8,solved,wrong answer,0,90,jumps,1e8,default
+jump between the bodies,1e+0,solved,solved,1,40,jumps,1,plain
+jump between the bodies,1e+8,solved or stopped,stopped,1,9000,jumps,1e8,plain
+zero load,floating,refused: not unique,refused: not unique,1,0,input,,default
+"""
+HETEROGENEITY = """bodies,pattern,cut,jump,adaptive,constraints,hessian_multiplications,condition,converged
+held membranes,stripes,grid,1,no,0,20,4.3,1
+held membranes,stripes,grid,1,auto,0,20,4.3,1
+held membranes,stripes,grid,1e+06,no,0,26,6.7,1
+held membranes,stripes,grid,1e+06,auto,0,26,6.7,1
+cubes in space,columns,grid,1,no,0,24,22.5,1
+cubes in space,columns,grid,1,auto,0,24,22.5,1
+cubes in space,columns,grid,1e+06,no,0,1132,4e5,1
+cubes in space,columns,grid,1e+06,auto,36,83,8.3,1
+"""
+ACCURACY = ("problem,variant,elements,tolerance,unknowns,seconds,hessian_multiplications,energy_error,algebraic_error,"
+            "estimated_error,on_pareto_front,discretisation_error\n") + "".join(
+    f"coercive,{variant},{elements},{tolerance},{elements**2},{elements / 1000},20,{1 / elements},1e-5,{1 / elements},1,"
+    f"{1 / elements}\n" for variant, tolerance in (("default", "1e-6"), ("balanced", "balanced"), ("tolerance_1e-10", "1e-10"),
+                                                   ("ladder_plain", "1e-4"), ("ladder_plain", "1e-7"))
+    for elements in (16, 32))
+EFFECTIVITY = """scene,level,estimated_error,discretisation_error,effectivity
+coercive,0,0.02,0.02,1
+coercive,1,0.01,0.02,0.5
+stacked_blocks,0,1e-12,1e-13,10
+"""
 PREDICTION = """ranks,subdomains_per_rank,local_seconds,neighbour_seconds,reduction_seconds,coarse_sum_seconds,coarse_solve_seconds
 1,1,1e-3,0,0,0,1e-6
 1000,1,1e-3,1e-5,1e-5,1e-5,1e-3
@@ -126,6 +154,34 @@ class Plot(unittest.TestCase):
         (self.directory / "qp.csv").write_text(QP.replace("1780", "many"))
         self.assertIn("many", self.refused(self.directory))
 
+    def test_hard_cases_are_drawn_with_those_that_ended_otherwise_than_expected(self):
+        (self.directory / "stability.csv").write_text(STABILITY)
+        (picture,) = self.pictures(self.directory, "--format", "svg")
+        self.assertEqual(picture.name, "stability.svg")
+        for words in ("Jumps, default", "between bodies", "not as expected", "input"):
+            self.assertIn(words, picture.read_text())
+        (self.directory / "stability.csv").write_text(STABILITY.replace("9000", "many"))
+        self.assertIn("many", self.refused(self.directory))
+
+    def test_jumps_of_the_stiffness_are_drawn_without_and_with_adaptive_constraints(self):
+        (self.directory / "heterogeneity.csv").write_text(HETEROGENEITY)
+        (picture,) = self.pictures(self.directory, "--format", "svg")
+        self.assertEqual(picture.name, "heterogeneity.svg")
+        drawn = picture.read_text()
+        for words in ("held membranes", "cubes in space", "stripes", "columns", "with adaptive constraints", "condition number"):
+            self.assertIn(words, drawn)
+        for words in ("channels", "stopped early"):
+            self.assertNotIn(words, drawn)
+        # What did not converge is ringed; without constraints a line is drawn only where it differs.
+        lines = drawn.count("stroke-dasharray: ")
+        stripes = HETEROGENEITY.replace("1e+06,no,0,26", "1e+06,no,0,90")
+        (self.directory / "heterogeneity.csv").write_text(stripes.replace("83,8.3,1", "83,8.3,0"))
+        self.pictures(self.directory, "--format", "svg")
+        self.assertIn("stopped early", picture.read_text())
+        self.assertGreater(picture.read_text().count("stroke-dasharray: "), lines)
+        (self.directory / "heterogeneity.csv").write_text(HETEROGENEITY.replace("1132", "many"))
+        self.assertIn("many", self.refused(self.directory))
+
     def test_scaling_is_drawn_as_far_as_it_was_measured(self):
         for rows, prediction in ((ONE_RANK, None), (TWO_RANKS, None), (ONE_RANK + TWO_RANKS, PREDICTION)):
             (self.directory / "scaling.csv").write_text(SCALING + rows)
@@ -136,6 +192,22 @@ class Plot(unittest.TestCase):
         self.assertIn("many", self.refused(self.directory))
         (self.directory / "scaling.csv").write_text(SCALING + ONE_RANK.splitlines()[0])
         self.assertIn("no series", self.refused(self.directory))
+
+    def test_accuracy_is_drawn_beside_time_products_and_mesh_size(self):
+        (self.directory / "accuracy.csv").write_text(ACCURACY)
+        names = [f"accuracy_{name}.png" for name in ("work", "products", "convergence", "spectrum")]
+        self.assertEqual([picture.name for picture in self.pictures(self.directory)], names)
+        (self.directory / "accuracy_effectivity.csv").write_text(EFFECTIVITY)
+        found = self.pictures(self.directory, "--format", "svg")
+        self.assertIn("balanced", found[0].read_text())
+        self.assertIn("coercive", found[-1].read_text())
+        self.assertNotIn("stacked blocks", found[-1].read_text())  # a mesh without error has no effectivity
+        (self.directory / "accuracy_effectivity.csv").write_text("scene,level\ncoercive,0\n")
+        self.assertIn("effectivity", self.refused(self.directory))
+        (self.directory / "accuracy.csv").write_text(ACCURACY.replace("0.03125", "little"))
+        self.assertIn("little", self.refused(self.directory))
+        (self.directory / "accuracy.csv").write_text(ACCURACY.replace("default", "other"))
+        self.assertIn("default", self.refused(self.directory))
 
     def test_errors_of_hertzs_contacts_are_drawn(self):
         (self.directory / "hertz.csv").write_text(HERTZ)

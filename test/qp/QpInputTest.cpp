@@ -219,7 +219,7 @@ TEST(QpInputTest, RowsMustHaveATransposedApply) {
 }
 
 TEST(QpInputTest, ParametersAreCheckedWhenTheSolverIsMade) {
-  const auto make = [](const char* sublist, const char* name, auto value) {
+  const auto make = [](const char* sublist, const char* name, const auto& value) {
     Teuchos::ParameterList list;
     (*sublist == '\0' ? list : list.sublist(sublist)).set(name, value);
     const qp::QpSolver solver(list);

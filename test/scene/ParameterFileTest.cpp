@@ -135,6 +135,49 @@ TEST(ParameterFileTest, RefusesNamesThatAppearTwice) {
     expectSays(refusalOf(nested(text)), {"a.xml: ", "\"p\"", "twice", "\"Outer/Inner\""});
 }
 
+/// `number` lists inside the top list.
+std::string inside(int number, const std::string& tag = "ParameterList name=\"a\"") {
+  std::string text = "<ParameterList>";
+  for (int i = 0; i < number; ++i)
+    text += '<' + tag + '>';
+  for (int i = 0; i < number; ++i)
+    text += "</" + tag.substr(0, tag.find(' ')) + '>';
+  return text + "</ParameterList>";
+}
+
+TEST(ParameterFileTest, RefusesElementsNestedWithoutEndBeforeTheStackOverflows) {
+  EXPECT_EQ(parseParameters(inside(99), "a.xml").numParams(), 1);
+  for (const int number : {100, 500'000})
+    for (const char* const tag : {"ParameterList name=\"a\"", "a", "a b='/>'"})
+      expectSays(refusalOf(inside(number, tag)), {"a.xml nests", "more than 100 deep"});
+  const std::string half = inside(100'000);
+  expectSays(refusalOf(half.substr(0, half.find("</"))), {"more than 100 deep"});
+}
+
+TEST(ParameterFileTest, CountsNoDepthWhereTagsEndAtOnce) {
+  std::string many = "<?xml version=\"1.0\"?><!-- <a> <b> \" --><ParameterList>";
+  for (int i = 0; i < 150; ++i)
+    many.append("<Parameter name=\">").append(std::to_string(i)).append("'\" type=\"int\" value=\"1\" />");
+  EXPECT_EQ(parseParameters(many + "</ParameterList>", "a.xml").numParams(), 150);
+}
+
+TEST(ParameterFileTest, RefusesNamesThatNobodyCanRead) {
+  const auto named = [](const std::string& name) {
+    return nested("<Parameter name=\"" + name + "\" type=\"int\" value=\"1\"/>");
+  };
+  EXPECT_NO_THROW(parseParameters(named(std::string(200, 'x')), "a.xml"));
+  expectSays(refusalOf(named(std::string(201, 'x'))), {"\"Outer/Inner\"", "xxx...\"", "at most 200 letters"});
+  expectSays(refusalOf(named("a\x1b[31m")), {"\"a?[31m\"", "control characters"});
+}
+
+TEST(ParameterFileTest, ShowsOnlyTheBeginningOfWhatIsEndless) {
+  const std::string endless(1'000'000, 'x');
+  for (const std::string& text :
+       {nested(parameter(endless, "1")), nested(parameter("int", endless)), nested(endless),
+        nested('<' + endless + "/>"), '<' + endless + "/>", '<' + endless})
+    EXPECT_LT(refusalOf(text).size(), 1000U);
+}
+
 /// A file that rank 0 alone writes, under a name that no other run of this test uses.
 class ParameterFileOnDiskTest : public testing::Test {
 protected:

@@ -87,7 +87,7 @@ TEST(SceneFilesTest, AllCanBeReadAndSurviveBeingWrittenByTeuchos) {
     EXPECT_TRUE(Teuchos::haveSameValues(list, again));
     expectSame(readScene(list, path), readScene(again, path));
   }
-  EXPECT_GE(numFiles, 15);
+  EXPECT_GE(numFiles, 16);
 }
 
 TEST(SceneFilesTest, CoerciveIsTheModelProblemOfThePaper) {
@@ -133,6 +133,19 @@ TEST(SceneFilesTest, RegionsReplaceTheConductivityInBoxes) {
   ASSERT_EQ(scene.bodies[0].regions.size(), 1u);
   EXPECT_EQ(scene.bodies[0].regions[0].conductivity, 1e3);
   EXPECT_EQ(scene.bodies[1].regions.at(0).conductivity, 1e-2);
+}
+
+TEST(SceneFilesTest, ChannelsRunThroughBothBlocksAtTheSameHeights) {
+  const Scene scene = sceneOf("channels.xml");
+  const auto &left = scene.bodies.at(0).solid->regions, &right = scene.bodies.at(1).solid->regions;
+  ASSERT_EQ(left.size(), 6u);
+  ASSERT_EQ(right.size(), 6u);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    EXPECT_EQ(left[k].material.youngsModulus, 210000);
+    EXPECT_EQ(left[k].box.upper[0], right[k].box.lower[0]) << "no matrix between the ends";
+    EXPECT_EQ(left[k].box.lower[1], right[k].box.lower[1]);
+    EXPECT_EQ(left[k].box.upper[1], right[k].box.upper[1]);
+  }
 }
 
 } // namespace

@@ -73,11 +73,15 @@ TEST(SolidReaderTest, FindsMeshFilesBesideTheScene) {
   ParameterList& cube = bodyOf(list, "cube");
   cube.remove("Box");
   cube.remove("Elements");
-  cube.set("Mesh", "parts/cube.geo").set("Group", "cube").set("Mesh Size Factor", 0.5);
+  cube.set("Mesh", "parts/cube.geo")
+      .set("Group", "cube")
+      .set("Mesh Size Factor", 0.5)
+      .set("Mesh Refinements", 2);
   const scene::Scene scene = scene::readScene(list, "scenes/a.xml");
   EXPECT_EQ(scene.bodies[0].solid->mesh.file, "scenes/parts/cube.geo");
   EXPECT_EQ(scene.bodies[0].solid->mesh.group, "cube");
   EXPECT_EQ(scene.bodies[0].solid->mesh.sizeFactor, 0.5);
+  EXPECT_EQ(scene.bodies[0].solid->mesh.refinements, 2);
   EXPECT_EQ(scene.bodies[0].decomposition.method, scene::Decomposition::Method::metis)
       << "a mesh file has no grid";
   cube.set("Mesh", "/parts/cube.geo");

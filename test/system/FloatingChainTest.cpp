@@ -33,7 +33,8 @@ scene::Scene chain(const std::vector<double>& loads, int elements) {
 }
 
 void expectSolved(const scene::Scene& scene, const std::string& what) {
-  const test::UndecomposedSolution expected = test::solveUndecomposed(scene);
+  const drivers::UndecomposedSolution expected =
+      drivers::solveUndecomposed(drivers::undecomposedSystem(scene));
   const drivers::SceneRun run = test::solve(scene, 1e-10);
   EXPECT_EQ(run.solver->report().status, qp::Status::converged) << what << run.solver->report().reason;
   EXPECT_NEAR(run.solution.energy, expected.energy, 1e-8 * std::abs(expected.energy)) << what;

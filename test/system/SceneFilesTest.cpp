@@ -47,7 +47,8 @@ TEST_P(SceneFilesTest, AgreesWithTheUndecomposedSolution) {
   const std::string file = EPAFI_SOURCE_DIR "/xml/" + GetParam() + ".xml";
   const scene::Scene scene =
       coarsened(scene::readScene(scene::readParameterFile(file, *Tpetra::getDefaultComm()), file));
-  const test::UndecomposedSolution expected = test::solveUndecomposed(scene);
+  const drivers::UndecomposedSolution expected =
+      drivers::solveUndecomposed(drivers::undecomposedSystem(scene));
 
   const drivers::SceneRun run = test::solve(scene, 1e-10);
 

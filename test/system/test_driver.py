@@ -170,10 +170,50 @@ class StopsBeforeTheTolerance(Driver):
         self.assertIn("Stagnated", run.stdout)
 
 
+class SolvesAsAccuratelyAsAsked(Driver):
+    def test_meshes_are_refined_until_the_target_is_met(self):
+        report = self.place / "report.xml"
+        for name in ("coercive", "semicoercive", "hertz_cylinder"):
+            for ranks in (1, 3):
+                run = epafi(scene(name), "--set", "Accuracy/Target=3 %" if name == "hertz_cylinder" else "Accuracy/Target=1 %",
+                            "--report", report, ranks=ranks)
+                self.assertEqual(run.returncode, SOLVED, run.stderr + run.stdout)
+                accuracy = read_report(report)["Accuracy"]
+                self.assertLessEqual(float(accuracy["Relative Error"]), float(accuracy["Target"]))
+                self.assertLessEqual(float(accuracy["Algebraic Error"]), 0.2 * float(accuracy["Discretisation Error"]))
+                levels = re.findall(r"mesh +(\d+) primal unknowns, (\d+) products .* estimated error (\S+) %", run.stdout)
+                self.assertGreater(len(levels), 1)
+                errors = [float(error) for _, _, error in levels]
+                self.assertEqual(errors, sorted(errors, reverse=True))
+
+    def test_a_target_out_of_reach_ends_with_the_reason(self):
+        report = self.place / "report.xml"
+        for limit, said in (("Maximum Levels=2", "Maximum Levels"), ("Maximum Unknowns=20000", "Maximum Unknowns")):
+            run = epafi(scene("coercive"), "--set", "Accuracy/Target=0.1 %", "--set", f"Accuracy/{limit}", "--report", report)
+            self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+            status = read_report(report)["Status"]
+            self.assertEqual((status["Converged"], status["Status"]), ("false", "TargetMissed"))
+            self.assertIn(said, status["Reason"])
+            self.assertIn("0.1 %", status["Reason"])
+
+    def test_a_balanced_tolerance_saves_products_and_hardly_adds_to_the_error(self):
+        report = self.place / "report.xml"
+        results = []
+        for tolerance in ("1e-6", "balanced"):
+            run = epafi(scene("semicoercive"), "--set", f"Solver/Tolerance={tolerance}", "--report", report)
+            self.assertEqual(run.returncode, SOLVED, run.stderr)
+            found = read_report(report)
+            results.append((float(found["Accuracy"]["Relative Error"]),
+                            int(found["Iterations"]["Hessian Multiplications"])))
+        (error, products), (balanced_error, balanced_products) = results
+        self.assertLess(balanced_error, 1.02 * error)
+        self.assertLess(balanced_products, 0.7 * products)
+
+
 class RefusesWrongInput(Driver):
     CASES = [
         (["Bodies/left/Elments", "did you mean"], "Bodies/left/Elments={4,4}"),
-        (["Solver/Tolerance", "double", "small"], "Solver/Tolerance=small"),
+        (["Solver/Tolerance", "balanced", "small"], "Solver/Tolerance=small"),
         (["Bodies/left", "Rectangle"], "Bodies/left/Rectangle={1,0,0,1}"),
         (["Bodies/left", "Elements"], "Bodies/left/Elements={-4,4}"),
         (["Bodies/left", "Elements"], "Bodies/left/Elements={32}"),
@@ -382,12 +422,74 @@ class StudiesQuadraticPrograms(Driver):
             self.assertLessEqual(nested[1], 30, problem)
             self.assertLessEqual(nested[1], 1.5 * nested[0], f"{problem}: the count hardly grows with the mesh")
 
+    def test_the_quick_study_of_heterogeneity(self):
+        run = self.study("heterogeneity", "--quick", "--output", self.place)
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""), run.stdout)
+        self.assertGreater((self.place / "heterogeneity.png").stat().st_size, 5000)
+        with open(self.place / "heterogeneity.csv", newline="", encoding="utf-8") as table:
+            rows = {(row["bodies"], row["pattern"], row["cut"], float(row["jump"]), row["adaptive"]): row
+                    for row in csv.DictReader(table)}
+        for (bodies, pattern, cut, jump, use), row in rows.items():
+            self.assertEqual(row["converged"], "1", row)
+            if (jump, use) != (1e6, "auto"):
+                continue
+            products, without, at_first = (int(rows[bodies, pattern, cut, *key]["hessian_multiplications"])
+                                           for key in ((1e6, "auto"), (1e6, "no"), (1, "auto")))
+            if pattern in ("stripes", "checkerboard"):  # there is nothing to constrain
+                self.assertLessEqual(products, without, row)  # fewer where the preconditioner is corrected for contact
+                self.assertEqual(row["constraints"], "0", row)
+                continue
+            self.assertLessEqual(products, 0.5 * without, row)
+            self.assertGreater(int(row["constraints"]), 0, row)
+            if pattern == "inclusions":
+                self.assertLessEqual(products, 2 * at_first, row)
+            if cut == "grid":
+                self.assertLess(float(row["condition"]), 50, row)
+
     def test_unknown_studies(self):
         for words, arguments in ((["tabels", "qp", "tables"], ["tabels"]), (["no study"], [])):
             run = self.study(*arguments)
             self.assertEqual(run.returncode, WRONG_INPUT)
             for word in words:
                 self.assertIn(word, run.stderr)
+
+
+class StudiesStability(Driver):
+    COLUMNS = ["case", "parameter", "expected", "outcome", "ok", "hessian_multiplications"]
+    FAMILIES = {"jumps", "shapes", "floating", "contact", "incompressible", "units", "choices", "ranks", "known failures",
+                "quadratic programs", "input"}
+
+    def study(self, *prefix):
+        return subprocess.run([*prefix, STUDY, "stability", "--quick", "--output", str(self.place)], capture_output=True,
+                              text=True, timeout=2 * LIMIT, check=False)
+
+    def rows(self):
+        with open(self.place / "stability.csv", newline="", encoding="utf-8") as table:
+            reader = csv.DictReader(table)
+            rows = list(reader)
+        self.assertEqual(reader.fieldnames[:len(self.COLUMNS)], self.COLUMNS)
+        return rows
+
+    def test_the_quick_study_ends_as_expected_and_its_answers_are_confirmed(self):
+        run = self.study()
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""), run.stdout)
+        for name in ("stability.csv", "stability.md", "stability.png"):
+            self.assertGreater((self.place / name).stat().st_size, 1000, name)
+        rows = self.rows()
+        self.assertEqual({row["family"] for row in rows}, self.FAMILIES)
+        self.assertEqual({row["ranks"] for row in rows}, {"1"})
+        for row in rows:
+            self.assertEqual(row["ok"], "0" if row["remains"] else "1", row)
+            if row["outcome"] != "solved":
+                self.assertNotEqual(row["reason"], "", row)
+            elif row["balance"]:
+                for residual, limit in (("balance", 1e-2), ("penetration", 1e-5), ("complementarity", 1e-6)):
+                    self.assertLessEqual(float(row[residual]), limit, row)
+
+    def test_more_ranks_bring_the_cases_that_ask_for_them(self):
+        run = self.study(*LAUNCH, "2")
+        self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
+        self.assertEqual({row["ranks"] for row in self.rows()}, {"1", "2"})
 
 
 if __name__ == "__main__":

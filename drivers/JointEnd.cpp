@@ -1,0 +1,97 @@
+#include "JointEnd.hpp"
+
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <Teuchos_Time.hpp>
+
+#include <chrono>
+#include <iostream>
+#include <string>
+#include <thread>
+
+namespace epafi::drivers {
+namespace {
+
+struct Failure {
+  ExitCode code = notConverged;
+  std::string sentence;
+};
+
+void say(const std::string& sentence) {
+  std::cerr << "epafi: " + sentence + '\n' << std::flush;
+}
+
+/// Whether `isDone` comes true within so many seconds.
+template <class Condition>
+bool awaited(double seconds, const Condition& isDone) {
+  const double end = Teuchos::Time::wallTime() + seconds;
+  while (!isDone()) {
+    if (Teuchos::Time::wallTime() > end)
+      return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+/// After some ranks failed and others did not. Does not return where there is MPI.
+void endForAll(MPI_Comm messages, int rank, int size, const Failure& failure) {
+  constexpr double hearing = 0.5; // seconds in which the others that failed are heard
+  MPI_Request request = MPI_REQUEST_NULL;
+  for (int other = rank + 1; other < size; ++other)
+    MPI_Isend(nullptr, 0, MPI_BYTE, other, 0, messages, &request); // "I speak"
+  const bool anotherSpeaks = awaited(hearing, [&] {
+    int isThere = 0;
+    MPI_Iprobe(MPI_ANY_SOURCE, 0, messages, &isThere, MPI_STATUS_IGNORE);
+    return isThere != 0;
+  });
+  if (anotherSpeaks)
+    std::this_thread::sleep_for(std::chrono::seconds(2)); // until its MPI_Abort comes
+  else
+    say(failure.sentence.starts_with("rank ")
+            ? failure.sentence
+            : "rank " + std::to_string(rank) + " failed: " + failure.sentence);
+  MPI_Abort(MPI_COMM_WORLD, failure.code);
+}
+
+int endAfter(const Failure& failure, const Comm& comm, MPI_Comm messages, double patience) {
+  const int rank = comm.getRank(), size = comm.getSize();
+  int code = failure.code;
+  if (size > 1) {
+    MPI_Request agreement = MPI_REQUEST_NULL;
+    MPI_Iallreduce(&failure.code, &code, 1, MPI_INT, MPI_MAX, messages, &agreement);
+    const bool allFailed = awaited(patience, [&] {
+      int isDone = 0;
+      MPI_Test(&agreement, &isDone, MPI_STATUS_IGNORE);
+      return isDone != 0;
+    });
+    if (!allFailed)
+      endForAll(messages, rank, size, failure);
+  }
+  if (rank == 0)
+    say(failure.sentence);
+  return code;
+}
+
+} // namespace
+
+int endTogether(const Comm& comm, const std::function<int()>& work, double patience) {
+  MPI_Comm messages = MPI_COMM_NULL;
+  if (const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm))
+    MPI_Comm_dup(*mpi->getRawMpiComm(), &messages);
+  Failure failure;
+  try {
+    return work();
+  } catch (const InputError& error) {
+    failure = {wrongInput, error.what()};
+  } catch (const SolvabilityError& error) {
+    failure = {notSolvable, error.what()};
+  } catch (const std::exception& error) {
+    failure = {notConverged, sentenceOf(error, comm.getRank())};
+  } catch (...) {
+    failure = {notConverged, "an unknown error occurred"};
+  }
+  return endAfter(failure, comm, messages, patience);
+}
+
+} // namespace epafi::drivers

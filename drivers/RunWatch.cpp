@@ -1,0 +1,84 @@
+#include "RunWatch.hpp"
+
+#include "StopSignals.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Teuchos_Time.hpp>
+
+#include <iostream>
+#include <utility>
+
+namespace epafi::drivers {
+
+RunWatch::RunWatch(const Options& options, RCP<const Comm> comm)
+    : comm_(std::move(comm)), speaks_(comm_->getRank() == 0), interval_(options.checkpointInterval),
+      lastCheckpoint_(Teuchos::Time::wallTime()) {
+  if (!options.output.empty())
+    checkpoint_ = std::filesystem::path(options.output) / "checkpoint.epafi";
+  if (speaks_ && !options.quiet)
+    progress_.emplace(std::cout, 5.0);
+  if (!options.restart.empty())
+    restart_ = output::readCheckpoint(options.restart, *comm_);
+}
+
+std::string RunWatch::signal() const {
+  return agreedText(*comm_, stopSignal());
+}
+
+void RunWatch::requireNoSignal(const std::string& when) const {
+  if (const std::string name = signal(); !name.empty())
+    throw Error("stopped by " + name + ' ' + when +
+                ", before the iteration: there is nothing to keep; start again");
+}
+
+RCP<const Vector> RunWatch::begin(const decomposition::DecomposedProblem& problem) {
+  requireNoSignal("after the assembly");
+  if (!checkpoint_.empty() || restart_)
+    fingerprint_ = output::fingerprintOf(problem);
+  if (!restart_)
+    return Teuchos::null;
+  const RCP<const Vector> lambda = output::multipliersOf(*restart_, problem, fingerprint_);
+  restart_.reset();
+  return lambda;
+}
+
+void RunWatch::beforeIteration() {
+  requireNoSignal("after the setup");
+  lastCheckpoint_ = Teuchos::Time::wallTime();
+}
+
+void RunWatch::step(const qp::StepRecord& record) {
+  if (progress_)
+    progress_->step(record);
+}
+
+bool RunWatch::wantsToStop() {
+  return !stopSignal().empty();
+}
+
+/// A checkpoint is due; or it is the last chance: a batch system may leave less time than the recovery takes.
+bool RunWatch::wantsToLook() {
+  if (checkpoint_.empty())
+    return false;
+  const bool isDue = speaks_ && interval_ > 0 && Teuchos::Time::wallTime() - lastCheckpoint_ >= interval_;
+  return isDue || wantsToStop();
+}
+
+void RunWatch::look(const Vector& lambda) {
+  try {
+    writeCheckpoint(lambda);
+  } catch (const Error& error) {
+    if (speaks_ && !std::exchange(hasComplained_, true))
+      std::cerr << "epafi: the run goes on without a checkpoint: " << error.what() << '\n' << std::flush;
+  }
+  lastCheckpoint_ = Teuchos::Time::wallTime();
+}
+
+void RunWatch::writeCheckpoint(const Vector& lambda) const {
+  output::writeCheckpoint(checkpoint_, fingerprint_, lambda);
+}
+
+} // namespace epafi::drivers

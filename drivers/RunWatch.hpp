@@ -1,0 +1,55 @@
+#pragma once
+
+/// What the driver does while a run goes on: lines for people, signals, checkpoints, and the start from one.
+
+#include "Options.hpp"
+#include "Progress.hpp"
+#include "SceneRun.hpp"
+
+#include "epafi/output/Checkpoint.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace epafi::drivers {
+
+class RunWatch final : public RunCompanion {
+public:
+  /// Reads the checkpoint of --restart. Precondition: listenToStopSignals() was called. Collective. \throws InputError if it
+  /// cannot be read.
+  RunWatch(const Options& options, RCP<const Comm> comm);
+
+  /// λ of that checkpoint. \throws InputError if it does not fit the problem, Error if a signal has come.
+  RCP<const Vector> begin(const decomposition::DecomposedProblem& problem) override;
+  /// \throws Error if a signal has come.
+  void beforeIteration() override;
+
+  void step(const qp::StepRecord& record) override;
+  [[nodiscard]] bool wantsToStop() override;
+  [[nodiscard]] bool wantsToLook() override;
+  /// Writes a checkpoint; should that fail, rank 0 says so once, and the run goes on.
+  void look(const Vector& lambda) override;
+
+  /// Whether the run is to start from a checkpoint, and has not yet.
+  [[nodiscard]] bool restarts() const { return restart_.has_value(); }
+  /// DIR/checkpoint.epafi; empty without --output.
+  [[nodiscard]] const std::filesystem::path& checkpoint() const { return checkpoint_; }
+  /// Collective. \throws Error, or InputError.
+  void writeCheckpoint(const Vector& lambda) const;
+  /// "SIGTERM" on all ranks if one received it; empty if none did. Collective.
+  [[nodiscard]] std::string signal() const;
+
+private:
+  void requireNoSignal(const std::string& when) const;
+
+  RCP<const Comm> comm_;
+  bool speaks_;
+  std::filesystem::path checkpoint_;
+  std::optional<output::Checkpoint> restart_;
+  double interval_, lastCheckpoint_;
+  bool hasComplained_ = false;
+  output::Fingerprint fingerprint_;
+  std::optional<Progress> progress_;
+};
+
+} // namespace epafi::drivers

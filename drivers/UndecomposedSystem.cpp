@@ -1,0 +1,153 @@
+#include "UndecomposedSystem.hpp"
+
+#include "epafi/base/Types.hpp"
+#include "epafi/decomposition/Decompose.hpp"
+
+#include <Teuchos_ArrayRCP.hpp>
+#include <Teuchos_DefaultSerialComm.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <stdexcept>
+#include <utility>
+
+namespace epafi::drivers {
+namespace {
+
+using decomposition::DecomposedProblem;
+using decomposition::Decomposition;
+using decomposition::Subdomain;
+
+/// The scene with each body as one subdomain.
+scene::Scene inOnePieceEach(scene::Scene scene) {
+  for (scene::Body& body : scene.bodies) {
+    body.decomposition.method = scene::Decomposition::Method::metis;
+    body.decomposition.parts = 1;
+  }
+  return scene;
+}
+
+/// The first unknown of each body, and the number of all.
+std::vector<int> firstUnknowns(const DecomposedProblem& problem) {
+  std::vector<int> first{0};
+  for (const Subdomain& subdomain : problem.subdomains)
+    first.push_back(first.back() + static_cast<int>(subdomain.load.size()));
+  return first;
+}
+
+/// K: the bodies' matrices along the diagonal. They are symmetric, so that their columns are rows.
+UndecomposedSystem::Matrix blockDiagonal(const DecomposedProblem& problem, const std::vector<int>& first) {
+  UndecomposedSystem::Matrix result(first.back(), first.back());
+  Eigen::VectorXi rowLengths(first.back());
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+    for (int row = 0; row < problem.subdomains[s].stiffness->cols(); ++row)
+      rowLengths[first[s] + row] = static_cast<int>(problem.subdomains[s].stiffness->col(row).nonZeros());
+  result.reserve(rowLengths);
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    const decomposition::SparseMatrix& block = *problem.subdomains[s].stiffness;
+    for (int row = 0; row < block.outerSize(); ++row)
+      for (decomposition::SparseMatrix::InnerIterator entry(block, row); entry; ++entry)
+        result.insert(first[s] + row, first[s] + static_cast<int>(entry.row())) = entry.value();
+  }
+  result.makeCompressed();
+  return result;
+}
+
+UndecomposedSystem::Matrix contactRows(const DecomposedProblem& problem, const std::vector<int>& first) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+    for (const decomposition::ConstraintEntry& entry : problem.subdomains[s].constraint)
+      entries.emplace_back(static_cast<int>(problem.multiplierGhostMap->getGlobalElement(entry.multiplier)),
+                           first[s] + entry.unknown, entry.coefficient);
+  UndecomposedSystem::Matrix result(static_cast<int>(problem.numInequalities), first.back());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// Body, node, place and direction of the unknowns of one subdomain.
+void locate(const Decomposition& decomposition, const Subdomain& subdomain, int first,
+            UndecomposedSystem& system) {
+  const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(subdomain.body)].mesh;
+  const int components = decomposition.problem.components;
+  std::vector<const Eigen::Matrix3d*> axes(subdomain.nodes.size(), nullptr);
+  for (const decomposition::NodeFrame& frame : subdomain.frames)
+    axes[static_cast<std::size_t>(frame.node)] = &frame.axes;
+  for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
+    const auto node = static_cast<std::size_t>(subdomain.unknownPosition[i] / components);
+    const int component = subdomain.unknownPosition[i] % components;
+    const auto unknown = static_cast<std::size_t>(first) + i;
+    const auto column = static_cast<Eigen::Index>(unknown);
+    const fem::Point point = mesh.point(subdomain.nodes[node]);
+    system.body[unknown] = subdomain.body;
+    system.node[unknown] = static_cast<int>(subdomain.nodes[node]);
+    system.place.col(column) << point[0], point[1], point[2];
+    if (axes[node] == nullptr)
+      system.direction.col(column) = Eigen::Vector3d::Unit(component);
+    else
+      system.direction.col(column) = axes[node]->col(component);
+  }
+}
+
+} // namespace
+
+std::vector<Eigen::VectorXd> UndecomposedSystem::valuesOf(const Eigen::VectorXd& u) const {
+  std::vector<Eigen::VectorXd> values = prescribed;
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const auto unknown = static_cast<std::size_t>(i);
+    values[static_cast<std::size_t>(body[unknown])].segment(node[unknown] * components, components) +=
+        u[i] * direction.col(i).head(components);
+  }
+  return values;
+}
+
+Eigen::VectorXd UndecomposedSystem::unknownsOf(const std::vector<Eigen::VectorXd>& values) const {
+  Eigen::VectorXd u(load.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    const auto unknown = static_cast<std::size_t>(i), of = static_cast<std::size_t>(body[unknown]);
+    const Eigen::Index position = node[unknown] * components;
+    u[i] = direction.col(i)
+               .head(components)
+               .dot(values[of].segment(position, components) - prescribed[of].segment(position, components));
+  }
+  return u;
+}
+
+UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
+  const Decomposition decomposition =
+      decomposition::decompose(inOnePieceEach(scene), rcp(new Teuchos::SerialComm<int>()));
+  const DecomposedProblem& problem = decomposition.problem;
+  // A body whose mesh is in two pieces stays so: nothing has to be glued.
+  if (problem.numEqualities != 0)
+    throw std::logic_error("undecomposedSystem: a body in one piece has rows of gluing");
+  const std::vector<int> first = firstUnknowns(problem);
+
+  UndecomposedSystem system;
+  system.components = problem.components;
+  for (const decomposition::BodyLayout& body : decomposition.bodies)
+    system.prescribed.emplace_back(
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.mesh->numNodes()) * problem.components));
+  system.stiffness = blockDiagonal(problem, first);
+  system.constraint = contactRows(problem, first);
+  const auto gap = problem.gap->getData();
+  system.gap = Eigen::Map<const Eigen::VectorXd>(gap.getRawPtr(), gap.size());
+  system.load.resize(first.back());
+  system.body.resize(static_cast<std::size_t>(first.back()));
+  system.node.resize(system.body.size());
+  system.place.resize(3, first.back());
+  system.direction.resize(3, first.back());
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    const Subdomain& subdomain = problem.subdomains[s];
+    system.load.segment(first[s], subdomain.load.size()) = subdomain.load;
+    system.energyOffset += subdomain.energyOffset;
+    Eigen::VectorXd prescribed = subdomain.prescribed;
+    decomposition::toSpace(subdomain, prescribed);
+    Eigen::VectorXd& all = system.prescribed[static_cast<std::size_t>(subdomain.body)];
+    for (std::size_t k = 0; k < subdomain.nodes.size(); ++k)
+      all.segment(static_cast<Eigen::Index>(subdomain.nodes[k]) * problem.components, problem.components) =
+          prescribed.segment(static_cast<Eigen::Index>(k) * problem.components, problem.components);
+    locate(decomposition, subdomain, first[s], system);
+  }
+  return system;
+}
+
+} // namespace epafi::drivers

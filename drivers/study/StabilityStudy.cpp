@@ -1,0 +1,169 @@
+#include "StabilityStudy.hpp"
+
+#include "StabilityCase.hpp"
+
+#include "epafi/output/AtomicFile.hpp"
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace epafi::drivers {
+namespace {
+
+/// A field of a CSV table.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char letter : text)
+    result.append(letter == '"' ? "\"\"" : letter == '\n' ? " " : std::string(1, letter));
+  return result + "\"";
+}
+
+/// Empty for what is not known.
+std::string number(double value) {
+  std::ostringstream text;
+  if (!std::isnan(value))
+    text << value;
+  return text.str();
+}
+
+constexpr const char* csvHeader =
+    "case,parameter,expected,outcome,ok,hessian_multiplications,family,value,variant,ranks,status,"
+    "relative_projected_gradient,balance,penetration,complementarity,energy_norm_error,norm_multiplications,"
+    "active_contact_nodes,seconds,reason,remains\n";
+
+std::string csvRow(const StabilityCase& trial, const CaseResult& result) {
+  std::ostringstream text;
+  text << quoted(trial.name) << ',' << quoted(trial.parameter) << ',' << quoted(toString(trial.expected))
+       << ',' << quoted(toString(result.outcome)) << ',' << (isAsExpected(trial.expected, result) ? 1 : 0)
+       << ',' << result.products << ',' << trial.family << ',' << number(trial.value) << ',' << trial.variant
+       << ',' << std::max(trial.ranks, 1) << ',' << result.status << ',' << number(result.projectedGradient)
+       << ',' << number(result.balance) << ',' << number(result.penetration) << ','
+       << number(result.complementarity) << ',' << number(result.energyError) << ',' << result.normProducts
+       << ',' << (result.active < 0 ? "" : std::to_string(result.active)) << ',' << number(result.seconds)
+       << ',' << quoted(result.reason) << ',' << quoted(trial.remains) << '\n';
+  return text.str();
+}
+
+/// What the cases of one family or one name came to.
+struct Tally {
+  int total = 0, solved = 0, refused = 0, stopped = 0, unexpected = 0;
+  int surprising = 0;                      ///< not as expected, and not known for it
+  int leastProducts = 0, mostProducts = 0; ///< of those solved
+
+  void add(const StabilityCase& trial, const CaseResult& result) {
+    ++total;
+    if (result.outcome == Outcome::solved) {
+      leastProducts = solved == 0 ? result.products : std::min(leastProducts, result.products);
+      mostProducts = std::max(mostProducts, result.products);
+      ++solved;
+    }
+    refused += result.outcome == Outcome::noSolution || result.outcome == Outcome::notUnique ||
+               result.outcome == Outcome::wrongInput;
+    stopped += result.outcome == Outcome::stopped;
+    const bool asExpected = isAsExpected(trial.expected, result);
+    unexpected += asExpected ? 0 : 1;
+    surprising += !asExpected && trial.remains.empty() ? 1 : 0;
+  }
+};
+
+/// One line a case and variant, all parameters together, in the order of the cases.
+class Summary {
+public:
+  void add(const StabilityCase& trial, const CaseResult& result) {
+    const std::string key = "| " + trial.family + " | " + trial.name + " | " + trial.variant + " | ";
+    if (tallies_.count(key) == 0)
+      order_.push_back(key);
+    tallies_[key].add(trial, result);
+    all_.add(trial, result);
+  }
+  [[nodiscard]] const Tally& all() const { return all_; }
+  [[nodiscard]] std::string markdown() const {
+    std::ostringstream text;
+    text << "| family | case | variant | rows | solved | refused | stopped | not as expected | products, if "
+            "solved |\n"
+            "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (const std::string& key : order_) {
+      const Tally& tally = tallies_.at(key);
+      text << key << tally.total << " | " << tally.solved << " | " << tally.refused << " | " << tally.stopped
+           << " | " << tally.unexpected << " | ";
+      if (tally.solved > 0)
+        text << tally.leastProducts << " … " << tally.mostProducts;
+      text << " |\n";
+    }
+    return text.str();
+  }
+
+private:
+  std::vector<std::string> order_;
+  std::map<std::string, Tally> tallies_;
+  Tally all_;
+};
+
+/// Waits for all ranks without taking the processor from those that work. Collective.
+void sleepTogether(const Comm& comm) {
+  const MPI_Comm raw = *dynamic_cast<const Teuchos::MpiComm<int>&>(comm).getRawMpiComm();
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(raw, &request);
+  for (int done = 0; done == 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE))
+    if (done == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+} // namespace
+
+bool studyStability(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm) {
+  std::string csv = csvHeader;
+  Summary summary;
+  int leftOut = 0;
+  std::map<int, RCP<const Comm>> firstRanks; // communicators of the first n ranks
+  for (const StabilityCase& trial : allStabilityCases(quick)) {
+    const int ranks = std::max(trial.ranks, 1);
+    if (ranks > comm->getSize()) {
+      ++leftOut;
+      continue;
+    }
+    const bool takesPart = comm->getRank() < ranks;
+    if (firstRanks.count(ranks) == 0)
+      firstRanks[ranks] = comm->split(takesPart ? 0 : -1, comm->getRank());
+    if (takesPart) {
+      const CaseResult result = runCase(trial, firstRanks.at(ranks));
+      csv += csvRow(trial, result);
+      summary.add(trial, result);
+      if (comm->getRank() == 0 && !isAsExpected(trial.expected, result))
+        std::cout << trial.family << ": " << trial.name << ", " << trial.parameter << ", " << trial.variant
+                  << ": expected " << toString(trial.expected) << ", found " << toString(result.outcome)
+                  << " (" << result.status << ": " << result.reason << ")\n"
+                  << std::flush;
+    }
+    sleepTogether(*comm);
+  }
+  output::writeTextFile(
+      directory / "stability.csv", [&] { return csv; }, *comm);
+  output::writeTextFile(
+      directory / "stability.md", [&] { return summary.markdown(); }, *comm);
+  if (comm->getRank() == 0) {
+    const Tally& all = summary.all();
+    std::cout << summary.markdown() << all.total << " cases: " << all.solved << " solved, " << all.refused
+              << " refused, " << all.stopped << " stopped, " << all.unexpected << " not as expected, "
+              << all.unexpected - all.surprising << " of them known\n";
+    if (leftOut > 0)
+      std::cout << leftOut << " cases need more ranks: mpirun --oversubscribe -n 7\n";
+    std::cout << "written: " << (directory / "stability.csv").string() << " and "
+              << (directory / "stability.md").string() << '\n';
+  }
+  int surprising = summary.all().surprising; // rank 0 has run all
+  MPI_Bcast(&surprising, 1, MPI_INT, 0, *dynamic_cast<const Teuchos::MpiComm<int>&>(*comm).getRawMpiComm());
+  return surprising == 0;
+}
+
+} // namespace epafi::drivers

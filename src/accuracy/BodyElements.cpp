@@ -1,0 +1,88 @@
+#include "epafi/accuracy/BodyElements.hpp"
+
+#include "epafi/fem/SolidBody.hpp"
+#include "epafi/fem/SolidDomains.hpp"
+
+#include <optional>
+
+namespace epafi::accuracy {
+namespace {
+
+/// Shapes of subdomains that are looked at in turn, and the numbers kept of them: some 4 MB.
+constexpr std::size_t maxNumberings = 8, maxNumbers = 1U << 20U;
+
+std::vector<scene::Material> materialsOf(const scene::Body& body) {
+  std::vector<scene::Material> materials;
+  if (body.solid) {
+    for (std::size_t region = 0; region <= body.solid->regions.size(); ++region)
+      materials.push_back(fem::materialIn(*body.solid, region));
+    return materials;
+  }
+  materials.push_back({.conductivity = body.conductivity});
+  for (const scene::Region& region : body.regions)
+    materials.push_back({.conductivity = region.conductivity});
+  return materials;
+}
+
+} // namespace
+
+BodyElements::BodyElements(const scene::Body& body, const decomposition::BodyLayout& layout)
+    : layout_(layout), physics_(body.solid ? body.solid->physics : scene::Physics::membrane),
+      materials_(materialsOf(body)), shape_(fem::congruentCorners(*layout.mesh)),
+      model_(materials_.size() > 1 ? decomposition::makeModel(body, *layout.mesh) : nullptr),
+      numberings_(maxNumberings, maxNumbers) {
+  if (!shape_.empty())
+    for (const scene::Material& material : materials_)
+      congruent_.emplace_back(cellType(), shape_, physics_, material);
+}
+
+SubdomainElements BodyElements::elementsOf(const decomposition::Subdomain& subdomain) {
+  SubdomainElements result;
+  result.elements = layout_.partition->elementsOf(subdomain.number - layout_.firstSubdomain);
+  const int perElement = layout_.mesh->nodesPerElement();
+  std::vector<GlobalOrdinal> corners(result.elements.size() * static_cast<std::size_t>(perElement));
+  layout_.mesh->elementNodes(result.elements, corners);
+  result.numbering = numberings_.find(
+      [&](const fem::LocalNumbering& known) { return known.firstNodeIfShifted(corners).has_value(); });
+  if (!result.numbering)
+    result.numbering = numberings_.add(fem::LocalNumbering(corners, perElement), corners.size());
+  if (model_) {
+    result.regions.resize(result.elements.size());
+    model_->regions(result.elements, result.regions);
+  }
+  return result;
+}
+
+std::vector<std::size_t> BodyElements::inRegion(const SubdomainElements& elements, GlobalOrdinal region) {
+  std::vector<std::size_t> which;
+  for (std::size_t e = 0; e < elements.elements.size(); ++e)
+    if (elements.regionOf(e) == region)
+      which.push_back(e);
+  return which;
+}
+
+Eigen::MatrixXd BodyElements::gather(const SubdomainElements& elements, std::span<const std::size_t> which,
+                                     const Eigen::VectorXd& displacement) const {
+  const auto components = static_cast<Eigen::Index>(scene::componentsOf(physics_));
+  const auto perElement = static_cast<Eigen::Index>(elements.numbering->nodesPerElement());
+  Eigen::MatrixXd gathered(perElement * components, static_cast<Eigen::Index>(which.size()));
+  double* value = gathered.data();
+  for (const std::size_t element : which)
+    for (const int node : elements.numbering->elementNodes(element)) {
+      const double* first = displacement.data() + node * components;
+      for (Eigen::Index c = 0; c < components; ++c)
+        *value++ = first[c];
+    }
+  return gathered;
+}
+
+std::vector<BodyElements> elementsOfBodies(const scene::Scene& scene,
+                                           const decomposition::Decomposition& decomposition) {
+  std::vector<BodyElements> bodies;
+  bodies.reserve(scene.bodies.size());
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    bodies.emplace_back(scene.bodies[b], decomposition.bodies[b]);
+  return bodies;
+}
+
+} // namespace epafi::accuracy

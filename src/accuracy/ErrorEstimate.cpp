@@ -1,0 +1,93 @@
+#include "epafi/accuracy/ErrorEstimate.hpp"
+
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/fem/FluxIntegrals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace epafi::accuracy {
+
+double ErrorEstimate::relative() const {
+  const double whole = std::hypot(energyNorm, discretisation);
+  return whole > 0 ? discretisation / whole : 0;
+}
+
+ErrorEstimator::ErrorEstimator(const scene::Scene& scene, const decomposition::Decomposition& decomposition)
+    : decomposition_(decomposition), bodies_(elementsOfBodies(scene, decomposition)) {}
+
+namespace {
+
+/// η² of each element of a subdomain; returns ‖u_h‖² there.
+double estimateElements(const BodyElements& body, const decomposition::Subdomain& subdomain,
+                        const SubdomainFlux& flux, const Eigen::VectorXd& displacement,
+                        std::vector<double>& estimates) {
+  const std::span<const int> slots = flux.cornerSlots();
+  Eigen::MatrixXd nodal(flux.values.rows() - 1,
+                        static_cast<Eigen::Index>(flux.elements.numbering->nodesPerElement()));
+  double energy = 0;
+  body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
+    const auto corners = static_cast<std::size_t>(nodal.cols());
+    for (std::size_t i = 0; i < corners; ++i)
+      nodal.col(static_cast<Eigen::Index>(i)) =
+          flux.values.col(slots[element.number * corners + i]).head(nodal.rows());
+    const fem::FluxEnergies energies =
+        fem::fluxEnergies(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
+                          element.displacements, nodal);
+    estimates[element.number] = energies.difference;
+    energy += energies.flux;
+  });
+  return energy;
+}
+
+/// The same on a structured mesh.
+double estimateCongruentElements(const BodyElements& body, const SubdomainFlux& flux,
+                                 const Eigen::VectorXd& displacement, std::vector<double>& estimates) {
+  const std::span<const int> slots = flux.cornerSlots();
+  const Eigen::Index numFluxes = flux.values.rows() - 1;
+  const auto perElement = static_cast<Eigen::Index>(flux.elements.numbering->nodesPerElement());
+  double energy = 0;
+  for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
+    const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
+    Eigen::MatrixXd nodal(numFluxes * perElement, static_cast<Eigen::Index>(which.size()));
+    double* place = nodal.data();
+    for (const std::size_t element : which)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(perElement); ++i, place += numFluxes) {
+        const int slot = slots[element * static_cast<std::size_t>(perElement) + i];
+        std::copy_n(flux.values.data() + slot * flux.values.rows(), numFluxes, place);
+      }
+    const Eigen::MatrixXd u = body.gather(flux.elements, which, displacement);
+    const Eigen::VectorXd differences = body.congruentFluxes(region)->differences(u, nodal);
+    for (std::size_t k = 0; k < which.size(); ++k)
+      estimates[which[k]] = differences[static_cast<Eigen::Index>(k)];
+    energy += body.congruentFluxes(region)->energy(u);
+  }
+  return energy;
+}
+
+} // namespace
+
+ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displacement) {
+  const auto& problem = decomposition_.problem;
+  const std::vector<SubdomainFlux> fluxes = recoverFlux(bodies_, decomposition_, displacement);
+  ErrorEstimate estimate;
+  AccurateSum sums[2]; // η², ‖u_h‖²
+  for (std::size_t s = 0; s < fluxes.size(); ++s) {
+    const SubdomainFlux& flux = fluxes[s];
+    const BodyElements& body = bodies_[static_cast<std::size_t>(problem.subdomains[s].body)];
+    std::vector<double> estimates(flux.elements.elements.size());
+    sums[1].add(body.congruentFluxes(0) != nullptr
+                    ? estimateCongruentElements(body, flux, displacement[s], estimates)
+                    : estimateElements(body, problem.subdomains[s], flux, displacement[s], estimates));
+    sums[0].add(std::accumulate(estimates.begin(), estimates.end(), 0.0));
+    estimate.elements.push_back(std::move(estimates));
+  }
+  sumOverRanks(*problem.comm, sums);
+  estimate.discretisation = std::sqrt(sums[0].value());
+  estimate.energyNorm = std::sqrt(sums[1].value());
+  return estimate;
+}
+
+} // namespace epafi::accuracy

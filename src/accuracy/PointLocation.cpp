@@ -1,0 +1,168 @@
+#include "epafi/accuracy/PointLocation.hpp"
+
+#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/ElementMap.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
+#include "epafi/fem/ShapeFunctions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace epafi::accuracy {
+namespace {
+
+using fem::Mesh;
+using fem::Point;
+
+/// Moves reference coordinates into the reference element; returns how far they were outside.
+template <int dim>
+double pullIn(fem::Brick<dim> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
+  const double outside = std::max(0.0, xi.cwiseAbs().maxCoeff() - 1);
+  xi = xi.cwiseMin(1.0).cwiseMax(-1.0);
+  return outside;
+}
+
+template <int dim>
+double pullIn(fem::Simplex<dim> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
+  const double outside = std::max({0.0, -xi.minCoeff(), xi.sum() - 1});
+  xi = xi.cwiseMax(0.0);
+  if (xi.sum() > 1)
+    xi /= xi.sum();
+  return outside;
+}
+
+/// Newton's method for x(ξ) = point, exact at once where the map is affine.
+template <class Shape>
+typename Shape::Coordinates coordinatesOf(std::span<const Point> corners, const Point& point) {
+  constexpr int dim = Shape::dimension;
+  const auto relative = fem::relativeCorners<Shape>(corners);
+  typename Shape::Coordinates wanted, xi = Shape::centre();
+  for (int i = 0; i < dim; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    wanted[i] = point[axis] - corners[0][axis];
+  }
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const auto sample = fem::sampleAt<Shape>(xi);
+    const fem::ElementMap<Shape> map(relative, sample);
+    const typename Shape::Coordinates step =
+        map.jacobian().partialPivLu().solve(wanted - relative * sample.values);
+    xi += step.cwiseMin(2.0).cwiseMax(-2.0);
+    if (!(step.norm() > 1e-12))
+      break;
+  }
+  return xi;
+}
+
+/// \param[out] outside  how far the point is outside of the element, in reference coordinates
+Location locateIn(const Mesh& mesh, GlobalOrdinal element, const Point& point, double& outside) {
+  std::array<GlobalOrdinal, 8> nodes{};
+  std::array<Point, 8> corners{};
+  const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
+  mesh.elementNodes(element, std::span(nodes).first(number));
+  for (std::size_t i = 0; i < number; ++i)
+    corners[i] = mesh.point(nodes[i]);
+  Location location{element, {}};
+  fem::withShape(mesh.cellType(), [&](auto shape) {
+    using Shape = decltype(shape);
+    typename Shape::Coordinates xi =
+        coordinatesOf<Shape>(std::span<const Point>(corners).first(number), point);
+    outside = xi.allFinite() ? pullIn(shape, xi) : std::numeric_limits<double>::infinity();
+    const typename Shape::Values values = Shape::values(xi.allFinite() ? xi : Shape::centre());
+    std::copy(values.begin(), values.end(), location.weights.begin());
+  });
+  return location;
+}
+
+int cellOf(double x, double low, double size, int number) {
+  return std::clamp(static_cast<int>(std::floor((x - low) / size)), 0, number - 1);
+}
+
+Point centreOf(const Mesh& mesh, GlobalOrdinal element) {
+  std::array<GlobalOrdinal, 8> nodes{};
+  const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
+  mesh.elementNodes(element, std::span(nodes).first(number));
+  Point centre{};
+  for (std::size_t i = 0; i < number; ++i)
+    for (std::size_t d = 0; d < 3; ++d)
+      centre[d] += mesh.point(nodes[i])[d] / static_cast<double>(number);
+  return centre;
+}
+
+} // namespace
+
+PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
+  if (dynamic_cast<const fem::RectangleMesh*>(&mesh) != nullptr ||
+      dynamic_cast<const fem::BoxMesh*>(&mesh) != nullptr)
+    return;
+  std::vector<Point> centres;
+  centres.reserve(static_cast<std::size_t>(mesh.numElements()));
+  Point lower, upper;
+  lower.fill(std::numeric_limits<double>::infinity());
+  upper.fill(-std::numeric_limits<double>::infinity());
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    centres.push_back(centreOf(mesh, element));
+    for (std::size_t d = 0; d < 3; ++d) {
+      lower[d] = std::min(lower[d], centres.back()[d]);
+      upper[d] = std::max(upper[d], centres.back()[d]);
+    }
+  }
+  centres_ = std::make_unique<fem::PointTree>(centres);
+  for (std::size_t d = 0; d < 3; ++d)
+    extent_ = std::max(extent_, upper[d] - lower[d]);
+  reach_ = extent_ / std::pow(static_cast<double>(mesh.numElements()), 1.0 / dimensionOf(mesh.cellType()));
+  if (!(reach_ > 0)) // a single element
+    reach_ = extent_ = 1;
+}
+
+/// The candidate that the point is least outside of.
+Location PointLocation::best(const Point& point, std::span<const LocalOrdinal> candidates,
+                             double& outside) const {
+  Location result;
+  outside = std::numeric_limits<double>::infinity();
+  for (const LocalOrdinal element : candidates) {
+    double here = 0;
+    const Location location = locateIn(mesh_, element, point, here);
+    if (here < outside) {
+      outside = here;
+      result = location;
+    }
+    if (outside == 0)
+      break;
+  }
+  return result;
+}
+
+Location PointLocation::find(const Point& point) {
+  double outside = 0;
+  if (const auto* plane = dynamic_cast<const fem::RectangleMesh*>(&mesh_)) {
+    const scene::Rectangle& r = plane->rectangle();
+    const auto [nx, ny] = plane->elements();
+    const GlobalOrdinal column = cellOf(point[0], r.x0, (r.x1 - r.x0) / nx, nx);
+    return locateIn(mesh_, column + nx * cellOf(point[1], r.y0, (r.y1 - r.y0) / ny, ny), point, outside);
+  }
+  if (const auto* box = dynamic_cast<const fem::BoxMesh*>(&mesh_)) {
+    std::array<GlobalOrdinal, 3> cell{};
+    for (std::size_t d = 0; d < 3; ++d)
+      cell[d] = cellOf(point[d], box->box().lower[d], box->elementSize()[d], box->elements()[d]);
+    return locateIn(mesh_, cell[0] + box->elements()[0] * (cell[1] + box->elements()[1] * cell[2]), point,
+                    outside);
+  }
+  constexpr double roundOff = 1e-9, near = 0.5;
+  for (double reach = reach_;; reach *= 2) {
+    Point lower = point, upper = point;
+    for (std::size_t d = 0; d < 3; ++d) {
+      lower[d] -= reach;
+      upper[d] += reach;
+    }
+    centres_->inBox(lower, upper, found_);
+    if (found_.empty())
+      continue;
+    const Location location = best(point, found_, outside);
+    if (outside <= roundOff || (outside <= near && reach > 2 * reach_) || reach > 2 * extent_)
+      return location;
+  }
+}
+
+} // namespace epafi::accuracy

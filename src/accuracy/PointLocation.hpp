@@ -1,0 +1,40 @@
+#pragma once
+
+/// Which element of a mesh a point lies in.
+
+#include "epafi/fem/Mesh.hpp"
+#include "epafi/fem/PointTree.hpp"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace epafi::accuracy {
+
+/// A point as the sum of an element's corners times weights, their shape functions there.
+struct Location {
+  GlobalOrdinal element = 0;
+  std::array<double, 8> weights{}; ///< nodesPerElement of them count; each ≥ 0, their sum 1
+};
+
+class PointLocation {
+public:
+  /// Keeps the reference. Of a structured mesh nothing is stored, of another a tree of the elements' centres.
+  explicit PointLocation(const fem::Mesh& mesh);
+
+  /// The element that contains the point; for a point outside of the body, as finer meshes of round bodies have, that of a
+  /// near one, and the weights are those of a point of it. Not collective.
+  [[nodiscard]] Location find(const fem::Point& point);
+
+private:
+  [[nodiscard]] Location best(const fem::Point& point, std::span<const LocalOrdinal> candidates,
+                              double& outside) const;
+
+  const fem::Mesh& mesh_;
+  double reach_ = 0; ///< where a search begins
+  double extent_ = 0;
+  std::unique_ptr<fem::PointTree> centres_; ///< null of structured meshes
+  std::vector<LocalOrdinal> found_;
+};
+
+} // namespace epafi::accuracy

@@ -1,0 +1,187 @@
+#include "epafi/accuracy/RecoveredFlux.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/fem/FluxIntegrals.hpp"
+
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace epafi::accuracy {
+namespace {
+
+using decomposition::Decomposition;
+using decomposition::Subdomain;
+
+/// Gives every corner its slot, where there are several materials. Returns the number of slots.
+Eigen::Index findSlots(const Subdomain& subdomain, SubdomainFlux& flux) {
+  if (flux.elements.regions.empty())
+    return static_cast<Eigen::Index>(subdomain.nodes.size());
+  const std::span<const int> corners = flux.elements.numbering->corners();
+  const std::size_t perElement = flux.elements.numbering->nodesPerElement();
+  std::vector<std::pair<int, GlobalOrdinal>> pairs(corners.size());
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    pairs[k] = {corners[k], flux.elements.regionOf(k / perElement)};
+  auto distinct = pairs;
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  flux.slots.resize(corners.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    flux.slots[k] =
+        static_cast<int>(std::lower_bound(distinct.begin(), distinct.end(), pairs[k]) - distinct.begin());
+  for (const auto& [node, region] : distinct) {
+    flux.nodes.push_back(node);
+    flux.regions.push_back(region);
+  }
+  return static_cast<Eigen::Index>(distinct.size());
+}
+
+/// Σ w q and, in the last row, Σ w over the subdomain's elements around each slot, w their measure.
+void addElements(const BodyElements& body, const Subdomain& subdomain, const Eigen::VectorXd& displacement,
+                 SubdomainFlux& flux) {
+  const int numFluxes = fem::numFluxes(body.physics());
+  const std::span<const int> slots = flux.cornerSlots();
+  Eigen::VectorXd weighted(numFluxes + 1);
+  body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
+    fem::fluxAtCentre(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
+                      element.displacements, {weighted.data(), static_cast<std::size_t>(numFluxes)});
+    const double measure = fem::measureOf(body.cellType(), element.points);
+    weighted[numFluxes] = 1;
+    weighted *= measure;
+    const std::size_t corners = element.nodes.size();
+    for (std::size_t i = 0; i < corners; ++i)
+      flux.values.col(slots[element.number * corners + i]) += weighted;
+  });
+}
+
+/// The same on a structured mesh.
+void addCongruentElements(const BodyElements& body, const Eigen::VectorXd& displacement,
+                          SubdomainFlux& flux) {
+  const int numFluxes = fem::numFluxes(body.physics());
+  const double measure = body.measure();
+  const std::span<const int> slots = flux.cornerSlots();
+  const std::size_t perElement = flux.elements.numbering->nodesPerElement();
+  for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
+    const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
+    Eigen::MatrixXd weighted(numFluxes + 1, static_cast<Eigen::Index>(which.size()));
+    weighted.topRows(numFluxes) =
+        body.congruentFluxes(region)->atCentre(body.gather(flux.elements, which, displacement));
+    weighted.row(numFluxes).setOnes();
+    weighted *= measure;
+    for (std::size_t k = 0; k < which.size(); ++k)
+      for (std::size_t i = 0; i < perElement; ++i)
+        flux.values.col(slots[which[k] * perElement + i]) += weighted.col(static_cast<Eigen::Index>(k));
+  }
+}
+
+/// Slots at nodes that other subdomains of the body touch too, by a number of their own in the whole problem.
+class SharedSlots {
+public:
+  SharedSlots(const Decomposition& decomposition, std::span<const SubdomainFlux> fluxes);
+  /// Adds up over subdomains and ranks. Collective.
+  void add(const RCP<const Comm>& comm, Eigen::Index rows, std::span<SubdomainFlux> fluxes) const;
+
+private:
+  struct Slot {
+    GlobalOrdinal key;
+    std::size_t subdomain;
+    int slot;
+  };
+  std::vector<Slot> slots_;
+  std::vector<GlobalOrdinal> keys_; ///< ascending, each once
+};
+
+SharedSlots::SharedSlots(const Decomposition& decomposition, std::span<const SubdomainFlux> fluxes) {
+  GlobalOrdinal regions = 1; // numbers of regions differ between bodies: keys leave room for the most
+  for (const SubdomainFlux& flux : fluxes)
+    for (const GlobalOrdinal region : flux.regions)
+      regions = std::max(regions, region + 1);
+  regions =
+      static_cast<GlobalOrdinal>(maxOverRanks(*decomposition.problem.comm, static_cast<double>(regions)));
+  std::vector<GlobalOrdinal> firstKey(1, 0); // of each body
+  for (const auto& body : decomposition.bodies)
+    firstKey.push_back(firstKey.back() + regions * body.mesh->numNodes());
+  std::vector<int> numElementsAt;
+  for (std::size_t s = 0; s < fluxes.size(); ++s) {
+    const Subdomain& subdomain = decomposition.problem.subdomains[s];
+    const auto body = static_cast<std::size_t>(subdomain.body);
+    const SubdomainFlux& flux = fluxes[s];
+    numElementsAt.resize(subdomain.nodes.size());
+    decomposition.bodies[body].mesh->numNodeElements(subdomain.nodes, numElementsAt);
+    for (std::size_t slot = 0; slot < static_cast<std::size_t>(flux.values.cols()); ++slot) {
+      const std::size_t node = flux.nodeOf(slot);
+      if (numElementsAt[node] > flux.elements.numbering->numElementsAt()[node])
+        slots_.push_back({firstKey[body] + regions * subdomain.nodes[node] + flux.regionOf(slot), s,
+                          static_cast<int>(slot)});
+    }
+  }
+  keys_.reserve(slots_.size());
+  for (const Slot& slot : slots_)
+    keys_.push_back(slot.key);
+  std::sort(keys_.begin(), keys_.end());
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+}
+
+void SharedSlots::add(const RCP<const Comm>& comm, Eigen::Index rows, std::span<SubdomainFlux> fluxes) const {
+  const auto placeOf = [this](GlobalOrdinal key) {
+    return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
+  };
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(keys_.size()));
+  for (const Slot& slot : slots_)
+    sums.col(placeOf(slot.key)) += fluxes[slot.subdomain].values.col(slot.slot);
+
+  if (comm->getSize() > 1) {
+    const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+    const RCP<const Map> here = rcp(new Map(invalid, Teuchos::arrayViewFromVector(keys_), 0, comm));
+    const RCP<const Map> owned = Tpetra::createOneToOne(here);
+    const Export plan(here, owned);
+    MultiVector mine(here, static_cast<std::size_t>(rows)), total(owned, static_cast<std::size_t>(rows));
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      const auto data = mine.getDataNonConst(static_cast<std::size_t>(row));
+      std::copy(sums.row(row).begin(), sums.row(row).end(), data.begin());
+    }
+    total.doExport(mine, plan, Tpetra::ADD);
+    mine.doImport(total, plan, Tpetra::REPLACE);
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      const auto data = mine.getData(static_cast<std::size_t>(row));
+      std::copy(data.begin(), data.end(), sums.row(row).begin());
+    }
+  }
+  for (const Slot& slot : slots_)
+    fluxes[slot.subdomain].values.col(slot.slot) = sums.col(placeOf(slot.key));
+}
+
+} // namespace
+
+std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies, const Decomposition& decomposition,
+                                       std::span<const Eigen::VectorXd> displacement) {
+  const auto& problem = decomposition.problem;
+  std::vector<SubdomainFlux> fluxes(problem.subdomains.size());
+  collectively(*problem.comm, [&] {
+    for (std::size_t s = 0; s < fluxes.size(); ++s) {
+      const Subdomain& subdomain = problem.subdomains[s];
+      BodyElements& body = bodies[static_cast<std::size_t>(subdomain.body)];
+      fluxes[s].elements = body.elementsOf(subdomain);
+      const int rows = fem::numFluxes(body.physics()) + 1;
+      fluxes[s].values.setZero(rows, findSlots(subdomain, fluxes[s]));
+      if (body.congruentFluxes(0) != nullptr)
+        addCongruentElements(body, displacement[s], fluxes[s]);
+      else
+        addElements(body, subdomain, displacement[s], fluxes[s]);
+    }
+  });
+  const int numFluxes = fem::numFluxes(bodies.front().physics()); // all bodies have as many unknowns a node
+  SharedSlots(decomposition, fluxes).add(problem.comm, numFluxes + 1, fluxes);
+  for (SubdomainFlux& flux : fluxes) {
+    for (Eigen::Index slot = 0; slot < flux.values.cols(); ++slot)
+      flux.values.col(slot) *= 1 / flux.values(numFluxes, slot);
+  }
+  return fluxes;
+}
+
+} // namespace epafi::accuracy

@@ -1,0 +1,156 @@
+#include "epafi/accuracy/Transfer.hpp"
+
+#include "epafi/accuracy/PointLocation.hpp"
+#include "epafi/base/Collective.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+namespace epafi::accuracy {
+namespace {
+
+using decomposition::Decomposition;
+using decomposition::Subdomain;
+
+/// Where a node of the fine mesh lies in the coarse one.
+struct Guess {
+  std::size_t subdomain, node;            ///< among this rank's subdomains, and their nodes
+  std::array<GlobalOrdinal, 8> sources{}; ///< corners of the coarse element, by numbers of the whole problem
+  std::array<double, 8> weights{};
+  std::size_t numSources = 0;
+};
+
+/// First number of each body's nodes in the whole problem.
+std::vector<GlobalOrdinal> firstNodes(const Decomposition& decomposition) {
+  std::vector<GlobalOrdinal> first(1, 0);
+  for (const auto& body : decomposition.bodies)
+    first.push_back(first.back() + body.mesh->numNodes());
+  return first;
+}
+
+/// Places of the nodes with crosspoint values or entries of B, ascending.
+std::vector<std::size_t> interfaceNodes(const Subdomain& subdomain, int components) {
+  std::vector<char> isWanted(subdomain.nodes.size(), 0);
+  const auto want = [&](int unknown) {
+    const int position = subdomain.unknownPosition[static_cast<std::size_t>(unknown)];
+    isWanted[static_cast<std::size_t>(position / components)] = 1;
+  };
+  for (const int unknown : subdomain.crosspointUnknowns)
+    want(unknown);
+  for (const auto& entry : subdomain.constraint)
+    want(entry.unknown);
+  for (const auto& average : subdomain.averages) {
+    want(average.carrier);
+    for (const int other : average.others)
+      want(other);
+  }
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < isWanted.size(); ++i)
+    if (isWanted[i] != 0)
+      nodes.push_back(i);
+  return nodes;
+}
+
+std::vector<std::size_t> allNodes(const Subdomain& subdomain) {
+  std::vector<std::size_t> nodes(subdomain.nodes.size());
+  std::iota(nodes.begin(), nodes.end(), std::size_t{0});
+  return nodes;
+}
+
+std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, NodesOf nodes) {
+  const std::vector<GlobalOrdinal> first = firstNodes(from);
+  std::vector<std::optional<PointLocation>> locations(from.bodies.size());
+  std::vector<Guess> guesses;
+  for (std::size_t s = 0; s < to.problem.subdomains.size(); ++s) {
+    const Subdomain& subdomain = to.problem.subdomains[s];
+    const auto body = static_cast<std::size_t>(subdomain.body);
+    const fem::Mesh &coarse = *from.bodies[body].mesh, &fine = *to.bodies[body].mesh;
+    if (!locations[body])
+      locations[body].emplace(coarse);
+    for (const std::size_t node : nodes == NodesOf::interfaces
+                                      ? interfaceNodes(subdomain, to.problem.components)
+                                      : allNodes(subdomain)) {
+      const Location location = locations[body]->find(fine.point(subdomain.nodes[node]));
+      Guess guess{s, node, {}, location.weights, static_cast<std::size_t>(coarse.nodesPerElement())};
+      coarse.elementNodes(location.element, std::span(guess.sources).first(guess.numSources));
+      for (std::size_t i = 0; i < guess.numSources; ++i)
+        guess.sources[i] += first[body];
+      guesses.push_back(guess);
+    }
+  }
+  return guesses;
+}
+
+/// Numbers sorted, each once, as a map. Collective.
+RCP<const Map> mapOf(std::vector<GlobalOrdinal> numbers, const RCP<const Comm>& comm) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                     Teuchos::arrayViewFromVector(numbers), 0, comm));
+}
+
+/// The coarse values that the guesses need. Collective.
+RCP<MultiVector> gatherSources(const Decomposition& from, std::span<const Eigen::VectorXd> displacement,
+                               std::span<const Guess> guesses) {
+  const auto& problem = from.problem;
+  const std::vector<GlobalOrdinal> first = firstNodes(from);
+  std::vector<GlobalOrdinal> here, wanted;
+  for (const Subdomain& subdomain : problem.subdomains)
+    for (const GlobalOrdinal node : subdomain.nodes)
+      here.push_back(first[static_cast<std::size_t>(subdomain.body)] + node);
+  for (const Guess& guess : guesses)
+    wanted.insert(wanted.end(), guess.sources.begin(),
+                  guess.sources.begin() + static_cast<std::ptrdiff_t>(guess.numSources));
+  const RCP<const Map> local = mapOf(std::move(here), problem.comm);
+  const auto components = static_cast<std::size_t>(problem.components);
+  MultiVector mine(local, components);
+  for (std::size_t c = 0; c < components; ++c) {
+    const auto values = mine.getDataNonConst(c);
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+      const Subdomain& subdomain = problem.subdomains[s];
+      for (std::size_t i = 0; i < subdomain.nodes.size(); ++i)
+        values[local->getLocalElement(first[static_cast<std::size_t>(subdomain.body)] + subdomain.nodes[i])] =
+            displacement[s][static_cast<Eigen::Index>(i * components + c)];
+    }
+  }
+  const RCP<const Map> owned = Tpetra::createOneToOne(local), target = mapOf(std::move(wanted), problem.comm);
+  MultiVector unique(owned, components);
+  unique.doImport(mine, Import(local, owned), Tpetra::INSERT);
+  const RCP<MultiVector> result = rcp(new MultiVector(target, components));
+  result->doImport(unique, Import(owned, target), Tpetra::INSERT);
+  return result;
+}
+
+} // namespace
+
+std::vector<Eigen::VectorXd> interpolate(const Decomposition& from,
+                                         std::span<const Eigen::VectorXd> displacement,
+                                         const Decomposition& to, NodesOf nodes) {
+  std::vector<Guess> guesses;
+  collectively(*to.problem.comm, [&] { guesses = locate(from, to, nodes); });
+  const RCP<const MultiVector> sources = gatherSources(from, displacement, guesses);
+  const Map& map = *sources->getMap();
+  const auto components = static_cast<std::size_t>(to.problem.components);
+  std::vector<Eigen::VectorXd> result;
+  for (const Subdomain& subdomain : to.problem.subdomains)
+    result.emplace_back(
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.nodes.size() * components)));
+  for (std::size_t c = 0; c < components; ++c) {
+    const auto values = sources->getData(c);
+    for (const Guess& guess : guesses) {
+      double& value = result[guess.subdomain][static_cast<Eigen::Index>(guess.node * components + c)];
+      for (std::size_t i = 0; i < guess.numSources; ++i)
+        value += guess.weights[i] * values[map.getLocalElement(guess.sources[i])];
+    }
+  }
+  return result;
+}
+
+} // namespace epafi::accuracy

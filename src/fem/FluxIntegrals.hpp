@@ -1,0 +1,83 @@
+#pragma once
+
+/// Fluxes (κ∇u of a membrane, the stress of an elastic body) inside one linear element, and how far they are from a
+/// recovered flux that is continuous: what an estimate of the discretisation error is made of (Zienkiewicz, Zhu,
+/// *Int. J. Numer. Meth. Engng* 24 (1987)). Preconditions are those of ElementIntegrals.hpp.
+
+#include "epafi/fem/Cell.hpp"
+#include "epafi/fem/Mesh.hpp"
+#include "epafi/scene/Solid.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <functional>
+#include <span>
+
+namespace epafi::fem {
+
+/// Components of a flux: 2 of a membrane (x, y), 6 of a stress (xx, yy, zz, xy, yz, zx; 0 what the plane has not).
+int numFluxes(scene::Physics physics);
+
+/// Flux at the centre from the displacements at the nodes, node by node. \param flux  numFluxes values, overwritten
+void fluxAtCentre(CellType type, std::span<const Point> points, scene::Physics physics,
+                  const scene::Material& material, std::span<const double> displacements,
+                  std::span<double> flux);
+
+/// ∫ q:C⁻¹:q, the energy norm squared of the displacement that has the flux q; for membranes ∫ |q|²/κ.
+struct FluxEnergies {
+  double difference = 0; ///< of q* − q_h, q* the shape functions' interpolant of fluxes at the nodes
+  double flux = 0;       ///< of q_h
+};
+
+/// Exact on simplices and parallelepipeds. \param nodalFluxes  q* at the nodes, numFluxes × nodes
+FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, scene::Physics physics,
+                          const scene::Material& material, std::span<const double> displacements,
+                          const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes);
+
+/// fluxAtCentre and fluxEnergies of many congruent elements of one material at once, as products of matrices; a column an
+/// element.
+class CongruentFluxes {
+public:
+  /// \param points  corners of one of them. Precondition: it is a quadrilateral or hexahedron whose
+  /// Jacobian is constant.
+  CongruentFluxes(CellType type, std::span<const Point> points, scene::Physics physics,
+                  const scene::Material& material);
+
+  /// numFluxes × elements. \param displacements  components · nodes × elements
+  [[nodiscard]] Eigen::MatrixXd atCentre(const Eigen::MatrixXd& displacements) const {
+    return centre_ * displacements;
+  }
+  /// Of q* − q_h, of each element. \param nodalFluxes  numFluxes · nodes × elements, node by node
+  [[nodiscard]] Eigen::VectorXd differences(const Eigen::MatrixXd& displacements,
+                                            const Eigen::MatrixXd& nodalFluxes) const;
+  /// Of q_h, of all elements together.
+  [[nodiscard]] double energy(const Eigen::MatrixXd& displacements) const {
+    return displacements.cwiseProduct(stiffness_ * displacements).sum();
+  }
+
+private:
+  Eigen::MatrixXd centre_;                    ///< q_h at the centre of u
+  Eigen::MatrixXd ofFluxes_, ofDisplacement_; ///< W with ‖W_q q* − W_u u‖² = ∫ (q* − q_h):C⁻¹:(q* − q_h)
+  Eigen::MatrixXd stiffness_;
+};
+
+/// Energy norm squared and L2 norm squared of a displacement, or of its difference to a given field.
+struct DisplacementNorms {
+  double energy = 0; ///< ∫ ε:C:ε, of a membrane ∫ κ|∇u|²
+  double square = 0; ///< ∫ |u|²
+};
+
+/// A displacement and its flux at a point.
+struct FieldValue {
+  std::array<double, 3> displacement{}; ///< as many components as the physics has
+  std::array<double, 6> flux{};         ///< as fluxAtCentre
+};
+
+/// Norms of u_h − u, u given at points; by a rule that is exact for polynomials of degree 5 (of degree 3 on tetrahedra) of
+/// each coordinate, on elements of any form.
+DisplacementNorms differenceNorms(CellType type, std::span<const Point> points, scene::Physics physics,
+                                  const scene::Material& material, std::span<const double> displacements,
+                                  const std::function<FieldValue(const Point&)>& exact);
+
+} // namespace epafi::fem

@@ -1,0 +1,58 @@
+#pragma once
+
+/// What a mesh file holds, as arrays, without Gmsh.
+
+#include "epafi/fem/MeshArrays.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace epafi::fem {
+
+/// Elements of one kind on one geometric entity of the file.
+struct GmshBlock {
+  int entity = 0; ///< its number
+  int type = 0;   ///< Gmsh's number of the kind, a linear one
+  std::vector<GlobalOrdinal> tags;
+  std::vector<LocalOrdinal> nodes; ///< indices into GmshContents::points, numNodesOfGmsh(type) each
+};
+
+/// A physical group; one without a name is called by its number.
+struct GmshGroup {
+  std::string name;
+  std::vector<int> entities; ///< ascending
+};
+
+struct GmshContents {
+  std::string file;
+  int dimension = 0; ///< d: the highest of any element, 2 or 3
+  std::vector<Point> points;
+  std::vector<GlobalOrdinal> nodeTags; ///< ascending, none twice
+  /// Geometric entity inside which each node lies: its dimension and number. Format 2.2 says neither: −1 and 0.
+  std::vector<std::array<int, 2>> nodeEntities;
+  std::vector<GmshBlock> elements; ///< of dimension d
+  std::vector<GmshGroup> groups;   ///< of dimension d
+  std::vector<GmshBlock> facets;   ///< of dimension d − 1, on entities that belong to a group
+  std::vector<GmshGroup> surfaces; ///< groups of dimension d − 1
+  std::vector<GmshGroup> lesser;   ///< groups of lower dimension still, without entities: for errors
+
+  /// The nodes in the order of their tags, which are not so yet. Throws InputError if two have the same.
+  void setNodes(const std::vector<GlobalOrdinal>& tags, const std::vector<Point>& places,
+                const std::vector<std::array<int, 2>>& entities);
+  /// Index of the node with that tag. Throws InputError if there is none. Precondition: tag ≥ 0.
+  [[nodiscard]] LocalOrdinal nodeOf(GlobalOrdinal tag) const;
+  /// Adds a group to one of the three lists, under its number if it has no name. Throws InputError if the list has one of
+  /// that name.
+  void addGroup(std::vector<GmshGroup>& list, int groupDimension, int number, GmshGroup group) const;
+  [[noreturn]] void refuseNoElements() const;
+};
+
+/// Nodes of a linear element by Gmsh's number of its kind; 0 if it is not linear or unknown.
+int numNodesOfGmsh(int type);
+/// 0 to 3. Precondition: numNodesOfGmsh(type) > 0.
+int dimensionOfGmsh(int type);
+/// What is wrong with a kind of which numNodesOfGmsh() knows nothing, in words that follow the file's name.
+std::string notLinear(int type, GlobalOrdinal element);
+
+} // namespace epafi::fem

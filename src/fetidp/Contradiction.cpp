@@ -1,0 +1,49 @@
+#include "epafi/fetidp/Contradiction.hpp"
+
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/MultiplierExchange.hpp"
+
+#include <Tpetra_Map.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace epafi::fetidp {
+
+bool provesContradiction(const decomposition::DecomposedProblem& problem, const Vector& d) {
+  constexpr double roundOff = 1e-6; // what MPRGP calls zero curvature leaves as much of a direction
+  const Comm& comm = *problem.comm;
+  MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
+  const std::span<const double> values = exchange.toSubdomains(d);
+  double left = 0, terms = 0; // of Bᵀd at an unknown
+  for (const decomposition::Subdomain& subdomain : problem.subdomains) {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(subdomain.load.size()), size = force;
+    for (const decomposition::ConstraintEntry& entry : subdomain.constraint) {
+      const double part = entry.coefficient * values[static_cast<std::size_t>(entry.multiplier)];
+      force[entry.unknown] += part;
+      size[entry.unknown] += std::abs(part);
+    }
+    if (force.size() > 0) {
+      left = std::max(left, force.lpNorm<Eigen::Infinity>());
+      terms = std::max(terms, size.lpNorm<Eigen::Infinity>());
+    }
+  }
+  AccurateSum gaps[2]; // cᵀd and the size of its terms
+  double tension = 0;
+  const auto mine = d.getData(), gap = problem.gap->getData();
+  for (Teuchos_Ordinal i = 0; i < mine.size(); ++i) {
+    gaps[0].add(gap[i] * mine[i]);
+    gaps[1].add(std::abs(gap[i] * mine[i]));
+    if (problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem.numInequalities)
+      tension = std::max(tension, -mine[i]);
+  }
+  sumOverRanks(comm, gaps);
+  left = maxOverRanks(comm, left);
+  terms = maxOverRanks(comm, terms);
+  tension = maxOverRanks(comm, tension);
+  return terms > 0 && left <= roundOff * terms && tension <= roundOff * d.normInf() &&
+         gaps[0].value() < -1e-6 * gaps[1].value();
+}
+
+} // namespace epafi::fetidp

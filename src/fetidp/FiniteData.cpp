@@ -1,0 +1,56 @@
+#include "epafi/fetidp/FiniteData.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Tpetra_Map.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::DecomposedProblem;
+using decomposition::Subdomain;
+
+[[nodiscard]] std::string bodyOf(const DecomposedProblem& problem, const Subdomain& subdomain) {
+  return "body '" + problem.bodies[static_cast<std::size_t>(subdomain.body)].name + "'";
+}
+
+void requireFiniteStiffness(const DecomposedProblem& problem, const Subdomain& subdomain) {
+  for (int column = 0; column < subdomain.stiffness->outerSize(); ++column)
+    for (decomposition::SparseMatrix::InnerIterator entry(*subdomain.stiffness, column); entry; ++entry)
+      if (!std::isfinite(entry.value()))
+        throw InputError("the stiffness of " + bodyOf(problem, subdomain) + " has an entry in subdomain " +
+                         std::to_string(subdomain.number) + " (row " + std::to_string(entry.row()) +
+                         ", column " + std::to_string(column) +
+                         ") that is not a finite number; check its material and mesh");
+}
+
+void requireFiniteRows(const DecomposedProblem& problem, const Subdomain& subdomain) {
+  for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
+    if (!std::isfinite(entry.coefficient)) {
+      const GlobalOrdinal row = problem.multiplierGhostMap->getGlobalElement(entry.multiplier);
+      throw InputError(std::string(row < problem.numInequalities ? "contact" : "gluing") + " row " +
+                       std::to_string(row) + " has a coefficient in subdomain " +
+                       std::to_string(subdomain.number) + " of " + bodyOf(problem, subdomain) +
+                       " that is not a finite number; check what is entered in B");
+    }
+}
+
+} // namespace
+
+void requireFiniteMatrices(const DecomposedProblem& problem) {
+  collectively(*problem.comm, [&] {
+    const decomposition::SparseMatrix* last = nullptr; // equal subdomains may share one
+    for (const Subdomain& subdomain : problem.subdomains) {
+      if (subdomain.stiffness.get() != last)
+        requireFiniteStiffness(problem, subdomain);
+      last = subdomain.stiffness.get();
+      requireFiniteRows(problem, subdomain);
+    }
+  });
+}
+
+} // namespace epafi::fetidp

@@ -1,0 +1,13 @@
+#pragma once
+
+/// Numbers that are none, found before anything is computed with them.
+
+#include "epafi/decomposition/DecomposedProblem.hpp"
+
+namespace epafi::fetidp {
+
+/// \throws InputError on all ranks that names body and subdomain if an entry of a stiffness matrix is NaN or infinite, or
+/// one of a row of B. An infinite entry on the diagonal would pass for a support. Collective.
+void requireFiniteMatrices(const decomposition::DecomposedProblem& problem);
+
+} // namespace epafi::fetidp

@@ -1,0 +1,196 @@
+#include "epafi/fetidp/Joints.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
+
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::DecomposedProblem;
+using decomposition::Subdomain;
+
+/// values = the largest that any rank has at each row, everywhere; values ≥ 0. Collective.
+void maximiseOverRanks(const Import& plan, MultiVector& values) {
+  MultiVector owned(plan.getSourceMap(), values.getNumVectors());
+  owned.doExport(values, plan, Tpetra::ABSMAX);
+  values.doImport(owned, plan, Tpetra::INSERT);
+}
+
+/// Numbers of the subdomains that touch each row of this rank, ascending: the largest first, then the largest of the others,
+/// until none is left. Collective.
+std::vector<std::vector<int>> subdomainsOfRows(const DecomposedProblem& problem, const Import& plan) {
+  MultiVector largest(plan.getTargetMap(), 1); // number + 1; 0 where there is none
+  std::vector<std::vector<int>> subdomains(largest.getLocalLength());
+  std::vector<double> limit(subdomains.size(), std::numeric_limits<double>::infinity());
+  double found = 1;
+  while (found > 0) {
+    {
+      const auto values = largest.getDataNonConst(0);
+      std::fill(values.begin(), values.end(), 0.0);
+      for (const Subdomain& subdomain : problem.subdomains)
+        for (const auto& entry : subdomain.constraint)
+          if (const double number = subdomain.number + 1.0;
+              number < limit[static_cast<std::size_t>(entry.multiplier)])
+            values[entry.multiplier] = std::max(values[entry.multiplier], number);
+    }
+    maximiseOverRanks(plan, largest);
+    found = 0;
+    const auto values = largest.getData(0);
+    for (std::size_t row = 0; row < subdomains.size(); ++row)
+      if (const double number = values[static_cast<Teuchos_Ordinal>(row)]; number > 0) {
+        subdomains[row].insert(subdomains[row].begin(), static_cast<int>(number) - 1);
+        limit[row] = found = number;
+      }
+    found = maxOverRanks(*problem.comm, found);
+  }
+  return subdomains;
+}
+
+/// Whether a row touches a crosspoint value, anywhere. Collective.
+std::vector<bool> rowsAtCrosspoints(const DecomposedProblem& problem, const Import& plan) {
+  MultiVector touches(plan.getTargetMap(), 1);
+  for (const Subdomain& subdomain : problem.subdomains) {
+    const auto values = touches.getDataNonConst(0);
+    const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
+    for (const auto& entry : subdomain.constraint)
+      if (std::binary_search(crosspoints.begin(), crosspoints.end(), entry.unknown))
+        values[entry.multiplier] = 1;
+  }
+  maximiseOverRanks(plan, touches);
+  const auto values = touches.getData(0);
+  std::vector<bool> result;
+  for (const double value : values)
+    result.push_back(value > 0);
+  return result;
+}
+
+/// The diagonal of K^s as it is for the values of nodes, n_s. Where unknowns are an average a and deviations, the value of
+/// one node alone is a = 1/n and deviations of −1/n, its own being 1 − 1/n.
+Eigen::VectorXd nodalDiagonal(const Subdomain& subdomain) {
+  Eigen::VectorXd diagonal = subdomain.stiffness->diagonal();
+  for (const decomposition::Average& average : subdomain.averages) {
+    std::vector<int> unknowns = average.others;
+    unknowns.push_back(average.carrier);
+    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    Eigen::MatrixXd block(n, n);
+    for (Eigen::Index j = 0; j < n; ++j)
+      for (Eigen::Index i = 0; i < n; ++i)
+        block(i, j) = subdomain.stiffness->coeff(unknowns[static_cast<std::size_t>(i)],
+                                                 unknowns[static_cast<std::size_t>(j)]);
+    for (Eigen::Index node = 0; node < n; ++node) {
+      const double share = 1.0 / static_cast<double>(n);
+      Eigen::VectorXd value = Eigen::VectorXd::Constant(n, -share);
+      value[n - 1] = share;
+      if (node + 1 < n)
+        value[node] += 1;
+      diagonal[unknowns[static_cast<std::size_t>(node)]] = value.dot(block * value);
+    }
+  }
+  return diagonal;
+}
+
+/// The carrier of the average that each unknown deviates from, or the unknown itself, n_s.
+std::vector<int> carriersOf(const Subdomain& subdomain) {
+  std::vector<int> carriers(static_cast<std::size_t>(subdomain.stiffness->rows()));
+  for (std::size_t unknown = 0; unknown < carriers.size(); ++unknown)
+    carriers[unknown] = static_cast<int>(unknown);
+  for (const decomposition::Average& average : subdomain.averages)
+    for (const int other : average.others)
+      carriers[static_cast<std::size_t>(other)] = average.carrier;
+  return carriers;
+}
+
+} // namespace
+
+std::vector<Joint> jointsOf(const DecomposedProblem& problem, const Import& plan, JointKind kind) {
+  const std::vector<std::vector<int>> subdomains = subdomainsOfRows(problem, plan);
+  const std::vector<bool> isAtCrosspoint = rowsAtCrosspoints(problem, plan);
+  const Map& ghosts = *plan.getTargetMap();
+  std::map<std::vector<int>, std::vector<int>> rowsOf;
+  for (std::size_t row = 0; row < subdomains.size(); ++row)
+    if ((ghosts.getGlobalElement(static_cast<LocalOrdinal>(row)) < problem.numInequalities) ==
+            (kind == JointKind::contact) &&
+        !subdomains[row].empty() && !isAtCrosspoint[row])
+      rowsOf[subdomains[row]].push_back(static_cast<int>(row));
+  const auto before = [&ghosts](int a, int b) {
+    return ghosts.getGlobalElement(a) < ghosts.getGlobalElement(b);
+  };
+  std::vector<Joint> joints;
+  for (auto& [numbers, rows] : rowsOf) {
+    std::sort(rows.begin(), rows.end(), before);
+    joints.push_back({numbers, std::move(rows)});
+  }
+  std::sort(joints.begin(), joints.end(),
+            [&before](const Joint& a, const Joint& b) { return before(a.rows.front(), b.rows.front()); });
+  return joints;
+}
+
+std::vector<bool> bodiesOfVaryingStiffness(const DecomposedProblem& problem, double ratio) {
+  const std::size_t numBodies = problem.bodies.size();
+  std::vector<double> largest(numBodies, 0.0),
+      largestInverse(numBodies, 0.0); // of the largest of each subdomain
+  for (const Subdomain& subdomain : problem.subdomains) {
+    double most = 0;
+    const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);
+    for (const auto& entry : subdomain.constraint)
+      most = std::max(most, diagonal[entry.unknown]);
+    const auto body = static_cast<std::size_t>(subdomain.body);
+    if (most > 0) {
+      largest[body] = std::max(largest[body], most);
+      largestInverse[body] = std::max(largestInverse[body], 1 / most);
+    }
+  }
+  std::vector<bool> varies;
+  for (std::size_t body = 0; body < numBodies; ++body)
+    varies.push_back(maxOverRanks(*problem.comm, largest[body]) *
+                         maxOverRanks(*problem.comm, largestInverse[body]) >
+                     ratio);
+  return varies;
+}
+
+std::vector<bool> stiffnessVaries(const DecomposedProblem& problem, const Import& plan,
+                                  const std::vector<Joint>& joints, double ratio,
+                                  const std::vector<bool>& always) {
+  std::vector<int> jointOf(numLocal(*plan.getTargetMap()), -1); // of each row
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    for (const int row : joints[j].rows)
+      jointOf[static_cast<std::size_t>(row)] = static_cast<int>(j);
+  MultiVector varies(plan.getTargetMap(), 1); // at the joint's first row
+  std::vector<double> least, largest;         // of one subdomain at each joint
+  for (const Subdomain& subdomain : problem.subdomains) {
+    const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);
+    const std::vector<int> carriers = carriersOf(subdomain);
+    least.assign(joints.size(), std::numeric_limits<double>::infinity());
+    largest.assign(joints.size(), 0.0);
+    for (const auto& entry : subdomain.constraint)
+      if (const int j = jointOf[static_cast<std::size_t>(entry.multiplier)]; j >= 0)
+        for (const int unknown : {entry.unknown, carriers[static_cast<std::size_t>(entry.unknown)]}) {
+          least[static_cast<std::size_t>(j)] =
+              std::min(least[static_cast<std::size_t>(j)], diagonal[unknown]);
+          largest[static_cast<std::size_t>(j)] =
+              std::max(largest[static_cast<std::size_t>(j)], diagonal[unknown]);
+        }
+    const auto values = varies.getDataNonConst(0);
+    const bool isAlways = !always.empty() && always[static_cast<std::size_t>(subdomain.body)];
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (largest[j] > ratio * least[j] || (isAlways && largest[j] > 0))
+        values[joints[j].rows.front()] = 1;
+  }
+  maximiseOverRanks(plan, varies);
+  const auto values = varies.getData(0);
+  std::vector<bool> result;
+  for (const Joint& joint : joints)
+    result.push_back(values[joint.rows.front()] > 0);
+  return result;
+}
+
+} // namespace epafi::fetidp

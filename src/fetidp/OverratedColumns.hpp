@@ -1,0 +1,40 @@
+#pragma once
+
+/// Jumps between subdomains that the preconditioner overrates, of all joints (Joints.hpp), found where the stiffness jumps
+/// within a subdomain: along each joint a generalised eigenproblem shows them (JointStiffness.hpp). Jumps of gluing become
+/// *adaptive constraints*, enforced by deflation (DeflatedDualOperator.hpp), so that neither the decomposition nor the coarse
+/// problem knows of them: with all ω below τ, κ(MF) ≤ N² τ where no contact is, N the most joints of a subdomain (Klawonn,
+/// Radtke, Rheinbach, *ETNA* 45 (2016)). Jumps of contact cannot be constrained, for contact may open; they correct the
+/// preconditioner (CorrectedPreconditioner.hpp).
+
+#include "epafi/fetidp/FetiParameters.hpp"
+#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/fetidp/Joints.hpp"
+
+#include <vector>
+
+namespace epafi::fetidp {
+
+/// Columns, n_λ × k, each with entries in the rows of one joint: M_E y for joints of gluing; y itself for those of contact,
+/// whose M_E says not all of M: crosspoints that contact moves act on it as well.
+struct OverratedColumns {
+  struct Entry {
+    int row; ///< local index in multiplierGhostMap
+    int column;
+    double value;
+  };
+  int number = 0;             ///< k, the same on all ranks
+  std::vector<Entry> entries; ///< this rank's; each entry is on one rank
+  double largestRatio = 0;    ///< ω of the worst
+  int numJoints = 0;          ///< whose eigenproblems were solved
+};
+
+/// Costs, where a joint of n_E rows is looked at: (S_ΔΔ)⁻¹ of its subdomains, a message of about 2 n_E² numbers from each of
+/// them but the first, and a dense eigenproblem of size n_E. The same on any number of ranks. Collective.
+/// \throws Error if round-off has spoilt a joint's matrices, the same on all ranks.
+OverratedColumns findOverratedColumns(const decomposition::DecomposedProblem& problem,
+                                      const GeneralizedInverse& inverse, JointKind kind,
+                                      const AdaptiveConstraintParameters& parameters,
+                                      PreconditionerParameters::Scaling scaling);
+
+} // namespace epafi::fetidp

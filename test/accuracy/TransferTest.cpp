@@ -1,0 +1,79 @@
+// From one mesh to another: where points lie, and values there.
+
+#include "epafi/accuracy/Transfer.hpp"
+
+#include "Samples.hpp"
+
+#include "epafi/accuracy/PointLocation.hpp"
+#include "epafi/accuracy/Refinement.hpp"
+
+#include <random>
+
+namespace epafi::accuracy {
+namespace {
+
+using test::Field;
+using TransferTest = test::AccuracyTest;
+
+fem::Point pointAt(const fem::Mesh& mesh, const Location& location) {
+  std::array<GlobalOrdinal, 8> nodes{};
+  const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
+  mesh.elementNodes(location.element, std::span(nodes).first(number));
+  fem::Point point{};
+  for (std::size_t i = 0; i < number; ++i)
+    for (std::size_t d = 0; d < 3; ++d)
+      point[d] += location.weights[i] * mesh.point(nodes[i])[d];
+  return point;
+}
+
+TEST_F(TransferTest, EveryPointOfABodyIsFoundWhereItIs) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> inside(0, 1);
+  for (const test::Kind& kind : test::kinds()) {
+    const auto decomposition =
+        decomposition::decompose(test::stackedBlocks(kind, 1, 1, directory, *comm), comm);
+    const fem::Mesh& mesh = *decomposition.bodies[0].mesh;
+    PointLocation location(mesh);
+    for (int k = 0; k < 200; ++k) {
+      fem::Point point{inside(random), inside(random), inside(random)};
+      if (fem::dimensionOf(kind.cell) == 2)
+        point[2] = 0;
+      if (k == 0)
+        point = mesh.point(0);
+      const fem::Point found = pointAt(mesh, location.find(point));
+      for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_NEAR(found[d], point[d], 1e-12) << fem::toString(kind.cell);
+    }
+    const fem::Point outside =
+        pointAt(mesh, location.find({1.05, 0.5, kind.physics == scene::Physics::elasticity3d ? 0.5 : 0}));
+    EXPECT_NEAR(outside[0], 1, 0.2); // near, and in the body
+    EXPECT_LE(outside[0], 1 + 1e-12);
+  }
+}
+
+TEST_F(TransferTest, LinearFieldsAndCoarseOnesAreCarriedOverWithoutError) {
+  const Field field = [](const fem::Point& x) {
+    return std::array<double, 3>{0.1 * x[0] - 0.2 * x[1], 0.3 * x[0] + 0.4 * x[1] - 0.1 * x[2], 0.2 * x[2]};
+  };
+  for (const test::Kind& kind : test::kinds()) {
+    const scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
+    const auto coarse = decomposition::decompose(scene, comm);
+    const auto fine = decomposition::decompose(refined(scene), comm);
+    const auto u = displacement(coarse, field), expected = displacement(fine, field);
+    const auto everywhere = interpolate(coarse, u, fine, NodesOf::subdomains),
+               interfaces = interpolate(coarse, u, fine, NodesOf::interfaces);
+    double somewhere = 0;
+    for (std::size_t s = 0; s < expected.size(); ++s) {
+      EXPECT_LE((everywhere[s] - expected[s]).lpNorm<Eigen::Infinity>(), 1e-12) << toString(kind.physics);
+      for (Eigen::Index i = 0; i < expected[s].size(); ++i)
+        if (interfaces[s][i] != 0) {
+          EXPECT_NEAR(interfaces[s][i], expected[s][i], 1e-12);
+          somewhere = 1;
+        }
+    }
+    EXPECT_TRUE(expected.empty() || somewhere > 0);
+  }
+}
+
+} // namespace
+} // namespace epafi::accuracy

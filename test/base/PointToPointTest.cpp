@@ -1,0 +1,55 @@
+#include "epafi/base/PointToPoint.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_Core.hpp>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace epafi;
+
+/// What rank `from` sends to rank `to`: as many numbers as the ranks differ by, less one, so that neighbours send nothing.
+std::vector<double> message(int from, int to) {
+  std::vector<double> values;
+  for (int i = 1; i < std::abs(from - to); ++i)
+    values.push_back(100.0 * from + 10.0 * to + i);
+  return values;
+}
+
+TEST(PointToPointTest, EveryRankGetsWhatEveryOtherSendsEmptyMessagesToo) {
+  const auto comm = Tpetra::getDefaultComm();
+  const int here = comm->getRank();
+  std::map<int, std::vector<double>> outgoing;
+  std::set<int> senders;
+  for (int rank = 0; rank < comm->getSize(); ++rank)
+    if (rank != here) {
+      outgoing[rank] = message(here, rank);
+      senders.insert(rank);
+    }
+
+  const auto received = exchangeMessages(*comm, outgoing, senders);
+
+  ASSERT_EQ(received.size(), senders.size());
+  for (const auto& [rank, values] : received)
+    EXPECT_EQ(values, message(rank, here)) << rank;
+}
+
+TEST(PointToPointTest, RanksMayHaveNothingToSayToEachOther) {
+  const auto comm = Tpetra::getDefaultComm();
+  const int here = comm->getRank(), last = comm->getSize() - 1;
+  std::map<int, std::vector<double>> outgoing;
+  std::set<int> senders;
+  if (here == last && last > 0)
+    outgoing[0] = {1.5, -2.5};
+  if (here == 0 && last > 0)
+    senders = {last};
+
+  const auto received = exchangeMessages(*comm, outgoing, senders);
+
+  if (here == 0 && last > 0)
+    EXPECT_EQ(received.at(last), (std::vector<double>{1.5, -2.5}));
+  else
+    EXPECT_TRUE(received.empty());
+}
+
+} // namespace

@@ -1,0 +1,166 @@
+#include "Preconditioned.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/JointStiffness.hpp"
+#include "epafi/fetidp/Joints.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Tpetra_Map.hpp>
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace epafi::fetidp {
+namespace {
+
+/// The parts of a joint, all on this rank.
+std::vector<JointPart> partsOf(const Preconditioned& p, const Joint& joint,
+                               Scaling scaling = Scaling::stiffness) {
+  std::vector<JointPart> parts;
+  for (const int number : joint.subdomains)
+    for (const SubdomainGroup& group : std::as_const(*p.inverse).groups())
+      for (const std::size_t member : group.members())
+        if (p.problem.subdomains[member].number == number)
+          parts.push_back(partOf(
+              p.problem.subdomains[member], group.condensed(),
+              {group.condensed().factor().schurComplement(), group.condensed().factor().inverseOfKept()},
+              joint.rows, scaling));
+  return parts;
+}
+
+std::vector<int> globalRows(const Preconditioned& p, const Joint& joint) {
+  std::vector<int> rows;
+  for (const int row : joint.rows)
+    rows.push_back(static_cast<int>(p.problem.multiplierGhostMap->getGlobalElement(row)));
+  return rows;
+}
+
+scene::Scene elasticBar(int cutsAlong, int cutsAcross) {
+  scene::Scene scene;
+  scene::Body body;
+  body.name = "bar";
+  body.solid = scene::Solid();
+  body.solid->physics = scene::Physics::planeStrain;
+  body.solid->mesh.box = {{0, 0, 0}, {2, 1, 0}};
+  body.solid->mesh.elements = {8, 4, 0};
+  body.solid->supports = {{"wall", "left", {0.0, 0.0, std::nullopt}}};
+  body.decomposition.counts = {cutsAlong, cutsAcross, 1};
+  scene.bodies = {body};
+  return scene;
+}
+
+scene::Scene membranesWithAChannel() {
+  scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
+  scene.bodies[0].regions = {{"channel", {0, 1, 0.125, 0.25}, 1e3}};
+  return scene;
+}
+
+TEST(JointStiffnessTest, TheStiffnessOfThePreconditionerIsItsDiagonalBlock) {
+  for (const Scaling scaling : {Scaling::stiffness, Scaling::multiplicity})
+    for (const scene::Scene& scene : {membranesWithAChannel(), elasticBar(4, 2)}) {
+      const Preconditioned p(scene, {Type::dirichlet, scaling, false}, thisRankOnly());
+      const Eigen::MatrixXd m = matrixOf(p.m);
+      for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing)) {
+        const std::vector<int> rows = globalRows(p, joint);
+        EXPECT_LE(relativeError(joined(partsOf(p, joint, scaling)).preconditioner, m(rows, rows)), 1e-12);
+      }
+    }
+}
+
+TEST(JointStiffnessTest, TheFlexibilityIsThatOfFWhereTheSubdomainsAreTheWholeBody) {
+  scene::Scene scene = decomposition::oneBody(8, 4, grid(2, 1), {{"wall", scene::Edge::left, 0.0}});
+  for (const scene::Scene& body : {scene, elasticBar(2, 1)}) {
+    const Preconditioned p(body, {}, thisRankOnly());
+    const auto joints = jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing);
+    ASSERT_EQ(joints.size(), 1U);
+    EXPECT_LE(relativeError(joined(partsOf(p, joints[0])).flexibility, matrixOf(p.f)), 1e-9);
+  }
+}
+
+/// The other subdomains only hold back.
+TEST(JointStiffnessTest, TheFlexibilityIsAboveThatOfF) {
+  for (const scene::Scene& scene : {membranesWithAChannel(), elasticBar(4, 2)}) {
+    const Preconditioned p(scene, {}, thisRankOnly());
+    const Eigen::MatrixXd f = matrixOf(p.f);
+    for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing)) {
+      const std::vector<int> rows = globalRows(p, joint);
+      const Eigen::MatrixXd local = joined(partsOf(p, joint)).flexibility;
+      const Eigen::VectorXd difference =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(local - f(rows, rows), Eigen::EigenvaluesOnly)
+              .eigenvalues();
+      EXPECT_GE(difference.minCoeff(), -1e-9 * local.norm());
+    }
+  }
+}
+
+TEST(JointStiffnessTest, OverratedJumpsAreThoseAboveTheThreshold) {
+  JointStiffness joint{Eigen::Vector4d(5, 50, 2, 7.5).asDiagonal(), Eigen::Vector4d(1, 1, 1, 4).asDiagonal()};
+  const OverratedJumps jumps = overratedJumps(joint, 10); // ω = 5, 50, 2, 30
+  ASSERT_EQ(jumps.ratios.size(), 2);
+  EXPECT_NEAR(jumps.ratios[0], 50, 1e-12);
+  EXPECT_NEAR(jumps.ratios[1], 30, 1e-12);
+  EXPECT_LE((jumps.forces.col(0).cwiseAbs() - Eigen::Vector4d(0, 1, 0, 0)).norm(), 1e-12);
+  EXPECT_LE((jumps.forces.col(1).cwiseAbs() - Eigen::Vector4d(0, 0, 0, 2)).norm(), 1e-12);
+  EXPECT_LE((jumps.jumps.col(1).cwiseAbs() - Eigen::Vector4d(0, 0, 0, 0.5)).norm(), 1e-12); // yᵀM_E y = 1
+  EXPECT_EQ(overratedJumps(joint, 51).forces.cols(), 0);
+  EXPECT_EQ(overratedJumps(joint, 51).forces.rows(), 4);
+}
+
+TEST(JointStiffnessTest, RefusesAPreconditionerThatIsNotPositive) {
+  const JointStiffness joint{Eigen::Vector2d(1, 1).asDiagonal(), Eigen::Vector2d(1, -1).asDiagonal()};
+  EXPECT_THROW(overratedJumps(joint, 10), Error);
+}
+
+/// Two elastic subdomains joined at one crosspoint, the second one otherwise free, turn about it against no stiffness at all.
+TEST(JointStiffnessTest, AHingeIsOneJumpWithoutEnergy) {
+  const Preconditioned p(elasticBar(2, 1), {}, thisRankOnly());
+  const Joint joint = jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing).front();
+  std::vector<JointPart> parts = partsOf(p, joint);
+  EXPECT_EQ(overratedJumps(joined(parts), 30).ratios.size(), 0);
+  const GlobalOrdinal hinge = parts[1].crosspoints.front();
+  GlobalOrdinal number = 1000;
+  for (GlobalOrdinal& crosspoint : parts[1].crosspoints)
+    if (crosspoint > hinge + 1) // both components of the first one stay joined
+      crosspoint = number++;
+
+  const JointStiffness hinged = joined(parts);
+  const OverratedJumps jumps = overratedJumps(hinged, 30);
+
+  ASSERT_EQ(jumps.ratios.size(), 1);
+  EXPECT_GE(jumps.ratios[0], 1e8);
+  const Eigen::VectorXd v = jumps.forces.col(0);
+  const Eigen::MatrixXd rest = kernelOf(v); // jumps with vᵀy = 0
+  const Eigen::MatrixXd stiffness = hinged.flexibility.inverse();
+  const Eigen::VectorXd ratios = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                     rest.transpose() * hinged.preconditioner * rest,
+                                     rest.transpose() * stiffness * rest, Eigen::EigenvaluesOnly)
+                                     .eigenvalues();
+  EXPECT_LE(ratios.maxCoeff(), 30);
+}
+
+TEST(JointStiffnessTest, PartsSurviveAMessage) {
+  const Preconditioned p(elasticBar(4, 2), {}, thisRankOnly());
+  std::vector<double> message;
+  std::vector<JointPart> sent;
+  for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing))
+    for (const JointPart& part : partsOf(p, joint)) {
+      pack(part, message);
+      sent.push_back(part);
+    }
+  std::span<const double> rest(message);
+  for (const JointPart& part : sent) {
+    const JointPart received = unpack(rest);
+    EXPECT_EQ(received.subdomain, part.subdomain);
+    EXPECT_EQ(received.crosspoints, part.crosspoints);
+    EXPECT_EQ(received.flexibility, part.flexibility);
+    EXPECT_EQ(received.response, part.response);
+    EXPECT_EQ(received.crosspointStiffness, part.crosspointStiffness);
+    EXPECT_EQ(received.crosspointDiagonal, part.crosspointDiagonal);
+    EXPECT_EQ(received.weightedStiffness, part.weightedStiffness);
+    EXPECT_EQ(received.weights, part.weights);
+  }
+  EXPECT_TRUE(rest.empty());
+}
+
+} // namespace
+} // namespace epafi::fetidp

@@ -1,0 +1,77 @@
+/// Any bytes as the text of a scene file: parameter list, scene, and the models of small bodies. They are read, or
+/// refused in a sentence; nothing else may happen.
+
+#include "Refusals.hpp"
+
+#include "epafi/fem/BodyModel.hpp"
+#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/RectangleMesh.hpp"
+#include "epafi/fem/SolidModel.hpp"
+#include "epafi/scene/ParameterFile.hpp"
+#include "epafi/scene/SceneReader.hpp"
+
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace epafi;
+
+/// Larger bodies are no harder to read, only slower.
+constexpr long long mostElements = 1000;
+
+/// What assembly asks of a model.
+void assemble(const fem::BodyModel& model) {
+  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(model.mesh().numElements())), kinds = elements;
+  std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
+  model.kinds(elements, kinds);
+  Eigen::MatrixXd stiffness, loads;
+  model.stiffness(kinds.front(), stiffness);
+  model.stiffness(kinds.back(), stiffness);
+  model.loads(elements, loads);
+  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(model.mesh().numNodes()));
+  std::iota(nodes.begin(), nodes.end(), GlobalOrdinal{0});
+  std::vector<fem::PrescribedValue> values;
+  model.prescribed(nodes, values);
+  for (int mode = 0; mode < model.kernelDimension(); ++mode)
+    (void)model.kernelValue(nodes.back(), model.components() - 1, mode);
+}
+
+void model(const scene::Body& body) {
+  const std::array<int, 3> elements =
+      body.solid ? body.solid->mesh.elements : std::array<int, 3>{body.elements[0], body.elements[1], 0};
+  if (elements[0] == 0) // from a file
+    return;
+  long long number = 1;
+  for (const int along : elements) {
+    number *= std::max(along, 1);
+    if (number > mostElements)
+      return;
+  }
+  if (!body.solid) {
+    const fem::RectangleMesh mesh(body.rectangle, body.elements);
+    assemble(fem::MembraneModel(body, mesh));
+  } else if (elements[2] == 0) {
+    const scene::Box& box = body.solid->mesh.box;
+    const fem::RectangleMesh mesh({box.lower[0], box.upper[0], box.lower[1], box.upper[1]},
+                                  {elements[0], elements[1]});
+    assemble(fem::SolidModel(body.name, *body.solid, mesh));
+  } else {
+    const fem::BoxMesh mesh(body.solid->mesh.box, elements);
+    assemble(fem::SolidModel(body.name, *body.solid, mesh));
+  }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  fuzz::orRefused([&] {
+    const scene::Scene scene = scene::readScene(scene::parseParameters(text, "scene.xml"), "scene.xml");
+    for (const scene::Body& body : scene.bodies)
+      fuzz::orRefused([&] { model(body); });
+  });
+  return 0;
+}
