@@ -24,6 +24,13 @@ fs::path directoryOf(const fs::path& file) {
   return parent.empty() ? fs::path(".") : parent;
 }
 
+/// A hidden name beside the file that no other run uses; what a killed run leaves bears such a name.
+fs::path partialBeside(const fs::path& file) {
+  std::ostringstream name;
+  name << '.' << file.filename().string() << '.' << std::hex << std::random_device{}() << ".partial";
+  return directoryOf(file) / name.str();
+}
+
 void prepareOnThisRank(const fs::path& file) {
   const fs::path directory = directoryOf(file);
   std::error_code error;
@@ -36,8 +43,7 @@ void prepareOnThisRank(const fs::path& file) {
     throw InputError("Output file '" + file.string() + "' is a directory. Remove it or choose another name.");
   if (fs::exists(file, error) && !fs::is_regular_file(file, error))
     throw InputError("Output file '" + file.string() + "' is a device or a pipe. Choose another name.");
-  fs::path probe = directory / file.filename(); // permissions do not tell all
-  probe += ".probe";
+  const fs::path probe = partialBeside(file); // permissions do not tell all
   errno = 0;
   const bool isWritable = std::ofstream(probe).is_open();
   const int reason = errno;
@@ -89,9 +95,7 @@ fs::path temporaryBeside(const fs::path& file, const Comm& comm) {
   collectively(comm, [&] {
     if (comm.getRank() > 0)
       return;
-    std::ostringstream name;
-    name << '.' << file.filename().string() << '.' << std::hex << std::random_device{}() << ".partial";
-    path = fs::absolute(directoryOf(file) / name.str()).string(); // others may work in another directory
+    path = fs::absolute(partialBeside(file)).string(); // others may work in another directory
   });
   return agreedText(comm, path);
 }
