@@ -1,0 +1,112 @@
+#include "../base/Refusal.hpp"
+#include "../decomposition/HandedOver.hpp"
+#include "Reference.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/decomposition/ElementMatrices.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+namespace epafi::fetidp {
+namespace {
+
+using namespace decomposition;
+using test::expectSays;
+using test::refusal;
+
+/// Two solids, one held at its left end and pressed by the other, which floats, in the plane or in space.
+scene::Scene twoSolids(int dimension) {
+  scene::Scene scene;
+  for (const bool isHeld : {true, false}) {
+    scene::Body body;
+    body.name = isHeld ? "held" : "floating";
+    scene::Solid solid;
+    solid.physics = dimension == 3 ? scene::Physics::elasticity3d : scene::Physics::planeStrain;
+    const double x = isHeld ? 0 : 1;
+    solid.mesh.box = {{x, 0, 0}, {x + 1, 1, 1}};
+    solid.mesh.elements = {4, 4, dimension == 3 ? 4 : 0};
+    body.solid = solid;
+    scene.bodies.push_back(body);
+  }
+  return scene;
+}
+
+std::vector<Case> contactCases() {
+  std::vector<Case> cases;
+  for (const bool coercive : {true, false}) {
+    const std::string kind = coercive ? "coercive " : "semicoercive ";
+    cases.push_back({kind + "grid", twoMembranes(coercive, 8, grid(2, 2))});
+    cases.push_back({kind + "strips", twoMembranes(coercive, 7, grid(3, 1))});
+    cases.push_back({kind + "whole bodies", twoMembranes(coercive, 4, grid(1, 1))});
+    cases.push_back({kind + "parts of METIS", twoMembranes(coercive, 9, metis(7))});
+  }
+  for (Case& c : cases) {
+    setHalves(c.scene.bodies[0], 4.0, -5.0);
+    setHalves(c.scene.bodies[1], -3.0, 2.0);
+  }
+  return cases;
+}
+
+/// A scene, solved as it is and as an application's problem.
+struct Twice {
+  Twice(const scene::Scene& scene, Supports supports) : direct(scene, 1e-12), handed(handOver(scene, supports)) {
+    handed->setContact(contactOf(scene, direct.decomposition, supports));
+    handed->complete();
+    solver = std::make_unique<ContactSolver>(toleranceOf(1e-12));
+    solver->setup(handed->problem());
+    solution = solver->solve();
+  }
+  /// Largest difference of the displacements, relative to the largest displacement. Collective.
+  [[nodiscard]] double difference() const {
+    double largest = 0, difference = 0;
+    const DecomposedProblem& problem = direct.decomposition.problem;
+    const std::vector<GlobalOrdinal> first = firstNodes(direct.decomposition);
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+      const Subdomain& subdomain = problem.subdomains[s];
+      const Eigen::VectorXd& u = direct.solution.displacement[s];
+      const std::vector<GlobalOrdinal> global = handed->globalUnknowns(s);
+      for (std::size_t position = 0; position < global.size(); ++position) {
+        if (global[position] < 0)
+          continue;
+        const GlobalOrdinal node =
+            global[position] / problem.components - first[static_cast<std::size_t>(subdomain.body)];
+        const auto place = std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), node);
+        const double expected = u[(place - subdomain.nodes.begin()) * problem.components +
+                                  global[position] % problem.components];
+        largest = std::max(largest, std::abs(expected));
+        difference = std::max(
+            difference, std::abs(expected - solution.displacement[s][static_cast<Eigen::Index>(position)]));
+      }
+    }
+    return maxOverRanks(*world(), difference) / maxOverRanks(*world(), largest);
+  }
+
+  Solved direct;
+  std::unique_ptr<UnassembledProblem> handed;
+  std::unique_ptr<ContactSolver> solver;
+  ContactSolution solution;
+};
+
+TEST(UnassembledProblemTest, AHandedOverSceneHasTheSameAnswer) {
+  for (const Case& c : contactCases())
+    for (const Supports supports : {Supports::eliminated, Supports::prescribed}) {
+      SCOPED_TRACE(c.name + (supports == Supports::prescribed ? ", prescribed" : ", eliminated"));
+      const Twice twice(c.scene, supports);
+      EXPECT_LE(twice.difference(), 1e-10);
+      EXPECT_NEAR(twice.solution.energy, twice.direct.solution.energy,
+                  1e-10 * std::abs(twice.direct.solution.energy));
+      EXPECT_EQ(twice.solution.activeContactNodes, twice.direct.solution.activeContactNodes);
+      EXPECT_EQ(twice.handed->problem().kernelDimension, twice.direct.decomposition.problem.kernelDimension);
+    }
+}
+
+} // namespace
+} // namespace epafi::fetidp
