@@ -15,6 +15,8 @@ namespace {
 /// A motion is free if the forces that it takes are this small beside those that its displacements alone would take: far
 /// above round-off, as fem::RigidModes::freeUpTo.
 constexpr double freeUpTo = 1e-9;
+/// Likewise for a first look.
+constexpr double nearlyFreeUpTo = 1e-6;
 /// Motions of the near-kernel that others make up, in weighted length.
 constexpr double dependent = 1e-10;
 
@@ -62,25 +64,39 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& size) {
   return basis;
 }
 
-Eigen::MatrixXd freeCombinations(const Eigen::MatrixXd& size, const Eigen::MatrixXd& force) {
+/// Those whose force is at most `bound` beside them.
+Eigen::MatrixXd freeCombinations(const Eigen::MatrixXd& size, const Eigen::MatrixXd& force, double bound) {
   const Eigen::MatrixXd basis = orthonormal(size);
   if (basis.cols() == 0)
     return basis;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * force * basis);
-  const auto numFree = (eigen.eigenvalues().array() <= freeUpTo * freeUpTo).count(); // ascending
+  const auto numFree = (eigen.eigenvalues().array() <= bound * bound).count(); // ascending
   return basis * eigen.eigenvectors().leftCols(numFree);
+}
+
+std::vector<Eigen::MatrixXd> freeCombinations(const std::vector<Motions>& motions, const Comm& comm,
+                                              std::size_t numBodies, double bound) {
+  const Energies energies = energiesOf(motions, comm, numBodies);
+  std::vector<Eigen::MatrixXd> combinations;
+  for (std::size_t b = 0; b < numBodies; ++b)
+    combinations.push_back(freeCombinations(energies.size[b], energies.force[b], bound));
+  return combinations;
 }
 
 } // namespace
 
 std::vector<Eigen::MatrixXd> findFreeMotions(const std::vector<Motions>& motions, const Comm& comm,
                                              std::vector<Body>& bodies) {
-  const Energies energies = energiesOf(motions, comm, bodies.size());
-  std::vector<Eigen::MatrixXd> combinations;
+  // Squares beside larger ones tell no more than half of the digits: what they leave is looked at alone, once more.
+  std::vector<Eigen::MatrixXd> combinations = freeCombinations(motions, comm, bodies.size(), nearlyFreeUpTo);
+  std::vector<Motions> nearlyFree;
+  for (const Motions& m : motions)
+    nearlyFree.push_back({m.body, m.stiffness, m.near * combinations[static_cast<std::size_t>(m.body)]});
+  const std::vector<Eigen::MatrixXd> among = freeCombinations(nearlyFree, comm, bodies.size(), freeUpTo);
   int offset = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    combinations.push_back(freeCombinations(energies.size[b], energies.force[b]));
-    bodies[b].kernelDimension = static_cast<int>(combinations.back().cols());
+    combinations[b] = (combinations[b] * among[b]).eval();
+    bodies[b].kernelDimension = static_cast<int>(combinations[b].cols());
     bodies[b].kernelOffset = offset;
     offset += bodies[b].kernelDimension;
   }

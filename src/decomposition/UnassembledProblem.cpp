@@ -101,6 +101,7 @@ void UnassembledProblem::complete() {
     problem_.subdomains[s].body = bodies[s];
     pieces_[s].assembled.nodes = problem_.subdomains[s].nodes; // setContact asks for them again
     pieces_[s].assembled.prescribed = problem_.subdomains[s].prescribed;
+    pieces_[s].stiffness = problem_.subdomains[s].stiffness;
   }
   attach(contact);
   outline_.bodies.front().point = {}; // nobody asks any more
@@ -397,7 +398,7 @@ void UnassembledProblem::setContact(const ContactMatrix& contact) {
 
 void UnassembledProblem::setGap(const Vector& gap) {
   requireComplete();
-  if (!contact_ || gap.getMap()->getLocalElementList() != held_->getMap()->getLocalElementList())
+  if (!contact_ || !gap.getMap()->locallySameAs(*held_->getMap()))
     throw InputError("the gaps must lie on the row map of the contact matrix.");
   const auto given = gap.getData(), held = held_->getData();
   for (Teuchos_Ordinal i = 0; i < given.size(); ++i)

@@ -83,8 +83,8 @@ ContactMatrix contactOf(const scene::Scene& scene, const Decomposition& decompos
   const Layout layout = layoutOf(scene, decomposition.bodies);
   const std::vector<GlobalOrdinal> first = firstNodes(decomposition);
   const int components = layout.models.front()->components();
-  const RCP<const Map> rows = rcp(new Map(
-      static_cast<Tpetra::global_size_t>(decomposition.problem.numInequalities), 0, world()));
+  const RCP<const Map> rows =
+      rcp(new Map(static_cast<Tpetra::global_size_t>(decomposition.problem.numInequalities), 0, world()));
   const RCP<const Map> unknowns =
       rcp(new Map(static_cast<Tpetra::global_size_t>(first.back() * components), 0, world()));
   const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(rows, static_cast<std::size_t>(2 * components)));
@@ -99,7 +99,8 @@ ContactMatrix contactOf(const scene::Scene& scene, const Decomposition& decompos
         const auto b = static_cast<std::size_t>(body);
         for (int c = 0; c < components; ++c) {
           const double value =
-              sign * contact.directions[k * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
+              sign *
+              contact.directions[k * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
           const auto held = layout.models[b]->prescribed(node, c);
           if (held && supports == Supports::eliminated)
             gap -= value * *held;
