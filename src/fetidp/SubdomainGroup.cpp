@@ -184,6 +184,8 @@ void SubdomainGroup::substitute(const Eigen::MatrixXd& coarse, const std::vector
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
   for (const std::size_t member : members_)
     u[member].resize(like.stiffness->rows(), coarse.cols());
+  coarseLocal_.resize(condensed_->numCrosspoints(),
+                      numMembers() * coarse.cols()); // not all callers eliminate before
   takeFromCoarse(coarse);
   for (Eigen::Index first = 0; first < coarseLocal_.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(first);

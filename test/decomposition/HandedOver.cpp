@@ -46,20 +46,31 @@ std::vector<GlobalOrdinal> firstNodes(const Decomposition& decomposition) {
   return firstNodesOf(decomposition.bodies);
 }
 
-std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene, Supports supports) {
+std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene,
+                                             std::vector<SubdomainMatrix> matrices) {
+  const std::vector<BodyLayout> bodies = layoutBodies(scene, *world());
+  std::vector<std::string> names;
+  for (const BodyLayout& body : bodies)
+    names.push_back(body.name);
+  auto problem = std::make_unique<UnassembledProblem>(
+      world(), fem::dimensionOf(bodies.front().mesh->cellType()),
+      layoutOf(scene, bodies).models.front()->components(), std::move(names));
+  for (SubdomainMatrix& matrix : matrices)
+    problem->add(std::move(matrix));
+  return problem;
+}
+
+std::vector<SubdomainMatrix> matricesOf(const scene::Scene& scene, Supports supports) {
   const std::vector<BodyLayout> bodies = layoutBodies(scene, *world());
   const scene::Scene assembled = supports == Supports::prescribed ? withoutSupports(scene) : scene;
   const Layout layout = layoutOf(assembled, bodies), supported = layoutOf(scene, bodies);
   const std::vector<GlobalOrdinal> first = firstNodesOf(bodies);
-  std::vector<std::string> names;
-  for (const BodyLayout& body : bodies)
-    names.push_back(body.name);
   const int dimension = fem::dimensionOf(bodies.front().mesh->cellType()),
             components = layout.models.front()->components();
-  auto problem = std::make_unique<UnassembledProblem>(world(), dimension, components, std::move(names));
+  std::vector<SubdomainMatrix> matrices;
   for (const Piece& piece : assemblePieces(layout, *world())) {
     const auto b = static_cast<std::size_t>(piece.body);
-    SubdomainMatrix matrix;
+    SubdomainMatrix& matrix = matrices.emplace_back();
     matrix.body = piece.body;
     matrix.stiffness = *piece.stiffness;
     matrix.load = piece.assembled.load;
@@ -74,9 +85,8 @@ std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene, Supports
         if (const auto value = supported.models[b]->prescribed(node, position % components))
           matrix.prescribed.emplace_back(matrix.unknowns.back(), *value);
     }
-    problem->add(std::move(matrix));
   }
-  return problem;
+  return matrices;
 }
 
 ContactMatrix contactOf(const scene::Scene& scene, const Decomposition& decomposition, Supports supports) {

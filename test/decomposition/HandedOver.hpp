@@ -6,6 +6,7 @@
 #include "epafi/decomposition/UnassembledProblem.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace epafi::decomposition {
 
@@ -15,9 +16,12 @@ enum class Supports {
   prescribed  ///< K^s has rows for them, and their values are given
 };
 
-/// The subdomains of a scene on the ranks on which `decompose` puts them, not complete. Precondition: no supports with axes of
+/// The subdomains of a scene on the ranks on which `decompose` puts them. Precondition: no supports with axes of
 /// their own. Collective.
-std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene, Supports supports);
+std::vector<SubdomainMatrix> matricesOf(const scene::Scene& scene, Supports supports);
+/// A problem of these subdomains and the bodies of the scene, not complete and without contact. Collective.
+std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene,
+                                             std::vector<SubdomainMatrix> matrices);
 
 /// Global number of a body's first node, in that problem: bodies follow each other.
 std::vector<GlobalOrdinal> firstNodes(const Decomposition& decomposition);

@@ -4,17 +4,20 @@
 #include "Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
 #include "epafi/decomposition/ElementMatrices.hpp"
 
 #include <Teuchos_Comm.hpp>
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <memory>
+#include <utility>
 
 namespace epafi::fetidp {
 namespace {
@@ -64,7 +67,7 @@ std::vector<Case> contactCases() {
 /// A scene, solved as it is and as an application's problem.
 struct Twice {
   Twice(const scene::Scene& scene, Supports supports)
-      : direct(scene, 1e-12), handed(handOver(scene, supports)) {
+      : direct(scene, 1e-12), handed(handOver(scene, matricesOf(scene, supports))) {
     handed->setContact(contactOf(scene, direct.decomposition, supports));
     handed->complete();
     solver = std::make_unique<ContactSolver>(toleranceOf(1e-12));
@@ -115,6 +118,224 @@ TEST(UnassembledProblemTest, AHandedOverSceneHasTheSameAnswer) {
       EXPECT_EQ(twice.solution.activeContactNodes, twice.direct.solution.activeContactNodes);
       EXPECT_EQ(twice.handed->problem().kernelDimension, twice.direct.decomposition.problem.kernelDimension);
     }
+}
+
+/// The solution that a solver made anew finds of the problem as it is.
+ContactSolution solvedAnew(const UnassembledProblem& handed) {
+  ContactSolver solver(toleranceOf(1e-12));
+  solver.setup(handed.problem());
+  return solver.solve();
+}
+
+void expectEqualFields(const UnassembledProblem& handed, const ContactSolution& a, const ContactSolution& b) {
+  const RCP<Vector> u = handed.unknowns(a.displacement), v = handed.unknowns(b.displacement);
+  const double size = v->normInf();
+  u->update(-1.0, *v, 1.0);
+  EXPECT_LE(u->normInf(), 1e-10 * size);
+  EXPECT_GT(size, 0);
+}
+
+/// Every second row of a contact matrix, numbered anew, with as much gap again. Collective.
+ContactMatrix everySecondRow(const ContactMatrix& contact) {
+  const CrsMatrix& all = *contact.rows;
+  const auto number = static_cast<GlobalOrdinal>(all.getGlobalNumRows() + 1) / 2;
+  std::vector<GlobalOrdinal> mine;
+  for (GlobalOrdinal row = 0; row < number; ++row)
+    if (all.getRowMap()->isNodeGlobalElement(2 * row))
+      mine.push_back(row);
+  const RCP<const Map> rows = rcp(
+      new Map(static_cast<Tpetra::global_size_t>(number), Teuchos::arrayViewFromVector(mine), 0, world()));
+  const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(rows, 8));
+  const RCP<Vector> gap = rcp(new Vector(rows));
+  for (const GlobalOrdinal row : mine) {
+    const LocalOrdinal old = all.getRowMap()->getLocalElement(2 * row);
+    CrsMatrix::local_inds_host_view_type columns;
+    CrsMatrix::values_host_view_type values;
+    all.getLocalRowView(old, columns, values);
+    for (std::size_t k = 0; k < columns.extent(0); ++k)
+      matrix->insertGlobalValues(row, Teuchos::tuple(all.getColMap()->getGlobalElement(columns(k))),
+                                 Teuchos::tuple(values(k)));
+    gap->replaceGlobalValue(row, 0.01 + 2 * contact.gap->getData()[old]);
+  }
+  matrix->fillComplete(all.getDomainMap(), rows);
+  return {matrix, gap};
+}
+
+TEST(UnassembledProblemTest, UpdatesGiveWhatASolverMadeAnewGives) {
+  for (const Case& c : contactCases()) {
+    SCOPED_TRACE(c.name);
+    Twice twice(c.scene, Supports::prescribed);
+    UnassembledProblem& handed = *twice.handed;
+    std::vector<SubdomainMatrix> matrices = matricesOf(c.scene, Supports::prescribed);
+    ContactMatrix contact = contactOf(c.scene, twice.direct.decomposition, Supports::prescribed);
+    const auto expectAsAnew = [&] {
+      const ContactSolution updated = twice.solver->solve();
+      expectEqualFields(handed, updated, solvedAnew(handed));
+      const auto anew = handOver(c.scene, matrices);
+      anew->setContact(contact);
+      anew->complete();
+      const ContactSolution expected = solvedAnew(*anew);
+      expectEqualFields(handed, updated, expected);
+      EXPECT_NEAR(updated.energy, expected.energy, 1e-9 * std::abs(expected.energy));
+    };
+
+    for (std::size_t s = 0; s < matrices.size(); ++s) { // loads and gaps take no update
+      matrices[s].load *= matrices[s].body == 0 ? 3.0 : 1.5;
+      handed.setLoad(s, matrices[s].load);
+    }
+    const RCP<Vector> gap = rcp(new Vector(contact.gap->getMap()));
+    for (Teuchos_Ordinal i = 0; i < gap->getData().size(); ++i)
+      gap->replaceLocalValue(
+          static_cast<LocalOrdinal>(i),
+          1e-3 * static_cast<double>(gap->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))));
+    contact.gap = gap;
+    handed.setGap(*gap);
+    expectAsAnew();
+
+    for (std::size_t s = 0; s < matrices.size(); ++s)
+      if (matrices[s].body == 0) {
+        matrices[s].stiffness *= 3.0;
+        handed.setMatrix(s, matrices[s].stiffness);
+      }
+    twice.solver->update();
+    expectAsAnew();
+
+    contact = everySecondRow(contact);
+    handed.setContact(contact);
+    twice.solver->update();
+    expectAsAnew();
+  }
+}
+
+TEST(UnassembledProblemTest, AnUpdateKeepsTheFactorsThatStillHold) {
+  Twice twice(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
+  UnassembledProblem& handed = *twice.handed;
+  DirectSolvers solvers;
+  solvers.shareIdentical = false;
+  GeneralizedInverse inverse(handed.problem(), solvers);
+  const auto factors = [&] {
+    std::vector<const CondensedSubdomain*> result;
+    for (const SubdomainGroup& group : std::as_const(inverse).groups())
+      result.push_back(&group.condensed());
+    return result;
+  };
+  const auto before = factors();
+  const CoarseProblem* coarse = &inverse.coarseProblem();
+  inverse.update(handed.problem());
+  EXPECT_EQ(factors(), before);
+  EXPECT_EQ(&inverse.coarseProblem(), coarse);
+
+  const bool isFirst = world()->getRank() == 0;
+  if (isFirst)
+    handed.setMatrix(0,
+                     2.0 * matricesOf(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated)[0].stiffness);
+  else
+    matricesOf(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
+  inverse.update(handed.problem());
+  const auto after = factors();
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t s = 0; s < after.size(); ++s)
+    EXPECT_EQ(after[s] == before[s], !(isFirst && s == 0)) << s;
+}
+
+/// What `complete` says of a problem whose first subdomain was changed, on whatever rank that is.
+template <class Change>
+std::string refusalAfter(const Change& change) {
+  const scene::Scene scene = twoMembranes(true, 4, grid(2, 1));
+  std::vector<SubdomainMatrix> matrices = matricesOf(scene, Supports::prescribed);
+  if (world()->getRank() == 0)
+    change(matrices.front());
+  return refusal([&] { handOver(scene, matrices)->complete(); });
+}
+
+TEST(UnassembledProblemTest, WrongInputIsRefusedOnAllRanks) {
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.unknowns[1] = m.unknowns[0]; }),
+             {"subdomain 0", "twice"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.unknowns[0] = -3; }), {"subdomain 0", "-3"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.load.conservativeResize(3); }), {"load", "3 x 1"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.coordinates(0, 0) = NAN; }), {"coordinates", "finite"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.body = 2; }), {"body 2", "2 bodies"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.body = 1; }), {"share nodes"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.stiffness.coeffRef(0, 1) += 1; }), {"symmetric"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.crosspoints = {12345}; }), {"12345", "crosspoint"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.prescribed.emplace_back(99999, 0.0); }), {"99999"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.prescribed.emplace_back(m.unknowns.back(), 0.0); }),
+             {"same free unknowns"});
+  expectSays(refusal([] { UnassembledProblem(world(), 4, 1); }), {"4", "2 or 3"});
+  expectSays(refusal([] { UnassembledProblem(world(), 2, 0); }), {"0 unknowns"});
+}
+
+TEST(UnassembledProblemTest, WrongContactIsRefusedOnAllRanks) {
+  const scene::Scene scene = twoMembranes(true, 4, grid(2, 1));
+  const Decomposition decomposition = decompose(scene, world());
+  const ContactMatrix contact = contactOf(scene, decomposition, Supports::prescribed);
+  const auto completed = [&](const ContactMatrix& given) {
+    const auto problem = handOver(scene, matricesOf(scene, Supports::prescribed));
+    problem->setContact(given);
+    problem->complete();
+  };
+  const RCP<const Map> rows = contact.rows->getRowMap();
+  const auto withColumn = [&](GlobalOrdinal column, double value) {
+    const RCP<const Map> domain = rcp(new Map(100000, 0, world()));
+    const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(rows, 1));
+    for (std::size_t i = 0; i < numLocal(*rows); ++i)
+      matrix->insertGlobalValues(rows->getGlobalElement(static_cast<LocalOrdinal>(i)), Teuchos::tuple(column),
+                                 Teuchos::tuple(value));
+    matrix->fillComplete(domain, rows);
+    return ContactMatrix{matrix, contact.gap};
+  };
+  expectSays(refusal([&] { completed(withColumn(77777, 1.0)); }), {"77777", "no subdomain"});
+  expectSays(refusal([&] { completed(withColumn(3, 0.0)); }), {"row", "empty"});
+  expectSays(refusal([&] { completed(withColumn(3, NAN)); }), {"not finite"});
+  const RCP<const Map> longer = rcp(new Map(rows->getGlobalNumElements() + 3, 0, world()));
+  expectSays(refusal([&] { completed({contact.rows, rcp(new Vector(longer))}); }), {"gaps", "row map"});
+}
+
+TEST(UnassembledProblemTest, CompressedRowsAndTpetraMatricesGiveTheSameSubdomain) {
+  const std::vector<int> starts{0, 2, 3, 5}, columns{1, 0, 1, 2, 0};
+  const std::vector<double> values{-1, 2, 3, 5, 7};
+  const SparseMatrix matrix = fromCompressedRows(starts, columns, values);
+  EXPECT_EQ(matrix.coeff(0, 1), -1);
+  EXPECT_EQ(matrix.coeff(2, 0), 7);
+  EXPECT_EQ(matrix.nonZeros(), 5);
+  EXPECT_THROW(fromCompressedRows(starts, std::vector<int>{1, 0, 1, 3, 0}, values), InputError);
+  EXPECT_THROW(fromCompressedRows(std::vector<int>{0, 2, 1, 5}, columns, values), InputError);
+
+  const std::vector<GlobalOrdinal> numbers{12, 7, 30};
+  const RCP<const Comm> self = rcp(new Teuchos::SerialComm<int>());
+  const RCP<const Map> map = rcp(new Map(3, Teuchos::arrayViewFromVector(numbers), 0, self));
+  CrsMatrix local(map, 3);
+  for (int row = 0; row < 3; ++row)
+    for (int k = starts[static_cast<std::size_t>(row)]; k < starts[static_cast<std::size_t>(row) + 1]; ++k)
+      local.insertGlobalValues(
+          numbers[static_cast<std::size_t>(row)],
+          Teuchos::tuple(numbers[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)])]),
+          Teuchos::tuple(values[static_cast<std::size_t>(k)]));
+  local.fillComplete();
+  const SubdomainMatrix subdomain = subdomainMatrix(local);
+  EXPECT_EQ(subdomain.unknowns, numbers);
+  EXPECT_EQ(SparseMatrix(subdomain.stiffness - matrix).norm(), 0);
+}
+
+TEST(UnassembledProblemTest, ElementsAddUpToSubdomains) {
+  ElementMatrices elements(2);
+  const Eigen::MatrixXd k = (Eigen::MatrixXd(2, 2) << 2, -1, -1, 3).finished();
+  const Eigen::MatrixXd points = (Eigen::MatrixXd(2, 2) << 0, 0, 1, 0).finished();
+  const Eigen::VectorXd f = Eigen::Vector2d(1, 10);
+  const std::vector<GlobalOrdinal> first{4, 9}, second{9, 2};
+  elements.add(7, {first, points, k, f});
+  elements.add(7, {second, points, k, f});
+  elements.add(3, {first, points, k, f}, 1);
+  EXPECT_THROW(elements.add(3, {first, points, k, f}, 0), InputError);
+  EXPECT_THROW(elements.add(3, {first, points, k, Eigen::VectorXd::Zero(3)}, 1), InputError);
+  const std::vector<SubdomainMatrix> matrices = elements.take();
+  ASSERT_EQ(matrices.size(), 2u);
+  EXPECT_EQ(matrices[0].body, 1);
+  EXPECT_EQ(matrices[1].unknowns, (std::vector<GlobalOrdinal>{4, 9, 2}));
+  EXPECT_EQ(matrices[1].stiffness.coeff(1, 1), 3 + 2);
+  EXPECT_EQ(matrices[1].stiffness.coeff(0, 2), 0);
+  EXPECT_EQ(matrices[1].load, Eigen::Vector3d(1, 10 + 1, 10));
+  EXPECT_EQ(matrices[1].coordinates.row(1), points.row(1)); // the first one counts
 }
 
 } // namespace
