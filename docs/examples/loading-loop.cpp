@@ -1,6 +1,8 @@
 // A rigid paraboloid is pressed into a block and moves along it in fifty steps: set up once, then every step starts from where
 // the last three point.
 // Prints a line a step and what all steps cost together beside the first one.
+#include "Block.hpp"
+
 #include "epafi/ContactSolver.hpp"
 #include "epafi/decomposition/Decompose.hpp"
 
@@ -20,32 +22,6 @@ using epafi::Vector;
 constexpr int numSteps = 50;
 constexpr double depth = 0.02, curvature = 0.25; // of the paraboloid: a length, and 1 / length
 constexpr double from = 0.9, to = 1.1; // where its lowest point is in the first step and in the last
-
-/// A block that is held below, with a rigid floor on its top; the steps shape the floor by its gaps.
-epafi::scene::Scene block(int elements, int subdomains) {
-  using namespace epafi::scene;
-  Body body;
-  body.name = "block";
-  Solid solid;
-  solid.physics = Physics::elasticity3d;
-  solid.material.youngsModulus = 200;
-  solid.mesh.box = {{0, 0, 0}, {2, 2, 1}};
-  solid.mesh.elements = {2 * elements, 2 * elements, elements};
-  solid.supports = {{"floor", "bottom", {0.0, 0.0, 0.0}, {}}};
-  body.solid = solid;
-  body.decomposition.method = Decomposition::Method::metis;
-  body.decomposition.parts = subdomains;
-  SurfaceContact contact;
-  contact.name = "punch";
-  contact.first = 0;
-  contact.firstSurface = "top";
-  contact.obstacle.point = {0, 0, 1};
-  contact.obstacle.normal = {0, 0, -1};
-  Scene scene;
-  scene.bodies = {body};
-  scene.surfaceContacts = {contact};
-  return scene;
-}
 
 /// The paraboloid's lowest point at x = `middle`, y = 1.
 void setGaps(epafi::decomposition::Decomposition& cut, double middle) {
