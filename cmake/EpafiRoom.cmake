@@ -1,5 +1,5 @@
 # A room of the house is one library: its folder holds headers and sources side by side, and its headers are included as
-# "epafi/<room>/<Name>.hpp" through a link in the build tree, so that a file has one address everywhere.
+# "epafi/<room>/<Name>.hpp" through a link in the build tree, so that a file has one address everywhere, installed too.
 
 set(EPAFI_INCLUDE_ROOT "${PROJECT_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${EPAFI_INCLUDE_ROOT}/epafi")
@@ -21,15 +21,39 @@ function(epafi_own_code target)
   endif()
 endfunction()
 
-# epafi_room(<room> SOURCES a.cpp b.cpp ... USES Epafi::base ...)
-# Makes the library epafi_<room>, its alias Epafi::<room>, and the include path epafi/<room>/.
+# epafi_library(<target> <name> SOURCES a.cpp ... USES Epafi::base ... [NEEDS Epafi::metis ...] [STANDARD 17])
+# Makes the library Epafi::<name>, static or shared as BUILD_SHARED_LIBS says. USES is what its headers name, NEEDS what its
+# sources alone name; STANDARD is the C++ that its headers ask of others, 20 if nothing is said.
+function(epafi_library target name)
+  cmake_parse_arguments(PARSE_ARGV 2 LIBRARY "" "STANDARD" "SOURCES;USES;NEEDS")
+  if(NOT LIBRARY_STANDARD)
+    set(LIBRARY_STANDARD 20)
+  endif()
+  add_library(${target} ${LIBRARY_SOURCES})
+  add_library(Epafi::${name} ALIAS ${target})
+  target_compile_features(${target} PRIVATE cxx_std_20 INTERFACE cxx_std_${LIBRARY_STANDARD})
+  target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${EPAFI_INCLUDE_ROOT}>")
+  target_link_libraries(${target} PUBLIC ${LIBRARY_USES} PRIVATE ${LIBRARY_NEEDS})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
+    POSITION_INDEPENDENT_CODE ON
+    DEFINE_SYMBOL "" # objects of static and of shared libraries are the same, and compiled once by ccache
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  epafi_own_code(${target})
+  if(EPAFI_INSTALL)
+    epafi_install_library(${target} ${name} USES ${LIBRARY_USES} NEEDS ${LIBRARY_NEEDS})
+  endif()
+endfunction()
+
+# epafi_room(<room> SOURCES ... USES ... [NEEDS ...] [STANDARD 17] [HIDDEN_HEADERS a.hpp ...])
+# The library of the folder, as above, and the include path epafi/<room>/. Hidden headers are not installed: they name what
+# users of the library do without.
 function(epafi_room room)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "SOURCES;USES")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "HIDDEN_HEADERS;SOURCES;USES;NEEDS;STANDARD")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${EPAFI_INCLUDE_ROOT}/epafi/${room}" SYMBOLIC)
-  add_library(epafi_${room} STATIC ${ROOM_SOURCES})
-  add_library(Epafi::${room} ALIAS epafi_${room})
-  target_include_directories(epafi_${room} PUBLIC "$<BUILD_INTERFACE:${EPAFI_INCLUDE_ROOT}>")
-  target_link_libraries(epafi_${room} PUBLIC ${ROOM_USES})
-  set_target_properties(epafi_${room} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  epafi_own_code(epafi_${room})
+  epafi_library(epafi_${room} ${room} SOURCES ${ROOM_SOURCES} USES ${ROOM_USES} NEEDS ${ROOM_NEEDS}
+                STANDARD ${ROOM_STANDARD})
+  if(EPAFI_INSTALL)
+    epafi_install_headers(${room} HIDDEN ${ROOM_HIDDEN_HEADERS})
+  endif()
 endfunction()
