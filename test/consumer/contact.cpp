@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   epafi::decomposition::Decomposition cut = epafi::decomposition::decompose(scene, comm);
 
   Teuchos::ParameterList parameters("Solver");
-  parameters.set("Tolerance", 1e-8);
+  parameters.set("Tolerance", 1e-10);
   epafi::ContactSolver solver(parameters);
   solver.setup(cut.problem); // factorises; once a matrix
   epafi::fetidp::ContactSolution solution = solver.solve();

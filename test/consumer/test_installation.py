@@ -164,15 +164,15 @@ class Consumer(unittest.TestCase):
                           (SOURCE / document).read_text(encoding="utf-8"), f"{document} shows another {program}")
 
     def test_a_quadratic_program_is_solved(self):
-        length = 1 - 2 * 0.2**0.5  # of the string that lies on the floor, which carries as much
+        length, h = 1 - 2 * 0.2**0.5, 1 / 101  # of the string that lies on the floor, which carries as much; the mesh size
         for ranks in (1, 3):
             text = on_ranks(ranks, self.folder / "string")
             self.assertTrue(text.startswith("Converged: "), text)
-            self.assertAlmostEqual(float(re.search(r"the floor carries (\S+)", text)[1]), length, places=5)
+            self.assertAlmostEqual(float(re.search(r"the floor carries (\S+)", text)[1]), length, delta=h**2)
 
     def test_a_contact_problem_has_the_energy_that_the_driver_finds(self):
         file = WORK / "coercive.xml"
-        must(PREFIX / "bin/epafi", PREFIX / "share/epafi/xml/coercive.xml", "--set", "Solver/Tolerance=1e-8", "--report", file)
+        must(PREFIX / "bin/epafi", PREFIX / "share/epafi/xml/coercive.xml", "--set", "Solver/Tolerance=1e-10", "--report", file)
         energy = 1.1**2 * float(report(file)["Accuracy"]["Energy"])  # without gaps all is in proportion to the loads
         for ranks in (1, 3):
             text = on_ranks(ranks, self.folder / "contact")
