@@ -8,6 +8,7 @@ endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME epafi)
 set(CPACK_PACKAGE_VENDOR "The Epafi developers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "contact problems by FETI-DP and quadratic programming")
 set(CPACK_PACKAGE_CONTACT "The Epafi developers")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages-debian")
@@ -27,14 +28,13 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS openmpi-bin)
 get_target_property(gmsh Epafi::gmsh INTERFACE_COMPILE_DEFINITIONS)
 string(REGEX REPLACE ".*EPAFI_GMSH_SONAME=\"libgmsh.so.([0-9.]+)\".*" "libgmsh\\1" gmsh "${gmsh}")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "${gmsh}, libopenblas0, python3-h5py, python3-matplotlib, python3-numpy")
-set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "contact problems by FETI-DP and quadratic programming
- Epafi solves frictionless contact problems of elastic bodies and of membranes,
- described by scenes in XML, on one or many processes. It cuts the bodies into
- subdomains, joins them by FETI-DP, and finds the contact forces by quadratic
- programming algorithms that stop with a certificate of their accuracy.
- .
- This package has the programs epafi, epafi-study, epafi-export and epafi-plot,
- scenes that work, and the documentation.")
+set(CPACK_DEBIAN_PROGRAMS_DESCRIPTION "Epafi solves frictionless contact problems of elastic bodies and of
+membranes, described by scenes in XML, on one or many processes. It cuts the
+bodies into subdomains, joins them by FETI-DP, and finds the contact forces by
+quadratic programming algorithms that stop with a certificate of their accuracy.
+
+This package has the programs epafi, epafi-study, epafi-export and epafi-plot,
+scenes that work, and the documentation.")
 
 # What the static libraries link, and what headers and CMake's files name.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libepafi-dev)
@@ -43,11 +43,10 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libhdf5-openmpi-dev
 libptscotch-dev, libscotch-dev, libsuitesparse-dev, trilinos-all-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "cmake, g++, libopenblas-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS epafi)
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "contact problems by FETI-DP and quadratic programming (development files)
- Epafi solves frictionless contact problems of elastic bodies and of membranes
- by FETI-DP and optimal quadratic programming on Trilinos.
- .
- This package has the static libraries, the headers, and what CMake's
- find_package(Epafi) reads.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Epafi solves frictionless contact problems of elastic bodies and of
+membranes by FETI-DP and optimal quadratic programming on Trilinos.
+
+This package has the static libraries, the headers, and what CMake's
+find_package(Epafi) reads.")
 
 include(CPack)
