@@ -5,9 +5,19 @@
 # epafi_dependency(<name> <missing>): makes Epafi::<name> unless there is one. The variable <missing> gets one sentence
 # on what is not found, and is empty otherwise.
 
+# Packages of Trilinos, by the target that they make.
+set(epafi_packages_trilinos Tpetra Belos) # all that base and qp need
+set(epafi_packages_amesos2 Amesos2)
+set(epafi_packages_thyra ThyraTpetraAdapters)
+set(epafi_packages_muelu MueLu) # for studies and examples alone
+
 function(epafi_dependency name missing)
   set(sentence "")
-  if(NOT TARGET Epafi::${name})
+  if(TARGET Epafi::${name})
+    # It is there.
+  elseif(DEFINED epafi_packages_${name})
+    epafi_find_in_trilinos(${name} sentence)
+  else()
     cmake_language(CALL epafi_find_${name} sentence)
   endif()
   set(${missing} "${sentence}" PARENT_SCOPE)
@@ -25,40 +35,14 @@ endfunction()
 # ---------------------------------------------------------------------------------------------------------------------
 # Trilinos
 
-# What of it the room qp needs, and MPI.
-function(epafi_find_trilinos missing)
+# TrilinosConfig.cmake reads its packages but once in a directory, those that whoever came first has asked for. Their files
+# are therefore read here one by one.
+function(epafi_find_in_trilinos name missing)
   find_package(MPI QUIET COMPONENTS CXX)
   if(NOT MPI_CXX_FOUND)
     set(${missing} "MPI for C++ is not found; name its compiler in MPI_CXX_COMPILER (Debian: libopenmpi-dev)" PARENT_SCOPE)
     return()
   endif()
-  # The C++ bindings that old versions of Open MPI have are not for us.
-  epafi_trilinos_packages(trilinos sentence Tpetra Belos DEFINITIONS OMPI_SKIP_MPICXX LIBRARIES MPI::MPI_CXX)
-  set(${missing} "${sentence}" PARENT_SCOPE)
-endfunction()
-
-function(epafi_find_amesos2 missing)
-  epafi_trilinos_packages(amesos2 sentence Amesos2)
-  set(${missing} "${sentence}" PARENT_SCOPE)
-endfunction()
-
-# Thyra's interface, and its wrappers of Tpetra.
-function(epafi_find_thyra missing)
-  epafi_trilinos_packages(thyra sentence ThyraTpetraAdapters)
-  set(${missing} "${sentence}" PARENT_SCOPE)
-endfunction()
-
-# Algebraic multigrid, for the studies and examples alone: no room of the library links it.
-function(epafi_find_muelu missing)
-  epafi_trilinos_packages(muelu sentence MueLu)
-  set(${missing} "${sentence}" PARENT_SCOPE)
-endfunction()
-
-# epafi_trilinos_packages(<name> <missing> <package>... [LIBRARIES ...] [DEFINITIONS ...])
-# TrilinosConfig.cmake reads its packages but once in a directory, those that whoever came first has asked for. Their files
-# are therefore read here one by one.
-function(epafi_trilinos_packages name missing)
-  cmake_parse_arguments(PARSE_ARGV 2 ALSO "" "" "LIBRARIES;DEFINITIONS")
   find_package(Trilinos QUIET CONFIG COMPONENTS Teuchos)
   if(NOT Trilinos_FOUND OR Trilinos_VERSION VERSION_LESS 13.2)
     set(${missing} "Trilinos 13.2 or later is not found; name its prefix in CMAKE_PREFIX_PATH (Debian: trilinos-all-dev)"
@@ -67,7 +51,7 @@ function(epafi_trilinos_packages name missing)
   endif()
   set(includes "")
   set(libraries "")
-  foreach(package IN LISTS ALSO_UNPARSED_ARGUMENTS)
+  foreach(package IN LISTS epafi_packages_${name})
     set(file "${Trilinos_DIR}/../${package}/${package}Config.cmake")
     if(NOT EXISTS "${file}")
       set(${missing} "Trilinos ${Trilinos_VERSION} in ${Trilinos_DIR} comes without ${package}; build it with \
@@ -87,7 +71,8 @@ function(epafi_trilinos_packages name missing)
   endforeach()
   list(REMOVE_DUPLICATES includes)
   list(REMOVE_DUPLICATES libraries)
-  epafi_imported(${name} INCLUDES ${includes} LIBRARIES ${libraries} ${ALSO_LIBRARIES} DEFINITIONS ${ALSO_DEFINITIONS})
+  # The C++ bindings that old versions of Open MPI have are not for us.
+  epafi_imported(${name} INCLUDES ${includes} LIBRARIES ${libraries} MPI::MPI_CXX DEFINITIONS OMPI_SKIP_MPICXX)
 endfunction()
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -21,19 +21,26 @@ function(epafi_own_code target)
   endif()
 endfunction()
 
-# epafi_library(<target> <name> SOURCES a.cpp ... USES Epafi::base ... [NEEDS Epafi::metis ...] [STANDARD 17])
+# Where our headers are, and Trilinos: no library of ours, and no C++20. The headers of MueLu and Stratimikos in Trilinos 13.2
+# are not C++20; units that include them and some of ours, those in C++17, link this.
+add_library(epafi_headers INTERFACE)
+add_library(Epafi::headers ALIAS epafi_headers)
+target_include_directories(epafi_headers INTERFACE "$<BUILD_INTERFACE:${EPAFI_INCLUDE_ROOT}>")
+target_link_libraries(epafi_headers INTERFACE Epafi::trilinos)
+set_target_properties(epafi_headers PROPERTIES EXPORT_NAME headers)
+if(EPAFI_INSTALL)
+  epafi_install_library(epafi_headers headers USES Epafi::trilinos)
+endif()
+
+# epafi_library(<target> <name> SOURCES a.cpp ... USES Epafi::base ... [NEEDS Epafi::metis ...])
 # Makes the library Epafi::<name>, static or shared as BUILD_SHARED_LIBS says. USES is what its headers name, NEEDS what its
-# sources alone name; STANDARD is the C++ that its headers ask of others, 20 if nothing is said.
+# sources alone name.
 function(epafi_library target name)
-  cmake_parse_arguments(PARSE_ARGV 2 LIBRARY "" "STANDARD" "SOURCES;USES;NEEDS")
-  if(NOT LIBRARY_STANDARD)
-    set(LIBRARY_STANDARD 20)
-  endif()
+  cmake_parse_arguments(PARSE_ARGV 2 LIBRARY "" "" "SOURCES;USES;NEEDS")
   add_library(${target} ${LIBRARY_SOURCES})
   add_library(Epafi::${name} ALIAS ${target})
-  target_compile_features(${target} PRIVATE cxx_std_20 INTERFACE cxx_std_${LIBRARY_STANDARD})
-  target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${EPAFI_INCLUDE_ROOT}>")
-  target_link_libraries(${target} PUBLIC ${LIBRARY_USES} PRIVATE ${LIBRARY_NEEDS})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC Epafi::headers ${LIBRARY_USES} PRIVATE ${LIBRARY_NEEDS})
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name}
     POSITION_INDEPENDENT_CODE ON
@@ -41,18 +48,17 @@ function(epafi_library target name)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   epafi_own_code(${target})
   if(EPAFI_INSTALL)
-    epafi_install_library(${target} ${name} USES ${LIBRARY_USES} NEEDS ${LIBRARY_NEEDS})
+    epafi_install_library(${target} ${name} USES Epafi::headers ${LIBRARY_USES} NEEDS ${LIBRARY_NEEDS})
   endif()
 endfunction()
 
-# epafi_room(<room> SOURCES ... USES ... [NEEDS ...] [STANDARD 17] [HIDDEN_HEADERS a.hpp ...])
+# epafi_room(<room> SOURCES ... USES ... [NEEDS ...] [HIDDEN_HEADERS a.hpp ...])
 # The library of the folder, as above, and the include path epafi/<room>/. Hidden headers are not installed: they name what
 # users of the library do without.
 function(epafi_room room)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "HIDDEN_HEADERS;SOURCES;USES;NEEDS;STANDARD")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "HIDDEN_HEADERS;SOURCES;USES;NEEDS")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${EPAFI_INCLUDE_ROOT}/epafi/${room}" SYMBOLIC)
-  epafi_library(epafi_${room} ${room} SOURCES ${ROOM_SOURCES} USES ${ROOM_USES} NEEDS ${ROOM_NEEDS}
-                STANDARD ${ROOM_STANDARD})
+  epafi_library(epafi_${room} ${room} SOURCES ${ROOM_SOURCES} USES ${ROOM_USES} NEEDS ${ROOM_NEEDS})
   if(EPAFI_INSTALL)
     epafi_install_headers(${room} HIDDEN ${ROOM_HIDDEN_HEADERS})
   endif()
