@@ -12,6 +12,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
+#include "epafi/base/Version.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/scene/ParameterFile.hpp"
 #include "epafi/scene/ParameterOverride.hpp"
@@ -36,7 +37,7 @@ std::string information(const Options& options) {
   if (options.help)
     return usage();
   if (options.version)
-    return "epafi " EPAFI_VERSION "\n";
+    return std::string("epafi ") + version() + '\n';
   return describeParameters(driverSchema(),
                             "All parameters of a scene file with type, default, allowed values and meaning, "
                             "as `epafi --print-parameters` prints them.");
@@ -100,7 +101,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
     output::prepareTarget(file, *comm); // better now than after an hour
   }
   if (speaks)
-    std::cout << "Epafi " EPAFI_VERSION ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
+    std::cout << "Epafi " << version() << ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
               << std::flush;
 
   RunWatch watch(options, comm);

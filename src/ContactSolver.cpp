@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
+#include "epafi/base/Version.hpp"
 #include "epafi/fetidp/FiniteData.hpp"
 #include "epafi/fetidp/Recovery.hpp"
 
@@ -270,6 +271,7 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
 
   const std::size_t deflated = dual_->deflatedOperator().is_null() ? 0 : dual_->deflatedOperator()->bytes();
   Teuchos::ParameterList list("Report");
+  list.sublist("Epafi").set("Version", std::string(version()));
   list.sublist("Problem")
       .set("Primal Dimension", problem.primalDimension)
       .set("Dual Dimension", problem.dualDimension())

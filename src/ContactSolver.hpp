@@ -74,7 +74,7 @@ public:
   /// That fraction.
   [[nodiscard]] double algebraicFraction() const { return algebraicFraction_; }
 
-  /// The report of the last solve as a list: Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status.
+  /// The report of the last solve as a list: Epafi (Version), Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status.
   /// Collective.
   [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
 

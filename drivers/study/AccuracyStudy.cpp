@@ -4,6 +4,7 @@
 #include "AccuracyPeers.hpp"
 #include "AccuracyReport.hpp"
 #include "Effectivity.hpp"
+#include "Places.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/output/AtomicFile.hpp"
@@ -16,9 +17,6 @@
 
 namespace epafi::drivers {
 namespace {
-
-/// Where the scenes are that this program was built with.
-const std::filesystem::path sceneDirectory = EPAFI_SCENE_DIRECTORY;
 
 void tell(const Comm& comm, const std::string& text) {
   if (comm.getRank() == 0)
@@ -64,7 +62,7 @@ bool studyAccuracy(const std::filesystem::path& directory, bool quick, const RCP
   std::vector<EffectivityRow> effectivity;
   for (const EffectivityCase& which : effectivityCases(quick)) {
     tell(*comm, "effectivity: " + which.scene);
-    for (const EffectivityRow& row : measureEffectivity(which, sceneDirectory, comm))
+    for (const EffectivityRow& row : measureEffectivity(which, sceneDirectory(), comm))
       effectivity.push_back(row);
   }
   write("accuracy_effectivity.csv", effectivityCsv(effectivity));

@@ -2,6 +2,7 @@
 
 #include "AccuracyStudy.hpp"
 #include "HeterogeneityStudy.hpp"
+#include "Places.hpp"
 #include "QpStudy.hpp"
 #include "ScalingStudy.hpp"
 #include "StabilityStudy.hpp"
@@ -88,7 +89,7 @@ Request parse(int argc, char** argv) {
 
 /// Draws the CSV with the plotting program that stands beside this one. Called after MPI has ended.
 bool draw(const std::filesystem::path& csv) {
-  const auto plot = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "epafi-plot";
+  const auto plot = drivers::programDirectory() / "epafi-plot";
   std::cout << std::flush; // the table first
   const std::string command =
       "'" + plot.string() + "' '" + csv.string() + "' --output '" + csv.parent_path().string() + "'";
@@ -109,7 +110,7 @@ int main(int argc, char** argv) {
       request = parse(argc, argv);
       if (request.help) {
         if (comm->getRank() == 0)
-          std::cout << usage;
+          std::cout << usage << "\nThe scenes are those in " << drivers::sceneDirectory().string() << ".\n";
         return 0;
       }
       collectively(*comm, [&] {

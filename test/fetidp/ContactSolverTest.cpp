@@ -336,6 +336,7 @@ TEST(ContactSolverTest, AnInterruptedSolveGoesOnFromWhatItsObserverSaw) {
 
 TEST(ContactSolverTest, ReportsEverythingThatTheSolveKnows) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> contract{
+      {"Epafi", {"Version"}},
       {"Problem",
        {"Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers", "Crosspoints",
         "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"}},

@@ -17,6 +17,7 @@ SOLVED, NOT_CONVERGED, WRONG_INPUT, NOT_SOLVABLE = range(4)
 LIMIT = 60  # seconds
 
 REPORT = {
+    "Epafi": ["Version"],
     "Problem": ["Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers", "Crosspoints",
                 "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"],
     "Algorithm": ["Name", "Reason"],

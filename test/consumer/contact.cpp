@@ -1,0 +1,32 @@
+#include "epafi/ContactSolver.hpp"
+#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/scene/ModelProblem.hpp"
+
+#include <Tpetra_Core.hpp>
+
+#include <iomanip>
+#include <iostream>
+
+int main(int argc, char** argv) {
+  Tpetra::ScopeGuard scope(&argc, &argv);
+  const auto comm = Tpetra::getDefaultComm();
+
+  // Any DecomposedProblem will do; this one comes from a scene, 4 x 4 subdomains a body.
+  const epafi::scene::Scene scene = epafi::scene::modelProblem(true, 4, 32);
+  epafi::decomposition::Decomposition cut = epafi::decomposition::decompose(scene, comm);
+
+  Teuchos::ParameterList parameters("Solver");
+  parameters.set("Tolerance", 1e-10);
+  epafi::ContactSolver solver(parameters);
+  solver.setup(cut.problem); // factorises; once a matrix
+  epafi::fetidp::ContactSolution solution = solver.solve();
+
+  // Other loads or gaps need no new setup, and the last multipliers are a good start.
+  for (auto& subdomain : cut.problem.subdomains)
+    subdomain.load *= 1.1;
+  solution = solver.solve(solution.multiplier.get());
+  if (comm->getRank() == 0)
+    std::cout << std::setprecision(12) << toString(solver.report().status) << ", energy " << solution.energy
+              << ", " << solution.activeContactNodes << " closed nodes, "
+              << solver.report().counts.hessianMultiplications << " products with F\n";
+}
