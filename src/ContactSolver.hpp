@@ -66,8 +66,10 @@ public:
 
   /// Of the last solve.
   [[nodiscard]] const qp::SolveReport& report() const { return report_; }
-  [[nodiscard]] const SolverTimes& times() const { return times_; }
+  [[nodiscard]] const SolverTimes& times() const { return times_; } ///< of the last set-up and solve
+  /// What the iteration works on. Precondition: `setup` was called.
   [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return *dual_; }
+  /// That the iteration was asked for.
   [[nodiscard]] double tolerance() const { return dualParameters_.tolerance; }
   /// Whether the algebraic error is to be a fraction of the discretisation error.
   [[nodiscard]] bool isBalanced() const { return dualParameters_.isBalanced; }

@@ -77,7 +77,7 @@ def figure(run, box=None):
     axes.set_xlabel("x [length]")
     axes.set_ylabel("y [length]")
     bar = picture.colorbar(matplotlib.cm.ScalarMappable(norm, style.STRESS), ax=axes, shrink=0.85, pad=0.03, aspect=26)
-    bar.set_label("von Mises stress [force per area]")
+    bar.set_label("von Mises stress\n[force per area]")
     bar.outline.set_visible(False)
     axes.set_title(f"{deformation.names(run)}: {deformation.text(factor)} — {run.title}", pad=10)
     handles = [Line2D([], [], color=style.GREY, linewidth=0.9, linestyle=(0, (4, 3)), label="undeformed")]

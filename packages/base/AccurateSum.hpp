@@ -1,6 +1,6 @@
 #pragma once
 
-/// Sums that do not depend on the order of their terms: every term is added without error to a pair of
+/// Sums that do not depend on the order of their terms. Every term is added without error to a pair of
 /// doubles (Knuth's TwoSum; Ogita, Rump, Oishi, *SIAM J. Sci. Comput.* 26 (2005)), as if in twice the
 /// precision, and rounded once at the end. What is built on them is the same on any number of ranks, to the
 /// last digit.
@@ -15,7 +15,7 @@ namespace epafi {
 class AccurateSum {
 public:
   AccurateSum() = default;
-  explicit AccurateSum(double value) : high_(value) {}
+  explicit AccurateSum(double value) : high_(value) {} ///< a sum of one term
   /// Seven additions; infinity and NaN make the value NaN.
   void add(double term) {
     const double sum = high_ + term;
@@ -23,11 +23,12 @@ public:
     low_ += (high_ - (sum - rest)) + (term - rest); // what the first addition lost, exactly
     high_ = sum;
   }
+  /// The terms of another sum.
   void add(const AccurateSum& other) {
     add(other.high_);
     low_ += other.low_;
   }
-  [[nodiscard]] double value() const { return high_ + low_; }
+  [[nodiscard]] double value() const { return high_ + low_; } ///< the sum, rounded
 
 private:
   double high_ = 0, low_ = 0;
@@ -58,6 +59,6 @@ private:
 
 /// xᵀy and ‖x‖. Collective.
 double accurateDot(const Vector& x, const Vector& y);
-double accurateNorm(const Vector& x);
+double accurateNorm(const Vector& x); ///< likewise
 
 } // namespace epafi

@@ -27,9 +27,9 @@ void sumOverRanks(const Comm& comm, std::span<double> values);
 
 /// Sum, maximum or minimum of one value over the ranks. Collective.
 double sumOverRanks(const Comm& comm, double value);
-GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value);
-double maxOverRanks(const Comm& comm, double value);
-double minOverRanks(const Comm& comm, double value);
+GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value); ///< likewise
+double maxOverRanks(const Comm& comm, double value);               ///< likewise
+double minOverRanks(const Comm& comm, double value);               ///< likewise
 
 /// The values of all ranks, rank after rank, on every rank. For data of the coarse problem's size only.
 /// Collective.

@@ -22,11 +22,13 @@ public:
 /// The problem has no solution, or more than one (exit code 3 of the driver); names the body and the reason.
 class SolvabilityError : public Error {
 public:
+  /// Which of the two.
   enum class Kind { noSolution, notUnique };
 
+  /// \param what  the sentence for people
   SolvabilityError(Kind kind, const std::string& what) : Error(what), kind_(kind) {}
 
-  [[nodiscard]] Kind kind() const noexcept { return kind_; }
+  [[nodiscard]] Kind kind() const noexcept { return kind_; } ///< which of the two
 
 private:
   Kind kind_;

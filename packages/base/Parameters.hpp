@@ -66,12 +66,14 @@ void addChoice(Teuchos::ParameterList& schema, const std::string& name, const st
 /// reader.
 void addArray(Teuchos::ParameterList& schema, const std::string& name,
               const Teuchos::Array<double>& defaultValue, const std::string& doc, const std::string& allowed);
+/// Likewise, of whole numbers.
 void addArray(Teuchos::ParameterList& schema, const std::string& name,
               const Teuchos::Array<int>& defaultValue, const std::string& doc, const std::string& allowed);
 
 /// Marks parameters of the schema as required: validated() refuses a list without them, and their defaults
 /// mean nothing. Precondition: they are in the schema, with validators of this file if any.
 void setRequired(Teuchos::ParameterList& schema, std::initializer_list<const char*> names);
+/// Whether a parameter of the schema was marked so.
 bool isRequired(const Teuchos::ParameterEntry& schemaEntry);
 
 /// The whole schema as a page for people, in Markdown: a title, the introduction, and a table a list with

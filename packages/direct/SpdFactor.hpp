@@ -27,7 +27,7 @@ public:
   SpdFactor(SpdFactor&&) = delete;
   SpdFactor& operator=(SpdFactor&&) = delete;
 
-  [[nodiscard]] virtual int size() const = 0;
+  [[nodiscard]] virtual int size() const = 0; ///< n
   /// X = A⁻¹ B; both n × m, column by column, m ≥ 0. X may not overlap B.
   virtual void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) = 0;
   /// S, k × k, in the order in which the kept unknowns were given; both triangles, equal to the last digit.
@@ -62,7 +62,7 @@ public:
   std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::vector<int>& kept,
                                        const std::string& what, const SpdFactor* like = nullptr);
 
-  [[nodiscard]] const std::string& solver() const { return solver_; }
+  [[nodiscard]] const std::string& solver() const { return solver_; } ///< its name
   /// Symbolic factorisations made so far: the number of different patterns, where the solver shares them.
   [[nodiscard]] int numSymbolic() const { return numSymbolic_; }
 

@@ -15,13 +15,14 @@ public:
   /// Whether products are with one vector at a time, or with several. The columns of a product do not depend on how
   /// many there are.
   enum class Use { alone, shared };
-  enum class Precision { full, single }; ///< single is for preconditioners alone
+  /// In which the numbers are kept and multiplied; single is for preconditioners alone.
+  enum class Precision { full, single };
 
   SymmetricBlock() = default;
   /// \param matrix  k × k, both triangles. Stored are k(k + 1)/2 numbers for a large matrix used alone, else k².
   SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision precision = Precision::full);
 
-  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int size() const { return size_; } ///< k
   /// Y = A X; both k × m, m ≥ 0, column-major without gaps. Not collective. Y may not overlap X.
   void apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const;
   /// Bytes that one product reads of the matrix; also what it takes in memory.

@@ -16,8 +16,11 @@ public:
   /// One entry's bounds.
   struct Interval {
     double lower, upper;
+    /// Whether no bound holds the feasible x.
     [[nodiscard]] bool isFree(double x) const { return lower < x && x < upper; }
+    /// The nearest number within the bounds.
     [[nodiscard]] double project(double x) const { return std::min(std::max(x, lower), upper); }
+    /// φ: g at a free entry, else 0.
     [[nodiscard]] double freeGradient(double x, double g) const { return isFree(x) ? g : 0.0; }
     /// min(g, 0) at a lower bound, max(g, 0) at an upper one, 0 for a fixed entry.
     [[nodiscard]] double choppedGradient(double x, double g) const {
@@ -51,7 +54,8 @@ public:
   /// This rank's bounds by local index; cheap to make, valid while the box lives.
   class Local {
   public:
-    explicit Local(const Box& box);
+    explicit Local(const Box& box); ///< keeps no more than addresses
+    /// Bounds of the entry with the local index i.
     [[nodiscard]] Interval operator[](std::size_t i) const {
       return {lower_ ? lower_[i] : -std::numeric_limits<double>::infinity(),
               upper_ ? upper_[i] : std::numeric_limits<double>::infinity()};
@@ -61,7 +65,7 @@ public:
     const double* lower_ = nullptr;
     const double* upper_ = nullptr;
   };
-  [[nodiscard]] Local local() const { return Local(*this); }
+  [[nodiscard]] Local local() const { return Local(*this); } ///< this rank's bounds
 
   [[nodiscard]] std::string emptiness(const Map& map) const override;
   void project(Vector& x) const override;

@@ -30,6 +30,7 @@ public:
   /// r = Bx − c in two halves around a sum over the ranks that the caller makes anyway. The first adds this rank's
   /// contributions to `numSums()` sums; all ranks call it together.
   [[nodiscard]] virtual int numSums() const = 0;
+  /// \param sums  numSums() of them
   virtual void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const = 0;
   /// The second fills r and returns ‖r‖. Precondition: `addLocalSums` was called last with the same x. Not collective.
   virtual double finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const = 0;
@@ -38,8 +39,9 @@ public:
   virtual void product(const Vector& x, std::span<double> bx) const = 0;
   /// y += factor · Bᵀμ. Collective.
   virtual void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const = 0;
-  /// Whether c = 0, on all ranks alike; if not, c: this rank's entries.
+  /// Whether c = 0, on all ranks alike.
   [[nodiscard]] virtual bool isHomogeneous() const { return true; }
+  /// This rank's entries of c; empty if c = 0.
   [[nodiscard]] virtual std::span<const double> rightHandSide() const { return {}; }
   /// aᵀb over all rows. Collective.
   [[nodiscard]] virtual double dot(std::span<const double> a, std::span<const double> b) const = 0;

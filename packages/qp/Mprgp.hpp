@@ -79,18 +79,19 @@ public:
   void changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b, double constant,
                      double operatorNorm);
 
-  [[nodiscard]] const Vector& solution() const { return x_; }
+  [[nodiscard]] const Vector& solution() const { return x_; } ///< x, the iterate
   /// (Ax − b) · gradientScale(), as updated by the steps.
   [[nodiscard]] const Vector& scaledGradient() const { return g_; }
-  [[nodiscard]] double gradientScale() const { return scale_; }
+  [[nodiscard]] double gradientScale() const { return scale_; } ///< 1/‖A‖, as it was given
   /// Norm of the projected gradient ‖g^P‖ at the last step.
   [[nodiscard]] double projectedGradient() const { return projectedGradient_ / scale_; }
   /// The same where the last run began.
   [[nodiscard]] double startGradient() const { return startGradient_ / scale_; }
-  [[nodiscard]] double solutionNorm() const { return solutionNorm_; } ///< ‖x‖
-  [[nodiscard]] double objective() const { return objective_ / scale_; }
+  [[nodiscard]] double solutionNorm() const { return solutionNorm_; }    ///< ‖x‖
+  [[nodiscard]] double objective() const { return objective_ / scale_; } ///< f
+  /// Whether g was computed from x, not updated by a step.
   [[nodiscard]] bool gradientIsFresh() const { return gradientIsFresh_; }
-  [[nodiscard]] StepCounts& counts() { return counts_; }
+  [[nodiscard]] StepCounts& counts() { return counts_; } ///< of all runs
   /// ‖A‖, corrected if need be.
   [[nodiscard]] double operatorNorm() const { return norm_ / scale_; }
   /// After indefiniteOperator or unbounded: the direction d that shows it, of length 1, x + αd being the way down.

@@ -34,6 +34,7 @@ struct MprgpParameters {
   int maxMultiplications = 10000; ///< products with A at most
   double timeLimit = 0;           ///< seconds; 0 for none
 
+  /// All of them with defaults, ranges and meaning.
   static Teuchos::ParameterList validParameters();
   /// From a validated list.
   static MprgpParameters from(const Teuchos::ParameterList& list);

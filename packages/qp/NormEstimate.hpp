@@ -10,13 +10,16 @@
 
 namespace epafi::qp {
 
+/// How an estimate is made, and when it is good enough.
 struct NormEstimateParameters {
+  /// Of the largest eigenvalue.
   enum class Method { lanczos, power };
   Method method = Method::lanczos;
   int maxIterations = 30; ///< products with A at most
   double accuracy = 0.02; ///< stop when the bound is this close (relative)
   double safety = 1.05;   ///< the estimate is at least this times the largest Rayleigh quotient
 
+  /// All of them with defaults, ranges and meaning.
   static Teuchos::ParameterList validParameters();
   /// From a validated list.
   static NormEstimateParameters from(const Teuchos::ParameterList& list);

@@ -47,6 +47,7 @@ struct QuadraticProgram {
   RCP<const Vector> activeGuess;
 };
 
+/// What a solve returns beside x.
 struct QpSolution {
   SolveReport report;
   RCP<Vector> boundMultiplier;    ///< Ax − b + Bᵀμ where a bound holds x (≥ 0 at a lower one), else 0

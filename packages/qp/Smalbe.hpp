@@ -21,6 +21,7 @@
 
 namespace epafi::qp {
 
+/// How multiplier, balance and penalty change.
 struct SmalbeParameters {
   /// What changes when the augmented Lagrangian grew too little. `both`: the balance, and the penalty where the
   /// residual of the constraint falls slowly.
@@ -33,6 +34,7 @@ struct SmalbeParameters {
   double forcing = 0.1;          ///< η as a multiple of the gradient's reference
   int maxOuterIterations = 200;
 
+  /// All of them with defaults, ranges and meaning.
   static Teuchos::ParameterList validParameters();
   /// From a validated list.
   static SmalbeParameters from(const Teuchos::ParameterList& list);

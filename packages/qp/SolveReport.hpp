@@ -10,6 +10,7 @@
 
 namespace epafi::qp {
 
+/// Why a solver stopped.
 enum class Status {
   converged,
   maxIterations,
@@ -46,7 +47,7 @@ struct StepRecord {
   int hessianMultiplications = 0; ///< products with the operator so far
 };
 
-using History = std::vector<StepRecord>;
+using History = std::vector<StepRecord>; ///< every step, in order
 
 /// Counts of steps by kind.
 struct StepCounts {
@@ -91,19 +92,21 @@ struct SolveReport {
 class Observer {
 public:
   virtual ~Observer() = default;
+  /// A step that was made.
   virtual void step(const StepRecord& record) = 0;
   /// Whether this rank wants the iteration to end. Asked at every step; one rank is enough, and all stop at the same step
   /// with the status `interrupted`: the wish travels with the sums that a step makes anyway.
   [[nodiscard]] virtual bool wantsToStop() { return false; }
   /// Whether this rank wants to see the iterate. Likewise; then `look` is called on all ranks that have an observer.
   [[nodiscard]] virtual bool wantsToLook() { return false; }
-  /// \param x  the iterate, on the map of the unknowns; feasible but with CG's, which knows no bounds
+  /// The iterate x, on the map of the unknowns; feasible but with CG's, which knows no bounds.
   virtual void look(const Vector& /*x*/) {}
 };
 
 /// Keeps every step and passes it on.
 class HistoryRecorder final : public Observer {
 public:
+  /// Keeps references to both; `next` may be null.
   HistoryRecorder(History& history, Observer* next) : history_(history), next_(next) {}
   void step(const StepRecord& record) override;
   [[nodiscard]] bool wantsToStop() override { return next_ != nullptr && next_->wantsToStop(); }

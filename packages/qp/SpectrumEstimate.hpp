@@ -7,6 +7,7 @@
 
 namespace epafi::qp {
 
+/// When an estimate is good enough.
 struct SpectrumEstimateParameters {
   int maxIterations = 300; ///< products with A at most
   double accuracy = 0.01;  ///< stop when both error bounds are this small, relative to their eigenvalues
@@ -21,6 +22,7 @@ struct SpectrumEstimate {
   [[nodiscard]] bool smallestIsAccurate(double accuracy) const {
     return smallest > 0 && smallestError <= accuracy * smallest;
   }
+  /// Likewise.
   [[nodiscard]] bool largestIsAccurate(double accuracy) const {
     return largest > 0 && largestError <= accuracy * largest;
   }

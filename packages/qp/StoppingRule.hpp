@@ -25,7 +25,7 @@ struct GradientNorms {
 class StoppingRule {
 public:
   virtual ~StoppingRule() = default;
-  [[nodiscard]] virtual int numSums() const { return 0; }
+  [[nodiscard]] virtual int numSums() const { return 0; } ///< the same on all ranks
   /// Adds this rank's contributions for the iterate x. All ranks call it together.
   virtual void addLocalSums(const Vector& /*x*/, std::span<AccurateSum> /*sums*/) {}
   /// Whether GradientNorms::energy is wanted: one application of M at the start and one for the certificate.
@@ -44,6 +44,7 @@ inline double relativeTo(double reference, double value) {
 /// Stops when ‖g^P‖ ≤ max(relative · reference, absolute). A reference of 0 (no load) asks for ‖g^P‖ ≤ absolute.
 class GradientRule final : public StoppingRule {
 public:
+  /// \param relative, reference, absolute  as above
   GradientRule(double relative, double reference, double absolute = 0)
       : limit_(std::max(relative * reference, absolute)), reference_(reference) {}
   bool isSatisfied(const GradientNorms& gradient, std::span<const AccurateSum> /*sums*/) override {

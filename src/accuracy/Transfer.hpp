@@ -11,6 +11,7 @@
 
 namespace epafi::accuracy {
 
+/// At which nodes values are wanted.
 enum class NodesOf {
   subdomains, ///< all of them
   interfaces  ///< those that subdomains share or contact touches

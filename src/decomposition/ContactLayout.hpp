@@ -24,6 +24,7 @@ struct ContactLayout {
   std::vector<double> gaps;               ///< before supports are taken into account
   std::vector<double> areas; ///< share of the first surface (in the plane: of its length) that a node has
 
+  /// Number of inequalities.
   [[nodiscard]] GlobalOrdinal numRows() const { return static_cast<GlobalOrdinal>(firstNodes.size()); }
 };
 

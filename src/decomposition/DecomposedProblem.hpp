@@ -84,6 +84,7 @@ void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values);
 /// The other way round: unknowns ũ of values at all positions in space; supported values are left out.
 Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values);
 
+/// A body, of which only its rigid motions count.
 struct Body {
   std::string name;
   int kernelDimension = 0; ///< rigid modes that its supports leave free; > 0 means that the body floats
@@ -121,6 +122,7 @@ struct DecomposedProblem {
   GlobalOrdinal numEqualities = 0;   ///< n_E
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
   GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
+  /// n_λ
   [[nodiscard]] GlobalOrdinal dualDimension() const { return numInequalities + numEqualities; }
 };
 

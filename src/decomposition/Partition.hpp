@@ -15,8 +15,8 @@ namespace epafi::decomposition {
 class Partition {
 public:
   virtual ~Partition() = default;
-  [[nodiscard]] virtual int numParts() const = 0;
-  [[nodiscard]] virtual int partOf(GlobalOrdinal element) const = 0;
+  [[nodiscard]] virtual int numParts() const = 0;                    ///< at least 1
+  [[nodiscard]] virtual int partOf(GlobalOrdinal element) const = 0; ///< of an element of the body
   /// Elements of a part, ascending.
   [[nodiscard]] virtual std::vector<GlobalOrdinal> elementsOf(int part) const = 0;
 };
@@ -28,6 +28,7 @@ class GridPartition final : public Partition {
 public:
   /// Precondition: 1 ≤ counts ≤ number of elements in each direction.
   GridPartition(const fem::RectangleMesh& mesh, std::array<int, 2> counts);
+  /// Likewise.
   GridPartition(const fem::BoxMesh& mesh, std::array<int, 3> counts);
   [[nodiscard]] int numParts() const override { return counts_[0] * counts_[1] * counts_[2]; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override;

@@ -34,7 +34,7 @@ struct RigidMotions {
 class BodyModel {
 public:
   virtual ~BodyModel() = default;
-  [[nodiscard]] virtual const Mesh& mesh() const = 0;
+  [[nodiscard]] virtual const Mesh& mesh() const = 0; ///< that of the body
   /// Unknowns a node.
   [[nodiscard]] virtual int components() const = 0;
   /// Rigid modes that the supports leave free: known from the scene, not from round-off.

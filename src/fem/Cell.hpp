@@ -11,11 +11,12 @@
 
 namespace epafi::fem {
 
+/// The elements there are, all linear.
 enum class CellType { triangle, quadrilateral, tetrahedron, hexahedron };
 
 /// 2 or 3.
 int dimensionOf(CellType type);
-int numNodesOf(CellType type);
+int numNodesOf(CellType type); ///< 3, 4, 4 or 8
 /// 2 (edges), 3 or 4.
 int nodesPerFacet(CellType type);
 /// Facets by the places of their nodes among those of the element; the first nodesPerFacet() of each four hold. Their

@@ -28,12 +28,12 @@ class Mesh {
 public:
   virtual ~Mesh() = default;
 
-  [[nodiscard]] virtual CellType cellType() const = 0;
-  [[nodiscard]] virtual GlobalOrdinal numNodes() const = 0;
-  [[nodiscard]] virtual GlobalOrdinal numElements() const = 0;
+  [[nodiscard]] virtual CellType cellType() const = 0;         ///< of all its elements
+  [[nodiscard]] virtual GlobalOrdinal numNodes() const = 0;    ///< of the whole body
+  [[nodiscard]] virtual GlobalOrdinal numElements() const = 0; ///< likewise
   /// Nodes an element (the same for all elements of a mesh).
   [[nodiscard]] int nodesPerElement() const { return numNodesOf(cellType()); }
-  [[nodiscard]] virtual Point point(GlobalOrdinal node) const = 0;
+  [[nodiscard]] virtual Point point(GlobalOrdinal node) const = 0; ///< where a node lies
   /// Nodes of an element in the order of its shape functions (counter-clockwise in 2-D).
   virtual void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const = 0;
   /// The same for many elements, one after the other; quickest where the elements ascend.
@@ -45,6 +45,7 @@ public:
   virtual void numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const = 0;
   /// Elements that share an edge (2-D) or a face (3-D) with an element: its neighbours in the dual graph.
   virtual void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const = 0;
+  /// Whether a node lies on the boundary of the body.
   [[nodiscard]] virtual bool isBoundaryNode(GlobalOrdinal node) const = 0;
 
   /// Names of the surfaces: "left" … "top" of a structured mesh, physical groups of a Gmsh file.

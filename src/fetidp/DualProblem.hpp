@@ -25,11 +25,13 @@ namespace epafi::fetidp {
 
 class DualPreconditioner;
 
+/// From the least to what bounds and floating bodies together need.
 enum class Algorithm { direct, conjugateGradient, mprgp, smalbe };
 
 /// "Direct", "CG", "MPRGP", "SMALBE-M".
 std::string toString(Algorithm algorithm);
 
+/// How the dual problem is solved, and how accurately.
 struct DualParameters {
   double tolerance = 1e-6;            ///< on ‖g^P‖ relative to ‖d̃‖ or ‖Pd‖
   bool isBalanced = false;            ///< in its place: the algebraic error against the discretisation error
@@ -65,9 +67,10 @@ public:
   DualProblem(const decomposition::DecomposedProblem& problem, std::shared_ptr<GeneralizedInverse> inverse,
               const DualParameters& parameters);
 
-  [[nodiscard]] Algorithm algorithm() const { return algorithm_; }
+  [[nodiscard]] Algorithm algorithm() const { return algorithm_; } ///< the least that will do
   /// One sentence: why this algorithm.
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// Of the Hessian.
   [[nodiscard]] const qp::NormEstimate& norm() const { return norm_; }
 
   /// Solves for the loads and gaps that the problem holds now.
@@ -85,7 +88,7 @@ public:
   /// Collective.
   [[nodiscard]] RCP<Vector> startFrom(std::span<const Eigen::VectorXd> displacement) const;
 
-  [[nodiscard]] RCP<const DualOperator> dualOperator() const { return dualOperator_; }
+  [[nodiscard]] RCP<const DualOperator> dualOperator() const { return dualOperator_; } ///< F
   /// M ≈ F⁻¹, or PMP + ρ⁻¹Q where bodies float; null without.
   [[nodiscard]] RCP<const Operator> preconditioner() const { return preconditioner_; }
   /// Bytes of this rank's blocks of M.
@@ -98,6 +101,7 @@ public:
   [[nodiscard]] RCP<const CorrectedPreconditioner> correctedPreconditioner() const { return corrected_; }
   /// G, P, Q; null without floating bodies.
   [[nodiscard]] RCP<const NaturalCoarseSpace> coarseSpace() const { return coarseSpace_; }
+  /// G̃ᵀ by rows, this rank's.
   [[nodiscard]] const std::vector<KernelEntry>& kernelEntries() const { return kernelEntries_; }
 
 private:

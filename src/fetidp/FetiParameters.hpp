@@ -16,6 +16,7 @@ struct DirectSolvers {
   int maxReplicated = 20000; ///< coarse unknowns; a larger coarse problem is kept and solved on one rank
 };
 
+/// The form of F.
 struct DualOperatorParameters {
   /// How a subdomain's part (K_rr⁻¹)_ΔΔ of F is multiplied with: by a pair of sparse triangular solves, by a dense block,
   /// or by what is less work for so many products.
@@ -24,14 +25,18 @@ struct DualOperatorParameters {
   int expectedProducts = 40; ///< that a setup must pay off in
 };
 
+/// The preconditioner of F.
 struct PreconditionerParameters {
+  /// A subdomain's part: its stiffness at the interface (lumped), or condensed to it (dirichlet).
   enum class Type { none, lumped, dirichlet };
+  /// By what the copies of a node share its forces: equally, or by their stiffness.
   enum class Scaling { multiplicity, stiffness };
   Type type = Type::dirichlet;
   Scaling scaling = Scaling::stiffness;
   bool isSingle = false; ///< blocks in single precision
 };
 
+/// Where jumps are looked for that the preconditioner overrates, and which of them are taken out.
 struct AdaptiveConstraintParameters {
   /// Nowhere; along interfaces with jumps of the stiffness, where there is a preconditioner; along all.
   enum class Use { automatic, no, yes };
@@ -51,8 +56,8 @@ std::string describe(const PreconditionerParameters& parameters);
 void addFetiParameters(Teuchos::ParameterList& list);
 /// From validated lists.
 DirectSolvers directSolversFrom(const Teuchos::ParameterList& list);
-DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list);
-PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list);
-AdaptiveConstraintParameters adaptiveConstraintsFrom(const Teuchos::ParameterList& list);
+DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list);              ///< likewise
+PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list);          ///< likewise
+AdaptiveConstraintParameters adaptiveConstraintsFrom(const Teuchos::ParameterList& list); ///< likewise
 
 } // namespace epafi::fetidp

@@ -60,10 +60,10 @@ public:
 
   /// This rank's subdomains, identical ones together.
   [[nodiscard]] std::span<SubdomainGroup> groups() { return groups_; }
-  [[nodiscard]] std::span<const SubdomainGroup> groups() const { return groups_; }
+  [[nodiscard]] std::span<const SubdomainGroup> groups() const { return groups_; } ///< likewise
   /// Bytes of this rank's factors and dense blocks.
   [[nodiscard]] std::size_t factorBytes() const;
-  [[nodiscard]] const CoarseProblem& coarseProblem() const { return *coarseProblem_; }
+  [[nodiscard]] const CoarseProblem& coarseProblem() const { return *coarseProblem_; } ///< S_cc
   /// From multiplierMap to multiplierGhostMap.
   [[nodiscard]] const RCP<const Import>& multiplierPlan() const { return multiplierPlan_; }
 

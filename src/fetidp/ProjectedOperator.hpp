@@ -12,6 +12,8 @@ namespace epafi::fetidp {
 /// n_λ × n_λ, symmetric positive semidefinite with the kernel Im Gᵀ.
 class ProjectedOperator final : public Operator {
 public:
+  /// \param dualOperator  F, on the map of the multipliers
+  /// \param coarseSpace   G and P
   ProjectedOperator(RCP<const Operator> dualOperator, RCP<const NaturalCoarseSpace> coarseSpace);
 
   [[nodiscard]] RCP<const Map> getDomainMap() const override { return dualOperator_->getDomainMap(); }

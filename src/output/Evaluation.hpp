@@ -26,10 +26,10 @@ struct Evaluation {
 Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* estimate = nullptr);
 
 /// Adds to a report:
-///   Contact/<name>  Candidates (rows), Active Nodes, Force Σλ, Resultant −Σλd (x, y, z; the force on the first body; of
+///   Contact/NAME    Candidates (rows), Active Nodes, Force Σλ, Resultant −Σλd (x, y, z; the force on the first body; of
 ///                   membranes, whose deflection is along z, in z), Largest Pressure max λ/area, Contact Area (that of the
 ///                   active rows)
-///   Body/<name>     of elastic bodies: Largest Displacement (the length of the vector), Largest von Mises Stress
+///   Body/NAME       of elastic bodies: Largest Displacement (the length of the vector), Largest von Mises Stress
 /// Sums are the same to the last digit on any number of ranks. Nothing but the numbers in the lists is ever whole on one rank.
 /// Collective.
 void addResults(const SolvedScene& solved, const Evaluation& evaluation, Teuchos::ParameterList& report);

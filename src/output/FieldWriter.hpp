@@ -10,6 +10,7 @@
 
 namespace epafi::output {
 
+/// The files that were written.
 struct FieldFiles {
   std::filesystem::path hdf5;
   std::filesystem::path xdmf;

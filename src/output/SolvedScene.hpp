@@ -14,6 +14,7 @@ struct SolvedScene {
   const decomposition::Decomposition& decomposition;
   const fetidp::ContactSolution& solution;
 
+  /// The communicator of the problem.
   [[nodiscard]] const Comm& comm() const { return *decomposition.problem.comm; }
   /// What the scene says of a body if it is elastic, else null.
   [[nodiscard]] const scene::Solid* elasticBody(int body) const {

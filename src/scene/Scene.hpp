@@ -18,6 +18,7 @@ struct Rectangle {
   double x0 = 0, x1 = 1, y0 = 0, y1 = 1;
 };
 
+/// Of a rectangle.
 enum class Edge { left, right, bottom, top };
 
 /// "left", "right", "bottom" or "top".
@@ -47,6 +48,7 @@ struct Region {
 
 /// How a body is cut into subdomains.
 struct Decomposition {
+  /// Along lines of the mesh, or by METIS on the graph of its elements.
   enum class Method { grid, metis };
   Method method = Method::grid;
   std::array<int, 3> counts = {2, 2, 2}; ///< grid: subdomains in x, y and, in space, z

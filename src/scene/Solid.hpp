@@ -23,7 +23,7 @@ std::string toString(Physics physics);
 /// Unknowns a node: 1, 2, 2, 3.
 int componentsOf(Physics physics);
 
-using Vector3 = std::array<double, 3>;
+using Vector3 = std::array<double, 3>; ///< x, y, z
 
 /// Axis-parallel box; the whole space unless said otherwise. In the plane the third coordinate does not matter.
 struct Box {
@@ -61,6 +61,7 @@ struct SolidSupport {
 
 /// A load; loads add up.
 struct SolidLoad {
+  /// What the load acts on.
   enum class Kind {
     body, ///< force per volume (per area of a membrane) in the elements whose centre lies in a box or a group
     traction, ///< force per area on a surface
@@ -96,6 +97,7 @@ struct Solid {
 
 /// A rigid obstacle that does not move: a half-space, or a circle (in the plane) or sphere.
 struct Obstacle {
+  /// A circle is a sphere in the plane.
   enum class Kind { plane, sphere };
   Kind kind = Kind::plane;
   Vector3 point{0, 0, 0};  ///< on the plane; centre of the sphere

@@ -13,6 +13,9 @@ import sys
 import unittest
 import xml.etree.ElementTree
 
+import h5py
+import numpy
+
 BUILD = pathlib.Path(sys.argv[1]).resolve()
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
@@ -178,6 +181,20 @@ class Consumer(unittest.TestCase):
             text = on_ranks(ranks, self.folder / "contact")
             self.assertTrue(text.startswith("Converged, "), text)
             self.assertAlmostEqual(float(re.search(r"energy (\S+),", text)[1]) / energy, 1, delta=1e-10)
+
+
+    def test_a_mesh_of_its_own_has_the_displacements_that_the_driver_finds(self):
+        output = WORK / "circle"
+        shutil.rmtree(output, ignore_errors=True)
+        must(PREFIX / "bin/epafi", HERE / "circle.xml", "--output", output)
+        with h5py.File(output / "circle.h5") as file:
+            expected = file["/bodies/block/u"][:, :2]
+        for ranks in (1, 3):
+            text = on_ranks(ranks, self.folder / "elasticity")
+            found = numpy.array([[float(number) for number in line.split()] for line in text.splitlines()])
+            self.assertEqual(found.shape, expected.shape)
+            self.assertLessEqual(abs(found - expected).max(), 1e-10 * abs(expected).max())
+        self.assertLessEqual(len((SOURCE / "docs/examples/elasticity.cpp").read_text(encoding="utf-8").splitlines()), 120)
 
 
 class Lookup(unittest.TestCase):
