@@ -66,7 +66,7 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& size) {
 
 /// Those whose force is at most `bound` beside them.
 Eigen::MatrixXd freeCombinations(const Eigen::MatrixXd& size, const Eigen::MatrixXd& force, double bound) {
-  const Eigen::MatrixXd basis = size.rows() > 0 ? orthonormal(size) : size;
+  Eigen::MatrixXd basis = size.rows() > 0 ? orthonormal(size) : size;
   if (basis.cols() == 0)
     return basis;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * force * basis);
