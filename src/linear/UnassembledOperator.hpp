@@ -1,0 +1,55 @@
+#pragma once
+
+/// K = Σ R^sᵀ K^s R^s, never assembled: what a Trilinos application takes for its matrix where FETI-DP is to solve with it.
+
+#include "epafi/linear/GlobalUnknowns.hpp"
+#include "epafi/linear/UnknownExchange.hpp"
+
+#include <Tpetra_Operator.hpp>
+
+#include <memory>
+
+namespace epafi::linear {
+
+/// n × n, n the unknowns of the whole problem; symmetric, positive definite unless a body floats. Contact, if the problem has
+/// any, does not enter.
+class UnassembledOperator final : public Operator {
+public:
+  /// \param problem   shared; must not change but for its loads and gaps
+  /// \param unknowns  see GlobalUnknowns.hpp
+  /// \param map       one-to-one, all numbers and no others; null: ownedUnknowns
+  /// \throws InputError, the same on all ranks, if lists are too short or too long, if the map lacks a number or has one that no
+  /// subdomain has, or if copies of a number are not joined by the problem's gluing rows and crosspoints, or those of different
+  /// numbers are.
+  /// Collective.
+  UnassembledOperator(std::shared_ptr<const decomposition::DecomposedProblem> problem,
+                      const GlobalUnknowns& unknowns, const RCP<const Map>& map = Teuchos::null);
+
+  [[nodiscard]] RCP<const Map> getDomainMap() const override { return exchange_.map(); }
+  [[nodiscard]] RCP<const Map> getRangeMap() const override { return exchange_.map(); }
+  /// y = alpha K x + beta y, all columns in one pass: a sparse product a subdomain, two messages to each neighbour. Collective.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
+             double alpha = 1.0, double beta = 0.0) const override;
+  [[nodiscard]] bool hasTransposeApply() const override { return true; }
+
+  [[nodiscard]] const decomposition::DecomposedProblem& problem() const { return *problem_; }
+  [[nodiscard]] const std::shared_ptr<const decomposition::DecomposedProblem>& sharedProblem() const {
+    return problem_;
+  }
+  [[nodiscard]] const UnknownExchange& exchange() const { return exchange_; }
+  [[nodiscard]] const GlobalUnknowns& unknowns() const { return unknowns_; }
+  /// b = Σ R^sᵀ f^s, the problem's own loads. Collective.
+  [[nodiscard]] RCP<Vector> load() const;
+
+private:
+  std::shared_ptr<const decomposition::DecomposedProblem> problem_;
+  GlobalUnknowns unknowns_;
+  UnknownExchange exchange_;
+  mutable SubdomainVectors values_, forces_; ///< work
+  mutable RCP<MultiVector> result_;          ///< work
+};
+
+/// K assembled, for whoever needs its entries: on the same map, rows complete. Collective.
+RCP<CrsMatrix> assembled(const UnassembledOperator& k);
+
+} // namespace epafi::linear

@@ -1,0 +1,154 @@
+#include "Samples.hpp"
+
+#include "../base/Refusal.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/linear/NodalBasis.hpp"
+
+#include <Eigen/Cholesky>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace epafi::linear {
+namespace {
+
+TEST(UnassembledOperatorTest, IsTheAssembledMatrix) {
+  for (const LinearCase& c : linearCases()) {
+    SCOPED_TRACE(c.name);
+    const LinearProblem problem(c.scene);
+    const Eigen::MatrixXd k = denseOf(*problem.k);
+    EXPECT_LE(relativeError(k, denseOf(*assembled(*problem.k))), 1e-14);
+    EXPECT_LE(relativeError(k, k.transpose()), 1e-14);
+    EXPECT_EQ(Eigen::LLT<Eigen::MatrixXd>(k).info(), Eigen::Success); // positive definite
+  }
+}
+
+/// The bodies are cut in many ways, and K and b are those of the body: so is the solution.
+TEST(UnassembledOperatorTest, TheSolutionDoesNotDependOnTheCut) {
+  const LinearProblem whole(plate(8, decomposition::grid(1, 1)));
+  const auto solutionOf = [](const LinearProblem& problem) -> Eigen::MatrixXd {
+    return denseOf(*problem.k).llt().solve(denseOf(*problem.k->load()));
+  };
+  const Eigen::MatrixXd expected = solutionOf(whole);
+  for (const auto& cut : {decomposition::grid(2, 2), decomposition::grid(3, 1), decomposition::metis(5)})
+    EXPECT_LE(relativeError(solutionOf(LinearProblem(plate(8, cut))), expected), 1e-12);
+}
+
+TEST(UnassembledOperatorTest, AddsMultiplesOfProducts) {
+  const LinearProblem problem(plate(6, decomposition::grid(2, 2)));
+  const auto n = static_cast<Eigen::Index>(problem.k->getDomainMap()->getGlobalNumElements());
+  const Eigen::MatrixXd x =
+      Eigen::MatrixXd::NullaryExpr(n, 3, [](auto i, auto j) { return std::sin(1.0 + i + 7 * j); });
+  const Eigen::MatrixXd before =
+      Eigen::MatrixXd::NullaryExpr(n, 3, [](auto i, auto j) { return std::cos(i - 2.0 * j); });
+  const RCP<MultiVector> y = spreadOn(problem.k->getRangeMap(), before);
+  problem.k->apply(*spreadOn(problem.k->getDomainMap(), x), *y, Teuchos::TRANS, -2.0, 0.5);
+  EXPECT_LE(relativeError(denseOf(*y), 0.5 * before - 2 * denseOf(*problem.k) * x), 1e-13);
+}
+
+TEST(UnassembledOperatorTest, TakesTheApplicationsMap) {
+  const LinearProblem problem(plate(6, decomposition::grid(2, 2)));
+  // The same numbers, all on the last rank.
+  const auto numbers = denseOf(*problem.k->load()).rows();
+  std::vector<GlobalOrdinal> mine;
+  const Map& own = *problem.k->getRangeMap();
+  for (GlobalOrdinal number = own.getMinAllGlobalIndex(); number <= own.getMaxAllGlobalIndex(); ++number) {
+    const double has = maxOverRanks(*world(), own.isNodeGlobalElement(number) ? 1.0 : 0.0);
+    if (has > 0 && world()->getRank() == world()->getSize() - 1)
+      mine.push_back(number);
+  }
+  const RCP<const Map> map = rcp(
+      new Map(static_cast<Tpetra::global_size_t>(numbers), Teuchos::arrayViewFromVector(mine), 0, world()));
+  const UnassembledOperator elsewhere(problem.k->sharedProblem(), problem.k->unknowns(), map);
+  EXPECT_TRUE(elsewhere.getDomainMap()->isSameAs(*map));
+  EXPECT_LE(relativeError(denseOf(elsewhere), denseOf(*problem.k)), 1e-15);
+}
+
+/// What is said of numbers that `change` has changed, on the only rank or on all of several.
+std::string
+refusalOf(const std::function<void(const decomposition::DecomposedProblem&, GlobalUnknowns&)>& change,
+          const scene::Scene& scene = plate(6, decomposition::grid(2, 2))) {
+  const LinearProblem problem(scene);
+  GlobalUnknowns unknowns = problem.k->unknowns();
+  change(problem.k->problem(), unknowns);
+  return test::refusal([&] { UnassembledOperator(problem.k->sharedProblem(), unknowns); });
+}
+
+TEST(UnassembledOperatorTest, RefusesNumbersThatDoNotFit) {
+  test::expectSays(refusalOf([](const auto&, GlobalUnknowns& unknowns) { unknowns.emplace_back(); }),
+                   {"lists of global unknowns", "give one list for each"});
+  test::expectSays(refusalOf([](const auto&, GlobalUnknowns& unknowns) {
+                     for (auto& list : unknowns)
+                       list.pop_back();
+                   }),
+                   {"subdomain ", "unknowns, but", "give one for each unknown"});
+  test::expectSays(refusalOf([](const auto&, GlobalUnknowns& unknowns) {
+                     for (auto& list : unknowns)
+                       list.front() = -3;
+                   }),
+                   {"is -3", "must not be negative"});
+}
+
+TEST(UnassembledOperatorTest, RefusesNumbersThatContradictTheGluing) {
+  const auto renumberFirst = [](bool crosspoint) {
+    return [crosspoint](const decomposition::DecomposedProblem& problem, GlobalUnknowns& unknowns) {
+      for (std::size_t s = 0; s < unknowns.size(); ++s)
+        if (problem.subdomains[s].number == 0) {
+          const int unknown = crosspoint ? problem.subdomains[s].crosspointUnknowns.front()
+                                         : problem.subdomains[s].constraint.front().unknown;
+          unknowns[s][static_cast<std::size_t>(unknown)] = 100000;
+        }
+    };
+  };
+  test::expectSays(refusalOf(renumberFirst(false)), {"is glued by row", "must have the same"});
+  test::expectSays(refusalOf(renumberFirst(true)), {"crosspoint value", "different global numbers"});
+  // Two unknowns of a subdomain's interior that are not joined.
+  const auto joinInteriors = [](const decomposition::DecomposedProblem& problem, GlobalUnknowns& unknowns) {
+    for (std::size_t s = 0; s < unknowns.size(); ++s) {
+      std::vector<char> isInterior(unknowns[s].size(), 1);
+      for (const auto& entry : problem.subdomains[s].constraint)
+        isInterior[static_cast<std::size_t>(entry.unknown)] = 0;
+      for (const int unknown : problem.subdomains[s].crosspointUnknowns)
+        isInterior[static_cast<std::size_t>(unknown)] = 0;
+      const auto first = std::find(isInterior.begin(), isInterior.end(), 1) - isInterior.begin();
+      const auto second = std::find(isInterior.begin() + first + 1, isInterior.end(), 1) - isInterior.begin();
+      unknowns[s][static_cast<std::size_t>(first)] = unknowns[s][static_cast<std::size_t>(second)];
+    }
+  };
+  test::expectSays(refusalOf(joinInteriors), {"each number must be one unknown with all its copies"});
+}
+
+TEST(UnassembledOperatorTest, RefusesAMapThatLacksANumber) {
+  const LinearProblem problem(plate(6, decomposition::grid(2, 2)));
+  const RCP<const Map> tooFew = rcp(new Map(3, 0, world()));
+  test::expectSays(
+      test::refusal([&] { UnassembledOperator(problem.k->sharedProblem(), problem.k->unknowns(), tooFew); }),
+      {"the map of the whole problem has no such number"});
+}
+
+TEST(NodalBasisTest, ForcesDoTheSameWorkInBothBases) {
+  const LinearProblem problem(elasticBlock(4, 4, test::cutInGrid({2, 2, 2})));
+  bool hasAverages = false;
+  for (const decomposition::Subdomain& subdomain : problem.k->problem().subdomains) {
+    hasAverages = hasAverages || !subdomain.averages.empty();
+    const Eigen::MatrixXd u = Eigen::MatrixXd::Random(subdomain.load.size(), 2),
+                          f = Eigen::MatrixXd::Random(subdomain.load.size(), 2);
+    Eigen::MatrixXd changed = u, back, forces = f;
+    toUnknowns(subdomain, changed);
+    back = changed;
+    toValues(subdomain, back);
+    EXPECT_LE(relativeError(back, u), 1e-14);
+    toForcesOfUnknowns(subdomain, forces);
+    EXPECT_LE(relativeError(forces.transpose() * changed, f.transpose() * u), 1e-13);
+    toForcesOfValues(subdomain, forces);
+    EXPECT_LE(relativeError(forces, f), 1e-14);
+  }
+  EXPECT_GT(maxOverRanks(*world(), hasAverages ? 1.0 : 0.0), 0);
+}
+
+} // namespace
+} // namespace epafi::linear
