@@ -49,7 +49,6 @@ void BddcPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ET
 /// The forces t = −K_ΔI K_II⁻¹ f_I that interiors pass on to their boundaries: K_rr w = (f_I, 0) moves a boundary, and t = S w_Δ
 /// holds it.
 void BddcPreconditioner::condenseInteriors(int numColumns) const {
-  const std::vector<Subdomain>& subdomains = k_->problem().subdomains;
   local_.resize(forces_.size());
   values_.resize(forces_.size());
   for (std::size_t s = 0; s < forces_.size(); ++s) {

@@ -1,8 +1,12 @@
 #pragma once
 
-/// Epafi among the linear solvers and preconditioners that Stratimikos picks by name from a parameter list.
+/// Epafi among the linear solvers and preconditioners that Stratimikos picks by name from a parameter list. Needs no more than
+/// C++17: g++ up to 13 does not take the header of DefaultLinearSolverBuilder in Trilinos 13.2 as C++20. A file in C++20 takes
+/// linearSolveStrategy.
 
-#include "epafi/linear/UnassembledOperator.hpp"
+#include "epafi/thyra/Strategies.hpp"
+
+#include <Teuchos_ParameterList.hpp>
 
 #include <string>
 
@@ -22,5 +26,10 @@ void enableFetiDp(Stratimikos::DefaultLinearSolverBuilder& builder,
 void enableBddc(Stratimikos::DefaultLinearSolverBuilder& builder,
                 const RCP<const linear::UnassembledOperator>& k = Teuchos::null,
                 const std::string& name = "Epafi BDDC");
+
+/// The solver that a list for Stratimikos asks for, Epafi's two among those it may name; `k` as above. The list is kept.
+/// \throws InputError, or Teuchos's exceptions, where a parameter is wrong. Not collective.
+RCP<LinearSolveStrategy> linearSolveStrategy(const RCP<Teuchos::ParameterList>& list,
+                                             const RCP<const linear::UnassembledOperator>& k = Teuchos::null);
 
 } // namespace epafi::thyra

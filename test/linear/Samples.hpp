@@ -27,7 +27,7 @@ struct LinearCase {
 inline scene::Scene plate(int elements, const scene::Decomposition& cut) {
   using scene::Edge;
   return decomposition::oneBody(elements, elements, cut,
-                                {{"left", Edge::left, 0.0}, {"top", Edge::top, 0.25}});
+                                {{"left", Edge::left, 0.25}, {"top", Edge::top, 0.25}});
 }
 
 /// A grid whose conductivity jumps from subdomain to subdomain.
@@ -58,7 +58,7 @@ inline std::vector<LinearCase> linearCases() {
           {"jumps of 1e4", patchwork(8, 1e4)},
           {"elastic in the plane", elasticBlock(8, 0, test::cutInGrid({2, 2, 1}))},
           {"elastic in the plane, METIS", elasticBlock(9, 0, test::cutByMetis(4))},
-          {"elastic in space", elasticBlock(4, 4, test::cutInGrid({2, 2, 2}))}};
+          {"elastic in space", elasticBlock(4, 3, test::cutInGrid({2, 2, 1}))}};
 }
 
 /// A scene, cut, and its unassembled K.

@@ -5,6 +5,7 @@
 #include "epafi/linear/BddcPreconditioner.hpp"
 #include "epafi/thyra/BddcFactory.hpp"
 
+#include <Thyra_DefaultLinearOpSource.hpp>
 #include <Thyra_DefaultScaledAdjointLinearOp.hpp>
 #include <Thyra_PreconditionerFactoryHelpers.hpp>
 #include <Thyra_TpetraThyraWrappers.hpp>
@@ -42,11 +43,12 @@ TEST(BddcFactoryTest, MakesBddcOfAnUnassembledOrAnAssembledOperator) {
   EXPECT_LE(linear::relativeError(applied(*Thyra::prec<double>(alone, Thyra::scale(2.0, unassembled)), b),
                                   0.5 * denseOf(expected)),
             1e-14);
-  EXPECT_FALSE(Thyra::isCompatible(alone, *matrix));
+  EXPECT_FALSE(alone.isCompatible(*Thyra::defaultLinearOpSource<double>(matrix)));
   test::expectSays(test::refusal([&] { Thyra::prec<double>(alone, matrix); }),
                    {"BDDC knows no decomposition"});
   const linear::LinearProblem other(linear::plate(6, decomposition::grid(2, 2)));
-  EXPECT_FALSE(Thyra::isCompatible(informed, *fetidp::asThyra(assembled(*other.k))));
+  EXPECT_FALSE(
+      informed.isCompatible(*Thyra::defaultLinearOpSource<double>(fetidp::asThyra(assembled(*other.k)))));
 }
 
 TEST(BddcFactoryTest, WrongParametersAreRefusedByName) {

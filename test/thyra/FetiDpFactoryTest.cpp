@@ -4,6 +4,7 @@
 #include "epafi/fetidp/ThyraOperators.hpp"
 #include "epafi/thyra/FetiDpFactory.hpp"
 
+#include <Thyra_DefaultLinearOpSource.hpp>
 #include <Thyra_DefaultScaledAdjointLinearOp.hpp>
 #include <Thyra_LinearOpWithSolveBase.hpp>
 #include <Thyra_LinearOpWithSolveFactoryHelpers.hpp>
@@ -110,7 +111,7 @@ TEST(FetiDpFactoryTest, LooksThroughFactorsAndTransposes) {
   Sample sample;
   const Operators scaled = Thyra::scale(-4.0, Thyra::adjoint(sample.k));
   const FetiDpFactory factory;
-  EXPECT_TRUE(Thyra::isCompatible(factory, *scaled));
+  EXPECT_TRUE(factory.isCompatible(*Thyra::defaultLinearOpSource<double>(scaled)));
   const auto op = Thyra::linearOpWithSolve<double>(factory, scaled);
   EXPECT_EQ(sample.solve(*op).solveStatus, Thyra::SOLVE_STATUS_CONVERGED);
   EXPECT_LE(sample.residual(-4.0), 1.001e-8);
@@ -119,10 +120,10 @@ TEST(FetiDpFactoryTest, LooksThroughFactorsAndTransposes) {
 TEST(FetiDpFactoryTest, SaysNoToOtherOperators) {
   const Sample sample;
   const FetiDpFactory factory;
-  EXPECT_TRUE(Thyra::isCompatible(factory, *sample.k));
+  EXPECT_TRUE(factory.isCompatible(*Thyra::defaultLinearOpSource<double>(sample.k)));
   const RCP<const Operator> matrix = assembled(*sample.problem.k);
   const Operators other = fetidp::asThyra(matrix);
-  EXPECT_FALSE(Thyra::isCompatible(factory, *other));
+  EXPECT_FALSE(factory.isCompatible(*Thyra::defaultLinearOpSource<double>(other)));
   test::expectSays(test::refusal([&] { Thyra::linearOpWithSolve<double>(factory, other); }),
                    {"FETI-DP cannot solve with the operator", "UnassembledOperator"});
 }
