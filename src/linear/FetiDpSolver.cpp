@@ -35,26 +35,31 @@ void requireFinite(const std::vector<double>& columns, const char* what) {
                        " that is not a finite number, or too large to be squared; check it");
 }
 
+} // namespace
+
+/// Where the columns of a solve stand.
+struct FetiDpSolver::Columns {
+  const MultiVector& b;
+  MultiVector& x;
+  MultiVector residual;                         ///< b − Kx
+  std::vector<double> norms, references, goals; ///< ‖b − Kx‖, what it is relative to, and what it may be
+
+  /// Those whose residuals are larger than they may be.
+  [[nodiscard]] std::vector<std::size_t> open() const {
+    std::vector<std::size_t> columns;
+    for (std::size_t j = 0; j < norms.size(); ++j)
+      if (!(norms[j] <= goals[j]))
+        columns.push_back(j);
+    return columns;
+  }
+};
+
+namespace {
+
 /// r = b − Kx.
 void residualOf(const UnassembledOperator& k, const MultiVector& b, const MultiVector& x, MultiVector& r) {
   r.assign(b);
   k.apply(x, r, Teuchos::NO_TRANS, -1.0, 1.0);
-}
-
-/// Columns whose residuals are larger than their goals.
-std::vector<std::size_t> unmet(const std::vector<double>& residuals, const std::vector<double>& goals) {
-  std::vector<std::size_t> columns;
-  for (std::size_t j = 0; j < residuals.size(); ++j)
-    if (!(residuals[j] <= goals[j]))
-      columns.push_back(j);
-  return columns;
-}
-
-std::vector<double> pick(const std::vector<double>& values, const std::vector<std::size_t>& columns) {
-  std::vector<double> picked;
-  for (const std::size_t column : columns)
-    picked.push_back(values[column]);
-  return picked;
 }
 
 std::string reasonOf(const LinearReport& report, DualOutcome::Status status) {
@@ -64,8 +69,9 @@ std::string reasonOf(const LinearReport& report, DualOutcome::Status status) {
     return "stopped after " + std::to_string(report.iterations) +
            " iterations; allow more by \"Maximum Iterations\", or raise the tolerance";
   if (status == DualOutcome::Status::indefinite)
-    return "a direction with negative energy was met: K of a subdomain is not positive definite once it is "
-           "held at the crosspoints";
+    return "a direction without energy was met: K of a subdomain that is held at the crosspoints is not "
+           "positive "
+           "definite, or round-off is all that is left";
   return "round-off allows no smaller residual; raise the tolerance";
 }
 
@@ -84,54 +90,67 @@ FetiDpSolver::FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParamet
       shares_(k_->problem(), k_->exchange(), parameters.preconditioner.scaling),
       primal_(*k_, *inverse_, parameters.preconditioner.scaling), multipliers_(inverse_->multiplierPlan()) {}
 
-LinearReport FetiDpSolver::solve(const MultiVector& b, MultiVector& x, double tolerance,
-                                 ResidualReference reference) {
+FetiDpSolver::Columns FetiDpSolver::begin(const MultiVector& b, MultiVector& x, double tolerance,
+                                          ResidualReference reference) const {
   const std::vector<double> sizes = norms(b);
   requireFinite(sizes, "the right-hand side");
   requireFinite(norms(x), "the start vector");
-  MultiVector residual(b.getMap(), b.getNumVectors());
   for (std::size_t j = 0; j < sizes.size(); ++j)
     if (sizes[j] == 0)
       x.getVectorNonConst(j)->putScalar(0.0); // the solution, to the last digit
-  residualOf(*k_, b, x, residual);
-  std::vector<double> residuals = norms(residual);
-  const std::vector<double> references = reference == ResidualReference::rightHandSide ? sizes : residuals;
-  std::vector<double> goals = references;
-  for (double& goal : goals)
-    goal *= tolerance;
+  Columns columns{b, x, MultiVector(b.getMap(), b.getNumVectors()), {}, {}, {}};
+  residualOf(*k_, b, x, columns.residual);
+  columns.norms = norms(columns.residual);
+  columns.references = reference == ResidualReference::rightHandSide ? sizes : columns.norms;
+  for (const double size : columns.references)
+    columns.goals.push_back(tolerance * size);
+  return columns;
+}
 
+LinearReport FetiDpSolver::solve(const MultiVector& b, MultiVector& x, double tolerance,
+                                 ResidualReference reference) {
+  Columns columns = begin(b, x, tolerance, reference);
   LinearReport report;
   DualOutcome outcome;
   constexpr int maxCorrections = 4; // of what round-off in one leaves over
-  for (int correction = 0; correction < maxCorrections && outcome.status == DualOutcome::Status::reached;
+  bool isBetter = true;
+  for (int correction = 0; correction < maxCorrections && isBetter && !columns.open().empty() &&
+                           outcome.status == DualOutcome::Status::reached;
        ++correction) {
-    const std::vector<std::size_t> open = unmet(residuals, goals);
-    if (open.empty())
-      break;
-    const Teuchos::ArrayView<const std::size_t> columns = Teuchos::arrayViewFromVector(open);
-    const RCP<MultiVector> better = x.subCopy(columns);
-    outcome = correct(*residual.subView(columns), pick(goals, open),
-                      parameters_.maxIterations - report.iterations, *better);
+    isBetter = improve(columns, parameters_.maxIterations - report.iterations, outcome);
     report.iterations += outcome.steps;
-    const RCP<MultiVector> left = rcp(new MultiVector(b.getMap(), open.size()));
-    residualOf(*k_, *b.subView(columns), *better, *left);
-    const std::vector<double> now = norms(*left);
-    bool isBetter = false;
-    for (std::size_t j = 0; j < open.size(); ++j)
-      if (now[j] < residuals[open[j]]) {
-        isBetter = isBetter || now[j] < 0.5 * residuals[open[j]];
-        x.getVectorNonConst(open[j])->assign(*better->getVector(j));
-        residual.getVectorNonConst(open[j])->assign(*left->getVector(j));
-        residuals[open[j]] = now[j];
-      }
-    if (!isBetter)
-      break;
   }
-  for (std::size_t j = 0; j < residuals.size(); ++j)
-    report.relativeResiduals.push_back(references[j] > 0 ? residuals[j] / references[j] : residuals[j]);
-  report.converged = unmet(residuals, goals).empty();
+  for (std::size_t j = 0; j < columns.norms.size(); ++j)
+    report.relativeResiduals.push_back(columns.references[j] > 0 ? columns.norms[j] / columns.references[j]
+                                                                 : columns.norms[j]);
+  report.converged = columns.open().empty();
   report.reason = reasonOf(report, outcome.status);
   return report;
+}
+
+/// Corrects the columns that are open, as far as that is of use; returns whether the residual of one has fallen by half.
+bool FetiDpSolver::improve(Columns& columns, int maxSteps, DualOutcome& outcome) {
+  const std::vector<std::size_t> open = columns.open();
+  const auto indices = Teuchos::arrayViewFromVector(open);
+  std::vector<double> goals;
+  for (const std::size_t j : open)
+    goals.push_back(columns.goals[j]);
+  const RCP<MultiVector> x = columns.x.subCopy(indices);
+  outcome = correct(*columns.residual.subView(indices), goals, maxSteps, *x);
+  MultiVector residual(x->getMap(), open.size());
+  residualOf(*k_, *columns.b.subView(indices), *x, residual);
+  const std::vector<double> now = norms(residual);
+  bool hasHalved = false;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const std::size_t j = open[i];
+    if (!(now[i] < columns.norms[j]))
+      continue;
+    hasHalved = hasHalved || now[i] < 0.5 * columns.norms[j];
+    columns.x.getVectorNonConst(j)->assign(*x->getVector(i));
+    columns.residual.getVectorNonConst(j)->assign(*residual.getVector(i));
+    columns.norms[j] = now[i];
+  }
+  return hasHalved;
 }
 
 /// x += K⁻¹ r, but for what the goals allow to be left.

@@ -49,10 +49,12 @@ public:
   [[nodiscard]] const RCP<const UnassembledOperator>& forwardOperator() const { return k_; }
 
 private:
+  struct Columns;
+  Columns begin(const MultiVector& b, MultiVector& x, double tolerance, ResidualReference reference) const;
+  bool improve(Columns& columns, int maxSteps, DualOutcome& outcome);
   DualOutcome correct(const MultiVector& residual, std::span<const double> goals, int maxSteps,
                       MultiVector& x);
   DualOutcome solveDual(std::span<const double> goals, int maxSteps);
-  void tornSolution(std::size_t numColumns);
 
   RCP<const UnassembledOperator> k_;
   FetiDpParameters parameters_;
