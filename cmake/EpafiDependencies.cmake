@@ -25,7 +25,7 @@ add_library(Epafi::muelu ALIAS epafi_muelu)
 target_include_directories(epafi_muelu SYSTEM INTERFACE ${MueLu_INCLUDE_DIRS} ${MueLu_TPL_INCLUDE_DIRS})
 target_link_libraries(epafi_muelu INTERFACE ${epafi_muelu_libraries} Epafi::trilinos)
 
-# Linear solvers by name, for Epafi::thyra alone.
+# Linear solvers by name, for Epafi::adapters alone.
 find_package(Stratimikos REQUIRED HINTS ${Trilinos_DIR}/../Stratimikos)
 set(epafi_stratimikos_libraries ${Stratimikos_LIBRARIES} ${Stratimikos_TPL_LIBRARIES})
 list(REMOVE_DUPLICATES epafi_stratimikos_libraries)
@@ -33,6 +33,15 @@ add_library(epafi_stratimikos INTERFACE)
 add_library(Epafi::stratimikos ALIAS epafi_stratimikos)
 target_include_directories(epafi_stratimikos SYSTEM INTERFACE ${Stratimikos_INCLUDE_DIRS} ${Stratimikos_TPL_INCLUDE_DIRS})
 target_link_libraries(epafi_stratimikos INTERFACE ${epafi_stratimikos_libraries} Epafi::trilinos)
+
+# Overlapping Schwarz, for a side-by-side run alone.
+find_package(ShyLU_DDFROSch REQUIRED HINTS ${Trilinos_DIR}/../ShyLU_DDFROSch)
+set(epafi_frosch_libraries ${ShyLU_DDFROSch_LIBRARIES} ${ShyLU_DDFROSch_TPL_LIBRARIES})
+list(REMOVE_DUPLICATES epafi_frosch_libraries)
+add_library(epafi_frosch INTERFACE)
+add_library(Epafi::frosch ALIAS epafi_frosch)
+target_include_directories(epafi_frosch SYSTEM INTERFACE ${ShyLU_DDFROSch_INCLUDE_DIRS} ${ShyLU_DDFROSch_TPL_INCLUDE_DIRS})
+target_link_libraries(epafi_frosch INTERFACE ${epafi_frosch_libraries} Epafi::trilinos)
 
 # Sparse Cholesky factors of subdomains. Its dense parts go through the BLAS that Trilinos names; OpenBLAS it should be.
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)

@@ -5,6 +5,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -72,7 +73,7 @@ RCP<CrsMatrix> withRoomFor(const std::vector<std::shared_ptr<const SparseMatrix>
   exchange.sum(counts, sums);
   std::vector<std::size_t> room;
   for (const double entries : sums.getData(0))
-    room.push_back(static_cast<std::size_t>(entries));
+    room.push_back(std::max<std::size_t>(1, static_cast<std::size_t>(entries)));
   return rcp(new CrsMatrix(exchange.map(), Teuchos::arrayViewFromVector(room)));
 }
 
@@ -95,6 +96,10 @@ RCP<CrsMatrix> assembled(const UnassembledOperator& k) {
       matrix->insertGlobalValues(numbers[static_cast<std::size_t>(j)], Teuchos::arrayViewFromVector(columns),
                                  Teuchos::arrayView(local.valuePtr() + first, size));
     }
+  }
+  for (const LocalOrdinal row : k.identityRows()) {
+    const GlobalOrdinal number = k.getRangeMap()->getGlobalElement(row);
+    matrix->insertGlobalValues(number, Teuchos::tuple(number), Teuchos::tuple(1.0));
   }
   matrix->fillComplete();
   return matrix;

@@ -43,6 +43,7 @@ void BddcPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ET
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     toValues(subdomains[s], values_[s]);
   k_->exchange().sum(values_, *sum_);
+  k_->copyIdentity(x, *sum_);
   y.update(alpha, *sum_, beta);
 }
 

@@ -17,7 +17,7 @@
 
 namespace epafi::linear {
 
-/// n × n, symmetric positive definite, on the map of `k`.
+/// n × n, symmetric positive definite, on the map of `k`; the identity where K is.
 class BddcPreconditioner final : public Operator {
 public:
   /// Factorises; shares k. Collective.

@@ -167,6 +167,7 @@ DualOutcome FetiDpSolver::correct(const MultiVector& residual, std::span<const d
     toValues(subdomains[s], torn_[s]);
   MultiVector mean(x.getMap(), x.getNumVectors());
   k_->exchange().sum(torn_, mean);
+  k_->copyIdentity(residual, mean);
   x.update(1.0, mean, 1.0);
   return outcome;
 }

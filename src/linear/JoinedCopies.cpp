@@ -97,17 +97,18 @@ void requireCommonCrosspoints(const DecomposedProblem& problem, const SubdomainV
 } // namespace
 
 void requireJoinedCopies(const DecomposedProblem& problem, const GlobalUnknowns& unknowns,
-                         const UnknownExchange& exchange) {
+                         std::size_t numOthers, const UnknownExchange& exchange) {
   const SubdomainVectors u = sample(problem, unknowns);
   requireNoJump(problem, unknowns, u);
   requireCommonCrosspoints(problem, u);
   const auto joined = static_cast<GlobalOrdinal>(problem.remainderMap->getGlobalNumElements() +
                                                  problem.crosspointMap->getGlobalNumElements()) -
                       problem.numEqualities;
-  const auto numbers = static_cast<GlobalOrdinal>(exchange.map()->getGlobalNumElements());
+  const auto numbers = static_cast<GlobalOrdinal>(exchange.map()->getGlobalNumElements()) -
+                       sumOverRanks(*problem.comm, static_cast<GlobalOrdinal>(numOthers));
   if (numbers != joined)
-    throw InputError("the map of the whole problem has " + std::to_string(numbers) +
-                     " numbers, but the subdomains, joined by gluing rows and crosspoints, have " +
+    throw InputError("the unknowns have " + std::to_string(numbers) +
+                     " global numbers, but the subdomains, joined by gluing rows and crosspoints, have " +
                      std::to_string(joined) +
                      " unknowns; each number must be one unknown with all its copies");
 }

@@ -1,45 +1,52 @@
 #include "epafi/linear/UnassembledOperator.hpp"
 
-#include "epafi/base/Collective.hpp"
-#include "epafi/base/Errors.hpp"
 #include "epafi/linear/JoinedCopies.hpp"
 #include "epafi/linear/NodalBasis.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
-#include <string>
 #include <utility>
 
 namespace epafi::linear {
 namespace {
 
-/// The lists as they are. \throws InputError if there is not one number for each unknown. Collective.
-const GlobalUnknowns& checked(const decomposition::DecomposedProblem& problem,
-                              const GlobalUnknowns& unknowns) {
-  collectively(*problem.comm, [&] {
-    if (unknowns.size() != problem.subdomains.size())
-      throw InputError("there are lists of global unknowns for " + std::to_string(unknowns.size()) +
-                       " subdomains, but the problem has " + std::to_string(problem.subdomains.size()) +
-                       " on this rank; give one list for each");
-    for (std::size_t s = 0; s < unknowns.size(); ++s)
-      if (unknowns[s].size() != problem.subdomains[s].unknownPosition.size())
-        throw InputError("subdomain " + std::to_string(problem.subdomains[s].number) + " has " +
-                         std::to_string(problem.subdomains[s].unknownPosition.size()) + " unknowns, but " +
-                         std::to_string(unknowns[s].size()) +
-                         " global numbers; give one for each unknown and none for prescribed positions");
-  });
-  return unknowns;
+/// Local indices of the rows that no unknown has. Collective.
+std::vector<LocalOrdinal> rowsWithoutUnknown(const decomposition::DecomposedProblem& problem,
+                                             const UnknownExchange& exchange) {
+  SubdomainVectors ones;
+  for (const decomposition::Subdomain& subdomain : problem.subdomains)
+    ones.emplace_back(Eigen::MatrixXd::Ones(subdomain.stiffness->rows(), 1));
+  MultiVector copies(exchange.map(), 1);
+  exchange.sum(ones, copies);
+  std::vector<LocalOrdinal> rows;
+  const auto numbers = copies.getData(0);
+  for (Teuchos_Ordinal i = 0; i < numbers.size(); ++i)
+    if (numbers[i] == 0)
+      rows.push_back(static_cast<LocalOrdinal>(i));
+  return rows;
 }
 
 } // namespace
 
 UnassembledOperator::UnassembledOperator(std::shared_ptr<const decomposition::DecomposedProblem> problem,
-                                         const GlobalUnknowns& unknowns, const RCP<const Map>& map)
-    : problem_(std::move(problem)), unknowns_(checked(*problem_, unknowns)),
+                                         const GlobalUnknowns& atPositions, const RCP<const Map>& map)
+    : problem_(std::move(problem)), unknowns_(atUnknowns(*problem_, atPositions)),
       exchange_(map.is_null() ? ownedUnknowns(unknowns_, problem_->comm) : map, unknowns_),
+      identityRows_(rowsWithoutUnknown(*problem_, exchange_)),
       result_(rcp(new MultiVector(exchange_.map(), 1))) {
-  requireJoinedCopies(*problem_, unknowns_, exchange_);
+  requireJoinedCopies(*problem_, unknowns_, identityRows_.size(), exchange_);
+}
+
+void UnassembledOperator::copyIdentity(const MultiVector& x, MultiVector& y) const {
+  if (identityRows_.empty())
+    return;
+  for (std::size_t j = 0; j < x.getNumVectors(); ++j) {
+    const auto given = x.getData(j);
+    const auto copied = y.getDataNonConst(j);
+    for (const LocalOrdinal row : identityRows_)
+      copied[row] = given[row];
+  }
 }
 
 void UnassembledOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
@@ -55,6 +62,7 @@ void UnassembledOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::E
     toForcesOfValues(subdomain, forces_[s]);
   }
   exchange_.sum(forces_, *result_);
+  copyIdentity(x, *result_);
   y.update(alpha, *result_, beta); // beta = 0 overwrites, NaN included
 }
 

@@ -8,19 +8,19 @@
 #include <Tpetra_Operator.hpp>
 
 #include <memory>
+#include <vector>
 
 namespace epafi::linear {
 
-/// n × n, n the unknowns of the whole problem; symmetric, positive definite unless a body floats. Contact, if the problem has
-/// any, does not enter.
+/// n × n, symmetric, positive definite unless a body floats. Contact, if the problem has any, does not enter. Where the map has
+/// numbers that no unknown has, those of prescribed values in most applications, K is the identity.
 class UnassembledOperator final : public Operator {
 public:
-  /// \param problem   shared; must not change but for its loads and gaps
-  /// \param unknowns  see GlobalUnknowns.hpp
-  /// \param map       one-to-one, all numbers and no others; null: ownedUnknowns
-  /// \throws InputError, the same on all ranks, if lists are too short or too long, if the map lacks a number or has one that no
-  /// subdomain has, or if copies of a number are not joined by the problem's gluing rows and crosspoints, or those of different
-  /// numbers are.
+  /// \param problem      shared; must not change but for its loads and gaps
+  /// \param atPositions  see GlobalUnknowns.hpp
+  /// \param map          one-to-one, with the numbers of all unknowns; null: ownedUnknowns
+  /// \throws InputError, the same on all ranks, if lists are too short or too long, if the map lacks a number, or if copies of a
+  /// number are not joined by the problem's gluing rows and crosspoints, or those of different numbers are.
   /// Collective.
   UnassembledOperator(std::shared_ptr<const decomposition::DecomposedProblem> problem,
                       const GlobalUnknowns& unknowns, const RCP<const Map>& map = Teuchos::null);
@@ -37,14 +37,20 @@ public:
     return problem_;
   }
   [[nodiscard]] const UnknownExchange& exchange() const { return exchange_; }
+  /// Of each subdomain's unknowns.
   [[nodiscard]] const GlobalUnknowns& unknowns() const { return unknowns_; }
-  /// b = Σ R^sᵀ f^s, the problem's own loads. Collective.
+  /// y ← x where K is the identity, on both of which the map is; other entries stay. Not collective.
+  void copyIdentity(const MultiVector& x, MultiVector& y) const;
+  /// Local indices, on the map, of the rows where K is the identity.
+  [[nodiscard]] const std::vector<LocalOrdinal>& identityRows() const { return identityRows_; }
+  /// b = Σ R^sᵀ f^s, the problem's own loads; 0 where K is the identity. Collective.
   [[nodiscard]] RCP<Vector> load() const;
 
 private:
   std::shared_ptr<const decomposition::DecomposedProblem> problem_;
   GlobalUnknowns unknowns_;
   UnknownExchange exchange_;
+  std::vector<LocalOrdinal> identityRows_;
   mutable SubdomainVectors values_, forces_; ///< work
   mutable RCP<MultiVector> result_;          ///< work
 };

@@ -4,6 +4,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
+#include "epafi/linear/BddcPreconditioner.hpp"
 #include "epafi/linear/FetiDpSolver.hpp"
 
 #include <Eigen/Cholesky>
@@ -100,6 +101,19 @@ TEST(FetiDpSolverTest, StartsFromTheVectorThatItIsGiven) {
   const LinearReport relative = solver.solve(*b, x, 1e-3, ResidualReference::startResidual);
   EXPECT_TRUE(relative.converged);
   EXPECT_GT(relative.iterations, 0);
+}
+
+TEST(FetiDpSolverTest, PrescribedValuesInTheMapAreTakenFromTheRightHandSide) {
+  const LinearProblem free(plate(6, decomposition::grid(2, 2)));
+  const RCP<const Map> map = rcp(new Map(49, 0, world())); // all nodes
+  const RCP<const UnassembledOperator> k =
+      rcp(new UnassembledOperator(free.k->sharedProblem(), globalUnknowns(*free.decomposition), map));
+  const Eigen::VectorXd loads = Eigen::VectorXd::LinSpaced(49, -3, 5);
+  Vector x(map);
+  EXPECT_TRUE(FetiDpSolver(k, {}).solve(*spreadOn(map, loads), x, 1e-11).converged);
+  EXPECT_LE(relativeError(denseOf(x), denseOf(*k).llt().solve(loads)), 1e-9);
+  const Eigen::MatrixXd bddc = denseOf(BddcPreconditioner(k, {}));
+  EXPECT_LE((bddc.col(0) - Eigen::VectorXd::Unit(49, 0)).norm(), 0); // of a supported node
 }
 
 TEST(FetiDpSolverTest, SaysWhyItStopped) {

@@ -47,6 +47,27 @@ TEST(UnassembledOperatorTest, AddsMultiplesOfProducts) {
   EXPECT_LE(relativeError(denseOf(*y), 0.5 * before - 2 * denseOf(*problem.k) * x), 1e-13);
 }
 
+/// All nodes of a plate as numbers of the map, supported ones too.
+struct WholePlate {
+  LinearProblem free{plate(6, decomposition::grid(2, 2))};
+  RCP<const Map> map = rcp(new Map(49, 0, world()));
+  RCP<const UnassembledOperator> k =
+      rcp(new UnassembledOperator(free.k->sharedProblem(), globalUnknowns(*free.decomposition), map));
+};
+
+TEST(UnassembledOperatorTest, IsTheIdentityWhereTheMapHasMoreThanTheUnknowns) {
+  const WholePlate plate;
+  const Eigen::MatrixXd k = denseOf(*plate.k);
+  EXPECT_LE(relativeError(k, denseOf(*assembled(*plate.k))), 1e-14);
+  std::vector<Eigen::Index> isFree;
+  for (Eigen::Index node = 0; node < 49; ++node)
+    if (node % 7 > 0 && node < 42) // the left and the upper side are supported
+      isFree.push_back(node);
+    else
+      EXPECT_LE((k.col(node) - Eigen::VectorXd::Unit(49, node)).norm(), 0);
+  EXPECT_LE(relativeError(k(isFree, isFree), denseOf(*plate.free.k)), 1e-15);
+}
+
 TEST(UnassembledOperatorTest, TakesTheApplicationsMap) {
   const LinearProblem problem(plate(6, decomposition::grid(2, 2)));
   // The same numbers, all on the last rank.
@@ -60,9 +81,17 @@ TEST(UnassembledOperatorTest, TakesTheApplicationsMap) {
   }
   const RCP<const Map> map = rcp(
       new Map(static_cast<Tpetra::global_size_t>(numbers), Teuchos::arrayViewFromVector(mine), 0, world()));
-  const UnassembledOperator elsewhere(problem.k->sharedProblem(), problem.k->unknowns(), map);
+  const UnassembledOperator elsewhere(problem.k->sharedProblem(), globalUnknowns(*problem.decomposition),
+                                      map);
   EXPECT_TRUE(elsewhere.getDomainMap()->isSameAs(*map));
   EXPECT_LE(relativeError(denseOf(elsewhere), denseOf(*problem.k)), 1e-15);
+}
+
+/// The number of a subdomain's unknown.
+GlobalOrdinal& numberOf(const decomposition::DecomposedProblem& problem, GlobalUnknowns& unknowns,
+                        std::size_t s, std::ptrdiff_t unknown) {
+  return unknowns[s][static_cast<std::size_t>(
+      problem.subdomains[s].unknownPosition[static_cast<std::size_t>(unknown)])];
 }
 
 /// What is said of numbers that `change` has changed, on the only rank or on all of several.
@@ -70,7 +99,7 @@ std::string
 refusalOf(const std::function<void(const decomposition::DecomposedProblem&, GlobalUnknowns&)>& change,
           const scene::Scene& scene = plate(6, decomposition::grid(2, 2))) {
   const LinearProblem problem(scene);
-  GlobalUnknowns unknowns = problem.k->unknowns();
+  GlobalUnknowns unknowns = globalUnknowns(*problem.decomposition);
   change(problem.k->problem(), unknowns);
   return test::refusal([&] { UnassembledOperator(problem.k->sharedProblem(), unknowns); });
 }
@@ -82,10 +111,10 @@ TEST(UnassembledOperatorTest, RefusesNumbersThatDoNotFit) {
                      for (auto& list : unknowns)
                        list.pop_back();
                    }),
-                   {"subdomain ", "unknowns, but", "give one for each unknown"});
-  test::expectSays(refusalOf([](const auto&, GlobalUnknowns& unknowns) {
-                     for (auto& list : unknowns)
-                       list.front() = -3;
+                   {"subdomain ", "positions (nodes times components)", "give one for each position"});
+  test::expectSays(refusalOf([](const decomposition::DecomposedProblem& problem, GlobalUnknowns& unknowns) {
+                     for (std::size_t s = 0; s < unknowns.size(); ++s)
+                       numberOf(problem, unknowns, s, 0) = -3;
                    }),
                    {"is -3", "must not be negative"});
 }
@@ -97,7 +126,7 @@ TEST(UnassembledOperatorTest, RefusesNumbersThatContradictTheGluing) {
         if (problem.subdomains[s].number == 0) {
           const int unknown = crosspoint ? problem.subdomains[s].crosspointUnknowns.front()
                                          : problem.subdomains[s].constraint.front().unknown;
-          unknowns[s][static_cast<std::size_t>(unknown)] = 100000;
+          numberOf(problem, unknowns, s, unknown) = 100000;
         }
     };
   };
@@ -106,14 +135,14 @@ TEST(UnassembledOperatorTest, RefusesNumbersThatContradictTheGluing) {
   // Two unknowns of a subdomain's interior that are not joined.
   const auto joinInteriors = [](const decomposition::DecomposedProblem& problem, GlobalUnknowns& unknowns) {
     for (std::size_t s = 0; s < unknowns.size(); ++s) {
-      std::vector<char> isInterior(unknowns[s].size(), 1);
+      std::vector<char> isInterior(problem.subdomains[s].unknownPosition.size(), 1);
       for (const auto& entry : problem.subdomains[s].constraint)
         isInterior[static_cast<std::size_t>(entry.unknown)] = 0;
       for (const int unknown : problem.subdomains[s].crosspointUnknowns)
         isInterior[static_cast<std::size_t>(unknown)] = 0;
       const auto first = std::find(isInterior.begin(), isInterior.end(), 1) - isInterior.begin();
       const auto second = std::find(isInterior.begin() + first + 1, isInterior.end(), 1) - isInterior.begin();
-      unknowns[s][static_cast<std::size_t>(first)] = unknowns[s][static_cast<std::size_t>(second)];
+      numberOf(problem, unknowns, s, first) = numberOf(problem, unknowns, s, second);
     }
   };
   test::expectSays(refusalOf(joinInteriors), {"each number must be one unknown with all its copies"});
@@ -122,9 +151,11 @@ TEST(UnassembledOperatorTest, RefusesNumbersThatContradictTheGluing) {
 TEST(UnassembledOperatorTest, RefusesAMapThatLacksANumber) {
   const LinearProblem problem(plate(6, decomposition::grid(2, 2)));
   const RCP<const Map> tooFew = rcp(new Map(3, 0, world()));
-  test::expectSays(
-      test::refusal([&] { UnassembledOperator(problem.k->sharedProblem(), problem.k->unknowns(), tooFew); }),
-      {"the map of the whole problem has no such number"});
+  test::expectSays(test::refusal([&] {
+                     UnassembledOperator(problem.k->sharedProblem(), globalUnknowns(*problem.decomposition),
+                                         tooFew);
+                   }),
+                   {"the map of the whole problem has no such number"});
 }
 
 TEST(NodalBasisTest, ForcesDoTheSameWorkInBothBases) {

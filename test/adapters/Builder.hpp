@@ -2,11 +2,11 @@
 
 /// An application's own Stratimikos builder, which only C++17 takes with Trilinos 13.2.
 
-#include "epafi/thyra/Strategies.hpp"
+#include "epafi/adapters/Strategies.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 /// What a builder with Epafi's two strategies, enabled under other names than their own, makes of a list.
 RCP<LinearSolveStrategy> strategyOfOwnBuilder(const RCP<Teuchos::ParameterList>& list,
@@ -14,4 +14,4 @@ RCP<LinearSolveStrategy> strategyOfOwnBuilder(const RCP<Teuchos::ParameterList>&
 /// The lists that a builder with Epafi's two strategies takes.
 RCP<const Teuchos::ParameterList> validParametersOfBuilder();
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

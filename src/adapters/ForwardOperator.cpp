@@ -1,10 +1,10 @@
-#include "epafi/thyra/ForwardOperator.hpp"
+#include "epafi/adapters/ForwardOperator.hpp"
 
 #include <Thyra_ScaledAdjointLinearOpBase.hpp>
 #include <Thyra_TpetraThyraWrappers.hpp>
 #include <Tpetra_Operator.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 ForwardOperator forwardOperator(const Thyra::LinearOpSourceBase<double>& source) {
   using TpetraLinearOp = Thyra::TpetraLinearOp<double, LocalOrdinal, GlobalOrdinal, Operator::node_type>;
@@ -21,4 +21,4 @@ ForwardOperator forwardOperator(const Thyra::LinearOpSourceBase<double>& source)
   return forward;
 }
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

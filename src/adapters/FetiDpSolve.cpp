@@ -1,4 +1,4 @@
-#include "epafi/thyra/FetiDpSolve.hpp"
+#include "epafi/adapters/FetiDpSolve.hpp"
 
 #include "epafi/base/Errors.hpp"
 
@@ -11,7 +11,7 @@
 
 #include <sstream>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 using Extraction =
@@ -58,8 +58,8 @@ RCP<const Thyra::VectorSpaceBase<double>> FetiDpSolve::domain() const {
 }
 
 std::string FetiDpSolve::description() const {
-  return source_.is_null() ? "epafi::thyra::FetiDpSolve{not initialized}"
-                           : "epafi::thyra::FetiDpSolve{" + source_->getOp()->description() + "}";
+  return source_.is_null() ? "epafi::adapters::FetiDpSolve{not initialized}"
+                           : "epafi::adapters::FetiDpSolve{" + source_->getOp()->description() + "}";
 }
 
 bool FetiDpSolve::opSupportedImpl(Thyra::EOpTransp transposition) const {
@@ -128,4 +128,4 @@ FetiDpSolve::solveImpl(Thyra::EOpTransp transposition, const Thyra::MultiVectorB
   return status;
 }
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

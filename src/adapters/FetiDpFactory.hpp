@@ -2,12 +2,12 @@
 
 /// FETI-DP as one of the linear solvers that Thyra knows.
 
+#include "epafi/adapters/FetiDpSolve.hpp"
 #include "epafi/linear/LinearParameters.hpp"
-#include "epafi/thyra/FetiDpSolve.hpp"
 
 #include <Thyra_LinearOpWithSolveFactoryBase_decl.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 /// Makes solvers for asThyra(UnassembledOperator), scaled and transposed ones too, and says no to all others.
 ///
@@ -41,4 +41,4 @@ private:
   linear::FetiDpParameters parameters_;
 };
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

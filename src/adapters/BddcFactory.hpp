@@ -7,7 +7,7 @@
 
 #include <Thyra_PreconditionerFactoryBase_decl.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 /// Makes linear::BddcPreconditioner. The decomposition comes from the forward operator if that is asThyra(UnassembledOperator), or
 /// from the operator that the factory was given, whose K is then taken for the forward operator's, an assembled matrix on the same
@@ -44,4 +44,4 @@ private:
   linear::BddcParameters parameters_;
 };
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

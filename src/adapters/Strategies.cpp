@@ -1,13 +1,13 @@
-#include "epafi/thyra/Strategies.hpp"
+#include "epafi/adapters/Strategies.hpp"
 
-#include "epafi/thyra/BddcFactory.hpp"
-#include "epafi/thyra/FetiDpFactory.hpp"
+#include "epafi/adapters/BddcFactory.hpp"
+#include "epafi/adapters/FetiDpFactory.hpp"
 
 #include <Teuchos_AbstractFactoryStd.hpp>
 
 #include <utility>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 class BddcFactories final : public Teuchos::AbstractFactory<PreconditioningStrategy> {
@@ -30,4 +30,4 @@ bddcStrategy(const RCP<const linear::UnassembledOperator>& k) {
   return rcp(new BddcFactories(k));
 }
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

@@ -1,8 +1,8 @@
 #include "../base/Refusal.hpp"
 #include "../linear/Samples.hpp"
 
+#include "epafi/adapters/FetiDpFactory.hpp"
 #include "epafi/fetidp/ThyraOperators.hpp"
-#include "epafi/thyra/FetiDpFactory.hpp"
 
 #include <Thyra_DefaultLinearOpSource.hpp>
 #include <Thyra_DefaultScaledAdjointLinearOp.hpp>
@@ -14,7 +14,7 @@
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 using linear::denseOf;
@@ -158,4 +158,4 @@ TEST(FetiDpFactoryTest, WrongParametersAreRefusedByName) {
 }
 
 } // namespace
-} // namespace epafi::thyra
+} // namespace epafi::adapters

@@ -2,8 +2,8 @@
 #include "../linear/Samples.hpp"
 #include "Builder.hpp"
 
+#include "epafi/adapters/Stratimikos.hpp"
 #include "epafi/fetidp/ThyraOperators.hpp"
-#include "epafi/thyra/Stratimikos.hpp"
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <Thyra_LinearOpWithSolveFactoryHelpers.hpp>
@@ -12,7 +12,7 @@
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 using linear::denseOf;
@@ -93,4 +93,4 @@ TEST(StratimikosTest, ItsValidParametersAreThoseOfTheFactories) {
 }
 
 } // namespace
-} // namespace epafi::thyra
+} // namespace epafi::adapters

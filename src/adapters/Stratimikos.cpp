@@ -1,8 +1,8 @@
-#include "epafi/thyra/Stratimikos.hpp"
+#include "epafi/adapters/Stratimikos.hpp"
 
 #include <Stratimikos_DefaultLinearSolverBuilder.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 void enableFetiDp(Stratimikos::DefaultLinearSolverBuilder& builder, const std::string& name) {
   builder.setLinearSolveStrategyFactory(fetiDpStrategy(), name);
@@ -22,4 +22,4 @@ RCP<LinearSolveStrategy> linearSolveStrategy(const RCP<Teuchos::ParameterList>& 
   return Thyra::createLinearSolveStrategy(builder);
 }
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

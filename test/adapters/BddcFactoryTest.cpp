@@ -1,9 +1,9 @@
 #include "../base/Refusal.hpp"
 #include "../linear/Samples.hpp"
 
+#include "epafi/adapters/BddcFactory.hpp"
 #include "epafi/fetidp/ThyraOperators.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
-#include "epafi/thyra/BddcFactory.hpp"
 
 #include <Thyra_DefaultLinearOpSource.hpp>
 #include <Thyra_DefaultScaledAdjointLinearOp.hpp>
@@ -13,7 +13,7 @@
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 using linear::denseOf;
@@ -59,4 +59,4 @@ TEST(BddcFactoryTest, WrongParametersAreRefusedByName) {
 }
 
 } // namespace
-} // namespace epafi::thyra
+} // namespace epafi::adapters

@@ -7,7 +7,7 @@
 #include <Thyra_LinearOpBase_decl.hpp>
 #include <Thyra_LinearOpSourceBase.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 /// a K, of which K is an UnassembledOperator; its transpose is the same.
 struct ForwardOperator {
@@ -18,4 +18,4 @@ struct ForwardOperator {
 /// Looks through Thyra's wrappers for factors and transposes. Not collective.
 ForwardOperator forwardOperator(const Thyra::LinearOpSourceBase<double>& source);
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

@@ -1,10 +1,10 @@
 #include "Builder.hpp"
 
-#include "epafi/thyra/Stratimikos.hpp"
+#include "epafi/adapters/Stratimikos.hpp"
 
 #include <Stratimikos_DefaultLinearSolverBuilder.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 RCP<LinearSolveStrategy> strategyOfOwnBuilder(const RCP<Teuchos::ParameterList>& list,
                                               const RCP<const linear::UnassembledOperator>& k) {
@@ -22,4 +22,4 @@ RCP<const Teuchos::ParameterList> validParametersOfBuilder() {
   return builder.getValidParameters();
 }
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

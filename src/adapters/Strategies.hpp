@@ -12,7 +12,7 @@ namespace epafi::linear {
 class UnassembledOperator;
 } // namespace epafi::linear
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 using LinearSolveStrategy = Thyra::LinearOpWithSolveFactoryBase<double>;
 using PreconditioningStrategy = Thyra::PreconditionerFactoryBase<double>;
@@ -24,4 +24,4 @@ RCP<const Teuchos::AbstractFactory<LinearSolveStrategy>> fetiDpStrategy();
 RCP<const Teuchos::AbstractFactory<PreconditioningStrategy>>
 bddcStrategy(const RCP<const linear::UnassembledOperator>& k);
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

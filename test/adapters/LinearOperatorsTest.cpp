@@ -11,7 +11,7 @@
 
 #include <sstream>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 /// Thyra's own checks with random vectors: linear in both ways of multiplying, equal adjoint, symmetric.
@@ -78,4 +78,4 @@ TEST(LinearOperatorsTest, TheProjectorLeavesWhatIsInEquilibrium) {
 }
 
 } // namespace
-} // namespace epafi::thyra
+} // namespace epafi::adapters

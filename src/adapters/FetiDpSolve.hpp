@@ -2,14 +2,14 @@
 
 /// K and its solution by FETI-DP as Thyra sees them. Made by FetiDpFactory.
 
+#include "epafi/adapters/ForwardOperator.hpp"
 #include "epafi/linear/FetiDpSolver.hpp"
-#include "epafi/thyra/ForwardOperator.hpp"
 
 #include <Thyra_LinearOpWithSolveBase_decl.hpp>
 
 #include <memory>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 /// a K, symmetric, so that transposes are the same. As Thyra has it, one that is not initialised has no range.
 class FetiDpSolve final : public Thyra::LinearOpWithSolveBase<double> {
@@ -51,4 +51,4 @@ private:
   std::shared_ptr<linear::FetiDpSolver> solver_;
 };
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

@@ -1,10 +1,10 @@
-#include "epafi/thyra/BddcFactory.hpp"
+#include "epafi/adapters/BddcFactory.hpp"
 
+#include "epafi/adapters/ForwardOperator.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/fetidp/ThyraOperators.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
-#include "epafi/thyra/ForwardOperator.hpp"
 
 #include <Teuchos_VerboseObjectParameterListHelpers.hpp>
 #include <Thyra_DefaultPreconditioner.hpp>
@@ -15,7 +15,7 @@
 
 #include <utility>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 Thyra::DefaultPreconditioner<double>& ours(Thyra::PreconditionerBase<double>* preconditioner) {
@@ -100,4 +100,4 @@ RCP<const Teuchos::ParameterList> BddcFactory::getValidParameters() const {
   return valid;
 }
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

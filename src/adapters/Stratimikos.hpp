@@ -4,7 +4,7 @@
 /// C++17: g++ up to 13 does not take the header of DefaultLinearSolverBuilder in Trilinos 13.2 as C++20. A file in C++20 takes
 /// linearSolveStrategy.
 
-#include "epafi/thyra/Strategies.hpp"
+#include "epafi/adapters/Strategies.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 
@@ -14,7 +14,7 @@ namespace Stratimikos {
 class DefaultLinearSolverBuilder;
 } // namespace Stratimikos
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 
 /// From now on "Linear Solver Type" = `name` is FetiDpFactory, with its parameters in the list "Linear Solver Types/`name`".
 /// Precondition: the builder has no parameters yet. Not collective.
@@ -32,4 +32,4 @@ void enableBddc(Stratimikos::DefaultLinearSolverBuilder& builder,
 RCP<LinearSolveStrategy> linearSolveStrategy(const RCP<Teuchos::ParameterList>& list,
                                              const RCP<const linear::UnassembledOperator>& k = Teuchos::null);
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters

@@ -1,4 +1,4 @@
-#include "epafi/thyra/FetiDpFactory.hpp"
+#include "epafi/adapters/FetiDpFactory.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
@@ -6,7 +6,7 @@
 #include <Teuchos_VerboseObjectParameterListHelpers.hpp>
 #include <Thyra_LinearOpWithSolveFactoryBase.hpp>
 
-namespace epafi::thyra {
+namespace epafi::adapters {
 namespace {
 
 FetiDpSolve& ours(Thyra::LinearOpWithSolveBase<double>* op) {
@@ -74,4 +74,4 @@ RCP<const Teuchos::ParameterList> FetiDpFactory::getValidParameters() const {
   return valid;
 }
 
-} // namespace epafi::thyra
+} // namespace epafi::adapters
