@@ -97,6 +97,20 @@ void ContactSolver::setup(const decomposition::DecomposedProblem& problem) {
   times_.setup = longest(*problem.comm, start);
 }
 
+void ContactSolver::update() {
+  if (!inverse_)
+    throw Error("ContactSolver::update was called before ContactSolver::setup; call setup first");
+  const double start = Teuchos::Time::wallTime();
+  dual_.reset();
+  const std::shared_ptr<fetidp::GeneralizedInverse> inverse = std::move(inverse_); // none is left should this fail
+  fetidp::requireFiniteMatrices(*problem_);
+  inverse->update(*problem_);
+  inverse_ = inverse;
+  dual_ = std::make_unique<fetidp::DualProblem>(*problem_, inverse_, dualParameters_);
+  times_ = {};
+  times_.setup = longest(*problem_->comm, start);
+}
+
 fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* observer,
                                              const fetidp::ErrorBalance* balance) {
   if (!dual_)

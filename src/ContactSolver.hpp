@@ -6,7 +6,9 @@
 ///     solver.setup(problem);                  // factorises; once a matrix
 ///     ContactSolution a = solver.solve();     // for the loads and gaps that the problem holds
 ///     problem.subdomains[0].load *= 2;        // new loads, new gaps: no new setup
-///     ContactSolution b = solver.solve();
+///     ContactSolution b = solver.solve(a.multiplier.get());
+///     problem.subdomains[0].stiffness = k;    // new matrices, new rows of B: what still holds is kept
+///     solver.update();
 
 #include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
@@ -37,6 +39,14 @@ public:
   /// solves, its matrices may not. Collective. \throws InputError, SolvabilityError or Error, the same on all
   /// ranks.
   void setup(const decomposition::DecomposedProblem& problem);
+
+  /// Follows changes that the problem of `setup` has seen since: matrices K^s (another object with the same pattern) and rows
+  /// of B. Loads and gaps need no call. Less than `setup`: subdomains whose matrix is the same object, with B at the same
+  /// unknowns as before, keep their factors; others are factorised numerically, their ordering and symbolic part kept. The
+  /// algorithm is chosen, ‖F‖ estimated and the preconditioner made anew. What earlier calls returned stays valid but for
+  /// references into dualProblem(). Collective. \throws as `setup`.
+  /// Preconditions: `setup` was called; subdomains, unknowns and crosspoints are the same.
+  void update();
 
   /// Solves for the loads and gaps that the problem holds now. A solution that misses the tolerance is
   /// returned as well: ask `report().status`.

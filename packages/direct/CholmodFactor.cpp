@@ -193,6 +193,8 @@ public:
     x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(space.solution->x), b.rows(), b.cols());
   }
 
+  [[nodiscard]] const std::shared_ptr<const CholmodPattern>& pattern() const { return pattern_; }
+
   Eigen::MatrixXd schurComplement() override {
     const Eigen::MatrixXd lower = lastBlock();
     return inGivenOrder(productOfFactor(lower));
@@ -259,6 +261,11 @@ std::shared_ptr<const CholmodPattern> analyzePattern(const SparseMatrix& matrix,
 
 bool fits(const CholmodPattern& pattern, const SparseMatrix& matrix, const std::vector<int>& kept) {
   return pattern.fits(matrix, kept);
+}
+
+std::shared_ptr<const CholmodPattern> patternOf(const SpdFactor& factor) {
+  const auto* own = dynamic_cast<const CholmodFactor*>(&factor);
+  return own != nullptr ? own->pattern() : nullptr;
 }
 
 std::unique_ptr<SpdFactor> factorizeByCholmod(const SparseMatrix& matrix,

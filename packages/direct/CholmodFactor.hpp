@@ -19,6 +19,9 @@ std::shared_ptr<const CholmodPattern> analyzePattern(const SparseMatrix& matrix,
 /// Whether the pattern is that of `matrix` with the same unknowns kept, in the same order.
 bool fits(const CholmodPattern& pattern, const SparseMatrix& matrix, const std::vector<int>& kept);
 
+/// The pattern of a factor that CHOLMOD made; null of others.
+std::shared_ptr<const CholmodPattern> patternOf(const SpdFactor& factor);
+
 /// \throws Error if the matrix is not positive definite.
 std::unique_ptr<SpdFactor> factorizeByCholmod(const SparseMatrix& matrix,
                                               std::shared_ptr<const CholmodPattern> pattern,

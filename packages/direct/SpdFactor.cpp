@@ -51,7 +51,7 @@ Factorizer& Factorizer::operator=(Factorizer&&) noexcept = default;
 Factorizer::~Factorizer() = default;
 
 std::unique_ptr<SpdFactor> Factorizer::factorize(const SparseMatrix& matrix, const std::vector<int>& kept,
-                                                 const std::string& what) {
+                                                 const std::string& what, const SpdFactor* like) {
   if (matrix.rows() == 0)
     return std::make_unique<EmptyFactor>();
   if (solver_ != cholmod) {
@@ -65,16 +65,18 @@ std::unique_ptr<SpdFactor> Factorizer::factorize(const SparseMatrix& matrix, con
   }
   constexpr std::size_t numRemembered = 32;
   auto& known = patterns_->known;
+  const auto earlier = like != nullptr ? patternOf(*like) : nullptr;
+  if (earlier && std::find(known.begin(), known.end(), earlier) == known.end())
+    known.insert(known.begin(), earlier);
   auto found = std::find_if(known.begin(), known.end(),
                             [&](const auto& pattern) { return fits(*pattern, matrix, kept); });
   if (found == known.end()) {
-    if (known.size() == numRemembered)
-      known.pop_back();
     known.insert(known.begin(), analyzePattern(matrix, kept));
     ++numSymbolic_;
   } else {
     std::rotate(known.begin(), found, found + 1);
   }
+  known.resize(std::min(known.size(), numRemembered));
   return factorizeByCholmod(matrix, known.front(), what);
 }
 

@@ -56,9 +56,11 @@ public:
   ~Factorizer();
 
   /// Precondition: A square, SPD, both triangles stored; `kept` distinct and within it. n = 0 is allowed.
+  /// \param like  an earlier factor, of any Factorizer: what depends on its pattern alone is used again if it is the same
+  ///              and CHOLMOD made both; or null
   /// \throws Error if the factorisation fails, with `what` (the matrix's name for people, such as "subdomain 3") and n.
   std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::vector<int>& kept,
-                                       const std::string& what);
+                                       const std::string& what, const SpdFactor* like = nullptr);
 
   [[nodiscard]] const std::string& solver() const { return solver_; }
   /// Symbolic factorisations made so far: the number of different patterns, where the solver shares them.

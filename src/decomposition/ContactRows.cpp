@@ -3,11 +3,10 @@
 #include "epafi/decomposition/ContactPairs.hpp"
 #include "epafi/decomposition/ContactSearch.hpp"
 #include "epafi/decomposition/KnownRows.hpp"
-#include "epafi/decomposition/SharedValues.hpp"
+#include "epafi/decomposition/NodeShares.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -62,7 +61,7 @@ Eigen::Vector3d directionAt(const fem::BodyModel& model, GlobalOrdinal node, con
 struct Place {
   const Side* side;
   std::size_t row; ///< place among those of the contact
-  std::size_t piece, node;
+  PieceNode at;
 };
 
 /// In the order of the pieces, their sides and the sides' nodes.
@@ -78,57 +77,21 @@ std::vector<Place> placesOf(const std::vector<Side>& sides, const std::vector<Pi
       for (auto found = nodes.begin(); entry != side.nodes.end() && entry->first <= nodes.back(); ++entry) {
         found = std::lower_bound(found, nodes.end(), entry->first);
         if (*found == entry->first)
-          places.push_back({&side, entry->second, p, static_cast<std::size_t>(found - nodes.begin())});
+          places.push_back({&side, entry->second, {p, static_cast<std::size_t>(found - nodes.begin())}});
       }
     }
   }
   return places;
 }
 
-/// The share that each copy has in a node's mean, component by component, at places in order; nothing for nodes that are
-/// not shared, and crosspoints. Collective.
-class Shares {
-public:
-  Shares(const Layout& layout, const std::vector<Place>& places, const std::vector<Piece>& pieces,
-         const RCP<const Comm>& comm) {
-    std::vector<SharedNode> nodes;
-    for (const Place& place : places) {
-      const Piece& piece = pieces[place.piece];
-      if (const auto k = piece.sharing.find(place.node);
-          k && piece.isCrosspoint[place.node] == 0 && numberOf_.try_emplace(key(place), nodes.size()).second)
-        nodes.push_back({place.piece, *k});
-    }
-    const auto components = static_cast<std::size_t>(layout.models.front()->components());
-    Eigen::MatrixXd own(static_cast<Eigen::Index>(nodes.size()), static_cast<Eigen::Index>(components));
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Piece& piece = pieces[nodes[i].piece];
-      own.row(static_cast<Eigen::Index>(i)) =
-          stiffnessOf(piece, piece.sharing.node(nodes[i].place), components);
-    }
-    const std::vector<Eigen::MatrixXd> copies = valuesOfCopies(layout, pieces, nodes, own, comm);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      shares_.emplace_back(own.row(static_cast<Eigen::Index>(i)).array() / copies[i].colwise().sum().array());
-  }
-  /// Null if the node has no shares.
-  [[nodiscard]] const Eigen::RowVectorXd* at(const Place& place) const {
-    const auto found = numberOf_.find(key(place));
-    return found == numberOf_.end() ? nullptr : &shares_[found->second];
-  }
-
-private:
-  static std::pair<std::size_t, std::size_t> key(const Place& place) { return {place.piece, place.node}; }
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> numberOf_;
-  std::vector<Eigen::RowVectorXd> shares_;
-};
-
 /// Enters one row at a node of a piece; returns whether the piece has a free unknown in it.
 bool enterRow(const fem::BodyModel& model, const Place& place, GlobalOrdinal row,
               const Eigen::RowVectorXd* share, Piece& piece) {
   const auto components = static_cast<std::size_t>(model.components());
   const Eigen::Vector3d direction =
-      directionAt(model, piece.assembled.nodes[place.node], *place.side->contact, place.row);
+      directionAt(model, piece.assembled.nodes[place.at.node], *place.side->contact, place.row);
   const std::span<const int> unknowns =
-      std::span(piece.assembled.unknownOf).subspan(place.node * components, components);
+      std::span(piece.assembled.unknownOf).subspan(place.at.node * components, components);
   double free = 0;
   for (std::size_t c = 0; c < components; ++c)
     if (unknowns[c] >= 0)
@@ -171,11 +134,14 @@ Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contact
     return rows;
   const std::vector<Side> sides = sidesOf(contacts);
   const std::vector<Place> places = placesOf(sides, pieces);
-  const Shares shares(layout, places, pieces, comm);
+  std::vector<PieceNode> nodes;
+  for (const Place& place : places)
+    nodes.push_back(place.at);
+  const NodeShares shares(outlineOf(layout), nodes, pieces, comm);
   for (const Place& place : places) {
-    Piece& piece = pieces[place.piece];
-    const bool isLowest = piece.sharing.isLowest(piece.part, place.node);
-    const Eigen::RowVectorXd* share = shares.at(place);
+    Piece& piece = pieces[place.at.piece];
+    const bool isLowest = piece.sharing.isLowest(piece.part, place.at.node);
+    const Eigen::RowVectorXd* share = shares.at(place.at);
     const GlobalOrdinal row = place.side->contact->firstRow + static_cast<GlobalOrdinal>(place.row);
     if (isLowest && place.side->sign > 0)
       rows.owned.push_back(row);

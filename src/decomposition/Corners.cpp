@@ -17,17 +17,17 @@ Eigen::Vector3d toVector(const fem::Point& point) {
   return {point[0], point[1], point[2]};
 }
 
-std::vector<char> findCornersInPlane(const fem::Mesh& mesh, const Piece& piece) {
+std::vector<char> findCornersInPlane(const BodyOutline& body, const Piece& piece) {
   std::vector<char> isCorner(piece.sharing.size(), 0);
   for (std::size_t k = 0; k < isCorner.size(); ++k) {
     const std::size_t copies = piece.sharing.parts(k).size();
-    if (copies >= 3 || (copies == 2 && mesh.isBoundaryNode(piece.assembled.nodes[piece.sharing.node(k)])))
+    if (copies >= 3 || (copies == 2 && body.isBoundaryNode(piece.assembled.nodes[piece.sharing.node(k)])))
       isCorner[k] = 1;
   }
   return isCorner;
 }
 
-std::vector<char> findCornersInSpace(const fem::Mesh& mesh, const Piece& piece) {
+std::vector<char> findCornersInSpace(const BodyOutline& body, const Piece& piece) {
   std::map<std::vector<int>, int> numNodesOf; // shared by just these parts
   for (std::size_t k = 0; k < piece.sharing.size(); ++k)
     if (const std::span<const int> parts = piece.sharing.parts(k); parts.size() >= 3)
@@ -36,7 +36,7 @@ std::vector<char> findCornersInSpace(const fem::Mesh& mesh, const Piece& piece) 
   for (std::size_t k = 0; k < isCorner.size(); ++k)
     if (const std::span<const int> parts = piece.sharing.parts(k); parts.size() >= 3)
       isCorner[k] = numNodesOf[{parts.begin(), parts.end()}] == 1 ||
-                            mesh.isBoundaryNode(piece.assembled.nodes[piece.sharing.node(k)])
+                            body.isBoundaryNode(piece.assembled.nodes[piece.sharing.node(k)])
                         ? 1
                         : 0;
   return isCorner;
@@ -44,9 +44,8 @@ std::vector<char> findCornersInSpace(const fem::Mesh& mesh, const Piece& piece) 
 
 } // namespace
 
-std::vector<char> findCorners(const fem::Mesh& mesh, const Piece& piece) {
-  return fem::dimensionOf(mesh.cellType()) == 2 ? findCornersInPlane(mesh, piece)
-                                                : findCornersInSpace(mesh, piece);
+std::vector<char> findCorners(const BodyOutline& body, const Piece& piece) {
+  return body.dimension == 2 ? findCornersInPlane(body, piece) : findCornersInSpace(body, piece);
 }
 
 /// How much farther from the others a point lies than one that adds nothing; 0 if it adds nothing.

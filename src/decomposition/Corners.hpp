@@ -15,7 +15,7 @@ namespace epafi::decomposition {
 ///  - in space, if three or more subdomains share it, and it alone is shared by just these, or it lies on the body's
 ///    boundary: the end points of edges.
 /// All pieces that share a node find the same.
-std::vector<char> findCorners(const fem::Mesh& mesh, const Piece& piece);
+std::vector<char> findCorners(const BodyOutline& body, const Piece& piece);
 
 /// Points, and whether a body that is held there can still move: one holds a scalar field, two different ones a body in
 /// the plane, three that are not on a line a body in space.

@@ -4,7 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/ContactRows.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
-#include "epafi/decomposition/EdgeAverages.hpp"
+#include "epafi/decomposition/FillProblem.hpp"
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Pieces.hpp"
 
@@ -18,69 +18,6 @@
 
 namespace epafi::decomposition {
 namespace {
-
-RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm) {
-  if (!std::is_sorted(indices.begin(), indices.end()))
-    std::sort(indices.begin(), indices.end());
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                     Teuchos::arrayViewFromVector(indices), 0, comm));
-}
-
-/// Splits the unknowns of a piece in remainder and crosspoints, and lists the crosspoint values that this rank
-/// owns: those of which no lower subdomain has a copy.
-void splitUnknowns(const CrosspointNumbering& crosspoints, const Piece& piece, std::size_t components,
-                   Subdomain& subdomain, std::vector<GlobalOrdinal>& ownedCrosspoints) {
-  const fem::AssembledSubdomain& assembled = piece.assembled;
-  subdomain.remainderUnknowns.reserve(assembled.unknownPosition.size());
-  for (std::size_t node = 0; node < assembled.nodes.size(); ++node) {
-    const auto unknowns = std::span(assembled.unknownOf).subspan(node * components, components);
-    if (piece.isCrosspoint[node] == 0) {
-      for (const int unknown : unknowns)
-        if (unknown >= 0)
-          subdomain.remainderUnknowns.push_back(unknown);
-      continue;
-    }
-    const bool owned = piece.sharing.isLowest(piece.part, node);
-    GlobalOrdinal index = crosspoints.firstIndex(piece.body, assembled.nodes[node]);
-    for (const int unknown : unknowns)
-      if (unknown >= 0) {
-        subdomain.crosspointUnknowns.push_back(unknown);
-        subdomain.crosspointIndices.push_back(index);
-        if (owned)
-          ownedCrosspoints.push_back(index);
-        ++index;
-      }
-  }
-}
-
-/// Averages along edges become unknowns of the pieces, whose rows are so far those of contact; returns them piece by
-/// piece.
-std::vector<std::vector<Average>> changeBasis(const Layout& layout, std::vector<Piece>& pieces) {
-  std::vector<std::vector<Average>> averages;
-  AverageBasis basis;
-  for (Piece& piece : pieces) {
-    const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(piece.body)];
-    averages.push_back(averagesOf(piece, static_cast<std::size_t>(model.components())));
-    changeBasisOfRows(averages.back(), 0, piece.rows);
-    basis.change(averages.back(), piece);
-  }
-  return averages;
-}
-
-/// Moves what is assembled out of a piece; what it takes to attach B stays.
-void takeAssembled(Piece& piece, Subdomain& subdomain) {
-  fem::AssembledSubdomain& assembled = piece.assembled;
-  subdomain.body = piece.body;
-  subdomain.number = piece.number;
-  subdomain.nodes = std::move(assembled.nodes);
-  subdomain.unknownPosition = std::move(assembled.unknownPosition);
-  subdomain.stiffness = std::move(piece.stiffness);
-  subdomain.load = std::move(assembled.load);
-  subdomain.prescribed = std::move(assembled.prescribed);
-  subdomain.energyOffset = assembled.energyOffset;
-  subdomain.kernel = std::move(assembled.kernel);
-}
 
 std::vector<NodeFrame> framesOf(const fem::BodyModel& model, const std::vector<GlobalOrdinal>& nodes) {
   std::vector<NodeFrame> frames;
@@ -104,27 +41,6 @@ std::vector<Body> describeBodies(const scene::Scene& scene, const Layout& layout
     offset += modes;
   }
   return bodies;
-}
-
-/// The multiplier maps and B: entries named by global rows become local.
-void attachRows(const Rows& contact, const Rows& gluing, const std::vector<Piece>& pieces,
-                DecomposedProblem& problem) {
-  const auto both = [](const std::vector<GlobalOrdinal>& a, const std::vector<GlobalOrdinal>& b) {
-    std::vector<GlobalOrdinal> joined;
-    joined.reserve(a.size() + b.size());
-    joined.insert(joined.end(), a.begin(), a.end());
-    joined.insert(joined.end(), b.begin(), b.end());
-    return joined;
-  };
-  problem.multiplierMap = makeMap(both(contact.owned, gluing.owned), problem.comm);
-  problem.multiplierGhostMap = makeMap(both(contact.touched, gluing.touched), problem.comm);
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    std::vector<ConstraintEntry>& constraint = problem.subdomains[p].constraint;
-    constraint.reserve(pieces[p].rows.size());
-    for (const RowEntry& entry : pieces[p].rows)
-      constraint.push_back(
-          {problem.multiplierGhostMap->getLocalElement(entry.row), entry.unknown, entry.coefficient});
-  }
 }
 
 /// The bodies and the numbers of the whole problem that are known before it is assembled.
@@ -181,39 +97,22 @@ Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) 
 
   std::vector<Piece> pieces;
   collectively(*comm, [&] { pieces = assemblePieces(layout, *comm); });
-  const CrosspointNumbering crosspoints(layout, pieces, *comm);
+  const Outline outline = outlineOf(layout);
+  const CrosspointNumbering crosspoints(outline, pieces, *comm);
 
   DecomposedProblem& problem = result.problem;
   problem.comm = comm;
   describe(scene, layout, problem);
-  problem.numCrosspoints = crosspoints.numNodes();
   for (const ContactLayout& contact : result.contacts)
     problem.numInequalities += contact.numRows();
   const Rows contact = contactRows(layout, result.contacts, comm, pieces);
-  const std::vector<std::vector<Average>> averages = changeBasis(layout, pieces);
-  const Rows gluing = gluingRows(layout, pieces, problem.numInequalities, comm, problem.numEqualities);
+  const std::vector<std::vector<Average>> averages = changeBasis(outline, pieces);
+  const Rows gluing = gluingRows(outline, pieces, problem.numInequalities, comm, problem.numEqualities);
 
-  GlobalOrdinal positions = 0, remainders = 0;
-  std::vector<GlobalOrdinal> ownedCrosspoints;
-  problem.subdomains.resize(pieces.size());
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    Subdomain& subdomain = problem.subdomains[p];
-    const auto body = static_cast<std::size_t>(pieces[p].body);
-    splitUnknowns(crosspoints, pieces[p], static_cast<std::size_t>(layout.models[body]->components()),
-                  subdomain, ownedCrosspoints);
-    takeAssembled(pieces[p], subdomain);
-    subdomain.averages = averages[p];
-    subdomain.frames = framesOf(*layout.models[body], subdomain.nodes);
-    positions += subdomain.prescribed.size();
-    remainders += static_cast<GlobalOrdinal>(subdomain.remainderUnknowns.size());
-  }
-  problem.primalDimension = sumOverRanks(*comm, positions);
-  problem.crosspointMap = makeMap(std::move(ownedCrosspoints), comm);
-  problem.remainderMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                                     static_cast<std::size_t>(remainders), 0, comm));
+  fillSubdomains(outline, crosspoints, averages, pieces, problem);
+  for (Subdomain& subdomain : problem.subdomains)
+    subdomain.frames = framesOf(*layout.models[static_cast<std::size_t>(subdomain.body)], subdomain.nodes);
   attachRows(contact, gluing, pieces, problem);
-
-  problem.gap = rcp(new Vector(problem.multiplierMap));
   for (const GlobalOrdinal row : contact.owned)
     problem.gap->replaceGlobalValue(row, contactGap(layout, result.contacts, row));
   return result;

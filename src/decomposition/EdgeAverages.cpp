@@ -118,35 +118,43 @@ void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u) {
   }
 }
 
-void AverageBasis::change(const std::vector<Average>& averages, Piece& piece) {
-  if (averages.empty())
-    return;
-  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
-    return k.nodal == piece.stiffness && k.averages == averages;
-  });
-  if (known != known_.end()) {
-    piece.stiffness = known->changed;
-  } else {
-    const SparseMatrix basis = basisOf(averages, piece.stiffness->rows());
-    const SparseMatrix product = SparseMatrix(basis.transpose()) * (*piece.stiffness * basis).eval();
-    const auto changed = std::make_shared<SparseMatrix>(
-        0.5 * (product + SparseMatrix(product.transpose()))); // symmetric to the last digit
-    changed->makeCompressed();
-    if (known_.size() >= maxKnown)
-      known_.erase(known_.begin());
-    known_.push_back({piece.stiffness, changed, averages});
-    piece.stiffness = changed;
-  }
-  Eigen::VectorXd& load = piece.assembled.load;
-  Eigen::MatrixXd& kernel = piece.assembled.kernel;
+void changeBasisOfLoad(const std::vector<Average>& averages, Eigen::VectorXd& load) {
   for (const Average& average : averages) {
     const double atCarrier = load[average.carrier];
-    Eigen::RowVectorXd mean = kernel.row(average.carrier);
     for (const int other : average.others) {
       load[average.carrier] += load[other];
       load[other] -= atCarrier;
-      mean += kernel.row(other);
     }
+  }
+}
+
+std::shared_ptr<const SparseMatrix> AverageBasis::changed(const std::vector<Average>& averages,
+                                                          const std::shared_ptr<const SparseMatrix>& nodal) {
+  if (averages.empty())
+    return nodal;
+  const auto known = std::find_if(known_.begin(), known_.end(),
+                                  [&](const Known& k) { return k.nodal == nodal && k.averages == averages; });
+  if (known != known_.end())
+    return known->changed;
+  const SparseMatrix basis = basisOf(averages, nodal->rows());
+  const SparseMatrix product = SparseMatrix(basis.transpose()) * (*nodal * basis).eval();
+  const auto changed = std::make_shared<SparseMatrix>(
+      0.5 * (product + SparseMatrix(product.transpose()))); // symmetric to the last digit
+  changed->makeCompressed();
+  if (known_.size() >= maxKnown)
+    known_.erase(known_.begin());
+  known_.push_back({nodal, changed, averages});
+  return changed;
+}
+
+void AverageBasis::change(const std::vector<Average>& averages, Piece& piece) {
+  piece.stiffness = changed(averages, piece.stiffness);
+  changeBasisOfLoad(averages, piece.assembled.load);
+  Eigen::MatrixXd& kernel = piece.assembled.kernel;
+  for (const Average& average : averages) {
+    Eigen::RowVectorXd mean = kernel.row(average.carrier);
+    for (const int other : average.others)
+      mean += kernel.row(other);
     mean /= static_cast<double>(average.others.size() + 1);
     kernel.row(average.carrier) = mean;
     for (const int other : average.others)

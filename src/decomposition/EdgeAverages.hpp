@@ -33,10 +33,16 @@ std::vector<Average> averagesOf(const Piece& piece, std::size_t components);
 /// Rows that act on u, from `first` on, become such that act on ũ.
 void changeBasisOfRows(const std::vector<Average>& averages, std::size_t first, std::vector<RowEntry>& rows);
 
+/// f becomes Tᵀ f.
+void changeBasisOfLoad(const std::vector<Average>& averages, Eigen::VectorXd& load);
+
 /// Tᵀ K T, of which the pieces with equal K and equal averages share one; Tᵀ f; T⁻¹ R. Nothing is collective.
 class AverageBasis {
 public:
   void change(const std::vector<Average>& averages, Piece& piece);
+  /// Tᵀ K T alone.
+  std::shared_ptr<const SparseMatrix> changed(const std::vector<Average>& averages,
+                                              const std::shared_ptr<const SparseMatrix>& nodal);
 
 private:
   struct Known {

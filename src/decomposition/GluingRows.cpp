@@ -32,7 +32,7 @@ struct Sides {
   std::vector<Side> lower, higher;
 };
 
-Sides findSides(const Layout& layout, const std::vector<Piece>& pieces) {
+Sides findSides(const Outline& outline, const std::vector<Piece>& pieces) {
   std::size_t numShared = 0;
   for (const Piece& piece : pieces)
     numShared += piece.sharing.size();
@@ -43,8 +43,8 @@ Sides findSides(const Layout& layout, const std::vector<Piece>& pieces) {
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const Piece& piece = pieces[p];
     const auto b = static_cast<std::size_t>(piece.body);
-    const int firstSubdomain = layout.bodies[b].firstSubdomain;
-    const auto components = static_cast<std::size_t>(layout.models[b]->components());
+    const int firstSubdomain = outline.bodies[b].firstSubdomain;
+    const auto components = static_cast<std::size_t>(outline.bodies[b].components);
     for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
       const std::span<const int> parts = piece.sharing.parts(k);
       const std::size_t node = piece.sharing.node(k);
@@ -73,10 +73,10 @@ Sides findSides(const Layout& layout, const std::vector<Piece>& pieces) {
 }
 
 /// Numbers the rows of the lower sides; returns how many there are on all ranks. Collective.
-GlobalOrdinal numberRows(const Layout& layout, const std::vector<Piece>& pieces, GlobalOrdinal firstRow,
+GlobalOrdinal numberRows(const Outline& outline, const std::vector<Piece>& pieces, GlobalOrdinal firstRow,
                          const Comm& comm, std::vector<Side>& lower) {
   // Rows before those of each subdomain; one number a subdomain on every rank, exact: far below 2^53.
-  std::vector<double> before(static_cast<std::size_t>(layout.numSubdomains) + 1, 0.0);
+  std::vector<double> before(static_cast<std::size_t>(outline.numSubdomains) + 1, 0.0);
   for (const Side& side : lower)
     before[static_cast<std::size_t>(pieces[side.piece].number) + 1] += side.numRows;
   sumOverRanks(comm, before);
@@ -120,9 +120,9 @@ void findRowsHere(const std::vector<Piece>& pieces, const std::vector<Side>& low
 }
 
 /// Names the sides on all ranks before the higher ones know their rows.
-RCP<const Map> mapOfKeys(const Layout& layout, const std::vector<Piece>& pieces,
+RCP<const Map> mapOfKeys(const Outline& outline, const std::vector<Piece>& pieces,
                          const std::vector<Side*>& sides, const RCP<const Comm>& comm) {
-  const std::vector<GlobalOrdinal> firstKey = firstNodesOf(layout);
+  const std::vector<GlobalOrdinal> firstKey = firstNodesOf(outline);
   std::vector<GlobalOrdinal> keys;
   keys.reserve(sides.size());
   for (const Side* side : sides)
@@ -141,12 +141,12 @@ std::vector<Side*> elsewhere(const std::vector<Piece>& pieces, std::vector<Side>
 }
 
 /// Higher sides whose lower one is on another rank hear their rows from there. Collective.
-void findRowsElsewhere(const Layout& layout, const std::vector<Piece>& pieces, const RCP<const Comm>& comm,
+void findRowsElsewhere(const Outline& outline, const std::vector<Piece>& pieces, const RCP<const Comm>& comm,
                        Sides& sides) {
   if (comm->getSize() == 1)
     return;
   const std::vector<Side*> lower = elsewhere(pieces, sides.lower), higher = elsewhere(pieces, sides.higher);
-  Vector numbers(mapOfKeys(layout, pieces, lower, comm)), known(mapOfKeys(layout, pieces, higher, comm));
+  Vector numbers(mapOfKeys(outline, pieces, lower, comm)), known(mapOfKeys(outline, pieces, higher, comm));
   for (std::size_t k = 0; k < lower.size(); ++k)
     numbers.replaceLocalValue(static_cast<LocalOrdinal>(k), static_cast<double>(lower[k]->firstRow));
   const Import plan(numbers.getMap(), known.getMap());
@@ -162,12 +162,12 @@ void enter(const Side& side, double coefficient, Piece& piece) {
 }
 
 /// The copies of nodes with three or more.
-std::vector<SharedNode> nodesWithManyCopies(const Layout& layout, const std::vector<Piece>& pieces) {
+std::vector<SharedNode> nodesWithManyCopies(const Outline& outline, const std::vector<Piece>& pieces) {
   std::vector<SharedNode> nodes;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const Piece& piece = pieces[p];
     const auto components =
-        static_cast<std::size_t>(layout.models[static_cast<std::size_t>(piece.body)]->components());
+        static_cast<std::size_t>(outline.bodies[static_cast<std::size_t>(piece.body)].components);
     for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
       const std::size_t node = piece.sharing.node(k);
       const auto unknowns = std::span(piece.assembled.unknownOf).subspan(node * components, components);
@@ -181,10 +181,10 @@ std::vector<SharedNode> nodesWithManyCopies(const Layout& layout, const std::vec
 
 /// The weighted part of the rows at nodes with three or more copies: those of its own link and of the later ones, which it
 /// adds to `touched`. Collective.
-void enterMeans(const Layout& layout, const std::vector<Side>& lower, const RCP<const Comm>& comm,
+void enterMeans(const Outline& outline, const std::vector<Side>& lower, const RCP<const Comm>& comm,
                 std::vector<Piece>& pieces, std::vector<GlobalOrdinal>& touched) {
-  const std::vector<SharedNode> nodes = nodesWithManyCopies(layout, pieces);
-  const auto numComponents = static_cast<std::size_t>(layout.models.front()->components());
+  const std::vector<SharedNode> nodes = nodesWithManyCopies(outline, pieces);
+  const auto numComponents = static_cast<std::size_t>(outline.bodies.front().components);
   const auto firstRow = static_cast<Eigen::Index>(numComponents); // column of the first row of a copy's link
   Eigen::MatrixXd own = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(nodes.size()), firstRow + 1);
   auto side = lower.begin(); // in the order of `nodes`, but the last copies have none
@@ -199,7 +199,7 @@ void enterMeans(const Layout& layout, const std::vector<Side>& lower, const RCP<
     });
     own(row, firstRow) = static_cast<double>(side->firstRow);
   }
-  const std::vector<Eigen::MatrixXd> copies = valuesOfCopies(layout, pieces, nodes, own, comm);
+  const std::vector<Eigen::MatrixXd> copies = valuesOfCopies(outline, pieces, nodes, own, comm);
   for (std::size_t i = 0; i < copies.size(); ++i) {
     Piece& piece = pieces[nodes[i].piece];
     const std::span<const int> parts = piece.sharing.parts(nodes[i].place);
@@ -220,12 +220,12 @@ void enterMeans(const Layout& layout, const std::vector<Side>& lower, const RCP<
 
 } // namespace
 
-Rows gluingRows(const Layout& layout, std::vector<Piece>& pieces, GlobalOrdinal firstRow,
+Rows gluingRows(const Outline& outline, std::vector<Piece>& pieces, GlobalOrdinal firstRow,
                 const RCP<const Comm>& comm, GlobalOrdinal& numRows) {
-  Sides sides = findSides(layout, pieces);
-  numRows = numberRows(layout, pieces, firstRow, *comm, sides.lower);
+  Sides sides = findSides(outline, pieces);
+  numRows = numberRows(outline, pieces, firstRow, *comm, sides.lower);
   findRowsHere(pieces, sides.lower, sides.higher);
-  findRowsElsewhere(layout, pieces, comm, sides);
+  findRowsElsewhere(outline, pieces, comm, sides);
   for (Piece& piece : pieces)
     piece.rows.reserve(piece.rows.size() + 2 * piece.sharing.size());
   for (const Side& side : sides.lower)
@@ -243,8 +243,8 @@ Rows gluingRows(const Layout& layout, std::vector<Piece>& pieces, GlobalOrdinal 
     if (!isHere(pieces, side.otherNumber))
       for (int r = 0; r < side.numRows; ++r)
         rows.touched.push_back(side.firstRow + r);
-  if (!layout.models.empty())
-    enterMeans(layout, sides.lower, comm, pieces, rows.touched);
+  if (!outline.bodies.empty())
+    enterMeans(outline, sides.lower, comm, pieces, rows.touched);
   return rows;
 }
 

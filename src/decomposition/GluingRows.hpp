@@ -20,7 +20,7 @@ namespace epafi::decomposition {
 /// Enters the rows in the pieces. Precondition: the pieces' bases are changed already.
 /// \param[out] numRows  of the whole problem.
 /// Collective.
-Rows gluingRows(const Layout& layout, std::vector<Piece>& pieces, GlobalOrdinal firstRow,
+Rows gluingRows(const Outline& outline, std::vector<Piece>& pieces, GlobalOrdinal firstRow,
                 const RCP<const Comm>& comm, GlobalOrdinal& numRows);
 
 } // namespace epafi::decomposition

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace epafi::decomposition {
 
@@ -32,6 +33,14 @@ Sharing::Sharing(const BodyLayout& body, const fem::AssembledSubdomain& piece) {
   }
 }
 
+Sharing::Sharing(std::vector<std::size_t> nodes, const std::vector<std::vector<int>>& parts)
+    : nodes_(std::move(nodes)) {
+  for (const std::vector<int>& atNode : parts) {
+    parts_.insert(parts_.end(), atNode.begin(), atNode.end());
+    start_.push_back(parts_.size());
+  }
+}
+
 std::optional<std::size_t> Sharing::find(std::size_t node) const {
   const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), node);
   if (found == nodes_.end() || *found != node)
@@ -42,6 +51,18 @@ std::optional<std::size_t> Sharing::find(std::size_t node) const {
 bool Sharing::isLowest(int part, std::size_t node) const {
   const std::optional<std::size_t> k = find(node);
   return !k || parts(*k).front() == part;
+}
+
+Outline outlineOf(const Layout& layout) {
+  Outline outline{{}, layout.numSubdomains};
+  for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+    const fem::Mesh* mesh = layout.bodies[b].mesh.get();
+    outline.bodies.push_back({fem::dimensionOf(mesh->cellType()), layout.models[b]->components(),
+                              layout.bodies[b].firstSubdomain, mesh->numNodes(),
+                              [mesh](GlobalOrdinal node) { return mesh->point(node); },
+                              [mesh](GlobalOrdinal node) { return mesh->isBoundaryNode(node); }});
+  }
+  return outline;
 }
 
 int bodyOf(const Layout& layout, int number) {

@@ -7,6 +7,7 @@
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/SubdomainAssembly.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,9 @@ class Sharing {
 public:
   Sharing() = default;
   Sharing(const BodyLayout& body, const fem::AssembledSubdomain& piece);
+  /// \param nodes  places of the shared nodes, ascending
+  /// \param parts  of each of them, ascending
+  Sharing(std::vector<std::size_t> nodes, const std::vector<std::vector<int>>& parts);
 
   /// Number of shared nodes.
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
@@ -57,6 +61,8 @@ struct Piece {
   fem::AssembledSubdomain assembled;             ///< without its stiffness
   std::shared_ptr<const SparseMatrix> stiffness; ///< equal pieces share one
   Sharing sharing;
+  std::vector<std::size_t>
+      chosen; ///< places of nodes that are to be crosspoints whatever else is; one piece may name them
   std::vector<char> isCrosspoint; ///< for each node
   std::vector<EdgeAverage> averages;
   std::vector<RowEntry> rows; ///< B^s
@@ -69,6 +75,24 @@ struct Layout {
   std::vector<std::unique_ptr<fem::BodyModel>> models;
   int numSubdomains = 0;
 };
+
+/// A body as the steps that follow the assembly see it. Points and boundary are asked for at nodes of this rank's pieces.
+struct BodyOutline {
+  int dimension = 2;  ///< of space
+  int components = 1; ///< unknowns a node
+  int firstSubdomain = 0;
+  GlobalOrdinal numNodes = 0; ///< nodes are numbered below
+  std::function<fem::Point(GlobalOrdinal)> point;
+  std::function<bool(GlobalOrdinal)> isBoundaryNode;
+};
+
+struct Outline {
+  std::vector<BodyOutline> bodies;
+  int numSubdomains = 0;
+};
+
+/// Keeps references to the meshes.
+Outline outlineOf(const Layout& layout);
 
 /// Body of a subdomain. Precondition: 0 ≤ number < layout.numSubdomains.
 int bodyOf(const Layout& layout, int number);

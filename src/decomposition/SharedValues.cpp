@@ -20,20 +20,20 @@ RCP<const Map> mapOf(const std::vector<GlobalOrdinal>& keys, const RCP<const Com
 
 } // namespace
 
-std::vector<GlobalOrdinal> firstNodesOf(const Layout& layout) {
+std::vector<GlobalOrdinal> firstNodesOf(const Outline& outline) {
   std::vector<GlobalOrdinal> first{0};
-  for (const BodyLayout& body : layout.bodies)
-    first.push_back(first.back() + body.mesh->numNodes());
+  for (const BodyOutline& body : outline.bodies)
+    first.push_back(first.back() + body.numNodes);
   return first;
 }
 
-std::vector<Eigen::MatrixXd> valuesOfCopies(const Layout& layout, const std::vector<Piece>& pieces,
+std::vector<Eigen::MatrixXd> valuesOfCopies(const Outline& outline, const std::vector<Piece>& pieces,
                                             const std::vector<SharedNode>& nodes, const Eigen::MatrixXd& own,
                                             const RCP<const Comm>& comm) {
   std::vector<Eigen::MatrixXd> values;
   if (sumOverRanks(*comm, static_cast<double>(nodes.size())) == 0)
     return values;
-  const std::vector<GlobalOrdinal> firstNode = firstNodesOf(layout);
+  const std::vector<GlobalOrdinal> firstNode = firstNodesOf(outline);
   std::vector<GlobalOrdinal> told, heard;
   for (const SharedNode& shared : nodes) {
     const Piece& piece = pieces[shared.piece];

@@ -20,14 +20,14 @@ struct SharedNode {
 };
 
 /// For each body the number of the nodes of all bodies before it: its first node's, if all are numbered in one go.
-std::vector<GlobalOrdinal> firstNodesOf(const Layout& layout);
+std::vector<GlobalOrdinal> firstNodesOf(const Outline& outline);
 
 /// The numbers of all copies of some nodes, told by each to the others: for each of `nodes` a matrix copies × k, in the
 /// order of the parts.
 /// \param nodes  on all ranks together with each node all its copies, none twice
 /// \param own    the numbers of `nodes`, one row each, k columns, k the same on all ranks
 /// Collective.
-std::vector<Eigen::MatrixXd> valuesOfCopies(const Layout& layout, const std::vector<Piece>& pieces,
+std::vector<Eigen::MatrixXd> valuesOfCopies(const Outline& outline, const std::vector<Piece>& pieces,
                                             const std::vector<SharedNode>& nodes, const Eigen::MatrixXd& own,
                                             const RCP<const Comm>& comm);
 

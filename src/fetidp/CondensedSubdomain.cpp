@@ -33,12 +33,13 @@ SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
 } // namespace
 
 CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain,
-                                       SubdomainInterface interface, direct::Factorizer& factorizer)
+                                       SubdomainInterface interface, direct::Factorizer& factorizer,
+                                       const direct::SpdFactor* like)
     : interface_(std::move(interface)) {
   const auto& remainder = subdomain.remainderUnknowns;
   const auto& crosspoints = subdomain.crosspointUnknowns;
   factor_ = factorizer.factorize(block(*subdomain.stiffness, remainder, remainder), interface_.boundary,
-                                 "subdomain " + std::to_string(subdomain.number));
+                                 "subdomain " + std::to_string(subdomain.number), like);
   remainderToCrosspoint_ = block(*subdomain.stiffness, remainder, crosspoints);
 
   const Eigen::MatrixXd rhs(remainderToCrosspoint_);

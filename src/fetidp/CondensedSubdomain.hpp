@@ -19,9 +19,10 @@ namespace epafi::fetidp {
 /// Shared by all subdomains that are identical. n_r remainders, n_Δ of them in the boundary, n_c crosspoint values.
 class CondensedSubdomain {
 public:
+  /// \param like  a factor whose ordering and symbolic part are used again where patterns agree, or null
   /// Not collective. \throws Error if the factorisation fails.
   CondensedSubdomain(const decomposition::Subdomain& subdomain, SubdomainInterface interface,
-                     direct::Factorizer& factorizer);
+                     direct::Factorizer& factorizer, const direct::SpdFactor* like = nullptr);
 
   [[nodiscard]] const SubdomainInterface& interface() const { return interface_; }
   [[nodiscard]] Eigen::Index numRemainders() const { return remainderToCrosspoint_.rows(); }

@@ -86,15 +86,14 @@ void DualPreconditioner::prepareCrosspoints(const ScaledConstraint& scaled) {
 
   for (Block& block : blocks_) {
     const SubdomainGroup& group = std::as_const(*inverse_).groups()[block.group];
-    const auto first = group.crosspointIndices(0);
-    if (first.empty() || crosspoints_.nearIndexOf(first.front()) < 0)
-      continue; // contact touches no crosspoint of this body
     block.near.resize(group.condensed().numCrosspoints(), static_cast<Eigen::Index>(group.members().size()));
     for (Eigen::Index member = 0; member < block.near.cols(); ++member) {
       const auto crosspoints = group.crosspointIndices(static_cast<std::size_t>(member));
       for (Eigen::Index c = 0; c < block.near.rows(); ++c)
         block.near(c, member) = crosspoints_.nearIndexOf(crosspoints[static_cast<std::size_t>(c)]);
     }
+    if ((block.near.array() < 0).all())
+      block.near.resize(0, 0); // contact touches no crosspoint of the members' bodies
   }
 }
 

@@ -43,7 +43,8 @@ void DualPreconditioner::subtractJumps() const {
     for (Eigen::Index j = 0; j < numColumns; ++j)
       for (Eigen::Index member = 0; member < block.near.cols(); ++member)
         for (Eigen::Index c = 0; c < block.near.rows(); ++c)
-          block.motion(c, member + j * block.near.cols()) = nearDisplacement_(block.near(c, member), j);
+          block.motion(c, member + j * block.near.cols()) =
+              block.near(c, member) < 0 ? 0.0 : nearDisplacement_(block.near(c, member), j);
     for (Eigen::Index column = 0; column < block.motion.cols();
          ++column) // one by one: see SymmetricBlock::Use
       block.input.col(column).noalias() = group.condensed().boundaryResponse() * block.motion.col(column);
@@ -114,8 +115,9 @@ void DualPreconditioner::passForcesOn() const {
     for (Eigen::Index j = 0; j < numColumns; ++j)
       for (Eigen::Index member = 0; member < block.near.cols(); ++member)
         for (Eigen::Index c = 0; c < block.near.rows(); ++c)
-          nearSums_[static_cast<std::size_t>(block.near(c, member) + j * nearForces_.rows())].add(
-              block.motion(c, member + j * block.near.cols()));
+          if (block.near(c, member) >= 0)
+            nearSums_[static_cast<std::size_t>(block.near(c, member) + j * nearForces_.rows())].add(
+                block.motion(c, member + j * block.near.cols()));
   }
   sumOverRanks(*map_->getComm(), nearSums_);
   for (std::size_t i = 0; i < nearSums_.size(); ++i)
@@ -191,8 +193,9 @@ void DualPreconditioner::addForcesOf(const decomposition::DecomposedProblem& pro
       const Eigen::VectorXd missing =
           problem.subdomains[s].load - *problem.subdomains[s].stiffness * free[s].col(0);
       for (Eigen::Index c = 0; c < block.near.rows(); ++c)
-        nearSums_[static_cast<std::size_t>(block.near(c, m))].add(
-            missing[like.crosspointUnknowns[static_cast<std::size_t>(c)]]);
+        if (block.near(c, m) >= 0)
+          nearSums_[static_cast<std::size_t>(block.near(c, m))].add(
+              missing[like.crosspointUnknowns[static_cast<std::size_t>(c)]]);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <Tpetra_Import.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -27,16 +28,44 @@ std::vector<GlobalOrdinal> crosspointsOf(const decomposition::DecomposedProblem&
 
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
                                        const DirectSolvers& solvers)
-    : multiplierPlan_(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap))),
-      crosspoints_(crosspointsOf(problem)) {
-  auto groups = groupIdentical(problem, solvers.shareIdentical);
+    : solvers_(solvers) {
+  update(problem);
+}
+
+void GeneralizedInverse::update(const decomposition::DecomposedProblem& problem) {
+  multiplierPlan_ = rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap));
+  crosspoints_ = crosspointsOf(problem);
+  const bool isNew = makeGroups(problem) || crosspointMap_ != problem.crosspointMap;
+  crosspointMap_ = problem.crosspointMap;
+  if (maxOverRanks(*problem.comm, isNew ? 1.0 : 0.0) > 0) {
+    coarseProblem_.reset();
+    coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, crosspoints_, solvers_);
+  }
+}
+
+/// Returns whether any factor is new. Earlier groups go as soon as none needs them. Collective.
+bool GeneralizedInverse::makeGroups(const decomposition::DecomposedProblem& problem) {
+  std::vector<std::shared_ptr<const SubdomainGroup>> earlier(problem.subdomains.size()); // of each subdomain
+  for (SubdomainGroup& group : groups_) {
+    const auto shared = std::make_shared<const SubdomainGroup>(std::move(group));
+    for (const std::size_t member : shared->members())
+      earlier[member] = shared;
+  }
+  groups_.clear();
+  auto identical = groupIdentical(problem, solvers_.shareIdentical);
+  bool isNew = !coarseProblem_;
   collectively(*problem.comm, [&] {
-    direct::Factorizer factorizer(solvers.subdomains);
-    groups_.reserve(groups.size());
-    for (IdenticalSubdomains& group : groups)
-      groups_.emplace_back(problem.subdomains, std::move(group), crosspoints_, factorizer);
+    direct::Factorizer factorizer(solvers_.subdomains);
+    groups_.reserve(identical.size());
+    for (IdenticalSubdomains& group : identical) {
+      const std::shared_ptr<const SubdomainGroup> previous = earlier[group.members.front()];
+      for (const std::size_t member : group.members)
+        earlier[member].reset();
+      groups_.emplace_back(problem.subdomains, std::move(group), crosspoints_, factorizer, previous.get());
+      isNew = isNew || !previous || !groups_.back().sharesFactorWith(*previous);
+    }
   });
-  coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, crosspoints_, solvers);
+  return isNew;
 }
 
 void GeneralizedInverse::prepareDual(const DualOperatorParameters& parameters) {

@@ -24,6 +24,13 @@ public:
   /// alike on all ranks: Error if a factorisation fails. Precondition: all entries of K and B are finite (FiniteData.hpp).
   GeneralizedInverse(const decomposition::DecomposedProblem& problem, const DirectSolvers& solvers);
 
+  /// Follows changes of K^s and B in the problem: what still holds is kept, subdomain by subdomain. That is the factor and
+  /// the dense block where K^s is the same object and B touches the same unknowns as before; the symbolic part of the
+  /// factorisation where the pattern is the same; the factor of the coarse problem if all factors and the crosspoints are
+  /// the same on all ranks. Every object that keeps a reference to this one is to be made anew. Collective; throws as the
+  /// constructor does.
+  void update(const decomposition::DecomposedProblem& problem);
+
   /// Makes dense blocks where the mode asks for them, or where they pay off. Not collective.
   void prepareDual(const DualOperatorParameters& parameters);
 
@@ -61,8 +68,11 @@ public:
   [[nodiscard]] const RCP<const Import>& multiplierPlan() const { return multiplierPlan_; }
 
 private:
+  bool makeGroups(const decomposition::DecomposedProblem& problem);
   void prepareCoarse(int numColumns);
 
+  DirectSolvers solvers_;
+  RCP<const Map> crosspointMap_;
   RCP<const Import> multiplierPlan_;
   std::vector<GlobalOrdinal> crosspoints_; ///< this rank's coarse unknowns, ascending
   std::vector<SubdomainGroup> groups_;

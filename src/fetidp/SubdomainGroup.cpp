@@ -13,14 +13,26 @@ constexpr Eigen::Index batch = 4;
 
 SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains,
                                IdenticalSubdomains identical, std::span<const GlobalOrdinal> crosspoints,
-                               direct::Factorizer& factorizer)
+                               direct::Factorizer& factorizer, const SubdomainGroup* previous)
     : subdomains_(&subdomains), members_(std::move(identical.members)),
       numOnAllRanks_(identical.numOnAllRanks),
-      use_(identical.isShared() ? direct::SymmetricBlock::Use::shared : direct::SymmetricBlock::Use::alone),
-      condensed_(subdomains[members_.front()], interfaceOf(subdomains[members_.front()]), factorizer) {
+      use_(identical.isShared() ? direct::SymmetricBlock::Use::shared : direct::SymmetricBlock::Use::alone) {
+  const decomposition::Subdomain& first = subdomains[members_.front()];
+  stiffness_ = first.stiffness;
+  crosspointUnknowns_ = first.crosspointUnknowns;
+  SubdomainInterface interface = interfaceOf(first);
+  if (previous != nullptr && previous->fits(first, interface)) {
+    condensed_ = previous->condensed_;
+    if (previous->use_ == use_)
+      flexibility_ = previous->flexibility_;
+  } else {
+    condensed_ = std::make_shared<const CondensedSubdomain>(
+        first, std::move(interface), factorizer,
+        previous != nullptr ? &previous->condensed_->factor() : nullptr);
+  }
   for (std::size_t member = 0; member < members_.size(); ++member)
     addEntries(member, members_[member]);
-  coarseIndices_.resize(condensed_.numCrosspoints(), numMembers());
+  coarseIndices_.resize(condensed_->numCrosspoints(), numMembers());
   for (Eigen::Index member = 0; member < numMembers(); ++member) {
     const auto unknowns = crosspointIndices(static_cast<std::size_t>(member));
     for (std::size_t i = 0; i < unknowns.size(); ++i)
@@ -29,10 +41,18 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
   }
 }
 
+/// Whether the factor is that of a subdomain as it is now.
+bool SubdomainGroup::fits(const decomposition::Subdomain& subdomain,
+                          const SubdomainInterface& interface) const {
+  return stiffness_.lock() == subdomain.stiffness && crosspointUnknowns_ == subdomain.crosspointUnknowns &&
+         condensed_->interface() == interface;
+}
+
 void SubdomainGroup::addEntries(std::size_t member, std::size_t subdomain) {
-  const SubdomainInterface& interface = condensed_.interface();
-  const int numBoundary = static_cast<int>(condensed_.numBoundary()),
-            numCrosspoints = static_cast<int>(condensed_.numCrosspoints()), column = static_cast<int>(member);
+  const SubdomainInterface& interface = condensed_->interface();
+  const int numBoundary = static_cast<int>(condensed_->numBoundary()),
+            numCrosspoints = static_cast<int>(condensed_->numCrosspoints()),
+            column = static_cast<int>(member);
   for (const auto& entry : (*subdomains_)[subdomain].constraint) {
     const int position = interface.positionOf[static_cast<std::size_t>(entry.unknown)]; // among (Δ, C)
     if (position < numBoundary)
@@ -48,15 +68,16 @@ void SubdomainGroup::addEntries(std::size_t member, std::size_t subdomain) {
 void SubdomainGroup::makeExplicit() {
   if (isExplicit_)
     return;
-  flexibility_ = direct::SymmetricBlock(condensed_.factor().inverseOfKept(), use_);
+  if (!flexibility_)
+    flexibility_ = std::make_shared<const direct::SymmetricBlock>(condensed_->factor().inverseOfKept(), use_);
   isExplicit_ = true;
 }
 
 /// Work space for k columns.
 void SubdomainGroup::prepareColumns(Eigen::Index numColumns) {
-  boundary_.resize(condensed_.numBoundary(), numMembers() * numColumns);
+  boundary_.resize(condensed_->numBoundary(), numMembers() * numColumns);
   response_.resizeLike(boundary_);
-  coarseLocal_.resize(condensed_.numCrosspoints(), boundary_.cols());
+  coarseLocal_.resize(condensed_->numCrosspoints(), boundary_.cols());
 }
 
 void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse,
@@ -75,10 +96,10 @@ void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<
   }
   for (Eigen::Index column = 0; column < boundary_.cols(); ++column) // one by one: see SymmetricBlock::Use
     coarseLocal_.col(column).noalias() -=
-        condensed_.boundaryResponse().transpose() * boundary_.col(column); // Wᵀ λ
+        condensed_->boundaryResponse().transpose() * boundary_.col(column); // Wᵀ λ
   addToCoarse(coarse);
   if (isExplicit_)
-    flexibility_.apply(boundary_, response_);
+    flexibility_->apply(boundary_, response_);
   else
     solveForBoundary();
 }
@@ -89,7 +110,7 @@ Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index first) {
   const Eigen::Index columns = std::min(batch, coarseLocal_.cols() - first);
   const Eigen::Index width = use_ == direct::SymmetricBlock::Use::alone ? columns : batch;
   if (rhs_.cols() != width) {
-    rhs_.resize(condensed_.numRemainders(), width);
+    rhs_.resize(condensed_->numRemainders(), width);
     solution_.resizeLike(rhs_);
   }
   rhs_.rightCols(width - columns).setZero();
@@ -98,12 +119,12 @@ Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index first) {
 
 /// (K_rr⁻¹)_ΔΔ B_Δᵀ λ by sparse solves.
 void SubdomainGroup::solveForBoundary() {
-  const std::vector<int>& positions = condensed_.interface().boundary;
+  const std::vector<int>& positions = condensed_->interface().boundary;
   for (Eigen::Index first = 0; first < boundary_.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(first);
     rhs_.setZero();
     rhs_.leftCols(columns)(positions, Eigen::all) = boundary_.middleCols(first, columns);
-    condensed_.factor().solve(rhs_, solution_);
+    condensed_->factor().solve(rhs_, solution_);
     response_.middleCols(first, columns) = solution_.leftCols(columns)(positions, Eigen::all);
   }
 }
@@ -111,7 +132,7 @@ void SubdomainGroup::solveForBoundary() {
 void SubdomainGroup::applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result) {
   takeFromCoarse(coarse);
   for (Eigen::Index column = 0; column < response_.cols(); ++column)
-    response_.col(column).noalias() -= condensed_.boundaryResponse() * coarseLocal_.col(column);
+    response_.col(column).noalias() -= condensed_->boundaryResponse() * coarseLocal_.col(column);
   for (Eigen::Index j = 0; j < coarse.cols(); ++j) {
     double* values = result.data() + j * static_cast<Eigen::Index>(result.size()) / coarse.cols();
     const double *boundary = response_.data() + j * response_.size() / coarse.cols(),
@@ -147,14 +168,14 @@ void SubdomainGroup::takeFromCoarse(const Eigen::MatrixXd& coarse) {
 void SubdomainGroup::eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<AccurateSum> coarse) {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
   const Eigen::Index numColumns = b[members_.front()].cols();
-  coarseLocal_.resize(condensed_.numCrosspoints(), numMembers() * numColumns);
-  Eigen::VectorXd remainders(condensed_.numRemainders());
+  coarseLocal_.resize(condensed_->numCrosspoints(), numMembers() * numColumns);
+  Eigen::VectorXd remainders(condensed_->numRemainders());
   for (Eigen::Index column = 0; column < coarseLocal_.cols(); ++column) {
     const auto forces =
         b[members_[static_cast<std::size_t>(column % numMembers())]].col(column / numMembers());
     remainders = forces(like.remainderUnknowns);
     coarseLocal_.col(column) = forces(like.crosspointUnknowns);
-    coarseLocal_.col(column).noalias() -= condensed_.crosspointResponse().transpose() * remainders;
+    coarseLocal_.col(column).noalias() -= condensed_->crosspointResponse().transpose() * remainders;
   }
   addToCoarse(coarse);
 }
@@ -164,14 +185,16 @@ void SubdomainGroup::substitute(const Eigen::MatrixXd& coarse, const std::vector
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
   for (const std::size_t member : members_)
     u[member].resize(like.stiffness->rows(), coarse.cols());
+  coarseLocal_.resize(condensed_->numCrosspoints(),
+                      numMembers() * coarse.cols()); // not all callers eliminate before
   takeFromCoarse(coarse);
   for (Eigen::Index first = 0; first < coarseLocal_.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(first);
     for (Eigen::Index j = 0; j < columns; ++j)
       rhs_.col(j) = b[members_[static_cast<std::size_t>((first + j) % numMembers())]].col(
           (first + j) / numMembers())(like.remainderUnknowns);
-    rhs_.leftCols(columns) -= condensed_.remainderToCrosspoint() * coarseLocal_.middleCols(first, columns);
-    condensed_.factor().solve(rhs_, solution_);
+    rhs_.leftCols(columns) -= condensed_->remainderToCrosspoint() * coarseLocal_.middleCols(first, columns);
+    condensed_->factor().solve(rhs_, solution_);
     for (Eigen::Index j = 0; j < columns; ++j) {
       auto values =
           u[members_[static_cast<std::size_t>((first + j) % numMembers())]].col((first + j) / numMembers());
@@ -208,11 +231,11 @@ void SubdomainGroup::addConstraint(const std::vector<Eigen::MatrixXd>& u, std::s
 }
 
 std::size_t SubdomainGroup::factorBytes() const {
-  return condensed_.factor().bytes() + flexibility_.bytes();
+  return condensed_->factor().bytes() + (isExplicit_ ? flexibility_->bytes() : 0);
 }
 
 std::size_t SubdomainGroup::applyBytes() const {
-  return isExplicit_ ? flexibility_.bytes() : 2 * condensed_.factor().bytes();
+  return isExplicit_ ? flexibility_->bytes() : 2 * condensed_->factor().bytes();
 }
 
 } // namespace epafi::fetidp

@@ -10,6 +10,7 @@
 #include "epafi/direct/SymmetricBlock.hpp"
 #include "epafi/fetidp/CondensedSubdomain.hpp"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,11 +29,14 @@ class SubdomainGroup {
 public:
   /// \param identical    see groupIdentical; at least one
   /// \param crosspoints  this rank's coarse unknowns, ascending: `coarse` below is numbered like them
+  /// \param previous     a group of earlier times, before K^s or B changed, or null: what still holds of its factor and its
+  ///                     block is used again
   /// Keeps a reference to `subdomains`, which must outlive it. \throws Error if the factorisation fails.
   SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains, IdenticalSubdomains identical,
-                 std::span<const GlobalOrdinal> crosspoints, direct::Factorizer& factorizer);
+                 std::span<const GlobalOrdinal> crosspoints, direct::Factorizer& factorizer,
+                 const SubdomainGroup* previous = nullptr);
 
-  [[nodiscard]] const CondensedSubdomain& condensed() const { return condensed_; }
+  [[nodiscard]] const CondensedSubdomain& condensed() const { return *condensed_; }
   [[nodiscard]] std::span<const std::size_t> members() const { return members_; }
   /// How many are like the members, they included.
   [[nodiscard]] int numOnAllRanks() const { return numOnAllRanks_; }
@@ -48,6 +52,10 @@ public:
   /// From now on (K_rr⁻¹)_ΔΔ is a dense block, not a pair of sparse solves.
   void makeExplicit();
   [[nodiscard]] bool isExplicit() const { return isExplicit_; }
+  /// Whether both work with one factor.
+  [[nodiscard]] bool sharesFactorWith(const SubdomainGroup& other) const {
+    return condensed_ == other.condensed_;
+  }
 
   /// First half of F's part: keeps (K_rr⁻¹)_ΔΔ B_Δᵀ λ and adds L_cᵀ Wᵀ λ to `coarse`.
   /// \param lambda  this rank's multipliers (ghost map) × k
@@ -81,6 +89,8 @@ public:
 
 private:
   [[nodiscard]] Eigen::Index numMembers() const { return static_cast<Eigen::Index>(members_.size()); }
+  [[nodiscard]] bool fits(const decomposition::Subdomain& subdomain,
+                          const SubdomainInterface& interface) const;
   void prepareColumns(Eigen::Index numColumns);
   void addEntries(std::size_t member, std::size_t subdomain);
   [[nodiscard]] Eigen::Index prepareBatch(Eigen::Index first);
@@ -92,10 +102,12 @@ private:
   std::vector<std::size_t> members_;
   int numOnAllRanks_;
   direct::SymmetricBlock::Use use_;
-  CondensedSubdomain condensed_;
+  std::weak_ptr<const decomposition::SparseMatrix> stiffness_; ///< what was condensed, not kept alive by this
+  std::vector<int> crosspointUnknowns_;                        ///< likewise
+  std::shared_ptr<const CondensedSubdomain> condensed_;
   std::vector<InterfaceEntry> boundaryEntries_, crosspointEntries_; ///< member after member
   Eigen::MatrixXi coarseIndices_;                                   ///< n_c × m, L_c
-  direct::SymmetricBlock flexibility_;                              ///< (K_rr⁻¹)_ΔΔ, if explicit
+  std::shared_ptr<const direct::SymmetricBlock> flexibility_;       ///< (K_rr⁻¹)_ΔΔ, once it was made
   bool isExplicit_ = false;
   Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × mk: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it
   Eigen::MatrixXd coarseLocal_;         ///< work, n_c × mk

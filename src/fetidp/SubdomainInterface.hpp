@@ -16,6 +16,7 @@ struct SubdomainInterface {
   std::vector<int> positionOf;  ///< of each unknown among (Δ, C), or −1
 
   [[nodiscard]] std::size_t size() const { return boundary.size() + crosspoints.size(); }
+  bool operator==(const SubdomainInterface& other) const = default;
 };
 
 SubdomainInterface interfaceOf(const decomposition::Subdomain& subdomain);

@@ -137,7 +137,7 @@ TEST(CrosspointTest, AnInterfaceThatIsAClosedLoopGetsOnePoint) {
   layout.models.push_back(std::make_unique<fem::MembraneModel>(body, *mesh));
   bodies[0].mesh = std::move(mesh);
   std::vector<Piece> pieces = assemblePieces(layout, *world());
-  const CrosspointNumbering crosspoints(layout, pieces, *world());
+  const CrosspointNumbering crosspoints(outlineOf(layout), pieces, *world());
   EXPECT_EQ(crosspoints.numNodes(), 1);
   EXPECT_EQ(crosspoints.numUnknowns(), 1);
   for (const Piece& piece : pieces) { // both sides know it

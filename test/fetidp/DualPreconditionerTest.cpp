@@ -212,6 +212,18 @@ TEST(DualPreconditionerTest, IsTheSameToTheLastDigitOnAnyNumberOfRanks) {
     }
 }
 
+TEST(DualPreconditionerTest, ABodyWithoutContactLeavesTheOthersAlone) {
+  scene::Scene scene = twoMembranes(true, 6, grid(3, 3));
+  const Eigen::MatrixXd two = matrixOf(Preconditioned(scene).m);
+  scene.bodies.push_back(scene.bodies.back()); // its subdomains are identical to those of a body with contact
+  scene.bodies.back().name = "alone";
+  scene.bodies.back().rectangle = {5, 6, 0, 1};
+  const Eigen::MatrixXd three = matrixOf(Preconditioned(scene).m);
+  ASSERT_GT(three.rows(), two.rows());
+  EXPECT_LE(relativeError(three.topLeftCorner(two.rows(), two.cols()), two), 1e-12); // its rows come last
+  EXPECT_LE(three.topRightCorner(two.rows(), three.cols() - two.cols()).cwiseAbs().maxCoeff(), 0);
+}
+
 TEST(DualPreconditionerTest, ScalesAndAddsAsTpetraOperatorsDo) {
   const Preconditioned preconditioned(twoMembranes(true, 4, grid(2, 2)));
   const Eigen::MatrixXd m = matrixOf(preconditioned.m);

@@ -64,6 +64,32 @@ TEST(GeneralizedInverseTest, TakesSeveralLoadsAtOnce) {
   }
 }
 
+TEST(GeneralizedInverseTest, FindsRemaindersOfGivenCrosspointsAfterAnyUse) {
+  for (const ContactCase& c : contactCases()) {
+    SCOPED_TRACE(c.name);
+    const auto decomposition = decompose(c.scene, world());
+    const DecomposedProblem& problem = decomposition.problem;
+    GeneralizedInverse inverse(problem, DirectSolvers());
+    const SubdomainVectors load = forcesOf(problem, randomVector(decomposition::mergedSize(problem), 11));
+    SubdomainVectors expected, u;
+    inverse.apply(load, expected);
+    constexpr int numColumns = 9;
+    const auto numRows = numColumns * numLocal(*problem.multiplierGhostMap);
+    std::vector<double> lambda(numRows, 1.0), result(numRows);
+    inverse.applyDual(lambda, result, numColumns);
+    u = expected;
+    for (std::size_t s = 0; s < u.size(); ++s)
+      for (const int unknown : problem.subdomains[s].remainderUnknowns)
+        u[s](unknown, 0) = 0;
+    inverse.solveRemainders(load, u);
+    ASSERT_EQ(u.size(), expected.size());
+    for (std::size_t s = 0; s < u.size(); ++s) {
+      ASSERT_EQ(u[s].cols(), 1);
+      EXPECT_LE((u[s] - expected[s]).norm(), 1e-12 * expected[s].norm());
+    }
+  }
+}
+
 TEST(GeneralizedInverseTest, IsSymmetric) {
   for (const ContactCase& c : contactCases()) {
     SCOPED_TRACE(c.name);

@@ -1,0 +1,124 @@
+#pragma once
+
+/// A contact problem that an application hands over: subdomain matrices of its own, its own contact rows, and afterwards its
+/// own loads, gaps and matrices anew.
+///
+///     UnassembledProblem problem(comm, 2, 2, {"ring", "shaft"});
+///     problem.add(std::move(matrix));          // once a subdomain, each on one rank
+///     problem.setContact({rows, gap});         // B_I u ≤ c
+///     problem.complete();                      // crosspoints, gluing, floating bodies
+///     ContactSolver solver(parameters);
+///     solver.setup(problem.problem());
+///     const Vector u = problem.unknowns(solver.solve());
+///
+/// Later problem.setLoad, setGap, setMatrix, setContact change it, and solver.update() follows (ContactSolver.hpp says what
+/// each costs).
+
+#include "epafi/decomposition/ContactMatrix.hpp"
+#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/decomposition/SubdomainMatrix.hpp"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace epafi::decomposition {
+
+/// Subdomains are numbered rank by rank in the order in which they were added. Results do not depend on how subdomains go
+/// to ranks, as long as that order is the same. A rank may have none.
+class UnassembledProblem {
+public:
+  /// \param dimension   of space, 2 or 3
+  /// \param components  unknowns a node, 1 to 3
+  /// \param bodies      names of the bodies, for messages; what is joined is one body, what is not is two
+  /// \throws InputError for other numbers, or without bodies. Not collective.
+  UnassembledProblem(RCP<const Comm> comm, int dimension, int components,
+                     std::vector<std::string> bodies = {"body"});
+  UnassembledProblem(const UnassembledProblem&) = delete;
+  UnassembledProblem& operator=(const UnassembledProblem&) = delete;
+  UnassembledProblem(UnassembledProblem&&) = delete;
+  UnassembledProblem& operator=(UnassembledProblem&&) = delete;
+  ~UnassembledProblem();
+
+  /// Takes one subdomain of this rank; what is wrong with it is said by `complete`. Not collective.
+  /// Precondition: not yet complete.
+  void add(SubdomainMatrix matrix);
+
+  /// Takes B_I and c, both shared; without a call there is no contact. After `complete` the rows of B are made anew.
+  /// Collective then. \throws InputError (see requireSound), the same on all ranks.
+  void setContact(const ContactMatrix& contact);
+
+  /// Finds shared nodes, motions that supports leave free, and crosspoints, and makes the rows of B. Collective.
+  /// \throws InputError, the same on all ranks: what requireSound says of a subdomain or of contact, bodies that are not in
+  /// one piece each, or subdomains that disagree about the unknowns of a node.
+  void complete();
+
+  /// What the solver takes; lives as long as this object. Precondition: complete.
+  [[nodiscard]] const DecomposedProblem& problem() const { return problem_; }
+  /// Unknowns of all subdomains, prescribed ones too, each on one rank. Precondition: complete.
+  [[nodiscard]] const RCP<const Map>& unknownMap() const { return unknownMap_; }
+  /// Subdomains of this rank.
+  [[nodiscard]] std::size_t numSubdomains() const { return own_.size(); }
+  /// Global unknown at every position (nodes × components) of a subdomain, as in ContactSolution::displacement; −1 where the
+  /// application has none. Precondition: complete.
+  [[nodiscard]] std::vector<GlobalOrdinal> globalUnknowns(std::size_t subdomain) const;
+
+  // All of these: precondition: complete; not collective but for setContact. \throws InputError for wrong sizes.
+
+  /// f^s in the order of SubdomainMatrix::unknowns.
+  void setLoad(std::size_t subdomain, const Eigen::VectorXd& load);
+  /// K^s with the pattern it had, in the order of SubdomainMatrix::unknowns. Supports must leave the same motions free.
+  void setMatrix(std::size_t subdomain, const SparseMatrix& stiffness);
+  /// c on the row map of the contact matrix.
+  void setGap(const Vector& gap);
+
+  /// u of a subdomain in the order of SubdomainMatrix::unknowns, of ContactSolution::displacement. Not collective.
+  [[nodiscard]] Eigen::VectorXd unknowns(std::size_t subdomain,
+                                         std::span<const Eigen::VectorXd> displacement) const;
+  /// u on unknownMap(), of shared ones the mean of their copies, which differ by the feasibility reached. Collective.
+  [[nodiscard]] RCP<Vector> unknowns(std::span<const Eigen::VectorXd> displacement) const;
+  /// λ_I on the row map of the contact matrix: the forces of contact, ≥ 0, in the unit of the loads over that of B_I.
+  /// \param multiplier  ContactSolution::multiplier
+  /// Collective.
+  [[nodiscard]] RCP<Vector> contactForces(const Vector& multiplier) const;
+
+private:
+  /// What is kept of a SubdomainMatrix; vectors are in its order.
+  struct Own {
+    std::vector<GlobalOrdinal> unknowns;
+    std::vector<int> position;       ///< of each unknown among nodes × components
+    std::vector<int> row;            ///< its number among the free unknowns, −1 if prescribed
+    Eigen::VectorXd load, heldForce; ///< f^s, and K^s u of the prescribed values u alone
+    Eigen::VectorXd prescribed;      ///< u, 0 where free
+  };
+
+  void makePieces();
+  void makePiece(SubdomainMatrix& matrix, Piece& piece, Own& own) const;
+  [[nodiscard]] SparseMatrix freeStiffness(const SparseMatrix& stiffness, const Own& own) const;
+  void findKernel();
+  void choosePoints();
+  Rows enterContact();
+  void attach(const Rows& contact);
+  void refreshLoad(std::size_t subdomain);
+  void requireComplete() const;
+
+  RCP<const Comm> comm_;
+  int dimension_, components_;
+  std::vector<SubdomainMatrix> added_; ///< until complete
+  std::optional<ContactMatrix> contact_;
+  std::vector<Own> own_;
+  Outline outline_;
+  std::vector<Piece> pieces_;
+  std::vector<std::shared_ptr<const SparseMatrix>> nodal_; ///< K^s before averages became unknowns
+  DecomposedProblem problem_;
+  RCP<const Map> unknownMap_;
+  RCP<const Vector> copies_; ///< of each unknown, on unknownMap_
+  RCP<Vector> held_;         ///< what prescribed values contribute to B_I u, on the row map of B_I
+};
+
+} // namespace epafi::decomposition

@@ -1,0 +1,342 @@
+#include "../base/Refusal.hpp"
+#include "../decomposition/HandedOver.hpp"
+#include "../system/SolidScenes.hpp"
+#include "Reference.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
+#include "epafi/decomposition/ElementMatrices.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Teuchos_DefaultSerialComm.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace epafi::fetidp {
+namespace {
+
+using namespace decomposition;
+using test::expectSays;
+using test::refusal;
+
+/// Two blocks in the plane or in space: one stands in a corner, the other slides on the floor, along the wall, and is
+/// pressed against the first by its weight, which pulls it aside.
+scene::Scene twoBlocks(int dimension, const scene::Decomposition& cut) {
+  scene::Scene scene;
+  const int n = 4, depth = dimension == 3 ? n : 0;
+  scene.bodies = {test::block("held", {{0, 0, 0}, {1, 1, 1}}, {n, n, depth}, cut),
+                  test::block("floating", {{1, 0, 0}, {2, 1, 1}}, {n, n, depth}, cut)};
+  for (scene::Body& body : scene.bodies) {
+    body.solid->supports.push_back(test::slide("bottom"));
+    if (dimension == 3)
+      body.solid->supports.push_back(test::slide("front", 0.01));
+  }
+  scene.bodies[0].solid->supports.push_back(test::slide("left"));
+  scene.bodies[1].solid->loads.push_back(test::weight({-1, -2, 0}));
+  scene.surfaceContacts.push_back(test::between("joint", 0, "right", 1, "left"));
+  return scene;
+}
+
+std::vector<Case> contactCases() {
+  std::vector<Case> cases;
+  for (const bool coercive : {true, false}) {
+    const std::string kind = coercive ? "coercive " : "semicoercive ";
+    cases.push_back({kind + "grid", twoMembranes(coercive, 8, grid(2, 2))});
+    cases.push_back({kind + "strips", twoMembranes(coercive, 7, grid(3, 1))});
+    cases.push_back({kind + "whole bodies", twoMembranes(coercive, 4, grid(1, 1))});
+    cases.push_back({kind + "parts of METIS", twoMembranes(coercive, 9, metis(7))});
+  }
+  for (Case& c : cases) {
+    setHalves(c.scene.bodies[0], 4.0, -5.0);
+    setHalves(c.scene.bodies[1], -3.0, 2.0);
+  }
+  cases.push_back({"blocks in the plane, grid", twoBlocks(2, test::cutInGrid({2, 2, 1}))});
+  cases.push_back({"blocks in the plane, parts of METIS", twoBlocks(2, test::cutByMetis(3))});
+  cases.push_back({"blocks in space, grid", twoBlocks(3, test::cutInGrid({2, 2, 2}))});
+  cases.push_back({"blocks in space, parts of METIS", twoBlocks(3, test::cutByMetis(5))});
+  return cases;
+}
+
+/// A scene, solved as it is and as an application's problem.
+struct Twice {
+  Twice(const scene::Scene& scene, Supports supports)
+      : direct(scene, 1e-12), handed(handOver(scene, matricesOf(scene, supports))) {
+    handed->setContact(contactOf(scene, direct.decomposition, supports));
+    handed->complete();
+    solver = std::make_unique<ContactSolver>(toleranceOf(1e-12));
+    solver->setup(handed->problem());
+    solution = solver->solve();
+  }
+  /// Largest difference of the displacements, relative to the largest displacement. Collective.
+  [[nodiscard]] double difference() const {
+    double largest = 0, difference = 0;
+    const DecomposedProblem& problem = direct.decomposition.problem;
+    const std::vector<GlobalOrdinal> first = firstNodes(direct.decomposition);
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+      const Subdomain& subdomain = problem.subdomains[s];
+      const Eigen::VectorXd& u = direct.solution.displacement[s];
+      const std::vector<GlobalOrdinal> global = handed->globalUnknowns(s);
+      for (std::size_t position = 0; position < global.size(); ++position) {
+        if (global[position] < 0)
+          continue;
+        const GlobalOrdinal node =
+            global[position] / problem.components - first[static_cast<std::size_t>(subdomain.body)];
+        const auto place = std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), node);
+        const double expected =
+            u[(place - subdomain.nodes.begin()) * problem.components + global[position] % problem.components];
+        largest = std::max(largest, std::abs(expected));
+        difference = std::max(
+            difference, std::abs(expected - solution.displacement[s][static_cast<Eigen::Index>(position)]));
+      }
+    }
+    return maxOverRanks(*world(), difference) / maxOverRanks(*world(), largest);
+  }
+
+  Solved direct;
+  std::unique_ptr<UnassembledProblem> handed;
+  std::unique_ptr<ContactSolver> solver;
+  ContactSolution solution;
+};
+
+TEST(UnassembledProblemTest, AHandedOverSceneHasTheSameAnswer) {
+  for (const Case& c : contactCases())
+    for (const Supports supports : {Supports::eliminated, Supports::prescribed}) {
+      SCOPED_TRACE(c.name + (supports == Supports::prescribed ? ", prescribed" : ", eliminated"));
+      const Twice twice(c.scene, supports);
+      EXPECT_LE(twice.difference(), 1e-10);
+      if (supports == Supports::prescribed) { // else what prescribed values alone contribute is not known
+        EXPECT_NEAR(twice.solution.energy, twice.direct.solution.energy,
+                    1e-10 * std::abs(twice.direct.solution.energy));
+      }
+      EXPECT_EQ(twice.solution.activeContactNodes, twice.direct.solution.activeContactNodes);
+      EXPECT_EQ(twice.handed->problem().kernelDimension, twice.direct.decomposition.problem.kernelDimension);
+    }
+}
+
+/// The solution that a solver made anew finds of the problem as it is.
+ContactSolution solvedAnew(const UnassembledProblem& handed) {
+  ContactSolver solver(toleranceOf(1e-12));
+  solver.setup(handed.problem());
+  return solver.solve();
+}
+
+void expectEqualFields(const UnassembledProblem& handed, const ContactSolution& a, const ContactSolution& b) {
+  const RCP<Vector> u = handed.unknowns(a.displacement), v = handed.unknowns(b.displacement);
+  const double size = v->normInf();
+  u->update(-1.0, *v, 1.0);
+  EXPECT_LE(u->normInf(), 1e-10 * size);
+  EXPECT_GT(size, 0);
+}
+
+/// Every second row of a contact matrix, numbered anew, with as much gap again. Collective.
+ContactMatrix everySecondRow(const ContactMatrix& contact) {
+  const CrsMatrix& all = *contact.rows;
+  const auto number = static_cast<GlobalOrdinal>(all.getGlobalNumRows() + 1) / 2;
+  std::vector<GlobalOrdinal> mine;
+  for (GlobalOrdinal row = 0; row < number; ++row)
+    if (all.getRowMap()->isNodeGlobalElement(2 * row))
+      mine.push_back(row);
+  const RCP<const Map> rows = rcp(
+      new Map(static_cast<Tpetra::global_size_t>(number), Teuchos::arrayViewFromVector(mine), 0, world()));
+  const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(rows, 8));
+  const RCP<Vector> gap = rcp(new Vector(rows));
+  for (const GlobalOrdinal row : mine) {
+    const LocalOrdinal old = all.getRowMap()->getLocalElement(2 * row);
+    CrsMatrix::local_inds_host_view_type columns;
+    CrsMatrix::values_host_view_type values;
+    all.getLocalRowView(old, columns, values);
+    for (std::size_t k = 0; k < columns.extent(0); ++k)
+      matrix->insertGlobalValues(row, Teuchos::tuple(all.getColMap()->getGlobalElement(columns(k))),
+                                 Teuchos::tuple(values(k)));
+    gap->replaceGlobalValue(row, 0.01 + 2 * contact.gap->getData()[old]);
+  }
+  matrix->fillComplete(all.getDomainMap(), rows);
+  return {matrix, gap};
+}
+
+TEST(UnassembledProblemTest, UpdatesGiveWhatASolverMadeAnewGives) {
+  for (const Case& c : contactCases()) {
+    SCOPED_TRACE(c.name);
+    Twice twice(c.scene, Supports::prescribed);
+    UnassembledProblem& handed = *twice.handed;
+    std::vector<SubdomainMatrix> matrices = matricesOf(c.scene, Supports::prescribed);
+    ContactMatrix contact = contactOf(c.scene, twice.direct.decomposition, Supports::prescribed);
+    const auto expectAsAnew = [&] {
+      const ContactSolution updated = twice.solver->solve();
+      expectEqualFields(handed, updated, solvedAnew(handed));
+      const auto anew = handOver(c.scene, matrices);
+      anew->setContact(contact);
+      anew->complete();
+      const ContactSolution expected = solvedAnew(*anew);
+      expectEqualFields(handed, updated, expected);
+      EXPECT_NEAR(updated.energy, expected.energy, 1e-9 * std::abs(expected.energy));
+    };
+
+    for (std::size_t s = 0; s < matrices.size(); ++s) { // loads and gaps take no update
+      matrices[s].load *= matrices[s].body == 0 ? 3.0 : 1.5;
+      handed.setLoad(s, matrices[s].load);
+    }
+    const RCP<Vector> gap = rcp(new Vector(contact.gap->getMap()));
+    for (Teuchos_Ordinal i = 0; i < gap->getData().size(); ++i)
+      gap->replaceLocalValue(
+          static_cast<LocalOrdinal>(i),
+          1e-3 * static_cast<double>(gap->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))));
+    contact.gap = gap;
+    handed.setGap(*gap);
+    expectAsAnew();
+
+    for (std::size_t s = 0; s < matrices.size(); ++s)
+      if (matrices[s].body == 0) {
+        matrices[s].stiffness *= 3.0;
+        handed.setMatrix(s, matrices[s].stiffness);
+      }
+    twice.solver->update();
+    expectAsAnew();
+
+    contact = everySecondRow(contact);
+    handed.setContact(contact);
+    twice.solver->update();
+    expectAsAnew();
+  }
+}
+
+TEST(UnassembledProblemTest, AnUpdateKeepsTheFactorsThatStillHold) {
+  Twice twice(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
+  UnassembledProblem& handed = *twice.handed;
+  DirectSolvers solvers;
+  solvers.shareIdentical = false;
+  GeneralizedInverse inverse(handed.problem(), solvers);
+  const auto factors = [&] {
+    std::vector<const CondensedSubdomain*> result;
+    for (const SubdomainGroup& group : std::as_const(inverse).groups())
+      result.push_back(&group.condensed());
+    return result;
+  };
+  const auto before = factors();
+  const CoarseProblem* coarse = &inverse.coarseProblem();
+  inverse.update(handed.problem());
+  EXPECT_EQ(factors(), before);
+  EXPECT_EQ(&inverse.coarseProblem(), coarse);
+
+  const bool isFirst = world()->getRank() == 0;
+  if (isFirst)
+    handed.setMatrix(0,
+                     2.0 * matricesOf(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated)[0].stiffness);
+  else
+    matricesOf(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
+  inverse.update(handed.problem());
+  const auto after = factors();
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t s = 0; s < after.size(); ++s)
+    EXPECT_EQ(after[s] == before[s], !(isFirst && s == 0)) << s;
+}
+
+/// What `complete` says of a problem whose first subdomain was changed, on whatever rank that is.
+template <class Change>
+std::string refusalAfter(const Change& change) {
+  const scene::Scene scene = twoMembranes(true, 4, grid(2, 1));
+  std::vector<SubdomainMatrix> matrices = matricesOf(scene, Supports::prescribed);
+  if (world()->getRank() == 0)
+    change(matrices.front());
+  return refusal([&] { handOver(scene, matrices)->complete(); });
+}
+
+TEST(UnassembledProblemTest, WrongInputIsRefusedOnAllRanks) {
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.unknowns[1] = m.unknowns[0]; }),
+             {"subdomain 0", "twice"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.unknowns[0] = -3; }), {"subdomain 0", "-3"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.load.conservativeResize(3); }), {"load", "3 x 1"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.coordinates(0, 0) = NAN; }), {"coordinates", "finite"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.body = 2; }), {"body 2", "2 bodies"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.body = 1; }), {"share nodes"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.stiffness.coeffRef(0, 1) += 1; }), {"symmetric"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.crosspoints = {12345}; }), {"12345", "crosspoint"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.prescribed.emplace_back(99999, 0.0); }), {"99999"});
+  expectSays(refusalAfter([](SubdomainMatrix& m) { m.prescribed.emplace_back(m.unknowns.back(), 0.0); }),
+             {"same free unknowns"});
+  expectSays(refusal([] { UnassembledProblem(world(), 4, 1); }), {"4", "2 or 3"});
+  expectSays(refusal([] { UnassembledProblem(world(), 2, 0); }), {"0 unknowns"});
+}
+
+TEST(UnassembledProblemTest, WrongContactIsRefusedOnAllRanks) {
+  const scene::Scene scene = twoMembranes(true, 4, grid(2, 1));
+  const Decomposition decomposition = decompose(scene, world());
+  const ContactMatrix contact = contactOf(scene, decomposition, Supports::prescribed);
+  const auto completed = [&](const ContactMatrix& given) {
+    const auto problem = handOver(scene, matricesOf(scene, Supports::prescribed));
+    problem->setContact(given);
+    problem->complete();
+  };
+  const RCP<const Map> rows = contact.rows->getRowMap();
+  const auto withColumn = [&](GlobalOrdinal column, double value) {
+    const RCP<const Map> domain = rcp(new Map(100000, 0, world()));
+    const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(rows, 1));
+    for (std::size_t i = 0; i < numLocal(*rows); ++i)
+      matrix->insertGlobalValues(rows->getGlobalElement(static_cast<LocalOrdinal>(i)), Teuchos::tuple(column),
+                                 Teuchos::tuple(value));
+    matrix->fillComplete(domain, rows);
+    return ContactMatrix{matrix, contact.gap};
+  };
+  expectSays(refusal([&] { completed(withColumn(77777, 1.0)); }), {"77777", "no subdomain"});
+  expectSays(refusal([&] { completed(withColumn(3, 0.0)); }), {"row", "empty"});
+  expectSays(refusal([&] { completed(withColumn(3, NAN)); }), {"not finite"});
+  const RCP<const Map> longer = rcp(new Map(rows->getGlobalNumElements() + 3, 0, world()));
+  expectSays(refusal([&] { completed({contact.rows, rcp(new Vector(longer))}); }), {"gaps", "row map"});
+}
+
+TEST(UnassembledProblemTest, CompressedRowsAndTpetraMatricesGiveTheSameSubdomain) {
+  const std::vector<int> starts{0, 2, 3, 5}, columns{1, 0, 1, 2, 0};
+  const std::vector<double> values{-1, 2, 3, 5, 7};
+  const SparseMatrix matrix = fromCompressedRows(starts, columns, values);
+  EXPECT_EQ(matrix.coeff(0, 1), -1);
+  EXPECT_EQ(matrix.coeff(2, 0), 7);
+  EXPECT_EQ(matrix.nonZeros(), 5);
+  EXPECT_THROW(fromCompressedRows(starts, std::vector<int>{1, 0, 1, 3, 0}, values), InputError);
+  EXPECT_THROW(fromCompressedRows(std::vector<int>{0, 2, 1, 5}, columns, values), InputError);
+
+  const std::vector<GlobalOrdinal> numbers{12, 7, 30};
+  const RCP<const Comm> self = rcp(new Teuchos::SerialComm<int>());
+  const RCP<const Map> map = rcp(new Map(3, Teuchos::arrayViewFromVector(numbers), 0, self));
+  CrsMatrix local(map, 3);
+  for (int row = 0; row < 3; ++row)
+    for (int k = starts[static_cast<std::size_t>(row)]; k < starts[static_cast<std::size_t>(row) + 1]; ++k)
+      local.insertGlobalValues(
+          numbers[static_cast<std::size_t>(row)],
+          Teuchos::tuple(numbers[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)])]),
+          Teuchos::tuple(values[static_cast<std::size_t>(k)]));
+  local.fillComplete();
+  const SubdomainMatrix subdomain = subdomainMatrix(local);
+  EXPECT_EQ(subdomain.unknowns, numbers);
+  EXPECT_EQ(SparseMatrix(subdomain.stiffness - matrix).norm(), 0);
+}
+
+TEST(UnassembledProblemTest, ElementsAddUpToSubdomains) {
+  ElementMatrices elements(2);
+  const Eigen::MatrixXd k = (Eigen::MatrixXd(2, 2) << 2, -1, -1, 3).finished();
+  const Eigen::MatrixXd points = (Eigen::MatrixXd(2, 2) << 0, 0, 1, 0).finished();
+  const Eigen::VectorXd f = Eigen::Vector2d(1, 10);
+  const std::vector<GlobalOrdinal> first{4, 9}, second{9, 2};
+  elements.add(7, {first, points, k, f});
+  elements.add(7, {second, points, k, f});
+  elements.add(3, {first, points, k, f}, 1);
+  EXPECT_THROW(elements.add(3, {first, points, k, f}, 0), InputError);
+  EXPECT_THROW(elements.add(3, {first, points, k, Eigen::VectorXd::Zero(3)}, 1), InputError);
+  const std::vector<SubdomainMatrix> matrices = elements.take();
+  ASSERT_EQ(matrices.size(), 2u);
+  EXPECT_EQ(matrices[0].body, 1);
+  EXPECT_EQ(matrices[1].unknowns, (std::vector<GlobalOrdinal>{4, 9, 2}));
+  EXPECT_EQ(matrices[1].stiffness.coeff(1, 1), 3 + 2);
+  EXPECT_EQ(matrices[1].stiffness.coeff(0, 2), 0);
+  EXPECT_EQ(matrices[1].load, Eigen::Vector3d(1, 10 + 1, 10));
+  EXPECT_EQ(matrices[1].coordinates.row(1), points.row(1)); // the first one counts
+}
+
+} // namespace
+} // namespace epafi::fetidp
