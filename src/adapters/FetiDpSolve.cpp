@@ -29,6 +29,7 @@ bool isByRightHandSide(const Thyra::SolveMeasureType& measure) {
 
 void FetiDpSolve::initialize(const RCP<const Thyra::LinearOpSourceBase<double>>& source,
                              const linear::FetiDpParameters& parameters) {
+  const std::shared_ptr<linear::FetiDpSolver> previous = solver_;
   uninitialize(); // should this fail, there is none
   const ForwardOperator forward = forwardOperator(*source);
   if (forward.k.is_null())
@@ -36,7 +37,12 @@ void FetiDpSolve::initialize(const RCP<const Thyra::LinearOpSourceBase<double>>&
                      "; it must be epafi::fetidp::asThyra of an epafi::linear::UnassembledOperator");
   if (forward.factor == 0)
     throw InputError("FETI-DP cannot solve with an operator times zero");
-  solver_ = std::make_shared<linear::FetiDpSolver>(forward.k, parameters);
+  if (previous && previous->forwardOperator() == forward.k && previous->parameters() == parameters) {
+    previous->update();
+    solver_ = previous;
+  } else {
+    solver_ = std::make_shared<linear::FetiDpSolver>(forward.k, parameters);
+  }
   forward_ = forward;
   source_ = source;
 }

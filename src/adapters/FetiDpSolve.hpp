@@ -14,7 +14,8 @@ namespace epafi::adapters {
 /// a K, symmetric, so that transposes are the same. As Thyra has it, one that is not initialised has no range.
 class FetiDpSolve final : public Thyra::LinearOpWithSolveBase<double> {
 public:
-  /// Factorises. Collective. \throws what linear::FetiDpSolver throws
+  /// Factorises; for the same K and parameters as before, whose matrices may have changed, what still holds is kept. Collective.
+  /// \throws what linear::FetiDpSolver throws
   void initialize(const RCP<const Thyra::LinearOpSourceBase<double>>& source,
                   const linear::FetiDpParameters& parameters);
   /// Gives the source back and forgets the factors. Not collective.

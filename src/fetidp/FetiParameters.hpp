@@ -14,6 +14,7 @@ struct DirectSolvers {
   std::string coarse = "CHOLMOD";
   bool shareIdentical = true;
   int maxReplicated = 20000; ///< coarse unknowns; a larger coarse problem is kept and solved on one rank
+  bool operator==(const DirectSolvers& other) const = default;
 };
 
 struct DualOperatorParameters {
@@ -22,6 +23,7 @@ struct DualOperatorParameters {
   enum class Mode { automatic, implicitSolves, explicitBlocks };
   Mode mode = Mode::automatic;
   int expectedProducts = 40; ///< that a setup must pay off in
+  bool operator==(const DualOperatorParameters& other) const = default;
 };
 
 struct PreconditionerParameters {
@@ -30,6 +32,7 @@ struct PreconditionerParameters {
   Type type = Type::dirichlet;
   Scaling scaling = Scaling::stiffness;
   bool isSingle = false; ///< blocks in single precision
+  bool operator==(const PreconditionerParameters& other) const = default;
 };
 
 struct AdaptiveConstraintParameters {
@@ -40,6 +43,7 @@ struct AdaptiveConstraintParameters {
   /// Largest over smallest stiffness along an interface, from which on `automatic` looks at it.
   double stiffnessRatio = 10;
   int maxNumber = 1000; ///< constraints at most, n_U
+  bool operator==(const AdaptiveConstraintParameters& other) const = default;
 };
 
 /// "none", "lumped", "dirichlet".

@@ -157,7 +157,6 @@ void SubdomainGroup::addToCoarse(std::span<AccurateSum> coarse) const {
 
 /// The members' columns = L_c x_c.
 void SubdomainGroup::takeFromCoarse(const Eigen::MatrixXd& coarse) {
-  coarseLocal_.resize(condensed_.numCrosspoints(), numMembers() * coarse.cols());
   for (Eigen::Index j = 0; j < coarse.cols(); ++j) {
     double* values = coarseLocal_.data() + j * coarseIndices_.size();
     for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)

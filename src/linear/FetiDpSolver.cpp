@@ -85,10 +85,23 @@ double LinearReport::largestResidual() const {
 FetiDpSolver::FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParameters& parameters)
     : k_(std::move(k)), parameters_(parameters),
       inverse_(std::make_shared<fetidp::GeneralizedInverse>(requireLinearProblem(*k_, "FETI-DP"),
-                                                            parameters.directSolvers)),
-      dual_(k_->problem(), inverse_, dualParameters(parameters)),
-      shares_(k_->problem(), k_->exchange(), parameters.preconditioner.scaling),
-      primal_(*k_, *inverse_, parameters.preconditioner.scaling), multipliers_(inverse_->multiplierPlan()) {}
+                                                            parameters.directSolvers)) {
+  prepare();
+}
+
+void FetiDpSolver::update() {
+  inverse_->update(requireLinearProblem(*k_, "FETI-DP"));
+  prepare();
+}
+
+/// What is made of the inverse.
+void FetiDpSolver::prepare() {
+  const auto scaling = parameters_.preconditioner.scaling;
+  dual_ = std::make_unique<fetidp::DualProblem>(k_->problem(), inverse_, dualParameters(parameters_));
+  shares_ = std::make_unique<CopyShares>(k_->problem(), k_->exchange(), scaling);
+  primal_ = std::make_unique<PrimalResidual>(*k_, *inverse_, scaling);
+  multipliers_ = std::make_unique<fetidp::MultiplierExchange>(inverse_->multiplierPlan());
+}
 
 FetiDpSolver::Columns FetiDpSolver::begin(const MultiVector& b, MultiVector& x, double tolerance,
                                           ResidualReference reference) const {
@@ -160,9 +173,9 @@ DualOutcome FetiDpSolver::correct(const MultiVector& residual, std::span<const d
   k_->exchange().toSubdomains(residual, forces_);
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     toForcesOfUnknowns(subdomains[s], forces_[s]);
-  shares_.scale(forces_); // f̄
+  shares_->scale(forces_); // f̄
   const DualOutcome outcome = solveDual(goals, maxSteps);
-  shares_.scale(torn_);
+  shares_->scale(torn_);
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     toValues(subdomains[s], torn_[s]);
   MultiVector mean(x.getMap(), x.getNumVectors());
@@ -177,21 +190,21 @@ DualOutcome FetiDpSolver::solveDual(std::span<const double> goals, int maxSteps)
   const std::size_t numColumns = goals.size();
   const int columns = static_cast<int>(numColumns);
   inverse_->apply(forces_, torn_, columns);
-  if (dual_.algorithm() == fetidp::Algorithm::direct)
+  if (dual_->algorithm() == fetidp::Algorithm::direct)
     return {};
-  inverse_->constraint(torn_, multipliers_.values(numColumns));
+  inverse_->constraint(torn_, multipliers_->values(numColumns));
   const RCP<MultiVector> rhs = rcp(new MultiVector(k_->problem().multiplierMap, numColumns)); // d̃ = B̄K̄⁻¹f̄
-  multipliers_.sumToOwners(*rhs);
-  const auto deflated = dual_.deflatedOperator();
+  multipliers_->sumToOwners(*rhs);
+  const auto deflated = dual_->deflatedOperator();
   const RCP<MultiVector> whole = rcp(new MultiVector(*rhs, Teuchos::Copy));
   for (std::size_t j = 0; j < numColumns && !deflated.is_null(); ++j)
     deflated->project(*rhs->getVectorNonConst(j));
   const RCP<MultiVector> lambda = rcp(new MultiVector(rhs->getMap(), numColumns));
   const DualOutcome outcome =
-      iterateDual(dual_.hessian(), dual_.preconditioner(), rhs, lambda, primal_, goals, maxSteps);
+      iterateDual(dual_->hessian(), dual_->preconditioner(), rhs, lambda, *primal_, goals, maxSteps);
   for (std::size_t j = 0; j < numColumns && !deflated.is_null(); ++j)
     deflated->complete(*whole->getVector(j), *lambda->getVectorNonConst(j));
-  inverse_->subtractForces(multipliers_.toSubdomains(*lambda), forces_);
+  inverse_->subtractForces(multipliers_->toSubdomains(*lambda), forces_);
   inverse_->apply(forces_, torn_, columns);
   return outcome;
 }

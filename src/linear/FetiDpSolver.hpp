@@ -8,6 +8,8 @@
 #include "epafi/linear/DualIteration.hpp"
 #include "epafi/linear/LinearParameters.hpp"
 
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct LinearReport {
   int iterations = 0; ///< conjugate gradient steps, of all columns at once
   /// ‖b − Ku‖ of each column relative to its reference; absolute where that vanishes.
   std::vector<double> relativeResiduals;
+  /// Of all columns; 0 if there are none.
   [[nodiscard]] double largestResidual() const;
 };
 
@@ -33,6 +36,10 @@ public:
   /// if a body floats, Error if a factorisation fails; the same on all ranks.
   FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParameters& parameters);
 
+  /// Follows a change of the matrices in the problem of k: what still holds is kept (GeneralizedInverse::update), the symbolic part
+  /// of factorisations where patterns are the same. Collective; throws as the constructor does.
+  void update();
+
   /// Solves for all columns at once, none of which takes a factorisation.
   /// \param b  n × k; \param x  n × k: in: start (a product with K more than zero), out: the solution
   /// \param tolerance  on ‖b − Kx‖ relative to `reference`, column by column
@@ -43,13 +50,16 @@ public:
   /// To the tolerance of the parameters, relative to the right-hand side.
   LinearReport solve(const MultiVector& b, MultiVector& x) { return solve(b, x, parameters_.tolerance); }
 
+  /// As given.
   [[nodiscard]] const FetiDpParameters& parameters() const { return parameters_; }
   /// F and its preconditioner, for who wants to look.
-  [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return dual_; }
+  [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return *dual_; }
+  /// K.
   [[nodiscard]] const RCP<const UnassembledOperator>& forwardOperator() const { return k_; }
 
 private:
   struct Columns;
+  void prepare();
   Columns begin(const MultiVector& b, MultiVector& x, double tolerance, ResidualReference reference) const;
   bool improve(Columns& columns, int maxSteps, DualOutcome& outcome);
   DualOutcome correct(const MultiVector& residual, std::span<const double> goals, int maxSteps,
@@ -59,10 +69,10 @@ private:
   RCP<const UnassembledOperator> k_;
   FetiDpParameters parameters_;
   std::shared_ptr<fetidp::GeneralizedInverse> inverse_;
-  fetidp::DualProblem dual_;
-  CopyShares shares_;
-  PrimalResidual primal_;
-  fetidp::MultiplierExchange multipliers_;
+  std::unique_ptr<fetidp::DualProblem> dual_;
+  std::unique_ptr<CopyShares> shares_;
+  std::unique_ptr<PrimalResidual> primal_;
+  std::unique_ptr<fetidp::MultiplierExchange> multipliers_;
   SubdomainVectors forces_, torn_; ///< work: f̄ or f̄ − B̄ᵀλ, and the torn solution
 };
 

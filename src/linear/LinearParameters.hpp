@@ -14,6 +14,7 @@ struct FetiDpParameters {
   fetidp::DualOperatorParameters dualOperator;
   fetidp::PreconditionerParameters preconditioner;
   fetidp::AdaptiveConstraintParameters adaptiveConstraints;
+  bool operator==(const FetiDpParameters& other) const = default;
 
   /// Names, defaults, ranges and meaning, for `validated`.
   static Teuchos::ParameterList validParameters();
@@ -26,7 +27,9 @@ struct BddcParameters {
   fetidp::DirectSolvers directSolvers;
   fetidp::PreconditionerParameters::Scaling scaling = fetidp::PreconditionerParameters::Scaling::stiffness;
 
+  /// Names, defaults, ranges and meaning, for `validated`.
   static Teuchos::ParameterList validParameters();
+  /// From a validated list.
   static BddcParameters from(const Teuchos::ParameterList& list);
 };
 

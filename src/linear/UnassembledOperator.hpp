@@ -16,7 +16,7 @@ namespace epafi::linear {
 /// numbers that no unknown has, those of prescribed values in most applications, K is the identity.
 class UnassembledOperator final : public Operator {
 public:
-  /// \param problem      shared; must not change but for its loads and gaps
+  /// \param problem      shared; K follows its matrices, everything else but loads and gaps must stay
   /// \param atPositions  see GlobalUnknowns.hpp
   /// \param map          one-to-one, with the numbers of all unknowns; null: ownedUnknowns
   /// \throws InputError, the same on all ranks, if lists are too short or too long, if the map lacks a number, or if copies of a

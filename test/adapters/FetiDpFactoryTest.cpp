@@ -148,6 +148,20 @@ TEST(FetiDpFactoryTest, AnOperatorCanBeInitialisedAgainAndOutlivesItsFactory) {
   EXPECT_LE(sample.residual(), 1.001e-8);
 }
 
+TEST(FetiDpFactoryTest, InitialisedAgainItFollowsTheMatrices) {
+  Sample sample;
+  const FetiDpFactory factory;
+  const auto op = Thyra::linearOpWithSolve<double>(factory, sample.k);
+  sample.solve(*op);
+  const auto* const solver = dynamic_cast<const FetiDpSolve&>(*op).solver().get();
+  for (decomposition::Subdomain& subdomain : sample.problem.decomposition->problem.subdomains)
+    decomposition::changeStiffness(subdomain, [](decomposition::SparseMatrix& k) { k *= 3; });
+  Thyra::initializeOp<double>(factory, sample.k, op.ptr());
+  EXPECT_EQ(dynamic_cast<const FetiDpSolve&>(*op).solver().get(), solver); // what holds is kept
+  EXPECT_EQ(sample.solve(*op).solveStatus, Thyra::SOLVE_STATUS_CONVERGED);
+  EXPECT_LE(sample.residual(3.0), 1.001e-8);
+}
+
 TEST(FetiDpFactoryTest, WrongParametersAreRefusedByName) {
   FetiDpFactory factory;
   const auto list = Teuchos::parameterList();

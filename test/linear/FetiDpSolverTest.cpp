@@ -116,6 +116,19 @@ TEST(FetiDpSolverTest, PrescribedValuesInTheMapAreTakenFromTheRightHandSide) {
   EXPECT_LE((bddc.col(0) - Eigen::VectorXd::Unit(49, 0)).norm(), 0); // of a supported node
 }
 
+TEST(FetiDpSolverTest, FollowsAChangeOfTheMatrices) {
+  const LinearProblem problem(patchwork(8, 10));
+  FetiDpSolver solver(problem.k, {});
+  for (decomposition::Subdomain& subdomain : problem.decomposition->problem.subdomains)
+    if (subdomain.number % 2 == 0)
+      decomposition::changeStiffness(subdomain, [](decomposition::SparseMatrix& k) { k *= 7; });
+  solver.update();
+  const Eigen::MatrixXd load = denseOf(*problem.k->load());
+  Vector x(problem.k->getDomainMap());
+  EXPECT_TRUE(solver.solve(*problem.k->load(), x, 1e-11).converged);
+  EXPECT_LE(relativeError(denseOf(x), denseOf(*problem.k).llt().solve(load)), 1e-9);
+}
+
 TEST(FetiDpSolverTest, SaysWhyItStopped) {
   const LinearProblem problem(plate(16, decomposition::grid(4, 4)));
   const RCP<const Vector> b = problem.k->load();
