@@ -1,6 +1,7 @@
 #include "Samples.hpp"
 
 #include "../base/Refusal.hpp"
+#include "../decomposition/HandedOver.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/linear/NodalBasis.hpp"
@@ -102,6 +103,27 @@ refusalOf(const std::function<void(const decomposition::DecomposedProblem&, Glob
   GlobalUnknowns unknowns = globalUnknowns(*problem.decomposition);
   change(problem.k->problem(), unknowns);
   return test::refusal([&] { UnassembledOperator(problem.k->sharedProblem(), unknowns); });
+}
+
+/// An application's own subdomain matrices, prescribed unknowns among them, on its own map.
+TEST(UnassembledOperatorTest, IsTheSameOfMatricesThatAnApplicationHandsOver) {
+  for (const scene::Scene& scene : {plate(6, decomposition::grid(2, 2)), patchwork(8, 1e3),
+                                    elasticBlock(6, 0, test::cutInGrid({2, 2, 1}))}) {
+    const std::shared_ptr<decomposition::UnassembledProblem> own =
+        decomposition::handOver(scene, decomposition::matricesOf(scene, decomposition::Supports::prescribed));
+    own->complete();
+    GlobalUnknowns unknowns;
+    for (std::size_t s = 0; s < own->numSubdomains(); ++s)
+      unknowns.push_back(own->globalUnknowns(s));
+    const std::shared_ptr<const decomposition::DecomposedProblem> problem(own, &own->problem());
+    const LinearProblem expected(scene);
+    const UnassembledOperator free(problem, unknowns);
+    EXPECT_LE(relativeError(denseOf(free), denseOf(*expected.k)), 1e-14);
+    EXPECT_LE(relativeError(denseOf(*free.load()), denseOf(*expected.k->load())), 1e-14);
+    const UnassembledOperator all(problem, unknowns, own->unknownMap());
+    const auto numOthers = static_cast<GlobalOrdinal>(all.identityRows().size());
+    EXPECT_EQ(sumOverRanks(*world(), numOthers) + denseOf(free).rows(), denseOf(all).rows());
+  }
 }
 
 TEST(UnassembledOperatorTest, RefusesNumbersThatDoNotFit) {
