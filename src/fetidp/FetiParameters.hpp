@@ -14,6 +14,7 @@ struct DirectSolvers {
   std::string coarse = "CHOLMOD";
   bool shareIdentical = true;
   int maxReplicated = 20000; ///< coarse unknowns; a larger coarse problem is kept and solved on one rank
+  bool operator==(const DirectSolvers& other) const = default;
 };
 
 /// The form of F.
@@ -23,6 +24,7 @@ struct DualOperatorParameters {
   enum class Mode { automatic, implicitSolves, explicitBlocks };
   Mode mode = Mode::automatic;
   int expectedProducts = 40; ///< that a setup must pay off in
+  bool operator==(const DualOperatorParameters& other) const = default;
 };
 
 /// The preconditioner of F.
@@ -34,6 +36,7 @@ struct PreconditionerParameters {
   Type type = Type::dirichlet;
   Scaling scaling = Scaling::stiffness;
   bool isSingle = false; ///< blocks in single precision
+  bool operator==(const PreconditionerParameters& other) const = default;
 };
 
 /// Where jumps are looked for that the preconditioner overrates, and which of them are taken out.
@@ -45,6 +48,7 @@ struct AdaptiveConstraintParameters {
   /// Largest over smallest stiffness along an interface, from which on `automatic` looks at it.
   double stiffnessRatio = 10;
   int maxNumber = 1000; ///< constraints at most, n_U
+  bool operator==(const AdaptiveConstraintParameters& other) const = default;
 };
 
 /// "none", "lumped", "dirichlet".

@@ -103,8 +103,8 @@ void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u, i
     group.substitute(coarse_, b, u);
 }
 
-void GeneralizedInverse::solveRemainders(const SubdomainVectors& b, SubdomainVectors& u) {
-  prepareCoarse(1);
+void GeneralizedInverse::solveRemainders(const SubdomainVectors& b, SubdomainVectors& u, int numColumns) {
+  prepareCoarse(numColumns);
   coarse_.setZero();
   for (const SubdomainGroup& group : groups_)
     group.takeCrosspoints(u, coarse_);

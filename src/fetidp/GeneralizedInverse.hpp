@@ -43,7 +43,7 @@ public:
   void apply(const SubdomainVectors& b, SubdomainVectors& u, int numColumns = 1);
 
   /// u with the crosspoint values of `u` and the others in equilibrium: u_r = K_rr⁻¹(b_r − K_rc u_c). Not collective.
-  void solveRemainders(const SubdomainVectors& b, SubdomainVectors& u);
+  void solveRemainders(const SubdomainVectors& b, SubdomainVectors& u, int numColumns = 1);
 
   /// b −= B̄ᵀ λ (λ on the ghost map × k). Not collective.
   void subtractForces(std::span<const double> lambda, SubdomainVectors& b) const;

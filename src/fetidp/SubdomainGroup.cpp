@@ -207,8 +207,8 @@ void SubdomainGroup::takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eige
   const std::vector<int>& unknowns = (*subdomains_)[members_.front()].crosspointUnknowns;
   for (Eigen::Index member = 0; member < numMembers(); ++member)
     for (Eigen::Index i = 0; i < coarseIndices_.rows(); ++i)
-      coarse(coarseIndices_(i, member), 0) =
-          u[members_[static_cast<std::size_t>(member)]](unknowns[static_cast<std::size_t>(i)], 0);
+      coarse.row(coarseIndices_(i, member)) =
+          u[members_[static_cast<std::size_t>(member)]].row(unknowns[static_cast<std::size_t>(i)]);
 }
 
 void SubdomainGroup::subtractForces(std::span<const double> lambda, std::vector<Eigen::MatrixXd>& b) const {

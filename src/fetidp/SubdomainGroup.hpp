@@ -74,7 +74,7 @@ public:
   void substitute(const Eigen::MatrixXd& coarse, const std::vector<Eigen::MatrixXd>& b,
                   std::vector<Eigen::MatrixXd>& u);
 
-  /// x_c of the members' crosspoint values, which agree: one column. \param coarse  this rank's coarse unknowns
+  /// x_c of the members' crosspoint values, which agree. \param coarse  this rank's coarse unknowns, with as many columns
   void takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eigen::MatrixXd& coarse) const;
 
   /// b −= Bᵀ λ in the members. \param lambda  on the ghost map × k

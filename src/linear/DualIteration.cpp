@@ -1,0 +1,140 @@
+#include "epafi/linear/DualIteration.hpp"
+
+#include <BelosLinearProblem.hpp>
+#include <BelosOutputManager.hpp>
+#include <BelosPseudoBlockCGIter.hpp>
+#include <BelosStatusTest.hpp>
+#include <BelosTpetraAdapter.hpp>
+#include <Teuchos_ParameterList.hpp>
+#include <Tpetra_Vector.hpp>
+#include <Trilinos_version.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace epafi::linear {
+namespace {
+
+using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
+using Iteration = Belos::Iteration<double, MultiVector, Operator>;
+using Test = Belos::StatusTest<double, MultiVector, Operator>;
+using ConjugateGradients = Belos::PseudoBlockCGIter<double, MultiVector, Operator>;
+
+/// Passes when every column has met its goal, when one has met it so far that its steps would soon divide zero by zero, or at the
+/// limit.
+class PrimalGoal final : public Test {
+public:
+  PrimalGoal(PrimalResidual& primal, std::vector<double> goals, int maxSteps)
+      : primal_(primal), goals_(std::move(goals)), maxSteps_(maxSteps),
+        expected_(goals_.size(), std::numeric_limits<double>::infinity()), dual_(goals_.size()),
+        isMet_(goals_.size(), 0) {}
+
+  Belos::StatusType checkStatus(Iteration* iteration) override {
+    const auto residual = iteration->getNativeResiduals(nullptr);
+    residual->norm2(Teuchos::arrayViewFromVector(dual_));
+    if (isTimeToLook())
+      look(*residual);
+    const bool isDone = std::all_of(isMet_.begin(), isMet_.end(), [](char met) { return met != 0; });
+    status_ =
+        isDone || hasSpentColumn() || iteration->getNumIters() >= maxSteps_ ? Belos::Passed : Belos::Failed;
+    return status_;
+  }
+  [[nodiscard]] Belos::StatusType getStatus() const override { return status_; }
+  void reset() override { status_ = Belos::Failed; }
+  void print(std::ostream& /*stream*/, int /*indent*/) const override {}
+  [[nodiscard]] bool isMet(std::size_t column) const { return isMet_[column] != 0; }
+
+private:
+  /// Whether all columns may have met their goals, or one has fallen so far that it must not go on unseen.
+  [[nodiscard]] bool isTimeToLook() const {
+    bool isTime = true;
+    for (std::size_t j = 0; j < dual_.size(); ++j) {
+      if (isMet_[j] == 0 && dual_[j] <= 1e-3 * expected_[j])
+        return true;
+      isTime = isTime && (isMet_[j] != 0 || dual_[j] <= expected_[j]);
+    }
+    return isTime;
+  }
+  void look(const MultiVector& residual) {
+    primal_.norms(residual, norms_);
+    for (std::size_t j = 0; j < dual_.size(); ++j) {
+      isMet_[j] = norms_[j] <= goals_[j] ? 1 : 0;
+      // The ratio of both norms changes slowly.
+      expected_[j] = norms_[j] > 0 ? dual_[j] * std::min(0.5, goals_[j] / norms_[j]) : 0.0;
+    }
+  }
+  [[nodiscard]] bool hasSpentColumn() const {
+    for (std::size_t j = 0; j < dual_.size(); ++j)
+      if (isMet_[j] != 0 && dual_[j] <= 1e-6 * expected_[j])
+        return true;
+    return false;
+  }
+
+  PrimalResidual& primal_;
+  std::vector<double> goals_;
+  int maxSteps_;
+  std::vector<double> expected_; ///< dual norms at which to look again
+  std::vector<double> dual_, norms_;
+  std::vector<char> isMet_;
+  Belos::StatusType status_ = Belos::Failed;
+};
+
+void start(ConjugateGradients& iteration, const RCP<MultiVector>& residual) {
+#if TRILINOS_MAJOR_MINOR_VERSION >= 160000
+  const int columns = static_cast<int>(residual->getNumVectors());
+  iteration.initializeCG(rcp(new Belos::PseudoBlockCGIterationState<double, MultiVector>(residual, columns)),
+                         residual);
+#else
+  Belos::CGIterationState<double, MultiVector> state;
+  state.R = residual;
+  iteration.initializeCG(state);
+#endif
+}
+
+} // namespace
+
+DualOutcome iterateDual(const RCP<const Operator>& f, const RCP<const Operator>& m,
+                        const RCP<const MultiVector>& rhs, const RCP<MultiVector>& lambda,
+                        PrimalResidual& primal, std::span<const double> goals, int maxSteps) {
+  using Traits = Belos::MultiVecTraits<double, MultiVector>;
+  const RCP<Problem> problem = rcp(new Problem(f, lambda, rhs));
+  if (!m.is_null())
+    problem->setLeftPrec(m);
+  const auto printer = rcp(new Belos::OutputManager<double>(Belos::Errors));
+  std::vector<int> open(goals.size()); // columns that have not met their goals
+  std::iota(open.begin(), open.end(), 0);
+  DualOutcome outcome;
+  while (!open.empty() && outcome.steps < maxSteps) {
+    problem->setProblem(); // residuals afresh
+    problem->setLSIndex(open);
+    std::vector<double> openGoals;
+    for (const int column : open)
+      openGoals.push_back(goals[static_cast<std::size_t>(column)]);
+    const RCP<PrimalGoal> goal = rcp(new PrimalGoal(primal, openGoals, maxSteps - outcome.steps));
+    Teuchos::ParameterList parameters;
+    ConjugateGradients iteration(problem, printer, goal, parameters);
+    try {
+      start(iteration, Traits::CloneCopy(*problem->getInitResVec(), open));
+      iteration.iterate();
+    } catch (const Belos::BelosError&) { // pᵀFp ≤ 0 or rᵀMr < 0
+      outcome.status = DualOutcome::Status::indefinite;
+      outcome.steps += iteration.getNumIters();
+      return outcome;
+    }
+    outcome.steps += iteration.getNumIters();
+    problem->setCurrLS();
+    std::vector<int> left;
+    for (std::size_t j = 0; j < open.size(); ++j)
+      if (!goal->isMet(j))
+        left.push_back(open[j]);
+    open = left;
+  }
+  if (!open.empty())
+    outcome.status = DualOutcome::Status::limit;
+  return outcome;
+}
+
+} // namespace epafi::linear

@@ -1,0 +1,80 @@
+#include "epafi/linear/GlobalUnknowns.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <Teuchos_OrdinalTraits.hpp>
+#include <Tpetra_Map.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace epafi::linear {
+
+GlobalUnknowns globalUnknowns(const decomposition::Decomposition& decomposition) {
+  const decomposition::DecomposedProblem& problem = decomposition.problem;
+  const auto components = static_cast<GlobalOrdinal>(problem.components);
+  std::vector<GlobalOrdinal> first{0}; // of each body
+  for (const decomposition::BodyLayout& body : decomposition.bodies)
+    first.push_back(first.back() + components * static_cast<GlobalOrdinal>(body.mesh->numNodes()));
+  GlobalUnknowns unknowns;
+  unknowns.reserve(problem.subdomains.size());
+  for (const decomposition::Subdomain& subdomain : problem.subdomains) {
+    std::vector<GlobalOrdinal>& numbers = unknowns.emplace_back();
+    numbers.reserve(subdomain.nodes.size() * static_cast<std::size_t>(components));
+    for (const GlobalOrdinal node : subdomain.nodes)
+      for (GlobalOrdinal component = 0; component < components; ++component)
+        numbers.push_back(first[static_cast<std::size_t>(subdomain.body)] + components * node + component);
+  }
+  return unknowns;
+}
+
+namespace {
+
+std::vector<GlobalOrdinal> atUnknowns(const decomposition::Subdomain& subdomain,
+                                      const std::vector<GlobalOrdinal>& atPositions) {
+  const std::string name = "subdomain " + std::to_string(subdomain.number);
+  if (atPositions.size() != static_cast<std::size_t>(subdomain.prescribed.size()))
+    throw InputError(name + " has " + std::to_string(subdomain.prescribed.size()) +
+                     " positions (nodes times components), but " + std::to_string(atPositions.size()) +
+                     " global numbers; give one for each position, at prescribed ones any");
+  std::vector<GlobalOrdinal> numbers;
+  numbers.reserve(subdomain.unknownPosition.size());
+  for (const int position : subdomain.unknownPosition) {
+    numbers.push_back(atPositions[static_cast<std::size_t>(position)]);
+    if (numbers.back() < 0)
+      throw InputError(name + " has an unknown at position " + std::to_string(position) +
+                       " whose global number is " + std::to_string(numbers.back()) +
+                       "; numbers of unknowns must not be negative");
+  }
+  return numbers;
+}
+
+} // namespace
+
+GlobalUnknowns atUnknowns(const decomposition::DecomposedProblem& problem,
+                          const GlobalUnknowns& atPositions) {
+  GlobalUnknowns unknowns;
+  collectively(*problem.comm, [&] {
+    if (atPositions.size() != problem.subdomains.size())
+      throw InputError("there are lists of global unknowns for " + std::to_string(atPositions.size()) +
+                       " subdomains, but the problem has " + std::to_string(problem.subdomains.size()) +
+                       " on this rank; give one list for each");
+    for (std::size_t s = 0; s < atPositions.size(); ++s)
+      unknowns.push_back(atUnknowns(problem.subdomains[s], atPositions[s]));
+  });
+  return unknowns;
+}
+
+RCP<const Map> ownedUnknowns(const GlobalUnknowns& unknowns, const RCP<const Comm>& comm) {
+  std::vector<GlobalOrdinal> touched;
+  for (const std::vector<GlobalOrdinal>& numbers : unknowns)
+    touched.insert(touched.end(), numbers.begin(), numbers.end());
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  const RCP<const Map> overlapping = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                                                 Teuchos::arrayViewFromVector(touched), 0, comm));
+  return Tpetra::createOneToOne(overlapping);
+}
+
+} // namespace epafi::linear

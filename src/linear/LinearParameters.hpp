@@ -1,0 +1,36 @@
+#pragma once
+
+/// What the linear solvers can be told.
+
+#include "epafi/fetidp/FetiParameters.hpp"
+
+namespace epafi::linear {
+
+/// Of FetiDpSolver.
+struct FetiDpParameters {
+  double tolerance = 1e-8; ///< on ‖b − Ku‖ relative to ‖b‖
+  int maxIterations = 500; ///< conjugate gradient steps
+  fetidp::DirectSolvers directSolvers;
+  fetidp::DualOperatorParameters dualOperator;
+  fetidp::PreconditionerParameters preconditioner;
+  fetidp::AdaptiveConstraintParameters adaptiveConstraints;
+  bool operator==(const FetiDpParameters& other) const = default;
+
+  /// Names, defaults, ranges and meaning, for `validated`.
+  static Teuchos::ParameterList validParameters();
+  /// From a validated list.
+  static FetiDpParameters from(const Teuchos::ParameterList& list);
+};
+
+/// Of BddcPreconditioner.
+struct BddcParameters {
+  fetidp::DirectSolvers directSolvers;
+  fetidp::PreconditionerParameters::Scaling scaling = fetidp::PreconditionerParameters::Scaling::stiffness;
+
+  /// Names, defaults, ranges and meaning, for `validated`.
+  static Teuchos::ParameterList validParameters();
+  /// From a validated list.
+  static BddcParameters from(const Teuchos::ParameterList& list);
+};
+
+} // namespace epafi::linear

@@ -1,0 +1,65 @@
+#include "epafi/linear/PartiallyAssembledInverse.hpp"
+
+#include "epafi/base/Compatibility.hpp"
+
+#include <Teuchos_OrdinalTraits.hpp>
+
+#include <utility>
+
+namespace epafi::linear {
+namespace {
+
+using decomposition::DecomposedProblem;
+
+GlobalOrdinal numRemainders(const DecomposedProblem& problem) {
+  return static_cast<GlobalOrdinal>(problem.remainderMap->getGlobalNumElements());
+}
+
+/// Remainders, then crosspoint values.
+RCP<const Map> mergedMap(const DecomposedProblem& problem) {
+  const auto remainders = localIndices(*problem.remainderMap),
+             crosspoints = localIndices(*problem.crosspointMap);
+  std::vector<GlobalOrdinal> numbers(remainders.begin(), remainders.end());
+  for (const GlobalOrdinal crosspoint : crosspoints)
+    numbers.push_back(numRemainders(problem) + crosspoint);
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                     Teuchos::arrayViewFromVector(numbers), 0, problem.comm));
+}
+
+GlobalUnknowns mergedUnknowns(const DecomposedProblem& problem) {
+  GlobalUnknowns unknowns;
+  LocalOrdinal next = 0; // remainders lie in the order of the subdomains
+  for (const decomposition::Subdomain& subdomain : problem.subdomains) {
+    std::vector<GlobalOrdinal>& numbers = unknowns.emplace_back(subdomain.unknownPosition.size());
+    for (const int unknown : subdomain.remainderUnknowns)
+      numbers[static_cast<std::size_t>(unknown)] = problem.remainderMap->getGlobalElement(next++);
+    for (std::size_t c = 0; c < subdomain.crosspointUnknowns.size(); ++c)
+      numbers[static_cast<std::size_t>(subdomain.crosspointUnknowns[c])] =
+          numRemainders(problem) + subdomain.crosspointIndices[c];
+  }
+  return unknowns;
+}
+
+} // namespace
+
+PartiallyAssembledInverse::PartiallyAssembledInverse(std::shared_ptr<const DecomposedProblem> problem,
+                                                     std::shared_ptr<fetidp::GeneralizedInverse> inverse)
+    : problem_(std::move(problem)), inverse_(std::move(inverse)),
+      exchange_(mergedMap(*problem_), mergedUnknowns(*problem_)),
+      shares_(*problem_, exchange_, fetidp::PreconditionerParameters::Scaling::multiplicity),
+      result_(rcp(new MultiVector(exchange_.map(), 1))) {}
+
+void PartiallyAssembledInverse::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/,
+                                      double alpha, double beta) const {
+  const std::size_t numColumns = x.getNumVectors();
+  if (result_->getNumVectors() != numColumns)
+    result_ = rcp(new MultiVector(exchange_.map(), numColumns));
+  exchange_.toSubdomains(x, forces_);
+  shares_.scale(forces_);
+  inverse_->apply(forces_, values_, static_cast<int>(numColumns));
+  shares_.scale(values_);
+  exchange_.sum(values_, *result_);
+  y.update(alpha, *result_, beta);
+}
+
+} // namespace epafi::linear

@@ -1,0 +1,80 @@
+#include "epafi/linear/UnassembledOperator.hpp"
+
+#include "epafi/linear/JoinedCopies.hpp"
+#include "epafi/linear/NodalBasis.hpp"
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <utility>
+
+namespace epafi::linear {
+namespace {
+
+/// Local indices of the rows that no unknown has. Collective.
+std::vector<LocalOrdinal> rowsWithoutUnknown(const decomposition::DecomposedProblem& problem,
+                                             const UnknownExchange& exchange) {
+  SubdomainVectors ones;
+  for (const decomposition::Subdomain& subdomain : problem.subdomains)
+    ones.emplace_back(Eigen::MatrixXd::Ones(subdomain.stiffness->rows(), 1));
+  MultiVector copies(exchange.map(), 1);
+  exchange.sum(ones, copies);
+  std::vector<LocalOrdinal> rows;
+  const auto numbers = copies.getData(0);
+  for (Teuchos_Ordinal i = 0; i < numbers.size(); ++i)
+    if (numbers[i] == 0)
+      rows.push_back(static_cast<LocalOrdinal>(i));
+  return rows;
+}
+
+} // namespace
+
+UnassembledOperator::UnassembledOperator(std::shared_ptr<const decomposition::DecomposedProblem> problem,
+                                         const GlobalUnknowns& atPositions, const RCP<const Map>& map)
+    : problem_(std::move(problem)), unknowns_(atUnknowns(*problem_, atPositions)),
+      exchange_(map.is_null() ? ownedUnknowns(unknowns_, problem_->comm) : map, unknowns_),
+      identityRows_(rowsWithoutUnknown(*problem_, exchange_)),
+      result_(rcp(new MultiVector(exchange_.map(), 1))) {
+  requireJoinedCopies(*problem_, unknowns_, identityRows_.size(), exchange_);
+}
+
+void UnassembledOperator::copyIdentity(const MultiVector& x, MultiVector& y) const {
+  if (identityRows_.empty())
+    return;
+  for (std::size_t j = 0; j < x.getNumVectors(); ++j) {
+    const auto given = x.getData(j);
+    const auto copied = y.getDataNonConst(j);
+    for (const LocalOrdinal row : identityRows_)
+      copied[row] = given[row];
+  }
+}
+
+void UnassembledOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
+                                double beta) const {
+  if (result_->getNumVectors() != x.getNumVectors())
+    result_ = rcp(new MultiVector(exchange_.map(), x.getNumVectors()));
+  exchange_.toSubdomains(x, values_);
+  forces_.resize(values_.size());
+  for (std::size_t s = 0; s < values_.size(); ++s) {
+    const decomposition::Subdomain& subdomain = problem_->subdomains[s];
+    toUnknowns(subdomain, values_[s]);
+    forces_[s].noalias() = *subdomain.stiffness * values_[s];
+    toForcesOfValues(subdomain, forces_[s]);
+  }
+  exchange_.sum(forces_, *result_);
+  copyIdentity(x, *result_);
+  y.update(alpha, *result_, beta); // beta = 0 overwrites, NaN included
+}
+
+RCP<Vector> UnassembledOperator::load() const {
+  SubdomainVectors loads;
+  for (const decomposition::Subdomain& subdomain : problem_->subdomains) {
+    loads.emplace_back(subdomain.load);
+    toForcesOfValues(subdomain, loads.back());
+  }
+  RCP<Vector> b = rcp(new Vector(exchange_.map()));
+  exchange_.sum(loads, *b);
+  return b;
+}
+
+} // namespace epafi::linear
