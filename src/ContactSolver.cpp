@@ -103,7 +103,7 @@ void ContactSolver::update() {
     throw Error("ContactSolver::update was called before ContactSolver::setup; call setup first");
   const double start = Teuchos::Time::wallTime();
   dual_.reset();
-  const std::shared_ptr<fetidp::GeneralizedInverse> inverse = std::move(inverse_); // none is left should this fail
+  const auto inverse = std::move(inverse_); // none is left should this fail
   fetidp::requireFiniteMatrices(*problem_);
   inverse->update(*problem_);
   inverse_ = inverse;
