@@ -4,6 +4,7 @@ a machine that lacks it, the others are skipped there."""
 
 import csv
 import glob
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -19,7 +20,8 @@ LIMIT = 120  # seconds
 COLUMNS = ["problem", "unknowns", "solver", "total_seconds", "iterations", "energy", "peak_bytes"]
 OURS = "epafi,linear_cholmod,linear_muelu"
 BLOCKS = "epafi,epafi_separate,snesvi_cholmod,snesvi_hypre,snesvi_gamg"
-HAS_PETSC = glob.glob("/usr/lib/petscdir/petsc*/*-real/lib/python3/dist-packages/petsc4py")
+HAS_PETSC = (glob.glob("/usr/lib/petscdir/petsc*/*-real/lib/python3/dist-packages/petsc4py") and
+             importlib.util.find_spec("mpi4py") is not None)
 
 sys.path.insert(0, str(SOURCE / "drivers/compare"))
 import contact_bounds  # noqa: E402
