@@ -118,7 +118,8 @@ int main(int argc, char** argv) {
   const auto comm = Tpetra::getDefaultComm();
   try {
     if (argc != 2 && argc != 4)
-      throw std::invalid_argument("usage: example-heat-conduction LIST.xml [ELEMENTS SUBDOMAINS], each along a side");
+      throw std::invalid_argument(
+          "usage: example-heat-conduction LIST.xml [ELEMENTS SUBDOMAINS], each along a side");
     return conduct(argv[1], {argc > 2 ? std::stoi(argv[2]) : 128, argc > 2 ? std::stoi(argv[3]) : 8}, comm);
   } catch (const std::exception& error) { // Epafi's errors are the same on all ranks
     if (comm->getRank() == 0)
