@@ -66,6 +66,10 @@ def is_shared():
     return cache()["BUILD_SHARED_LIBS"] == "ON"
 
 
+def has_adapters():
+    return cache()["EPAFI_ADAPTERS"] == "ON"
+
+
 def version():
     """As CMakeLists.txt names it."""
     return re.search(r"project\(Epafi VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
@@ -99,6 +103,8 @@ class Places(unittest.TestCase):
                      "include/epafi/qp/QpSolver.hpp"):
             self.assertTrue((PREFIX / name).is_file(), name)
         rooms = {"base", "direct", "qp", "benchmarks", "scene", "fem", "decomposition", "accuracy", "fetidp", "output"}
+        if has_adapters():
+            rooms |= {"linear", "adapters"}
         ending = f"so.{version()}" if is_shared() else "a"
         names = {file.name for file in self.libraries()}
         self.assertLessEqual({"libepafi." + ending, *(f"libepafi_{room}.{ending}" for room in rooms)}, names)
@@ -182,7 +188,6 @@ class Consumer(unittest.TestCase):
             self.assertTrue(text.startswith("Converged, "), text)
             self.assertAlmostEqual(float(re.search(r"energy (\S+),", text)[1]) / energy, 1, delta=1e-10)
 
-
     def test_a_mesh_of_its_own_has_the_displacements_that_the_driver_finds(self):
         output = WORK / "circle"
         shutil.rmtree(output, ignore_errors=True)
@@ -195,6 +200,12 @@ class Consumer(unittest.TestCase):
             self.assertEqual(found.shape, expected.shape)
             self.assertLessEqual(abs(found - expected).max(), 1e-10 * abs(expected).max())
         self.assertLessEqual(len((SOURCE / "docs/examples/elasticity.cpp").read_text(encoding="utf-8").splitlines()), 120)
+
+    def test_heat_is_conducted_through_stratimikos(self):
+        self.assertEqual((self.folder / "heat-conduction").is_file(), has_adapters())
+        for ranks in (1, 3) if has_adapters() else ():
+            text = on_ranks(ranks, self.folder / "heat-conduction", PREFIX / "share/epafi/xml/linear/fetidp.xml", 40, 4)
+            self.assertIn("as small as was asked for", text)
 
 
 class Lookup(unittest.TestCase):

@@ -1,5 +1,5 @@
 /// Heat conduction in a square plate, −∇·(κ∇T) = q, by FETI-DP through Stratimikos:
-///     HeatConduction LIST.xml [ELEMENTS SUBDOMAINS]
+///     example-heat-conduction LIST.xml [ELEMENTS SUBDOMAINS]
 /// The left side is kept at T = 20, the right one at 0, the others are insulated. Two bars conduct a thousand times as well as
 /// the rest. The mesh, n × n Q1 elements cut into m × m subdomains, is the program's own. Once the matrix is factorised two
 /// sources of heat are solved for, one after the other.
@@ -118,7 +118,8 @@ int main(int argc, char** argv) {
   const auto comm = Tpetra::getDefaultComm();
   try {
     if (argc != 2 && argc != 4)
-      throw std::invalid_argument("usage: HeatConduction LIST.xml [ELEMENTS SUBDOMAINS], each along a side");
+      throw std::invalid_argument(
+          "usage: example-heat-conduction LIST.xml [ELEMENTS SUBDOMAINS], each along a side");
     return conduct(argv[1], {argc > 2 ? std::stoi(argv[2]) : 128, argc > 2 ? std::stoi(argv[3]) : 8}, comm);
   } catch (const std::exception& error) { // Epafi's errors are the same on all ranks
     if (comm->getRank() == 0)
