@@ -43,8 +43,8 @@ public:
   /// Follows changes that the problem of `setup` has seen since: matrices K^s (another object with the same pattern) and rows
   /// of B. Loads and gaps need no call. Less than `setup`: subdomains whose matrix is the same object, with B at the same
   /// unknowns as before, keep their factors; others are factorised numerically, their ordering and symbolic part kept. The
-  /// algorithm is chosen, ‖F‖ estimated and the preconditioner made anew. What earlier calls returned stays valid but for
-  /// references into dualProblem(). Collective. \throws as `setup`.
+  /// algorithm is chosen, ‖F‖ estimated and the preconditioner made anew; its blocks are kept where factors are. What earlier
+  /// calls returned stays valid but for references into dualProblem(). Collective. \throws as `setup`.
   /// Preconditions: `setup` was called; subdomains, unknowns and crosspoints are the same.
   void update();
 

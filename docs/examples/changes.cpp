@@ -10,7 +10,6 @@
 #include <Tpetra_Vector.hpp>
 
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -31,7 +30,7 @@ bool solveAndTell(epafi::ContactSolver& solver, const epafi::Comm& comm, const s
 int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
-  const int elements = argc > 1 ? std::atoi(argv[1]) : 8;
+  const int elements = argc > 1 ? std::stoi(argv[1]) : 8;
   epafi::decomposition::Decomposition cut = epafi::decomposition::decompose(block(elements, elements), comm);
   DecomposedProblem& problem = cut.problem;
   const auto press = [&](double by) { // the floor on top comes down everywhere

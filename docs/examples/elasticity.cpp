@@ -58,8 +58,9 @@ void addSubdomains(epafi::decomposition::UnassembledProblem& problem, int rank, 
       for (int a = 0; a < 4; ++a) {
         const int right = i + (a == 1 || a == 2 ? 1 : 0), up = j + (a >= 2 ? 1 : 0);
         for (int c = 0; c < 2; ++c) {
-          unknowns[static_cast<std::size_t>(2 * a + c)] = 2 * node(right, up) + c;
-          places.row(2 * a + c) << width * right / nx, height * up / ny;
+          const int place = 2 * a + c;
+          unknowns[static_cast<std::size_t>(place)] = 2 * node(right, up) + c;
+          places.row(place) << width * right / nx, height * up / ny;
         }
       }
       elements.add(subdomain, {unknowns, places, stiffness, Eigen::VectorXd::Zero(8)});

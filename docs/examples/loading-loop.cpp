@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <deque>
 
 using epafi::RCP;
@@ -54,7 +53,7 @@ RCP<Vector> predicted(const std::deque<RCP<Vector>>& last, epafi::GlobalOrdinal 
 int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
-  const int elements = argc > 1 ? std::atoi(argv[1]) : 8;
+  const int elements = argc > 1 ? std::stoi(argv[1]) : 8;
   epafi::decomposition::Decomposition cut = epafi::decomposition::decompose(block(elements, elements), comm);
   epafi::ContactSolver solver{Teuchos::ParameterList("Solver")};
 

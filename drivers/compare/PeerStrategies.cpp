@@ -1,11 +1,12 @@
 #include "PeerStrategies.hpp"
 
+#include "FroschStrategy.hpp"
+
 #include "epafi/adapters/Stratimikos.hpp"
 
-#include <Tpetra_Vector.hpp> // FROSch's header names Tpetra's node without including it
+#include <Tpetra_Vector.hpp>
 
 #include <Stratimikos_DefaultLinearSolverBuilder.hpp>
-#include <Stratimikos_FROSch_def.hpp>
 #include <Stratimikos_MueLuHelpers.hpp>
 
 namespace epafi::drivers {
@@ -16,7 +17,7 @@ RCP<adapters::LinearSolveStrategy> strategyAmongPeers(const RCP<Teuchos::Paramet
   adapters::enableFetiDp(builder);
   adapters::enableBddc(builder, k);
   Stratimikos::enableMueLu<LocalOrdinal, GlobalOrdinal, Vector::node_type>(builder);
-  Stratimikos::enableFROSch<LocalOrdinal, GlobalOrdinal, Vector::node_type>(builder, "FROSch");
+  enableFrosch(builder);
   builder.setParameterList(list);
   return Thyra::createLinearSolveStrategy(builder);
 }

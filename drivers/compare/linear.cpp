@@ -2,6 +2,7 @@
 /// for `compare/peers`. Prints its measurements as one line of JSON.
 
 #include "ClosedMembranes.hpp"
+#include "IntegerOption.hpp"
 #include "LinearSolve.hpp"
 
 #include "epafi/base/Errors.hpp"
@@ -10,13 +11,11 @@
 #include <Tpetra_Core.hpp>
 #include <sys/resource.h>
 
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <numeric>
 #include <sstream>
 #include <string>
-#include <system_error>
 
 namespace {
 
@@ -39,15 +38,6 @@ struct Request {
   bool help = false;
 };
 
-int number(const std::string& option, const std::string& text, int least, int greatest) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least || value > greatest)
-    throw InputError("option " + option + " is '" + text + "'; allowed are the integers " +
-                     std::to_string(least) + " ... " + std::to_string(greatest));
-  return value;
-}
-
 bool isCoercive(const std::string& problem) {
   if (problem != "coercive" && problem != "semicoercive")
     throw InputError("option --problem is '" + problem + "'; allowed are coercive and semicoercive");
@@ -67,7 +57,7 @@ Request parse(int argc, char** argv) {
     if (word == "--help" || word == "-h")
       request.help = true;
     else if (word == "--size")
-      request.membranes.elements = number(word, value(), 4, 8192);
+      request.membranes.elements = integerOption(word, value(), 4, 8192);
     else if (word == "--closed")
       closed = value();
     else if (word == "--problem")
@@ -83,7 +73,7 @@ Request parse(int argc, char** argv) {
     throw InputError("no solver is named; it is cholmod or muelu");
   if (request.membranes.elements == 0 || request.membranes.elements % 4 != 0)
     throw InputError("option --size must be given, as a multiple of 4: the loads end at quarters of a side");
-  request.membranes.closedNodes = number("--closed", closed, 1, request.membranes.elements + 1);
+  request.membranes.closedNodes = integerOption("--closed", closed, 1, request.membranes.elements + 1);
   return request;
 }
 

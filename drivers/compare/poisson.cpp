@@ -1,6 +1,7 @@
 /// `epafi-poisson LIST.xml|cholmod`: −Δu = 1 on the unit square by whatever linear solver a list for Stratimikos asks for, for
 /// `compare/poisson`. Rank 0 prints the measurements as one line of JSON.
 
+#include "IntegerOption.hpp"
 #include "LinearSolve.hpp"
 #include "PeerStrategies.hpp"
 #include "PoissonProblem.hpp"
@@ -19,11 +20,9 @@
 #include <Tpetra_Vector.hpp>
 #include <sys/resource.h>
 
-#include <charconv>
 #include <iostream>
 #include <sstream>
 #include <string>
-#include <system_error>
 
 namespace {
 
@@ -49,15 +48,6 @@ struct Request {
   bool isSeparate = false, help = false;
 };
 
-int number(const std::string& option, const std::string& text, int least, int greatest) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least || value > greatest)
-    throw InputError("option " + option + " is '" + text + "'; allowed are the integers " +
-                     std::to_string(least) + " ... " + std::to_string(greatest));
-  return value;
-}
-
 Request parse(int argc, char** argv) {
   Request request;
   std::string subdomains;
@@ -71,7 +61,7 @@ Request parse(int argc, char** argv) {
     if (word == "--help" || word == "-h")
       request.help = true;
     else if (word == "--size")
-      request.elements = number(word, value(), 2, 8192);
+      request.elements = integerOption(word, value(), 2, 8192);
     else if (word == "--subdomains")
       subdomains = value();
     else if (word == "--separate")
@@ -88,7 +78,7 @@ Request parse(int argc, char** argv) {
   if (request.elements == 0)
     throw InputError("option --size must be given");
   request.subdomains = subdomains.empty() ? std::max(1, request.elements / 16)
-                                          : number("--subdomains", subdomains, 1, request.elements);
+                                          : integerOption("--subdomains", subdomains, 1, request.elements);
   return request;
 }
 

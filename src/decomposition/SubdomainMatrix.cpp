@@ -105,6 +105,13 @@ SubdomainMatrix subdomainMatrix(const CrsMatrix& local) {
   return result;
 }
 
+fem::Point pointAt(const Eigen::MatrixXd& coordinates, Eigen::Index row) {
+  fem::Point point{};
+  for (Eigen::Index c = 0; c < coordinates.cols(); ++c)
+    point[static_cast<std::size_t>(c)] = coordinates(row, c);
+  return point;
+}
+
 void requireSound(const SubdomainMatrix& matrix, int dimension, int components, int numBodies,
                   const std::string& where) {
   const auto n = static_cast<Eigen::Index>(matrix.unknowns.size());

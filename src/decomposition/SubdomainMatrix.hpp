@@ -5,6 +5,7 @@
 
 #include "epafi/base/Types.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/fem/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -44,6 +45,9 @@ SparseMatrix fromCompressedRows(std::span<const int> starts, std::span<const int
 /// map's global indices are the numbers of the unknowns. Load and coordinates are left for the caller to fill. Not
 /// collective. \throws InputError if the matrix is not fill-complete, not on one rank, or has columns that are no rows.
 SubdomainMatrix subdomainMatrix(const CrsMatrix& local);
+
+/// The point in a row of coordinates; a coordinate that the space does not have is 0.
+fem::Point pointAt(const Eigen::MatrixXd& coordinates, Eigen::Index row);
 
 /// Checks shapes, numbers, finiteness of coordinates, and symmetry to 1e-10 of the largest entry of K^s. \throws InputError
 /// that names the subdomain `where`. Not collective.

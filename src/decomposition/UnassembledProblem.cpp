@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/BodyKernels.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
@@ -11,7 +12,6 @@
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/InterfaceEnds.hpp"
 #include "epafi/decomposition/SharedNodes.hpp"
-#include "epafi/fem/RigidModes.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_OrdinalTraits.hpp>
@@ -28,11 +28,12 @@
 namespace epafi::decomposition {
 namespace {
 
-fem::Point pointAt(const Eigen::MatrixXd& coordinates, Eigen::Index row) {
-  fem::Point point{};
-  for (Eigen::Index c = 0; c < coordinates.cols(); ++c)
-    point[static_cast<std::size_t>(c)] = coordinates(row, c);
-  return point;
+/// Of these numbers, which may be named several times. Collective.
+RCP<const Map> mapOf(std::vector<GlobalOrdinal> numbers, const RCP<const Comm>& comm) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                     Teuchos::arrayViewFromVector(numbers), 0, comm));
 }
 
 bool hasSamePattern(const SparseMatrix& a, const SparseMatrix& b) {
@@ -78,22 +79,21 @@ void UnassembledProblem::complete() {
   if (!unknownMap_.is_null())
     throw Error("UnassembledProblem::complete was called twice.");
   makePieces();
+  mapUnknowns();
   if (contact_)
     requireSound(*contact_, unknownMap_);
   shareNodes(outline_, comm_, pieces_);
-  findKernel();
+  std::vector<int> bodies;
+  for (const SubdomainMatrix& matrix : added_)
+    bodies.push_back(matrix.body);
+  requireConnected(pieces_, bodies, outline_.numSubdomains, problem_.bodies, *comm_);
+  findKernels(added_, own_, dimension_, pieces_, problem_);
   choosePoints();
   const CrosspointNumbering crosspoints(outline_, pieces_, *comm_);
   for (const Piece& piece : pieces_)
     nodal_.push_back(piece.stiffness);
   const Rows contact = enterContact();
   const std::vector<std::vector<Average>> averages = changeBasis(outline_, pieces_);
-  const std::vector<int> bodies = [&] {
-    std::vector<int> result;
-    for (const SubdomainMatrix& matrix : added_)
-      result.push_back(matrix.body);
-    return result;
-  }();
   std::vector<SubdomainMatrix>().swap(added_);
   problem_.numSubdomains = outline_.numSubdomains;
   fillSubdomains(outline_, crosspoints, averages, pieces_, problem_);
@@ -115,7 +115,6 @@ void UnassembledProblem::makePieces() {
   outline_.numSubdomains = static_cast<int>(sumOverRanks(*comm_, static_cast<double>(mine)));
   pieces_.resize(added_.size());
   own_.resize(added_.size());
-  std::vector<GlobalOrdinal> unknowns;
   const auto points = std::make_shared<std::unordered_map<GlobalOrdinal, fem::Point>>();
   GlobalOrdinal numNodes = 0;
   collectively(*comm_, [&] {
@@ -128,199 +127,40 @@ void UnassembledProblem::makePieces() {
       piece.number = piece.part = last - mine + static_cast<int>(s);
       requireSound(matrix, dimension_, components_, static_cast<int>(problem_.bodies.size()),
                    "subdomain " + std::to_string(piece.number));
-      makePiece(matrix, piece, own_[s]);
+      own_[s] = takeSubdomain(matrix, components_, piece.assembled);
       SparseMatrix free = freeStiffness(matrix.stiffness, own_[s]);
       piece.stiffness = known.store(free);
       for (std::size_t i = 0; i < matrix.unknowns.size(); ++i)
         points->try_emplace(matrix.unknowns[i] / components_,
                             pointAt(matrix.coordinates, static_cast<Eigen::Index>(i)));
       numNodes = std::max(numNodes, piece.assembled.nodes.back() + 1);
-      unknowns.insert(unknowns.end(), matrix.unknowns.begin(), matrix.unknowns.end());
     }
   });
   numNodes = static_cast<GlobalOrdinal>(maxOverRanks(*comm_, static_cast<double>(numNodes)));
   outline_.bodies = {{dimension_, components_, 0, numNodes,
                       [points](GlobalOrdinal node) { return points->at(node); },
                       [](GlobalOrdinal) { return false; }}}; // findInterfaceEnds stands in for it
+}
 
-  std::vector<GlobalOrdinal> here = unknowns;
-  std::sort(here.begin(), here.end());
-  here.erase(std::unique(here.begin(), here.end()), here.end());
-  const RCP<const Map> map = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                                         Teuchos::arrayViewFromVector(here), 0, comm_));
+/// All that this rank's subdomains have. Collective.
+RCP<const Map> UnassembledProblem::ownUnknowns() const {
+  std::vector<GlobalOrdinal> here;
+  for (const OwnSubdomain& own : own_)
+    here.insert(here.end(), own.unknowns.begin(), own.unknowns.end());
+  return mapOf(std::move(here), comm_);
+}
+
+/// The map of the unknowns, and how many copies each has. Collective.
+void UnassembledProblem::mapUnknowns() {
+  const RCP<const Map> map = ownUnknowns();
   unknownMap_ = Tpetra::createOneToOne(map);
   Vector copies(map);
-  for (const GlobalOrdinal unknown : unknowns)
-    copies.sumIntoGlobalValue(unknown, 1.0);
+  for (const OwnSubdomain& own : own_)
+    for (const GlobalOrdinal unknown : own.unknowns)
+      copies.sumIntoGlobalValue(unknown, 1.0);
   const RCP<Vector> all = rcp(new Vector(unknownMap_));
   all->doExport(copies, Export(map, unknownMap_), Tpetra::ADD);
   copies_ = all;
-}
-
-/// Nodes, positions, load and prescribed values.
-void UnassembledProblem::makePiece(SubdomainMatrix& matrix, Piece& piece, Own& own) const {
-  fem::AssembledSubdomain& assembled = piece.assembled;
-  for (const GlobalOrdinal unknown : matrix.unknowns)
-    assembled.nodes.push_back(unknown / components_);
-  std::sort(assembled.nodes.begin(), assembled.nodes.end());
-  assembled.nodes.erase(std::unique(assembled.nodes.begin(), assembled.nodes.end()), assembled.nodes.end());
-
-  const auto n = static_cast<Eigen::Index>(matrix.unknowns.size());
-  const auto numPositions = assembled.nodes.size() * static_cast<std::size_t>(components_);
-  std::vector<int> unknownAt(numPositions, -1); // of the application
-  own.unknowns = matrix.unknowns;
-  for (std::size_t i = 0; i < own.unknowns.size(); ++i) {
-    const auto node =
-        std::lower_bound(assembled.nodes.begin(), assembled.nodes.end(), own.unknowns[i] / components_) -
-        assembled.nodes.begin();
-    own.position.push_back(
-        static_cast<int>(node * components_ + static_cast<int>(own.unknowns[i] % components_)));
-    unknownAt[static_cast<std::size_t>(own.position.back())] = static_cast<int>(i);
-  }
-  own.prescribed = Eigen::VectorXd::Zero(n);
-  std::vector<char> isFree(own.unknowns.size(), 1);
-  for (const auto& [unknown, value] : matrix.prescribed) {
-    const auto i = static_cast<std::size_t>(std::find(own.unknowns.begin(), own.unknowns.end(), unknown) -
-                                            own.unknowns.begin());
-    isFree[i] = 0;
-    own.prescribed[static_cast<Eigen::Index>(i)] = value;
-  }
-  own.row.assign(own.unknowns.size(), -1);
-  assembled.unknownOf.assign(numPositions, -1);
-  assembled.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
-  for (std::size_t position = 0; position < numPositions; ++position) {
-    const int i = unknownAt[position];
-    if (i < 0)
-      continue;
-    if (isFree[static_cast<std::size_t>(i)] == 0) {
-      assembled.prescribed[static_cast<Eigen::Index>(position)] = own.prescribed[i];
-      continue;
-    }
-    own.row[static_cast<std::size_t>(i)] = static_cast<int>(assembled.unknownPosition.size());
-    assembled.unknownOf[position] = own.row[static_cast<std::size_t>(i)];
-    assembled.unknownPosition.push_back(static_cast<int>(position));
-  }
-  own.load = std::move(matrix.load);
-  own.heldForce = matrix.stiffness * own.prescribed;
-  assembled.load.resize(static_cast<Eigen::Index>(assembled.unknownPosition.size()));
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (const int row = own.row[static_cast<std::size_t>(i)]; row >= 0)
-      assembled.load[row] = own.load[i] - own.heldForce[i];
-  assembled.energyOffset = (0.5 * own.heldForce - own.load).dot(own.prescribed);
-}
-
-/// K^s without the rows and columns of prescribed unknowns, in the order of positions.
-SparseMatrix UnassembledProblem::freeStiffness(const SparseMatrix& stiffness, const Own& own) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(stiffness.nonZeros()));
-  for (int column = 0; column < stiffness.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry) {
-      const int i = own.row[static_cast<std::size_t>(entry.row())],
-                j = own.row[static_cast<std::size_t>(column)];
-      if (i >= 0 && j >= 0) { // the mean of both triangles: symmetric to the last digit
-        entries.emplace_back(i, j, 0.5 * entry.value());
-        entries.emplace_back(j, i, 0.5 * entry.value());
-      }
-    }
-  const auto numFree = static_cast<Eigen::Index>(
-      own.row.size() - static_cast<std::size_t>(std::count(own.row.begin(), own.row.end(), -1)));
-  SparseMatrix result(numFree, numFree);
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
-
-namespace {
-
-/// Half the largest extent, and the middle, of each body. Collective.
-std::vector<std::pair<fem::Point, double>> extentsOf(const std::vector<SubdomainMatrix>& matrices,
-                                                     std::size_t numBodies, const Comm& comm) {
-  std::vector<std::pair<fem::Point, double>> extents;
-  for (std::size_t b = 0; b < numBodies; ++b) {
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-    for (const SubdomainMatrix& matrix : matrices)
-      if (static_cast<std::size_t>(matrix.body) == b)
-        for (Eigen::Index c = 0; c < matrix.coordinates.cols(); ++c) {
-          low[c] = std::min(low[c], matrix.coordinates.col(c).minCoeff());
-          high[c] = std::max(high[c], matrix.coordinates.col(c).maxCoeff());
-        }
-    fem::Point centre{};
-    double size = 0;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const double from = minOverRanks(comm, low[c]), to = maxOverRanks(comm, high[c]);
-      if (from > to)
-        continue; // a coordinate that the space does not have, or a body without subdomains
-      centre[static_cast<std::size_t>(c)] = 0.5 * (from + to);
-      size = std::max(size, 0.5 * (to - from));
-    }
-    extents.emplace_back(centre, size > 0 ? size : 1.0);
-  }
-  return extents;
-}
-
-} // namespace
-
-/// R^s, from the near-kernel that the application gave, or from rigid motions. Collective.
-void UnassembledProblem::findKernel() {
-  const auto extents = extentsOf(added_, problem_.bodies.size(), *comm_);
-  const bool isElastic = components_ == dimension_;
-  std::vector<Motions> motions;
-  std::vector<double> numModes(problem_.bodies.size(), -1), isRigid(problem_.bodies.size(), 1);
-  for (std::size_t s = 0; s < added_.size(); ++s) {
-    const SubdomainMatrix& matrix = added_[s];
-    const auto b = static_cast<std::size_t>(matrix.body);
-    const fem::RigidModes rigid(isElastic ? components_ : 1, extents[b].first, extents[b].second);
-    const Eigen::Index given = matrix.nearKernel.cols(),
-                       number = given > 0 ? given : (isElastic ? rigid.number() : components_);
-    Motions& m = motions.emplace_back(Motions{matrix.body, pieces_[s].stiffness.get(), {}});
-    m.near = Eigen::MatrixXd::Zero(pieces_[s].stiffness->rows(), number);
-    for (std::size_t i = 0; i < own_[s].row.size(); ++i) {
-      const auto place = static_cast<Eigen::Index>(i);
-      const int component = static_cast<int>(own_[s].unknowns[i] % components_);
-      if (own_[s].row[i] < 0)
-        continue;
-      if (given > 0)
-        m.near.row(own_[s].row[i]) = matrix.nearKernel.row(place);
-      else if (isElastic)
-        m.near.row(own_[s].row[i]) = rigid.at(pointAt(matrix.coordinates, place), component).transpose();
-      else
-        m.near(own_[s].row[i], component) = 1;
-    }
-    numModes[b] = std::max(numModes[b], static_cast<double>(number));
-    isRigid[b] = isElastic && given == 0 ? isRigid[b] : 0.0;
-  }
-  std::vector<Eigen::MatrixXd> combinations;
-  for (std::size_t b = 0; b < problem_.bodies.size(); ++b) {
-    numModes[b] = maxOverRanks(*comm_, numModes[b]);
-    isRigid[b] = minOverRanks(*comm_, isRigid[b]);
-  }
-  std::vector<int> bodies;
-  for (const Motions& m : motions)
-    bodies.push_back(m.body);
-  collectively(*comm_, [&] {
-    for (std::size_t s = 0; s < motions.size(); ++s)
-      if (static_cast<double>(motions[s].near.cols()) != numModes[static_cast<std::size_t>(bodies[s])])
-        throw InputError("subdomain " + std::to_string(pieces_[s].number) + " has a near-kernel of " +
-                         std::to_string(motions[s].near.cols()) + " columns, another one of its body has " +
-                         std::to_string(static_cast<int>(numModes[static_cast<std::size_t>(bodies[s])])) +
-                         ".");
-    for (std::size_t b = 0; b < numModes.size(); ++b)
-      if (numModes[b] < 0)
-        throw InputError("the body '" + problem_.bodies[b].name + "' has no subdomain.");
-  });
-  requireConnected(pieces_, bodies, outline_.numSubdomains, problem_.bodies, *comm_);
-  combinations = findFreeMotions(motions, *comm_, problem_.bodies);
-  problem_.kernelDimension = 0;
-  for (std::size_t b = 0; b < problem_.bodies.size(); ++b) {
-    Body& body = problem_.bodies[b];
-    problem_.kernelDimension += body.kernelDimension;
-    if (body.kernelDimension > 0 && isRigid[b] > 0 && components_ > 1) {
-      const fem::RigidModes rigid(components_, extents[b].first, extents[b].second);
-      const fem::Point& centre = rigid.centre();
-      body.motions = {{centre[0], centre[1], centre[2]}, rigid.size(), rigid.twists() * combinations[b]};
-    }
-  }
-  for (std::size_t s = 0; s < motions.size(); ++s)
-    pieces_[s].assembled.kernel = motions[s].near * combinations[static_cast<std::size_t>(bodies[s])];
 }
 
 /// Crosspoints that the application asks for, and the ends of interfaces.
@@ -359,10 +199,7 @@ Rows UnassembledProblem::enterContact() {
   std::vector<GlobalOrdinal> heldRows;
   for (const auto& [row, value] : held)
     heldRows.push_back(row);
-  std::sort(heldRows.begin(), heldRows.end());
-  heldRows.erase(std::unique(heldRows.begin(), heldRows.end()), heldRows.end());
-  const RCP<const Map> map = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                                         Teuchos::arrayViewFromVector(heldRows), 0, comm_));
+  const RCP<const Map> map = mapOf(std::move(heldRows), comm_);
   Vector here(map);
   for (const auto& [row, value] : held)
     here.sumIntoGlobalValue(row, value);
@@ -416,16 +253,12 @@ void UnassembledProblem::setLoad(std::size_t subdomain, const Eigen::VectorXd& l
   refreshLoad(subdomain);
 }
 
-/// The load of the free unknowns: what prescribed values take is on the right.
 void UnassembledProblem::refreshLoad(std::size_t subdomain) {
-  const Own& own = own_[subdomain];
+  const OwnSubdomain& own = own_[subdomain];
   Subdomain& target = problem_.subdomains[subdomain];
-  for (std::size_t i = 0; i < own.row.size(); ++i)
-    if (own.row[i] >= 0)
-      target.load[own.row[i]] =
-          own.load[static_cast<Eigen::Index>(i)] - own.heldForce[static_cast<Eigen::Index>(i)];
+  freeLoad(own, target.load);
   changeBasisOfLoad(target.averages, target.load);
-  target.energyOffset = (0.5 * own.heldForce - own.load).dot(own.prescribed);
+  target.energyOffset = prescribedEnergy(own);
 }
 
 void UnassembledProblem::setMatrix(std::size_t subdomain, const SparseMatrix& stiffness) {
@@ -435,7 +268,7 @@ void UnassembledProblem::setMatrix(std::size_t subdomain, const SparseMatrix& st
     throw InputError("a stiffness of " + std::to_string(stiffness.rows()) + " rows was given for subdomain " +
                      std::to_string(subdomain) + " of this rank, which has " + std::to_string(n) +
                      " unknowns.");
-  Own& own = own_[subdomain];
+  OwnSubdomain& own = own_[subdomain];
   auto free = std::make_shared<SparseMatrix>(freeStiffness(stiffness, own));
   if (!hasSamePattern(*free, *nodal_[subdomain]))
     throw InputError("the new stiffness of subdomain " + std::to_string(subdomain) +
@@ -454,7 +287,7 @@ void UnassembledProblem::setMatrix(std::size_t subdomain, const SparseMatrix& st
 std::vector<GlobalOrdinal> UnassembledProblem::globalUnknowns(std::size_t subdomain) const {
   std::vector<GlobalOrdinal> result(
       static_cast<std::size_t>(problem_.subdomains[subdomain].prescribed.size()), -1);
-  const Own& own = own_[subdomain];
+  const OwnSubdomain& own = own_[subdomain];
   for (std::size_t i = 0; i < own.unknowns.size(); ++i)
     result[static_cast<std::size_t>(own.position[i])] = own.unknowns[i];
   return result;
@@ -466,13 +299,7 @@ Eigen::VectorXd UnassembledProblem::unknowns(std::size_t subdomain,
 }
 
 RCP<Vector> UnassembledProblem::unknowns(std::span<const Eigen::VectorXd> displacement) const {
-  std::vector<GlobalOrdinal> here;
-  for (const Own& own : own_)
-    here.insert(here.end(), own.unknowns.begin(), own.unknowns.end());
-  std::sort(here.begin(), here.end());
-  here.erase(std::unique(here.begin(), here.end()), here.end());
-  const RCP<const Map> map = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                                         Teuchos::arrayViewFromVector(here), 0, comm_));
+  const RCP<const Map> map = ownUnknowns();
   Vector sums(map);
   for (std::size_t s = 0; s < own_.size(); ++s) {
     const Eigen::VectorXd u = unknowns(s, displacement);

@@ -16,6 +16,7 @@
 
 #include "epafi/decomposition/ContactMatrix.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/OwnSubdomain.hpp"
 #include "epafi/decomposition/Pieces.hpp"
 #include "epafi/decomposition/SubdomainMatrix.hpp"
 
@@ -88,19 +89,9 @@ public:
   [[nodiscard]] RCP<Vector> contactForces(const Vector& multiplier) const;
 
 private:
-  /// What is kept of a SubdomainMatrix; vectors are in its order.
-  struct Own {
-    std::vector<GlobalOrdinal> unknowns;
-    std::vector<int> position;       ///< of each unknown among nodes × components
-    std::vector<int> row;            ///< its number among the free unknowns, −1 if prescribed
-    Eigen::VectorXd load, heldForce; ///< f^s, and K^s u of the prescribed values u alone
-    Eigen::VectorXd prescribed;      ///< u, 0 where free
-  };
-
   void makePieces();
-  void makePiece(SubdomainMatrix& matrix, Piece& piece, Own& own) const;
-  [[nodiscard]] SparseMatrix freeStiffness(const SparseMatrix& stiffness, const Own& own) const;
-  void findKernel();
+  void mapUnknowns();
+  [[nodiscard]] RCP<const Map> ownUnknowns() const;
   void choosePoints();
   Rows enterContact();
   void attach(const Rows& contact);
@@ -111,7 +102,7 @@ private:
   int dimension_, components_;
   std::vector<SubdomainMatrix> added_; ///< until complete
   std::optional<ContactMatrix> contact_;
-  std::vector<Own> own_;
+  std::vector<OwnSubdomain> own_;
   Outline outline_;
   std::vector<Piece> pieces_;
   std::vector<std::shared_ptr<const SparseMatrix>> nodal_; ///< K^s before averages became unknowns

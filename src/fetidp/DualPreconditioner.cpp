@@ -53,13 +53,14 @@ void DualPreconditioner::makeBlocks(const decomposition::DecomposedProblem& prob
   using Precision = direct::SymmetricBlock::Precision;
   const auto groups = std::as_const(*inverse_).groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const CondensedSubdomain& condensed = groups[g].condensed();
-    const Eigen::MatrixXd matrix =
-        type == PreconditionerParameters::Type::lumped
-            ? boundaryBlock(problem.subdomains[groups[g].members().front()], condensed)
-            : condensed.factor().schurComplement();
     const auto precision = isSingle ? Precision::single : Precision::full;
-    blocks_.push_back({g, direct::SymmetricBlock(matrix, groups[g].use(), precision), {}, {}, {}, {}, {}});
+    const auto stiffness =
+        type == PreconditionerParameters::Type::dirichlet
+            ? groups[g].boundaryStiffness(precision)
+            : std::make_shared<const direct::SymmetricBlock>(
+                  boundaryBlock(problem.subdomains[groups[g].members().front()], groups[g].condensed()),
+                  groups[g].use(), precision);
+    blocks_.push_back({g, stiffness, {}, {}, {}, {}, {}});
   }
 }
 
@@ -146,7 +147,7 @@ void DualPreconditioner::prepareColumns(Eigen::Index numColumns) const {
 std::size_t DualPreconditioner::bytes() const {
   std::size_t bytes = 0;
   for (const Block& block : blocks_)
-    bytes += block.stiffness.bytes();
+    bytes += block.stiffness->bytes();
   return bytes;
 }
 

@@ -64,8 +64,8 @@ public:
 private:
   /// What a group of identical subdomains needs: m members, n_Δ boundary unknowns.
   struct Block {
-    std::size_t group = 0; ///< index in the inverse's groups
-    direct::SymmetricBlock stiffness;
+    std::size_t group = 0;                                   ///< index in the inverse's groups
+    std::shared_ptr<const direct::SymmetricBlock> stiffness; ///< S_Δ
     std::vector<double> weights;   ///< B_D's entries in the order of SubdomainGroup::boundaryEntries
     Eigen::MatrixXd input, output; ///< work, n_Δ × mk
     Eigen::MatrixXi near;          ///< n_c × m: of each member's crosspoint values; empty where none moves

@@ -73,7 +73,7 @@ void DualPreconditioner::multiplyBlocks(std::span<const double> lambda, std::spa
       for (const InterfaceEntry& entry : entries)
         input[entry.place] += *weight++ * values[entry.multiplier];
     }
-    block.stiffness.apply(block.input, block.output);
+    block.stiffness->apply(block.input, block.output);
     for (Eigen::Index j = 0; j < numColumns; ++j) {
       const double* output = block.output.data() + j * block.output.size() / numColumns;
       double* values = result.data() + j * stride;
@@ -184,7 +184,7 @@ void DualPreconditioner::addForcesOf(const decomposition::DecomposedProblem& pro
             free[s](unknown, 0) - given[s](unknown, 0);
       }
     }
-    block.stiffness.apply(block.input, block.output);
+    block.stiffness->apply(block.input, block.output);
     const double* weight = block.weights.data();
     for (const InterfaceEntry& entry : group.boundaryEntries())
       result[static_cast<std::size_t>(entry.multiplier)] += *weight++ * block.output.data()[entry.place];

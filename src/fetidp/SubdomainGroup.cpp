@@ -23,8 +23,10 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
   SubdomainInterface interface = interfaceOf(first);
   if (previous != nullptr && previous->fits(first, interface)) {
     condensed_ = previous->condensed_;
-    if (previous->use_ == use_)
+    if (previous->use_ == use_) {
       flexibility_ = previous->flexibility_;
+      boundaryStiffness_ = previous->boundaryStiffness_;
+    }
   } else {
     condensed_ = std::make_shared<const CondensedSubdomain>(
         first, std::move(interface), factorizer,
@@ -71,6 +73,14 @@ void SubdomainGroup::makeExplicit() {
   if (!flexibility_)
     flexibility_ = std::make_shared<const direct::SymmetricBlock>(condensed_->factor().inverseOfKept(), use_);
   isExplicit_ = true;
+}
+
+std::shared_ptr<const direct::SymmetricBlock>
+SubdomainGroup::boundaryStiffness(direct::SymmetricBlock::Precision precision) const {
+  if (!boundaryStiffness_ || boundaryStiffness_->precision() != precision)
+    boundaryStiffness_ = std::make_shared<const direct::SymmetricBlock>(
+        condensed_->factor().schurComplement(), use_, precision);
+  return boundaryStiffness_;
 }
 
 /// Work space for k columns.

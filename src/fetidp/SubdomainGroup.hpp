@@ -57,6 +57,10 @@ public:
     return condensed_ == other.condensed_;
   }
 
+  /// S_ΔΔ as a dense block for preconditioners, made when it is first asked for, and kept as long as the factor is.
+  [[nodiscard]] std::shared_ptr<const direct::SymmetricBlock>
+  boundaryStiffness(direct::SymmetricBlock::Precision precision) const;
+
   /// First half of F's part: keeps (K_rr⁻¹)_ΔΔ B_Δᵀ λ and adds L_cᵀ Wᵀ λ to `coarse`.
   /// \param lambda  this rank's multipliers (ghost map) × k
   /// \param coarse  this rank's coarse unknowns × k
@@ -109,6 +113,7 @@ private:
   Eigen::MatrixXi coarseIndices_;                                   ///< n_c × m, L_c
   std::shared_ptr<const direct::SymmetricBlock> flexibility_;       ///< (K_rr⁻¹)_ΔΔ, once it was made
   bool isExplicit_ = false;
+  mutable std::shared_ptr<const direct::SymmetricBlock> boundaryStiffness_; ///< S_ΔΔ, likewise
   Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × mk: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it
   Eigen::MatrixXd coarseLocal_;         ///< work, n_c × mk
   Eigen::MatrixXd rhs_, solution_;      ///< work of sparse solves, n_r × a few

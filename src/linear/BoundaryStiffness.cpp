@@ -9,7 +9,7 @@ BoundaryStiffness::BoundaryStiffness(const decomposition::DecomposedProblem& pro
     : inverse_(std::move(inverse)), boundary_(problem.subdomains.size()) {
   for (const fetidp::SubdomainGroup& group : inverse_->groups()) {
     const fetidp::CondensedSubdomain& condensed = group.condensed();
-    blocks_.emplace_back(condensed.factor().schurComplement(), group.use());
+    blocks_.push_back(group.boundaryStiffness(direct::SymmetricBlock::Precision::full));
     const std::vector<int>& remainders = problem.subdomains[group.members().front()].remainderUnknowns;
     for (const std::size_t member : group.members())
       for (const int position : condensed.interface().boundary)
@@ -32,7 +32,7 @@ void BoundaryStiffness::apply(const SubdomainVectors& u, SubdomainVectors& force
       input_.middleCols(place, columns) = u[member](boundary, Eigen::all);
       place += columns;
     }
-    blocks_[g].apply(input_, output_);
+    blocks_[g]->apply(input_, output_);
     place = 0;
     for (const std::size_t member : members) {
       forces[member].setZero(u[member].rows(), columns);
@@ -44,8 +44,8 @@ void BoundaryStiffness::apply(const SubdomainVectors& u, SubdomainVectors& force
 
 std::size_t BoundaryStiffness::bytes() const {
   std::size_t sum = 0;
-  for (const direct::SymmetricBlock& block : blocks_)
-    sum += block.bytes();
+  for (const auto& block : blocks_)
+    sum += block->bytes();
   return sum;
 }
 

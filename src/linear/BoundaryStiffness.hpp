@@ -28,9 +28,9 @@ public:
 
 private:
   std::shared_ptr<const fetidp::GeneralizedInverse> inverse_;
-  std::vector<direct::SymmetricBlock> blocks_; ///< of each group
-  std::vector<std::vector<int>> boundary_;     ///< of each subdomain
-  mutable Eigen::MatrixXd input_, output_;     ///< work, n_Δ × mk
+  std::vector<std::shared_ptr<const direct::SymmetricBlock>> blocks_; ///< of each group
+  std::vector<std::vector<int>> boundary_;                            ///< of each subdomain
+  mutable Eigen::MatrixXd input_, output_;                            ///< work, n_Δ × mk
 };
 
 } // namespace epafi::linear

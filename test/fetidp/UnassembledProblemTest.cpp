@@ -207,7 +207,7 @@ TEST(UnassembledProblemTest, UpdatesGiveWhatASolverMadeAnewGives) {
   }
 }
 
-TEST(UnassembledProblemTest, AnUpdateKeepsTheFactorsThatStillHold) {
+TEST(UnassembledProblemTest, AnUpdateKeepsTheFactorsAndBlocksThatStillHold) {
   Twice twice(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
   UnassembledProblem& handed = *twice.handed;
   DirectSolvers solvers;
@@ -219,10 +219,18 @@ TEST(UnassembledProblemTest, AnUpdateKeepsTheFactorsThatStillHold) {
       result.push_back(&group.condensed());
     return result;
   };
+  const auto blocks = [&] {
+    std::vector<std::shared_ptr<const direct::SymmetricBlock>> result;
+    for (const SubdomainGroup& group : std::as_const(inverse).groups())
+      result.push_back(group.boundaryStiffness(direct::SymmetricBlock::Precision::full));
+    return result;
+  };
   const auto before = factors();
+  const auto blocksBefore = blocks();
   const CoarseProblem* coarse = &inverse.coarseProblem();
   inverse.update(handed.problem());
   EXPECT_EQ(factors(), before);
+  EXPECT_EQ(blocks(), blocksBefore);
   EXPECT_EQ(&inverse.coarseProblem(), coarse);
 
   const bool isFirst = world()->getRank() == 0;
@@ -233,9 +241,12 @@ TEST(UnassembledProblemTest, AnUpdateKeepsTheFactorsThatStillHold) {
     matricesOf(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
   inverse.update(handed.problem());
   const auto after = factors();
+  const auto blocksAfter = blocks();
   ASSERT_EQ(after.size(), before.size());
-  for (std::size_t s = 0; s < after.size(); ++s)
+  for (std::size_t s = 0; s < after.size(); ++s) {
     EXPECT_EQ(after[s] == before[s], !(isFirst && s == 0)) << s;
+    EXPECT_EQ(blocksAfter[s] == blocksBefore[s], !(isFirst && s == 0)) << s;
+  }
 }
 
 /// What `complete` says of a problem whose first subdomain was changed, on whatever rank that is.

@@ -1,0 +1,86 @@
+#include "epafi/decomposition/OwnSubdomain.hpp"
+
+#include <algorithm>
+
+namespace epafi::decomposition {
+
+OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, fem::AssembledSubdomain& assembled) {
+  OwnSubdomain own;
+  for (const GlobalOrdinal unknown : matrix.unknowns)
+    assembled.nodes.push_back(unknown / components);
+  std::sort(assembled.nodes.begin(), assembled.nodes.end());
+  assembled.nodes.erase(std::unique(assembled.nodes.begin(), assembled.nodes.end()), assembled.nodes.end());
+
+  const auto n = static_cast<Eigen::Index>(matrix.unknowns.size());
+  const auto numPositions = assembled.nodes.size() * static_cast<std::size_t>(components);
+  std::vector<int> unknownAt(numPositions, -1); // of the application
+  own.unknowns = matrix.unknowns;
+  for (std::size_t i = 0; i < own.unknowns.size(); ++i) {
+    const auto node =
+        std::lower_bound(assembled.nodes.begin(), assembled.nodes.end(), own.unknowns[i] / components) -
+        assembled.nodes.begin();
+    own.position.push_back(
+        static_cast<int>(node * components + static_cast<int>(own.unknowns[i] % components)));
+    unknownAt[static_cast<std::size_t>(own.position.back())] = static_cast<int>(i);
+  }
+  own.prescribed = Eigen::VectorXd::Zero(n);
+  std::vector<char> isFree(own.unknowns.size(), 1);
+  for (const auto& [unknown, value] : matrix.prescribed) {
+    const auto i = static_cast<std::size_t>(std::find(own.unknowns.begin(), own.unknowns.end(), unknown) -
+                                            own.unknowns.begin());
+    isFree[i] = 0;
+    own.prescribed[static_cast<Eigen::Index>(i)] = value;
+  }
+  own.row.assign(own.unknowns.size(), -1);
+  assembled.unknownOf.assign(numPositions, -1);
+  assembled.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
+  for (std::size_t position = 0; position < numPositions; ++position) {
+    const int i = unknownAt[position];
+    if (i < 0)
+      continue;
+    if (isFree[static_cast<std::size_t>(i)] == 0) {
+      assembled.prescribed[static_cast<Eigen::Index>(position)] = own.prescribed[i];
+      continue;
+    }
+    own.row[static_cast<std::size_t>(i)] = static_cast<int>(assembled.unknownPosition.size());
+    assembled.unknownOf[position] = own.row[static_cast<std::size_t>(i)];
+    assembled.unknownPosition.push_back(static_cast<int>(position));
+  }
+  own.load = std::move(matrix.load);
+  own.heldForce = matrix.stiffness * own.prescribed;
+  assembled.load.resize(static_cast<Eigen::Index>(assembled.unknownPosition.size()));
+  freeLoad(own, assembled.load);
+  assembled.energyOffset = prescribedEnergy(own);
+  return own;
+}
+
+SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& own) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(stiffness.nonZeros()));
+  for (int column = 0; column < stiffness.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry) {
+      const int i = own.row[static_cast<std::size_t>(entry.row())],
+                j = own.row[static_cast<std::size_t>(column)];
+      if (i >= 0 && j >= 0) { // the mean of both triangles: symmetric to the last digit
+        entries.emplace_back(i, j, 0.5 * entry.value());
+        entries.emplace_back(j, i, 0.5 * entry.value());
+      }
+    }
+  const auto numFree = static_cast<Eigen::Index>(
+      own.row.size() - static_cast<std::size_t>(std::count(own.row.begin(), own.row.end(), -1)));
+  SparseMatrix result(numFree, numFree);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+void freeLoad(const OwnSubdomain& own, Eigen::VectorXd& load) {
+  for (std::size_t i = 0; i < own.row.size(); ++i)
+    if (own.row[i] >= 0)
+      load[own.row[i]] = own.load[static_cast<Eigen::Index>(i)] - own.heldForce[static_cast<Eigen::Index>(i)];
+}
+
+double prescribedEnergy(const OwnSubdomain& own) {
+  return (0.5 * own.heldForce - own.load).dot(own.prescribed);
+}
+
+} // namespace epafi::decomposition

@@ -1,0 +1,36 @@
+#pragma once
+
+/// From an application's subdomain to a piece: nodes in ascending order, prescribed unknowns taken out.
+
+#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/decomposition/SubdomainMatrix.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace epafi::decomposition {
+
+/// What is kept of a SubdomainMatrix; vectors are in its order.
+struct OwnSubdomain {
+  std::vector<GlobalOrdinal> unknowns;
+  std::vector<int> position;       ///< of each unknown among nodes × components
+  std::vector<int> row;            ///< its number among the free unknowns, −1 if prescribed
+  Eigen::VectorXd load, heldForce; ///< f^s, and K^s u of the prescribed values u alone
+  Eigen::VectorXd prescribed;      ///< u, 0 where free
+};
+
+/// Nodes, positions, load and prescribed values; takes the matrix's load. Precondition: the matrix is sound. Not collective.
+OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, fem::AssembledSubdomain& assembled);
+
+/// K^s without the rows and columns of prescribed unknowns, in the order of positions. Not collective.
+SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& own);
+
+/// f^s − K^s u of the free unknowns: what prescribed values take is on the right. Not collective.
+/// \param[out] load  as many entries as there are free unknowns
+void freeLoad(const OwnSubdomain& own, Eigen::VectorXd& load);
+
+/// ½ uᵀK^s u − f^sᵀu of the prescribed values alone.
+double prescribedEnergy(const OwnSubdomain& own);
+
+} // namespace epafi::decomposition
