@@ -22,7 +22,7 @@ public:
   /// \param matrix  k × k, both triangles. Stored are k(k + 1)/2 numbers for a large matrix used alone, else k².
   SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision precision = Precision::full);
 
-  [[nodiscard]] int size() const { return size_; } ///< k
+  [[nodiscard]] int size() const { return size_; }                 ///< k
   [[nodiscard]] Precision precision() const { return precision_; } ///< as it was asked for
   /// Y = A X; both k × m, m ≥ 0, column-major without gaps. Not collective. Y may not overlap X.
   void apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const;
