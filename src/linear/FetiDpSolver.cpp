@@ -90,6 +90,7 @@ FetiDpSolver::FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParamet
 }
 
 void FetiDpSolver::update() {
+  dual_.reset(); // should this fail, there is none
   inverse_->update(requireLinearProblem(*k_, "FETI-DP"));
   prepare();
 }
@@ -122,6 +123,8 @@ FetiDpSolver::Columns FetiDpSolver::begin(const MultiVector& b, MultiVector& x, 
 
 LinearReport FetiDpSolver::solve(const MultiVector& b, MultiVector& x, double tolerance,
                                  ResidualReference reference) {
+  if (!dual_)
+    throw Error("FetiDpSolver::solve was called after an update that failed; call update again first");
   Columns columns = begin(b, x, tolerance, reference);
   LinearReport report;
   DualOutcome outcome;

@@ -37,7 +37,8 @@ public:
   FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParameters& parameters);
 
   /// Follows a change of the matrices in the problem of k: what still holds is kept (GeneralizedInverse::update), the symbolic part
-  /// of factorisations where patterns are the same. Collective; throws as the constructor does.
+  /// of factorisations where patterns are the same. Collective; throws as the constructor does, and solves have to wait until an
+  /// update succeeds.
   void update();
 
   /// Solves for all columns at once, none of which takes a factorisation.

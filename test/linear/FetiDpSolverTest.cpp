@@ -129,6 +129,24 @@ TEST(FetiDpSolverTest, FollowsAChangeOfTheMatrices) {
   EXPECT_LE(relativeError(denseOf(x), denseOf(*problem.k).llt().solve(load)), 1e-9);
 }
 
+TEST(FetiDpSolverTest, AfterAnUpdateThatFailedAnotherOneHelps) {
+  const LinearProblem problem(patchwork(8, 10));
+  FetiDpSolver solver(problem.k, {});
+  const auto scaleAll = [&](double factor) {
+    for (decomposition::Subdomain& subdomain : problem.decomposition->problem.subdomains)
+      decomposition::changeStiffness(subdomain, [&](decomposition::SparseMatrix& k) { k *= factor; });
+  };
+  scaleAll(-1);
+  EXPECT_THROW(solver.update(), Error);
+  Vector x(problem.k->getDomainMap());
+  EXPECT_THROW(solver.solve(*problem.k->load(), x), Error);
+  scaleAll(-3);
+  solver.update();
+  EXPECT_TRUE(solver.solve(*problem.k->load(), x, 1e-11).converged);
+  const Eigen::MatrixXd load = denseOf(*problem.k->load());
+  EXPECT_LE(relativeError(denseOf(x), denseOf(*problem.k).llt().solve(load)), 1e-9);
+}
+
 TEST(FetiDpSolverTest, SaysWhyItStopped) {
   const LinearProblem problem(plate(16, decomposition::grid(4, 4)));
   const RCP<const Vector> b = problem.k->load();
