@@ -5,8 +5,9 @@ set(EPAFI_INCLUDE_ROOT "${PROJECT_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${EPAFI_INCLUDE_ROOT}/epafi")
 
 # Warnings and sanitizers for our own code.
-function(epafi_own_code target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+function(epafi_flags target)
+  # Programs are compiled as libraries are, so that they share precompiled headers.
+  target_compile_options(${target} PRIVATE -fPIC $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
   if(EPAFI_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -20,6 +21,33 @@ function(epafi_own_code target)
     target_link_options(${target} PRIVATE -fsanitize=${EPAFI_SANITIZE})
   endif()
 endfunction()
+
+# epafi_own_code(<target>): the flags of our own code, and what nearly every unit of it includes, read once for all of them.
+# Units include all that they use themselves: clang-tidy reads them without what is precompiled.
+function(epafi_own_code target)
+  epafi_flags(${target})
+  get_target_property(standard ${target} CXX_STANDARD)
+  if(NOT standard EQUAL 17)
+    target_precompile_headers(${target} REUSE_FROM epafi_precompiled)
+  endif()
+endfunction()
+
+# epafi_precompiled_headers(<target> HEADERS <a.hpp> ... USES Epafi::eigen ...): what epafi_own_code takes.
+function(epafi_precompiled_headers target)
+  cmake_parse_arguments(PARSE_ARGV 1 PRECOMPILED "" "" "HEADERS;USES")
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${target}.cpp" CONTENT "")
+  add_library(${target} OBJECT "${PROJECT_BINARY_DIR}/${target}.cpp")
+  target_link_libraries(${target} PRIVATE ${PRECOMPILED_USES})
+  target_precompile_headers(${target} PRIVATE ${PRECOMPILED_HEADERS})
+  epafi_flags(${target})
+endfunction()
+
+epafi_precompiled_headers(epafi_precompiled
+  HEADERS <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory> <numeric> <optional> <span> <sstream>
+          <string> <utility> <vector> <Eigen/Core>
+          <Teuchos_CommHelpers.hpp> <Teuchos_ParameterList.hpp>
+          <Tpetra_CrsMatrix.hpp> <Tpetra_Import.hpp> <Tpetra_Map.hpp> <Tpetra_Operator.hpp> <Tpetra_Vector.hpp>
+  USES Epafi::trilinos Epafi::eigen)
 
 # Where our headers are, and Trilinos: no library of ours, and no C++20. The headers of MueLu and Stratimikos in Trilinos 13.2
 # are not C++20; units that include them and some of ours, those in C++17, link this.

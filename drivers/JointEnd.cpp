@@ -4,7 +4,9 @@
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Teuchos_Time.hpp>
+#include <Tpetra_Core.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <string>
@@ -16,10 +18,11 @@ namespace {
 struct Failure {
   ExitCode code = notConverged;
   std::string sentence;
+  std::string program;
 };
 
-void say(const std::string& sentence) {
-  std::cerr << "epafi: " + sentence + '\n' << std::flush;
+void say(const Failure& failure, const std::string& sentence) {
+  std::cerr << failure.program + ": " + sentence + '\n' << std::flush;
 }
 
 /// Whether `isDone` comes true within so many seconds.
@@ -48,9 +51,9 @@ void endForAll(MPI_Comm messages, int rank, int size, const Failure& failure) {
   if (anotherSpeaks)
     std::this_thread::sleep_for(std::chrono::seconds(2)); // until its MPI_Abort comes
   else
-    say(failure.sentence.starts_with("rank ")
-            ? failure.sentence
-            : "rank " + std::to_string(rank) + " failed: " + failure.sentence);
+    say(failure, failure.sentence.starts_with("rank ")
+                     ? failure.sentence
+                     : "rank " + std::to_string(rank) + " failed: " + failure.sentence);
   MPI_Abort(MPI_COMM_WORLD, failure.code);
 }
 
@@ -69,13 +72,14 @@ int endAfter(const Failure& failure, const Comm& comm, MPI_Comm messages, double
       endForAll(messages, rank, size, failure);
   }
   if (rank == 0)
-    say(failure.sentence);
+    say(failure, failure.sentence);
   return code;
 }
 
 } // namespace
 
-int endTogether(const Comm& comm, const std::function<int()>& work, double patience) {
+int endTogether(const Comm& comm, const std::function<int()>& work, double patience,
+                const std::string& program) {
   MPI_Comm messages = MPI_COMM_NULL;
   if (const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm))
     MPI_Comm_dup(*mpi->getRawMpiComm(), &messages);
@@ -83,15 +87,24 @@ int endTogether(const Comm& comm, const std::function<int()>& work, double patie
   try {
     return work();
   } catch (const InputError& error) {
-    failure = {wrongInput, error.what()};
+    failure = {wrongInput, error.what(), program};
   } catch (const SolvabilityError& error) {
-    failure = {notSolvable, error.what()};
+    failure = {notSolvable, error.what(), program};
   } catch (const std::exception& error) {
-    failure = {notConverged, sentenceOf(error, comm.getRank())};
+    failure = {notConverged, sentenceOf(error, comm.getRank()), program};
   } catch (...) {
-    failure = {notConverged, "an unknown error occurred"};
+    failure = {notConverged, "an unknown error occurred", program};
   }
   return endAfter(failure, comm, messages, patience);
+}
+
+int runMain(int argc, char** argv, const std::string& program,
+            const std::function<int(const RCP<const Comm>&)>& work) {
+  int programNameOnly = std::min(argc, 1); // Kokkos would answer --help itself
+  const Tpetra::ScopeGuard scope(&programNameOnly, &argv);
+  const RCP<const Comm> comm = Tpetra::getDefaultComm();
+  return endTogether(
+      *comm, [&] { return work(comm); }, 3.0, program);
 }
 
 } // namespace epafi::drivers

@@ -5,6 +5,7 @@
 #include "epafi/base/Types.hpp"
 
 #include <functional>
+#include <string>
 
 namespace epafi::drivers {
 
@@ -19,6 +20,12 @@ enum ExitCode : int { solved = 0, notConverged = 1, wrongInput = 2, notSolvable 
 /// to do so too, `patience` seconds at most; then the lowest of those that threw speaks, with its rank, and MPI_Abort ends the
 /// others with the code. Nothing hangs as long as what was thrown gets here: destructors must not wait for other ranks.
 /// Collective; from here on messages of its own.
-int endTogether(const Comm& comm, const std::function<int()>& work, double patience = 3.0);
+/// \param program  whose name begins what is told
+int endTogether(const Comm& comm, const std::function<int()>& work, double patience = 3.0,
+                const std::string& program = "epafi");
+
+/// What the programs' main() does: MPI from here to the end, and `work` on all ranks. Returns the exit code.
+int runMain(int argc, char** argv, const std::string& program,
+            const std::function<int(const RCP<const Comm>&)>& work);
 
 } // namespace epafi::drivers

@@ -1,5 +1,7 @@
 #include "Options.hpp"
 
+#include "CommandLine.hpp"
+
 #include "epafi/base/Errors.hpp"
 
 #include <charconv>
@@ -22,56 +24,23 @@ double secondsOf(const std::string& text) {
 
 Options parseOptions(int argc, const char* const* argv) {
   Options options;
-  const std::vector<std::string> known{
-      "--set",   "--output", "--report", "--restart", "--checkpoint-interval", "--print-parameters",
-      "--quiet", "--help",   "--version"};
-  for (int i = 1; i < argc; ++i) {
-    std::string word = argv[i];
-    std::string attached;
-    const bool hasAttached = word.rfind("--", 0) == 0 && word.find('=') != std::string::npos;
-    if (hasAttached) {
-      attached = word.substr(word.find('=') + 1);
-      word.erase(word.find('='));
-    }
-    bool takesValue = false;
-    const auto value = [&] {
-      takesValue = true;
-      std::string text = hasAttached ? attached : i + 1 < argc ? argv[++i] : "";
-      if (text.empty())
-        throw InputError("option " + word + " needs a value; see epafi --help");
-      return text;
-    };
-    if (word == "--set") {
-      options.overrides.push_back(value());
-    } else if (word == "--output") {
-      options.output = value();
-    } else if (word == "--report") {
-      options.report = value();
-    } else if (word == "--restart") {
-      options.restart = value();
-    } else if (word == "--checkpoint-interval") {
-      options.checkpointInterval = secondsOf(value());
-    } else if (word == "--print-parameters") {
-      options.printParameters = true;
-    } else if (word == "--quiet" || word == "-q") {
-      options.quiet = true;
-    } else if (word == "--help" || word == "-h") {
-      options.help = true;
-    } else if (word == "--version") {
-      options.version = true;
-    } else if (word.size() > 1 && word.front() == '-') {
-      const std::string near = nearestName(word, known);
-      throw InputError("unknown option " + word + (near.empty() ? "" : "; did you mean " + near + "?") +
-                       " (see epafi --help)");
-    } else if (!options.scene.empty()) {
-      throw InputError("two scenes are given, '" + options.scene + "' and '" + word +
-                       "'; epafi solves one at a time");
-    } else {
-      options.scene = word;
-    }
-    if (hasAttached && !takesValue)
-      throw InputError("option " + word + " takes no value; see epafi --help");
-  }
+  CommandLine line("epafi");
+  line.value("--set", [&](const std::string& text) { options.overrides.push_back(text); })
+      .value("--output", options.output)
+      .value("--report", options.report)
+      .value("--restart", options.restart)
+      .value("--checkpoint-interval",
+             [&](const std::string& text) { options.checkpointInterval = secondsOf(text); })
+      .flag("--print-parameters", options.printParameters)
+      .flag("--quiet", options.quiet)
+      .flag("--version", options.version)
+      .words([&](const std::string& word) {
+        if (!options.scene.empty())
+          throw InputError("two scenes are given, '" + options.scene + "' and '" + word +
+                           "'; epafi solves one at a time");
+        options.scene = word;
+      });
+  options.help = line.parse(argc, argv);
   if (options.scene.empty() && !options.printParameters && !options.help && !options.version)
     throw InputError("no scene is given; call epafi SCENE.xml (see epafi --help)");
   return options;

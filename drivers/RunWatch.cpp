@@ -8,6 +8,7 @@
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 
+#include <iomanip>
 #include <iostream>
 #include <utility>
 
@@ -15,11 +16,10 @@ namespace epafi::drivers {
 
 RunWatch::RunWatch(const Options& options, RCP<const Comm> comm)
     : comm_(std::move(comm)), speaks_(comm_->getRank() == 0), interval_(options.checkpointInterval),
-      lastCheckpoint_(Teuchos::Time::wallTime()) {
+      lastCheckpoint_(Teuchos::Time::wallTime()), lastLine_(lastCheckpoint_),
+      tellsProgress_(speaks_ && !options.quiet) {
   if (!options.output.empty())
     checkpoint_ = std::filesystem::path(options.output) / "checkpoint.epafi";
-  if (speaks_ && !options.quiet)
-    progress_.emplace(std::cout, 5.0);
   if (!options.restart.empty())
     restart_ = output::readCheckpoint(options.restart, *comm_);
 }
@@ -51,8 +51,15 @@ void RunWatch::beforeIteration() {
 }
 
 void RunWatch::step(const qp::StepRecord& record) {
-  if (progress_)
-    progress_->step(record);
+  constexpr double interval = 5; // seconds between lines that tell people that a long solve is alive
+  const double now = Teuchos::Time::wallTime();
+  if (!tellsProgress_ || now - lastLine_ < interval)
+    return;
+  lastLine_ = now;
+  std::cout << "  step " << record.iteration << " (" << static_cast<char>(record.kind)
+            << "): projected gradient " << std::scientific << std::setprecision(2) << record.projectedGradient
+            << ", " << record.activeBounds << " at bounds, " << record.hessianMultiplications << " products\n"
+            << std::flush;
 }
 
 bool RunWatch::wantsToStop() {

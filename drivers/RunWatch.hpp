@@ -3,7 +3,6 @@
 /// What the driver does while a run goes on: lines for people, signals, checkpoints, and the start from one.
 
 #include "Options.hpp"
-#include "Progress.hpp"
 #include "SceneRun.hpp"
 
 #include "epafi/output/Checkpoint.hpp"
@@ -46,10 +45,10 @@ private:
   bool speaks_;
   std::filesystem::path checkpoint_;
   std::optional<output::Checkpoint> restart_;
-  double interval_, lastCheckpoint_;
+  double interval_, lastCheckpoint_, lastLine_;
+  bool tellsProgress_;
   bool hasComplained_ = false;
   output::Fingerprint fingerprint_;
-  std::optional<Progress> progress_;
 };
 
 } // namespace epafi::drivers

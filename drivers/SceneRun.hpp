@@ -7,7 +7,7 @@
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/accuracy/ErrorEstimate.hpp"
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 #include "epafi/output/Evaluation.hpp"
 #include "epafi/scene/Scene.hpp"
 
@@ -39,7 +39,7 @@ Teuchos::ParameterList driverSchema();
 /// A solved scene. Heap members keep their addresses: the solver refers to the problem.
 struct SceneRun {
   scene::Scene scene;
-  std::unique_ptr<decomposition::Decomposition> decomposition;
+  std::unique_ptr<model::Decomposition> decomposition;
   std::unique_ptr<ContactSolver> solver;
   fetidp::ContactSolution solution;
   std::optional<accuracy::ErrorEstimate> error; ///< if asked for

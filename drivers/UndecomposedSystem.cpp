@@ -1,7 +1,7 @@
 #include "UndecomposedSystem.hpp"
 
 #include "epafi/base/Types.hpp"
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Teuchos_ArrayRCP.hpp>
 #include <Teuchos_DefaultSerialComm.hpp>
@@ -15,8 +15,8 @@ namespace epafi::drivers {
 namespace {
 
 using decomposition::DecomposedProblem;
-using decomposition::Decomposition;
 using decomposition::Subdomain;
+using model::Decomposition;
 
 /// The scene with each body as one subdomain.
 scene::Scene inOnePieceEach(scene::Scene scene) {
@@ -114,7 +114,7 @@ Eigen::VectorXd UndecomposedSystem::unknownsOf(const std::vector<Eigen::VectorXd
 
 UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
   const Decomposition decomposition =
-      decomposition::decompose(inOnePieceEach(scene), rcp(new Teuchos::SerialComm<int>()));
+      model::decompose(inOnePieceEach(scene), rcp(new Teuchos::SerialComm<int>()));
   const DecomposedProblem& problem = decomposition.problem;
   // A body whose mesh is in two pieces stays so: nothing has to be glued.
   if (problem.numEqualities != 0)
@@ -123,7 +123,7 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
 
   UndecomposedSystem system;
   system.components = problem.components;
-  for (const decomposition::BodyLayout& body : decomposition.bodies)
+  for (const model::BodyLayout& body : decomposition.bodies)
     system.prescribed.emplace_back(
         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.mesh->numNodes()) * problem.components));
   system.stiffness = blockDiagonal(problem, first);

@@ -20,7 +20,6 @@
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
-#include <Tpetra_Core.hpp>
 
 #include <cerrno>
 #include <cstring>
@@ -129,9 +128,8 @@ int run(int argc, char** argv, const RCP<const Comm>& comm) {
 } // namespace
 
 int main(int argc, char** argv) {
-  int programNameOnly = 1; // Kokkos would answer --help itself
-  Tpetra::ScopeGuard scope(&programNameOnly, &argv);
-  listenToStopSignals();
-  const RCP<const Comm> comm = Tpetra::getDefaultComm();
-  return endTogether(*comm, [&] { return run(argc, argv, comm); });
+  return runMain(argc, argv, "epafi", [&](const RCP<const Comm>& comm) {
+    listenToStopSignals();
+    return run(argc, argv, comm);
+  });
 }

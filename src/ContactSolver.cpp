@@ -4,17 +4,13 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
-#include "epafi/base/Version.hpp"
 #include "epafi/fetidp/FiniteData.hpp"
 #include "epafi/fetidp/Recovery.hpp"
 
-#include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Operator.hpp>
 #include <Tpetra_Vector.hpp>
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +20,6 @@
 
 namespace epafi {
 namespace {
-
-/// Most memory that this rank's process ever held, in bytes.
-double peakBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 double longest(const Comm& comm, double since) {
   return maxOverRanks(comm, Teuchos::Time::wallTime() - since);
@@ -103,10 +92,9 @@ void ContactSolver::update() {
     throw Error("ContactSolver::update was called before ContactSolver::setup; call setup first");
   const double start = Teuchos::Time::wallTime();
   dual_.reset();
-  const auto inverse = std::move(inverse_); // none is left should this fail
+  auto earlier = std::move(inverse_); // none is left should this fail
   fetidp::requireFiniteMatrices(*problem_);
-  inverse->update(*problem_);
-  inverse_ = inverse;
+  inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, directSolvers_, std::move(earlier));
   dual_ = std::make_unique<fetidp::DualProblem>(*problem_, inverse_, dualParameters_);
   times_ = {};
   times_.setup = longest(*problem_->comm, start);
@@ -122,8 +110,7 @@ fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* 
   times_.solve = longest(*problem_->comm, solveStart);
 
   const double recoveryStart = Teuchos::Time::wallTime();
-  fetidp::ContactSolution solution =
-      fetidp::recover(*problem_, *inverse_, dual_->kernelEntries(), dual, dual_->norm().norm);
+  fetidp::ContactSolution solution = fetidp::recover(*dual_, dual);
   if (!dualParameters_.isBalanced)
     tighten(dual, observer, solution);
   solution.algebraicError = algebraicErrorOf(solution);
@@ -143,16 +130,18 @@ double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) 
   {
     const auto g = gradient.getDataNonConst();
     const auto lambda = solution.multiplier->getData();
-    for (Teuchos_Ordinal i = 0; i < g.size(); ++i)
-      if (gradient.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem_->numInequalities &&
-          !(lambda[i] > 0))
-        g[i] = std::min(g[i], 0.0);
+    for (LocalOrdinal row = 0; row < g.size(); ++row)
+      if (problem_->kindOfOwned(row) == decomposition::RowKind::contact && !(lambda[row] > 0))
+        g[row] = std::min(g[row], 0.0);
   }
   dual_->preconditioner()->apply(gradient, image);
   return std::sqrt(std::max(0.0, accurateDot(gradient, image)));
 }
 
 namespace {
+
+/// Solves that may follow the first one, each to a tighter tolerance.
+constexpr int maxFurtherSolves = 4;
 
 /// What constraints may be violated by, relative to the largest displacement: 1000 tolerances, or what round-off leaves of
 /// differences of displacements in the worst of the problems that are solved well.
@@ -188,14 +177,14 @@ void ContactSolver::tighten(fetidp::DualSolution dual, qp::Observer* observer,
                             fetidp::ContactSolution& solution) {
   const double allowed = allowedViolation(dualParameters_.tolerance);
   double tightening = 1;
-  for (int again = 0;
-       again < 4 && dual.report.status == qp::Status::converged && solution.feasibility > allowed; ++again) {
+  for (int further = 0; further < maxFurtherSolves && dual.report.status == qp::Status::converged &&
+                        solution.feasibility > allowed;
+       ++further) {
     tightening *= std::max(1e-6, 0.01 * allowed / solution.feasibility);
     const double violated = solution.feasibility;
     dual = dual_->solve(dual.lambda.get(), observer, {nullptr, tightening});
     append(dual.report, report_);
-    const fetidp::ContactSolution better =
-        fetidp::recover(*problem_, *inverse_, dual_->kernelEntries(), dual, dual_->norm().norm);
+    const fetidp::ContactSolution better = fetidp::recover(*dual_, dual);
     if (better.feasibility < violated)
       solution = better;
   }
@@ -222,103 +211,6 @@ void ContactSolver::confirm(const fetidp::ContactSolution& solution, double erro
       "the iteration met the tolerance, but " + reason.str() +
       ": round-off in the subdomain solves allows no better; avoid very flat elements and very large "
       "jumps of conductivity, or raise the tolerance";
-}
-
-/// How many of the subdomains are multiplied with as dense blocks, and how many different ones there are. Collective.
-std::string ContactSolver::describeDualOperator() const {
-  if (dual_->algorithm() == fetidp::Algorithm::direct)
-    return "none";
-  double explicitOnes = 0, different = 0;
-  for (const fetidp::SubdomainGroup& group : std::as_const(*inverse_).groups()) {
-    different += 1;
-    explicitOnes += group.isExplicit() ? static_cast<double>(group.members().size()) : 0.0;
-  }
-  explicitOnes = sumOverRanks(*problem_->comm, explicitOnes);
-  different = sumOverRanks(*problem_->comm, different);
-  std::ostringstream text;
-  text << (explicitOnes == 0                         ? "implicit"
-           : explicitOnes == problem_->numSubdomains ? "explicit"
-                                                     : "partly explicit");
-  if (explicitOnes > 0 && explicitOnes < problem_->numSubdomains)
-    text << " (" << explicitOnes << " of " << problem_->numSubdomains << " subdomains)";
-  if (different < problem_->numSubdomains)
-    text << ", " << different << " factorisations, the others alike";
-  return text.str();
-}
-
-int ContactSolver::numAdaptiveConstraints() const {
-  return dual_->deflatedOperator().is_null() ? 0 : dual_->deflatedOperator()->numConstraints();
-}
-
-/// "dirichlet, stiffness scaling, 12 adaptive constraints".
-std::string ContactSolver::describePreconditioner() const {
-  std::ostringstream text;
-  text << (dual_->preconditioner().is_null() ? std::string("none")
-                                             : fetidp::describe(dualParameters_.preconditioner));
-  if (const int number = numAdaptiveConstraints(); number > 0)
-    text << ", " << number << (number == 1 ? " adaptive constraint" : " adaptive constraints");
-  if (!dual_->correctedPreconditioner().is_null())
-    text << ", corrected for " << dual_->correctedPreconditioner()->numColumns() << " jumps of contact";
-  return text.str();
-}
-
-Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& solution) const {
-  const auto& problem = *problem_;
-  const Comm& comm = *problem.comm;
-  int floating = 0;
-  for (const auto& body : problem.bodies)
-    floating += body.kernelDimension > 0 ? 1 : 0;
-
-  const std::size_t deflated = dual_->deflatedOperator().is_null() ? 0 : dual_->deflatedOperator()->bytes();
-  Teuchos::ParameterList list("Report");
-  list.sublist("Epafi").set("Version", std::string(version()));
-  list.sublist("Problem")
-      .set("Primal Dimension", problem.primalDimension)
-      .set("Dual Dimension", problem.dualDimension())
-      .set("Equality Multipliers", problem.numEqualities)
-      .set("Inequality Multipliers", problem.numInequalities)
-      .set("Crosspoints", problem.numCrosspoints)
-      .set("Adaptive Constraints", numAdaptiveConstraints())
-      .set("Subdomains", problem.numSubdomains)
-      .set("Floating Bodies", floating)
-      .set("Kernel Dimension", problem.kernelDimension)
-      .set("Ranks", comm.getSize());
-  list.sublist("Algorithm")
-      .set("Name", fetidp::toString(dual_->algorithm()))
-      .set("Reason", dual_->reason())
-      .set("Preconditioner", describePreconditioner())
-      .set("Dual Operator", describeDualOperator())
-      .set("Subdomain Solver", directSolvers_.subdomains)
-      .set("Coarse Solver", directSolvers_.coarse)
-      .set("Operator Norm", dual_->norm().norm);
-  list.sublist("Iterations")
-      .set("Outer", report_.counts.outer)
-      .set("CG Steps", report_.counts.conjugateGradient)
-      .set("Expansion Steps", report_.counts.expansion)
-      .set("Proportioning Steps", report_.counts.proportioning)
-      .set("Hessian Multiplications", report_.counts.hessianMultiplications)
-      .set("Norm Estimate Multiplications", dual_->norm().multiplications)
-      .set("Preconditioner Applications", report_.counts.preconditionerApplications);
-  list.sublist("Accuracy")
-      .set("Relative Projected Gradient", solution.relativeProjectedGradient)
-      .set("Feasibility", solution.feasibility)
-      .set("Complementarity", solution.complementarity)
-      .set("Equilibrium", solution.equilibrium)
-      .set("Energy", solution.energy)
-      .set("Active Contact Nodes", solution.activeContactNodes)
-      .set("Contact Force", solution.contactForce);
-  if (std::isfinite(solution.algebraicError))
-    list.sublist("Accuracy").set("Algebraic Error", solution.algebraicError);
-  list.sublist("Time").set("Setup", times_.setup).set("Solve", times_.solve).set("Recovery", times_.recovery);
-  list.sublist("Memory")
-      .set("Peak Bytes", sumOverRanks(comm, peakBytes()))
-      .set("Factor Bytes", sumOverRanks(comm, static_cast<double>(inverse_->factorBytes() +
-                                                                  dual_->preconditionerBytes() + deflated)));
-  list.sublist("Status")
-      .set("Converged", report_.status == qp::Status::converged)
-      .set("Status", qp::toString(report_.status))
-      .set("Reason", report_.reason);
-  return list;
 }
 
 } // namespace epafi

@@ -9,13 +9,11 @@ inline epafi::scene::Scene block(int elements, int subdomains) {
   using namespace epafi::scene;
   Body body;
   body.name = "block";
-  Solid solid;
-  solid.physics = Physics::elasticity3d;
-  solid.material.youngsModulus = 200;
-  solid.mesh.box = {{0, 0, 0}, {2, 2, 1}};
-  solid.mesh.elements = {2 * elements, 2 * elements, elements};
-  solid.supports = {{"floor", "bottom", {0.0, 0.0, 0.0}, {}}};
-  body.solid = solid;
+  body.physics = Physics::elasticity3d;
+  body.material.youngsModulus = 200;
+  body.mesh.box = {{0, 0, 0}, {2, 2, 1}};
+  body.mesh.elements = {2 * elements, 2 * elements, elements};
+  body.supports = {{"floor", "bottom", {0.0, 0.0, 0.0}, {}}};
   body.decomposition.method = Decomposition::Method::metis;
   body.decomposition.parts = subdomains;
   SurfaceContact contact;
@@ -26,6 +24,6 @@ inline epafi::scene::Scene block(int elements, int subdomains) {
   contact.obstacle.normal = {0, 0, -1};
   Scene scene;
   scene.bodies = {body};
-  scene.surfaceContacts = {contact};
+  scene.contacts = {contact};
   return scene;
 }

@@ -3,7 +3,7 @@
 #include "Block.hpp"
 
 #include "epafi/ContactSolver.hpp"
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
   const int elements = argc > 1 ? std::stoi(argv[1]) : 8;
-  epafi::decomposition::Decomposition cut = epafi::decomposition::decompose(block(elements, elements), comm);
+  epafi::model::Decomposition cut = epafi::model::decompose(block(elements, elements), comm);
   DecomposedProblem& problem = cut.problem;
   const auto press = [&](double by) { // the floor on top comes down everywhere
     for (epafi::GlobalOrdinal row = 0; row < problem.numInequalities; ++row)

@@ -5,9 +5,9 @@
 /// sources of heat are solved for, one after the other.
 
 #include "epafi/adapters/Stratimikos.hpp"
+#include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/decomposition/ElementMatrices.hpp"
 #include "epafi/decomposition/UnassembledProblem.hpp"
-#include "epafi/fetidp/ThyraOperators.hpp"
 #include "epafi/linear/UnassembledOperator.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -91,7 +91,7 @@ int conduct(const std::string& list, const Plate& plate, const RCP<const Comm>& 
 
   // From here on it is as with any other solver of Stratimikos.
   const auto strategy = adapters::linearSolveStrategy(Teuchos::getParametersFromXmlFile(list));
-  const auto forward = fetidp::asThyra(k);
+  const auto forward = adapters::asThyra(k);
   const auto solver = Thyra::linearOpWithSolve<double>(*strategy, forward); // factorises
 
   const RCP<Vector> load = k->load(), temperature = rcp(new Vector(k->getDomainMap())); // starts at 0

@@ -4,7 +4,7 @@
 #include "Block.hpp"
 
 #include "epafi/ContactSolver.hpp"
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <Tpetra_Core.hpp>
@@ -23,8 +23,8 @@ constexpr double depth = 0.02, curvature = 0.25; // of the paraboloid: a length,
 constexpr double from = 0.9, to = 1.1; // where its lowest point is in the first step and in the last
 
 /// The paraboloid's lowest point at x = `middle`, y = 1.
-void setGaps(epafi::decomposition::Decomposition& cut, double middle) {
-  const epafi::decomposition::ContactLayout& contact = cut.contacts.front();
+void setGaps(epafi::model::Decomposition& cut, double middle) {
+  const epafi::contact::ContactLayout& contact = cut.contacts.front();
   for (std::size_t k = 0; k < contact.firstNodes.size(); ++k) {
     const auto row = contact.firstRow + static_cast<epafi::GlobalOrdinal>(k);
     const epafi::fem::Point point = cut.bodies.front().mesh->point(contact.firstNodes[k]);
@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   const auto comm = Tpetra::getDefaultComm();
   const int elements = argc > 1 ? std::stoi(argv[1]) : 8;
-  epafi::decomposition::Decomposition cut = epafi::decomposition::decompose(block(elements, elements), comm);
+  epafi::model::Decomposition cut = epafi::model::decompose(block(elements, elements), comm);
   epafi::ContactSolver solver{Teuchos::ParameterList("Solver")};
 
   double firstTime = 0, allTime = 0;

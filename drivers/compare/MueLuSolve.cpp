@@ -22,14 +22,14 @@ using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
 using ConjugateGradients = Belos::PseudoBlockCGSolMgr<double, MultiVector, Operator>;
 
 /// Shares columns and values with the system. Tpetra's interface knows no const; sorted rows stay as they are.
-RCP<CrsMatrix> tpetraMatrix(const SparseSystem& system) {
-  const auto map = rcp(new Map(static_cast<std::size_t>(system.size()), 0, Tpetra::getDefaultComm()));
-  Teuchos::ArrayRCP<std::size_t> rowStarts(static_cast<int>(system.rowStarts.size()));
-  std::copy(system.rowStarts.begin(), system.rowStarts.end(), rowStarts.begin());
-  const auto columns = Teuchos::arcp(const_cast<int*>(system.columns.data()), 0,
-                                     static_cast<int>(system.columns.size()), false);
-  const auto values = Teuchos::arcp(const_cast<double*>(system.values.data()), 0,
-                                    static_cast<int>(system.values.size()), false);
+RCP<CrsMatrix> tpetraMatrix(const LinearSystem& system) {
+  const auto& k = system.matrix;
+  const auto map = rcp(new Map(static_cast<std::size_t>(k.rows()), 0, Tpetra::getDefaultComm()));
+  Teuchos::ArrayRCP<std::size_t> rowStarts(static_cast<int>(k.rows()) + 1);
+  std::copy(k.outerIndexPtr(), k.outerIndexPtr() + k.rows() + 1, rowStarts.begin());
+  const auto size = static_cast<int>(k.nonZeros());
+  const auto columns = Teuchos::arcp(const_cast<int*>(k.innerIndexPtr()), 0, size, false);
+  const auto values = Teuchos::arcp(const_cast<double*>(k.valuePtr()), 0, size, false);
   const auto matrix = rcp(new CrsMatrix(map, map, rowStarts, columns, values));
   matrix->fillComplete();
   return matrix;
@@ -47,9 +47,10 @@ Teuchos::ParameterList multigridParameters() {
 
 } // namespace
 
-LinearSolution solveByMueLu(const SparseSystem& system, double tolerance) {
+LinearSolution solveByMueLu(const LinearSystem& system, double tolerance) {
   const RCP<CrsMatrix> k = tpetraMatrix(system);
-  const auto load = rcp(new Vector(k->getRangeMap(), Teuchos::arrayView(system.load.data(), system.size())));
+  const auto load =
+      rcp(new Vector(k->getRangeMap(), Teuchos::arrayView(system.load.data(), system.load.size())));
   const auto u = rcp(new Vector(k->getDomainMap()));
 
   LinearSolution result;
@@ -74,7 +75,7 @@ LinearSolution solveByMueLu(const SparseSystem& system, double tolerance) {
     throw std::runtime_error("conjugate gradients with MueLu did not reach the tolerance in " +
                              std::to_string(result.iterations) + " steps");
   const auto values = u->getData();
-  result.u.assign(values.begin(), values.end());
+  result.u = Eigen::Map<const Eigen::VectorXd>(values.getRawPtr(), values.size());
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "PoissonProblem.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
+#include "epafi/scene/EdgeContact.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -12,15 +13,13 @@ namespace epafi::drivers {
 namespace {
 
 scene::Scene squareMembrane(int elements, int subdomains) {
-  using scene::Edge;
   scene::Body square;
   square.name = "square";
-  square.elements = {elements, elements};
-  square.supports = {{"left", Edge::left, 0.0},
-                     {"right", Edge::right, 0.0},
-                     {"bottom", Edge::bottom, 0.0},
-                     {"top", Edge::top, 0.0}};
-  square.loads = {{"all over", square.rectangle, 1.0}};
+  square.mesh.box = scene::rectangle(0, 1, 0, 1);
+  square.mesh.elements = {elements, elements, 0};
+  for (const char* edge : scene::edges)
+    square.supports.push_back({edge, edge, {0.0}});
+  square.loads = {scene::loadInside("all over", square.mesh.box, 1.0)};
   square.decomposition.counts = {subdomains, subdomains, 1};
   scene::Scene scene;
   scene.bodies = {square};
@@ -28,7 +27,7 @@ scene::Scene squareMembrane(int elements, int subdomains) {
 }
 
 /// Those of the inner nodes follow each other.
-linear::GlobalUnknowns numbersOf(const decomposition::Decomposition& decomposition, int elements) {
+linear::GlobalUnknowns numbersOf(const model::Decomposition& decomposition, int elements) {
   linear::GlobalUnknowns unknowns = linear::globalUnknowns(decomposition); // one a node
   const GlobalOrdinal n = elements;
   for (auto& numbers : unknowns)
@@ -40,8 +39,8 @@ linear::GlobalUnknowns numbersOf(const decomposition::Decomposition& decompositi
 } // namespace
 
 PoissonProblem::PoissonProblem(int elements, int subdomains, const RCP<const Comm>& comm) {
-  const auto cut = std::make_shared<const decomposition::Decomposition>(
-      decomposition::decompose(squareMembrane(elements, subdomains), comm));
+  const auto cut = std::make_shared<const model::Decomposition>(
+      model::decompose(squareMembrane(elements, subdomains), comm));
   decomposition = cut;
   k = rcp(new linear::UnassembledOperator({cut, &cut->problem}, numbersOf(*cut, elements)));
 }

@@ -17,7 +17,7 @@ struct PoissonProblem {
   /// Collective.
   PoissonProblem(int elements, int subdomains, const RCP<const Comm>& comm);
 
-  std::shared_ptr<const decomposition::Decomposition> decomposition;
+  std::shared_ptr<const model::Decomposition> decomposition;
   RCP<const linear::UnassembledOperator> k;
 };
 

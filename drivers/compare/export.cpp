@@ -1,6 +1,8 @@
 /// `epafi-export SCENE.xml FILE`: the scene's contact problem as one system, for `compare/peers` and whoever wants to
 /// solve it otherwise. What stands in FILE, and in what order: `usage`, UndecomposedSystem.hpp; how: PetscFile.hpp.
 
+#include "CommandLine.hpp"
+#include "JointEnd.hpp"
 #include "PetscFile.hpp"
 #include "SceneRun.hpp"
 #include "UndecomposedSystem.hpp"
@@ -40,22 +42,14 @@ struct Request {
 
 Request parse(int argc, const char* const* argv) {
   Request request;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--help" || word == "-h") {
-      request.help = true;
-    } else if (word == "--set") {
-      if (++i == argc)
-        throw InputError("option --set needs a value; see epafi-export --help");
-      request.overrides.emplace_back(argv[i]);
-    } else if (word.rfind("--set=", 0) == 0) {
-      request.overrides.push_back(word.substr(6));
-    } else if (word.rfind('-', 0) == 0 || !request.file.empty()) {
-      throw InputError("'" + word + "' is not understood; see epafi-export --help");
-    } else {
-      (request.scene.empty() ? request.scene : request.file) = word;
-    }
-  }
+  CommandLine line("epafi-export");
+  line.value("--set", [&](const std::string& text) { request.overrides.push_back(text); })
+      .words([&](const std::string& word) {
+        if (!request.file.empty())
+          throw InputError("'" + word + "' is not understood; see epafi-export --help");
+        (request.scene.empty() ? request.scene : request.file) = word;
+      });
+  request.help = line.parse(argc, argv);
   if (!request.help && request.file.empty())
     throw InputError("a scene and a file to write are needed; see epafi-export --help");
   return request;
@@ -68,7 +62,7 @@ scene::Scene read(const Request& request) {
     scene::applyOverride(list, schema, text);
   scene::Scene scene = scene::readScene(list, request.scene);
   for (const scene::Body& body : scene.bodies) // x and d of FILE mean nothing to them
-    if (!body.solid || body.solid->physics == scene::Physics::membrane)
+    if (body.physics == scene::Physics::membrane)
       throw InputError("body '" + body.name + "' is a membrane; only elastic bodies can be exported");
   return scene;
 }
@@ -93,23 +87,14 @@ void write(const UndecomposedSystem& system, const std::string& name) {
 } // namespace
 
 int main(int argc, char** argv) {
-  int programNameOnly = 1; // Kokkos would answer --help itself
-  const Tpetra::ScopeGuard scope(&programNameOnly, &argv);
-  const bool isFirst = Tpetra::getDefaultComm()->getRank() == 0;
-  try {
+  return runMain(argc, argv, "epafi-export", [&](const RCP<const Comm>& comm) {
     const Request request = parse(argc, argv);
-    if (Tpetra::getDefaultComm()->getSize() > 1)
+    if (comm->getSize() > 1)
       throw InputError("epafi-export runs on one rank; start it without mpirun");
     if (request.help)
       std::cout << usage;
     else
       write(undecomposedSystem(read(request)), request.file);
     return 0;
-  } catch (const std::exception& error) {
-    if (isFirst)
-      std::cerr << "epafi-export: " << error.what() << '\n';
-    if (dynamic_cast<const SolvabilityError*>(&error) != nullptr)
-      return 3;
-    return dynamic_cast<const InputError*>(&error) != nullptr ? 2 : 1;
-  }
+  });
 }

@@ -2,18 +2,17 @@
 /// for `compare/peers`. Prints its measurements as one line of JSON.
 
 #include "ClosedMembranes.hpp"
-#include "IntegerOption.hpp"
+#include "CommandLine.hpp"
+#include "JointEnd.hpp"
 #include "LinearSolve.hpp"
+#include "PeakMemory.hpp"
 
 #include "epafi/base/Errors.hpp"
 
 #include <Teuchos_Time.hpp>
-#include <Tpetra_Core.hpp>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <iostream>
-#include <numeric>
 #include <sstream>
 #include <string>
 
@@ -47,88 +46,56 @@ bool isCoercive(const std::string& problem) {
 Request parse(int argc, char** argv) {
   Request request;
   std::string closed = "0";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto value = [&]() -> std::string {
-      if (++i >= argc)
-        throw InputError("option " + word + " needs a value");
-      return argv[i];
-    };
-    if (word == "--help" || word == "-h")
-      request.help = true;
-    else if (word == "--size")
-      request.membranes.elements = integerOption(word, value(), 4, 8192);
-    else if (word == "--closed")
-      closed = value();
-    else if (word == "--problem")
-      request.membranes.coercive = isCoercive(value());
-    else if (request.solver.empty() && (word == "cholmod" || word == "muelu"))
-      request.solver = word;
-    else
-      throw InputError("'" + word + "' is not understood; see epafi-linear --help");
-  }
+  int& elements = request.membranes.elements;
+  CommandLine line("epafi-linear");
+  line.integer("--size", elements, 4, 8192)
+      .value("--closed", closed)
+      .value("--problem",
+             [&](const std::string& problem) { request.membranes.coercive = isCoercive(problem); })
+      .words([&](const std::string& word) {
+        if (!request.solver.empty() || (word != "cholmod" && word != "muelu"))
+          throw InputError("'" + word + "' is not understood; see epafi-linear --help");
+        request.solver = word;
+      });
+  request.help = line.parse(argc, argv);
   if (request.help)
     return request;
   if (request.solver.empty())
     throw InputError("no solver is named; it is cholmod or muelu");
-  if (request.membranes.elements == 0 || request.membranes.elements % 4 != 0)
+  if (elements == 0 || elements % 4 != 0)
     throw InputError("option --size must be given, as a multiple of 4: the loads end at quarters of a side");
-  request.membranes.closedNodes = integerOption("--closed", closed, 1, request.membranes.elements + 1);
+  request.membranes.closedNodes = integerOption("--closed", closed, 1, elements + 1);
   return request;
-}
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-double relativeResidual(const SparseSystem& system, const std::vector<double>& product) {
-  double sum = 0;
-  for (std::size_t i = 0; i < product.size(); ++i)
-    sum += (system.load[i] - product[i]) * (system.load[i] - product[i]);
-  return std::sqrt(sum / dot(system.load, system.load));
-}
-
-long long peakBytes() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return 1024LL * used.ru_maxrss;
 }
 
 std::string measure(const Request& request) {
   const double start = Teuchos::Time::wallTime();
-  const SparseSystem system = closedMembranes(request.membranes);
+  const LinearSystem system = closedMembranes(request.membranes);
   const double assembled = Teuchos::Time::wallTime();
+  resetPeakBytes(); // the solver's counts, and what it is given
   const LinearSolution solution =
       request.solver == "cholmod" ? solveByCholmod(system) : solveByMueLu(system, tolerance);
-  const long long peak = peakBytes();
-  const std::vector<double> product = system.product(solution.u);
-  const double residual = relativeResidual(system, product);
+  const double peak = peakBytes();
+  const Eigen::VectorXd product = system.matrix * solution.u;
+  const double residual = (system.load - product).norm() / system.load.norm();
   if (!(residual <= 2 * tolerance))
     throw Error("the relative residual is " + std::to_string(residual) + ", but 1e-8 was asked for");
   std::ostringstream line;
   line.precision(16);
-  line << R"({"unknowns": )" << system.size() << R"(, "assembly_seconds": )" << assembled - start
+  line << R"({"unknowns": )" << system.load.size() << R"(, "assembly_seconds": )" << assembled - start
        << R"(, "setup_seconds": )" << solution.setupSeconds << R"(, "solve_seconds": )"
        << solution.solveSeconds << R"(, "iterations": )" << solution.iterations << R"(, "energy": )"
-       << 0.5 * dot(solution.u, product) - dot(system.load, solution.u) << R"(, "relative_residual": )"
-       << residual << R"(, "peak_bytes": )" << peak << "}\n";
+       << 0.5 * solution.u.dot(product) - system.load.dot(solution.u) << R"(, "relative_residual": )"
+       << residual << R"(, "peak_bytes": )" << std::llround(peak) << "}\n";
   return line.str();
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  int programNameOnly = 1; // Kokkos would answer --help itself
-  const Tpetra::ScopeGuard scope(&programNameOnly, &argv);
-  try {
+  return runMain(argc, argv, "epafi-linear", [&](const RCP<const Comm>&) {
     const Request request = parse(argc, argv);
     std::cout << (request.help ? usage : measure(request));
     return 0;
-  } catch (const InputError& error) {
-    std::cerr << "epafi-linear: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "epafi-linear: " << error.what() << '\n';
-    return 1;
-  }
+  });
 }

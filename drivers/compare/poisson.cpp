@@ -1,25 +1,26 @@
 /// `epafi-poisson LIST.xml|cholmod`: −Δu = 1 on the unit square by whatever linear solver a list for Stratimikos asks for, for
 /// `compare/poisson`. Rank 0 prints the measurements as one line of JSON.
 
-#include "IntegerOption.hpp"
+#include "CommandLine.hpp"
+#include "JointEnd.hpp"
 #include "LinearSolve.hpp"
+#include "PeakMemory.hpp"
 #include "PeerStrategies.hpp"
 #include "PoissonProblem.hpp"
 
+#include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fetidp/ThyraOperators.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <Thyra_LinearOpWithSolveFactoryHelpers.hpp>
 #include <Thyra_TpetraThyraWrappers.hpp>
-#include <Tpetra_Core.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
-#include <sys/resource.h>
 
+#include <cmath>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -51,26 +52,16 @@ struct Request {
 Request parse(int argc, char** argv) {
   Request request;
   std::string subdomains;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto value = [&]() -> std::string {
-      if (++i >= argc)
-        throw InputError("option " + word + " needs a value");
-      return argv[i];
-    };
-    if (word == "--help" || word == "-h")
-      request.help = true;
-    else if (word == "--size")
-      request.elements = integerOption(word, value(), 2, 8192);
-    else if (word == "--subdomains")
-      subdomains = value();
-    else if (word == "--separate")
-      request.isSeparate = true;
-    else if (request.solver.empty() && word.front() != '-')
-      request.solver = word;
-    else
-      throw InputError("'" + word + "' is not understood; see epafi-poisson --help");
-  }
+  CommandLine line("epafi-poisson");
+  line.integer("--size", request.elements, 2, 8192)
+      .value("--subdomains", subdomains)
+      .flag("--separate", request.isSeparate)
+      .words([&](const std::string& word) {
+        if (!request.solver.empty())
+          throw InputError("'" + word + "' is not understood; see epafi-poisson --help");
+        request.solver = word;
+      });
+  request.help = line.parse(argc, argv);
   if (request.help)
     return request;
   if (request.solver.empty())
@@ -88,30 +79,25 @@ struct Measurements {
   int iterations = 0;
 };
 
-long long peakBytes(const Comm& comm) {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return sumOverRanks(comm, static_cast<GlobalOrdinal>(1024) * used.ru_maxrss);
-}
-
 double since(const Comm& comm, double start) {
   return maxOverRanks(comm, Teuchos::Time::wallTime() - start);
 }
 
-/// The rows of a matrix that lies on one rank.
-SparseSystem systemOf(const CrsMatrix& k, const Vector& load) {
-  SparseSystem system;
-  system.rowStarts = {0};
+/// Of a matrix that lies on one rank.
+LinearSystem systemOf(const CrsMatrix& k, const Vector& load) {
+  std::vector<Eigen::Triplet<double>> entries;
   CrsMatrix::local_inds_host_view_type columns;
   CrsMatrix::values_host_view_type values;
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(numLocal(*k.getRowMap())); ++row) {
+  const auto n = static_cast<LocalOrdinal>(numLocal(*k.getRowMap()));
+  for (LocalOrdinal row = 0; row < n; ++row) {
     k.getLocalRowView(row, columns, values);
-    system.columns.insert(system.columns.end(), columns.data(), columns.data() + columns.extent(0));
-    system.values.insert(system.values.end(), values.data(), values.data() + values.extent(0));
-    system.rowStarts.push_back(static_cast<int>(system.columns.size()));
+    for (std::size_t i = 0; i < columns.extent(0); ++i)
+      entries.emplace_back(row, columns[i], values[i]);
   }
-  const auto entries = load.getData();
-  system.load.assign(entries.begin(), entries.end());
+  LinearSystem system;
+  system.matrix.resize(n, n);
+  system.matrix.setFromTriplets(entries.begin(), entries.end());
+  system.load = Eigen::Map<const Eigen::VectorXd>(load.getData().getRawPtr(), n);
   return system;
 }
 
@@ -120,7 +106,7 @@ Measurements byCholmod(const CrsMatrix& k, const Vector& load) {
     throw InputError("cholmod runs on one rank, but there are " +
                      std::to_string(load.getMap()->getComm()->getSize()));
   const LinearSolution solution = solveByCholmod(systemOf(k, load));
-  const auto values = Teuchos::arrayViewFromVector(solution.u);
+  const auto values = Teuchos::arrayView(solution.u.data(), solution.u.size());
   return {rcp(new Vector(k.getDomainMap(), values)), solution.setupSeconds, solution.solveSeconds, 1};
 }
 
@@ -128,7 +114,7 @@ Measurements byCholmod(const CrsMatrix& k, const Vector& load) {
 Measurements byStratimikos(const adapters::LinearSolveStrategy& strategy, const RCP<const Operator>& k,
                            const RCP<const Vector>& load) {
   const Comm& comm = *load->getMap()->getComm();
-  const auto forward = fetidp::asThyra(k);
+  const auto forward = adapters::asThyra(k);
   Measurements result;
   result.u = rcp(new Vector(k->getDomainMap()));
   const double start = Teuchos::Time::wallTime();
@@ -173,7 +159,7 @@ std::string measure(const Request& request, const RCP<const Comm>& comm) {
   const double assemblySeconds = since(*comm, start);
   const Measurements found = isDirect ? byCholmod(dynamic_cast<const CrsMatrix&>(*k), *load)
                                       : byStratimikos(*strategyAmongPeers(list, problem.k), k, load);
-  const long long peak = peakBytes(*comm);
+  const double peak = sumOverRanks(*comm, peakBytes());
   std::ostringstream line;
   line.precision(16);
   line << R"({"unknowns": )" << load->getGlobalLength() << R"(, "ranks": )" << comm->getSize()
@@ -181,32 +167,19 @@ std::string measure(const Request& request, const RCP<const Comm>& comm) {
        << assemblySeconds << R"(, "setup_seconds": )" << found.setupSeconds << R"(, "solve_seconds": )"
        << found.solveSeconds << R"(, "iterations": )" << found.iterations << R"(, "relative_residual": )"
        << relativeResidual(*problem.k, *found.u, *load) << R"(, "error": )"
-       << relativeError(*found.u, solutionBySines(request.elements)) << R"(, "peak_bytes": )" << peak
-       << "}\n";
+       << relativeError(*found.u, solutionBySines(request.elements)) << R"(, "peak_bytes": )"
+       << std::llround(peak) << "}\n";
   return line.str();
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  int programNameOnly = 1; // Kokkos would answer --help itself
-  const Tpetra::ScopeGuard scope(&programNameOnly, &argv);
-  const auto comm = Tpetra::getDefaultComm();
-  const auto complain = [&](const std::exception& error) {
-    if (comm->getRank() == 0)
-      std::cerr << "epafi-poisson: " << sentenceOf(error, 0) << '\n';
-  };
-  try {
+  return runMain(argc, argv, "epafi-poisson", [&](const RCP<const Comm>& comm) {
     const Request request = parse(argc, argv);
     const std::string text = request.help ? usage : measure(request, comm);
     if (comm->getRank() == 0)
       std::cout << text;
     return 0;
-  } catch (const InputError& error) {
-    complain(error);
-    return 2;
-  } catch (const std::exception& error) {
-    complain(error);
-    return 1;
-  }
+  });
 }

@@ -1,56 +1,12 @@
 #include "AccuracyPeers.hpp"
 
-#include "epafi/base/Errors.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
 
 namespace epafi::drivers {
 namespace {
 
-using Entries = std::map<std::string, std::string>;
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> words;
-  std::istringstream text(line);
-  for (std::string word; std::getline(text, word, ',');)
-    words.push_back(word);
-  return words;
-}
-
-/// Lines as {column, entry}; what follows a quoted entry, which only failures have, does not count.
-std::vector<Entries> readTable(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> columns = split(line);
-  for (const char* needed :
-       {"problem", "unknowns", "solver", "total_seconds", "energy_error", "size", "status"})
-    if (std::find(columns.begin(), columns.end(), needed) == columns.end())
-      throw InputError("file " + file.string() + " is no table of drivers/compare/peers: it has no column " +
-                       needed + "; remove it or run peers anew");
-  std::vector<Entries> rows;
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> words = split(line);
-    Entries row;
-    for (std::size_t i = 0; i < std::min(words.size(), columns.size()); ++i)
-      row[columns[i]] = words[i];
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-double number(const Entries& row, const char* column, const std::filesystem::path& file) {
-  std::istringstream text(row.at(column));
-  double value = 0;
-  if (!(text >> value))
-    throw InputError("file " + file.string() + ", column " + column + ": \"" + row.at(column) +
-                     "\" is no number; run peers anew");
-  return value;
-}
+constexpr const char* advice = "it is no table of drivers/compare/peers: remove it or run peers anew";
 
 std::vector<std::filesystem::path> tablesIn(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> files{directory / "peers.csv"};
@@ -64,32 +20,37 @@ std::vector<std::filesystem::path> tablesIn(const std::filesystem::path& directo
 
 } // namespace
 
-std::vector<AccuracyRow> peerRows(const std::filesystem::path& directory, const AccuracyProblem& problem,
-                                  const AccuracyReference& reference) {
-  std::vector<AccuracyRow> rows;
+std::vector<Row> peerRows(const std::filesystem::path& directory, const AccuracyProblem& problem,
+                          const AccuracyReference& reference) {
+  std::vector<Row> rows;
   for (const std::filesystem::path& file : tablesIn(directory))
-    for (const Entries& entries : readTable(file)) {
-      const std::string& solver = entries.at("solver");
-      if (entries.at("problem") != problem.name || solver.rfind("snesvi", 0) != 0 ||
-          entries.at("status") != "ok")
+    for (const Row& peer :
+         readCsv(file, {"problem", "unknowns", "solver", "total_seconds", "energy_error", "size", "status"},
+                 advice)) {
+      if (peer.text("problem") != problem.name || !peer.text("solver").starts_with("snesvi") ||
+          peer.text("status") != "ok")
         continue;
+      const auto number = [&](const char* column) { return numberIn(peer, column, file, advice); };
       for (int level = 0; level < problem.meshes; ++level) {
         const TightSolution& tight = reference.tight(level);
-        const int elements = elementsOfSide(tight.run.scene);
-        if (elements != static_cast<int>(number(entries, "size", file)))
+        if (elementsOfSide(tight.run.scene) != static_cast<int>(number("size")))
           continue;
-        AccuracyRow row;
-        row.problem = problem.name;
-        row.variant = solver;
-        row.elements = elements;
-        row.tolerance = entries.at("tolerance");
-        row.unknowns = number(entries, "unknowns", file);
-        row.seconds = row.finestSeconds = row.solveSeconds = number(entries, "total_seconds", file);
-        row.algebraicError = std::sqrt(number(entries, "energy_error", file));
-        row.discretisationError = tight.error.energy / reference.norms().energy;
-        row.energyError = std::hypot(row.algebraicError, row.discretisationError);
-        row.repeats = static_cast<int>(number(entries, "repeats", file));
-        rows.push_back(row);
+        const double iteration = std::sqrt(number("energy_error")), seconds = number("total_seconds");
+        const double mesh = tight.error.energy / reference.norms().energy;
+        rows.push_back({{"problem", problem.name},
+                        {"variant", peer.text("solver")},
+                        {"elements", number("size")},
+                        {"tolerance", peer.text("tolerance")},
+                        {"status", "Converged"},
+                        {"unknowns", number("unknowns")},
+                        {"seconds", seconds},
+                        {"finest_seconds", seconds},
+                        {"solve_seconds", seconds},
+                        {"algebraic_error", iteration},
+                        {"discretisation_error", mesh},
+                        {"energy_error", std::hypot(iteration, mesh)},
+                        {"repeats", number("repeats")}});
+        addDigits(rows.back());
       }
     }
   return rows;

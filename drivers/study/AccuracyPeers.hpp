@@ -15,7 +15,7 @@ namespace epafi::drivers {
 /// algebraic one follows from the energy, ½‖u − u_h‖² ≤ E(u) − E(u_h) for feasible u, and E(u_h) = −½‖u_h‖² without gaps.
 /// Their times leave out the assembly.
 /// \throws InputError if a file is no table of peers
-std::vector<AccuracyRow> peerRows(const std::filesystem::path& directory, const AccuracyProblem& problem,
-                                  const AccuracyReference& reference);
+std::vector<Row> peerRows(const std::filesystem::path& directory, const AccuracyProblem& problem,
+                          const AccuracyReference& reference);
 
 } // namespace epafi::drivers

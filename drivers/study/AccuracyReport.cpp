@@ -1,172 +1,196 @@
 #include "AccuracyReport.hpp"
 
-#include "AccuracyCase.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
-#include <vector>
+#include <functional>
 
 namespace epafi::drivers {
 namespace {
 
-std::vector<std::string> problemsOf(const AccuracyTable& table) {
-  std::vector<std::string> names;
-  for (const AccuracyRow& row : table.rows())
-    if (std::find(names.begin(), names.end(), row.problem) == names.end())
-      names.push_back(row.problem);
-  return names;
+using Entries = std::vector<std::string>;
+
+/// Rows of one variant, problem by problem, from coarse to fine.
+std::vector<Row> series(const Table& table, const std::string& variant) {
+  std::vector<Row> all;
+  std::vector<std::string> problems;
+  for (const Row& first : table.rows) {
+    const std::string& problem = first.text("problem");
+    if (std::find(problems.begin(), problems.end(), problem) != problems.end())
+      continue;
+    problems.push_back(problem);
+    std::vector<Row> rows;
+    for (const Row& row : table.rows)
+      if (row.text("problem") == problem && row.text("variant") == variant)
+        rows.push_back(row);
+    std::sort(rows.begin(), rows.end(),
+              [](const Row& a, const Row& b) { return a.number("elements") < b.number("elements"); });
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  return all;
 }
 
-/// Rows of one problem and variant, from coarse to fine.
-std::vector<AccuracyRow> series(const AccuracyTable& table, const std::string& problem,
-                                const std::string& variant) {
-  std::vector<AccuracyRow> rows;
-  for (const AccuracyRow& row : table.rows())
-    if (row.problem == problem && row.variant == variant)
-      rows.push_back(row);
-  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.elements < b.elements; });
-  return rows;
+bool isFinest(const Row& row, const Table& table) {
+  return std::none_of(table.rows.begin(), table.rows.end(), [&](const Row& other) {
+    return other.text("problem") == row.text("problem") && other.number("elements") > row.number("elements");
+  });
 }
 
-int finestOf(const AccuracyTable& table, const std::string& problem) {
-  int elements = 0;
-  for (const AccuracyRow& row : table.rows())
-    if (row.problem == problem)
-      elements = std::max(elements, row.elements);
-  return elements;
+bool isLadder(const Row& row) {
+  return row.text("variant").starts_with("ladder_");
 }
 
-bool isLadder(const AccuracyRow& row) {
-  return row.variant.rfind(ladderName, 0) == 0;
+std::string digits(const Row& row, const std::string& column) {
+  return inDigits(row.number(column));
 }
 
-/// Three digits; a dash where nothing was measured.
-std::string number(double value) {
-  if (!std::isfinite(value))
-    return "–";
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
+std::string milliseconds(const Row& row, const std::string& column = "seconds") {
+  return inDigits(1e3 * row.number(column));
 }
 
-/// 0.314 as "31 %".
-std::string percent(double share) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(0) << 100 * share << " %";
-  return text.str();
+/// What `other` saves beside `row`: 0.314 as "31 %".
+std::string saved(const Row& row, const Row& other, const std::string& column) {
+  return std::to_string(std::lround(100 * (1 - other.number(column) / row.number(column)))) + " %";
 }
 
-std::string line(const std::vector<std::string>& entries) {
-  std::string text = "|";
-  for (const std::string& entry : entries)
-    text += " " + entry + " |";
+/// Of errors on two meshes; a dash for errors that are none, nothing for the first mesh.
+std::string order(const Row* coarse, const Row& fine, const std::string& column) {
+  constexpr double noError = 1e-9;
+  if (coarse == nullptr || coarse->text("problem") != fine.text("problem"))
+    return "";
+  const double before = coarse->number(column), after = fine.number(column);
+  return before > noError && after > noError ? inDigits(std::log2(before / after)) : "–";
+}
+
+/// A table with problem and mesh first; rows that have no entries are left out.
+std::string report(const std::string& title, const std::string& names, const std::vector<Row>& rows,
+                   const std::function<Entries(const Row&)>& entriesOf) {
+  std::string text = title + ":\n\n" + markdownHeading("problem | elements a side | " + names);
+  for (const Row& row : rows)
+    if (Entries entries = entriesOf(row); !entries.empty()) {
+      entries.insert(entries.begin(), {row.text("problem"), count(row.number("elements"))});
+      text += markdownLine(entries);
+    }
   return text + "\n";
 }
 
-std::string heading(const std::vector<std::string>& names) {
-  return line(names) + line(std::vector<std::string>(names.size(), "---"));
+std::string frontReport(const Table& table) {
+  return report("The default beside the front",
+                "default: ms | times the front's | on the front | fastest with that error | ms",
+                series(table, "default"), [&](const Row& row) -> Entries {
+                  const Row& fastest = fastestLike(row, table);
+                  return {milliseconds(row), inDigits(row.number("seconds") / fastest.number("seconds")),
+                          row.number("on_pareto_front") == 1 ? "yes" : "", fastest.text("variant"),
+                          milliseconds(fastest)};
+                });
 }
 
-/// Of errors on two meshes; a dash for errors that are none.
-std::string order(double coarse, double fine) {
-  constexpr double noError = 1e-9;
-  return coarse > noError && fine > noError ? number(std::log2(coarse / fine)) : "–";
+/// The row of another variant on the same mesh, or null.
+const Row* beside(const Row& row, const char* variant, const Table& table) {
+  Row like = row;
+  like["variant"] = variant;
+  return table.find(like, {"problem", "variant", "elements"});
+}
+
+std::string balanceReport(const Table& table) {
+  return report(
+      "Balanced stopping",
+      "products at 1e-6 | balanced | saved | error over that at 1e-6 | ms at 1e-6 | balanced ms | saved",
+      series(table, "default"), [&](const Row& fixed) -> Entries {
+        const Row* balanced = beside(fixed, "balanced", table);
+        if (balanced == nullptr)
+          return {};
+        const char* products = "hessian_multiplications";
+        return {digits(fixed, products),
+                digits(*balanced, products),
+                saved(fixed, *balanced, products),
+                inDigits(balanced->number("energy_error") / fixed.number("energy_error")),
+                milliseconds(fixed),
+                milliseconds(*balanced),
+                saved(fixed, *balanced, "seconds")};
+      });
+}
+
+std::string nestedReport(const Table& table) {
+  return report(
+      "Nested starts",
+      "products, balanced | nested | saved | iteration's ms, balanced | nested | saved | ms of this mesh, "
+      "balanced | nested | saved",
+      series(table, "balanced"), [&](const Row& balanced) -> Entries {
+        const Row* nested = beside(balanced, "nested", table);
+        const char* products = "hessian_multiplications";
+        if (nested == nullptr || nested->number("all_multiplications") == nested->number(products))
+          return {}; // there is no coarser mesh to start from
+        Entries entries{digits(balanced, products), digits(*nested, products),
+                        saved(balanced, *nested, products)};
+        for (const char* time : {"solve_seconds", "finest_seconds"})
+          entries.insert(entries.end(), {milliseconds(balanced, time), milliseconds(*nested, time),
+                                         saved(balanced, *nested, time)});
+        return entries;
+      });
+}
+
+std::string convergenceReport(const Table& table) {
+  const Row* before = nullptr;
+  const std::vector<Row> rows = series(table, "tolerance_1e-10");
+  return report(
+      "Errors of the meshes, the iteration's at 1e-10",
+      "unknowns | energy error | order | L2 error | order | contact zone | contact force | estimated | "
+      "effectivity",
+      rows, [&](const Row& row) -> Entries {
+        Entries entries{count(row.number("unknowns")),      digits(row, "energy_error"),
+                        order(before, row, "energy_error"), digits(row, "l2_error"),
+                        order(before, row, "l2_error"),     digits(row, "contact_zone_error"),
+                        digits(row, "force_error"),         digits(row, "estimated_discretisation_error"),
+                        digits(row, "effectivity")};
+        before = &row;
+        return entries;
+      });
+}
+
+std::string variantsReport(const Table& table) {
+  return report(
+      "All variants, finest mesh",
+      "variant | tolerance | products with F | on all meshes | ms | times the front's | on the front | "
+      "energy error | of which iteration | digits | digits of efficacy | unknowns a second",
+      table.rows, [&](const Row& row) -> Entries {
+        if (isLadder(row) || !isFinest(row, table))
+          return {};
+        return {row.text("variant"),
+                row.text("tolerance"),
+                digits(row, "hessian_multiplications"),
+                digits(row, "all_multiplications"),
+                milliseconds(row),
+                inDigits(row.number("seconds") / fastestLike(row, table).number("seconds")),
+                row.number("on_pareto_front") == 1 ? "yes" : "",
+                digits(row, "energy_error"),
+                digits(row, "algebraic_error"),
+                digits(row, "digits_of_accuracy"),
+                digits(row, "digits_of_efficacy"),
+                digits(row, "unknowns_per_second")};
+      });
 }
 
 } // namespace
 
-std::string convergenceReport(const AccuracyTable& table) {
-  std::string text = heading({"problem", "elements a side", "unknowns", "energy error", "order", "L2 error",
-                              "order", "contact zone", "contact force", "estimated", "effectivity"});
-  for (const std::string& problem : problemsOf(table)) {
-    const std::vector<AccuracyRow> rows = series(table, problem, "tolerance_1e-10");
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const AccuracyRow& row = rows[i];
-      const auto orderOf = [&](double AccuracyRow::*error) {
-        return i == 0 ? std::string() : order(rows[i - 1].*error, row.*error);
-      };
-      text += line({problem, std::to_string(row.elements), std::to_string(std::llround(row.unknowns)),
-                    number(row.energyError), orderOf(&AccuracyRow::energyError), number(row.l2Error),
-                    orderOf(&AccuracyRow::l2Error), number(row.zoneError), number(row.forceError),
-                    number(row.estimatedDiscretisation), number(row.effectivity())});
-    }
-  }
-  return text;
+std::string accuracyReport(const Table& table) {
+  return frontReport(table) + balanceReport(table) + nestedReport(table) + convergenceReport(table) +
+         variantsReport(table);
 }
 
-std::string variantsReport(const AccuracyTable& table) {
-  std::string text = heading({"problem", "elements a side", "variant", "tolerance", "products with F",
-                              "on all meshes", "ms", "times the front's", "on the front", "energy error",
-                              "of which iteration", "digits", "digits of efficacy", "unknowns a second"});
-  for (const AccuracyRow& row : table.rows()) {
-    if (row.elements != finestOf(table, row.problem) || isLadder(row))
-      continue;
-    text += line({row.problem, std::to_string(row.elements), row.variant, row.tolerance, number(row.products),
-                  number(row.allProducts), number(1e3 * row.seconds), number(table.distanceToFront(row)),
-                  row.isOnFront ? "yes" : "", number(row.energyError), number(row.algebraicError),
-                  number(row.digitsOfAccuracy()), number(row.digitsOfEfficacy()),
-                  number(row.unknowns / row.seconds)});
-  }
-  return text;
-}
-
-std::string frontReport(const AccuracyTable& table) {
-  std::string text = heading({"problem", "elements a side", "default: ms", "times the front's",
-                              "on the front", "fastest with that error", "ms"});
-  for (const std::string& problem : problemsOf(table))
-    for (const AccuracyRow& row : series(table, problem, "default")) {
-      const AccuracyRow& fastest = table.fastestLike(row);
-      text += line({problem, std::to_string(row.elements), number(1e3 * row.seconds),
-                    number(row.seconds / fastest.seconds), row.isOnFront ? "yes" : "", fastest.variant,
-                    number(1e3 * fastest.seconds)});
-    }
-  return text;
-}
-
-std::string balanceReport(const AccuracyTable& table) {
-  std::string text = heading({"problem", "elements a side", "products at 1e-6", "balanced", "saved",
-                              "error over that at 1e-6", "ms at 1e-6", "balanced ms", "saved"});
-  for (const std::string& problem : problemsOf(table))
-    for (const AccuracyRow& fixed : series(table, problem, "default"))
-      if (const AccuracyRow* balanced = table.find(problem, "balanced", fixed.elements); balanced != nullptr)
-        text += line({problem, std::to_string(fixed.elements), number(fixed.products),
-                      number(balanced->products), percent(1 - balanced->products / fixed.products),
-                      number(balanced->energyError / fixed.energyError), number(1e3 * fixed.seconds),
-                      number(1e3 * balanced->seconds), percent(1 - balanced->seconds / fixed.seconds)});
-  return text;
-}
-
-std::string nestedReport(const AccuracyTable& table) {
-  std::string text = heading({"problem", "elements a side", "products, balanced", "nested", "saved",
-                              "iteration's ms, balanced", "nested", "saved", "ms of this mesh, balanced",
-                              "nested", "saved"});
-  for (const std::string& problem : problemsOf(table))
-    for (const AccuracyRow& balanced : series(table, problem, "balanced")) {
-      const AccuracyRow* nested = table.find(problem, "nested", balanced.elements);
-      if (nested == nullptr || nested->allProducts == nested->products)
-        continue; // there is no coarser mesh to start from
-      text += line({problem, std::to_string(balanced.elements), number(balanced.products),
-                    number(nested->products), percent(1 - nested->products / balanced.products),
-                    number(1e3 * balanced.solveSeconds), number(1e3 * nested->solveSeconds),
-                    percent(1 - nested->solveSeconds / balanced.solveSeconds),
-                    number(1e3 * balanced.finestSeconds), number(1e3 * nested->finestSeconds),
-                    percent(1 - nested->finestSeconds / balanced.finestSeconds)});
-    }
-  return text;
-}
-
-std::string digitsReport(const AccuracyTable& table) {
-  std::string text = heading({"problem", "elements a side", "preconditioner", "tolerance", "products with F",
-                              "algebraic error", "its estimate", "energy error"});
-  for (const AccuracyRow& row : table.rows())
-    if (isLadder(row))
-      text += line({row.problem, std::to_string(row.elements),
-                    row.variant.substr(std::char_traits<char>::length(ladderName)), row.tolerance,
-                    number(row.products), number(row.algebraicError), number(row.estimatedAlgebraic),
-                    number(row.energyError)});
-  return text;
+std::string digitsReport(const Table& table) {
+  return report(
+      "Digits of the iteration",
+      "preconditioner | tolerance | products with F | algebraic error | its estimate | energy error",
+      table.rows, [&](const Row& row) -> Entries {
+        if (!isLadder(row))
+          return {};
+        return {row.text("variant").substr(row.text("variant").find('_') + 1),
+                row.text("tolerance"),
+                digits(row, "hessian_multiplications"),
+                digits(row, "algebraic_error"),
+                digits(row, "estimated_algebraic_error"),
+                digits(row, "energy_error")};
+      });
 }
 
 } // namespace epafi::drivers

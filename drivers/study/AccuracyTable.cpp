@@ -2,108 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <sstream>
-#include <utility>
 
 namespace epafi::drivers {
-namespace {
 
-struct Column {
-  const char* name;
-  std::function<double(const AccuracyRow&)> value;
-};
+Table accuracyTable() {
+  return Table(
+      "problem,variant,elements,tolerance,unknowns,seconds,hessian_multiplications,energy_error,"
+      "algebraic_error,estimated_error,on_pareto_front,discretisation_error,l2_error,contact_zone_error,"
+      "force_error,estimated_discretisation_error,estimated_algebraic_error,effectivity,all_multiplications,"
+      "finest_seconds,solve_seconds,digits_of_accuracy,digits_of_efficacy,digits_of_size,"
+      "unknowns_per_second,repeats,status");
+}
 
-/// The columns after problem, variant, elements and tolerance.
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all{
-      {"unknowns", [](const AccuracyRow& r) { return r.unknowns; }},
-      {"seconds", [](const AccuracyRow& r) { return r.seconds; }},
-      {"hessian_multiplications", [](const AccuracyRow& r) { return r.products; }},
-      {"energy_error", [](const AccuracyRow& r) { return r.energyError; }},
-      {"algebraic_error", [](const AccuracyRow& r) { return r.algebraicError; }},
-      {"estimated_error", [](const AccuracyRow& r) { return r.estimatedError; }},
-      {"on_pareto_front", [](const AccuracyRow& r) { return r.isOnFront ? 1.0 : 0.0; }},
-      {"discretisation_error", [](const AccuracyRow& r) { return r.discretisationError; }},
-      {"l2_error", [](const AccuracyRow& r) { return r.l2Error; }},
-      {"contact_zone_error", [](const AccuracyRow& r) { return r.zoneError; }},
-      {"force_error", [](const AccuracyRow& r) { return r.forceError; }},
-      {"estimated_discretisation_error", [](const AccuracyRow& r) { return r.estimatedDiscretisation; }},
-      {"estimated_algebraic_error", [](const AccuracyRow& r) { return r.estimatedAlgebraic; }},
-      {"effectivity", [](const AccuracyRow& r) { return r.effectivity(); }},
-      {"all_multiplications", [](const AccuracyRow& r) { return r.allProducts; }},
-      {"finest_seconds", [](const AccuracyRow& r) { return r.finestSeconds; }},
-      {"solve_seconds", [](const AccuracyRow& r) { return r.solveSeconds; }},
-      {"digits_of_accuracy", [](const AccuracyRow& r) { return r.digitsOfAccuracy(); }},
-      {"digits_of_efficacy", [](const AccuracyRow& r) { return r.digitsOfEfficacy(); }},
-      {"digits_of_size", [](const AccuracyRow& r) { return r.digitsOfSize(); }},
-      {"unknowns_per_second", [](const AccuracyRow& r) { return r.unknowns / r.seconds; }},
-      {"repeats", [](const AccuracyRow& r) { return r.repeats; }},
+void addDigits(Row& row) {
+  const auto set = [&](const char* column, double value) {
+    row[column] = std::isfinite(value) ? value : notMeasured;
   };
-  return all;
+  const double error = row.number("energy_error"), seconds = row.number("seconds"),
+               unknowns = row.number("unknowns");
+  set("estimated_algebraic_error", row.number("estimated_algebraic_error"));
+  set("effectivity", row.number("estimated_discretisation_error") / row.number("discretisation_error"));
+  set("digits_of_accuracy", -std::log10(error));
+  set("digits_of_efficacy", -std::log10(error * seconds));
+  set("digits_of_size", std::log10(unknowns));
+  set("unknowns_per_second", unknowns / seconds);
 }
 
-} // namespace
-
-double AccuracyRow::digitsOfAccuracy() const {
-  return -std::log10(energyError);
+void markFront(Table& table) {
+  for (Row& row : table.rows)
+    row["on_pareto_front"] = std::isfinite(row.number("seconds")) &&
+                             std::none_of(table.rows.begin(), table.rows.end(), [&](const Row& other) {
+                               return other.text("problem") == row.text("problem") &&
+                                      other.number("seconds") < row.number("seconds") &&
+                                      other.number("energy_error") <= row.number("energy_error");
+                             });
 }
 
-double AccuracyRow::digitsOfEfficacy() const {
-  return -std::log10(energyError * seconds);
-}
-
-double AccuracyRow::digitsOfSize() const {
-  return std::log10(unknowns);
-}
-
-const AccuracyRow* AccuracyTable::find(const std::string& problem, const std::string& variant,
-                                       int elements) const {
-  const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const AccuracyRow& row) {
-    return row.problem == problem && row.variant == variant && row.elements == elements;
-  });
-  return found == rows_.end() ? nullptr : &*found;
-}
-
-void AccuracyTable::markFront() {
-  for (AccuracyRow& row : rows_)
-    row.isOnFront = std::isfinite(row.seconds) &&
-                    std::none_of(rows_.begin(), rows_.end(), [&row](const AccuracyRow& other) {
-                      return other.problem == row.problem && other.seconds < row.seconds &&
-                             other.energyError <= row.energyError;
-                    });
-}
-
-const AccuracyRow& AccuracyTable::fastestLike(const AccuracyRow& row) const {
-  const AccuracyRow* fastest = &row;
-  for (const AccuracyRow& other : rows_)
-    if (other.problem == row.problem && other.energyError <= equalErrors * row.energyError &&
-        other.seconds < fastest->seconds)
+const Row& fastestLike(const Row& row, const Table& table) {
+  constexpr double equalErrors = 1.02; // errors this much apart are taken as equal
+  const Row* fastest = &row;
+  for (const Row& other : table.rows)
+    if (other.text("problem") == row.text("problem") &&
+        other.number("energy_error") <= equalErrors * row.number("energy_error") &&
+        other.number("seconds") < fastest->number("seconds"))
       fastest = &other;
   return *fastest;
-}
-
-double AccuracyTable::distanceToFront(const AccuracyRow& row) const {
-  return row.seconds / fastestLike(row).seconds;
-}
-
-std::string AccuracyTable::csv() const {
-  std::ostringstream text;
-  text << "problem,variant,elements,tolerance";
-  for (const Column& column : columns())
-    text << ',' << column.name;
-  text << ",status\n";
-  for (const AccuracyRow& row : rows_) {
-    text << row.problem << ',' << row.variant << ',' << row.elements << ',' << row.tolerance;
-    for (const Column& column : columns()) {
-      const double value = column.value(row);
-      text << ',';
-      if (std::isfinite(value))
-        text << value;
-    }
-    text << ',' << row.status << '\n';
-  }
-  return text.str();
 }
 
 } // namespace epafi::drivers

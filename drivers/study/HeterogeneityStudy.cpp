@@ -1,90 +1,69 @@
-#include "HeterogeneityStudy.hpp"
+#include "CaseTable.hpp"
+#include "SceneRun.hpp"
+#include "Studies.hpp"
+#include "Table.hpp"
 
-#include "HeterogeneityCase.hpp"
-#include "HeterogeneousScenes.hpp"
-
-#include "epafi/output/AtomicFile.hpp"
+#include "epafi/qp/SpectrumEstimate.hpp"
+#include "epafi/scene/SceneReader.hpp"
 
 #include <Teuchos_Comm.hpp>
 
-#include <functional>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
-#include <vector>
 
 namespace epafi::drivers {
 namespace {
 
-/// A series of runs over the jump.
-struct Series {
-  std::string bodies, pattern, cut;
-  std::function<scene::Scene(double jump)> scene;
-};
-
-std::vector<Series> allSeries(bool quick) {
-  const int cuts = quick ? 3 : 4;
-  std::vector<Series> all;
-  const auto add = [&](HeterogeneousScene what) {
-    what.cuts = cuts;
-    const bool isMembrane = what.bodies == Bodies::heldMembranes || what.bodies == Bodies::floatingMembrane;
-    what.elements = quick ? 8 : isMembrane ? 16 : 12;
-    all.push_back(
-        {toString(what.bodies), toString(what.pattern), what.byMetis ? "METIS" : "grid", [what](double jump) {
-           HeterogeneousScene scene = what;
-           scene.jump = jump;
-           return scene.build();
-         }});
-  };
-  for (const Bodies bodies :
-       {Bodies::heldMembranes, Bodies::floatingMembrane, Bodies::heldBlocks, Bodies::slidingBlock}) {
-    for (const Pattern pattern :
-         {Pattern::stripes, Pattern::checkerboard, Pattern::inclusions, Pattern::channels, Pattern::crossing})
-      add({bodies, pattern});
-    add({bodies, Pattern::channels, 1, cuts, 0, true});
-  }
-  all.push_back({"cubes in space", "columns", "grid",
-                 [quick](double jump) { return cubesWithColumns(jump, quick ? 3 : 5); }});
-  return all;
+/// Solves with the default parameters but for Adaptive Constraints/Use = `use`, and estimates the condition of what the iteration
+/// works on, by Lanczos. `constraints` are the adaptive ones, each a product with F in the set-up. Collective.
+Row measure(const Case& which, const std::string& use, const RCP<const Comm>& comm) {
+  Teuchos::ParameterList parameters;
+  parameters.sublist("Adaptive Constraints").set("Use", use);
+  const SceneRun run = solveScene(scene::readScene(which.scene(), which.name), parameters, comm);
+  const fetidp::DualProblem& dual = run.solver->dualProblem();
+  const qp::SpectrumEstimate spectrum = qp::estimateSpectrum(*dual.hessian(), dual.preconditioner());
+  return {{"bodies", which.name},
+          {"pattern", which.parameter},
+          {"cut", which.list.sublist("Decomposition").isParameter("Parts") ? "METIS" : "grid"},
+          {"jump", which.value},
+          {"adaptive", use},
+          {"constraints", run.report.sublist("Problem").get<int>("Adaptive Constraints")},
+          {"hessian_multiplications", run.solver->report().counts.hessianMultiplications},
+          {"condition", spectrum.largest / spectrum.smallest},
+          {"smallest_eigenvalue", spectrum.smallest},
+          {"largest_eigenvalue", spectrum.largest},
+          {"converged", run.solver->report().status == qp::Status::converged},
+          {"energy", plain(run.solution.energy, 12)},
+          {"setup_seconds", run.solver->times().setup},
+          {"solve_seconds", run.solver->times().solve}};
 }
 
 } // namespace
 
 bool studyHeterogeneity(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm) {
-  const std::vector<double> jumps =
-      quick ? std::vector<double>{1, 1e6} : std::vector<double>{1, 1e2, 1e4, 1e6};
-  std::ostringstream csv;
-  csv << "bodies,pattern,cut,jump,adaptive,constraints,hessian_multiplications,condition,smallest_eigenvalue,"
-         "largest_eigenvalue,converged,energy,setup_seconds,solve_seconds\n";
+  Table table(
+      "bodies,pattern,cut,jump,adaptive,constraints,hessian_multiplications,condition,smallest_eigenvalue,"
+      "largest_eigenvalue,converged,energy,setup_seconds,solve_seconds");
   if (comm->getRank() == 0)
-    std::cout << "| bodies | pattern | cut | jump | products without | κ | products | κ | constraints |\n"
-                 "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    std::cout << markdownHeading(
+        "bodies | pattern | cut | jump | products without | κ | products | κ | constraints");
   bool allConverged = true;
-  for (const Series& series : allSeries(quick))
-    for (const double jump : jumps) {
-      std::ostringstream line;
-      line << std::setprecision(3) << "| " << series.bodies << " | " << series.pattern << " | " << series.cut
-           << " | " << jump << " |";
-      for (const char* use : {"no", "auto"}) {
-        const HeterogeneityRun run = runHeterogeneous(series.scene(jump), use, comm);
-        csv << series.bodies << ',' << series.pattern << ',' << series.cut << ',' << jump << ',' << use << ','
-            << run.constraints << ',' << run.products << ',' << run.condition() << ',' << run.smallest << ','
-            << run.largest << ',' << (run.converged ? 1 : 0) << ',' << std::setprecision(12) << run.energy
-            << std::setprecision(6) << ',' << run.setup << ',' << run.solve << '\n';
-        line << ' ' << run.products << (run.converged ? "" : " (not converged)") << " | " << run.condition()
-             << " |";
-        if (std::string(use) == "auto") {
-          line << ' ' << run.constraints << " |";
-          allConverged = allConverged && run.converged;
-        }
-      }
-      if (comm->getRank() == 0)
-        std::cout << line.str() << std::endl;
+  for (const Case& one : expandCases(caseText("heterogeneity"), "heterogeneity", quick)) {
+    std::vector<std::string> entries;
+    for (const char* use : {"no", "auto"}) {
+      const Row row = measure(one, use, comm);
+      const bool converged = row.number("converged") == 1;
+      if (entries.empty())
+        entries = {row.text("bodies"), row.text("pattern"), row.text("cut"), plain(row.number("jump"), 3)};
+      entries.push_back(plain(row.number("hessian_multiplications")) + (converged ? "" : " (not converged)"));
+      entries.push_back(plain(row.number("condition"), 3));
+      table.rows.push_back(row);
     }
-  output::writeTextFile(
-      directory / "heterogeneity.csv", [&] { return csv.str(); }, *comm);
-  if (comm->getRank() == 0)
-    std::cout << "written: " << (directory / "heterogeneity.csv").string() << '\n';
+    entries.push_back(plain(table.rows.back().number("constraints")));
+    allConverged = allConverged && table.rows.back().number("converged") == 1;
+    if (comm->getRank() == 0)
+      std::cout << markdownLine(entries) << std::flush;
+  }
+  writeFiles(directory, {{"heterogeneity.csv", table.csv()}}, *comm);
   return allConverged;
 }
 

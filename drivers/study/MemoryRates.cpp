@@ -53,10 +53,10 @@ double streamBandwidth(const Comm& comm, double bytes) {
   return 3 * sizeof(double) * static_cast<double>(size) * comm.getSize() / seconds;
 }
 
-std::vector<BlockProduct> timeBlockProducts(double bytes) {
+Table timeBlockProducts(double bytes, double streamRate) {
   const Teuchos::SerialComm<int> alone;
   const std::vector<double> numbers(static_cast<std::size_t>(bytes / sizeof(double)), 1e-3);
-  std::vector<BlockProduct> products;
+  Table products("n,kernel,seconds,bytes_per_second,stream_bytes_per_second");
   for (const int size : sizes) {
     const std::vector<double> x(static_cast<std::size_t>(columns * size), 1.0);
     std::vector<double> y(x.size());
@@ -67,8 +67,11 @@ std::vector<BlockProduct> timeBlockProducts(double bytes) {
           kernel(size, numbers.data() + block * entries, x.data(), y.data());
       });
       const double perBlock = seconds / static_cast<double>(numBlocks);
-      products.push_back(
-          {size, name, perBlock / numColumns, static_cast<double>(entries * sizeof(double)) / perBlock});
+      products.rows.push_back({{"n", size},
+                               {"kernel", name},
+                               {"seconds", perBlock / numColumns},
+                               {"bytes_per_second", static_cast<double>(entries * sizeof(double)) / perBlock},
+                               {"stream_bytes_per_second", streamRate}});
     };
     const auto full = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
     add("dgemv", full, 1, multiplyFull);

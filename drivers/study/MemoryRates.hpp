@@ -2,9 +2,7 @@
 
 /// How fast the memory is, and dense symmetric products beside it.
 
-#include "epafi/base/Types.hpp"
-
-#include <vector>
+#include "Table.hpp"
 
 namespace epafi::drivers {
 
@@ -13,16 +11,9 @@ namespace epafi::drivers {
 /// \param bytes  of the three arrays together on all ranks; far more than the caches hold
 double streamBandwidth(const Comm& comm, double bytes);
 
-/// y = A x with a dense symmetric n × n matrix, by one of three kernels.
-struct BlockProduct {
-  int size = 0;              ///< n
-  const char* kernel;        ///< dgemv (full), dspmv (half, packed), dgemm (full, 8 vectors at once)
-  double seconds = 0;        ///< a vector
-  double bytesPerSecond = 0; ///< of the matrix
-};
-
-/// One core alone; medians of several passes over different matrices that fill `bytes` together, so that each is read
-/// from the memory, as in a product with F. Not collective.
-std::vector<BlockProduct> timeBlockProducts(double bytes);
+/// scaling_blocks.csv: y = A x with a dense symmetric n × n matrix, by one of three kernels: dgemv (full), dspmv (half, packed),
+/// dgemm (full, 8 vectors at once); seconds a vector, bytes a second of the matrix. From blocks that take so many bytes together,
+/// on this rank alone; medians. Not collective.
+Table timeBlockProducts(double bytes, double streamRate);
 
 } // namespace epafi::drivers

@@ -1,5 +1,6 @@
 #include "QpCase.hpp"
 
+#include "CaseTable.hpp"
 #include "Multigrid.hpp"
 
 #include "epafi/base/Errors.hpp"
@@ -68,8 +69,8 @@ void startNested(const BoundBenchmark& benchmark, const QpCase& row, Vector& x, 
   QpCase coarseRow = row;
   coarseRow.size = (row.size - 1) / 2;
   if (coarseRow.size <= coarsestSize) {
-    coarseRow.start = Start::zero;
-    coarseRow.preconditioning = Preconditioning::none;
+    coarseRow.start = "zero";
+    coarseRow.preconditioner = "none";
   }
   const Solved coarse = solveOn(coarseRow, map->getComm());
   const benchmarks::Grid coarseGrid = makeBenchmark(row.problem, coarseRow.size, map->getComm()).grid;
@@ -80,11 +81,11 @@ void startNested(const BoundBenchmark& benchmark, const QpCase& row, Vector& x, 
                coarse.result.report.counts.hessianMultiplications);
 }
 
-void precondition(const BoundBenchmark& benchmark, Preconditioning preconditioning,
+void precondition(const BoundBenchmark& benchmark, const std::string& preconditioner,
                   qp::QuadraticProgram& problem) {
-  if (preconditioning == Preconditioning::multigrid)
+  if (preconditioner == "multigrid")
     problem.preconditioner = makeMultigrid(benchmark.hessian);
-  else if (preconditioning == Preconditioning::faceMultigrid)
+  else if (preconditioner == "face_multigrid")
     problem.facePreconditioner = [matrix = benchmark.hessian](const Vector& freeIndicator) {
       return makeFaceMultigrid(matrix, freeIndicator);
     };
@@ -99,20 +100,35 @@ Solved solveOn(const QpCase& row, const RCP<const Comm>& comm) {
   result.normMultiplications = norm.multiplications;
 
   const double beforeStart = Teuchos::Time::wallTime();
-  if (row.start == Start::unconstrained)
+  if (row.start == "unconstrained")
     startUnconstrained(benchmark, row, norm.norm, *x, result);
-  else if (row.start == Start::nested)
+  else if (row.start == "nested")
     startNested(benchmark, row, *x, result);
   result.startSeconds = Teuchos::Time::wallTime() - beforeStart;
 
   qp::QuadraticProgram problem = benchmark.program();
-  precondition(benchmark, row.preconditioning, problem);
+  precondition(benchmark, row.preconditioner, problem);
   result.report = qp::QpSolver(parametersOf(row, norm.norm)).solve(problem, *x).report;
   result.seconds = Teuchos::Time::wallTime() - begin;
   return {x, result};
 }
 
 } // namespace
+
+std::vector<QpCase> qpCases(bool quick) {
+  std::vector<QpCase> rows;
+  for (Case& one : expandCases(caseText("qp"), "qp", quick)) {
+    QpCase row{one.name, static_cast<int>(one.value)};
+    row.expansion = one.list.get("Expansion", row.expansion);
+    row.release = one.list.get("Release", row.release);
+    row.preconditioner = one.list.get("Preconditioner", row.preconditioner);
+    row.start = one.list.get("Start", row.start);
+    row.proportioningConstant = one.list.get("Proportioning Constant", row.proportioningConstant);
+    row.expansionStep = one.list.get("Expansion Step", row.expansionStep);
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 QpResult solveCase(const QpCase& row, const RCP<const Comm>& comm) {
   return solveOn(row, comm).result;
@@ -121,33 +137,9 @@ QpResult solveCase(const QpCase& row, const RCP<const Comm>& comm) {
 std::string methodName(const QpCase& row) {
   if (row.expansion == "fixed step" && row.release == "chopped gradient")
     return "published";
-  std::string name = row.expansion == "Barzilai-Borwein" ? "barzilai_borwein"
-                     : row.expansion == "projected CG"   ? "projected_cg"
-                                                         : row.expansion;
+  std::string name = row.expansion == "projected CG" ? "projected_cg" : row.expansion;
   std::replace(name.begin(), name.end(), ' ', '_');
   return row.release == "chopped gradient" ? name + "_chopped" : name;
-}
-
-std::string toString(Preconditioning preconditioning) {
-  switch (preconditioning) {
-  case Preconditioning::multigrid:
-    return "multigrid";
-  case Preconditioning::faceMultigrid:
-    return "face_multigrid";
-  default:
-    return "none";
-  }
-}
-
-std::string toString(Start start) {
-  switch (start) {
-  case Start::unconstrained:
-    return "unconstrained";
-  case Start::nested:
-    return "nested";
-  default:
-    return "zero";
-  }
 }
 
 } // namespace epafi::drivers

@@ -6,27 +6,19 @@
 #include "epafi/qp/SolveReport.hpp"
 
 #include <string>
+#include <vector>
 
 namespace epafi::drivers {
-
-enum class Preconditioning {
-  none,
-  multigrid,    ///< of the whole matrix
-  faceMultigrid ///< of the matrix restricted to the face of the start
-};
-
-enum class Start {
-  zero,
-  unconstrained, ///< the solution without bounds, projected
-  nested ///< the solution on a mesh of twice the width, itself started so, from about 20 × 20 on; interpolated
-};
 
 struct QpCase {
   std::string problem; ///< journal_bearing, obstacle or torsion
   int size = 0;        ///< unknowns a side
   std::string expansion = "projected CG", release = "projected gradient"; ///< as MPRGP's parameters name them
-  Preconditioning preconditioning = Preconditioning::none;
-  Start start = Start::zero;
+  /// none; multigrid, of the whole matrix; face_multigrid, of the matrix restricted to the face of the start
+  std::string preconditioner = "none";
+  /// zero; unconstrained, the solution without bounds, projected; nested, the solution on a mesh of twice the width, itself
+  /// started so, from about 20 × 20 on; interpolated
+  std::string start = "zero";
   double proportioningConstant = 1; ///< Γ
   double expansionStep = 1.9;       ///< ᾱ‖A‖
 };
@@ -41,12 +33,13 @@ struct QpResult {
   double startSeconds = 0; ///< of the start alone
 };
 
+/// The rows of cases/qp.cases.
+std::vector<QpCase> qpCases(bool quick);
+
 /// \throws InputError if the problem is unknown. Collective.
 QpResult solveCase(const QpCase& row, const RCP<const Comm>& comm);
 
 /// The method in one word, for the table: "projected_cg", "published" (fixed step, chopped gradient), …
 std::string methodName(const QpCase& row);
-std::string toString(Preconditioning preconditioning);
-std::string toString(Start start);
 
 } // namespace epafi::drivers

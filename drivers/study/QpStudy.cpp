@@ -1,167 +1,86 @@
-#include "QpStudy.hpp"
-
 #include "QpCase.hpp"
 #include "QpTraffic.hpp"
-
-#include "epafi/output/AtomicFile.hpp"
+#include "Studies.hpp"
 
 #include <Teuchos_Comm.hpp>
 
-#include <algorithm>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace epafi::drivers {
 namespace {
 
-/// How far a size goes into what has lost on smaller ones already and takes minutes on large ones.
-enum class Depth { all, plainExpansions, baseline };
-
-/// Which expansion and which release, without a preconditioner and with one.
-void addMethods(const QpCase& base, Depth depth, std::vector<QpCase>& rows) {
-  for (const auto preconditioning : {Preconditioning::none, Preconditioning::multigrid}) {
-    const bool isPlain = preconditioning == Preconditioning::none;
-    const bool hasAll = depth == Depth::all || (depth == Depth::plainExpansions && isPlain);
-    const auto add = [&](const char* expansion, const char* release) {
-      QpCase row = base;
-      row.preconditioning = preconditioning;
-      row.expansion = expansion;
-      row.release = release;
-      rows.push_back(row);
-    };
-    add("projected CG", "projected gradient");
-    add("projected CG", "chopped gradient");
-    if (hasAll)
-      for (const char* expansion : {"fixed step", "optimal", "Barzilai-Borwein"})
-        add(expansion, "projected gradient");
-    if (hasAll || isPlain)
-      add("fixed step", "chopped gradient"); // as published
-  }
+/// Products of PERMON 3.18's plain MPGP on the journal bearing, tolerance 1e-6; not known elsewhere.
+Row::Value permonMultiplications(const QpCase& row) {
+  if (row.problem != "journal_bearing" || methodName(row) != "published" || row.preconditioner != "none")
+    return {};
+  return row.size == 100   ? Row::Value(444)
+         : row.size == 200 ? Row::Value(1393)
+         : row.size == 400 ? Row::Value(3962)
+                           : Row::Value();
 }
 
-/// Which start, with which preconditioner; the start from zero is among the methods.
-void addStarts(const QpCase& base, std::vector<QpCase>& rows) {
-  for (const auto start : {Start::unconstrained, Start::nested})
-    for (const auto preconditioning :
-         {Preconditioning::none, Preconditioning::multigrid, Preconditioning::faceMultigrid}) {
-      QpCase row = base;
-      row.start = start;
-      row.preconditioning = preconditioning;
-      rows.push_back(row);
-    }
-}
-
-/// Γ and ᾱ, for the default expansion and for the one that takes ᾱ as its length.
-void addScan(const QpCase& base, std::vector<QpCase>& rows) {
-  for (const char* expansion : {"projected CG", "fixed step"})
-    for (const double constant : {0.5, 1.0, 2.0})
-      for (const double step : {1.5, 1.9, 1.95}) {
-        QpCase row = base;
-        row.expansion = expansion;
-        row.proportioningConstant = constant;
-        row.expansionStep = step;
-        if (constant != base.proportioningConstant || step != base.expansionStep) // that row is there already
-          rows.push_back(row);
-      }
-}
-
-std::vector<QpCase> allRows(bool quick) {
-  const std::vector<std::pair<int, Depth>> sizes =
-      quick ? std::vector<std::pair<int, Depth>>{{50, Depth::all}, {100, Depth::baseline}}
-            : std::vector<std::pair<int, Depth>>{
-                  {100, Depth::all}, {200, Depth::plainExpansions}, {400, Depth::baseline}};
-  std::vector<QpCase> rows;
-  for (const char* problem : {"journal_bearing", "obstacle", "torsion"})
-    for (const auto& [size, depth] : sizes) {
-      QpCase base;
-      base.problem = problem;
-      base.size = size;
-      addMethods(base, depth, rows);
-      addStarts(base, rows);
-      if (base.problem == "journal_bearing" && depth != Depth::baseline)
-        addScan(base, rows);
-    }
-  return rows;
-}
-
-/// Products of PERMON 3.18's plain MPGP on the journal bearing, tolerance 1e-6; 0 where none are known.
-int permonMultiplications(const QpCase& row) {
-  const bool isPublished = methodName(row) == "published" && row.preconditioning == Preconditioning::none;
-  if (row.problem != "journal_bearing" || !isPublished)
-    return 0;
-  return row.size == 100 ? 444 : row.size == 200 ? 1393 : row.size == 400 ? 3962 : 0;
-}
-
-constexpr const char* csvHeader =
-    "problem,size,method,preconditioner,start,hessian_multiplications,cg_steps,expansion_steps,"
-    "proportioning_steps,seconds,relative_projected_gradient,status,preconditioner_applications,safeguards,"
-    "norm_multiplications,start_multiplications,start_seconds,proportioning_constant,expansion_step,"
-    "permon_multiplications\n";
-
-std::string csvRow(const QpCase& row, const QpResult& result) {
+Row measure(const QpCase& row, const RCP<const Comm>& comm) {
+  const QpResult result = solveCase(row, comm);
   const qp::StepCounts& counts = result.report.counts;
-  const int permon = permonMultiplications(row);
-  std::ostringstream text;
-  text << row.problem << ',' << row.size << ',' << methodName(row) << ',' << toString(row.preconditioning)
-       << ',' << toString(row.start) << ',' << counts.hessianMultiplications << ','
-       << counts.conjugateGradient << ',' << counts.expansion << ',' << counts.proportioning << ','
-       << result.seconds << ',' << result.report.relativeProjectedGradient << ','
-       << qp::toString(result.report.status) << ',' << counts.preconditionerApplications << ','
-       << counts.safeguards << ',' << result.normMultiplications << ',' << result.startMultiplications << ','
-       << result.startSeconds << ',' << row.proportioningConstant << ',' << row.expansionStep << ','
-       << (permon > 0 ? std::to_string(permon) : "") << '\n';
-  return text.str();
+  return {{"problem", row.problem},
+          {"size", row.size},
+          {"method", methodName(row)},
+          {"preconditioner", row.preconditioner},
+          {"start", row.start},
+          {"hessian_multiplications", counts.hessianMultiplications},
+          {"cg_steps", counts.conjugateGradient},
+          {"expansion_steps", counts.expansion},
+          {"proportioning_steps", counts.proportioning},
+          {"seconds", result.seconds},
+          {"relative_projected_gradient", result.report.relativeProjectedGradient},
+          {"status", qp::toString(result.report.status)},
+          {"preconditioner_applications", counts.preconditionerApplications},
+          {"safeguards", counts.safeguards},
+          {"norm_multiplications", result.normMultiplications},
+          {"start_multiplications", result.startMultiplications},
+          {"start_seconds", result.startSeconds},
+          {"proportioning_constant", row.proportioningConstant},
+          {"expansion_step", row.expansionStep},
+          {"permon_multiplications", permonMultiplications(row)}};
 }
 
-constexpr const char* markdownHeader =
-    "| problem | size | method | preconditioner | start | Γ | ᾱ‖A‖ | products | CG | expansions | "
-    "proportionings | V-cycles | products of the start | seconds | status |\n"
-    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
-
-std::string markdownRow(const QpCase& row, const QpResult& result) {
-  const qp::StepCounts& counts = result.report.counts;
-  std::ostringstream text;
-  text << "| " << row.problem << " | " << row.size << "² | " << methodName(row) << " | "
-       << toString(row.preconditioning) << " | " << toString(row.start) << " | " << row.proportioningConstant
-       << " | " << row.expansionStep << " | " << counts.hessianMultiplications << " | "
-       << counts.conjugateGradient << " | " << counts.expansion << " | " << counts.proportioning << " | "
-       << counts.preconditionerApplications << " | " << std::setprecision(3) << result.startMultiplications
-       << " | " << result.seconds << " | " << qp::toString(result.report.status) << " |\n";
-  return text.str();
+std::string lineOf(const Row& row) {
+  const auto number = [&](const char* column) { return plain(row.number(column)); };
+  return markdownLine({row.text("problem"), number("size") + "²", row.text("method"),
+                       row.text("preconditioner"), row.text("start"), number("proportioning_constant"),
+                       number("expansion_step"), number("hessian_multiplications"), number("cg_steps"),
+                       number("expansion_steps"), number("proportioning_steps"),
+                       number("preconditioner_applications"), plain(row.number("start_multiplications"), 3),
+                       plain(row.number("seconds"), 3), row.text("status")});
 }
 
 } // namespace
 
 bool studyQp(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm) {
-  std::string csv = csvHeader, markdown = markdownHeader;
+  Table table(
+      "problem,size,method,preconditioner,start,hessian_multiplications,cg_steps,expansion_steps,"
+      "proportioning_steps,seconds,relative_projected_gradient,status,preconditioner_applications,safeguards,"
+      "norm_multiplications,start_multiplications,start_seconds,proportioning_constant,expansion_step,"
+      "permon_multiplications");
+  std::string markdown = markdownHeading("problem | size | method | preconditioner | start | Γ | ᾱ‖A‖ | "
+                                         "products | CG | expansions | proportionings | V-cycles "
+                                         "| products of the start | seconds | status");
   bool defaultsConverged = true;
   const bool speaks = comm->getRank() == 0;
   if (speaks)
-    std::cout << markdownHeader;
-  for (const QpCase& row : allRows(quick)) {
-    const QpResult result = solveCase(row, comm);
-    csv += csvRow(row, result);
-    markdown += markdownRow(row, result);
+    std::cout << markdown;
+  for (const QpCase& one : qpCases(quick)) {
+    table.rows.push_back(measure(one, comm));
+    const Row& row = table.rows.back();
+    markdown += lineOf(row);
     if (speaks)
-      std::cout << markdownRow(row, result) << std::flush;
-    if (methodName(row) == "projected_cg")
-      defaultsConverged = defaultsConverged && result.report.status == qp::Status::converged;
+      std::cout << lineOf(row) << std::flush;
+    if (row.text("method") == "projected_cg")
+      defaultsConverged = defaultsConverged && row.text("status") == qp::toString(qp::Status::converged);
   }
-  std::string traffic = measureTraffic(quick, comm);
-  output::writeTextFile(
-      directory / "qp.csv", [&] { return csv; }, *comm);
-  output::writeTextFile(
-      directory / "qp.md", [&] { return markdown; }, *comm);
-  output::writeTextFile(
-      directory / "qp_traffic.csv", [&] { return traffic; }, *comm);
-  if (speaks)
-    std::cout << '\n'
-              << traffic << "written: " << (directory / "qp.csv").string() << ", "
-              << (directory / "qp.md").string() << " and " << (directory / "qp_traffic.csv").string() << '\n';
+  const std::string traffic = measureTraffic(quick, comm).csv();
+  tell(*comm, '\n' + traffic);
+  writeFiles(directory, {{"qp.csv", table.csv()}, {"qp.md", markdown}, {"qp_traffic.csv", traffic}}, *comm);
   return defaultsConverged;
 }
 

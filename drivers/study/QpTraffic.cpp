@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -100,9 +99,8 @@ double streamBandwidth(const RCP<const Map>& map) {
 
 } // namespace
 
-std::string measureTraffic(bool quick, const RCP<const Comm>& comm) {
-  std::ostringstream csv;
-  csv << "size,bytes_per_step,step_seconds,stream_bytes_per_second,ratio\n";
+Table measureTraffic(bool quick, const RCP<const Comm>& comm) {
+  Table table("size,bytes_per_step,step_seconds,stream_bytes_per_second,ratio");
   const std::vector<std::size_t> sizes =
       quick ? std::vector<std::size_t>{10000, 100000}
             : std::vector<std::size_t>{10000, 40000, 160000, 1000000, 4000000};
@@ -110,9 +108,13 @@ std::string measureTraffic(bool quick, const RCP<const Comm>& comm) {
     const RCP<const Map> map = rcp(new Map(size, 0, comm));
     const double bytes = vectorsPerStep * sizeof(double) * static_cast<double>(size);
     const double seconds = secondsPerStep(map), stream = streamBandwidth(map);
-    csv << size << ',' << bytes << ',' << seconds << ',' << stream << ',' << bytes / seconds / stream << '\n';
+    table.rows.push_back({{"size", size},
+                          {"bytes_per_step", bytes},
+                          {"step_seconds", seconds},
+                          {"stream_bytes_per_second", stream},
+                          {"ratio", bytes / seconds / stream}});
   }
-  return csv.str();
+  return table;
 }
 
 } // namespace epafi::drivers

@@ -2,19 +2,17 @@
 
 /// How close a step of MPRGP comes to the speed of the memory.
 
-#include "epafi/base/Types.hpp"
-
-#include <string>
+#include "Table.hpp"
 
 namespace epafi::drivers {
 
 /// Times conjugate gradient steps of MPRGP (the shortest of 100) without their products with the Hessian, and sets the
 /// bytes they stream (packages/qp/Mprgp.hpp) over that time against a triad a = b + s c on vectors of the same length.
 /// With `quick` only short vectors.
-/// Returns the text of qp_traffic.csv: size (unknowns), bytes_per_step, step_seconds, stream_bytes_per_second, ratio. A
+/// Returns qp_traffic.csv: size (unknowns), bytes_per_step, step_seconds, stream_bytes_per_second, ratio. A
 /// ratio of 1 is as fast as the triad. It can be more: a triad reads what it is about to overwrite, which nobody counts,
 /// while a step mostly reads.
 /// Collective.
-std::string measureTraffic(bool quick, const RCP<const Comm>& comm);
+Table measureTraffic(bool quick, const RCP<const Comm>& comm);
 
 } // namespace epafi::drivers

@@ -9,13 +9,9 @@
 
 namespace epafi::drivers {
 
-/// The coarse problem of the coercive model problem, which every rank solves alike.
-struct CoarseTimes {
-  double unknowns = 0, setupSeconds = 0, solveSeconds = 0, bytes = 0;
-};
-
-/// For 1/H in the list, on this rank alone; medians. Not collective.
-std::vector<CoarseTimes> timeCoarseProblems(const std::vector<int>& subdomainsPerSide);
+/// scaling_coarse.csv: the coarse problem of the coercive model problem, which every rank solves alike, for 1/H in the list, on
+/// this rank alone; medians. Not collective.
+Table timeCoarseProblems(const std::vector<int>& subdomainsPerSide);
 
 /// A network where a message of n bytes takes latency + n / bandwidth, and a sum over p ranks of n bytes
 /// 2 log₂ p latency + 2 n / bandwidth (Rabenseifner's algorithm; log₂ p latency where n is small).
@@ -24,28 +20,11 @@ struct Network {
   double bandwidth = 12.5e9; ///< bytes/s a rank
 };
 
-/// Seconds of one iteration.
-struct PredictedStep {
-  double ranks = 0, subdomainsPerRank = 0, coarseUnknowns = 0;
-  double local = 0;      ///< products with the rank's subdomains, preconditioner, vectors: as measured
-  double neighbours = 0; ///< messages between neighbours
-  double reductions = 0; ///< of scalar products
-  double coarseSum = 0, coarseSolve = 0;
-  double coarseBytes = 0; ///< factor, on every rank
-  [[nodiscard]] double total() const { return local + neighbours + reductions + coarseSum + coarseSolve; }
-  [[nodiscard]] double efficiency() const { return local / total(); }
-  [[nodiscard]] double coarseShare() const { return (coarseSum + coarseSolve) / total(); }
-};
-
 /// Weak scaling of the coercive problem: `like` on one rank gives the local time a subdomain, 1/h grows with the ranks.
 /// Each rank has a square of subdomains with four neighbours. The coarse problem has one unknown a subdomain; its time
 /// and size are extrapolated as c nᵃ through the two largest of `coarse`.
-/// Precondition: two different entries in `coarse`.
-std::vector<PredictedStep> predictSteps(const ScalingRow& like, const std::vector<CoarseTimes>& coarse,
-                                        const std::vector<double>& subdomainsPerRank,
-                                        const Network& network = {});
-
-std::string coarseCsv(const std::vector<CoarseTimes>& coarse);
-std::string predictionCsv(const std::vector<PredictedStep>& steps);
+/// Columns of scaling_prediction.csv; coarse_bytes of the factor, on every rank. Precondition: two rows in `coarse`.
+Table predictSteps(const Row& like, const Table& coarse, const std::vector<double>& subdomainsPerRank,
+                   const Network& network = {});
 
 } // namespace epafi::drivers

@@ -22,12 +22,15 @@ constexpr std::size_t mostRuns = 7;
 constexpr double secondsOfRuns = 5; ///< after which there is no further run
 constexpr double secondsOfProducts = 0.1;
 
-Teuchos::ParameterList parametersOf(const ScalingRow& run) {
+Teuchos::ParameterList parametersOf(const Row& run) {
+  const std::string& dualOperator = run.text("operator");
   Teuchos::ParameterList parameters;
-  parameters.sublist("Dual Operator").set("Mode", run.dualOperator == "implicit" ? "implicit" : "explicit");
+  parameters.sublist("Dual Operator").set("Mode", dualOperator == "implicit" ? "implicit" : "explicit");
   parameters.sublist("Direct Solvers")
-      .set("Share Identical Subdomains", run.dualOperator == "shared" ? "yes" : "no");
-  parameters.sublist("Preconditioner").set("Type", run.preconditioner).set("Precision", run.precision);
+      .set("Share Identical Subdomains", dualOperator == "shared" ? "yes" : "no");
+  parameters.sublist("Preconditioner")
+      .set("Type", run.text("preconditioner"))
+      .set("Precision", run.text("precision"));
   return parameters;
 }
 
@@ -40,7 +43,7 @@ public:
       ofSteps_.push_back(now - last_);
     last_ = now;
   }
-  [[nodiscard]] double perStep() const { return ofSteps_.empty() ? ScalingRow::unknown : median(ofSteps_); }
+  [[nodiscard]] double perStep() const { return ofSteps_.empty() ? notMeasured : median(ofSteps_); }
 
 private:
   double last_ = 0;
@@ -62,40 +65,40 @@ struct RunTimes {
   }
 };
 
-void measureProducts(const fetidp::DualProblem& dual, const Comm& comm, ScalingRow& row) {
+void measureProducts(const fetidp::DualProblem& dual, const Comm& comm, Row& row) {
   const fetidp::DualOperator& f = *dual.dualOperator();
   Vector x(f.getDomainMap()), y(f.getDomainMap());
   x.putScalar(1.0);
-  row.applySeconds = medianSeconds(comm, secondsOfProducts, [&] { f.apply(x, y); });
+  row["apply_seconds"] = medianSeconds(comm, secondsOfProducts, [&] { f.apply(x, y); });
   const MessageCounts before = messageCounts();
   f.apply(x, y);
   const MessageCounts sent = messageCounts() - before;
-  row.messagesPerApply = maxOverRanks(comm, static_cast<double>(sent.messages));
-  row.bytesSentPerApply = maxOverRanks(comm, static_cast<double>(sent.bytes));
-  row.reductionBytesPerApply = maxOverRanks(comm, static_cast<double>(sent.reductionBytes));
+  row["messages_per_apply"] = maxOverRanks(comm, static_cast<double>(sent.messages));
+  row["bytes_sent_per_apply"] = maxOverRanks(comm, static_cast<double>(sent.bytes));
+  row["reduction_bytes_per_apply"] = maxOverRanks(comm, static_cast<double>(sent.reductionBytes));
   if (dual.preconditioner().is_null())
     return;
-  row.preconditionerSeconds =
+  row["preconditioner_seconds"] =
       medianSeconds(comm, secondsOfProducts, [&] { dual.preconditioner()->apply(x, y); });
   if (const auto m = Teuchos::rcp_dynamic_cast<const fetidp::DualPreconditioner>(dual.preconditioner());
       !m.is_null())
-    row.preconditionerBytes = sumOverRanks(comm, static_cast<double>(m->bytes()));
+    row["preconditioner_bytes"] = sumOverRanks(comm, static_cast<double>(m->bytes()));
 }
 
 /// What the blocks of F read, hold and took to make.
-void measureBlocks(const fetidp::GeneralizedInverse& inverse, const Comm& comm, ScalingRow& row) {
+void measureBlocks(const fetidp::GeneralizedInverse& inverse, const Comm& comm, Row& row) {
   double bytes = 0;
   for (const fetidp::SubdomainGroup& group : inverse.groups())
     bytes += static_cast<double>(group.applyBytes());
-  row.applyBytes = sumOverRanks(comm, bytes);
-  row.factorBytes = sumOverRanks(comm, static_cast<double>(inverse.factorBytes()));
-  row.coarseUnknowns = inverse.coarseProblem().size();
-  if (row.dualOperator == "implicit")
+  row["apply_bytes"] = sumOverRanks(comm, bytes);
+  row["factor_bytes"] = sumOverRanks(comm, static_cast<double>(inverse.factorBytes()));
+  row["coarse_unknowns"] = inverse.coarseProblem().size();
+  if (row.text("operator") == "implicit")
     return;
   const double begin = Teuchos::Time::wallTime();
   for (const fetidp::SubdomainGroup& group : inverse.groups())
     const direct::SymmetricBlock block(group.condensed().factor().inverseOfKept(), group.use());
-  row.explicitSetup = maxOverRanks(comm, Teuchos::Time::wallTime() - begin);
+  row["explicit_setup_seconds"] = maxOverRanks(comm, Teuchos::Time::wallTime() - begin);
 }
 
 /// Of the subdomain matrices, each different one once.
@@ -118,20 +121,20 @@ double vectorBytes(const decomposition::DecomposedProblem& problem) {
 
 /// One run from the scene to the solution. Returns whether it converged.
 bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const Comm>& comm, RunTimes& times,
-             ScalingRow& row) {
-  row.baseBytes = sumOverRanks(*comm, resetPeakBytes());
+             Row& row) {
+  row["base_bytes"] = sumOverRanks(*comm, resetPeakBytes());
   ReductionCount reductions;
   const SceneRun run = solveScene(scene, parametersOf(row), comm, {.companion = &reductions});
-  row.peakBytes = sumOverRanks(*comm, peakBytes());
+  row["peak_bytes"] = sumOverRanks(*comm, peakBytes());
   times.add(run.report);
-  row.hessianMultiplications = run.solver->report().counts.hessianMultiplications;
-  row.energy = run.solution.energy;
-  row.reductionsPerStep = reductions.perStep();
+  row["hessian_multiplications"] = run.solver->report().counts.hessianMultiplications;
+  row["energy"] = run.solution.energy;
+  row["reductions_per_step"] = reductions.perStep();
   const decomposition::DecomposedProblem& problem = run.decomposition->problem;
-  row.unknowns = static_cast<double>(problem.primalDimension);
-  row.multipliers = static_cast<double>(problem.dualDimension());
-  row.problemBytes = matrixBytes(problem) + vectorBytes(problem);
-  row.preconditionerBytes =
+  row["unknowns"] = static_cast<double>(problem.primalDimension);
+  row["multipliers"] = static_cast<double>(problem.dualDimension());
+  row["problem_bytes"] = matrixBytes(problem) + vectorBytes(problem);
+  row["preconditioner_bytes"] =
       sumOverRanks(*comm, static_cast<double>(run.solver->dualProblem().preconditionerBytes()));
   if (measuresProducts) {
     measureProducts(run.solver->dualProblem(), *comm, row);
@@ -142,19 +145,19 @@ bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const C
 
 } // namespace
 
-bool measureRun(ScalingRow& row, const RCP<const Comm>& comm) {
-  const int counts = static_cast<int>(row.subdomainsPerSide);
-  const scene::Scene scene =
-      scene::modelProblem(row.problem == "coercive", counts, counts * static_cast<int>(row.elementsPerSide));
-  row.ranks = comm->getSize();
+bool measureRun(Row& row, const RCP<const Comm>& comm) {
+  const int counts = static_cast<int>(row.number("H_inverse"));
+  const scene::Scene scene = scene::modelProblem(row.text("problem") == "coercive", counts,
+                                                 counts * static_cast<int>(row.number("H_over_h")));
+  row["ranks"] = comm->getSize();
   RunTimes times;
   bool converged = true;
   while (times.total.empty() || (times.total.size() < mostRuns && times.sum < secondsOfRuns))
     converged = runOnce(scene, times.total.empty(), comm, times, row) && converged;
-  row.assembly = median(times.assembly);
-  row.setup = median(times.setup);
-  row.solve = median(times.solve);
-  row.total = median(times.total);
+  row["assembly_seconds"] = median(times.assembly);
+  row["setup_seconds"] = median(times.setup);
+  row["solve_seconds"] = median(times.solve);
+  row["total_seconds"] = median(times.total);
   return converged;
 }
 

@@ -13,16 +13,12 @@
 
 namespace epafi::drivers {
 
-/// Growing 1/H and H/h; forms of F and preconditioners; memory. Rows of one rank.
-std::string growthReport(const ScalingTable& table, const ScalingSizes& sizes);
-std::string combinationReport(const ScalingTable& table, const ScalingSizes& sizes);
-/// Strong and weak scaling with efficiencies, as far as the table has rows of one rank to compare with; messages.
-std::string ranksReport(const ScalingTable& table, const ScalingSizes& sizes);
+/// Growing 1/H and H/h; forms of F and preconditioners; memory: rows of one rank. Strong and weak scaling with efficiencies, as
+/// far as the table has rows of one rank to compare with; messages.
+std::string scalingReport(const Table& table, const ScalingSizes& sizes);
 
-std::string blockReport(const std::vector<BlockProduct>& products, double streamRate);
-std::string costReport(const std::vector<DualCostTimes>& times);
-std::string predictionReport(const std::vector<PredictedStep>& steps, const ScalingRow& like);
-
-std::string blocksCsv(const std::vector<BlockProduct>& products, double streamRate);
+std::string blockReport(const Table& products, double streamRate);
+std::string costReport(const Table& times);
+std::string predictionReport(const Table& steps, const Row& like);
 
 } // namespace epafi::drivers

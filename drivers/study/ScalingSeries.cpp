@@ -7,32 +7,25 @@
 namespace epafi::drivers {
 namespace {
 
-ScalingRow run(const char* problem, int subdomains, int elements, double ranks = 1) {
-  ScalingRow row;
-  row.problem = problem;
-  row.subdomainsPerSide = subdomains;
-  row.elementsPerSide = elements;
-  row.ranks = ranks;
-  return row;
-}
-
-void addOnce(const ScalingRow& row, std::vector<ScalingRow>& runs) {
-  if (std::none_of(runs.begin(), runs.end(), [&](const ScalingRow& other) { return other.isSameRun(row); }))
+void addOnce(const Row& row, std::vector<Row>& runs) {
+  if (std::none_of(runs.begin(), runs.end(),
+                   [&](const Row& other) { return other.isLike(row, scalingSettings); }))
     runs.push_back(row);
 }
 
 /// \param all  whether forms of F and preconditioners are combined, or one of both is the default
-void addCombinations(ScalingRow row, bool all, std::vector<ScalingRow>& runs) {
-  using Choice = std::pair<const char*, const char*>;
+void addCombinations(Row row, bool all, std::vector<Row>& runs) {
   for (const char* dualOperator : {"implicit", "explicit", "shared"})
-    for (const auto& [preconditioner, precision] :
-         {Choice{"dirichlet", "double"}, Choice{"dirichlet", "single"}, Choice{"lumped", "double"},
-          Choice{"lumped", "single"}, Choice{"none", "double"}}) {
-      row.dualOperator = dualOperator;
-      row.preconditioner = preconditioner;
-      row.precision = precision;
-      const bool isDefault = row.preconditioner == "dirichlet" && row.precision == "double";
-      if (all || isDefault || row.dualOperator == "shared")
+    for (const auto& [preconditioner, precision] : {std::pair{"dirichlet", "double"},
+                                                    {"dirichlet", "single"},
+                                                    {"lumped", "double"},
+                                                    {"lumped", "single"},
+                                                    {"none", "double"}}) {
+      row["operator"] = dualOperator;
+      row["preconditioner"] = preconditioner;
+      row["precision"] = precision;
+      if (all || row.text("operator") == "shared" ||
+          scalingRun("", 0, 0).isLike(row, {"preconditioner", "precision"}))
         addOnce(row, runs);
     }
 }
@@ -53,30 +46,30 @@ int ScalingSizes::weakOn(double ranks) const {
   return static_cast<int>(std::lround(weakSubdomains * std::sqrt(ranks)));
 }
 
-std::vector<ScalingRow> runsOnRanks(const ScalingSizes& sizes, int ranks) {
-  std::vector<ScalingRow> runs;
+std::vector<Row> runsOnRanks(const ScalingSizes& sizes, int ranks) {
+  std::vector<Row> runs;
   for (const int subdomains : {sizes.strongSubdomains, sizes.weakOn(ranks)})
     for (const char* dualOperator : {"shared", "explicit"}) {
-      ScalingRow row = run("coercive", subdomains, sizes.ranksElements, ranks);
-      row.dualOperator = dualOperator;
+      Row row = scalingRun("coercive", subdomains, sizes.ranksElements, ranks);
+      row["operator"] = dualOperator;
       addOnce(row, runs);
     }
   return runs;
 }
 
-std::vector<ScalingRow> runsOnOneRank(const ScalingSizes& sizes) {
-  std::vector<ScalingRow> runs;
+std::vector<Row> runsOnOneRank(const ScalingSizes& sizes) {
+  std::vector<Row> runs;
   for (const char* problem : {"coercive", "semicoercive"}) {
     for (const int elements : sizes.fixedElements)
       for (const int subdomains : sizes.subdomains)
-        addOnce(run(problem, subdomains, elements), runs);
+        addOnce(scalingRun(problem, subdomains, elements), runs);
     for (const int elements : sizes.elements)
-      addOnce(run(problem, sizes.fixedSubdomains, elements), runs);
+      addOnce(scalingRun(problem, sizes.fixedSubdomains, elements), runs);
   }
   for (const bool all : {true, false})
     for (const int elements : all ? sizes.allCombinations : sizes.someCombinations)
-      addCombinations(run("coercive", sizes.fixedSubdomains, elements), all, runs);
-  for (const ScalingRow& row : runsOnRanks(sizes, 1))
+      addCombinations(scalingRun("coercive", sizes.fixedSubdomains, elements), all, runs);
+  for (const Row& row : runsOnRanks(sizes, 1))
     addOnce(row, runs);
   return runs;
 }

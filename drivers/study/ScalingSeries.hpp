@@ -27,8 +27,8 @@ struct ScalingSizes {
 };
 
 /// Each run once.
-std::vector<ScalingRow> runsOnOneRank(const ScalingSizes& sizes);
+std::vector<Row> runsOnOneRank(const ScalingSizes& sizes);
 /// Strong and weak scaling.
-std::vector<ScalingRow> runsOnRanks(const ScalingSizes& sizes, int ranks);
+std::vector<Row> runsOnRanks(const ScalingSizes& sizes, int ranks);
 
 } // namespace epafi::drivers

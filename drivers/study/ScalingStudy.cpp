@@ -1,78 +1,75 @@
-#include "ScalingStudy.hpp"
-
 #include "ScalingCase.hpp"
 #include "ScalingReport.hpp"
+#include "Studies.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/output/AtomicFile.hpp"
 
 #include <Teuchos_Comm.hpp>
 
-#include <iostream>
+#include <algorithm>
 
 namespace epafi::drivers {
 namespace {
 
-void write(const std::filesystem::path& file, const std::string& text, const Comm& comm) {
-  output::writeTextFile(
-      file, [&] { return text; }, comm);
-}
-
 /// After how many products dense blocks have paid off beside the implicit run with the same preconditioner, or, where
 /// there is none, with the default one.
-double payoffOf(const ScalingRow& row, const ScalingTable& table) {
-  ScalingRow like = row;
-  like.dualOperator = "implicit";
-  const ScalingRow* implicitRun = table.find(like);
+double payoffIn(const Table& table, const Row& row) {
+  Row like = row;
+  like["operator"] = "implicit";
+  const Row* implicitRun = table.find(like, scalingSettings);
   if (implicitRun == nullptr) {
-    like.preconditioner = "dirichlet";
-    like.precision = "double";
-    implicitRun = table.find(like);
+    like["preconditioner"] = "dirichlet";
+    like["precision"] = "double";
+    implicitRun = table.find(like, scalingSettings);
   }
-  if (row.dualOperator == "implicit" || implicitRun == nullptr)
-    return ScalingRow::unknown;
-  return DualCostTimes::payoff({implicitRun->applySeconds, row.applySeconds, row.explicitSetup});
+  if (row.text("operator") == "implicit" || implicitRun == nullptr)
+    return notMeasured;
+  return payoffOf({implicitRun->number("apply_seconds"), row.number("apply_seconds"),
+                   row.number("explicit_setup_seconds")});
 }
 
 /// Makes the runs and adds them to the table. Returns whether all converged. Collective.
-bool measureRuns(const std::vector<ScalingRow>& runs, double streamRate, const RCP<const Comm>& comm,
-                 ScalingTable& table) {
+bool measureRuns(const std::vector<Row>& runs, double streamRate, const RCP<const Comm>& comm, Table& table) {
   bool converged = true;
-  ScalingTable measured;
-  for (ScalingRow row : runs) {
+  Table measured = scalingTable();
+  for (Row row : runs) {
     converged = measureRun(row, comm) && converged;
-    row.streamRate = streamRate;
-    measured.add(row);
-    if (comm->getRank() == 0)
-      std::cout << row.problem << ", 1/H = " << row.subdomainsPerSide << ", H/h = " << row.elementsPerSide
-                << ", " << row.dualOperator << ", " << row.preconditioner << ' ' << row.precision << ": "
-                << row.hessianMultiplications << " products, " << row.total << " s" << std::endl;
+    row["stream_bytes_per_second"] = streamRate;
+    measured.rows.push_back(row);
+    tell(*comm, row.text("problem") + ", 1/H = " + plain(row.number("H_inverse")) +
+                    ", H/h = " + plain(row.number("H_over_h")) + ", " + row.text("operator") + ", " +
+                    row.text("preconditioner") + ' ' + row.text("precision") + ": " +
+                    plain(row.number("hessian_multiplications")) + " products, " +
+                    plain(row.number("total_seconds")) + " s");
   }
-  for (ScalingRow row : measured.rows()) {
-    row.payoffProducts = payoffOf(row, measured);
-    table.add(row);
+  for (Row row : measured.rows) {
+    row["payoff_products"] = payoffIn(measured, row);
+    table.rows.push_back(row);
   }
+  // Rows of few ranks first.
+  std::stable_sort(table.rows.begin(), table.rows.end(),
+                   [](const Row& a, const Row& b) { return a.number("ranks") < b.number("ranks"); });
   return converged;
 }
 
 /// Tables that one rank makes alone, and their files.
 std::string measureParts(const std::filesystem::path& directory, const ScalingSizes& sizes, double streamRate,
-                         const ScalingTable& table, const Comm& comm) {
-  const std::vector<BlockProduct> products = timeBlockProducts(sizes.blockBytes);
+                         const Table& table, const Comm& comm) {
+  const Table products = timeBlockProducts(sizes.blockBytes, streamRate);
   std::vector<int> costSizes = sizes.allCombinations;
   costSizes.insert(costSizes.end(), sizes.someCombinations.begin(), sizes.someCombinations.end());
-  const std::vector<DualCostTimes> costs = timeDualCosts(sizes.fixedSubdomains, costSizes);
-  const std::vector<CoarseTimes> coarse = timeCoarseProblems(sizes.coarse);
-  ScalingRow like;
-  like.subdomainsPerSide = sizes.fixedSubdomains;
-  like.elementsPerSide = sizes.elements.back();
-  like.dualOperator = "explicit";
-  like = *table.find(like); // one of the combinations
-  const std::vector<PredictedStep> steps = predictSteps(like, coarse, {1, 16, 64});
-  write(directory / "scaling_blocks.csv", blocksCsv(products, streamRate), comm);
-  write(directory / "scaling_costs.csv", costsCsv(costs), comm);
-  write(directory / "scaling_coarse.csv", coarseCsv(coarse), comm);
-  write(directory / "scaling_prediction.csv", predictionCsv(steps), comm);
+  const Table costs = timeDualCosts(sizes.fixedSubdomains, costSizes),
+              coarse = timeCoarseProblems(sizes.coarse);
+  Row like = scalingRun("coercive", sizes.fixedSubdomains, sizes.elements.back());
+  like["operator"] = "explicit";
+  like = *table.find(like, scalingSettings); // one of the combinations
+  const Table steps = predictSteps(like, coarse, {1, 16, 64});
+  writeFiles(directory,
+             {{"scaling_blocks.csv", products.csv()},
+              {"scaling_costs.csv", costs.csv()},
+              {"scaling_coarse.csv", coarse.csv()},
+              {"scaling_prediction.csv", steps.csv()}},
+             comm);
   return blockReport(products, streamRate) + costReport(costs) + predictionReport(steps, like);
 }
 
@@ -81,24 +78,19 @@ std::string measureParts(const std::filesystem::path& directory, const ScalingSi
 bool studyScaling(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm) {
   const ScalingSizes sizes(quick);
   const int ranks = comm->getSize();
-  ScalingTable table;
+  Table table = scalingTable();
   collectively(*comm, [&] {
     if (comm->getRank() == 0)
-      table = ScalingTable(directory / "scaling.csv");
+      table = readScaling(directory / "scaling.csv", ranks);
   });
-  table.removeRanks(ranks);
   const double streamRate = streamBandwidth(*comm, sizes.streamBytes);
   const bool converged =
       measureRuns(ranks == 1 ? runsOnOneRank(sizes) : runsOnRanks(sizes, ranks), streamRate, comm, table);
-  std::string report =
-      growthReport(table, sizes) + combinationReport(table, sizes) + ranksReport(table, sizes);
+  std::string report = scalingReport(table, sizes);
   if (ranks == 1)
     report += measureParts(directory, sizes, streamRate, table, *comm);
-  write(directory / "scaling.csv", table.csv(), *comm);
-  write(directory / "scaling.md", report, *comm);
-  if (comm->getRank() == 0)
-    std::cout << report << "\nwritten: " << (directory / "scaling.csv").string() << " and "
-              << (directory / "scaling.md").string() << '\n';
+  tell(*comm, report);
+  writeFiles(directory, {{"scaling.csv", table.csv()}, {"scaling.md", report}}, *comm);
   return converged;
 }
 

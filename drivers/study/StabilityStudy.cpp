@@ -1,18 +1,14 @@
-#include "StabilityStudy.hpp"
-
 #include "StabilityCase.hpp"
-
-#include "epafi/output/AtomicFile.hpp"
+#include "Studies.hpp"
+#include "Table.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <mpi.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,38 +16,28 @@
 namespace epafi::drivers {
 namespace {
 
-/// A field of a CSV table.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char letter : text)
-    result.append(letter == '"' ? "\"\"" : letter == '\n' ? " " : std::string(1, letter));
-  return result + "\"";
-}
-
-/// Empty for what is not known.
-std::string number(double value) {
-  std::ostringstream text;
-  if (!std::isnan(value))
-    text << value;
-  return text.str();
-}
-
-constexpr const char* csvHeader =
-    "case,parameter,expected,outcome,ok,hessian_multiplications,family,value,variant,ranks,status,"
-    "relative_projected_gradient,balance,penetration,complementarity,energy_norm_error,norm_multiplications,"
-    "active_contact_nodes,seconds,reason,remains\n";
-
-std::string csvRow(const StabilityCase& trial, const CaseResult& result) {
-  std::ostringstream text;
-  text << quoted(trial.name) << ',' << quoted(trial.parameter) << ',' << quoted(toString(trial.expected))
-       << ',' << quoted(toString(result.outcome)) << ',' << (isAsExpected(trial.expected, result) ? 1 : 0)
-       << ',' << result.products << ',' << trial.family << ',' << number(trial.value) << ',' << trial.variant
-       << ',' << std::max(trial.ranks, 1) << ',' << result.status << ',' << number(result.projectedGradient)
-       << ',' << number(result.balance) << ',' << number(result.penetration) << ','
-       << number(result.complementarity) << ',' << number(result.energyError) << ',' << result.normProducts
-       << ',' << (result.active < 0 ? "" : std::to_string(result.active)) << ',' << number(result.seconds)
-       << ',' << quoted(result.reason) << ',' << quoted(trial.remains) << '\n';
-  return text.str();
+Row rowOf(const StabilityCase& trial, const CaseResult& result) {
+  return {{"case", trial.name},
+          {"parameter", trial.parameter},
+          {"expected", toString(trial.expected)},
+          {"outcome", toString(result.outcome)},
+          {"ok", isAsExpected(trial.expected, result)},
+          {"hessian_multiplications", result.products},
+          {"family", trial.family},
+          {"value", trial.value},
+          {"variant", trial.variant},
+          {"ranks", std::max(trial.ranks, 1)},
+          {"status", result.status},
+          {"relative_projected_gradient", result.projectedGradient},
+          {"balance", result.balance},
+          {"penetration", result.penetration},
+          {"complementarity", result.complementarity},
+          {"energy_norm_error", result.energyError},
+          {"norm_multiplications", result.normProducts},
+          {"active_contact_nodes", result.active < 0 ? Row::Value() : Row::Value(result.active)},
+          {"seconds", result.seconds},
+          {"reason", result.reason},
+          {"remains", trial.remains}};
 }
 
 /// What the cases of one family or one name came to.
@@ -88,19 +74,20 @@ public:
   }
   [[nodiscard]] const Tally& all() const { return all_; }
   [[nodiscard]] std::string markdown() const {
-    std::ostringstream text;
-    text << "| family | case | variant | rows | solved | refused | stopped | not as expected | products, if "
-            "solved |\n"
-            "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    std::string text = markdownHeading("family | case | variant | rows | solved | refused | stopped | not as "
+                                       "expected | products, if solved");
     for (const std::string& key : order_) {
       const Tally& tally = tallies_.at(key);
-      text << key << tally.total << " | " << tally.solved << " | " << tally.refused << " | " << tally.stopped
-           << " | " << tally.unexpected << " | ";
+      text += key;
+      for (const int number : {tally.total, tally.solved, tally.refused, tally.stopped, tally.unexpected})
+        text.append(std::to_string(number)).append(" | ");
       if (tally.solved > 0)
-        text << tally.leastProducts << " … " << tally.mostProducts;
-      text << " |\n";
+        text.append(std::to_string(tally.leastProducts))
+            .append(" … ")
+            .append(std::to_string(tally.mostProducts));
+      text += " |\n";
     }
-    return text.str();
+    return text;
   }
 
 private:
@@ -122,11 +109,15 @@ void sleepTogether(const Comm& comm) {
 } // namespace
 
 bool studyStability(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm) {
-  std::string csv = csvHeader;
+  Table table(
+      "case*,parameter*,expected*,outcome*,ok,hessian_multiplications,family,value,variant,ranks,status,"
+      "relative_projected_gradient,balance,penetration,complementarity,energy_norm_error,norm_"
+      "multiplications,"
+      "active_contact_nodes,seconds,reason*,remains*");
   Summary summary;
   int leftOut = 0;
   std::map<int, RCP<const Comm>> firstRanks; // communicators of the first n ranks
-  for (const StabilityCase& trial : allStabilityCases(quick)) {
+  for (const StabilityCase& trial : stabilityCases("", quick)) {
     const int ranks = std::max(trial.ranks, 1);
     if (ranks > comm->getSize()) {
       ++leftOut;
@@ -137,7 +128,7 @@ bool studyStability(const std::filesystem::path& directory, bool quick, const RC
       firstRanks[ranks] = comm->split(takesPart ? 0 : -1, comm->getRank());
     if (takesPart) {
       const CaseResult result = runCase(trial, firstRanks.at(ranks));
-      csv += csvRow(trial, result);
+      table.rows.push_back(rowOf(trial, result));
       summary.add(trial, result);
       if (comm->getRank() == 0 && !isAsExpected(trial.expected, result))
         std::cout << trial.family << ": " << trial.name << ", " << trial.parameter << ", " << trial.variant
@@ -147,10 +138,6 @@ bool studyStability(const std::filesystem::path& directory, bool quick, const RC
     }
     sleepTogether(*comm);
   }
-  output::writeTextFile(
-      directory / "stability.csv", [&] { return csv; }, *comm);
-  output::writeTextFile(
-      directory / "stability.md", [&] { return summary.markdown(); }, *comm);
   if (comm->getRank() == 0) {
     const Tally& all = summary.all();
     std::cout << summary.markdown() << all.total << " cases: " << all.solved << " solved, " << all.refused
@@ -158,9 +145,8 @@ bool studyStability(const std::filesystem::path& directory, bool quick, const RC
               << all.unexpected - all.surprising << " of them known\n";
     if (leftOut > 0)
       std::cout << leftOut << " cases need more ranks: mpirun --oversubscribe -n 7\n";
-    std::cout << "written: " << (directory / "stability.csv").string() << " and "
-              << (directory / "stability.md").string() << '\n';
   }
+  writeFiles(directory, {{"stability.csv", table.csv()}, {"stability.md", summary.markdown()}}, *comm);
   int surprising = summary.all().surprising; // rank 0 has run all
   MPI_Bcast(&surprising, 1, MPI_INT, 0, *dynamic_cast<const Teuchos::MpiComm<int>&>(*comm).getRawMpiComm());
   return surprising == 0;

@@ -1,15 +1,12 @@
-#include "TablesStudy.hpp"
-
 #include "SceneRun.hpp"
+#include "Studies.hpp"
+#include "Table.hpp"
 
-#include "epafi/output/AtomicFile.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 
 #include <Teuchos_Comm.hpp>
 
 #include <array>
-#include <iostream>
-#include <sstream>
 
 namespace epafi::drivers {
 namespace {
@@ -45,73 +42,73 @@ constexpr std::array<Cell, 18> paper{{
     {false, 8, 4, 3200, 705, 154, 35},
 }};
 
-std::string name(const Cell& cell) {
-  return cell.coercive ? "coercive" : "semicoercive";
-}
-
-/// One row of each table.
-struct Rows {
-  std::string csv, markdown;
-  bool converged;
-};
-
-Rows solveCell(const Cell& cell, const RCP<const Comm>& comm) {
+/// Our numbers, and the paper's under the same names after "paper_". The plain method is the paper's.
+Row solveCell(const Cell& cell, const RCP<const Comm>& comm) {
   const scene::Scene scene = scene::modelProblem(cell.coercive, cell.subdomainsPerSide,
                                                  cell.subdomainsPerSide * cell.elementsPerSide);
-  Teuchos::ParameterList plain; // the paper's method
-  plain.sublist("Preconditioner").set("Type", "none");
-  const SceneRun run = solveScene(scene, plain, comm);
-  const int preconditioned =
-      solveScene(scene, Teuchos::ParameterList(), comm).solver->report().counts.hessianMultiplications;
+  Teuchos::ParameterList plainMethod;
+  plainMethod.sublist("Preconditioner").set("Type", "none");
+  const SceneRun run = solveScene(scene, plainMethod, comm);
+  const SceneRun preconditioned = solveScene(scene, Teuchos::ParameterList(), comm);
   const auto& problem = run.decomposition->problem;
   const qp::SolveReport& report = run.solver->report();
-  const qp::StepCounts& counts = report.counts;
-  std::ostringstream csv, markdown;
-  csv << name(cell) << ',' << cell.subdomainsPerSide << ',' << cell.elementsPerSide << ','
-      << problem.primalDimension << ',' << problem.dualDimension() << ',' << problem.numCrosspoints << ','
-      << counts.conjugateGradient << ',' << counts.expansion << ',' << counts.proportioning << ','
-      << counts.hessianMultiplications << ',' << counts.outer << ',' << run.solution.relativeProjectedGradient
-      << ',' << run.solver->times().setup << ',' << run.solver->times().solve << ',' << cell.iterations << ','
-      << run.solver->dualProblem().norm().multiplications << ',' << preconditioned << '\n';
-  markdown << "| " << name(cell) << " | " << cell.subdomainsPerSide << " | " << cell.elementsPerSide << " | "
-           << problem.primalDimension << " / " << cell.primalDimension << " | " << problem.dualDimension()
-           << " / " << cell.dualDimension << " | " << problem.numCrosspoints << " / " << cell.corners << " | "
-           << counts.conjugateGradient << " / " << cell.iterations << " | " << counts.expansion << " | "
-           << counts.proportioning << " | " << counts.outer << " | " << counts.hessianMultiplications << " | "
-           << preconditioned << " |\n";
-  return {csv.str(), markdown.str(), report.status == qp::Status::converged};
+  return {{"problem", cell.coercive ? "coercive" : "semicoercive"},
+          {"H_inverse", cell.subdomainsPerSide},
+          {"H_over_h", cell.elementsPerSide},
+          {"primal_dimension", problem.primalDimension},
+          {"paper_primal_dimension", cell.primalDimension},
+          {"dual_dimension", problem.dualDimension()},
+          {"paper_dual_dimension", cell.dualDimension},
+          {"corners", problem.numCrosspoints},
+          {"paper_corners", cell.corners},
+          {"cg_iterations", report.counts.conjugateGradient},
+          {"paper_cg_iterations", cell.iterations},
+          {"expansion_steps", report.counts.expansion},
+          {"proportioning_steps", report.counts.proportioning},
+          {"hessian_multiplications", report.counts.hessianMultiplications},
+          {"outer_iterations", report.counts.outer},
+          {"relative_projected_gradient", run.solution.relativeProjectedGradient},
+          {"setup_seconds", run.solver->times().setup},
+          {"solve_seconds", run.solver->times().solve},
+          {"norm_multiplications", run.solver->dualProblem().norm().multiplications},
+          {"preconditioned_multiplications", preconditioned.solver->report().counts.hessianMultiplications},
+          {"converged", report.status == qp::Status::converged}};
+}
+
+std::string lineOf(const Row& row) {
+  std::vector<std::string> entries{row.text("problem")};
+  for (const char* column : {"H_inverse", "H_over_h"})
+    entries.push_back(count(row.number(column)));
+  for (const std::string column : {"primal_dimension", "dual_dimension", "corners", "cg_iterations"})
+    entries.push_back(count(row.number(column)) + " / " + count(row.number("paper_" + column)));
+  for (const char* column : {"expansion_steps", "proportioning_steps", "outer_iterations",
+                             "hessian_multiplications", "preconditioned_multiplications"})
+    entries.push_back(count(row.number(column)));
+  return markdownLine(entries);
 }
 
 } // namespace
 
 bool studyTables(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm) {
-  std::string csv =
+  Table table(
       "problem,H_inverse,H_over_h,primal_dimension,dual_dimension,corners,cg_iterations,expansion_steps,"
-      "proportioning_steps,hessian_multiplications,outer_iterations,relative_projected_gradient,"
-      "setup_seconds,solve_seconds,paper_cg_iterations,norm_multiplications,preconditioned_multiplications\n";
-  std::string markdown =
-      "| problem | 1/H | H/h | primal (ours / paper) | dual (ours / paper) | corners (ours / paper) | CG "
-      "steps (ours / paper) | expansions | proportionings | outer | products with F | with Dirichlet "
-      "preconditioner "
-      "|\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+      "proportioning_steps,hessian_multiplications,outer_iterations,relative_projected_gradient,setup_"
+      "seconds,"
+      "solve_seconds,paper_cg_iterations,norm_multiplications,preconditioned_multiplications");
+  std::string markdown = markdownHeading(
+      "problem | 1/H | H/h | primal (ours / paper) | dual (ours / paper) | corners (ours / paper) | CG steps "
+      "(ours / "
+      "paper) | expansions | proportionings | outer | products with F | with Dirichlet preconditioner");
   bool allConverged = true;
   for (const Cell& cell : paper) {
     if (quick && cell.elementsPerSide > 8)
       continue;
-    const Rows rows = solveCell(cell, comm);
-    csv += rows.csv;
-    markdown += rows.markdown;
-    allConverged = allConverged && rows.converged;
+    table.rows.push_back(solveCell(cell, comm));
+    markdown += lineOf(table.rows.back());
+    allConverged = allConverged && table.rows.back().number("converged") == 1;
   }
-  output::writeTextFile(
-      directory / "tables.csv", [&] { return csv; }, *comm);
-  output::writeTextFile(
-      directory / "tables.md", [&] { return markdown; }, *comm);
-  if (comm->getRank() == 0) {
-    std::cout << markdown << "written: " << (directory / "tables.csv").string() << " and "
-              << (directory / "tables.md").string() << '\n';
-  }
+  tell(*comm, markdown);
+  writeFiles(directory, {{"tables.csv", table.csv()}, {"tables.md", markdown}}, *comm);
   return allConverged;
 }
 

@@ -1,18 +1,14 @@
 /// `epafi-study STUDY`: measurements as tables and pictures.
 
-#include "AccuracyStudy.hpp"
-#include "HeterogeneityStudy.hpp"
+#include "CommandLine.hpp"
+#include "JointEnd.hpp"
 #include "Places.hpp"
-#include "QpStudy.hpp"
-#include "ScalingStudy.hpp"
-#include "StabilityStudy.hpp"
-#include "TablesStudy.hpp"
+#include "Studies.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <Teuchos_Comm.hpp>
-#include <Tpetra_Core.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -23,6 +19,7 @@
 namespace {
 
 using namespace epafi;
+using namespace epafi::drivers;
 
 constexpr const char* usage =
     "Usage: epafi-study STUDY [--output DIR] [--quick]\n"
@@ -43,12 +40,9 @@ constexpr const char* usage =
     "            constraints\n";
 
 using Study = bool (*)(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
-const std::map<std::string, Study> studies{{"accuracy", drivers::studyAccuracy},
-                                           {"tables", drivers::studyTables},
-                                           {"qp", drivers::studyQp},
-                                           {"scaling", drivers::studyScaling},
-                                           {"stability", drivers::studyStability},
-                                           {"heterogeneity", drivers::studyHeterogeneity}};
+const std::map<std::string, Study> studies{
+    {"accuracy", studyAccuracy}, {"tables", studyTables},       {"qp", studyQp},
+    {"scaling", studyScaling},   {"stability", studyStability}, {"heterogeneity", studyHeterogeneity}};
 
 struct Request {
   std::string study;
@@ -58,25 +52,16 @@ struct Request {
 
 Request parse(int argc, char** argv) {
   Request request;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--help" || word == "-h") {
-      request.help = true;
-    } else if (word == "--quick") {
-      request.quick = true;
-    } else if (word == "--output") {
-      if (++i >= argc)
-        throw InputError("option --output needs a directory");
-      request.directory = argv[i];
-    } else if (word.rfind('-', 0) == 0) {
-      throw InputError("unknown option " + word + "; known are --output DIR, --quick and --help");
-    } else if (!request.study.empty()) {
-      throw InputError("two studies are given, '" + request.study + "' and '" + word +
-                       "'; run them one at a time");
-    } else {
-      request.study = word;
-    }
-  }
+  CommandLine line("epafi-study");
+  line.flag("--quick", request.quick)
+      .value("--output", [&](const std::string& text) { request.directory = text; })
+      .words([&](const std::string& word) {
+        if (!request.study.empty())
+          throw InputError("two studies are given, '" + request.study + "' and '" + word +
+                           "'; run them one at a time");
+        request.study = word;
+      });
+  request.help = line.parse(argc, argv);
   if (!request.help && studies.count(request.study) == 0) {
     std::string names;
     for (const auto& [name, study] : studies)
@@ -89,7 +74,7 @@ Request parse(int argc, char** argv) {
 
 /// Draws the CSV with the plotting program that stands beside this one. Called after MPI has ended.
 bool draw(const std::filesystem::path& csv) {
-  const auto plot = drivers::programDirectory() / "epafi-plot";
+  const auto plot = programDirectory() / "epafi-plot";
   std::cout << std::flush; // the table first
   const std::string command =
       "'" + plot.string() + "' '" + csv.string() + "' --output '" + csv.parent_path().string() + "'";
@@ -100,38 +85,25 @@ bool draw(const std::filesystem::path& csv) {
 
 int main(int argc, char** argv) {
   Request request;
-  int exitCode = 0;
   bool drawsPicture = false;
-  {
-    int programNameOnly = 1; // Kokkos would answer --help itself
-    Tpetra::ScopeGuard scope(&programNameOnly, &argv);
-    const auto comm = Tpetra::getDefaultComm();
-    try {
-      request = parse(argc, argv);
-      if (request.help) {
-        if (comm->getRank() == 0)
-          std::cout << usage << "\nThe scenes are those in " << drivers::sceneDirectory().string() << ".\n";
-        return 0;
-      }
-      collectively(*comm, [&] {
-        std::error_code error;
-        std::filesystem::create_directories(request.directory, error);
-        if (error)
-          throw InputError("the directory " + request.directory.string() +
-                           " cannot be made: " + error.message());
-      });
-      exitCode = studies.at(request.study)(request.directory, request.quick, comm) ? 0 : 1;
-      drawsPicture = comm->getRank() == 0;
-    } catch (const InputError& error) {
+  const int exitCode = runMain(argc, argv, "epafi-study", [&](const RCP<const Comm>& comm) {
+    request = parse(argc, argv);
+    if (request.help) {
       if (comm->getRank() == 0)
-        std::cerr << "epafi-study: " << error.what() << '\n';
-      return 2;
-    } catch (const Error& error) {
-      if (comm->getRank() == 0)
-        std::cerr << "epafi-study: " << error.what() << '\n';
-      return 1;
+        std::cout << usage << "\nThe scenes are those in " << sceneDirectory().string() << ".\n";
+      return 0;
     }
-  }
+    collectively(*comm, [&] {
+      std::error_code error;
+      std::filesystem::create_directories(request.directory, error);
+      if (error)
+        throw InputError("the directory " + request.directory.string() +
+                         " cannot be made: " + error.message());
+    });
+    const bool isRight = studies.at(request.study)(request.directory, request.quick, comm);
+    drawsPicture = comm->getRank() == 0;
+    return isRight ? 0 : 1;
+  });
   if (drawsPicture && !draw(std::filesystem::absolute(request.directory) / (request.study + ".csv"))) {
     std::cerr << "epafi-study: the picture was not drawn (see above); the table is complete\n";
     return 1;

@@ -1,8 +1,8 @@
 #include "epafi/base/AccurateSum.hpp"
 
-#include "epafi/base/Errors.hpp"
+#include "epafi/base/RawCommunicator.hpp"
 
-#include <Teuchos_DefaultMpiComm.hpp>
+#include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <mpi.h>
@@ -71,13 +71,6 @@ MpiObjects& mpiObjects() {
     MPI_Comm_free_keyval(&key);
   }
   return objects;
-}
-
-MPI_Comm rawCommunicator(const Comm& comm) {
-  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
-  if (mpi == nullptr)
-    throw Error("sums over several ranks need a communicator of MPI");
-  return *mpi->getRawMpiComm();
 }
 
 } // namespace

@@ -1,11 +1,11 @@
 #include "epafi/base/Collective.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/RawCommunicator.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
-#include <Teuchos_DefaultMpiComm.hpp>
 
-#include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -32,6 +32,14 @@ T reduced(const Comm& comm, Teuchos::EReductionType type, T value) {
   T result{};
   Teuchos::reduceAll(comm, type, 1, &value, &result);
   return result;
+}
+
+template <class T>
+void sumInPlace(const Comm& comm, std::span<T> values) {
+  if (values.empty() || comm.getSize() == 1)
+    return;
+  const std::vector<T> mine(values.begin(), values.end());
+  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, static_cast<int>(values.size()), mine.data(), values.data());
 }
 
 /// The lowest rank where `holds`; the number of ranks if it holds nowhere.
@@ -84,64 +92,77 @@ std::string agreedText(const Comm& comm, const std::string& text) {
 }
 
 void sumOverRanks(const Comm& comm, std::span<double> values) {
-  if (values.empty() || comm.getSize() == 1)
-    return;
-  const std::vector<double> mine(values.begin(), values.end());
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, static_cast<int>(values.size()), mine.data(), values.data());
+  sumInPlace(comm, values);
+}
+void sumOverRanks(const Comm& comm, std::span<GlobalOrdinal> values) {
+  sumInPlace(comm, values);
+}
+void sumOverRanks(const Comm& comm, std::span<int> values) {
+  sumInPlace(comm, values);
 }
 
 double sumOverRanks(const Comm& comm, double value) {
   return reduced(comm, Teuchos::REDUCE_SUM, value);
 }
-
 GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value) {
+  return reduced(comm, Teuchos::REDUCE_SUM, value);
+}
+int sumOverRanks(const Comm& comm, int value) {
   return reduced(comm, Teuchos::REDUCE_SUM, value);
 }
 
 double maxOverRanks(const Comm& comm, double value) {
   return reduced(comm, Teuchos::REDUCE_MAX, value);
 }
+GlobalOrdinal maxOverRanks(const Comm& comm, GlobalOrdinal value) {
+  return reduced(comm, Teuchos::REDUCE_MAX, value);
+}
+int maxOverRanks(const Comm& comm, int value) {
+  return reduced(comm, Teuchos::REDUCE_MAX, value);
+}
 
 double minOverRanks(const Comm& comm, double value) {
   return reduced(comm, Teuchos::REDUCE_MIN, value);
 }
-
-std::vector<double> gatherOnAll(const Comm& comm, std::span<const double> values) {
-  // Blocks of equal length, padded: Teuchos gathers no others.
-  const auto ranks = static_cast<std::size_t>(comm.getSize());
-  const auto mine = static_cast<int>(values.size());
-  int longest = 0;
-  Teuchos::reduceAll(comm, Teuchos::REDUCE_MAX, 1, &mine, &longest);
-  const auto block = static_cast<std::size_t>(longest) + 1;
-  std::vector<double> padded(block), all(block * ranks);
-  padded[0] = mine;
-  std::copy(values.begin(), values.end(), padded.begin() + 1);
-  Teuchos::gatherAll(comm, static_cast<int>(block), padded.data(), static_cast<int>(all.size()), all.data());
-
-  std::vector<double> result;
-  for (std::size_t rank = 0; rank < ranks; ++rank) {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(rank * block) + 1;
-    result.insert(result.end(), first, first + static_cast<std::ptrdiff_t>(all[rank * block]));
-  }
-  return result;
+GlobalOrdinal minOverRanks(const Comm& comm, GlobalOrdinal value) {
+  return reduced(comm, Teuchos::REDUCE_MIN, value);
+}
+int minOverRanks(const Comm& comm, int value) {
+  return reduced(comm, Teuchos::REDUCE_MIN, value);
 }
 
-std::vector<double> gatherOnFirst(const Comm& comm, std::span<const double> values) {
-  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
-  if (mpi == nullptr || comm.getSize() == 1)
-    return {values.begin(), values.end()};
-  const MPI_Comm raw = *mpi->getRawMpiComm();
-  const auto ranks = static_cast<std::size_t>(comm.getSize());
-  const auto mine = static_cast<int>(values.size());
-  std::vector<int> counts(ranks), offsets(ranks, 0);
-  MPI_Gather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, raw);
-  std::vector<double> all;
-  if (comm.getRank() == 0) {
-    std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
-    all.resize(static_cast<std::size_t>(offsets.back()) + static_cast<std::size_t>(counts.back()));
-  }
-  MPI_Gatherv(values.data(), mine, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE, 0, raw);
-  return all;
+bool holdsAnywhere(const Comm& comm, bool here) {
+  return lowestRank(comm, here) < comm.getSize();
 }
 
+namespace detail {
+
+std::vector<int> countsOfRanks(const Comm& comm, std::size_t mine) {
+  std::vector<int> counts(static_cast<std::size_t>(comm.getSize()));
+  const int count = static_cast<int>(mine);
+  Teuchos::gatherAll(comm, 1, &count, comm.getSize(), counts.data());
+  return counts;
+}
+
+void gather(const Comm& comm, const void* mine, std::span<const int> counts, std::size_t size, bool isForAll,
+            void* all) {
+  const int count = counts[static_cast<std::size_t>(comm.getRank())];
+  if (comm.getSize() == 1) {
+    if (count > 0)
+      std::memcpy(all, mine, static_cast<std::size_t>(count) * size);
+    return;
+  }
+  std::vector<int> offsets(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+  MPI_Datatype type = MPI_DATATYPE_NULL; // of one value, so that counts of bytes need not fit an int
+  MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &type);
+  MPI_Type_commit(&type);
+  if (isForAll)
+    MPI_Allgatherv(mine, count, type, all, counts.data(), offsets.data(), type, rawCommunicator(comm));
+  else
+    MPI_Gatherv(mine, count, type, all, counts.data(), offsets.data(), type, 0, rawCommunicator(comm));
+  MPI_Type_free(&type);
+}
+
+} // namespace detail
 } // namespace epafi

@@ -1,55 +1,32 @@
 #include "epafi/base/PointToPoint.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
+#include "epafi/base/RawCommunicator.hpp"
 
-namespace epafi {
+namespace epafi::detail {
 namespace {
 
-constexpr int lengthTag = 7301, valuesTag = 7302;
-
-using Request = RCP<Teuchos::CommRequest<int>>;
-using Buffers = std::map<int, Teuchos::ArrayRCP<double>>;
-
-/// Sends and receives buffers whose lengths both partners know.
-void exchangeBuffers(const Comm& comm, const Buffers& outgoing, const Buffers& incoming, int tag) {
-  std::vector<Request> requests;
-  for (const auto& [rank, buffer] : incoming)
-    requests.push_back(Teuchos::ireceive(buffer, rank, tag, comm));
-  for (const auto& [rank, buffer] : outgoing)
-    requests.push_back(Teuchos::isend(
-        Teuchos::arcp_const_cast<const double>(Teuchos::arcp_implicit_cast<const double>(buffer)), rank, tag,
-        comm));
-  Teuchos::waitAll(comm, Teuchos::arrayViewFromVector(requests));
-}
+constexpr int tag = 7301;
 
 } // namespace
 
-std::map<int, std::vector<double>> exchangeMessages(const Comm& comm,
-                                                    const std::map<int, std::vector<double>>& outgoing,
-                                                    const std::set<int>& senders) {
-  Buffers lengths, values, lengthsHere, valuesHere;
-  for (const auto& [rank, message] : outgoing) {
-    lengths[rank] = Teuchos::arcp<double>(1);
-    lengths[rank][0] = static_cast<double>(message.size());
-    if (!message.empty()) {
-      values[rank] = Teuchos::arcp<double>(static_cast<Teuchos_Ordinal>(message.size()));
-      std::copy(message.begin(), message.end(), values[rank].begin());
-    }
-  }
-  for (const int rank : senders)
-    lengthsHere[rank] = Teuchos::arcp<double>(1);
-  exchangeBuffers(comm, lengths, lengthsHere, lengthTag);
-  for (const auto& [rank, length] : lengthsHere)
-    if (length[0] > 0)
-      valuesHere[rank] = Teuchos::arcp<double>(static_cast<Teuchos_Ordinal>(length[0]));
-  exchangeBuffers(comm, values, valuesHere, valuesTag);
-  std::map<int, std::vector<double>> result;
+void exchange(const Comm& comm, std::span<const Message> outgoing, const std::set<int>& senders,
+              const std::function<std::byte*(int, std::size_t)>& place) {
+  if (outgoing.empty() && senders.empty())
+    return;
+  const MPI_Comm raw = rawCommunicator(comm);
+  std::vector<MPI_Request> requests(outgoing.size());
+  for (std::size_t i = 0; i < outgoing.size(); ++i)
+    MPI_Isend(outgoing[i].bytes.data(), static_cast<int>(outgoing[i].bytes.size()), MPI_BYTE,
+              outgoing[i].rank, tag, raw, &requests[i]);
   for (const int rank : senders) {
-    result[rank];
-    if (const auto found = valuesHere.find(rank); found != valuesHere.end())
-      result[rank].assign(found->second.begin(), found->second.end());
+    MPI_Status status;
+    int length = 0;
+    MPI_Probe(rank, tag, raw, &status);
+    MPI_Get_count(&status, MPI_BYTE, &length);
+    MPI_Recv(place(rank, static_cast<std::size_t>(length)), length, MPI_BYTE, rank, tag, raw,
+             MPI_STATUS_IGNORE);
   }
-  return result;
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
-} // namespace epafi
+} // namespace epafi::detail

@@ -4,16 +4,47 @@
 
 #include "epafi/base/Types.hpp"
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <set>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 namespace epafi {
+namespace detail {
+
+/// A message and the rank that it goes to.
+struct Message {
+  int rank;
+  std::span<const std::byte> bytes;
+};
+
+/// Calls place(rank, bytes) for each message of a sender, in the order of the ranks, and has it received where that says.
+void exchange(const Comm& comm, std::span<const Message> outgoing, const std::set<int>& senders,
+              const std::function<std::byte*(int, std::size_t)>& place);
+
+} // namespace detail
 
 /// Sends `outgoing`, one message a rank, and returns what the ranks in `senders` send here. Every rank named there must
 /// send, and to no other rank may anyone send; a message may be empty. Collective only in that all partners call it.
-std::map<int, std::vector<double>> exchangeMessages(const Comm& comm,
-                                                    const std::map<int, std::vector<double>>& outgoing,
-                                                    const std::set<int>& senders);
+///
+/// \tparam Value  what may be copied byte by byte: numbers, or structs of them
+template <class Value>
+std::map<int, std::vector<Value>>
+exchange(const Comm& comm, const std::map<int, std::vector<Value>>& outgoing, const std::set<int>& senders) {
+  static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
+  std::vector<detail::Message> messages;
+  for (const auto& [rank, values] : outgoing)
+    messages.push_back({rank, std::as_bytes(std::span(values))});
+  std::map<int, std::vector<Value>> received;
+  detail::exchange(comm, messages, senders, [&](int rank, std::size_t bytes) {
+    std::vector<Value>& values = received[rank];
+    values.resize(bytes / sizeof(Value));
+    return reinterpret_cast<std::byte*>(values.data());
+  });
+  return received;
+}
 
 } // namespace epafi

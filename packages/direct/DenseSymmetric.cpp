@@ -2,8 +2,12 @@
 
 #include "epafi/base/Errors.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
+
+#include <string>
+#include <utility>
 
 namespace epafi::direct {
 namespace {
@@ -37,14 +41,31 @@ Eigen::MatrixXd inverseFromFactor(Eigen::MatrixXd lower) {
 }
 
 Eigen::MatrixXd inverseOfSpd(Eigen::MatrixXd matrix) {
-  const int k = static_cast<int>(matrix.rows());
-  if (k == 0)
-    return matrix;
-  int info = 0;
-  Teuchos::LAPACK<int, double>().POTRF('L', k, matrix.data(), k, &info);
-  if (info != 0)
+  const Eigen::Index k = matrix.rows();
+  std::optional<Eigen::MatrixXd> factor = choleskyFactor(std::move(matrix));
+  if (!factor)
     throw Error("a condensed matrix of " + std::to_string(k) + " unknowns is not positive definite");
-  return inverseFromFactor(std::move(matrix));
+  return inverseFromFactor(std::move(*factor));
+}
+
+std::optional<Eigen::MatrixXd> choleskyFactor(Eigen::MatrixXd matrix) {
+  const int k = static_cast<int>(matrix.rows());
+  int info = 0;
+  if (k > 0)
+    Teuchos::LAPACK<int, double>().POTRF('L', k, matrix.data(), k, &info);
+  if (info != 0)
+    return std::nullopt;
+  matrix.triangularView<Eigen::StrictlyUpper>().setZero();
+  return matrix;
+}
+
+SymmetricEigen eigenOf(const Eigen::MatrixXd& matrix) {
+  if (matrix.rows() == 0)
+    return {Eigen::VectorXd(0), matrix};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  if (solver.info() != Eigen::Success)
+    throw Error("the eigenvalues of a matrix of " + std::to_string(matrix.rows()) + " rows were not found");
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 } // namespace epafi::direct

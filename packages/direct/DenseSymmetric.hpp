@@ -1,8 +1,10 @@
 #pragma once
 
-/// Dense symmetric positive definite matrices that condensation leaves, through LAPACK.
+/// Small dense symmetric matrices: what takes long to compile stands in one unit.
 
 #include <Eigen/Core>
+
+#include <optional>
 
 namespace epafi::direct {
 
@@ -12,5 +14,19 @@ Eigen::MatrixXd productOfFactor(const Eigen::MatrixXd& lower);
 Eigen::MatrixXd inverseFromFactor(Eigen::MatrixXd lower);
 /// A⁻¹ of a symmetric positive definite A, of which the lower triangle is read. \throws Error if A is not.
 Eigen::MatrixXd inverseOfSpd(Eigen::MatrixXd matrix);
+/// The lower triangular C of A = CCᵀ, likewise; nothing if A is not positive definite.
+std::optional<Eigen::MatrixXd> choleskyFactor(Eigen::MatrixXd matrix);
+
+/// Eigenvalues and eigenvectors.
+struct SymmetricEigen {
+  Eigen::VectorXd values;  ///< ascending
+  Eigen::MatrixXd vectors; ///< orthonormal columns, in the same order
+
+  /// Number of the values up to a threshold.
+  [[nodiscard]] Eigen::Index numUpTo(double threshold) const { return (values.array() <= threshold).count(); }
+};
+
+/// Of a symmetric matrix, of which the lower triangle is read. \throws Error if the iteration fails.
+SymmetricEigen eigenOf(const Eigen::MatrixXd& matrix);
 
 } // namespace epafi::direct

@@ -1,19 +1,10 @@
 #include "epafi/qp/ConjugateGradient.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
-#include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/BelosIteration.hpp"
 
-#include <BelosCGIter.hpp>
-#include <BelosLinearProblem.hpp>
-#include <BelosOutputManager.hpp>
-#include <BelosStatusTestCombo.hpp>
-#include <BelosStatusTestGenResNorm.hpp>
-#include <BelosStatusTestMaxIters.hpp>
-#include <BelosTpetraAdapter.hpp>
-#include <Teuchos_ParameterList.hpp>
 #include <Tpetra_Operator.hpp>
 #include <Tpetra_Vector.hpp>
-#include <Trilinos_version.h>
 
 #include <array>
 #include <cmath>
@@ -39,24 +30,21 @@ private:
   mutable int count_ = 0;
 };
 
-using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
-using Iteration = Belos::Iteration<double, MultiVector, Operator>;
-using Test = Belos::StatusTest<double, MultiVector, Operator>;
-using ResidualTest = Belos::StatusTestGenResNorm<double, MultiVector, Operator>;
-
-/// A status test that tells the observer of every step, and passes if one rank's wants to stop. Belos leaves no room in its
-/// own messages for that: the ranks agree by one more a step.
-class ObservingTest final : public Test {
+/// Passes where the residual is small enough, at the limit, or where a rank's observer wants to stop; tells it of every step.
+/// Belos leaves no room in its own messages for wishes: the ranks agree by one more a step.
+class ObservingTest final : public BelosTest {
 public:
-  /// \param x  where the iterates are
-  ObservingTest(Observer& observer, const CountingOperator& a, const Vector& x, double reference)
-      : observer_(observer), a_(a), x_(x), reference_(reference) {}
+  /// \param x           where the iterates are
+  /// \param smallEnough  ‖b − Ax‖
+  /// \param reference   ‖b‖
+  ObservingTest(Observer& observer, const CountingOperator& a, const Vector& x, double smallEnough,
+                double reference, int maxSteps)
+      : observer_(observer), a_(a), x_(x), smallEnough_(smallEnough), reference_(reference),
+        maxSteps_(maxSteps) {}
 
-  Belos::StatusType checkStatus(Iteration* iteration) override {
+  Belos::StatusType checkStatus(BelosIteration* iteration) override {
     std::vector<double> norms(1, 0.0);
-    const auto residual = iteration->getNativeResiduals(&norms);
-    if (!residual.is_null())
-      residual->norm2(Teuchos::arrayViewFromVector(norms));
+    iteration->getNativeResiduals(nullptr)->norm2(Teuchos::arrayViewFromVector(norms));
     StepRecord record;
     record.iteration = iteration->getNumIters();
     record.kind = record.iteration == 0 ? StepKind::start : StepKind::conjugateGradient;
@@ -68,45 +56,26 @@ public:
     sumOverRanks(*x_.getMap()->getComm(), wishes);
     if (wishes[1].value() > 0)
       observer_.look(x_);
-    status_ = wishes[0].value() > 0 ? Belos::Passed : Belos::Failed;
+    isInterrupted_ = wishes[0].value() > 0;
+    const bool isOver = isInterrupted_ || !(norms[0] > smallEnough_) || !std::isfinite(norms[0]) ||
+                        record.iteration >= maxSteps_;
+    status_ = isOver ? Belos::Passed : Belos::Failed;
     return status_;
   }
   [[nodiscard]] Belos::StatusType getStatus() const override { return status_; }
   void reset() override { status_ = Belos::Failed; }
   void print(std::ostream& /*stream*/, int /*indent*/) const override {}
+  [[nodiscard]] bool isInterrupted() const { return isInterrupted_; }
 
 private:
   Observer& observer_;
   const CountingOperator& a_;
   const Vector& x_;
-  double reference_;
+  double smallEnough_, reference_;
+  int maxSteps_;
+  bool isInterrupted_ = false;
   Belos::StatusType status_ = Belos::Failed;
 };
-
-/// Belos's CG iteration from the problem's present solution. Returns the number of steps.
-int iterate(const RCP<Problem>& problem, double tolerance, int maxSteps, const RCP<Test>& observing) {
-  const RCP<ResidualTest> converged = rcp(new ResidualTest(tolerance, 1));
-  converged->defineScaleForm(Belos::NormOfRHS, Belos::TwoNorm);
-  const RCP<Test> limit = rcp(new Belos::StatusTestMaxIters<double, MultiVector, Operator>(maxSteps));
-  using Combo = Belos::StatusTestCombo<double, MultiVector, Operator>;
-  const RCP<Combo> stop = rcp(new Combo(Combo::OR, observing, Teuchos::rcp_implicit_cast<Test>(converged)));
-  stop->addStatusTest(limit);
-  const auto printer = rcp(new Belos::OutputManager<double>(Belos::Errors));
-  Teuchos::ParameterList parameters;
-  Belos::CGIter<double, MultiVector, Operator> iteration(problem, printer, stop, converged, parameters);
-
-  problem->setLSIndex({0});
-  const RCP<MultiVector> residual = rcp(new MultiVector(*problem->getInitResVec(), Teuchos::Copy));
-#if TRILINOS_MAJOR_MINOR_VERSION >= 160000
-  iteration.initializeCG(rcp(new Belos::CGIterationState<double, MultiVector>(residual)), residual);
-#else
-  Belos::CGIterationState<double, MultiVector> state;
-  state.R = residual;
-  iteration.initializeCG(state);
-#endif
-  iteration.iterate();
-  return iteration.getNumIters();
-}
 
 } // namespace
 
@@ -124,18 +93,16 @@ SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vec
   if (reference == 0)
     x->putScalar(0.0);
   report.status = Status::converged;
-  bool isInterrupted = false;
-  try {
-    const RCP<Problem> problem = rcp(new Problem(counting, x, b));
-    if (!preconditioning.is_null())
-      problem->setLeftPrec(preconditioning);
-    problem->setProblem();
-    const RCP<Test> observing = rcp(new ObservingTest(recorder, *counting, *x, reference));
-    if (reference > 0)
-      report.counts.conjugateGradient = iterate(problem, tolerance, maxMultiplications, observing);
-    isInterrupted = observing->getStatus() == Belos::Passed;
-  } catch (const Belos::BelosError&) { // pᵀAp ≤ 0, or a norm that is NaN: the certificate below tells which
-    report.status = Status::indefiniteOperator;
+  const RCP<BelosProblem> problem = rcp(new BelosProblem(counting, x, b));
+  if (!preconditioning.is_null())
+    problem->setLeftPrec(preconditioning);
+  const RCP<ObservingTest> test =
+      rcp(new ObservingTest(recorder, *counting, *x, tolerance * reference, reference, maxMultiplications));
+  if (reference > 0) {
+    const BelosOutcome outcome = iterate(problem, {0}, test);
+    report.counts.conjugateGradient = outcome.steps;
+    if (outcome.isIndefinite)
+      report.status = Status::indefiniteOperator;
   }
 
   Vector residual(b->getMap()); // the certificate: b − Ax afresh
@@ -151,7 +118,7 @@ SolveReport solveUnconstrained(const RCP<const Operator>& a, const RCP<const Vec
     report.status = Status::notFinite;
     x->assign(start);
   } else if (report.status == Status::converged && norm > tolerance * reference) {
-    report.status = isInterrupted                                           ? Status::interrupted
+    report.status = test->isInterrupted()                                   ? Status::interrupted
                     : report.counts.conjugateGradient >= maxMultiplications ? Status::maxIterations
                                                                             : Status::stagnated;
   }

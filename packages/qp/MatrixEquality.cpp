@@ -2,8 +2,10 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Columns.hpp"
+#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/LocalData.hpp"
+#include "epafi/base/SymmetricOperator.hpp"
+#include "epafi/qp/EqualityRows.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_LAPACK.hpp>
@@ -14,7 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <string>
 #include <utility>
 
 namespace epafi::qp {
@@ -25,119 +27,20 @@ constexpr double zeroEigenvalue = 1e-14;
 /// A right-hand side that the rows cannot give is a contradiction if its share is larger than this.
 constexpr double zeroShare = 1e-9;
 
-/// W(Bx − c) with WBBᵀWᵀ = I. W is r × m; a rank keeps the columns of its own rows of B.
-class OrthonormalEquality final : public ReplicatedEquality {
+/// BBᵀ, for its norm.
+class GramOperator final : public SymmetricOperator {
 public:
-  /// \param w  this rank's columns of W, one after the other
-  /// \param c  Wc
-  OrthonormalEquality(RCP<const Operator> b, std::vector<double> w, std::vector<double> c)
-      : b_(std::move(b)), w_(std::move(w)), c_(std::move(c)), rows_(b_->getRangeMap()),
-        transposed_(b_->getDomainMap()) {}
-
-  [[nodiscard]] int size() const override { return static_cast<int>(c_.size()); }
-  [[nodiscard]] bool isHomogeneous() const override { return false; }
-  [[nodiscard]] std::span<const double> rightHandSide() const override { return c_; }
-
-  void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const override {
-    b_->apply(x, rows_);
-    const auto bx = localData(rows_);
-    for (std::size_t i = 0; i < bx.size(); ++i)
-      for (std::size_t k = 0; k < sums.size(); ++k)
-        sums[k].add(w_[i * sums.size() + k] * bx[i]);
-  }
-  void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override {
-    combine(mu, rows_);
-    b_->apply(rows_, transposed_, Teuchos::TRANS);
-    y.update(factor, transposed_, 1.0);
-  }
-  /// y = Wᵀμ.
-  void combine(std::span<const double> mu, Vector& y) const {
-    const auto values = localDataNonConst(y);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = 0;
-      for (std::size_t k = 0; k < mu.size(); ++k)
-        values[i] += w_[i * mu.size() + k] * mu[k];
-    }
-  }
+  explicit GramOperator(RCP<const Operator> b)
+      : SymmetricOperator(b->getRangeMap()), b_(std::move(b)), transposed_(b_->getDomainMap()) {}
 
 private:
-  RCP<const Operator> b_;
-  std::vector<double> w_, c_;
-  mutable Vector rows_, transposed_;
-};
-
-/// (Bx − c)/‖B‖, its rows where B has them.
-class ScaledEquality final : public EqualityConstraint {
-public:
-  ScaledEquality(RCP<const Operator> b, const RCP<const Vector>& c, double scale)
-      : b_(std::move(b)), scale_(scale), isHomogeneous_(c.is_null()), rows_(b_->getRangeMap()),
-        transposed_(b_->getDomainMap()) {
-    if (!c.is_null())
-      for (const double value : localData(*c))
-        c_.push_back(scale * value);
-  }
-  [[nodiscard]] std::size_t numEntries() const override { return rows_.getLocalLength(); }
-  [[nodiscard]] bool isReplicated() const override { return false; }
-  [[nodiscard]] double norm() const override { return 1; }
-  [[nodiscard]] int numSums() const override { return 1; }
-  [[nodiscard]] bool isHomogeneous() const override { return isHomogeneous_; }
-  [[nodiscard]] std::span<const double> rightHandSide() const override { return c_; }
-
-  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const override {
-    b_->apply(x, rows_);
-    const auto r = localDataNonConst(rows_);
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      r[i] = scale_ * r[i] - (c_.empty() ? 0.0 : c_[i]);
-      sums[0].add(r[i] * r[i]);
-    }
-  }
-  double finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const override {
-    const auto values = localData(rows_);
-    std::copy(values.begin(), values.end(), r.begin());
-    return std::sqrt(sums[0].value());
-  }
-  void product(const Vector& x, std::span<double> bx) const override {
-    b_->apply(x, rows_);
-    const auto values = localData(rows_);
-    std::transform(values.begin(), values.end(), bx.begin(), [this](double value) { return scale_ * value; });
-  }
-  void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override {
-    const auto values = localDataNonConst(rows_);
-    std::copy(mu.begin(), mu.end(), values.begin());
-    b_->apply(rows_, transposed_, Teuchos::TRANS);
-    y.update(scale_ * factor, transposed_, 1.0);
-  }
-  [[nodiscard]] double dot(std::span<const double> a, std::span<const double> b) const override {
-    AccurateSum sum;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      sum.add(a[i] * b[i]);
-    sumOverRanks(*rows_.getMap()->getComm(), {&sum, 1});
-    return sum.value();
-  }
-
-private:
-  RCP<const Operator> b_;
-  double scale_;
-  bool isHomogeneous_;
-  std::vector<double> c_;
-  mutable Vector rows_, transposed_;
-};
-
-/// BBᵀ as an operator, for its norm.
-class GramOperator final : public Operator {
-public:
-  explicit GramOperator(RCP<const Operator> b) : b_(std::move(b)), transposed_(b_->getDomainMap()) {}
-  [[nodiscard]] RCP<const Map> getDomainMap() const override { return b_->getRangeMap(); }
-  [[nodiscard]] RCP<const Map> getRangeMap() const override { return b_->getRangeMap(); }
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
-             double beta) const override {
+  void multiply(const MultiVector& x, MultiVector& y) const override {
     forEachColumn(x, y, [&](const Vector& in, Vector& out) {
       b_->apply(in, transposed_, Teuchos::TRANS);
-      b_->apply(transposed_, out, Teuchos::NO_TRANS, alpha, beta);
+      b_->apply(transposed_, out);
     });
   }
 
-private:
   RCP<const Operator> b_;
   mutable Vector transposed_;
 };
@@ -172,91 +75,116 @@ std::vector<double> gramMatrix(const Operator& b, std::size_t m, std::size_t fir
   return gram;
 }
 
-/// All of c on every rank.
-std::vector<double> replicated(const RCP<const Vector>& c, std::size_t m, std::size_t first,
-                               const Comm& comm) {
-  std::vector<double> all(m, 0.0);
-  if (!c.is_null())
-    std::ranges::copy(localData(*c), all.begin() + static_cast<std::ptrdiff_t>(first));
-  sumOverRanks(comm, std::span<double>(all));
-  return all;
-}
+/// DBBᵀD = VΛVᵀ, where D makes the rows of B of length 1; m × m on every rank.
+struct RowSpectrum {
+  std::vector<double> scale;       ///< D; 0 for an empty row, which stays one
+  std::vector<double> vectors;     ///< V, column after column
+  std::vector<double> eigenvalues; ///< Λ, ascending
+  std::size_t numRedundant = 0;    ///< of them that are 0 but for round-off, the first ones
+  double frobeniusNorm = 0;        ///< of B
 
-PreparedEquality orthonormal(const RCP<const Operator>& b, const RCP<const Vector>& c, std::size_t m) {
-  const Map& rows = *b->getRangeMap();
-  const Comm& comm = *rows.getComm();
-  const std::size_t numLocalRows = Vector(b->getRangeMap()).getLocalLength();
-  const std::size_t first = firstRow(rows, numLocalRows);
-  std::vector<double> v = gramMatrix(*b, m, first), rhs = replicated(c, m, first, comm), scale(m),
-                      eigenvalues(m);
+  /// Entry i of Dv_k.
+  [[nodiscard]] double entry(std::size_t i, std::size_t k) const {
+    return vectors[k * scale.size() + i] * scale[i];
+  }
+  /// v_kᵀDc.
+  [[nodiscard]] double share(std::size_t k, std::span<const double> c) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < c.size(); ++i)
+      sum += entry(i, k) * c[i];
+    return sum;
+  }
+};
+
+/// \param gram  BBᵀ
+RowSpectrum spectrumOfRows(std::vector<double> gram, std::size_t m) {
+  RowSpectrum rows{std::vector<double>(m), std::move(gram), std::vector<double>(m)};
   double frobeniusSquared = 0;
   for (std::size_t i = 0; i < m; ++i) {
-    frobeniusSquared += v[i * m + i];
-    scale[i] = v[i * m + i] > 0 ? 1.0 / std::sqrt(v[i * m + i]) : 0.0; // a zero row stays one
+    const double squared = rows.vectors[i * m + i];
+    frobeniusSquared += squared;
+    rows.scale[i] = squared > 0 ? 1.0 / std::sqrt(squared) : 0.0;
   }
-  double emptyRows = 0; // what rows 0ᵀx = c_i ask for
-  for (std::size_t i = 0; i < m; ++i) {
+  rows.frobeniusNorm = std::sqrt(frobeniusSquared);
+  for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = 0; j < m; ++j)
-      v[j * m + i] *= scale[i] * scale[j];
-    if (scale[i] == 0)
-      emptyRows = std::max(emptyRows, std::abs(rhs[i]));
-  }
-  int info = 0, n = static_cast<int>(m);
-  std::vector<double> work(std::max<std::size_t>(1, 8 * m));
-  Teuchos::LAPACK<int, double>().SYEV('V', 'L', n, v.data(), n, eigenvalues.data(), work.data(),
-                                      static_cast<int>(work.size()), &info);
+      rows.vectors[j * m + i] *= rows.scale[i] * rows.scale[j];
+  int info = 0;
+  const int n = static_cast<int>(m);
+  std::vector<double> work(8 * m);
+  Teuchos::LAPACK<int, double>().SYEV('V', 'L', n, rows.vectors.data(), n, rows.eigenvalues.data(),
+                                      work.data(), static_cast<int>(work.size()), &info);
   if (info != 0)
     throw Error("the constraint matrix has entries that are not finite, or its Gram matrix has no "
                 "eigenvalues to be found");
+  const double threshold = zeroEigenvalue * static_cast<double>(m) * std::max(rows.eigenvalues.back(), 1.0);
+  while (rows.numRedundant < m && !(rows.eigenvalues[rows.numRedundant] > threshold))
+    ++rows.numRedundant;
+  return rows;
+}
+
+double normOf(std::span<const double> values) {
+  double squared = 0;
+  for (const double value : values)
+    squared += value * value;
+  return std::sqrt(squared);
+}
+
+/// The part of c that no x gives, on every row; empty if there is none but round-off.
+std::vector<double> unreachable(const RowSpectrum& rows, std::span<const double> c) {
+  const std::size_t m = c.size();
+  std::vector<double> empty(m, 0.0), scaled(m),
+      left(m, 0.0); // what rows 0ᵀx = c_i ask for; Dc; of that, what is left
+  for (std::size_t i = 0; i < m; ++i) {
+    scaled[i] = rows.scale[i] * c[i];
+    if (rows.scale[i] == 0)
+      empty[i] = c[i];
+  }
+  if (normOf(empty) > 0)
+    return empty;
+  double leftSquared = 0;
+  for (std::size_t k = 0; k < rows.numRedundant; ++k) {
+    const double share = rows.share(k, c);
+    leftSquared += share * share;
+    for (std::size_t i = 0; i < m; ++i)
+      left[i] += share * rows.entry(i, k);
+  }
+  if (std::sqrt(leftSquared) > zeroShare * normOf(scaled))
+    return left;
+  return {};
+}
+
+PreparedEquality orthonormal(const RCP<const Operator>& b, const RCP<const Vector>& c, std::size_t m) {
+  const std::size_t numLocalRows = numLocal(*b->getRangeMap());
+  const std::size_t first = firstRow(*b->getRangeMap(), numLocalRows);
+  const RowSpectrum rows = spectrumOfRows(gramMatrix(*b, m, first), m);
+  const std::vector<double> rhs =
+      c.is_null() ? std::vector<double>(m, 0.0) : gatherOnAll(*b->getRangeMap()->getComm(), localData(*c));
+  const std::size_t rank = m - rows.numRedundant;
 
   PreparedEquality prepared;
   prepared.numRows = static_cast<GlobalOrdinal>(m);
-  prepared.norm = std::sqrt(frobeniusSquared);
-  double scaledSquared = 0;
-  for (std::size_t i = 0; i < m; ++i)
-    scaledSquared += scale[i] * scale[i] * rhs[i] * rhs[i];
-  const double threshold = zeroEigenvalue * static_cast<double>(m) * std::max(eigenvalues.back(), 1.0);
-  std::vector<double> contradiction(m, 0.0); // the part of the scaled c that no x gives
-  std::vector<double> wc;
-  std::vector<std::size_t> kept;
-  double contradictionSquared = 0;
-  for (std::size_t k = 0; k < m; ++k) {
-    double share = 0; // Vᵀ D c
-    for (std::size_t i = 0; i < m; ++i)
-      share += v[k * m + i] * scale[i] * rhs[i];
-    if (eigenvalues[k] > threshold) {
-      kept.push_back(k);
-      wc.push_back(share / std::sqrt(eigenvalues[k]));
-      continue;
-    }
-    contradictionSquared += share * share;
-    for (std::size_t i = 0; i < m; ++i)
-      contradiction[i] += share * v[k * m + i] * scale[i];
-  }
-  prepared.rank = static_cast<GlobalOrdinal>(kept.size());
-  if (emptyRows > 0) // 0ᵀx = c_i: the certificate is that row
-    for (std::size_t i = 0; i < m; ++i)
-      contradiction[i] = scale[i] == 0 ? rhs[i] : 0.0;
-  if (emptyRows > 0 || contradictionSquared > zeroShare * zeroShare * scaledSquared) {
-    double squared = 0;
-    for (const double value : contradiction)
-      squared += value * value;
+  prepared.rank = static_cast<GlobalOrdinal>(rank);
+  prepared.norm = rows.frobeniusNorm;
+  if (const std::vector<double> left = unreachable(rows, rhs); !left.empty()) {
     prepared.certificate = rcp(new Vector(b->getRangeMap()));
     const auto values = localDataNonConst(*prepared.certificate);
+    const double length = normOf(left);
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = -contradiction[first + i] / std::sqrt(squared);
-    std::ostringstream text;
-    text << "the equality constraints contradict each other: of " << m << " rows " << kept.size()
-         << " are independent, and the right-hand side does not suit the others";
-    prepared.contradiction = text.str();
+      values[i] = -left[first + i] / length;
+    prepared.contradiction = "the equality constraints contradict each other: of " + std::to_string(m) +
+                             " rows " + std::to_string(rank) +
+                             " are independent, and the right-hand side does not suit the others";
   }
-  std::vector<double> w(numLocalRows * kept.size());
-  for (std::size_t i = 0; i < numLocalRows; ++i)
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      w[i * kept.size() + k] =
-          v[kept[k] * m + first + i] * scale[first + i] / std::sqrt(eigenvalues[kept[k]]);
-  if (kept.empty())
+  if (rank == 0)
     return prepared;
+  std::vector<double> w(numLocalRows * rank), wc(rank); // W = Λ^(−1/2) VᵀD, without the redundant rows
+  for (std::size_t k = 0; k < rank; ++k) {
+    const double root = std::sqrt(rows.eigenvalues[rows.numRedundant + k]);
+    wc[k] = rows.share(rows.numRedundant + k, rhs) / root;
+    for (std::size_t i = 0; i < numLocalRows; ++i)
+      w[i * rank + k] = rows.entry(first + i, rows.numRedundant + k) / root;
+  }
   const RCP<const OrthonormalEquality> constraint =
       rcp(new OrthonormalEquality(b, std::move(w), std::move(wc)));
   prepared.constraint = constraint;

@@ -1,8 +1,10 @@
 #include "epafi/qp/Mprgp.hpp"
 
-#include <Teuchos_Time.hpp>
-#include <Teuchos_TimeMonitor.hpp>
+#include "epafi/qp/LocalData.hpp"
 
+#include <Tpetra_Map.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -11,66 +13,72 @@
 namespace epafi::qp {
 namespace {
 
-/// A curvature pᵀAp ≤ zeroCurvature · ‖A‖ pᵀp is zero, as far as products in double precision can tell.
-constexpr double zeroCurvature = 1e-14;
-
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// The sums of a measurement: its own, then those of the preconditioner, then the rule's.
+enum Sums : int {
+  freeSquared,
+  choppedSquared,
+  reducedTimesFree,
+  freeTimesImage,
+  solutionSquared,
+  active,
+  timeIsUp,
+  interrupted,
+  look,
+  preconditioned,
+  numOwnSums = preconditioned + FacePreconditioner::numSums
+};
+
+double orDefault(double parameter) {
+  return parameter > 0 ? parameter : 1.0;
+}
 
 } // namespace
 
 Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParameters& parameters,
              double operatorNorm, RCP<const Operator> preconditioner)
-    : a_(std::move(a)), preconditioner_(std::move(preconditioner)), set_(std::move(set)),
-      parameters_(parameters),
-      proportioningConstant_(parameters.proportioningConstant > 0 ? parameters.proportioningConstant : 1.0),
-      sufficientShare_(parameters.sufficientShare > 0 ? parameters.sufficientShare : 1.0),
-      scale_(operatorNorm > 0 ? 1.0 / operatorNorm : 1.0), norm_(operatorNorm > 0 ? 1.0 : 0.0),
-      comm_(a_->getDomainMap()->getComm()),
-      hessianTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: product with the Hessian")),
-      preconditionerTimer_(Teuchos::TimeMonitor::getNewCounter("Epafi::qp: preconditioner")),
-      x_(a_->getDomainMap()), b_(a_->getDomainMap()), g_(a_->getDomainMap()), p_(a_->getDomainMap()),
-      ap_(a_->getDomainMap()), stepReduction_(comm_, 4), measureReduction_(comm_, numOwnSums) {
-  if (!preconditioner_.is_null()) {
-    residual_ = rcp(new Vector(a_->getDomainMap()));
-    z_ = rcp(new Vector(a_->getDomainMap()));
-  }
-  if (parameters_.expansion == Expansion::barzilaiBorwein) {
-    lastX_ = rcp(new Vector(a_->getDomainMap()));
-    lastG_ = rcp(new Vector(a_->getDomainMap()));
-  }
-  predicts_ = parameters_.expansion == Expansion::activeSet;
-  if (parameters_.timeLimit > 0)
-    deadline_ = Teuchos::Time::wallTime() + parameters_.timeLimit;
+    : parameters_(parameters), set_(std::move(set)),
+      objective_(std::move(a), operatorNorm, parameters.maxMultiplications, counts_),
+      interruption_(parameters.timeLimit), iterate_(objective_.map()), work_(objective_.map()),
+      measureReduction_(objective_.map()->getComm(), numOwnSums) {
+  parameters_.proportioningConstant = orDefault(parameters.proportioningConstant);
+  parameters_.sufficientShare = orDefault(parameters.sufficientShare);
+  if (!preconditioner.is_null())
+    preconditioner_.emplace(std::move(preconditioner), objective_.map(), counts_);
 }
 
 // The loop of the paper.
 Status Mprgp::run(StoppingRule& rule, Observer* observer) {
-  measureReduction_ = FusedReduction(comm_, numOwnSums + rule.numSums());
-  observer_ = observer;
-  progress_.restart();
-  conjugate_ = staysInFace_ = false;
-  refreshes_ = 0;
-  measure(rule);
-  startGradient_ = projectedGradient_;
+  measureReduction_ = FusedReduction(objective_.map()->getComm(), numOwnSums + rule.numSums());
+  interruption_.setObserver(observer);
+  ProgressWatch progress(150);
+  int refreshes = 0;
+  lastCurvature_.reset();
+  measure(rule, false);
+  startGradient_ = now_.projectedGradient;
   record(rule, StepKind::start);
 
   while (true) {
-    if (const auto status = ending(rule))
+    progress.look(now_.projectedGradient, iterate_.f);
+    if (const auto status = ending(rule, progress, refreshes))
       return *status;
-    const StepKind intent = isProportional() ? StepKind::conjugateGradient : StepKind::proportioning;
+    const StepKind intent = isProportional(1) ? StepKind::conjugateGradient : StepKind::proportioning;
     if (const auto status = setDirection(intent)) // p = z − (zᵀAp/pᵀAp) p, or p = z, with z = φ, φ + β or β
       return *status;
-    applyHessian(p_, ap_);
+    objective_.multiply(work_.p, work_.image);
     const StepSizes sizes = stepSizes(); // pᵀAp, gᵀp, α_f
     if (const auto status = endingOf(sizes))
       return *status;
     if (fits(sizes, intent)) { // α_cg = gᵀp/pᵀAp ≤ α_f
-      step(sizes, intent);     // x −= α_cg p, g −= α_cg Ap
-      measure(rule);
+      // so far from leaving the face that the next iterate will hardly do so either
+      const bool staysInFace = intent == StepKind::conjugateGradient && isProportional(0.1);
+      step(sizes, intent); // x −= α_cg p, g −= α_cg Ap
+      measure(rule, staysInFace);
       record(rule, intent);
     } else {
-      const auto status = expansionStep(sizes, intent);
-      measure(rule);
+      const auto status = expand(sizes, intent); // x = P(x − α_cg p), g = Ax − b
+      measure(rule, false);
       record(rule, StepKind::expansion);
       if (status)
         return *status;
@@ -78,44 +86,37 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
   }
 }
 
-bool Mprgp::isProportional() const {
-  const double gamma = proportioningConstant_;
-  return choppedSquared_ <= gamma * gamma * reducedTimesFree_; // βᵀβ ≤ Γ² φ̃ᵀφ
-}
-
-/// Whether the iterate is so far from leaving its face that the next one will hardly do so either.
-bool Mprgp::isWellProportional() const {
-  constexpr double margin = 0.1;
-  const double gamma = proportioningConstant_;
-  return choppedSquared_ <= margin * gamma * gamma * reducedTimesFree_;
+/// βᵀβ ≤ margin Γ² φ̃ᵀφ.
+bool Mprgp::isProportional(double margin) const {
+  const double gamma = parameters_.proportioningConstant;
+  return now_.choppedSquared <= margin * gamma * gamma * now_.reducedTimesFree;
 }
 
 /// Why the iteration is over at the present iterate, if it is.
-std::optional<Status> Mprgp::ending(StoppingRule& rule) {
+std::optional<Status> Mprgp::ending(StoppingRule& rule, ProgressWatch& progress, int& refreshes) {
   constexpr int maxRefreshes = 4;
   while (true) {
-    if (!std::isfinite(projectedGradient_))
+    if (!std::isfinite(now_.projectedGradient))
       return Status::notFinite;
-    if (isSatisfied_)
+    if (now_.isSatisfied)
       return Status::converged;
-    if (counts_.hessianMultiplications >= parameters_.maxMultiplications)
+    if (objective_.isSpent())
       return Status::maxIterations;
-    if (isInterrupted_)
+    if (now_.isInterrupted)
       return Status::interrupted;
-    if (timeIsUp_)
+    if (now_.timeIsUp)
       return Status::timeLimit;
     // The gradient is a difference: below this it is round-off.
-    const double attainable = 2 * epsilon * (norm_ * solutionNorm_ + linearNorm_);
-    const bool isRoundOff = projectedGradient_ <= attainable;
-    if (!isRoundOff && !progress_.standsStill())
+    const double attainable = 2 * epsilon * (objective_.norm() * now_.solutionNorm + objective_.linearNorm());
+    const bool isRoundOff = now_.projectedGradient <= attainable;
+    if (!isRoundOff && !progress.standsStill())
       return std::nullopt;
-    if ((isRoundOff && gradientIsFresh_) || refreshes_ >= maxRefreshes)
+    if ((isRoundOff && iterate_.isFresh) || refreshes >= maxRefreshes)
       return Status::stagnated;
-    ++refreshes_;
+    ++refreshes;
     refreshGradient(); // the updated gradient may have drifted away
-    progress_.forgive();
-    conjugate_ = false;
-    measure(rule);
+    progress.forgive();
+    measure(rule, false);
   }
 }
 
@@ -125,10 +126,10 @@ std::optional<Status> Mprgp::endingOf(const StepSizes& sizes) const {
     return Status::notFinite;
   if (!(sizes.squared > 0))
     return Status::stagnated;
-  const double threshold = zeroCurvature * norm_ * sizes.squared;
-  if (sizes.curvature < -threshold)
+  const double zero = objective_.zeroCurvature(sizes.squared);
+  if (sizes.curvature < -zero)
     return Status::indefiniteOperator;
-  if (sizes.curvature <= threshold && !std::isfinite(sizes.feasible))
+  if (sizes.curvature <= zero && !std::isfinite(sizes.feasible))
     return Status::unbounded;
   return std::nullopt;
 }
@@ -140,20 +141,73 @@ bool Mprgp::fits(const StepSizes& sizes, StepKind intent) const {
          (intent == StepKind::proportioning && parameters_.release == Release::choppedGradient);
 }
 
+/// p for the step that is meant: in the face z = φ, or M φ on the free set; out of it z = φ + β, or M(φ + β) where the
+/// set lets it move, or β alone.
+std::optional<Status> Mprgp::setDirection(StepKind intent) {
+  const bool isInFace = intent == StepKind::conjugateGradient;
+  const double negligible = negligibleShare * now_.projectedGradient;
+  const auto& [x, g, f, isFresh] = iterate_;
+  if (!isInFace && parameters_.release == Release::choppedGradient)
+    set_->choppedGradient(x, g, negligible, work_.p);
+  else if (preconditioner_)
+    return setPreconditionedDirection(isInFace, negligible);
+  else if (isInFace)
+    set_->subtractFromFreeGradient(x, g, conjugation(now_.freeTimesImage), work_.p);
+  else
+    set_->projectedGradient(x, g, negligible, work_.p);
+  return std::nullopt;
+}
+
+std::optional<Status> Mprgp::setPreconditionedDirection(bool isInFace, double negligible) {
+  std::optional<FacePreconditioner::Products> products;
+  if (isInFace)
+    products = now_.preconditioned;
+  if (!products) {
+    if (isInFace)
+      preconditioner_->applyToFree(*set_, iterate_.x, iterate_.g);
+    else
+      preconditioner_->applyToReleased(*set_, iterate_.x, iterate_.g, negligible);
+    products = preconditioner_->products(work_.image);
+  }
+  if (!std::isfinite(products->energy))
+    return Status::notFinite;
+  if (!(products->energy > 0)) // rᵀMr ≤ 0: no descent, M is not positive definite
+    return Status::indefinitePreconditioner;
+  setConjugate(preconditioner_->z(), isInFace ? conjugation(products->timesImage) : 0.0, work_.p);
+  return std::nullopt;
+}
+
+/// zᵀAp/pᵀAp.
+double Mprgp::conjugation(double timesImage) const {
+  return lastCurvature_ ? objective_.scale() * timesImage / *lastCurvature_ : 0.0;
+}
+
+/// pᵀAp, gᵀp, pᵀp and α_f in one message.
+StepSizes Mprgp::stepSizes() {
+  return objective_.stepSizes(iterate_.g, work_.p, work_.image, set_->maxFeasibleStep(iterate_.x, work_.p));
+}
+
 void Mprgp::step(const StepSizes& sizes, StepKind kind) {
   const bool isConjugateGradient = kind == StepKind::conjugateGradient;
   ++(isConjugateGradient ? counts_.conjugateGradient : counts_.proportioning);
-  staysInFace_ = isConjugateGradient && !preconditioner_.is_null() && isWellProportional();
-  const double threshold = zeroCurvature * norm_ * sizes.squared;
-  const double exact = sizes.curvature > threshold ? sizes.slope / sizes.curvature : sizes.feasible;
+  const bool hasCurvature = sizes.curvature > objective_.zeroCurvature(sizes.squared);
+  const double exact = hasCurvature ? sizes.slope / sizes.curvature : sizes.feasible;
   move(std::min(exact, sizes.feasible), sizes);
-  curvature_ = sizes.curvature;
-  conjugate_ =
-      isConjugateGradient || (parameters_.release == Release::projectedGradient && exact <= sizes.feasible);
+  lastCurvature_.reset();
+  if (isConjugateGradient || (parameters_.release == Release::projectedGradient && exact <= sizes.feasible))
+    lastCurvature_ = sizes.curvature;
+}
+
+/// x −= αp, g −= αAp, f follows: f(x − αp) = f − α gᵀp + ½α² pᵀAp. Streams x, g, p, Ap, l, u.
+void Mprgp::move(double length, const StepSizes& sizes) {
+  set_->move(length, work_.p, iterate_.x); // feasible already but for the last digit
+  addScaled(-length * objective_.scale(), work_.image, iterate_.g);
+  iterate_.f += length * (0.5 * length * sizes.curvature - sizes.slope);
+  iterate_.isFresh = false;
 }
 
 RCP<Vector> Mprgp::certificate() const {
-  const RCP<Vector> direction = rcp(new Vector(p_, Teuchos::Copy));
+  const RCP<Vector> direction = rcp(new Vector(work_.p, Teuchos::Copy));
   const double length = accurateNorm(*direction);
   if (length > 0)
     direction->scale(-1.0 / length);
@@ -162,26 +216,105 @@ RCP<Vector> Mprgp::certificate() const {
 
 std::string Mprgp::description() const {
   std::ostringstream text;
-  text << "Epafi::qp::Mprgp {unknowns: " << a_->getDomainMap()->getGlobalNumElements()
+  text << "Epafi::qp::Mprgp {unknowns: " << objective_.map()->getGlobalNumElements()
        << ", ‖A‖: " << operatorNorm()
-       << ", preconditioner: " << (preconditioner_.is_null() ? "none" : preconditioner_->description())
+       << ", preconditioner: " << (preconditioner_ ? preconditioner_->description() : "none")
        << ", products: " << counts_.hessianMultiplications << ", steps: " << counts_.conjugateGradient
        << " CG, " << counts_.expansion << " expansion, " << counts_.proportioning
        << " proportioning, ‖g^P‖: " << projectedGradient() << "}";
   return text.str();
 }
 
-bool Mprgp::timeIsUpHere() const {
-  return deadline_ > 0 && Teuchos::Time::wallTime() > deadline_;
+void Mprgp::start(const Vector& b, const Vector& x0, double constant) {
+  objective_.setLinearTerm(b, constant);
+  iterate_.x.assign(x0);
+  set_->project(iterate_.x);
+  if (iterate_.x.normInf() > 0) {
+    refreshGradient();
+    return;
+  }
+  iterate_.g.update(-objective_.scale(), b, 0.0); // g = −b needs no product
+  iterate_.f = objective_.constant();
+  iterate_.isFresh = true;
 }
 
-bool Mprgp::isToStopHere() const {
-  return observer_ != nullptr && observer_->wantsToStop();
+void Mprgp::changeHessian(const Vector& gradientChange, double objectiveChange, const Vector& b,
+                          double constant, double operatorNorm) {
+  iterate_.g.update(objective_.scale(), gradientChange, 1.0);
+  iterate_.f += objective_.scale() * objectiveChange;
+  objective_.setLinearTerm(b, constant);
+  objective_.raiseNorm(operatorNorm);
+}
+
+void Mprgp::refreshGradient() {
+  objective_.multiply(iterate_.x, work_.image);
+  iterate_.f = objective_.evaluate(iterate_.x, work_.image, iterate_.x, work_.p).objective;
+  objective_.gradient(work_.image, iterate_.g);
+  iterate_.isFresh = true;
+  lastCurvature_.reset(); // Ap is gone
+}
+
+void Mprgp::shiftLinearTerm(const Vector& shift, double objectiveShift) {
+  objective_.shiftLinearTerm(shift, objectiveShift, iterate_.x);
+  iterate_.g.update(objective_.scale(), shift, 1.0);
+  iterate_.f += objective_.scale() * objectiveShift;
+}
+
+/// All that the loop asks of the split gradient, in one pass and one message. Streams x, g, Ap, l, u. Where the next
+/// step will most likely stay in the face, it is preconditioned now, so that its two sums travel along.
+void Mprgp::measure(StoppingRule& rule, bool staysInFace) {
+  const bool preconditions = staysInFace && preconditioner_.has_value();
+  const GradientSums mine = set_->measure(iterate_.x, iterate_.g, work_.image, fixedStep());
+  measureReduction_.clear();
+  const std::span<AccurateSum> sums = measureReduction_.sums();
+  sums[freeSquared] = mine.freeSquared;
+  sums[choppedSquared] = mine.choppedSquared;
+  sums[reducedTimesFree] = mine.reducedTimesFree;
+  sums[freeTimesImage] = mine.freeTimesImage;
+  sums[solutionSquared] = mine.solutionSquared;
+  sums[active] = AccurateSum(static_cast<double>(mine.active));
+  sums[timeIsUp] = AccurateSum(interruption_.timeIsUp() ? 1.0 : 0.0);
+  sums[interrupted] = AccurateSum(interruption_.isWanted() ? 1.0 : 0.0);
+  sums[look] = AccurateSum(interruption_.isLookWanted() ? 1.0 : 0.0);
+  if (preconditions) {
+    preconditioner_->applyToFree(*set_, iterate_.x, iterate_.g);
+    preconditioner_->addSums(work_.image, sums.subspan(preconditioned));
+  }
+  rule.addLocalSums(iterate_.x, sums.subspan(numOwnSums));
+  measureReduction_.reduce();
+
+  const auto sum = [&](int index) { return measureReduction_.sum(index); };
+  now_ = {};
+  now_.freeSquared = sum(freeSquared);
+  now_.choppedSquared = sum(choppedSquared);
+  now_.reducedTimesFree = sum(reducedTimesFree);
+  now_.freeTimesImage = sum(freeTimesImage);
+  if (preconditions)
+    now_.preconditioned = {sum(preconditioned), sum(preconditioned + 1)};
+  now_.projectedGradient = std::sqrt(now_.freeSquared + now_.choppedSquared);
+  now_.solutionNorm = std::sqrt(sum(solutionSquared));
+  now_.active = static_cast<long long>(sum(active));
+  now_.timeIsUp = sum(timeIsUp) > 0;
+  now_.isInterrupted = sum(interrupted) > 0;
+  now_.isLookWanted = sum(look) > 0;
+  const double energy = rule.usesEnergy() ? energyOfGradient() : 0.0;
+  now_.isSatisfied = rule.isSatisfied({projectedGradient(), energy}, sums.subspan(numOwnSums));
+}
+
+/// (g^Pᵀ M g^P)^½: computed where the gradient is fresh, estimated from φᵀMφ elsewhere, or from the last M r.
+double Mprgp::energyOfGradient() {
+  const double squared = now_.freeSquared + now_.choppedSquared;
+  if (now_.preconditioned && now_.freeSquared > 0)
+    energyShare_ = now_.preconditioned->energy / now_.freeSquared;
+  else if ((iterate_.isFresh || energyShare_ == 0) && squared > 0)
+    energyShare_ = preconditioner_->energyOf(*set_, iterate_.x, iterate_.g) / squared;
+  // r is scaled by 1/‖A‖.
+  return std::sqrt(std::max(0.0, energyShare_ * squared)) / objective_.scale();
 }
 
 void Mprgp::record(const StoppingRule& rule, StepKind kind) {
-  progress_.look(projectedGradient_, objective_);
-  if (observer_ == nullptr)
+  Observer* const observer = interruption_.observer();
+  if (observer == nullptr)
     return;
   StepRecord step;
   step.iteration = counts_.conjugateGradient + counts_.expansion + counts_.proportioning;
@@ -189,12 +322,17 @@ void Mprgp::record(const StoppingRule& rule, StepKind kind) {
   step.kind = kind;
   step.projectedGradient = projectedGradient();
   step.objective = objective();
-  step.activeBounds = active_;
+  step.activeBounds = now_.active;
   step.hessianMultiplications = counts_.hessianMultiplications;
   rule.describe(step);
-  observer_->step(step);
-  if (isLookedAt_)
-    observer_->look(x_);
+  observer->step(step);
+  if (now_.isLookWanted)
+    observer->look(iterate_.x);
+}
+
+/// ᾱ.
+double Mprgp::fixedStep() const {
+  return parameters_.expansionStep / (objective_.norm() > 0 ? objective_.norm() : 1.0);
 }
 
 } // namespace epafi::qp

@@ -10,12 +10,10 @@
 namespace epafi::qp {
 namespace {
 
-constexpr std::array<std::pair<const char*, Expansion>, 6> expansions{{
+constexpr std::array<std::pair<const char*, Expansion>, 4> expansions{{
     {"auto", Expansion::automatic},
     {"projected CG", Expansion::projectedCg},
     {"fixed step", Expansion::fixedStep},
-    {"optimal", Expansion::optimal},
-    {"Barzilai-Borwein", Expansion::barzilaiBorwein},
     {"active set", Expansion::activeSet},
 }};
 
@@ -56,9 +54,9 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
   addChoice(
       list, "Expansion", expansions.front().first,
       "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
-      "step ('projected CG'); from the boundary along the free gradient with a fixed, an optimal, or a "
-      "Barzilai–Borwein step length; or where CG in the face and projections lead in turns ('active "
-      "set'). One that raises the objective is repeated with the fixed step. 'auto': projected CG and, "
+      "step ('projected CG'); from the boundary along the free gradient with a fixed step length; or "
+      "where CG in the face and projections lead in turns ('active set'). One that raises the objective is "
+      "repeated with the fixed step. 'auto': projected CG and, "
       "with a "
       "preconditioner, once one of its steps has raised the objective by more than a little, active set.",
       namesOf(expansions));

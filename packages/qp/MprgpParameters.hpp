@@ -9,10 +9,8 @@ namespace epafi::qp {
 /// Where a conjugate gradient step that would leave the set goes from its feasible half step x^½ = x − α_f p.
 enum class Expansion {
   automatic, ///< projectedCg; with a preconditioner, once one of its steps raised the objective by much, activeSet
-  fixedStep,       ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
-  projectedCg,     ///< P(x − α_cg p) (MPPCG; Kružík, Horák, Čermák, Pospíšil, Pecha 2020)
-  optimal,         ///< P(x^½ − α φ), α the exact minimiser along φ; one more product
-  barzilaiBorwein, ///< P(x^½ − α φ), α = sᵀs/sᵀy of the change of x and g since the last expansion
+  fixedStep,   ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
+  projectedCg, ///< P(x − α_cg p) (MPPCG; Kružík, Horák, Čermák, Pospíšil, Pecha 2020)
   activeSet ///< where a primal–dual active set method leads (Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003))
 };
 

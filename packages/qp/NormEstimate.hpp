@@ -6,15 +6,10 @@
 
 #include <Teuchos_ParameterList.hpp>
 
-#include <string>
-
 namespace epafi::qp {
 
 /// How an estimate is made, and when it is good enough.
 struct NormEstimateParameters {
-  /// Of the largest eigenvalue.
-  enum class Method { lanczos, power };
-  Method method = Method::lanczos;
   int maxIterations = 30; ///< products with A at most
   double accuracy = 0.02; ///< stop when the bound is this close (relative)
   double safety = 1.05;   ///< the estimate is at least this times the largest Rayleigh quotient
@@ -32,8 +27,7 @@ struct NormEstimate {
 };
 
 /// Lanczos: largest Ritz value θ plus the residual norm r of its Ritz vector, but at least `safety` · θ: an
-/// eigenvalue lies within r of θ, yet it need not be the largest one. Stops when r ≤ `accuracy` · θ. Power
-/// method: `safety` times the last Rayleigh quotient. No estimate from a few products is certain; MPRGP finds
+/// eigenvalue lies within r of θ, yet it need not be the largest one. Stops when r ≤ `accuracy` · θ. No estimate from a few products is certain; MPRGP finds
 /// out and halves its step where one was too small. The start vector depends on global indices alone, so that
 /// every number of ranks gives the same
 /// estimate. Precondition: A symmetric positive semidefinite on its domain map. Memory: three vectors.

@@ -11,19 +11,17 @@ namespace epafi::qp {
 
 PenalizedOperator::PenalizedOperator(RCP<const Operator> a, RCP<const Map> map,
                                      RCP<const EqualityConstraint> b, double penalty)
-    : a_(std::move(a)), map_(std::move(map)), b_(std::move(b)), penalty_(penalty), bx_(b_->numEntries()) {}
+    : SymmetricOperator(std::move(map)), a_(std::move(a)), b_(std::move(b)), penalty_(penalty),
+      bx_(b_->numEntries()) {}
 
-void PenalizedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, double alpha,
-                              double beta) const {
-  if (a_.is_null() && beta == 0)
+void PenalizedOperator::multiply(const MultiVector& x, MultiVector& y) const {
+  if (a_.is_null())
     y.putScalar(0.0);
-  else if (a_.is_null())
-    y.scale(beta);
   else
-    a_->apply(x, y, mode, alpha, beta);
+    a_->apply(x, y);
   forEachColumn(x, y, [&](const Vector& in, Vector& out) {
     b_->product(in, bx_);
-    b_->addTransposedProduct(bx_, alpha * penalty_, out);
+    b_->addTransposedProduct(bx_, penalty_, out);
   });
 }
 

@@ -2,16 +2,15 @@
 
 /// A + ρBᵀB, the Hessian of the augmented Lagrangian; with A absent, BᵀB alone.
 
-#include "epafi/base/Types.hpp"
+#include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
-
-#include <Tpetra_Operator.hpp>
 
 #include <vector>
 
 namespace epafi::qp {
 
-class PenalizedOperator final : public Operator {
+/// A product costs one with A and one message of B's size.
+class PenalizedOperator final : public SymmetricOperator {
 public:
   /// \param a        null for A = 0
   /// \param map      the map of x
@@ -21,17 +20,10 @@ public:
 
   void setPenalty(double penalty) { penalty_ = penalty; }
 
-  [[nodiscard]] RCP<const Map> getDomainMap() const override { return map_; }
-  [[nodiscard]] RCP<const Map> getRangeMap() const override { return map_; }
-  /// y = alpha (A + ρBᵀB) x + beta y; one message of B's size beside those of A. Mode must be no-transpose or
-  /// transpose (the operator is symmetric). Collective.
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
-             double alpha = 1.0, double beta = 0.0) const override;
-  [[nodiscard]] bool hasTransposeApply() const override { return true; }
-
 private:
+  void multiply(const MultiVector& x, MultiVector& y) const override;
+
   RCP<const Operator> a_;
-  RCP<const Map> map_;
   RCP<const EqualityConstraint> b_;
   double penalty_;
   mutable std::vector<double> bx_;

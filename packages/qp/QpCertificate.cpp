@@ -1,17 +1,18 @@
 // What QpSolver says of the point where the iteration ended.
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/qp/QpRun.hpp"
 #include "epafi/qp/RecessionDirection.hpp"
 #include "epafi/qp/StoppingRule.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Operator.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 namespace epafi::qp {
 
@@ -33,78 +34,96 @@ void QpSolver::Run::lookForUnboundedness() {
   end(Status::unbounded, explain(Status::unbounded));
 }
 
-/// The KKT residuals from scratch, the multipliers, and a second look at the status.
-void QpSolver::Run::certify() {
+/// x = Pμ + U(UᵀAU)⁻¹Uᵀb from what solves the deflated problem.
+void QpSolver::Run::undoDeflation() {
+  deflated->space().project(x);
+  deflated->space().correct(*given.linearTerm, x);
+  if (const RCP<Vector> certificate = solution.report.certificate; !certificate.is_null()) { // found for PᵀAP
+    deflated->space().project(*certificate);
+    certificate->scale(1.0 / certificate->norm2());
+  }
+}
+
+/// g = Ax − b + Bᵀμ, from a product with A if what the iteration holds is of another operator, or not fresh.
+void QpSolver::Run::completeGradient() {
   SolveReport& report = solution.report;
-  report.counts.hessianMultiplications += extraMultiplications;
-  Vector gradient(x.getMap());
-  if (projector) {
-    projector->complete(*given.linearTerm, x);
-    if (!report.certificate.is_null()) { // found for AP = PᵀAP
-      projector->project(*report.certificate);
-      report.certificate->scale(1.0 / report.certificate->norm2());
-    }
-  }
-  if (projector || !equality.constraint.is_null() || report.gradient.is_null()) {
-    given.hessian->apply(x, gradient); // what the iteration holds is of another operator, or not fresh
-    ++report.counts.hessianMultiplications;
-    gradient.update(-1.0, *given.linearTerm, 1.0);
-    report.objective = 0.5 * (accurateDot(x, gradient) - accurateDot(x, *given.linearTerm));
-    if (!equality.constraint.is_null())
-      equality.constraint->addTransposedProduct(multiplier, 1.0, gradient);
-    report.gradient = rcp(new Vector(gradient, Teuchos::Copy));
-  } else {
-    gradient.assign(*report.gradient);
-  }
+  if (deflated.is_null() && equality.constraint.is_null() && !report.gradient.is_null())
+    return;
+  report.gradient = rcp(new Vector(x.getMap()));
+  Vector& gradient = *report.gradient;
+  given.hessian->apply(x, gradient);
+  ++report.counts.hessianMultiplications;
+  gradient.update(-1.0, *given.linearTerm, 1.0);
+  report.objective = 0.5 * (accurateDot(x, gradient) - accurateDot(x, *given.linearTerm));
+  if (!equality.constraint.is_null())
+    equality.constraint->addTransposedProduct(multiplier, 1.0, gradient);
+}
+
+/// The residuals of bounds, and their multipliers.
+void QpSolver::Run::certifyBounds() {
+  SolveReport& report = solution.report;
+  const Vector& gradient = *report.gradient;
   const GradientSums mine = set->measure(x, gradient, gradient, 1.0);
   std::array<AccurateSum, 2> sums{mine.freeSquared, mine.choppedSquared};
   const Comm& comm = *x.getMap()->getComm();
   sumOverRanks(comm, std::span<AccurateSum>(sums));
   report.kkt.stationarity = relativeTo(reference, std::sqrt(sums[0].value()));
   report.kkt.dualFeasibility = relativeTo(reference, std::sqrt(sums[1].value()));
+  report.relativeProjectedGradient = std::hypot(report.kkt.stationarity, report.kkt.dualFeasibility);
   report.kkt.complementarity =
       relativeTo(reference, maxOverRanks(comm, set->complementarity(x, gradient, operatorNorm)));
-  Vector nearest(x, Teuchos::Copy);
-  set->project(nearest);
-  nearest.update(-1.0, x, 1.0);
-  report.kkt.feasibility = nearest.normInf();
+  Vector work(x, Teuchos::Copy); // the nearest feasible point, then what is free
+  set->project(work);
+  work.update(-1.0, x, 1.0);
+  report.kkt.feasibility = work.normInf();
 
-  solution.boundMultiplier = rcp(new Vector(x.getMap()));
-  set->freeIndicator(x, nearest);
-  solution.boundMultiplier->update(1.0, gradient, 0.0);
-  solution.boundMultiplier->elementWiseMultiply(-1.0, nearest, gradient, 1.0);
-  if (!given.constraintMatrix.is_null()) {
-    Vector residual(given.constraintMatrix->getRangeMap());
-    given.constraintMatrix->apply(x, residual);
-    double size = equality.norm * accurateNorm(x);
-    if (!given.constraintValues.is_null()) {
-      residual.update(-1.0, *given.constraintValues, 1.0);
-      size += accurateNorm(*given.constraintValues);
-    }
-    report.kkt.equality = relativeTo(size, accurateNorm(residual));
-    solution.equalityMultiplier = equality.multiplierOfRows
-                                      ? equality.multiplierOfRows(multiplier)
-                                      : rcp(new Vector(given.constraintMatrix->getRangeMap()));
+  set->freeIndicator(x, work);
+  solution.boundMultiplier = rcp(new Vector(gradient, Teuchos::Copy));
+  solution.boundMultiplier->elementWiseMultiply(-1.0, work, gradient, 1.0);
+}
+
+/// Likewise of the rows of B.
+void QpSolver::Run::certifyRows() {
+  Vector residual(given.constraintMatrix->getRangeMap());
+  given.constraintMatrix->apply(x, residual);
+  double size = equality.norm * accurateNorm(x);
+  if (!given.constraintValues.is_null()) {
+    residual.update(-1.0, *given.constraintValues, 1.0);
+    size += accurateNorm(*given.constraintValues);
   }
-  const double limit = std::max(solver.tolerance_, relativeTo(reference, solver.absoluteTolerance_));
-  const double gradientNorm = std::hypot(report.kkt.stationarity, report.kkt.dualFeasibility);
-  const double slack = projector ? 10 : 1.0000001; // the projected problem has a round-off of its own
-  report.relativeProjectedGradient = gradientNorm;
-  const bool meetsGradient = gradientNorm <= slack * limit;
-  if (report.status == Status::stagnated && meetsGradient &&
-      report.relativeConstraintResidual <=
-          solver.constraintTolerance_) // the residuals decide, not the doubts on the way
+  solution.report.kkt.equality = relativeTo(size, accurateNorm(residual));
+  solution.equalityMultiplier = equality.multiplierOfRows
+                                    ? equality.multiplierOfRows(multiplier)
+                                    : rcp(new Vector(given.constraintMatrix->getRangeMap()));
+}
+
+/// The residuals decide, not the doubts on the way.
+void QpSolver::Run::judge() {
+  SolveReport& report = solution.report;
+  const double slack = deflated.is_null() ? 1.0000001 : 10; // the deflated problem has a round-off of its own
+  const double limit = slack * std::max(solver.tolerance_, relativeTo(reference, solver.absoluteTolerance_));
+  const double gradient = report.relativeProjectedGradient;
+  if (report.status == Status::stagnated && gradient <= limit &&
+      report.relativeConstraintResidual <= solver.constraintTolerance_)
     end(Status::converged, explain(Status::converged));
   if (report.status == Status::converged &&
-      (gradientNorm > slack * limit ||
-       report.kkt.equality > std::max(10 * solver.constraintTolerance_, 1e-9))) {
-    report.status = Status::stagnated;
-    std::ostringstream text;
-    text << "the iteration met the tolerance, but recomputed from the solution the projected gradient is "
-         << gradientNorm << " and the equality residual " << report.kkt.equality
-         << " (relative): round-off allows no better";
-    report.reason = text.str();
-  }
+      (gradient > limit || report.kkt.equality > std::max(10 * solver.constraintTolerance_, 1e-9)))
+    end(Status::stagnated,
+        "the iteration met the tolerance, but recomputed from the solution the projected gradient is " +
+            text(gradient) + " and the equality residual " + text(report.kkt.equality) +
+            " (relative): round-off allows no better");
+}
+
+/// The KKT residuals from scratch, the multipliers, and a second look at the status.
+void QpSolver::Run::certify() {
+  solution.report.counts.hessianMultiplications += extraMultiplications;
+  if (!deflated.is_null())
+    undoDeflation();
+  completeGradient();
+  certifyBounds();
+  if (!given.constraintMatrix.is_null())
+    certifyRows();
+  judge();
 }
 
 } // namespace epafi::qp

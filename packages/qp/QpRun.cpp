@@ -2,6 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"
 #include "epafi/qp/Feasibility.hpp"
@@ -13,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <utility>
 
 namespace epafi::qp {
 namespace {
@@ -24,10 +25,9 @@ void requireFinite(const Vector& values, const char* name) {
     const auto entries = localData(values);
     for (std::size_t i = 0; i < entries.size(); ++i)
       if (!std::isfinite(entries[i])) {
-        std::ostringstream text;
-        text << "entry " << values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)) << " of " << name
-             << " is " << entries[i] << "; it must be a finite number";
-        throw InputError(text.str());
+        const GlobalOrdinal index = values.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i));
+        throw InputError("entry " + std::to_string(index) + " of " + name + " is " + text(entries[i]) +
+                         "; it must be a finite number");
       }
   });
 }
@@ -90,10 +90,9 @@ bool QpSolver::Run::findStart() {
   const RCP<Vector> certificate = equality.multiplierOfRows(feasibility.certificate);
   certificate->scale(1.0 / certificate->norm2());
   solution.report.certificate = certificate;
-  std::ostringstream text;
-  text << "no x within the bounds satisfies the equality constraints: the nearest one misses them by "
-       << feasibility.distance << " (rows made orthonormal)";
-  return end(Status::infeasible, text.str());
+  return end(Status::infeasible,
+             "no x within the bounds satisfies the equality constraints: the nearest one misses them by " +
+                 text(feasibility.distance) + " (rows made orthonormal)");
 }
 
 bool QpSolver::Run::prepareOperators() {
@@ -101,7 +100,7 @@ bool QpSolver::Run::prepareOperators() {
   linearTerm = given.linearTerm;
   preconditioner = given.preconditioner;
   if (!given.coarseSpace.is_null())
-    prepareProjector();
+    deflate();
   if (given.facePreconditioner) {
     Vector free(x.getMap());
     set->freeIndicator(x, free);
@@ -121,8 +120,8 @@ bool QpSolver::Run::prepareOperators() {
   return chooseReference();
 }
 
-/// Projector preconditioning: A and b give way to AP and Pᵀb.
-void QpSolver::Run::prepareProjector() {
+/// Projector preconditioning: A and b give way to PᵀAP and Pᵀb.
+void QpSolver::Run::deflate() {
   requireMap(given.coarseSpace->getMap()->isSameAs(*x.getMap()), "the coarse space");
   Vector free(x.getMap()); // U must vanish where there is a bound
   set->distanceToBoundary(x, std::numeric_limits<double>::infinity(), free);
@@ -139,11 +138,17 @@ void QpSolver::Run::prepareProjector() {
       }
     }
   });
-  projector = std::make_unique<ConjugateProjector>(given.hessian, given.coarseSpace);
-  hessian = projector->projectedOperator();
-  const RCP<Vector> projected = rcp(new Vector(x.getMap()));
-  projector->projectLinearTerm(*given.linearTerm, *projected);
+  ColumnSpace space(given.hessian->getDomainMap());
+  space.add(*given.hessian, *given.coarseSpace);
+  if (!space.factorize())
+    throw InputError(
+        "the coarse space is not independent: UᵀAU is not positive definite; leave out columns that others "
+        "combine, or that A maps to zero");
+  const RCP<Vector> projected = rcp(new Vector(*given.linearTerm, Teuchos::Copy));
+  space.projectTransposed(*projected);
   linearTerm = projected;
+  deflated = rcp(new DeflatedOperator(given.hessian, std::move(space)));
+  hessian = deflated;
 }
 
 /// What gradients are relative to: ‖b‖; where that is nothing beside the products with A that the bounds and rows force,

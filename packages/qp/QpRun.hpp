@@ -2,11 +2,10 @@
 
 /// The inside of QpSolver::solve.
 
-#include "epafi/qp/ConjugateProjector.hpp"
+#include "epafi/qp/DeflatedOperator.hpp"
 #include "epafi/qp/MatrixEquality.hpp"
 #include "epafi/qp/QpSolver.hpp"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,8 @@ struct QpSolver::Run {
   RCP<const Vector> linearTerm{};
   RCP<const Operator> preconditioner{};
   PreparedEquality equality{};
-  std::unique_ptr<ConjugateProjector> projector{};
-  std::vector<double> multiplier{}; ///< μ of the prepared constraint
+  RCP<const DeflatedOperator> deflated{}; ///< null without a coarse space
+  std::vector<double> multiplier{};       ///< μ of the prepared constraint
   double operatorNorm = 0, reference = 0;
   int extraMultiplications = 0;
 
@@ -34,10 +33,15 @@ struct QpSolver::Run {
   bool prepareConstraints();
   bool findStart();
   bool prepareOperators();
-  void prepareProjector();
+  void deflate();
   bool chooseReference();
   void iterate();
   void lookForUnboundedness();
+  void undoDeflation();
+  void completeGradient();
+  void certifyBounds();
+  void certifyRows();
+  void judge();
   void certify();
 
   bool end(Status status, const std::string& reason) const {

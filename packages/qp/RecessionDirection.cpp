@@ -1,6 +1,7 @@
 #include "epafi/qp/RecessionDirection.hpp"
 
 #include "epafi/base/Columns.hpp"
+#include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 
 #include <Tpetra_Map.hpp>
@@ -15,34 +16,31 @@ namespace epafi::qp {
 namespace {
 
 /// I + τ(A/‖A‖ + BᵀB/‖B‖²).
-class PenalizedIdentity final : public Operator {
+class PenalizedIdentity final : public SymmetricOperator {
 public:
   PenalizedIdentity(RCP<const Operator> a, double operatorNorm, RCP<const EqualityConstraint> equality)
-      : a_(std::move(a)), scale_(operatorNorm > 0 ? 1 / operatorNorm : 0.0), equality_(std::move(equality)),
-        bx_(equality_.is_null() ? 0 : equality_->numEntries()), work_(a_->getDomainMap()) {}
+      : SymmetricOperator(a->getDomainMap()), a_(std::move(a)),
+        scale_(operatorNorm > 0 ? 1 / operatorNorm : 0.0), equality_(std::move(equality)),
+        bx_(equality_.is_null() ? 0 : equality_->numEntries()) {}
   void setPenalty(double penalty) { penalty_ = penalty; }
-  [[nodiscard]] RCP<const Map> getDomainMap() const override { return a_->getDomainMap(); }
-  [[nodiscard]] RCP<const Map> getRangeMap() const override { return a_->getRangeMap(); }
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
-             double beta) const override {
+
+private:
+  void multiply(const MultiVector& x, MultiVector& y) const override {
+    a_->apply(x, y);
     forEachColumn(x, y, [&](const Vector& in, Vector& out) {
-      a_->apply(in, work_);
-      work_.scale(penalty_ * scale_);
+      out.scale(penalty_ * scale_);
       if (!equality_.is_null()) {
         equality_->product(in, bx_);
-        equality_->addTransposedProduct(bx_, penalty_ / (equality_->norm() * equality_->norm()), work_);
+        equality_->addTransposedProduct(bx_, penalty_ / (equality_->norm() * equality_->norm()), out);
       }
-      work_.update(1.0, in, 1.0);
-      out.update(alpha, work_, beta);
+      out.update(1.0, in, 1.0);
     });
   }
 
-private:
   RCP<const Operator> a_;
   double scale_, penalty_ = 0; ///< 1/‖A‖, τ
   RCP<const EqualityConstraint> equality_;
   mutable std::vector<double> bx_;
-  mutable Vector work_;
 };
 
 /// How far d, made of length 1, is from Ad = 0 and Bd = 0: the larger of ‖Ad‖/‖A‖ and ‖Bd‖/‖B‖; infinity where d leads

@@ -1,7 +1,7 @@
 #include "epafi/qp/Smalbe.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Parameters.hpp"
+#include "epafi/qp/AdaptiveRule.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/EqualityRestoration.hpp"
 #include "epafi/qp/PenalizedOperator.hpp"
@@ -11,9 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <string>
-#include <utility>
+#include <span>
+#include <vector>
 
 namespace epafi::qp {
 namespace {
@@ -21,69 +20,47 @@ namespace {
 /// Largest ρ‖B‖² as a multiple of ‖A‖: the round-off of ρBᵀ(Bx − c) limits the gradient that can be reached.
 constexpr double maxPenalty = 1e4;
 
-/// With an error's target: ‖Bx − c‖ relative to its reference at which x is worth being moved onto Bx = c, where the rows
-/// allow that. Whether the error is small enough shows there.
-constexpr double worthRestoring = 1e-2;
-
-/// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
-class AdaptiveRule final : public StoppingRule {
+/// Foresees where residual after residual is the last one times q, close to 1 (rows that the free entries can hardly serve):
+/// the sum of the steps to come is 1/(1 − q) of them.
+class CreepingResidual {
 public:
-  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance,
-               double forcing)
-      : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
-        residual_(equality_->numEntries()) {
-    if (tolerances.error != nullptr)
-      watch_.emplace(*tolerances.error);
-  }
+  explicit CreepingResidual(const EqualityConstraint& equality)
+      : equality_(equality), last_(equality.numEntries(), 0.0) {}
 
-  [[nodiscard]] int numSums() const override { return equality_->numSums(); }
-  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) override {
-    x_ = &x;
-    equality_->addLocalSums(x, sums);
+  /// How many steps one is to stand for. Collective.
+  double factor(std::span<const double> residual, double norm, double lastNorm) {
+    constexpr int patience = 4;
+    constexpr double longest = 1e8;
+    const double alignment = equality_.dot(residual, last_) / (norm * lastNorm);
+    last_.assign(residual.begin(), residual.end());
+    numAligned_ = norm > 0.5 * lastNorm && alignment > 0.99 ? numAligned_ + 1 : 0;
+    if (numAligned_ < patience)
+      return 1;
+    numAligned_ = 0;
+    const double ratio = norm / lastNorm;
+    return ratio < 1 ? std::min(1 / (1 - ratio), longest) : 1;
   }
-  [[nodiscard]] bool usesEnergy() const override { return watch_.has_value(); }
-
-  bool isSatisfied(const GradientNorms& gradient, std::span<const AccurateSum> sums) override {
-    const double projectedGradient = gradient.euclidean;
-    residualNorm_ = equality_->finishResidual(sums, residual_);
-    const bool isRough = watch_ && equality_->isReplicated();
-    const double constraint =
-        isRough ? std::max(worthRestoring, tolerances_.constraint) : tolerances_.constraint;
-    isFinal_ = residualNorm_ <= constraint * tolerances_.constraintReference &&
-               (watch_ ? watch_->isSmallEnough(gradient.energy, *x_)
-                       : projectedGradient <= tolerances_.gradient * tolerances_.gradientReference);
-    // After a thousand steps it is time for another multiplier, if only the gradient is small enough for the end.
-    const bool isLong = ++steps_ > 1000;
-    const double enough = isLong ? 0.1 * tolerances_.gradient * tolerances_.gradientReference : 0.0;
-    return isFinal_ || projectedGradient <= std::max(std::min(balance_ * residualNorm_, forcing_), enough);
-  }
-
-  void describe(StepRecord& record) const override {
-    record.projectedGradient = relativeTo(tolerances_.gradientReference, record.projectedGradient);
-    record.constraintResidual = relativeTo(tolerances_.constraintReference, residualNorm_);
-  }
-
-  /// Both final tolerances hold, that of Bx = c as far as a restoration needs it.
-  [[nodiscard]] bool isFinal() const { return isFinal_; }
-  /// They hold as asked for.
-  [[nodiscard]] bool isMet() const {
-    return isFinal_ && residualNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
-  }
-  [[nodiscard]] double residualNorm() const { return residualNorm_; }
-  [[nodiscard]] std::span<const double> residual() const { return residual_; }
-  void reduceBalance(double factor) { balance_ *= factor; }
-  void startInnerLoop() { steps_ = 0; }
 
 private:
-  RCP<const EqualityConstraint> equality_;
-  SmalbeTolerances tolerances_;
-  double balance_, forcing_;
-  std::vector<double> residual_;
-  double residualNorm_ = 0;
-  std::optional<ErrorWatch> watch_;
-  const Vector* x_ = nullptr; ///< of the measurement at hand
-  int steps_ = 0;             ///< of the inner loop
-  bool isFinal_ = false;
+  const EqualityConstraint& equality_;
+  std::vector<double> last_;
+  int numAligned_ = 0;
+};
+
+/// Whether the gradients after restorations, none of which was small enough, still become smaller.
+class RestorationWatch {
+public:
+  [[nodiscard]] bool isWorthwhile(double gradient) {
+    constexpr int maxIdle = 8;
+    const bool isBetter = gradient < 0.999 * best_;
+    best_ = std::min(best_, gradient);
+    numIdle_ = isBetter ? 0 : numIdle_ + 1;
+    return numIdle_ <= maxIdle;
+  }
+
+private:
+  int numIdle_ = 0;
+  double best_ = std::numeric_limits<double>::infinity();
 };
 
 /// The outer iteration with its state μ, ρ, M.
@@ -110,9 +87,7 @@ private:
   void adapt(const Progress& previous, const Progress& now);
   void growPenalty();
   void updateMultiplier(const Progress& previous);
-  double extrapolation(const Progress& previous);
   void restore();
-  bool restorationsHelp();
   [[nodiscard]] double normOfLagrangian() const;
   [[nodiscard]] double constantOfLagrangian() const;
   void linearTermOfLagrangian(Vector& b) const;
@@ -126,10 +101,10 @@ private:
   AdaptiveRule rule_;
   Mprgp inner_;
   Vector work_;
-  std::vector<double> lastResidual_;
-  int idle_ = 0, slow_ = 0, aligned_ = 0, idleRestorations_ = 0;
-  bool wasRestored_ = false;
-  double bestRestored_ = std::numeric_limits<double>::infinity();
+  CreepingResidual creep_;
+  RestorationWatch restorations_;
+  int numIdle_ = 0; ///< outer iterations in a row that hardly improved ‖Bx − c‖
+  int numSlow_ = 0; ///< that did not halve it
 };
 
 OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
@@ -144,9 +119,8 @@ OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<
       rule_(problem.equality, tolerances, parameters.balance * problem.operatorNorm / equality_.norm(),
             parameters.forcing * tolerances.gradientReference),
       inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
-      work_(problem.hessian->getDomainMap()) {
+      work_(problem.hessian->getDomainMap()), creep_(equality_) {
   multiplier_.assign(equality_.numEntries(), 0.0);
-  lastResidual_.assign(equality_.numEntries(), 0.0);
 }
 
 /// ‖A + ρBᵀB‖ at most.
@@ -178,6 +152,7 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
     startMultiplier();
 
   Progress previous;
+  bool wasRestored = false;
   while (inner_.counts().outer < parameters_.maxOuterIterations) {
     rule_.startInnerLoop();
     const Status status = inner_.run(rule_, observer); // ‖g^P‖ ≤ min(M‖Bx − c‖, η)
@@ -185,9 +160,9 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
       return status;
     if (rule_.isMet() && inner_.gradientIsFresh())
       return Status::converged;
-    if (!restorationsHelp())
+    if (wasRestored && !restorations_.isWorthwhile(inner_.startGradient()))
       return Status::stagnated;
-    wasRestored_ = rule_.isFinal() || status == Status::stagnated;
+    wasRestored = rule_.isFinal() || status == Status::stagnated;
     if (rule_.isFinal() &&
         !equality_.isReplicated()) { // Bx = c cannot be made exact: only the gradient is in doubt
       restore();
@@ -198,7 +173,7 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
     adapt(previous, now);
     previous = now;
     ++inner_.counts().outer;
-    if (wasRestored_)
+    if (wasRestored)
       restore();
   }
   return Status::maxIterations;
@@ -207,8 +182,8 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
 /// What MPRGP cannot improve any further is good enough for the next multiplier, as long as these make progress.
 bool OuterIteration::toleratesRoundOff(const Progress& previous) {
   constexpr int maxIdle = 3;
-  idle_ = rule_.residualNorm() > 0.9 * previous.residual ? idle_ + 1 : 0;
-  return idle_ <= maxIdle;
+  numIdle_ = rule_.residualNorm() > 0.9 * previous.residual ? numIdle_ + 1 : 0;
+  return numIdle_ <= maxIdle;
 }
 
 /// M ← βM, or ρ ← βρ, when L grew by less than ρ/2‖Bx − c‖²; and where ρ may change, ρ ← βρ as well when ‖Bx − c‖ has
@@ -221,15 +196,15 @@ void OuterIteration::adapt(const Progress& previous, const Progress& now) {
       now.lagrangian < previous.lagrangian + 0.5 * penalty_ * now.residual * now.residual - roundOff;
   // A residual that is round-off of Bx does not fall any more, whatever the penalty.
   const bool isRoundOff = now.residual <= 1e-13 * equality_.norm() * inner_.solutionNorm();
-  slow_ = !isFirst && !isRoundOff && now.residual > 0.5 * previous.residual ? slow_ + 1 : 0;
+  numSlow_ = !isFirst && !isRoundOff && now.residual > 0.5 * previous.residual ? numSlow_ + 1 : 0;
   using Update = SmalbeParameters::Update;
   const bool mayGrow = penalty_ * equality_.norm() * equality_.norm() < maxPenalty * problem_.operatorNorm;
   if (grewTooLittle && (parameters_.update != Update::penalty || !mayGrow))
     rule_.reduceBalance(parameters_.balanceReduction);
-  const bool isSlow = parameters_.update != Update::balance && slow_ >= 2;
+  const bool isSlow = parameters_.update != Update::balance && numSlow_ >= 2;
   if (mayGrow && (isSlow || (grewTooLittle && parameters_.update == Update::penalty))) {
     growPenalty();
-    slow_ = 0;
+    numSlow_ = 0;
   }
 }
 
@@ -262,37 +237,22 @@ void OuterIteration::growPenalty() {
                        normOfLagrangian());
 }
 
-/// μ may go further than the paper's step ρ(Bx − c), to `extrapolation()` or where the inner solution x does not notice:
+/// μ may go further than the paper's step ρ(Bx − c), to where `creep_` foresees it or where the inner solution x does not notice:
 /// while every entry that the shift touches is held at its bound, x stays the minimiser and L grows linearly in μ, until
 /// the first multiplier there changes its sign.
 void OuterIteration::updateMultiplier(const Progress& previous) {
+  const double residual = rule_.residualNorm();
   work_.putScalar(0.0);
   equality_.addTransposedProduct(rule_.residual(), penalty_ * inner_.gradientScale(), work_);
   const double longest =
       minOverRanks(*work_.getMap()->getComm(),
                    problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
-  const double step = std::max({1.0, std::isfinite(longest) ? longest : 1.0, extrapolation(previous)});
+  const double step = std::max({1.0, std::isfinite(longest) ? longest : 1.0,
+                                creep_.factor(rule_.residual(), residual, previous.residual)});
   work_.scale(step / inner_.gradientScale());
-  const double residual = rule_.residualNorm();
   inner_.shiftLinearTerm(work_, step * penalty_ * residual * residual);
   for (std::size_t i = 0; i < multiplier_.size(); ++i)
     multiplier_[i] += step * penalty_ * rule_.residual()[i];
-}
-
-/// Where residual after residual is the last one times q, close to 1 (rows that the free entries can hardly serve), the sum
-/// of the steps to come is 1/(1 − q) of them.
-double OuterIteration::extrapolation(const Progress& previous) {
-  constexpr int patience = 4;
-  constexpr double longest = 1e8;
-  const double residual = rule_.residualNorm();
-  const double alignment = equality_.dot(rule_.residual(), lastResidual_) / (residual * previous.residual);
-  lastResidual_.assign(rule_.residual().begin(), rule_.residual().end());
-  aligned_ = residual > 0.5 * previous.residual && alignment > 0.99 ? aligned_ + 1 : 0;
-  if (aligned_ < patience)
-    return 1;
-  aligned_ = 0;
-  const double ratio = residual / previous.residual;
-  return ratio < 1 ? std::min(1 / (1 - ratio), longest) : 1;
 }
 
 /// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on.
@@ -305,55 +265,7 @@ void OuterIteration::restore() {
   inner_.start(b, work_, constantOfLagrangian());
 }
 
-/// Whether the gradients after restorations, none of which was small enough, still become smaller.
-bool OuterIteration::restorationsHelp() {
-  constexpr int maxIdle = 8;
-  if (!wasRestored_)
-    return true;
-  const bool isBetter = inner_.startGradient() < 0.999 * bestRestored_;
-  bestRestored_ = std::min(bestRestored_, inner_.startGradient());
-  idleRestorations_ = isBetter ? 0 : idleRestorations_ + 1;
-  return idleRestorations_ <= maxIdle;
-}
-
 } // namespace
-
-Teuchos::ParameterList SmalbeParameters::validParameters() {
-  const SmalbeParameters defaults;
-  Teuchos::ParameterList list("SMALBE");
-  addChoice(list, "Update", "both",
-            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M "
-            "(SMALBE-M) or the "
-            "penalty ρ (SMALBE-ρ). 'both' is 'balance', and ρ grows where ‖Bx − c‖ falls slowly.",
-            {"both", "balance", "penalty"});
-  addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0,
-          1e12, true);
-  addReal(list, "Balance", defaults.balance,
-          "M‖B‖ at the start as a multiple of ‖A‖: inner loops stop at ‖gᴾ‖ ≤ M‖Bx − c‖.", 0.0, 1e12, true);
-  addReal(list, "Balance Reduction", defaults.balanceReduction,
-          "Factor on M, with Update 'balance' or 'both'.", 0.0, 1.0, true, true);
-  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty' or 'both'.",
-          1.0, 1e6, true);
-  addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
-  addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
-             "Updates of the multiplier of the equality constraints at most.", 1);
-  return list;
-}
-
-SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
-  SmalbeParameters parameters;
-  const auto& update = list.get<std::string>("Update");
-  parameters.update = update == "both"      ? Update::both
-                      : update == "penalty" ? Update::penalty
-                                            : Update::balance;
-  parameters.penalty = list.get<double>("Penalty");
-  parameters.balance = list.get<double>("Balance");
-  parameters.balanceReduction = list.get<double>("Balance Reduction");
-  parameters.penaltyGrowth = list.get<double>("Penalty Growth");
-  parameters.forcing = list.get<double>("Forcing");
-  parameters.maxOuterIterations = list.get<int>("Maximum Outer Iterations");
-  return parameters;
-}
 
 SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x,
                                       std::vector<double>& multiplier, const SmalbeTolerances& tolerances,

@@ -13,23 +13,17 @@ constexpr std::size_t maxNumberings = 8, maxNumbers = 1U << 20U;
 
 std::vector<scene::Material> materialsOf(const scene::Body& body) {
   std::vector<scene::Material> materials;
-  if (body.solid) {
-    for (std::size_t region = 0; region <= body.solid->regions.size(); ++region)
-      materials.push_back(fem::materialIn(*body.solid, region));
-    return materials;
-  }
-  materials.push_back({.conductivity = body.conductivity});
-  for (const scene::Region& region : body.regions)
-    materials.push_back({.conductivity = region.conductivity});
+  for (std::size_t region = 0; region <= body.regions.size(); ++region)
+    materials.push_back(fem::materialIn(body, region));
   return materials;
 }
 
 } // namespace
 
-BodyElements::BodyElements(const scene::Body& body, const decomposition::BodyLayout& layout)
-    : layout_(layout), physics_(body.solid ? body.solid->physics : scene::Physics::membrane),
-      materials_(materialsOf(body)), shape_(fem::congruentCorners(*layout.mesh)),
-      model_(materials_.size() > 1 ? decomposition::makeModel(body, *layout.mesh) : nullptr),
+BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& layout)
+    : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
+      shape_(fem::congruentCorners(*layout.mesh)),
+      model_(materials_.size() > 1 ? model::makeModel(body, *layout.mesh) : nullptr),
       numberings_(maxNumberings, maxNumbers) {
   if (!shape_.empty())
     for (const scene::Material& material : materials_)
@@ -77,7 +71,7 @@ Eigen::MatrixXd BodyElements::gather(const SubdomainElements& elements, std::spa
 }
 
 std::vector<BodyElements> elementsOfBodies(const scene::Scene& scene,
-                                           const decomposition::Decomposition& decomposition) {
+                                           const model::Decomposition& decomposition) {
   std::vector<BodyElements> bodies;
   bodies.reserve(scene.bodies.size());
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)

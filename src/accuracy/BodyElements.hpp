@@ -3,12 +3,12 @@
 /// The elements of a body, subdomain by subdomain, with what they are made of and how they are displaced: what everything
 /// that integrates over a solution walks along.
 
-#include "epafi/decomposition/Decompose.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/fem/RecentlyUsed.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>
 
@@ -48,7 +48,7 @@ enum class Points {
 class BodyElements {
 public:
   /// Keeps references to both.
-  BodyElements(const scene::Body& body, const decomposition::BodyLayout& layout);
+  BodyElements(const scene::Body& body, const model::BodyLayout& layout);
 
   [[nodiscard]] scene::Physics physics() const { return physics_; }
   [[nodiscard]] fem::CellType cellType() const { return layout_.mesh->cellType(); }
@@ -99,7 +99,7 @@ public:
   }
 
 private:
-  const decomposition::BodyLayout& layout_;
+  const model::BodyLayout& layout_;
   scene::Physics physics_;
   std::vector<scene::Material> materials_; ///< of each region
   std::vector<fem::Point>
@@ -111,6 +111,6 @@ private:
 
 /// Those of all bodies of a scene. Keeps references to both.
 std::vector<BodyElements> elementsOfBodies(const scene::Scene& scene,
-                                           const decomposition::Decomposition& decomposition);
+                                           const model::Decomposition& decomposition);
 
 } // namespace epafi::accuracy

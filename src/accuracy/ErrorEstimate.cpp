@@ -15,7 +15,7 @@ double ErrorEstimate::relative() const {
   return whole > 0 ? discretisation / whole : 0;
 }
 
-ErrorEstimator::ErrorEstimator(const scene::Scene& scene, const decomposition::Decomposition& decomposition)
+ErrorEstimator::ErrorEstimator(const scene::Scene& scene, const model::Decomposition& decomposition)
     : decomposition_(decomposition), bodies_(elementsOfBodies(scene, decomposition)) {}
 
 namespace {

@@ -31,7 +31,7 @@ struct ErrorEstimate {
 class ErrorEstimator {
 public:
   /// Keeps references to both. Not collective.
-  ErrorEstimator(const scene::Scene& scene, const decomposition::Decomposition& decomposition);
+  ErrorEstimator(const scene::Scene& scene, const model::Decomposition& decomposition);
 
   /// \param displacement  u at all positions of each of this rank's subdomains, components in space
   /// Two passes over the elements, one exchange of the nodes that subdomains share. Sums are the same on any number of
@@ -39,7 +39,7 @@ public:
   ErrorEstimate operator()(std::span<const Eigen::VectorXd> displacement);
 
 private:
-  const decomposition::Decomposition& decomposition_;
+  const model::Decomposition& decomposition_;
   std::vector<BodyElements> bodies_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace epafi::accuracy {
 
-using decomposition::Decomposition;
+using model::Decomposition;
 
 ErrorNorms errorNorms(const scene::Scene& scene, const Decomposition& decomposition,
                       std::span<const Eigen::VectorXd> displacement, const ExactField& exact) {

@@ -22,15 +22,15 @@ using ExactField = std::function<fem::FieldValue(int body, const fem::Point& poi
 /// ‖u − exact‖; of an empty function ‖u‖.
 /// \param displacement  u at all positions of each of this rank's subdomains
 /// Collective.
-ErrorNorms errorNorms(const scene::Scene& scene, const decomposition::Decomposition& decomposition,
+ErrorNorms errorNorms(const scene::Scene& scene, const model::Decomposition& decomposition,
                       std::span<const Eigen::VectorXd> displacement, const ExactField& exact);
 
 /// ‖u − reference‖ on the reference's mesh, to which u is carried over node by node; without error where each element of
 /// the finer mesh lies in one of the coarser. The displacements of floating bodies must both have their rigid part.
 /// Collective.
-ErrorNorms errorAgainst(const scene::Scene& referenceScene, const decomposition::Decomposition& reference,
+ErrorNorms errorAgainst(const scene::Scene& referenceScene, const model::Decomposition& reference,
                         std::span<const Eigen::VectorXd> referenceDisplacement,
-                        const decomposition::Decomposition& decomposition,
+                        const model::Decomposition& decomposition,
                         std::span<const Eigen::VectorXd> displacement);
 
 } // namespace epafi::accuracy

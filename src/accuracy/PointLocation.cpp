@@ -1,9 +1,8 @@
 #include "epafi/accuracy/PointLocation.hpp"
 
-#include "epafi/fem/BoxMesh.hpp"
 #include "epafi/fem/ElementMap.hpp"
-#include "epafi/fem/RectangleMesh.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +92,7 @@ Point centreOf(const Mesh& mesh, GlobalOrdinal element) {
 } // namespace
 
 PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
-  if (dynamic_cast<const fem::RectangleMesh*>(&mesh) != nullptr ||
-      dynamic_cast<const fem::BoxMesh*>(&mesh) != nullptr)
+  if (mesh.structured() != nullptr)
     return;
   std::vector<Point> centres;
   centres.reserve(static_cast<std::size_t>(mesh.numElements()));
@@ -136,17 +134,11 @@ Location PointLocation::best(const Point& point, std::span<const LocalOrdinal> c
 
 Location PointLocation::find(const Point& point) {
   double outside = 0;
-  if (const auto* plane = dynamic_cast<const fem::RectangleMesh*>(&mesh_)) {
-    const scene::Rectangle& r = plane->rectangle();
-    const auto [nx, ny] = plane->elements();
-    const GlobalOrdinal column = cellOf(point[0], r.x0, (r.x1 - r.x0) / nx, nx);
-    return locateIn(mesh_, column + nx * cellOf(point[1], r.y0, (r.y1 - r.y0) / ny, ny), point, outside);
-  }
-  if (const auto* box = dynamic_cast<const fem::BoxMesh*>(&mesh_)) {
+  if (const fem::StructuredMesh* grid = mesh_.structured()) {
     std::array<GlobalOrdinal, 3> cell{};
-    for (std::size_t d = 0; d < 3; ++d)
-      cell[d] = cellOf(point[d], box->box().lower[d], box->elementSize()[d], box->elements()[d]);
-    return locateIn(mesh_, cell[0] + box->elements()[0] * (cell[1] + box->elements()[1] * cell[2]), point,
+    for (std::size_t d = 0; d < static_cast<std::size_t>(grid->dimension()); ++d)
+      cell[d] = cellOf(point[d], grid->box().lower[d], grid->elementSize()[d], grid->elements()[d]);
+    return locateIn(mesh_, cell[0] + grid->elements()[0] * (cell[1] + grid->elements()[1] * cell[2]), point,
                     outside);
   }
   constexpr double roundOff = 1e-9, near = 0.5;

@@ -1,6 +1,7 @@
 #include "epafi/accuracy/RecoveredFlux.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Maps.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 
@@ -15,8 +16,8 @@
 namespace epafi::accuracy {
 namespace {
 
-using decomposition::Decomposition;
 using decomposition::Subdomain;
+using model::Decomposition;
 
 /// Gives every corner its slot, where there are several materials. Returns the number of slots.
 Eigen::Index findSlots(const Subdomain& subdomain, SubdomainFlux& flux) {
@@ -41,7 +42,6 @@ Eigen::Index findSlots(const Subdomain& subdomain, SubdomainFlux& flux) {
   return static_cast<Eigen::Index>(distinct.size());
 }
 
-/// Σ w q and, in the last row, Σ w over the subdomain's elements around each slot, w their measure.
 void addElements(const BodyElements& body, const Subdomain& subdomain, const Eigen::VectorXd& displacement,
                  SubdomainFlux& flux) {
   const int numFluxes = fem::numFluxes(body.physics());
@@ -101,8 +101,7 @@ SharedSlots::SharedSlots(const Decomposition& decomposition, std::span<const Sub
   for (const SubdomainFlux& flux : fluxes)
     for (const GlobalOrdinal region : flux.regions)
       regions = std::max(regions, region + 1);
-  regions =
-      static_cast<GlobalOrdinal>(maxOverRanks(*decomposition.problem.comm, static_cast<double>(regions)));
+  regions = maxOverRanks(*decomposition.problem.comm, regions);
   std::vector<GlobalOrdinal> firstKey(1, 0); // of each body
   for (const auto& body : decomposition.bodies)
     firstKey.push_back(firstKey.back() + regions * body.mesh->numNodes());
@@ -136,8 +135,7 @@ void SharedSlots::add(const RCP<const Comm>& comm, Eigen::Index rows, std::span<
     sums.col(placeOf(slot.key)) += fluxes[slot.subdomain].values.col(slot.slot);
 
   if (comm->getSize() > 1) {
-    const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-    const RCP<const Map> here = rcp(new Map(invalid, Teuchos::arrayViewFromVector(keys_), 0, comm));
+    const RCP<const Map> here = mapInOrder(keys_, comm);
     const RCP<const Map> owned = Tpetra::createOneToOne(here);
     const Export plan(here, owned);
     MultiVector mine(here, static_cast<std::size_t>(rows)), total(owned, static_cast<std::size_t>(rows));
@@ -158,29 +156,31 @@ void SharedSlots::add(const RCP<const Comm>& comm, Eigen::Index rows, std::span<
 
 } // namespace
 
+SubdomainFlux sumFlux(BodyElements& body, const Subdomain& subdomain, const Eigen::VectorXd& displacement) {
+  SubdomainFlux flux;
+  flux.elements = body.elementsOf(subdomain);
+  flux.values.setZero(fem::numFluxes(body.physics()) + 1, findSlots(subdomain, flux));
+  if (body.congruentFluxes(0) != nullptr)
+    addCongruentElements(body, displacement, flux);
+  else
+    addElements(body, subdomain, displacement, flux);
+  return flux;
+}
+
 std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies, const Decomposition& decomposition,
                                        std::span<const Eigen::VectorXd> displacement) {
   const auto& problem = decomposition.problem;
-  std::vector<SubdomainFlux> fluxes(problem.subdomains.size());
+  std::vector<SubdomainFlux> fluxes;
   collectively(*problem.comm, [&] {
-    for (std::size_t s = 0; s < fluxes.size(); ++s) {
-      const Subdomain& subdomain = problem.subdomains[s];
-      BodyElements& body = bodies[static_cast<std::size_t>(subdomain.body)];
-      fluxes[s].elements = body.elementsOf(subdomain);
-      const int rows = fem::numFluxes(body.physics()) + 1;
-      fluxes[s].values.setZero(rows, findSlots(subdomain, fluxes[s]));
-      if (body.congruentFluxes(0) != nullptr)
-        addCongruentElements(body, displacement[s], fluxes[s]);
-      else
-        addElements(body, subdomain, displacement[s], fluxes[s]);
-    }
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+      fluxes.push_back(sumFlux(bodies[static_cast<std::size_t>(problem.subdomains[s].body)],
+                               problem.subdomains[s], displacement[s]));
   });
   const int numFluxes = fem::numFluxes(bodies.front().physics()); // all bodies have as many unknowns a node
   SharedSlots(decomposition, fluxes).add(problem.comm, numFluxes + 1, fluxes);
-  for (SubdomainFlux& flux : fluxes) {
+  for (SubdomainFlux& flux : fluxes)
     for (Eigen::Index slot = 0; slot < flux.values.cols(); ++slot)
       flux.values.col(slot) *= 1 / flux.values(numFluxes, slot);
-  }
   return fluxes;
 }
 

@@ -32,11 +32,16 @@ struct SubdomainFlux {
   [[nodiscard]] GlobalOrdinal regionOf(std::size_t slot) const { return regions.empty() ? 0 : regions[slot]; }
 };
 
+/// Of one subdomain, from its own elements: Σ w q of those around each slot and, in the last row, Σ w, w their measures.
+/// Not collective.
+SubdomainFlux sumFlux(BodyElements& body, const decomposition::Subdomain& subdomain,
+                      const Eigen::VectorXd& displacement);
+
 /// Of each of this rank's subdomains, the same for every cut and number of ranks but for round-off.
 /// \param displacement  u at all positions of each of this rank's subdomains, components in space; it may jump between them
 /// Collective; no rank holds more than the values of its own subdomains.
 std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies,
-                                       const decomposition::Decomposition& decomposition,
+                                       const model::Decomposition& decomposition,
                                        std::span<const Eigen::VectorXd> displacement);
 
 } // namespace epafi::accuracy

@@ -2,6 +2,7 @@
 
 #include "epafi/accuracy/PointLocation.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Maps.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Export.hpp>
@@ -16,8 +17,8 @@
 namespace epafi::accuracy {
 namespace {
 
-using decomposition::Decomposition;
 using decomposition::Subdomain;
+using model::Decomposition;
 
 /// Where a node of the fine mesh lies in the coarse one.
 struct Guess {
@@ -88,14 +89,6 @@ std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, No
   return guesses;
 }
 
-/// Numbers sorted, each once, as a map. Collective.
-RCP<const Map> mapOf(std::vector<GlobalOrdinal> numbers, const RCP<const Comm>& comm) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                     Teuchos::arrayViewFromVector(numbers), 0, comm));
-}
-
 /// The coarse values that the guesses need. Collective.
 RCP<MultiVector> gatherSources(const Decomposition& from, std::span<const Eigen::VectorXd> displacement,
                                std::span<const Guess> guesses) {
@@ -108,7 +101,7 @@ RCP<MultiVector> gatherSources(const Decomposition& from, std::span<const Eigen:
   for (const Guess& guess : guesses)
     wanted.insert(wanted.end(), guess.sources.begin(),
                   guess.sources.begin() + static_cast<std::ptrdiff_t>(guess.numSources));
-  const RCP<const Map> local = mapOf(std::move(here), problem.comm);
+  const RCP<const Map> local = makeMap(std::move(here), problem.comm);
   const auto components = static_cast<std::size_t>(problem.components);
   MultiVector mine(local, components);
   for (std::size_t c = 0; c < components; ++c) {
@@ -120,7 +113,8 @@ RCP<MultiVector> gatherSources(const Decomposition& from, std::span<const Eigen:
             displacement[s][static_cast<Eigen::Index>(i * components + c)];
     }
   }
-  const RCP<const Map> owned = Tpetra::createOneToOne(local), target = mapOf(std::move(wanted), problem.comm);
+  const RCP<const Map> owned = Tpetra::createOneToOne(local),
+                       target = makeMap(std::move(wanted), problem.comm);
   MultiVector unique(owned, components);
   unique.doImport(mine, Import(local, owned), Tpetra::INSERT);
   const RCP<MultiVector> result = rcp(new MultiVector(target, components));

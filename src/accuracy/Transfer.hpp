@@ -2,7 +2,7 @@
 
 /// A solution on one mesh in the terms of a finer one: as a first guess, or to compare.
 
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>
 
@@ -23,8 +23,8 @@ enum class NodesOf {
 /// \param displacement  u at all positions of each of this rank's subdomains of `from`
 /// \param to            decomposition of the same scene on another mesh: the same bodies in the same order
 /// Each rank gets the values that it needs and no more. Collective.
-std::vector<Eigen::VectorXd> interpolate(const decomposition::Decomposition& from,
+std::vector<Eigen::VectorXd> interpolate(const model::Decomposition& from,
                                          std::span<const Eigen::VectorXd> displacement,
-                                         const decomposition::Decomposition& to, NodesOf nodes);
+                                         const model::Decomposition& to, NodesOf nodes);
 
 } // namespace epafi::accuracy

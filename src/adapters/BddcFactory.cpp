@@ -1,12 +1,10 @@
 #include "epafi/adapters/BddcFactory.hpp"
 
 #include "epafi/adapters/ForwardOperator.hpp"
+#include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/base/Parameters.hpp"
-#include "epafi/fetidp/ThyraOperators.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
 
-#include <Teuchos_VerboseObjectParameterListHelpers.hpp>
 #include <Thyra_DefaultPreconditioner.hpp>
 #include <Thyra_DefaultScaledAdjointLinearOp.hpp>
 #include <Thyra_PreconditionerFactoryBase.hpp>
@@ -28,7 +26,8 @@ Thyra::DefaultPreconditioner<double>& ours(Thyra::PreconditionerBase<double>* pr
 
 } // namespace
 
-BddcFactory::BddcFactory(RCP<const linear::UnassembledOperator> k) : k_(std::move(k)) {}
+BddcFactory::BddcFactory(RCP<const linear::UnassembledOperator> k)
+    : ConfiguredFactory("BDDC"), k_(std::move(k)) {}
 
 /// Null if there is none that fits. \param factor  of the forward operator: it is `factor` times K
 RCP<const linear::UnassembledOperator>
@@ -58,10 +57,10 @@ void BddcFactory::initializePrec(const RCP<const Thyra::LinearOpSourceBase<doubl
   if (k.is_null() || factor == 0)
     throw InputError(
         "BDDC knows no decomposition of the operator " + source->getOp()->description() +
-        "; it must be epafi::fetidp::asThyra of an epafi::linear::UnassembledOperator, or the factory "
+        "; it must be epafi::adapters::asThyra of an epafi::linear::UnassembledOperator, or the factory "
         "must have one on the same map");
-  const RCP<const Operator> bddc = rcp(new linear::BddcPreconditioner(k, parameters_));
-  const auto op = fetidp::asThyra(bddc);
+  const RCP<const Operator> bddc = rcp(new linear::BddcPreconditioner(k, parameters()));
+  const auto op = asThyra(bddc);
   ours(preconditioner).initializeUnspecified(factor == 1 ? op : Thyra::scale(1 / factor, op));
 }
 
@@ -73,31 +72,6 @@ void BddcFactory::uninitializePrec(Thyra::PreconditionerBase<double>* preconditi
     *source = Teuchos::null; // is not kept
   if (use != nullptr)
     *use = Thyra::SUPPORT_SOLVE_UNSPECIFIED;
-}
-
-void BddcFactory::setParameterList(const RCP<Teuchos::ParameterList>& list) {
-  if (list.is_null())
-    throw InputError("a BDDC factory was given no parameter list; an empty one stands for the defaults");
-  parameters_ = linear::BddcParameters::from(validated(*list, *getValidParameters(), ""));
-  list_ = list;
-  Teuchos::readVerboseObjectSublist(&*list_, this);
-}
-
-RCP<Teuchos::ParameterList> BddcFactory::unsetParameterList() {
-  const RCP<Teuchos::ParameterList> list = list_;
-  list_ = Teuchos::null;
-  parameters_ = {};
-  return list;
-}
-
-RCP<const Teuchos::ParameterList> BddcFactory::getValidParameters() const {
-  static const RCP<const Teuchos::ParameterList> valid = [] {
-    const RCP<Teuchos::ParameterList> list =
-        rcp(new Teuchos::ParameterList(linear::BddcParameters::validParameters()));
-    Teuchos::setupVerboseObjectSublist(&*list);
-    return list;
-  }();
-  return valid;
 }
 
 } // namespace epafi::adapters

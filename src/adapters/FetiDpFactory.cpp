@@ -1,9 +1,7 @@
 #include "epafi/adapters/FetiDpFactory.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/base/Parameters.hpp"
 
-#include <Teuchos_VerboseObjectParameterListHelpers.hpp>
 #include <Thyra_LinearOpWithSolveFactoryBase.hpp>
 
 namespace epafi::adapters {
@@ -30,7 +28,7 @@ RCP<Thyra::LinearOpWithSolveBase<double>> FetiDpFactory::createOp() const {
 void FetiDpFactory::initializeOp(const RCP<const Thyra::LinearOpSourceBase<double>>& source,
                                  Thyra::LinearOpWithSolveBase<double>* op,
                                  Thyra::ESupportSolveUse /*use*/) const {
-  ours(op).initialize(source, parameters_);
+  ours(op).initialize(source, parameters());
 }
 
 void FetiDpFactory::uninitializeOp(Thyra::LinearOpWithSolveBase<double>* op,
@@ -47,31 +45,6 @@ void FetiDpFactory::uninitializeOp(Thyra::LinearOpWithSolveBase<double>* op,
     *approximateSource = Teuchos::null;
   if (use != nullptr)
     *use = Thyra::SUPPORT_SOLVE_UNSPECIFIED;
-}
-
-void FetiDpFactory::setParameterList(const RCP<Teuchos::ParameterList>& list) {
-  if (list.is_null())
-    throw InputError("a FETI-DP factory was given no parameter list; an empty one stands for the defaults");
-  parameters_ = linear::FetiDpParameters::from(validated(*list, *getValidParameters(), ""));
-  list_ = list;
-  Teuchos::readVerboseObjectSublist(&*list_, this);
-}
-
-RCP<Teuchos::ParameterList> FetiDpFactory::unsetParameterList() {
-  const RCP<Teuchos::ParameterList> list = list_;
-  list_ = Teuchos::null;
-  parameters_ = {};
-  return list;
-}
-
-RCP<const Teuchos::ParameterList> FetiDpFactory::getValidParameters() const {
-  static const RCP<const Teuchos::ParameterList> valid = [] {
-    const RCP<Teuchos::ParameterList> list =
-        rcp(new Teuchos::ParameterList(linear::FetiDpParameters::validParameters()));
-    Teuchos::setupVerboseObjectSublist(&*list);
-    return list;
-  }();
-  return valid;
 }
 
 } // namespace epafi::adapters

@@ -34,7 +34,7 @@ void FetiDpSolve::initialize(const RCP<const Thyra::LinearOpSourceBase<double>>&
   const ForwardOperator forward = forwardOperator(*source);
   if (forward.k.is_null())
     throw InputError("FETI-DP cannot solve with the operator " + source->getOp()->description() +
-                     "; it must be epafi::fetidp::asThyra of an epafi::linear::UnassembledOperator");
+                     "; it must be epafi::adapters::asThyra of an epafi::linear::UnassembledOperator");
   if (forward.factor == 0)
     throw InputError("FETI-DP cannot solve with an operator times zero");
   if (previous && previous->forwardOperator() == forward.k && previous->parameters() == parameters) {

@@ -59,68 +59,64 @@ Motions nearMotions(const SubdomainMatrix& matrix, const OwnSubdomain& own, cons
 }
 
 /// \throws InputError, the same on all ranks. Collective.
-void requireEqualNumbers(const std::vector<Motions>& motions, const std::vector<Piece>& pieces,
-                         const DecomposedProblem& problem) {
-  std::vector<double> numModes(problem.bodies.size(), -1);
+void requireEqualNumbers(const std::vector<Motions>& motions, const Substructures& all) {
+  std::vector<GlobalOrdinal> numModes(all.bodies.size(), -1);
   for (const Motions& m : motions) {
-    double& number = numModes[static_cast<std::size_t>(m.body)];
-    number = std::max(number, static_cast<double>(m.near.cols()));
+    GlobalOrdinal& number = numModes[static_cast<std::size_t>(m.body)];
+    number = std::max(number, static_cast<GlobalOrdinal>(m.near.cols()));
   }
-  for (double& number : numModes)
-    number = maxOverRanks(*problem.comm, number);
-  collectively(*problem.comm, [&] {
+  for (GlobalOrdinal& number : numModes)
+    number = maxOverRanks(*all.comm, number);
+  collectively(*all.comm, [&] {
     for (std::size_t s = 0; s < motions.size(); ++s)
-      if (const double number = numModes[static_cast<std::size_t>(motions[s].body)];
-          static_cast<double>(motions[s].near.cols()) != number)
-        throw InputError("subdomain " + std::to_string(pieces[s].number) + " has a near-kernel of " +
+      if (const GlobalOrdinal number = numModes[static_cast<std::size_t>(motions[s].body)];
+          motions[s].near.cols() != number)
+        throw InputError("subdomain " + std::to_string(all.subdomains[s].number) + " has a near-kernel of " +
                          std::to_string(motions[s].near.cols()) + " columns, another one of its body has " +
-                         std::to_string(static_cast<int>(number)) + ".");
+                         std::to_string(number) + ".");
     for (std::size_t b = 0; b < numModes.size(); ++b)
       if (numModes[b] < 0)
-        throw InputError("the body '" + problem.bodies[b].name + "' has no subdomain.");
+        throw InputError("the body '" + all.bodies[b].name + "' has no subdomain.");
   });
 }
 
 /// Which of the bodies move by rigid motions, as far as anyone has given a near-kernel. Collective.
 std::vector<bool> areRigid(const std::vector<SubdomainMatrix>& matrices, std::size_t numBodies,
                            const Comm& comm) {
-  std::vector<double> given(numBodies, 0);
-  for (const SubdomainMatrix& matrix : matrices)
-    if (matrix.nearKernel.cols() > 0)
-      given[static_cast<std::size_t>(matrix.body)] = 1;
   std::vector<bool> result;
-  for (const double isGiven : given)
-    result.push_back(maxOverRanks(comm, isGiven) == 0);
+  for (std::size_t b = 0; b < numBodies; ++b)
+    result.push_back(
+        !holdsAnywhere(comm, std::any_of(matrices.begin(), matrices.end(), [b](const SubdomainMatrix& m) {
+                         return static_cast<std::size_t>(m.body) == b && m.nearKernel.cols() > 0;
+                       })));
   return result;
 }
 
 } // namespace
 
-void findKernels(const std::vector<SubdomainMatrix>& matrices, const std::vector<OwnSubdomain>& own,
-                 int dimension, std::vector<Piece>& pieces, DecomposedProblem& problem) {
-  const bool isElastic = problem.components == dimension;
-  const std::size_t numBodies = problem.bodies.size();
-  const auto rigid = rigidModesOf(matrices, isElastic ? problem.components : 1, numBodies, *problem.comm);
+BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMatrix>& matrices,
+                        const std::vector<OwnSubdomain>& own) {
+  const auto components = static_cast<int>(all.components);
+  const bool isElastic = components == all.places.dimension;
+  BodyKernels result{{all.bodies.begin(), all.bodies.end()}, {}};
+  const std::size_t numBodies = result.bodies.size();
+  const auto rigid = rigidModesOf(matrices, isElastic ? components : 1, numBodies, *all.comm);
   std::vector<Motions> motions;
   for (std::size_t s = 0; s < matrices.size(); ++s)
-    motions.push_back(nearMotions(matrices[s], own[s], *pieces[s].stiffness,
-                                  rigid[static_cast<std::size_t>(matrices[s].body)], problem.components,
-                                  isElastic));
-  requireEqualNumbers(motions, pieces, problem);
-  const std::vector<Eigen::MatrixXd> combinations = findFreeMotions(motions, *problem.comm, problem.bodies);
-  const std::vector<bool> isRigid = areRigid(matrices, numBodies, *problem.comm);
-  problem.kernelDimension = 0;
-  for (std::size_t b = 0; b < numBodies; ++b) {
-    Body& body = problem.bodies[b];
-    problem.kernelDimension += body.kernelDimension;
-    if (body.kernelDimension > 0 && isElastic && isRigid[b]) {
+    motions.push_back(nearMotions(matrices[s], own[s], *all.nodal[s].stiffness,
+                                  rigid[static_cast<std::size_t>(matrices[s].body)], components, isElastic));
+  requireEqualNumbers(motions, all);
+  const std::vector<Eigen::MatrixXd> combinations = findFreeMotions(motions, *all.comm, result.bodies);
+  const std::vector<bool> isRigid = areRigid(matrices, numBodies, *all.comm);
+  for (std::size_t b = 0; b < numBodies; ++b)
+    if (Body& body = result.bodies[b]; body.kernelDimension > 0 && isElastic && isRigid[b]) {
       const fem::Point& centre = rigid[b].centre();
       body.motions = {
           {centre[0], centre[1], centre[2]}, rigid[b].size(), rigid[b].twists() * combinations[b]};
     }
-  }
-  for (std::size_t s = 0; s < motions.size(); ++s)
-    pieces[s].assembled.kernel = motions[s].near * combinations[static_cast<std::size_t>(motions[s].body)];
+  for (const Motions& m : motions)
+    result.kernels.emplace_back(m.near * combinations[static_cast<std::size_t>(m.body)]);
+  return result;
 }
 
 } // namespace epafi::decomposition

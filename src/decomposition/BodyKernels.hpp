@@ -2,21 +2,24 @@
 
 /// The kernels R^s of an application's bodies, from the near-kernels that it gave, or from rigid motions.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/decomposition/OwnSubdomain.hpp"
-#include "epafi/decomposition/Pieces.hpp"
-#include "epafi/decomposition/SubdomainMatrix.hpp"
+#include "epafi/decomposition/Substructures.hpp"
+
+#include <Eigen/Core>
 
 #include <vector>
 
 namespace epafi::decomposition {
 
-/// Fills the kernels of the pieces, and kernelDimension and the bodies' motions of `problem`.
-/// \param matrices, own  of the pieces
+struct BodyKernels {
+  std::vector<Body> bodies;             ///< with their kernels' dimensions and motions
+  std::vector<Eigen::MatrixXd> kernels; ///< R^s of each of this rank's subdomains
+};
+
+/// \param matrices, own  of the subdomains
 /// \throws InputError, the same on all ranks, if near-kernels of one body differ in number or a body has no subdomain.
-/// Preconditions: the communicator, components and bodies of `problem` are set, the stiffness of the pieces is that of the free
-/// unknowns. Collective.
-void findKernels(const std::vector<SubdomainMatrix>& matrices, const std::vector<OwnSubdomain>& own,
-                 int dimension, std::vector<Piece>& pieces, DecomposedProblem& problem);
+/// Collective.
+BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMatrix>& matrices,
+                        const std::vector<OwnSubdomain>& own);
 
 } // namespace epafi::decomposition

@@ -1,173 +1,222 @@
 #include "epafi/decomposition/ContactRows.hpp"
 
-#include "epafi/decomposition/ContactPairs.hpp"
-#include "epafi/decomposition/ContactSearch.hpp"
-#include "epafi/decomposition/KnownRows.hpp"
-#include "epafi/decomposition/NodeShares.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Maps.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Export.hpp>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_RowMatrixTransposer.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace epafi::decomposition {
 namespace {
 
-/// One body's side of a contact: its nodes, ascending, with their places among the rows.
-struct Side {
-  const ContactLayout* contact;
-  double sign;
-  int body;
-  std::vector<std::pair<GlobalOrdinal, std::size_t>> nodes;
-};
-
-std::vector<Side> sidesOf(const std::vector<ContactLayout>& contacts) {
-  std::vector<Side> sides;
-  const auto add = [&](const ContactLayout& contact, double sign, int body,
-                       const std::vector<GlobalOrdinal>& nodes) {
-    Side& side = sides.emplace_back(Side{&contact, sign, body, {}});
-    for (std::size_t place = 0; place < nodes.size(); ++place)
-      side.nodes.emplace_back(nodes[place], place);
-    std::sort(side.nodes.begin(), side.nodes.end());
-  };
-  for (const ContactLayout& contact : contacts) {
-    add(contact, 1.0, contact.firstBody, contact.firstNodes);
-    if (contact.secondBody >= 0)
-      add(contact, -1.0, contact.secondBody, contact.secondNodes);
+void requireRows(const ContactMatrix& contact) {
+  const Map& rows = *contact.rows->getRowMap();
+  typename CrsMatrix::local_inds_host_view_type columns;
+  typename CrsMatrix::values_host_view_type values;
+  const auto numRows = static_cast<GlobalOrdinal>(rows.getGlobalNumElements());
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(numLocal(rows)); ++row) {
+    const GlobalOrdinal number = rows.getGlobalElement(row);
+    if (number < 0 || number >= numRows)
+      throw InputError("the contact matrix has " + std::to_string(numRows) + " rows, one of number " +
+                       std::to_string(number) + "; rows must be numbered from 0 without holes.");
+    contact.rows->getLocalRowView(row, columns, values);
+    double largest = 0;
+    for (std::size_t k = 0; k < values.extent(0); ++k) {
+      if (!std::isfinite(values(k)))
+        throw InputError("row " + std::to_string(number) +
+                         " of the contact matrix has an entry that is not finite.");
+      largest = std::max(largest, std::abs(values(k)));
+    }
+    if (largest == 0)
+      throw InputError("row " + std::to_string(number) +
+                       " of the contact matrix is empty; leave it out or give it entries.");
   }
-  return sides;
 }
 
-/// A node that can move in a row's direction by no more than this share of what it is moved by does not count in it: the
-/// rest is round-off of normals.
-constexpr double heldDirection = 1e-6;
-/// Coefficients that would be 0 without round-off of normals and frames.
-constexpr double roundOff = 1e-14;
-
-/// d in the unknowns of a node: its components, or Qᵀd where the node has a frame Q. All rows of a contact have the same
-/// number of components.
-Eigen::Vector3d directionAt(const fem::BodyModel& model, GlobalOrdinal node, const ContactLayout& contact,
-                            std::size_t place) {
-  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
-  Eigen::Vector3d direction(0, 0, 0);
-  for (std::size_t c = 0; c < components; ++c)
-    direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];
-  if (const Eigen::Matrix3d* frame = model.frame(node))
-    direction = frame->transpose() * direction;
-  return direction;
+/// Names a column of B_I that is no unknown. Collective.
+void requireColumns(const CrsMatrix& b, const Map& unknowns) {
+  const Map& columns = *b.getColMap();
+  std::vector<GlobalOrdinal> wanted;
+  for (LocalOrdinal k = 0; k < static_cast<LocalOrdinal>(numLocal(columns)); ++k)
+    wanted.push_back(columns.getGlobalElement(k));
+  std::vector<int> ranks(wanted.size());
+  unknowns.getRemoteIndexList(Teuchos::arrayViewFromVector(wanted), Teuchos::arrayViewFromVector(ranks));
+  collectively(*unknowns.getComm(), [&] {
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      if (ranks[k] < 0)
+        throw InputError("the contact matrix has a column for unknown " + std::to_string(wanted[k]) +
+                         ", which no subdomain has.");
+  });
 }
 
-/// One row at a node of a piece.
+/// The nodes with entries in B, of all bodies, ascending, on every rank. Collective.
+std::vector<GlobalOrdinal> nodesOf(const CrsMatrix& b, std::size_t components) {
+  const Map& columns = *b.getColMap();
+  std::vector<GlobalOrdinal> nodes;
+  for (LocalOrdinal k = 0; k < static_cast<LocalOrdinal>(numLocal(columns)); ++k)
+    nodes.push_back(columns.getGlobalElement(k) / static_cast<GlobalOrdinal>(components));
+  nodes = gatherOnAll(*columns.getComm(), nodes);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+/// A node of one of this rank's subdomains.
 struct Place {
-  const Side* side;
-  std::size_t row; ///< place among those of the contact
-  PieceNode at;
+  std::size_t subdomain, node;
 };
 
-/// In the order of the pieces, their sides and the sides' nodes.
-std::vector<Place> placesOf(const std::vector<Side>& sides, const std::vector<Piece>& pieces) {
+/// Where this rank's subdomains have some nodes, subdomain by subdomain.
+std::vector<Place> placesOf(const Substructures& all, std::span<const GlobalOrdinal> wanted) {
   std::vector<Place> places;
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const std::vector<GlobalOrdinal>& nodes = pieces[p].assembled.nodes;
-    for (const Side& side : sides) {
-      if (side.body != pieces[p].body)
-        continue;
-      auto entry =
-          std::lower_bound(side.nodes.begin(), side.nodes.end(), std::pair(nodes.front(), std::size_t{0}));
-      for (auto found = nodes.begin(); entry != side.nodes.end() && entry->first <= nodes.back(); ++entry) {
-        found = std::lower_bound(found, nodes.end(), entry->first);
-        if (*found == entry->first)
-          places.push_back({&side, entry->second, {p, static_cast<std::size_t>(found - nodes.begin())}});
-      }
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const std::vector<GlobalOrdinal>& nodes = all.subdomains[s].nodes;
+    const GlobalOrdinal first = all.globalNode(s, 0) - nodes.front(); // of the body
+    auto node = nodes.begin();
+    for (auto next = std::lower_bound(wanted.begin(), wanted.end(), first + nodes.front());
+         next != wanted.end() && *next <= first + nodes.back(); ++next) {
+      node = std::lower_bound(node, nodes.end(), *next - first);
+      if (*node == *next - first)
+        places.push_back({s, static_cast<std::size_t>(node - nodes.begin())});
     }
   }
   return places;
 }
 
-/// Enters one row at a node of a piece; returns whether the piece has a free unknown in it.
-bool enterRow(const fem::BodyModel& model, const Place& place, GlobalOrdinal row,
-              const Eigen::RowVectorXd* share, Piece& piece) {
-  const auto components = static_cast<std::size_t>(model.components());
-  const Eigen::Vector3d direction =
-      directionAt(model, piece.assembled.nodes[place.at.node], *place.side->contact, place.row);
-  const std::span<const int> unknowns =
-      std::span(piece.assembled.unknownOf).subspan(place.at.node * components, components);
-  double free = 0;
-  for (std::size_t c = 0; c < components; ++c)
-    if (unknowns[c] >= 0)
-      free = std::hypot(free, direction[static_cast<Eigen::Index>(c)]);
-  if (free <= heldDirection)
-    return false;
-  for (std::size_t c = 0; c < components; ++c) {
-    const auto component = static_cast<Eigen::Index>(c);
-    const double coefficient = place.side->sign * direction[component];
-    if (unknowns[c] < 0 || std::abs(coefficient) <= roundOff)
-      continue;
-    const double weight = share == nullptr ? 1.0 : (*share)[component];
-    piece.rows.push_back({row, unknowns[c], weight * coefficient});
-  }
-  return true;
+/// The columns of B at some places, as rows; of those only that are in its domain. Collective.
+RCP<const CrsMatrix> columnsAt(const CrsMatrix& b, const Substructures& all, std::span<const Place> places) {
+  std::vector<GlobalOrdinal> unknowns;
+  for (const Place& place : places)
+    for (std::size_t c = 0; c < all.components; ++c)
+      unknowns.push_back(all.globalUnknown(place.subdomain, place.node, c));
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  const RCP<const CrsMatrix> transposed =
+      Tpetra::RowMatrixTransposer<Scalar>(Teuchos::rcpFromRef(b)).createTranspose();
+  const Map& domain = *transposed->getRowMap();
+  std::vector<int> ranks(unknowns.size());
+  domain.getRemoteIndexList(Teuchos::arrayViewFromVector(unknowns), Teuchos::arrayViewFromVector(ranks));
+  std::vector<GlobalOrdinal> known;
+  for (std::size_t k = 0; k < unknowns.size(); ++k)
+    if (ranks[k] >= 0)
+      known.push_back(unknowns[k]);
+  const RCP<const Map> here = mapInOrder(known, all.comm);
+  const Import plan(transposed->getRowMap(), here);
+  return Tpetra::importAndFillCompleteCrsMatrix<CrsMatrix>(transposed, plan, b.getRangeMap(), here);
+}
+
+/// The share δ_i / Σ δ_i that each copy has in the mean of its node, component by component, of the copies at some places; 1
+/// where there is one copy that counts. Collective.
+std::vector<double> sharesAt(const Substructures& all, const SharedNodes& shared,
+                             const Crosspoints& crosspoints, std::span<const Place> places) {
+  std::vector<char> isWanted(shared.numNodes(), 0);
+  std::vector<double> own(shared.numCopies() * all.components, 0.0);
+  const auto meanAt = [&](const Place& place) { // the copy, where contact acts on a mean
+    return crosspoints.isCrosspoint(place.subdomain, place.node) ? std::nullopt
+                                                                 : shared.find(place.subdomain, place.node);
+  };
+  for (const Place& place : places)
+    if (const auto copy = meanAt(place)) {
+      isWanted[shared.copy(*copy).node] = 1;
+      diagonalAt(*all.nodal[place.subdomain].stiffness, all.unknownsAt(place.subdomain, place.node),
+                 std::span(own).subspan(*copy * all.components, all.components));
+    }
+  const std::vector<double> stiffness =
+      shared.exchange(std::move(own), all.components, [&](std::size_t node) { return isWanted[node] != 0; });
+  std::vector<double> shares;
+  for (const Place& place : places)
+    for (std::size_t c = 0; c < all.components; ++c) {
+      const auto copy = meanAt(place);
+      if (!copy) {
+        shares.push_back(shared.isLowest(place.subdomain, place.node) ? 1 : 0);
+        continue;
+      }
+      const std::size_t node = shared.copy(*copy).node;
+      double sum = 0;
+      for (std::size_t order = 0; order < shared.subdomainsAt(node).size(); ++order)
+        sum += stiffness[shared.slot(node, order) * all.components + c];
+      shares.push_back(stiffness[*copy * all.components + c] / sum);
+    }
+  return shares;
+}
+
+/// Sums of values given by global rows, on the row map of B. Collective.
+RCP<const Vector> summed(const std::vector<std::pair<GlobalOrdinal, double>>& values,
+                         const RCP<const Map>& rows) {
+  std::vector<GlobalOrdinal> named;
+  for (const auto& [row, value] : values)
+    named.push_back(row);
+  const RCP<const Map> map = makeMap(std::move(named), rows->getComm());
+  Vector here(map);
+  for (const auto& [row, value] : values)
+    here.sumIntoGlobalValue(row, value);
+  const RCP<Vector> result = rcp(new Vector(rows));
+  result->doExport(here, Export(map, rows), Tpetra::ADD);
+  return result;
 }
 
 } // namespace
 
-std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
-  std::vector<ContactLayout> contacts = layoutPairs(scene, bodies);
-  KnownRows known;
-  for (const scene::SurfaceContact& search : scene.surfaceContacts) {
-    const auto& body = scene.bodies[static_cast<std::size_t>(search.first)];
-    const int components = body.solid ? componentsOf(body.solid->physics) : 1;
-    known.dropFrom(contacts.emplace_back(searchContact(search, bodies, components)));
-  }
-  GlobalOrdinal firstRow = 0;
-  for (ContactLayout& contact : contacts) {
-    contact.firstRow = firstRow;
-    firstRow += contact.numRows();
-  }
-  return contacts;
+void requireSound(const ContactMatrix& contact, const RCP<const Map>& unknowns) {
+  collectively(*unknowns->getComm(), [&] {
+    if (!contact.rows->isFillComplete())
+      throw InputError(
+          "the contact matrix must be fill-complete; call fillComplete with a map of the unknowns "
+          "as domain first.");
+    requireRows(contact);
+  });
+  if (contact.gap.is_null() || !contact.gap->getMap()->isSameAs(*contact.rows->getRowMap()))
+    throw InputError("the gaps of contact must lie on the row map of the contact matrix.");
+  if (!contact.rows->getRangeMap()->isSameAs(*contact.rows->getRowMap()))
+    throw InputError("the range map of the contact matrix must be its row map.");
+  requireColumns(*contact.rows, *unknowns);
 }
 
-Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
-                 const RCP<const Comm>& comm, std::vector<Piece>& pieces) {
-  Rows rows;
-  if (contacts.empty())
-    return rows;
-  const std::vector<Side> sides = sidesOf(contacts);
-  const std::vector<Place> places = placesOf(sides, pieces);
-  std::vector<PieceNode> nodes;
-  for (const Place& place : places)
-    nodes.push_back(place.at);
-  const NodeShares shares(outlineOf(layout), nodes, pieces, comm);
-  for (const Place& place : places) {
-    Piece& piece = pieces[place.at.piece];
-    const bool isLowest = piece.sharing.isLowest(piece.part, place.at.node);
-    const Eigen::RowVectorXd* share = shares.at(place.at);
-    const GlobalOrdinal row = place.side->contact->firstRow + static_cast<GlobalOrdinal>(place.row);
-    if (isLowest && place.side->sign > 0)
-      rows.owned.push_back(row);
-    if ((isLowest || share != nullptr) &&
-        enterRow(*layout.models[static_cast<std::size_t>(piece.body)], place, row, share, piece))
-      rows.touched.push_back(row);
+ContactRows contactRows(const Substructures& all, const SharedNodes& shared, const Crosspoints& crosspoints,
+                        const ContactMatrix& contact) {
+  const std::vector<Place> places = placesOf(all, nodesOf(*contact.rows, all.components));
+  const RCP<const CrsMatrix> columns = columnsAt(*contact.rows, all, places);
+  const std::vector<double> shares = sharesAt(all, shared, crosspoints, places);
+  ContactRows result{std::vector<std::vector<RowEntry>>(all.size()), Teuchos::null};
+  std::vector<std::pair<GlobalOrdinal, double>> held;
+  typename CrsMatrix::local_inds_host_view_type rows;
+  typename CrsMatrix::values_host_view_type values;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto& [s, node] = places[k];
+    for (std::size_t c = 0; c < all.components; ++c) {
+      const GlobalOrdinal unknown = all.globalUnknown(s, node, c);
+      if (!columns->getRowMap()->isNodeGlobalElement(unknown))
+        continue;
+      columns->getLocalRowView(columns->getRowMap()->getLocalElement(unknown), rows, values);
+      const int free = all.unknownsAt(s, node)[c];
+      const double share = shares[k * all.components + c],
+                   prescribed =
+                       all.subdomains[s].prescribed[static_cast<Eigen::Index>(node * all.components + c)];
+      for (std::size_t entry = 0; entry < rows.extent(0); ++entry) {
+        const GlobalOrdinal row = columns->getColMap()->getGlobalElement(rows(entry));
+        if (values(entry) == 0)
+          continue;
+        if (free < 0 && shared.isLowest(s, node))
+          held.emplace_back(row, values(entry) * prescribed);
+        else if (free >= 0 && share != 0)
+          result.rows[s].push_back({row, free, share * values(entry)});
+      }
+    }
   }
-  return rows;
-}
-
-double contactGap(const Layout& layout, const std::vector<ContactLayout>& contacts, GlobalOrdinal row) {
-  const auto contact = std::find_if(contacts.begin(), contacts.end(),
-                                    [row](const ContactLayout& c) { return row < c.firstRow + c.numRows(); });
-  const auto place = static_cast<std::size_t>(row - contact->firstRow);
-  const auto prescribed = [&](int body, GlobalOrdinal node) {
-    const fem::BodyModel& model = *layout.models[static_cast<std::size_t>(body)];
-    const Eigen::Vector3d direction = directionAt(model, node, *contact, place);
-    double sum = 0;
-    for (int c = 0; c < model.components(); ++c)
-      sum += direction[c] * model.prescribed(node, c).value_or(0.0);
-    return sum;
-  };
-  double gap = contact->gaps[place] - prescribed(contact->firstBody, contact->firstNodes[place]);
-  if (contact->secondBody >= 0)
-    gap += prescribed(contact->secondBody, contact->secondNodes[place]);
-  return gap;
+  result.held = summed(held, contact.rows->getRowMap());
+  return result;
 }
 
 } // namespace epafi::decomposition

@@ -1,29 +1,32 @@
 #pragma once
 
-/// The rows of B_I: dᵀ(u_first − u_second) ≤ gap at the nodes of a contact.
+/// The rows of B_I, handed over as a Tpetra matrix over the unknowns of all bodies.
 
-#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/contact/ContactMatrix.hpp"
+#include "epafi/decomposition/Crosspoints.hpp"
 
 #include <vector>
 
 namespace epafi::decomposition {
 
-/// Numbers the rows pair after pair, along the first body's edge. A node may take part in several contacts, each with a row
-/// of its own; a row that says what one of an earlier contact says (see KnownRows.hpp) is left out. \throws InputError if
-/// the edges of a pair do not coincide node by node (see scene::coincide), if one of them is supported, if two
-/// pairs share an edge of a body (a common corner is fine), or if a contact adds no row to those before; SolvabilityError
-/// if two contacts leave a node no room. Not collective (every rank finds the same).
-std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies);
+using contact::ContactMatrix;
 
-/// Enters the rows in the pieces. This rank owns those whose first node lies, at its lowest subdomain, on this rank. Nodes
-/// that supports hold in the row's direction have no entry. A crosspoint has its entry in the lowest-numbered subdomain that
-/// shares it, another shared node in all of them: contact acts on the mean of its copies, Σ δ_i u_i / Σ δ_i with δ = diag
-/// K^s, which makes the row orthogonal in D⁻¹ to the gluing of the node (see GluingRows.hpp). `touched` may have rows twice.
-/// Precondition: the pieces' bases are not changed yet. Collective.
-Rows contactRows(const Layout& layout, const std::vector<ContactLayout>& contacts,
-                 const RCP<const Comm>& comm, std::vector<Piece>& pieces);
+/// \throws InputError, the same on all ranks, if the matrix is not fill-complete, has columns that none of `unknowns` is, a
+/// row without an entry other than 0, entries that are not finite, or if the gap lies on other rows. Collective.
+/// \param unknowns  the numbers of all unknowns of the subdomains, each on one rank
+void requireSound(const ContactMatrix& contact, const RCP<const Map>& unknowns);
 
-/// The right-hand side c of a contact row: its gap, less what supported nodes contribute.
-double contactGap(const Layout& layout, const std::vector<ContactLayout>& contacts, GlobalOrdinal row);
+/// The rows in terms of the subdomains' values at nodes. The rank that owns a row of the matrix owns its multiplier.
+struct ContactRows {
+  std::vector<std::vector<RowEntry>> rows; ///< B_I^s of this rank's subdomains
+  RCP<const Vector> held; ///< what prescribed values contribute to B_I u, on the row map of B_I
+};
+
+/// A crosspoint has its entries in the lowest subdomain that shares it, another shared node in all of them: contact acts on
+/// the mean of its copies, Σ δ_i u_i / Σ δ_i with δ = diag K^s, which makes the row orthogonal in D⁻¹ to the gluing of the
+/// node (see GluingRows.hpp). Every rank holds the list of the nodes that have entries in B_I. Collective.
+/// Precondition: the matrix is sound.
+ContactRows contactRows(const Substructures& all, const SharedNodes& shared, const Crosspoints& crosspoints,
+                        const ContactMatrix& contact);
 
 } // namespace epafi::decomposition

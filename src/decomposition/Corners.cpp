@@ -17,35 +17,32 @@ Eigen::Vector3d toVector(const fem::Point& point) {
   return {point[0], point[1], point[2]};
 }
 
-std::vector<char> findCornersInPlane(const BodyOutline& body, const Piece& piece) {
-  std::vector<char> isCorner(piece.sharing.size(), 0);
-  for (std::size_t k = 0; k < isCorner.size(); ++k) {
-    const std::size_t copies = piece.sharing.parts(k).size();
-    if (copies >= 3 || (copies == 2 && body.isBoundaryNode(piece.assembled.nodes[piece.sharing.node(k)])))
-      isCorner[k] = 1;
-  }
-  return isCorner;
-}
-
-std::vector<char> findCornersInSpace(const BodyOutline& body, const Piece& piece) {
-  std::map<std::vector<int>, int> numNodesOf; // shared by just these parts
-  for (std::size_t k = 0; k < piece.sharing.size(); ++k)
-    if (const std::span<const int> parts = piece.sharing.parts(k); parts.size() >= 3)
-      ++numNodesOf[{parts.begin(), parts.end()}];
-  std::vector<char> isCorner(piece.sharing.size(), 0);
-  for (std::size_t k = 0; k < isCorner.size(); ++k)
-    if (const std::span<const int> parts = piece.sharing.parts(k); parts.size() >= 3)
-      isCorner[k] = numNodesOf[{parts.begin(), parts.end()}] == 1 ||
-                            body.isBoundaryNode(piece.assembled.nodes[piece.sharing.node(k)])
-                        ? 1
-                        : 0;
-  return isCorner;
+bool isOnBoundary(const Substructures& all, std::size_t subdomain, std::size_t place) {
+  const Subdomain& at = all.subdomains[subdomain];
+  return all.places.isBoundaryNode && all.places.isBoundaryNode(at.body, at.nodes[place]);
 }
 
 } // namespace
 
-std::vector<char> findCorners(const BodyOutline& body, const Piece& piece) {
-  return body.dimension == 2 ? findCornersInPlane(body, piece) : findCornersInSpace(body, piece);
+std::vector<char> findCorners(const Substructures& all, const SharedNodes& shared, std::size_t subdomain) {
+  const std::span<const SharedNodes::Copy> copies = shared.copiesOf(subdomain);
+  const bool isPlane = all.places.dimension == 2;
+  std::map<std::vector<int>, int> numNodesOf; // in space: shared by just these subdomains
+  const auto key = [&](const SharedNodes::Copy& copy) {
+    const std::span<const int> at = shared.subdomainsAt(copy.node);
+    return std::vector<int>(at.begin(), at.end());
+  };
+  if (!isPlane)
+    for (const SharedNodes::Copy& copy : copies)
+      if (shared.subdomainsAt(copy.node).size() >= 3)
+        ++numNodesOf[key(copy)];
+  std::vector<char> isCorner(copies.size(), 0);
+  for (std::size_t k = 0; k < copies.size(); ++k) {
+    const bool meet = shared.subdomainsAt(copies[k].node).size() >= 3;
+    const bool decides = isPlane ? meet : meet && numNodesOf[key(copies[k])] == 1;
+    isCorner[k] = decides || ((isPlane || meet) && isOnBoundary(all, subdomain, copies[k].place)) ? 1 : 0;
+  }
+  return isCorner;
 }
 
 /// How much farther from the others a point lies than one that adds nothing; 0 if it adds nothing.

@@ -2,20 +2,20 @@
 
 /// The corners of subdomains, and points that hold a body.
 
-#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/decomposition/SharedNodes.hpp"
 
 #include <cstddef>
 #include <vector>
 
 namespace epafi::decomposition {
 
-/// Tells for each shared node of a piece (in the order of `sharing`) whether it is a corner:
+/// Tells for each copy of a subdomain (see SharedNodes) whether it is a corner:
 ///  - in the plane, if three or more subdomains share it, or two share it on the body's boundary: the end points and
 ///    meeting points of interfaces. On a grid these are all subdomain corners but the four of the body;
 ///  - in space, if three or more subdomains share it, and it alone is shared by just these, or it lies on the body's
 ///    boundary: the end points of edges.
-/// All pieces that share a node find the same.
-std::vector<char> findCorners(const BodyOutline& body, const Piece& piece);
+/// Where nobody knows the boundary, findInterfaceEnds stands in for it. All subdomains that share a node find the same.
+std::vector<char> findCorners(const Substructures& all, const SharedNodes& shared, std::size_t subdomain);
 
 /// Points, and whether a body that is held there can still move: one holds a scalar field, two different ones a body in
 /// the plane, three that are not on a line a body in space.

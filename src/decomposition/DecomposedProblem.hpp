@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <Tpetra_Map.hpp>
 
 #include <memory>
 #include <optional>
@@ -31,6 +32,9 @@ struct RigidMotions {
   double size = 1;                 ///< half its largest extent
   Eigen::MatrixXd twists;          ///< 6 × kernelDimension: displacement of the centre, rotation vector
 };
+
+/// What a row of B asks for: that bodies do not penetrate, or that copies of a value agree.
+enum class RowKind { contact, gluing };
 
 /// One entry of B in a subdomain: row (local index in DecomposedProblem::multiplierGhostMap), column
 /// (unknown), value.
@@ -87,8 +91,9 @@ Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values);
 /// A body, of which only its rigid motions count.
 struct Body {
   std::string name;
-  int kernelDimension = 0; ///< rigid modes that its supports leave free; > 0 means that the body floats
-  int kernelOffset = 0;    ///< column of its first mode in R
+  int kernelDimension = 0;     ///< rigid modes that its supports leave free; > 0 means that the body floats
+  int kernelOffset = 0;        ///< column of its first mode in R
+  GlobalOrdinal firstNode = 0; ///< number of its node 0 among those of all bodies
   /// What the modes are in space, for errors that say how a body can move; most often there where a body with
   /// several unknowns a node floats. Nothing is computed from it.
   std::optional<RigidMotions> motions = std::nullopt;
@@ -122,6 +127,18 @@ struct DecomposedProblem {
   GlobalOrdinal numEqualities = 0;   ///< n_E
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
   GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
+  /// Of a row of B.
+  [[nodiscard]] RowKind kindOf(GlobalOrdinal row) const {
+    return row < numInequalities ? RowKind::contact : RowKind::gluing;
+  }
+  /// Of a row that this rank owns, by its local index in multiplierMap.
+  [[nodiscard]] RowKind kindOfOwned(LocalOrdinal row) const {
+    return kindOf(multiplierMap->getGlobalElement(row));
+  }
+  /// Of a row that this rank's subdomains touch, by its local index in multiplierGhostMap.
+  [[nodiscard]] RowKind kindOfTouched(LocalOrdinal row) const {
+    return kindOf(multiplierGhostMap->getGlobalElement(row));
+  }
   /// n_λ
   [[nodiscard]] GlobalOrdinal dualDimension() const { return numInequalities + numEqualities; }
 };

@@ -10,12 +10,6 @@ namespace {
 /// How many changed matrices are remembered.
 constexpr std::size_t maxKnown = 64;
 
-std::size_t numFree(const Piece& piece, std::size_t node, std::size_t components) {
-  const auto unknowns = std::span(piece.assembled.unknownOf).subspan(node * components, components);
-  return static_cast<std::size_t>(
-      std::count_if(unknowns.begin(), unknowns.end(), [](int unknown) { return unknown >= 0; }));
-}
-
 /// T.
 SparseMatrix basisOf(const std::vector<Average>& averages, Eigen::Index size) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -33,55 +27,54 @@ SparseMatrix basisOf(const std::vector<Average>& averages, Eigen::Index size) {
 
 } // namespace
 
-bool hasEdgeAverages(int dimension, std::size_t components) {
-  return dimension == 3 || components > 1;
+bool hasEdgeAverages(const Substructures& all) {
+  return all.places.dimension == 3 || all.components > 1;
 }
 
-void findEdgeAverages(int dimension, std::size_t components, Piece& piece) {
-  const std::size_t leastParts = dimension == 3 ? 3 : 2;
-  std::map<std::vector<int>, std::vector<std::size_t>> edges; // in the order of their parts
-  for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
-    const std::span<const int> parts = piece.sharing.parts(k);
-    const std::size_t node = piece.sharing.node(k);
-    if (parts.size() >= leastParts && piece.isCrosspoint[node] == 0 && numFree(piece, node, components) > 0)
-      edges[{parts.begin(), parts.end()}].push_back(node);
-  }
-  piece.averages.clear();
-  for (auto& [parts, nodes] : edges) {
+std::vector<EdgeAverage> findEdgeAverages(const Substructures& all, const SharedNodes& shared,
+                                          std::size_t subdomain, const std::vector<char>& isCrosspoint) {
+  const std::size_t fewest = all.places.dimension == 3 ? 3 : 2;
+  std::map<std::vector<int>, std::vector<std::size_t>>
+      edges; // in the order of the subdomains that share them
+  for (const SharedNodes::Copy& copy : shared.copiesOf(subdomain))
+    if (const std::span<const int> numbers = shared.subdomainsAt(copy.node);
+        numbers.size() >= fewest && isCrosspoint[copy.place] == 0 && all.isFree(subdomain, copy.place))
+      edges[{numbers.begin(), numbers.end()}].push_back(copy.place);
+  std::vector<EdgeAverage> averages;
+  for (const auto& [numbers, nodes] : edges) {
     if (nodes.size() < 2)
       continue;
     const auto carrier = std::max_element(nodes.begin(), nodes.end(), [&](std::size_t a, std::size_t b) {
-      return numFree(piece, a, components) < numFree(piece, b, components);
+      return all.numFree(subdomain, a) < all.numFree(subdomain, b);
     });
     EdgeAverage average{*carrier, {}};
     std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(average.others),
                  [&](std::size_t node) { return node != average.carrier; });
-    piece.averages.push_back(std::move(average));
+    averages.push_back(std::move(average));
   }
+  return averages;
 }
 
-std::vector<Average> averagesOf(const Piece& piece, std::size_t components) {
+std::vector<Average> averagesOf(const Substructures& all, std::size_t subdomain,
+                                const std::vector<EdgeAverage>& edges) {
   std::vector<Average> averages;
-  for (const EdgeAverage& edge : piece.averages)
-    for (std::size_t c = 0; c < components; ++c) {
-      const auto unknownAt = [&](std::size_t node) {
-        return piece.assembled.unknownOf[node * components + c];
-      };
-      Average average{unknownAt(edge.carrier), {}};
+  for (const EdgeAverage& edge : edges)
+    for (std::size_t c = 0; c < all.components; ++c) {
+      Average average{all.unknownsAt(subdomain, edge.carrier)[c], {}};
       if (average.carrier < 0)
         continue;
       for (const std::size_t node : edge.others)
-        if (unknownAt(node) >= 0)
-          average.others.push_back(unknownAt(node));
+        if (const int unknown = all.unknownsAt(subdomain, node)[c]; unknown >= 0)
+          average.others.push_back(unknown);
       if (!average.others.empty())
         averages.push_back(std::move(average));
     }
   return averages;
 }
 
-void changeBasisOfRows(const std::vector<Average>& averages, std::size_t first, std::vector<RowEntry>& rows) {
+std::vector<RowEntry> inBasisOf(const std::vector<Average>& averages, std::vector<RowEntry> rows) {
   if (averages.empty())
-    return;
+    return rows;
   std::map<int, const Average*> averageOf; // of each unknown that is in one
   for (const Average& average : averages) {
     averageOf[average.carrier] = &average;
@@ -89,8 +82,7 @@ void changeBasisOfRows(const std::vector<Average>& averages, std::size_t first, 
       averageOf[other] = &average;
   }
   std::map<std::pair<GlobalOrdinal, int>, double> changed;
-  for (std::size_t k = first; k < rows.size(); ++k) {
-    const RowEntry& entry = rows[k];
+  for (const RowEntry& entry : rows) {
     changed[{entry.row, entry.unknown}] += entry.coefficient;
     const auto found = averageOf.find(entry.unknown);
     if (found == averageOf.end())
@@ -102,23 +94,14 @@ void changeBasisOfRows(const std::vector<Average>& averages, std::size_t first, 
     else
       changed[{entry.row, average.carrier}] += entry.coefficient; // ũ_i + a
   }
-  rows.resize(first);
+  rows.clear();
   for (const auto& [place, coefficient] : changed)
     if (coefficient != 0)
       rows.push_back({place.first, place.second, coefficient});
+  return rows;
 }
 
-void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u) {
-  for (const Average& average : subdomain.averages) {
-    const double mean = u[average.carrier];
-    for (const int other : average.others) {
-      u[average.carrier] -= u[other];
-      u[other] += mean;
-    }
-  }
-}
-
-void changeBasisOfLoad(const std::vector<Average>& averages, Eigen::VectorXd& load) {
+Eigen::VectorXd loadInBasisOf(const std::vector<Average>& averages, Eigen::VectorXd load) {
   for (const Average& average : averages) {
     const double atCarrier = load[average.carrier];
     for (const int other : average.others) {
@@ -126,6 +109,20 @@ void changeBasisOfLoad(const std::vector<Average>& averages, Eigen::VectorXd& lo
       load[other] -= atCarrier;
     }
   }
+  return load;
+}
+
+Eigen::MatrixXd kernelInBasisOf(const std::vector<Average>& averages, Eigen::MatrixXd kernel) {
+  for (const Average& average : averages) {
+    Eigen::RowVectorXd mean = kernel.row(average.carrier);
+    for (const int other : average.others)
+      mean += kernel.row(other);
+    mean /= static_cast<double>(average.others.size() + 1);
+    kernel.row(average.carrier) = mean;
+    for (const int other : average.others)
+      kernel.row(other) -= mean;
+  }
+  return kernel;
 }
 
 std::shared_ptr<const SparseMatrix> AverageBasis::changed(const std::vector<Average>& averages,
@@ -145,21 +142,6 @@ std::shared_ptr<const SparseMatrix> AverageBasis::changed(const std::vector<Aver
     known_.erase(known_.begin());
   known_.push_back({nodal, changed, averages});
   return changed;
-}
-
-void AverageBasis::change(const std::vector<Average>& averages, Piece& piece) {
-  piece.stiffness = changed(averages, piece.stiffness);
-  changeBasisOfLoad(averages, piece.assembled.load);
-  Eigen::MatrixXd& kernel = piece.assembled.kernel;
-  for (const Average& average : averages) {
-    Eigen::RowVectorXd mean = kernel.row(average.carrier);
-    for (const int other : average.others)
-      mean += kernel.row(other);
-    mean /= static_cast<double>(average.others.size() + 1);
-    kernel.row(average.carrier) = mean;
-    for (const int other : average.others)
-      kernel.row(other) -= mean;
-  }
 }
 
 } // namespace epafi::decomposition

@@ -12,35 +12,50 @@
 /// a takes the carrier's place and belongs to the coarse problem; the deviations are glued like values of nodes.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
-#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/decomposition/SharedNodes.hpp"
 
 #include <memory>
 #include <vector>
 
 namespace epafi::decomposition {
 
-/// Whether bodies of so many dimensions and unknowns a node have averages.
-bool hasEdgeAverages(int dimension, std::size_t components);
+/// An entry of B that is still named by its global row.
+struct RowEntry {
+  GlobalOrdinal row; ///< index of the multiplier
+  int unknown;
+  double coefficient;
+};
 
-/// Fills the averages of a piece: an edge are the free nodes that just the same parts share, three or more in space and two
-/// in the plane, crosspoints left out, if they are two or more. All pieces of an edge choose the same carrier.
-/// Precondition: crosspoints are marked.
-void findEdgeAverages(int dimension, std::size_t components, Piece& piece);
+/// The average of u along an edge of a subdomain, component by component, in the place of its carrier's values.
+struct EdgeAverage {
+  std::size_t carrier = 0;         ///< place of a node
+  std::vector<std::size_t> others; ///< places of the other nodes, ascending
+};
 
-/// The averages of a piece by their unknowns, component by component.
-std::vector<Average> averagesOf(const Piece& piece, std::size_t components);
+/// Whether bodies of these dimensions and unknowns a node have averages.
+bool hasEdgeAverages(const Substructures& all);
 
-/// Rows that act on u, from `first` on, become such that act on ũ.
-void changeBasisOfRows(const std::vector<Average>& averages, std::size_t first, std::vector<RowEntry>& rows);
+/// The averages of a subdomain: an edge are the free nodes that just the same subdomains share, three or more in space and
+/// two in the plane, crosspoints left out, if they are two or more. All subdomains at an edge choose the same carrier.
+std::vector<EdgeAverage> findEdgeAverages(const Substructures& all, const SharedNodes& shared,
+                                          std::size_t subdomain, const std::vector<char>& isCrosspoint);
 
-/// f becomes Tᵀ f.
-void changeBasisOfLoad(const std::vector<Average>& averages, Eigen::VectorXd& load);
+/// The averages of a subdomain by their unknowns, component by component.
+std::vector<Average> averagesOf(const Substructures& all, std::size_t subdomain,
+                                const std::vector<EdgeAverage>& edges);
 
-/// Tᵀ K T, of which the pieces with equal K and equal averages share one; Tᵀ f; T⁻¹ R. Nothing is collective.
+/// Rows that act on u become such that act on ũ.
+std::vector<RowEntry> inBasisOf(const std::vector<Average>& averages, std::vector<RowEntry> rows);
+
+/// Tᵀ f.
+Eigen::VectorXd loadInBasisOf(const std::vector<Average>& averages, Eigen::VectorXd load);
+
+/// T⁻¹ R.
+Eigen::MatrixXd kernelInBasisOf(const std::vector<Average>& averages, Eigen::MatrixXd kernel);
+
+/// Tᵀ K T, of which subdomains with equal K and equal averages share one. Nothing is collective.
 class AverageBasis {
 public:
-  void change(const std::vector<Average>& averages, Piece& piece);
-  /// Tᵀ K T alone.
   std::shared_ptr<const SparseMatrix> changed(const std::vector<Average>& averages,
                                               const std::shared_ptr<const SparseMatrix>& nodal);
 

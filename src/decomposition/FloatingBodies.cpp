@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <span>
 
 namespace epafi::decomposition {
@@ -26,12 +27,12 @@ struct Energies {
 };
 
 Energies energiesOf(const std::vector<Motions>& motions, const Comm& comm, std::size_t numBodies) {
-  std::vector<double> numModes(numBodies, 0);
+  std::vector<GlobalOrdinal> numModes(numBodies, 0);
   for (const Motions& m : motions)
-    numModes[static_cast<std::size_t>(m.body)] = static_cast<double>(m.near.cols());
+    numModes[static_cast<std::size_t>(m.body)] = m.near.cols();
   Energies energies;
   for (std::size_t b = 0; b < numBodies; ++b) {
-    const auto k = static_cast<Eigen::Index>(maxOverRanks(comm, numModes[b]));
+    const Eigen::Index k = maxOverRanks(comm, numModes[b]);
     energies.size.emplace_back(Eigen::MatrixXd::Zero(k, k));
     energies.force.emplace_back(Eigen::MatrixXd::Zero(k, k));
   }
@@ -103,33 +104,32 @@ std::vector<Eigen::MatrixXd> findFreeMotions(const std::vector<Motions>& motions
   return combinations;
 }
 
-void requireConnected(const std::vector<Piece>& pieces, const std::vector<int>& bodyOf, int numSubdomains,
-                      const std::vector<Body>& bodies, const Comm& comm) {
-  std::vector<double> links, owners; // subdomain and neighbour; subdomain and body
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    owners.insert(owners.end(), {static_cast<double>(pieces[p].number), static_cast<double>(bodyOf[p])});
-    std::vector<int> neighbours;
-    for (std::size_t k = 0; k < pieces[p].sharing.size(); ++k)
-      neighbours.insert(neighbours.end(), pieces[p].sharing.parts(k).begin(),
-                        pieces[p].sharing.parts(k).end());
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+void requireConnected(const Substructures& all, const SharedNodes& shared) {
+  struct Link {
+    int subdomain, neighbour;
+  };
+  std::vector<Link> links;
+  std::vector<int> owner; // body of each subdomain
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    owner.push_back(all.subdomains[s].body);
+    std::set<int> neighbours;
+    for (const SharedNodes::Copy& copy : shared.copiesOf(s))
+      neighbours.insert(shared.subdomainsAt(copy.node).begin(), shared.subdomainsAt(copy.node).end());
     for (const int neighbour : neighbours)
-      links.insert(links.end(), {static_cast<double>(pieces[p].number), static_cast<double>(neighbour)});
+      links.push_back({all.subdomains[s].number, neighbour});
   }
-  std::vector<std::size_t> root(static_cast<std::size_t>(numSubdomains));
+  links = gatherOnAll(*all.comm, links);
+  owner = gatherOnAll(*all.comm, owner); // numbers ascend with ranks
+  std::vector<std::size_t> root(owner.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
   const auto find = [&root](std::size_t s) {
     while (root[s] != s)
       s = root[s] = root[root[s]];
     return s;
   };
-  const std::vector<double> allLinks = gatherOnAll(comm, links), allOwners = gatherOnAll(comm, owners);
-  for (std::size_t k = 0; k < allLinks.size(); k += 2)
-    root[find(static_cast<std::size_t>(allLinks[k]))] = find(static_cast<std::size_t>(allLinks[k + 1]));
-  std::vector<int> owner(root.size());
-  for (std::size_t k = 0; k < allOwners.size(); k += 2)
-    owner[static_cast<std::size_t>(allOwners[k])] = static_cast<int>(allOwners[k + 1]);
+  for (const Link& link : links)
+    root[find(static_cast<std::size_t>(link.subdomain))] = find(static_cast<std::size_t>(link.neighbour));
+  const std::span<const Body> bodies = all.bodies;
   std::vector<std::size_t> first(bodies.size(), root.size());
   for (std::size_t s = 0; s < root.size(); ++s) {
     const auto b = static_cast<std::size_t>(owner[s]);

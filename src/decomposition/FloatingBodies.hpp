@@ -2,8 +2,7 @@
 
 /// Which motions of an application's bodies its supports leave free, found from the matrices.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
-#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/decomposition/SharedNodes.hpp"
 
 #include <Eigen/Core>
 
@@ -28,7 +27,6 @@ std::vector<Eigen::MatrixXd> findFreeMotions(const std::vector<Motions>& motions
                                              std::vector<Body>& bodies);
 
 /// \throws InputError on all ranks if subdomains of one body do not hang together through shared nodes. Collective.
-void requireConnected(const std::vector<Piece>& pieces, const std::vector<int>& bodyOf, int numSubdomains,
-                      const std::vector<Body>& bodies, const Comm& comm);
+void requireConnected(const Substructures& all, const SharedNodes& shared);
 
 } // namespace epafi::decomposition

@@ -9,18 +9,27 @@
 /// (2001), section 4; orthonormal rows with equal weights: Dostál, Kozubek, Sadowská, Vondrák, *Scalable Algorithms for
 /// Contact Problems*).
 
-#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/decomposition/Crosspoints.hpp"
 
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace epafi::decomposition {
 
-/// Row k − 1 of a node is that of copies k − 1 and k. Rows are numbered from `firstRow` by the lower one's subdomain, then
-/// node, then component, whatever the number of ranks; the lower side's rank owns a row and tells its number to the others.
-/// Enters the rows in the pieces. Precondition: the pieces' bases are changed already.
-/// \param[out] numRows  of the whole problem.
+/// Row k − 1 of a node is that of copies k − 1 and k. Rows are numbered by the lower one's subdomain, then node, then
+/// component, whatever the number of ranks; the lower side's rank owns a row and tells its number to the others.
+struct GluingRows {
+  std::vector<std::vector<RowEntry>> rows; ///< B_E^s of this rank's subdomains
+  std::vector<GlobalOrdinal> owned;        ///< rows that this rank owns, ascending
+  std::vector<GlobalOrdinal> elsewhere; ///< others in which its subdomains have entries, some perhaps twice
+  GlobalOrdinal numRows = 0;            ///< of the whole problem
+};
+
+/// \param stiffness  K^s of each subdomain in the basis in which the rows act
+/// \param firstRow   number of the first one
 /// Collective.
-Rows gluingRows(const Outline& outline, std::vector<Piece>& pieces, GlobalOrdinal firstRow,
-                const RCP<const Comm>& comm, GlobalOrdinal& numRows);
+GluingRows gluingRows(const Substructures& all, const SharedNodes& shared, const Crosspoints& crosspoints,
+                      std::span<const std::shared_ptr<const SparseMatrix>> stiffness, GlobalOrdinal firstRow);
 
 } // namespace epafi::decomposition

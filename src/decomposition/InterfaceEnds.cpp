@@ -7,26 +7,27 @@
 namespace epafi::decomposition {
 namespace {
 
-/// The graph of K^s among the free shared nodes of a piece; these are named by their places in its Sharing.
+/// The graph of K^s among the free shared nodes of a subdomain; these are named by their places among its copies.
 class SharedGraph {
 public:
-  SharedGraph(const BodyOutline& body, const Piece& piece) : body_(body), piece_(piece) {
-    const auto components = static_cast<std::size_t>(body.components);
-    const std::vector<int>& positions = piece.assembled.unknownPosition;
-    neighbours_.resize(piece.sharing.size());
-    std::vector<int> sharedAt(piece.assembled.nodes.size(), -1);
-    for (std::size_t k = 0; k < piece.sharing.size(); ++k)
-      sharedAt[piece.sharing.node(k)] = static_cast<int>(k);
-    const SparseMatrix& stiffness = *piece.stiffness;
+  SharedGraph(const Substructures& all, const SharedNodes& shared, std::size_t subdomain)
+      : all_(all), shared_(shared), subdomain_(subdomain), copies_(shared.copiesOf(subdomain)),
+        neighbours_(copies_.size()) {
+    const std::vector<int>& positions = all.subdomains[subdomain].unknownPosition;
+    std::vector<int> copyAt(all.numNodes(subdomain), -1);
+    for (std::size_t k = 0; k < copies_.size(); ++k)
+      copyAt[copies_[k].place] = static_cast<int>(k);
+    const auto copyOf = [&](int unknown) {
+      return copyAt[static_cast<std::size_t>(positions[static_cast<std::size_t>(unknown)]) / all.components];
+    };
+    const SparseMatrix& stiffness = *all.nodal[subdomain].stiffness;
     for (int column = 0; column < stiffness.outerSize(); ++column) {
-      const int k =
-          sharedAt[static_cast<std::size_t>(positions[static_cast<std::size_t>(column)]) / components];
+      const int k = copyOf(column);
       if (k < 0)
         continue;
       auto& list = neighbours_[static_cast<std::size_t>(k)];
       for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry) {
-        const int other =
-            sharedAt[static_cast<std::size_t>(positions[static_cast<std::size_t>(entry.row())]) / components];
+        const int other = copyOf(static_cast<int>(entry.row()));
         if (other >= 0 && other != k && std::find(list.begin(), list.end(), other) == list.end())
           list.push_back(other);
       }
@@ -62,54 +63,56 @@ public:
 
   /// Whether a node lies beside one that more parts share, the node's own parts among them.
   [[nodiscard]] bool isBesideCorner(std::size_t k) const {
-    const std::span<const int> own = piece_.sharing.parts(k);
+    const std::span<const int> own = subdomainsAt(k);
     return std::any_of(neighbours_[k].begin(), neighbours_[k].end(), [&](int neighbour) {
-      const std::span<const int> parts = piece_.sharing.parts(static_cast<std::size_t>(neighbour));
+      const std::span<const int> parts = subdomainsAt(static_cast<std::size_t>(neighbour));
       return parts.size() > own.size() && std::includes(parts.begin(), parts.end(), own.begin(), own.end());
     });
   }
 
 private:
+  [[nodiscard]] std::span<const int> subdomainsAt(std::size_t k) const {
+    return shared_.subdomainsAt(copies_[k].node);
+  }
   [[nodiscard]] bool isSameChain(std::size_t a, std::size_t b) const {
-    const std::span<const int> first = piece_.sharing.parts(a), second = piece_.sharing.parts(b);
-    return std::equal(first.begin(), first.end(), second.begin(), second.end());
+    return std::ranges::equal(subdomainsAt(a), subdomainsAt(b));
   }
   [[nodiscard]] double distance(std::size_t a, std::size_t b) const {
-    const fem::Point x = body_.point(piece_.assembled.nodes[piece_.sharing.node(a)]);
-    const fem::Point y = body_.point(piece_.assembled.nodes[piece_.sharing.node(b)]);
+    const fem::Point x = all_.point(subdomain_, copies_[a].place),
+                     y = all_.point(subdomain_, copies_[b].place);
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
       sum += (x[i] - y[i]) * (x[i] - y[i]);
     return sum;
   }
 
-  const BodyOutline& body_;
-  const Piece& piece_;
+  const Substructures& all_;
+  const SharedNodes& shared_;
+  std::size_t subdomain_;
+  std::span<const SharedNodes::Copy> copies_;
   std::vector<std::vector<int>> neighbours_;
 };
 
 } // namespace
 
-std::vector<std::size_t> findInterfaceEnds(const BodyOutline& body, const Piece& piece) {
-  const SharedGraph graph(body, piece);
-  const std::size_t fewest = body.dimension == 2 ? 2 : 3, most = body.dimension == 2 ? 2 : 64;
-  std::vector<char> isDone(piece.sharing.size(), 0);
+std::vector<std::size_t> findInterfaceEnds(const Substructures& all, const SharedNodes& shared,
+                                           std::size_t subdomain) {
+  const SharedGraph graph(all, shared, subdomain);
+  const std::span<const SharedNodes::Copy> copies = shared.copiesOf(subdomain);
+  const bool isPlane = all.places.dimension == 2;
+  std::vector<char> isDone(copies.size(), 0);
   std::vector<std::size_t> ends;
-  const auto components = static_cast<std::size_t>(body.components);
-  for (std::size_t k = 0; k < piece.sharing.size(); ++k) {
-    const std::span<const int> parts = piece.sharing.parts(k);
-    const auto unknowns =
-        std::span(piece.assembled.unknownOf).subspan(piece.sharing.node(k) * components, components);
-    if (isDone[k] != 0 || parts.size() < fewest || parts.size() > most || parts.front() != piece.part ||
-        std::all_of(unknowns.begin(), unknowns.end(), [](int unknown) { return unknown < 0; }))
+  for (std::size_t k = 0; k < copies.size(); ++k) {
+    const std::size_t number = shared.subdomainsAt(copies[k].node).size();
+    if (isDone[k] != 0 || copies[k].order != 0 || (isPlane ? number != 2 : number < 3) ||
+        !all.isFree(subdomain, copies[k].place))
       continue;
     for (const std::size_t other : graph.chainFrom(k))
       isDone[other] = 1;
     const std::size_t first = graph.farthestFrom(k), last = graph.farthestFrom(first);
     for (const std::size_t end : {first, last})
-      if (!graph.isBesideCorner(end) &&
-          std::find(ends.begin(), ends.end(), piece.sharing.node(end)) == ends.end())
-        ends.push_back(piece.sharing.node(end));
+      if (!graph.isBesideCorner(end) && std::find(ends.begin(), ends.end(), copies[end].place) == ends.end())
+        ends.push_back(copies[end].place);
   }
   return ends;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-/// From an application's subdomain to a piece: nodes in ascending order, prescribed unknowns taken out.
+/// From an application's subdomain to one in the order of its nodes, prescribed unknowns taken out.
 
-#include "epafi/decomposition/Pieces.hpp"
 #include "epafi/decomposition/SubdomainMatrix.hpp"
+#include "epafi/fem/SubdomainAssembly.hpp"
 
 #include <Eigen/Core>
 

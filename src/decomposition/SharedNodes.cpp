@@ -2,150 +2,173 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/decomposition/SharedValues.hpp"
+#include "epafi/base/Records.hpp"
 
-#include <Teuchos_OrdinalTraits.hpp>
-#include <Tpetra_CrsGraph.hpp>
-#include <Tpetra_Export.hpp>
-#include <Tpetra_Import.hpp>
-#include <Tpetra_Map.hpp>
-#include <Tpetra_Vector.hpp>
+#include <Teuchos_Comm.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
-#include <utility>
 
 namespace epafi::decomposition {
 namespace {
 
-using Graph = Tpetra::CrsGraph<>;
+/// A subdomain that has a node.
+struct Sighting {
+  GlobalOrdinal node; ///< numbered through all bodies
+  int number;         ///< of the subdomain
+  int rank;
+  unsigned free; ///< which components are unknowns, as the digits of a binary number
 
-RCP<const Map> mapOf(std::vector<GlobalOrdinal> nodes, const RCP<const Comm>& comm) {
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                     Teuchos::arrayViewFromVector(nodes), 0, comm));
-}
-
-/// How many subdomains have each of this rank's nodes. Collective.
-Vector copiesOf(const RCP<const Comm>& comm, const std::vector<Piece>& pieces) {
-  std::vector<GlobalOrdinal> nodes;
-  for (const Piece& piece : pieces)
-    nodes.insert(nodes.end(), piece.assembled.nodes.begin(), piece.assembled.nodes.end());
-  const RCP<const Map> here = mapOf(std::move(nodes), comm), owned = Tpetra::createOneToOne(here);
-  Vector mine(here), all(owned);
-  for (const Piece& piece : pieces)
-    for (const GlobalOrdinal node : piece.assembled.nodes)
-      mine.sumIntoGlobalValue(node, 1.0);
-  const Export toOwners(here, owned);
-  all.doExport(mine, toOwners, Tpetra::ADD);
-  mine.doImport(all, toOwners, Tpetra::INSERT);
-  return mine;
-}
-
-/// A row for each node of this rank that has several copies, with the numbers of all subdomains that have it. Collective.
-RCP<const Graph> subdomainsAtNodes(const Outline& outline, const RCP<const Comm>& comm,
-                                   const std::vector<Piece>& pieces) {
-  const Vector copies = copiesOf(comm, pieces);
-  std::vector<GlobalOrdinal> shared;
-  collectively(*comm, [&] {
-    const auto numbers = copies.getData();
-    for (Teuchos_Ordinal i = 0; i < numbers.size(); ++i) {
-      const GlobalOrdinal node = copies.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i));
-      if (numbers[i] > static_cast<double>(maxCopies))
-        throw InputError("node " + std::to_string(node) + " is shared by " +
-                         std::to_string(static_cast<GlobalOrdinal>(numbers[i])) + " subdomains; at most " +
-                         std::to_string(maxCopies) + " may share one.");
-      if (numbers[i] > 1)
-        shared.push_back(node);
-    }
-  });
-  const auto most = static_cast<std::size_t>(copies.normInf());
-  const RCP<const Map> here = mapOf(std::move(shared), comm), owned = Tpetra::createOneToOne(here);
-  const RCP<const Map> numbers =
-      rcp(new Map(static_cast<Tpetra::global_size_t>(outline.numSubdomains), 0, comm));
-  Graph mine(here, most), all(owned, most);
-  for (const Piece& piece : pieces) {
-    const GlobalOrdinal number = piece.number;
-    for (const GlobalOrdinal node : piece.assembled.nodes)
-      if (here->isNodeGlobalElement(node))
-        mine.insertGlobalIndices(node, 1, &number);
+  [[nodiscard]] bool operator<(const Sighting& other) const {
+    return node != other.node ? node < other.node : number < other.number;
   }
-  mine.fillComplete(numbers, owned);
-  const Export toOwners(here, owned);
-  all.doExport(mine, toOwners, Tpetra::INSERT);
-  all.fillComplete(numbers, owned);
-  const RCP<Graph> result = rcp(new Graph(here, most));
-  result->doImport(all, toOwners, Tpetra::INSERT);
-  result->fillComplete(numbers, owned);
-  return result;
+};
+
+/// Runs of sightings of one node.
+template <class Action>
+void forEachNode(std::span<const Sighting> sightings, Action&& action) {
+  for (std::size_t first = 0, end = 0; first < sightings.size(); first = end) {
+    while (end < sightings.size() && sightings[end].node == sightings[first].node)
+      ++end;
+    action(sightings.subspan(first, end - first));
+  }
 }
 
-/// Ascending; none if the node is not shared.
-std::vector<int> subdomainsAt(const Graph& graph, GlobalOrdinal node) {
-  std::vector<int> parts;
-  if (!graph.getRowMap()->isNodeGlobalElement(node))
-    return parts;
-  typename Graph::local_inds_host_view_type columns;
-  graph.getLocalRowView(graph.getRowMap()->getLocalElement(node), columns);
-  for (std::size_t k = 0; k < columns.extent(0); ++k)
-    parts.push_back(static_cast<int>(graph.getColMap()->getGlobalElement(columns(k))));
-  std::sort(parts.begin(), parts.end());
-  return parts;
-}
-
-/// Which components of a node are unknowns, as the digits of a binary number.
-double unknownsAt(const Piece& piece, std::size_t node, std::size_t components) {
-  double digits = 0;
-  for (std::size_t c = 0; c < components; ++c)
-    if (piece.assembled.unknownOf[node * components + c] >= 0)
-      digits += std::exp2(static_cast<double>(c));
+unsigned freeComponents(const Substructures& all, std::size_t s, std::size_t node) {
+  unsigned digits = 0;
+  for (const int unknown : all.unknownsAt(s, node))
+    digits = 2 * digits + (unknown >= 0 ? 1 : 0);
   return digits;
 }
 
-void requireEqualUnknowns(const Outline& outline, const RCP<const Comm>& comm,
-                          const std::vector<Piece>& pieces) {
-  const auto components = static_cast<std::size_t>(outline.bodies.front().components);
-  std::vector<SharedNode> nodes;
-  std::vector<double> digits;
-  for (std::size_t p = 0; p < pieces.size(); ++p)
-    for (std::size_t k = 0; k < pieces[p].sharing.size(); ++k) {
-      nodes.push_back({p, k});
-      digits.push_back(unknownsAt(pieces[p], pieces[p].sharing.node(k), components));
+/// The border nodes of this rank's subdomains.
+std::vector<Sighting> sightingsHere(const Substructures& all) {
+  std::vector<Sighting> sightings;
+  for (std::size_t s = 0; s < all.size(); ++s)
+    for (const int place : all.nodal[s].borderNodes) {
+      const auto node = static_cast<std::size_t>(place);
+      sightings.push_back({all.globalNode(s, node), all.subdomains[s].number, all.comm->getRank(),
+                           freeComponents(all, s, node)});
     }
-  const Eigen::Map<const Eigen::MatrixXd> own(digits.data(), static_cast<Eigen::Index>(digits.size()), 1);
-  const std::vector<Eigen::MatrixXd> copies = valuesOfCopies(outline, pieces, nodes, own, comm);
-  collectively(*comm, [&] {
-    for (std::size_t i = 0; i < copies.size(); ++i)
-      if (copies[i].minCoeff() != copies[i].maxCoeff()) {
-        const Piece& piece = pieces[nodes[i].piece];
-        const auto parts = piece.sharing.parts(nodes[i].place);
-        throw InputError(
-            "the subdomains at node " +
-            std::to_string(piece.assembled.nodes[piece.sharing.node(nodes[i].place)]) + ", among them " +
-            std::to_string(parts.front()) + " and " + std::to_string(parts.back()) +
-            ", do not have the same free unknowns there; an unknown that is left out or prescribed in one "
-            "must be so in all that share it.");
-      }
+  std::stable_sort(sightings.begin(), sightings.end()); // runs that are sorted already
+  return sightings;
+}
+
+/// Sightings of nodes that have two or more.
+std::vector<Sighting> ofSharedNodes(std::span<const Sighting> sightings) {
+  std::vector<Sighting> shared;
+  forEachNode(sightings, [&](std::span<const Sighting> atNode) {
+    if (atNode.size() > 1)
+      shared.insert(shared.end(), atNode.begin(), atNode.end());
+  });
+  return shared;
+}
+
+/// All ranks' sightings of the shared nodes that this rank has: each node has a rank, its number modulo the number of ranks,
+/// that hears of all of them and tells those who have it. Collective.
+std::vector<Sighting> ofSharedNodes(const RCP<const Comm>& comm, std::span<const Sighting> here) {
+  std::vector<int> ranks;
+  for (const Sighting& sighting : here)
+    ranks.push_back(static_cast<int>(sighting.node % comm->getSize()));
+  std::vector<Sighting> heard = sendRecords(comm, here, ranks);
+  std::sort(heard.begin(), heard.end());
+  std::vector<Sighting> told;
+  ranks.clear();
+  forEachNode(heard, [&](std::span<const Sighting> atNode) {
+    if (atNode.size() < 2)
+      return;
+    int last = -1; // numbers ascend with ranks
+    for (const Sighting& listener : atNode)
+      if (std::exchange(last, listener.rank) != listener.rank)
+        for (const Sighting& sighting : atNode) {
+          told.push_back(sighting);
+          ranks.push_back(listener.rank);
+        }
+  });
+  std::vector<Sighting> shared = sendRecords<Sighting>(comm, told, ranks);
+  std::sort(shared.begin(), shared.end());
+  return shared;
+}
+
+void requireEqualUnknowns(const Comm& comm, std::span<const Sighting> shared) {
+  collectively(comm, [&] {
+    forEachNode(shared, [](std::span<const Sighting> atNode) {
+      for (const Sighting& sighting : atNode)
+        if (sighting.free != atNode.front().free)
+          throw InputError(
+              "the subdomains at node " + std::to_string(sighting.node) + ", among them " +
+              std::to_string(atNode.front().number) + " and " + std::to_string(sighting.number) +
+              ", do not have the same free unknowns there; an unknown that is left out or prescribed in one "
+              "must be so in all that share it.");
+    });
   });
 }
 
 } // namespace
 
-void shareNodes(const Outline& outline, const RCP<const Comm>& comm, std::vector<Piece>& pieces) {
-  const RCP<const Graph> graph = subdomainsAtNodes(outline, comm, pieces);
-  for (Piece& piece : pieces) {
-    std::vector<std::size_t> nodes;
-    std::vector<std::vector<int>> parts;
-    for (std::size_t node = 0; node < piece.assembled.nodes.size(); ++node)
-      if (std::vector<int> atNode = subdomainsAt(*graph, piece.assembled.nodes[node]); !atNode.empty()) {
-        nodes.push_back(node);
-        parts.push_back(std::move(atNode));
+SharedNodes::SharedNodes(const Substructures& all) : comm_(all.comm) {
+  std::vector<Sighting> shared = sightingsHere(all);
+  shared = comm_->getSize() == 1 ? ofSharedNodes(shared) : ofSharedNodes(comm_, shared);
+  requireEqualUnknowns(*comm_, shared);
+
+  const int me = comm_->getRank(), firstNumber = all.size() > 0 ? all.subdomains.front().number : 0;
+  firstCopy_.assign(all.size() + 1, 0);
+  for (const Sighting& sighting : shared)
+    if (sighting.rank == me)
+      ++firstCopy_[static_cast<std::size_t>(sighting.number - firstNumber) + 1];
+  for (std::size_t s = 0; s < all.size(); ++s)
+    firstCopy_[s + 1] += firstCopy_[s];
+  copies_.resize(firstCopy_.back());
+  numbers_.reserve(shared.size());
+  slots_.reserve(shared.size());
+  std::vector<std::size_t> next(firstCopy_.begin(), firstCopy_.end() - 1); // copy of each subdomain
+  std::vector<std::size_t> border(all.size(), 0); // node of each subdomain to look at
+  std::map<int, Neighbour> neighbours;
+  forEachNode(shared, [&](std::span<const Sighting> atNode) {
+    const std::size_t node = start_.size() - 1;
+    for (const Sighting& sighting : atNode) {
+      numbers_.push_back(sighting.number);
+      if (sighting.rank != me) {
+        slots_.push_back(copies_.size() + numGhosts_++);
+        neighbours[sighting.rank].received.emplace_back(slots_.back(), node);
+        continue;
       }
-    piece.sharing = Sharing(std::move(nodes), parts);
+      const auto s = static_cast<std::size_t>(sighting.number - firstNumber);
+      const std::vector<int>& candidates = all.nodal[s].borderNodes;
+      while (all.globalNode(s, static_cast<std::size_t>(candidates[border[s]])) != sighting.node)
+        ++border[s];
+      slots_.push_back(next[s]);
+      copies_[next[s]++] = {static_cast<std::size_t>(candidates[border[s]]), node,
+                            slots_.size() - 1 - start_.back()};
+    }
+    for (std::size_t k = start_.back(); k < slots_.size(); ++k)
+      if (slots_[k] < copies_.size()) {
+        int last = me;
+        for (const Sighting& other : atNode)
+          if (other.rank != me && std::exchange(last, other.rank) != other.rank)
+            neighbours[other.rank].sent.push_back(slots_[k]);
+      }
+    start_.push_back(slots_.size());
+  });
+  for (auto& [rank, neighbour] : neighbours) {
+    neighbour.rank = rank;
+    neighbours_.push_back(std::move(neighbour));
   }
-  requireEqualUnknowns(outline, comm, pieces);
+}
+
+std::optional<std::size_t> SharedNodes::find(std::size_t subdomain, std::size_t place) const {
+  const std::span<const Copy> copies = copiesOf(subdomain);
+  const auto found =
+      std::lower_bound(copies.begin(), copies.end(), place,
+                       [](const Copy& copy, std::size_t wanted) { return copy.place < wanted; });
+  if (found == copies.end() || found->place != place)
+    return std::nullopt;
+  return firstCopy_[subdomain] + static_cast<std::size_t>(found - copies.begin());
+}
+
+bool SharedNodes::isLowest(std::size_t subdomain, std::size_t place) const {
+  const std::optional<std::size_t> copy = find(subdomain, place);
+  return !copy || copies_[*copy].order == 0;
 }
 
 } // namespace epafi::decomposition

@@ -1,17 +1,14 @@
 #include "epafi/decomposition/UnassembledProblem.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Maps.hpp"
 #include "epafi/decomposition/BodyKernels.hpp"
-#include "epafi/decomposition/Crosspoints.hpp"
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
-#include "epafi/decomposition/FillProblem.hpp"
 #include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/decomposition/GluingRows.hpp"
-#include "epafi/decomposition/InterfaceEnds.hpp"
-#include "epafi/decomposition/SharedNodes.hpp"
+#include "epafi/decomposition/Splitting.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_OrdinalTraits.hpp>
@@ -22,19 +19,12 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
 namespace epafi::decomposition {
 namespace {
-
-/// Of these numbers, which may be named several times. Collective.
-RCP<const Map> mapOf(std::vector<GlobalOrdinal> numbers, const RCP<const Comm>& comm) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                     Teuchos::arrayViewFromVector(numbers), 0, comm));
-}
 
 bool hasSamePattern(const SparseMatrix& a, const SparseMatrix& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
@@ -46,7 +36,7 @@ bool hasSamePattern(const SparseMatrix& a, const SparseMatrix& b) {
 
 UnassembledProblem::UnassembledProblem(RCP<const Comm> comm, int dimension, int components,
                                        std::vector<std::string> bodies)
-    : comm_(std::move(comm)), dimension_(dimension), components_(components) {
+    : comm_(std::move(comm)) {
   if (dimension < 2 || dimension > 3)
     throw InputError("the dimension of space is " + std::to_string(dimension) + ", but must be 2 or 3.");
   if (components < 1 || components > 3)
@@ -54,92 +44,123 @@ UnassembledProblem::UnassembledProblem(RCP<const Comm> comm, int dimension, int 
   if (bodies.empty())
     throw InputError("there must be one body at least; name it.");
   problem_.comm = comm_;
-  problem_.components = components_;
+  problem_.components = components;
+  places_.dimension = dimension;
   for (std::string& name : bodies)
-    problem_.bodies.push_back({std::move(name), 0, 0});
+    problem_.bodies.emplace_back().name = std::move(name);
+}
+
+UnassembledProblem::UnassembledProblem(RCP<const Comm> comm, int components, std::vector<Body> bodies,
+                                       NodePlaces places)
+    : comm_(std::move(comm)), places_(std::move(places)) {
+  problem_.comm = comm_;
+  problem_.components = components;
+  problem_.bodies = std::move(bodies);
+  for (const Body& body : problem_.bodies)
+    problem_.kernelDimension += body.kernelDimension;
 }
 
 UnassembledProblem::~UnassembledProblem() = default;
 
 void UnassembledProblem::add(SubdomainMatrix matrix) {
-  if (!unknownMap_.is_null())
+  if (crosspoints_)
     throw Error("UnassembledProblem::add was called after complete; add all subdomains before.");
   added_.push_back(std::move(matrix));
 }
 
+void UnassembledProblem::add(NodeOrderedSubdomain subdomain) {
+  Subdomain& target = problem_.subdomains.emplace_back();
+  fem::AssembledSubdomain& values = subdomain.values;
+  target.body = subdomain.body;
+  target.nodes = std::move(values.nodes);
+  target.unknownPosition = std::move(values.unknownPosition);
+  target.load = std::move(values.load);
+  target.frames = std::move(subdomain.frames);
+  target.prescribed = std::move(values.prescribed);
+  target.energyOffset = values.energyOffset;
+  target.kernel = std::move(values.kernel);
+  nodal_.push_back(
+      {std::move(values.unknownOf), std::move(values.borderNodes), std::move(subdomain.stiffness), {}});
+}
+
 void UnassembledProblem::requireComplete() const {
-  if (unknownMap_.is_null())
+  if (!crosspoints_)
     throw Error("the UnassembledProblem is not complete; call complete first.");
+}
+
+Substructures UnassembledProblem::view() const {
+  return {comm_,
+          static_cast<std::size_t>(problem_.components),
+          places_,
+          problem_.bodies,
+          problem_.subdomains,
+          nodal_,
+          problem_.numSubdomains};
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Completing it.
 
 void UnassembledProblem::complete() {
-  if (!unknownMap_.is_null())
+  if (crosspoints_)
     throw Error("UnassembledProblem::complete was called twice.");
-  makePieces();
-  mapUnknowns();
-  if (contact_)
-    requireSound(*contact_, unknownMap_);
-  shareNodes(outline_, comm_, pieces_);
-  std::vector<int> bodies;
-  for (const SubdomainMatrix& matrix : added_)
-    bodies.push_back(matrix.body);
-  requireConnected(pieces_, bodies, outline_.numSubdomains, problem_.bodies, *comm_);
-  findKernels(added_, own_, dimension_, pieces_, problem_);
-  choosePoints();
-  const CrosspointNumbering crosspoints(outline_, pieces_, *comm_);
-  for (const Piece& piece : pieces_)
-    nodal_.push_back(piece.stiffness);
-  const Rows contact = enterContact();
-  const std::vector<std::vector<Average>> averages = changeBasis(outline_, pieces_);
-  std::vector<SubdomainMatrix>().swap(added_);
-  problem_.numSubdomains = outline_.numSubdomains;
-  fillSubdomains(outline_, crosspoints, averages, pieces_, problem_);
-  for (std::size_t s = 0; s < pieces_.size(); ++s) {
-    problem_.subdomains[s].body = bodies[s];
-    pieces_[s].assembled.nodes = problem_.subdomains[s].nodes; // setContact asks for them again
-    pieces_[s].assembled.prescribed = problem_.subdomains[s].prescribed;
-    pieces_[s].stiffness = problem_.subdomains[s].stiffness;
+  const int first = firstNumber();
+  const bool areKernelsKnown = static_cast<bool>(places_.point);
+  if (!areKernelsKnown) {
+    takeAdded(first);
+    mapUnknowns();
+    if (contact_)
+      requireSound(*contact_, unknownMap_);
   }
-  attach(contact);
-  outline_.bodies.front().point = {}; // nobody asks any more
+  for (std::size_t s = 0; s < nodal_.size(); ++s)
+    problem_.subdomains[s].number = first + static_cast<int>(s);
+  shared_ = SharedNodes(view());
+  if (!areKernelsKnown)
+    findBodies();
+  crosspoints_.emplace(view(), shared_);
+  split();
+  attach();
+  places_ = {}; // nobody asks any more
 }
 
-/// Numbers the subdomains and takes what was added, without its near-kernel. Collective.
-void UnassembledProblem::makePieces() {
-  const int mine = static_cast<int>(added_.size());
+/// The number of this rank's first subdomain; counts all. Collective.
+int UnassembledProblem::firstNumber() {
+  const int mine = static_cast<int>(added_.size() + nodal_.size());
   int last = 0;
   Teuchos::scan(*comm_, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(last));
-  outline_.numSubdomains = static_cast<int>(sumOverRanks(*comm_, static_cast<double>(mine)));
-  pieces_.resize(added_.size());
-  own_.resize(added_.size());
+  problem_.numSubdomains = sumOverRanks(*comm_, mine);
+  return last - mine;
+}
+
+/// The subdomains in the order of their nodes, prescribed unknowns taken out; near-kernels stay. Collective.
+void UnassembledProblem::takeAdded(int first) {
   const auto points = std::make_shared<std::unordered_map<GlobalOrdinal, fem::Point>>();
-  GlobalOrdinal numNodes = 0;
   collectively(*comm_, [&] {
-    if (outline_.numSubdomains == 0)
+    if (problem_.numSubdomains == 0)
       throw InputError("no rank has added a subdomain; call add first.");
     EqualMatrices known;
-    for (std::size_t s = 0; s < added_.size(); ++s) {
-      SubdomainMatrix& matrix = added_[s];
-      Piece& piece = pieces_[s];
-      piece.number = piece.part = last - mine + static_cast<int>(s);
-      requireSound(matrix, dimension_, components_, static_cast<int>(problem_.bodies.size()),
-                   "subdomain " + std::to_string(piece.number));
-      own_[s] = takeSubdomain(matrix, components_, piece.assembled);
-      SparseMatrix free = freeStiffness(matrix.stiffness, own_[s]);
-      piece.stiffness = known.store(free);
+    for (SubdomainMatrix& matrix : added_) {
+      const int components = problem_.components, number = first + static_cast<int>(own_.size());
+      requireSound(matrix, places_.dimension, components, static_cast<int>(problem_.bodies.size()),
+                   "subdomain " + std::to_string(number));
+      NodeOrderedSubdomain subdomain{matrix.body, {}, nullptr, {}};
+      own_.push_back(takeSubdomain(matrix, components, subdomain.values));
+      SparseMatrix free = freeStiffness(matrix.stiffness, own_.back());
+      subdomain.stiffness = known.store(free);
       for (std::size_t i = 0; i < matrix.unknowns.size(); ++i)
-        points->try_emplace(matrix.unknowns[i] / components_,
+        points->try_emplace(matrix.unknowns[i] / components,
                             pointAt(matrix.coordinates, static_cast<Eigen::Index>(i)));
-      numNodes = std::max(numNodes, piece.assembled.nodes.back() + 1);
+      subdomain.values.borderNodes.resize(subdomain.values.nodes.size()); // nobody knows which others share
+      std::iota(subdomain.values.borderNodes.begin(), subdomain.values.borderNodes.end(), 0);
+      add(std::move(subdomain));
+      for (const GlobalOrdinal wanted : matrix.crosspoints) {
+        const std::vector<GlobalOrdinal>& nodes = problem_.subdomains.back().nodes;
+        nodal_.back().crosspoints.push_back(
+            static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), wanted) - nodes.begin()));
+      }
     }
   });
-  numNodes = static_cast<GlobalOrdinal>(maxOverRanks(*comm_, static_cast<double>(numNodes)));
-  outline_.bodies = {{dimension_, components_, 0, numNodes,
-                      [points](GlobalOrdinal node) { return points->at(node); },
-                      [](GlobalOrdinal) { return false; }}}; // findInterfaceEnds stands in for it
+  places_.point = [points](int /*body*/, GlobalOrdinal node) { return points->at(node); };
 }
 
 /// All that this rank's subdomains have. Collective.
@@ -147,7 +168,7 @@ RCP<const Map> UnassembledProblem::ownUnknowns() const {
   std::vector<GlobalOrdinal> here;
   for (const OwnSubdomain& own : own_)
     here.insert(here.end(), own.unknowns.begin(), own.unknowns.end());
-  return mapOf(std::move(here), comm_);
+  return makeMap(std::move(here), comm_);
 }
 
 /// The map of the unknowns, and how many copies each has. Collective.
@@ -163,74 +184,85 @@ void UnassembledProblem::mapUnknowns() {
   copies_ = all;
 }
 
-/// Crosspoints that the application asks for, and the ends of interfaces.
-void UnassembledProblem::choosePoints() {
-  for (std::size_t s = 0; s < pieces_.size(); ++s) {
-    Piece& piece = pieces_[s];
-    piece.chosen = findInterfaceEnds(outline_.bodies.front(), piece);
-    const auto components = static_cast<std::size_t>(components_);
-    for (const GlobalOrdinal wanted : added_[s].crosspoints) {
-      const auto node = static_cast<std::size_t>(
-          std::lower_bound(piece.assembled.nodes.begin(), piece.assembled.nodes.end(), wanted) -
-          piece.assembled.nodes.begin());
-      const auto unknowns = std::span(piece.assembled.unknownOf).subspan(node * components, components);
-      if (std::any_of(unknowns.begin(), unknowns.end(), [](int unknown) { return unknown >= 0; }) &&
-          std::find(piece.chosen.begin(), piece.chosen.end(), node) == piece.chosen.end())
-        piece.chosen.push_back(node);
-    }
+/// Kernels of the bodies, once it is known that each is in one piece. Collective.
+void UnassembledProblem::findBodies() {
+  requireConnected(view(), shared_);
+  BodyKernels found = findKernels(view(), added_, own_);
+  std::vector<SubdomainMatrix>().swap(added_);
+  problem_.bodies = std::move(found.bodies);
+  for (const Body& body : problem_.bodies)
+    problem_.kernelDimension += body.kernelDimension;
+  for (std::size_t s = 0; s < found.kernels.size(); ++s)
+    problem_.subdomains[s].kernel = std::move(found.kernels[s]);
+}
+
+/// Splits unknowns in remainder and crosspoint values, and makes averages unknowns.
+void UnassembledProblem::split() {
+  Splitting splitting = splitUnknowns(view(), shared_, *crosspoints_);
+  AverageBasis basis;
+  GlobalOrdinal positions = 0, remainders = 0;
+  for (std::size_t s = 0; s < nodal_.size(); ++s) {
+    const std::vector<Average> averages = averagesOf(view(), s, crosspoints_->averages(s));
+    Subdomain& subdomain = problem_.subdomains[s];
+    subdomain.remainderUnknowns = std::move(splitting.subdomains[s].remainderUnknowns);
+    subdomain.crosspointUnknowns = std::move(splitting.subdomains[s].crosspointUnknowns);
+    subdomain.crosspointIndices = std::move(splitting.subdomains[s].crosspointIndices);
+    subdomain.averages = averages;
+    subdomain.stiffness = basis.changed(averages, nodal_[s].stiffness);
+    subdomain.load = loadInBasisOf(averages, std::move(subdomain.load));
+    subdomain.kernel = kernelInBasisOf(averages, std::move(subdomain.kernel));
+    positions += subdomain.prescribed.size();
+    remainders += static_cast<GlobalOrdinal>(subdomain.remainderUnknowns.size());
   }
+  problem_.numCrosspoints = crosspoints_->numNodes();
+  problem_.primalDimension = sumOverRanks(*comm_, positions);
+  problem_.crosspointMap = makeMap(std::move(splitting.ownedCrosspoints), comm_);
+  problem_.remainderMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                                      static_cast<std::size_t>(remainders), 0, comm_));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
 // B, and what may change.
 
-/// Enters B_I in the pieces, whose bases must be nodal. Collective.
-Rows UnassembledProblem::enterContact() {
-  for (std::size_t s = 0; s < pieces_.size(); ++s) {
-    pieces_[s].rows.clear();
-    pieces_[s].stiffness = nodal_[s];
-  }
+/// Contact and gluing rows, B and the gaps. Collective.
+void UnassembledProblem::attach() {
   problem_.numInequalities = 0;
-  if (!contact_)
-    return {};
-  problem_.numInequalities = static_cast<GlobalOrdinal>(contact_->rows->getGlobalNumRows());
-  std::vector<std::pair<GlobalOrdinal, double>> held;
-  Rows rows = enterContactMatrix(outline_, *contact_, comm_, pieces_, held);
-  std::vector<GlobalOrdinal> heldRows;
-  for (const auto& [row, value] : held)
-    heldRows.push_back(row);
-  const RCP<const Map> map = mapOf(std::move(heldRows), comm_);
-  Vector here(map);
-  for (const auto& [row, value] : held)
-    here.sumIntoGlobalValue(row, value);
-  held_ = rcp(new Vector(contact_->rows->getRowMap()));
-  held_->doExport(here, Export(map, held_->getMap()), Tpetra::ADD);
-  return rows;
-}
-
-/// Gluing rows, B and the gaps. Precondition: the pieces' bases are changed. Collective.
-void UnassembledProblem::attach(const Rows& contact) {
-  const Rows gluing = gluingRows(outline_, pieces_, problem_.numInequalities, comm_, problem_.numEqualities);
-  attachRows(contact, gluing, pieces_, problem_);
-  for (Piece& piece : pieces_)
-    std::vector<RowEntry>().swap(piece.rows);
+  std::vector<GlobalOrdinal> ownContact;
+  std::vector<std::vector<RowEntry>> rows(nodal_.size());
+  if (contact_) {
+    const Map& map = *contact_->rows->getRowMap();
+    problem_.numInequalities = static_cast<GlobalOrdinal>(map.getGlobalNumElements());
+    for (const GlobalOrdinal row : map.getNodeElementList())
+      ownContact.push_back(row);
+    ContactRows contact = contactRows(view(), shared_, *crosspoints_, *contact_);
+    for (std::size_t s = 0; s < rows.size(); ++s)
+      rows[s] = inBasisOf(problem_.subdomains[s].averages, std::move(contact.rows[s]));
+    held_ = contact.held;
+  }
+  std::vector<std::shared_ptr<const SparseMatrix>> stiffness;
+  for (const Subdomain& subdomain : problem_.subdomains)
+    stiffness.push_back(subdomain.stiffness);
+  const GluingRows gluing = gluingRows(view(), shared_, *crosspoints_, stiffness, problem_.numInequalities);
+  Constraints constraints = joinRows(rows, ownContact, gluing, comm_);
+  problem_.numEqualities = gluing.numRows;
+  problem_.multiplierMap = constraints.multiplierMap;
+  problem_.multiplierGhostMap = constraints.ghostMap;
+  for (std::size_t s = 0; s < nodal_.size(); ++s)
+    problem_.subdomains[s].constraint = std::move(constraints.entries[s]);
+  problem_.gap = rcp(new Vector(problem_.multiplierMap));
   if (contact_)
     setGap(*contact_->gap);
 }
 
 void UnassembledProblem::setContact(const ContactMatrix& contact) {
-  if (unknownMap_.is_null()) {
+  if (!crosspoints_) {
     contact_ = contact;
     return;
   }
+  requireComplete();
   requireSound(contact, unknownMap_);
   contact_ = contact;
-  const Rows rows = enterContact();
-  for (std::size_t s = 0; s < pieces_.size(); ++s) {
-    changeBasisOfRows(problem_.subdomains[s].averages, 0, pieces_[s].rows);
-    pieces_[s].stiffness = problem_.subdomains[s].stiffness;
-  }
-  attach(rows);
+  attach();
 }
 
 void UnassembledProblem::setGap(const Vector& gap) {
@@ -257,7 +289,7 @@ void UnassembledProblem::refreshLoad(std::size_t subdomain) {
   const OwnSubdomain& own = own_[subdomain];
   Subdomain& target = problem_.subdomains[subdomain];
   freeLoad(own, target.load);
-  changeBasisOfLoad(target.averages, target.load);
+  target.load = loadInBasisOf(target.averages, std::move(target.load));
   target.energyOffset = prescribedEnergy(own);
 }
 
@@ -270,13 +302,12 @@ void UnassembledProblem::setMatrix(std::size_t subdomain, const SparseMatrix& st
                      " unknowns.");
   OwnSubdomain& own = own_[subdomain];
   auto free = std::make_shared<SparseMatrix>(freeStiffness(stiffness, own));
-  if (!hasSamePattern(*free, *nodal_[subdomain]))
+  if (!hasSamePattern(*free, *nodal_[subdomain].stiffness))
     throw InputError("the new stiffness of subdomain " + std::to_string(subdomain) +
                      " of this rank has another pattern; make a problem anew for it.");
-  nodal_[subdomain] = free;
+  nodal_[subdomain].stiffness = free;
   Subdomain& target = problem_.subdomains[subdomain];
-  target.stiffness = AverageBasis().changed(target.averages, nodal_[subdomain]);
-  pieces_[subdomain].stiffness = target.stiffness;
+  target.stiffness = AverageBasis().changed(target.averages, free);
   own.heldForce = stiffness * own.prescribed;
   refreshLoad(subdomain);
 }

@@ -14,11 +14,13 @@
 /// Later problem.setLoad, setGap, setMatrix, setContact change it, and solver.update() follows (ContactSolver.hpp says what
 /// each costs).
 
-#include "epafi/decomposition/ContactMatrix.hpp"
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ContactRows.hpp"
+#include "epafi/decomposition/Crosspoints.hpp"
 #include "epafi/decomposition/OwnSubdomain.hpp"
-#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/decomposition/SharedNodes.hpp"
 #include "epafi/decomposition/SubdomainMatrix.hpp"
+#include "epafi/decomposition/Substructures.hpp"
+#include "epafi/fem/SubdomainAssembly.hpp"
 
 #include <Eigen/Core>
 
@@ -30,6 +32,15 @@
 
 namespace epafi::decomposition {
 
+/// A subdomain in the order of its nodes, with the kernel of its body known: what an assembly over a mesh has at hand. Nodes
+/// are numbered as in the body.
+struct NodeOrderedSubdomain {
+  int body = 0;
+  fem::AssembledSubdomain values;                ///< without its stiffness
+  std::shared_ptr<const SparseMatrix> stiffness; ///< K^s of its free unknowns; equal subdomains may share one
+  std::vector<NodeFrame> frames;
+};
+
 /// Subdomains are numbered rank by rank in the order in which they were added. Results do not depend on how subdomains go
 /// to ranks, as long as that order is the same. A rank may have none.
 class UnassembledProblem {
@@ -40,6 +51,9 @@ public:
   /// \throws InputError for other numbers, or without bodies. Not collective.
   UnassembledProblem(RCP<const Comm> comm, int dimension, int components,
                      std::vector<std::string> bodies = {"body"});
+  /// Of bodies whose kernels are known: all subdomains are node-ordered ones.
+  /// \param bodies  complete
+  UnassembledProblem(RCP<const Comm> comm, int components, std::vector<Body> bodies, NodePlaces places);
   UnassembledProblem(const UnassembledProblem&) = delete;
   UnassembledProblem& operator=(const UnassembledProblem&) = delete;
   UnassembledProblem(UnassembledProblem&&) = delete;
@@ -49,6 +63,8 @@ public:
   /// Takes one subdomain of this rank; what is wrong with it is said by `complete`. Not collective.
   /// Precondition: not yet complete.
   void add(SubdomainMatrix matrix);
+  /// Likewise. Precondition: the bodies' kernels are known.
+  void add(NodeOrderedSubdomain subdomain);
 
   /// Takes B_I and c, both shared; without a call there is no contact. After `complete` the rows of B are made anew.
   /// Collective then. \throws InputError (see requireSound), the same on all ranks.
@@ -61,6 +77,8 @@ public:
 
   /// What the solver takes; lives as long as this object. Precondition: complete.
   [[nodiscard]] const DecomposedProblem& problem() const { return problem_; }
+  /// The problem alone, for those who change nothing any more; leaves nothing here. Precondition: complete.
+  [[nodiscard]] DecomposedProblem take() { return std::move(problem_); }
   /// Unknowns of all subdomains, prescribed ones too, each on one rank. Precondition: complete.
   [[nodiscard]] const RCP<const Map>& unknownMap() const { return unknownMap_; }
   /// Subdomains of this rank.
@@ -89,27 +107,29 @@ public:
   [[nodiscard]] RCP<Vector> contactForces(const Vector& multiplier) const;
 
 private:
-  void makePieces();
+  [[nodiscard]] Substructures view() const;
+  int firstNumber();
+  void takeAdded(int first);
   void mapUnknowns();
   [[nodiscard]] RCP<const Map> ownUnknowns() const;
-  void choosePoints();
-  Rows enterContact();
-  void attach(const Rows& contact);
+  void findBodies();
+  void split();
+  void attach();
   void refreshLoad(std::size_t subdomain);
   void requireComplete() const;
 
   RCP<const Comm> comm_;
-  int dimension_, components_;
+  NodePlaces places_;
   std::vector<SubdomainMatrix> added_; ///< until complete
   std::optional<ContactMatrix> contact_;
-  std::vector<OwnSubdomain> own_;
-  Outline outline_;
-  std::vector<Piece> pieces_;
-  std::vector<std::shared_ptr<const SparseMatrix>> nodal_; ///< K^s before averages became unknowns
+  std::vector<OwnSubdomain> own_; ///< of those that were not node-ordered
+  std::vector<NodalSubdomain> nodal_;
+  SharedNodes shared_;
+  std::optional<Crosspoints> crosspoints_; ///< once complete
   DecomposedProblem problem_;
   RCP<const Map> unknownMap_;
   RCP<const Vector> copies_; ///< of each unknown, on unknownMap_
-  RCP<Vector> held_;         ///< what prescribed values contribute to B_I u, on the row map of B_I
+  RCP<const Vector> held_;   ///< what prescribed values contribute to B_I u, on the row map of B_I
 };
 
 } // namespace epafi::decomposition

@@ -1,74 +1,141 @@
 #include "epafi/fem/BodyModel.hpp"
 
-#include "epafi/base/Errors.hpp"
-#include "epafi/fem/GridWalk.hpp"
-#include "epafi/fem/Q1Element.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/fem/ElementIntegrals.hpp"
+#include "epafi/fem/SolidChecks.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace epafi::fem {
 namespace {
 
-/// Whether x lies in [low, high]; the ends belong to it, round-off of x beside the element's size included.
-bool lies(double x, double low, double high, double elementSize) {
-  const double roundOff = 1e-9 * elementSize;
-  return low - roundOff <= x && x <= high + roundOff;
+SolidBody checked(SolidBody body) {
+  requireDimension(body);
+  requireJoined(body);
+  return body;
 }
 
-/// Ends of the columns or rows of elements.
-using Segments = std::vector<std::array<double, 2>>;
-
-Segments segmentsAlongX(const RectangleMesh& mesh) {
-  Segments segments;
-  for (GlobalOrdinal i = 0; i < mesh.elements()[0]; ++i) {
-    const scene::Rectangle box = mesh.elementBox(i);
-    segments.push_back({box.x0, box.x1});
-  }
-  return segments;
+/// ∫∇N_i·∇N_j over a rectangle of sides hx, hy in closed form: entries that symmetry makes equal are so to the last bit, which
+/// sums over Gauss points are not.
+Eigen::Matrix4d rectangleStiffness(double hx, double hy) {
+  const double a = hy / (6 * hx), b = hx / (6 * hy);
+  const double self = 2 * a + 2 * b, alongX = -2 * a + b, opposite = -a - b, alongY = a - 2 * b;
+  Eigen::Matrix4d k;
+  k << self, alongX, opposite, alongY, //
+      alongX, self, alongY, opposite,  //
+      opposite, alongY, self, alongX,  //
+      alongY, opposite, alongX, self;
+  return k;
 }
 
-Segments segmentsAlongY(const RectangleMesh& mesh) {
-  Segments segments;
-  for (GlobalOrdinal j = 0; j < mesh.elements()[1]; ++j) {
-    const scene::Rectangle box = mesh.elementBox(j * mesh.elements()[0]);
-    segments.push_back({box.y0, box.y1});
-  }
-  return segments;
-}
-
-/// The segments whose middle lies in [low, high]: the first one, and the one after the last.
-std::array<GlobalOrdinal, 2> within(const Segments& segments, double low, double high) {
-  const auto lie = [&](const std::array<double, 2>& s) {
-    return lies(0.5 * (s[0] + s[1]), low, high, s[1] - s[0]);
-  };
-  const auto first = std::find_if(segments.begin(), segments.end(), lie);
-  return {first - segments.begin(), std::find_if_not(first, segments.end(), lie) - segments.begin()};
-}
-
-std::vector<Eigen::Vector2d> loadsOn(const Segments& segments, double low, double high) {
-  std::vector<Eigen::Vector2d> loads;
-  for (const auto& [a, b] : segments)
-    loads.push_back(segmentLoad(a, b, low, high));
-  return loads;
-}
-
-/// \throws InputError if two supports give a corner different values.
-void requireAgreement(const scene::Body& body, const RectangleMesh& mesh) {
-  for (std::size_t a = 0; a < body.supports.size(); ++a)
-    for (std::size_t b = a + 1; b < body.supports.size(); ++b) {
-      const GlobalOrdinal last = mesh.numEdgeNodes(body.supports[a].edge) - 1;
-      const bool meet =
-          mesh.positionOnEdge(body.supports[b].edge, mesh.edgeNode(body.supports[a].edge, 0)) >= 0 ||
-          mesh.positionOnEdge(body.supports[b].edge, mesh.edgeNode(body.supports[a].edge, last)) >= 0;
-      if (meet && body.supports[a].value != body.supports[b].value)
-        throw InputError("the supports '" + body.supports[a].name + "' and '" + body.supports[b].name +
-                         "' of body '" + body.name + "' meet in a corner with different values (" +
-                         std::to_string(body.supports[a].value) + " and " +
-                         std::to_string(body.supports[b].value) + "); give both the same value");
+/// About the middle of the body's bounding box.
+RigidModes rigidModesOf(const SolidBody& body) {
+  const Mesh& mesh = body.mesh;
+  Point lower = mesh.point(0), upper = lower, centre{};
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += body.isCongruent() ? mesh.numNodes() - 1 : 1) {
+    const Point point = mesh.point(node); // of a structured mesh the first and the last will do
+    for (std::size_t d = 0; d < 3; ++d) {
+      lower[d] = std::min(lower[d], point[d]);
+      upper[d] = std::max(upper[d], point[d]);
     }
+  }
+  double size = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    centre[d] = 0.5 * (lower[d] + upper[d]);
+    size = std::max(size, upper[d] - lower[d]);
+  }
+  return {body.components(), centre, 0.5 * size};
 }
 
 } // namespace
+
+BodyModel::BodyModel(const scene::Body& body, const Mesh& mesh)
+    : body_(checked({body, mesh})), unknowns_(mesh, 1, body_.components()), regions_(body_),
+      loads_(body_, regions_), supports_(body_), rigidModes_(rigidModesOf(body_)) {
+  integrateRegions();
+  findFramedElements();
+  findFreeModes();
+}
+
+void BodyModel::integrateRegions() {
+  for (std::size_t region = 0; body_.isCongruent() && region < regions_.number(); ++region) {
+    const scene::Material& material = materialIn(body_.body, region);
+    Eigen::MatrixXd& stiffness = stiffnesses_.emplace_back();
+    if (components() == 1)
+      stiffness = material.conductivity * rectangleStiffness(body_.mesh.structured()->elementSize()[0],
+                                                             body_.mesh.structured()->elementSize()[1]);
+    else
+      elementStiffness(body_.mesh.cellType(), body_.shape, body_.body.physics, material, stiffness);
+  }
+}
+
+void BodyModel::findFreeModes() {
+  FreeModes free = rigidModes_.freeOf(supports_.directions(body_.mesh));
+  if (free.leastHold < RigidModes::heldFrom) {
+    throw body_.refusal("its supports hardly hold it: a rigid motion moves the supported points by only " +
+                        text(free.leastHold) +
+                        " of itself, too little to tell from round-off; support points that lie farther "
+                        "apart or less in one line, or leave the motion wholly free");
+  }
+  freeModes_ = std::move(free.modes);
+}
+
+void BodyModel::findFramedElements() {
+  std::vector<GlobalOrdinal> elements;
+  for (const GlobalOrdinal node : supports_.framedNodes()) {
+    body_.mesh.nodeElements(node, elements);
+    framedElements_.insert(framedElements_.end(), elements.begin(), elements.end());
+  }
+  std::sort(framedElements_.begin(), framedElements_.end());
+  framedElements_.erase(std::unique(framedElements_.begin(), framedElements_.end()), framedElements_.end());
+}
+
+bool BodyModel::isFramed(GlobalOrdinal element) const {
+  return std::binary_search(framedElements_.begin(), framedElements_.end(), element);
+}
+
+double BodyModel::kernelValue(GlobalOrdinal node, int component, int mode) const {
+  if (components() == 1)
+    return freeModes_(0, mode);
+  const Point point = body_.mesh.point(node);
+  const Eigen::Matrix3d* own = supports_.hasFrames() ? frame(node) : nullptr;
+  return freeModes_.col(mode).dot(own != nullptr ? rigidModes_.along(point, own->col(component))
+                                                 : rigidModes_.at(point, component));
+}
+
+std::optional<RigidMotions> BodyModel::rigidMotions() const {
+  if (components() == 1)
+    return std::nullopt;
+  return RigidMotions{rigidModes_.centre(), rigidModes_.size(), rigidModes_.twists() * freeModes_};
+}
+
+/// Where elements are congruent the kind is the region, and behind the regions come those that turn into frames; else
+/// the kind is the element.
+void BodyModel::kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const {
+  if (!body_.isCongruent()) {
+    std::copy(elements.begin(), elements.end(), kinds.begin());
+    return;
+  }
+  regions_.of(body_, elements, kinds);
+  for (std::size_t e = 0; !framedElements_.empty() && e < elements.size(); ++e)
+    if (isFramed(elements[e]))
+      kinds[e] = static_cast<GlobalOrdinal>(regions_.number()) + elements[e];
+}
+
+void BodyModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const {
+  const auto numShared = static_cast<GlobalOrdinal>(stiffnesses_.size());
+  if (kind < numShared) {
+    stiffness = stiffnesses_[static_cast<std::size_t>(kind)];
+    return;
+  }
+  const GlobalOrdinal element = kind - numShared;
+  std::vector<Point> points;
+  body_.cornersOf(element, points);
+  elementStiffness(body_.mesh.cellType(), points, body_.body.physics, materialOf(element), stiffness);
+  if (isFramed(element))
+    turnIntoFrames(element, stiffness);
+}
 
 void BodyModel::element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const {
   GlobalOrdinal kind = 0;
@@ -79,72 +146,38 @@ void BodyModel::element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen
   load = column.col(0);
 }
 
-void BodyModel::regions(std::span<const GlobalOrdinal> /*elements*/, std::span<GlobalOrdinal> regions) const {
-  std::fill(regions.begin(), regions.end(), GlobalOrdinal{0});
+void BodyModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
+  loads_.of(body_, regions_, elements, loads);
+  if (!supports_.hasFrames())
+    return;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    if (isFramed(elements[e]))
+      turnIntoFrames(elements[e], loads.col(static_cast<Eigen::Index>(e)));
 }
 
-MembraneModel::MembraneModel(const scene::Body& body, const RectangleMesh& mesh) : body_(body), mesh_(mesh) {
-  requireAgreement(body, mesh);
-  const scene::Rectangle& r = mesh.rectangle();
-  unitStiffness_ = membraneStiffness((r.x1 - r.x0) / mesh.elements()[0], (r.y1 - r.y0) / mesh.elements()[1]);
-  const Segments columns = segmentsAlongX(mesh), rows = segmentsAlongY(mesh);
-  for (const scene::Region& region : body.regions)
-    patches_.push_back(
-        {within(columns, region.box.x0, region.box.x1), within(rows, region.box.y0, region.box.y1)});
-  for (const scene::Load& l : body.loads)
-    strips_.push_back({l.value, loadsOn(columns, l.box.x0, l.box.x1), loadsOn(rows, l.box.y0, l.box.y1)});
-}
-
-std::optional<double> MembraneModel::prescribed(GlobalOrdinal node, int /*component*/) const {
-  for (const scene::Support& support : body_.supports)
-    if (mesh_.positionOnEdge(support.edge, node) >= 0)
-      return support.value;
-  return std::nullopt;
-}
-
-void MembraneModel::prescribed(std::span<const GlobalOrdinal> nodes,
-                               std::vector<PrescribedValue>& values) const {
-  values.clear();
-  std::vector<std::size_t> places;
-  for (const scene::Support& support : body_.supports) {
-    mesh_.placesOnEdge(support.edge, nodes, places);
-    for (const std::size_t place : places)
-      values.push_back({place, support.value});
-  }
-}
-
-void MembraneModel::regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const {
-  std::fill(regions.begin(), regions.end(), GlobalOrdinal{0});
-  const auto contains = [](const std::array<GlobalOrdinal, 2>& range, GlobalOrdinal value) {
-    return range[0] <= value && value < range[1];
-  };
-  for (std::size_t p = 0; p < patches_.size(); ++p) {
-    GridWalk walk(mesh_.elements()[0]);
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      walk.to(elements[e]);
-      if (contains(patches_[p].columns, walk.column()) && contains(patches_[p].rows, walk.row()))
-        regions[e] = static_cast<GlobalOrdinal>(p) + 1; // the last region in the file holds
+/// QᵀKQ, Q of the element's nodes.
+void BodyModel::turnIntoFrames(GlobalOrdinal element, Eigen::MatrixXd& stiffness) const {
+  const ElementNodes nodes(body_.mesh, element);
+  const int n = components();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const Eigen::Matrix3d* own = frame(nodes[i])) {
+      const Eigen::MatrixXd q = own->topLeftCorner(n, n);
+      const Eigen::Index first = n * static_cast<Eigen::Index>(i);
+      stiffness.middleCols(first, n) = (stiffness.middleCols(first, n) * q).eval();
+      stiffness.middleRows(first, n) = (q.transpose() * stiffness.middleRows(first, n)).eval();
     }
-  }
+  stiffness = (0.5 * (stiffness + stiffness.transpose())).eval(); // symmetric to the last digit
 }
 
-void MembraneModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const {
-  const double conductivity =
-      kind == 0 ? body_.conductivity : body_.regions[static_cast<std::size_t>(kind) - 1].conductivity;
-  stiffness = conductivity * unitStiffness_;
-}
-
-void MembraneModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
-  loads.setZero(4, static_cast<Eigen::Index>(elements.size()));
-  for (const Strips& strips : strips_) {
-    GridWalk walk(mesh_.elements()[0]);
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      walk.to(elements[e]);
-      loads.col(static_cast<Eigen::Index>(e)) +=
-          strips.value * membraneLoad(strips.alongX[static_cast<std::size_t>(walk.column())],
-                                      strips.alongY[static_cast<std::size_t>(walk.row())]);
+/// Qᵀf.
+void BodyModel::turnIntoFrames(GlobalOrdinal element, Eigen::Ref<Eigen::VectorXd> load) const {
+  const ElementNodes nodes(body_.mesh, element);
+  const int n = components();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const Eigen::Matrix3d* own = frame(nodes[i])) {
+      auto part = load.segment(n * static_cast<Eigen::Index>(i), n);
+      part = (own->topLeftCorner(n, n).transpose() * part).eval();
     }
-  }
 }
 
 } // namespace epafi::fem

@@ -1,26 +1,23 @@
 #pragma once
 
-/// The physics of one body: element matrices and loads, supports, and the rigid modes that the supports leave
-/// free. What comes after `fem` sees only this interface and never knows which physics it is.
+/// The physics of one body: element matrices and loads, supports, and the rigid modes that the supports leave free. What comes
+/// after `fem` never knows which physics it is.
 
-#include "epafi/fem/Mesh.hpp"
-#include "epafi/fem/RectangleMesh.hpp"
-#include "epafi/scene/Scene.hpp"
+#include "epafi/fem/RigidModes.hpp"
+#include "epafi/fem/SolidBody.hpp"
+#include "epafi/fem/SolidDomains.hpp"
+#include "epafi/fem/SolidLoads.hpp"
+#include "epafi/fem/SolidSupports.hpp"
+#include "epafi/fem/UnknownMap.hpp"
+#include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace epafi::fem {
-
-/// A value that a support prescribes; position = place among the nodes asked for × components + component.
-struct PrescribedValue {
-  std::size_t position = 0;
-  double value = 0;
-};
 
 /// The rigid motions that supports leave free, as motions in space.
 struct RigidMotions {
@@ -33,78 +30,73 @@ struct RigidMotions {
 /// loads, prescribed values and kernel are all in these unknowns.
 class BodyModel {
 public:
-  virtual ~BodyModel() = default;
-  [[nodiscard]] virtual const Mesh& mesh() const = 0; ///< that of the body
+  /// Keeps references to scene and mesh. \throws InputError, with the body's name, if a surface or group that the scene names is not in
+  /// the mesh, a region or load meets no element, a point load no node, supports contradict each other or hardly hold the
+  /// body, the physics does not go with the mesh's dimension, parts of the body are not joined, or
+  /// those of an elastic one in nodes or edges only: a mechanism.
+  BodyModel(const scene::Body& body, const Mesh& mesh);
+
+  [[nodiscard]] const Mesh& mesh() const { return body_.mesh; } ///< that of the body
+  /// Where its unknowns are.
+  [[nodiscard]] const UnknownMap& unknowns() const { return unknowns_; }
   /// Unknowns a node.
-  [[nodiscard]] virtual int components() const = 0;
+  [[nodiscard]] int components() const { return unknowns_.components(); }
   /// Rigid modes that the supports leave free: known from the scene, not from round-off.
-  [[nodiscard]] virtual int kernelDimension() const = 0;
+  [[nodiscard]] int kernelDimension() const { return static_cast<int>(freeModes_.cols()); }
   /// Value of a rigid mode at a node and component, mode < kernelDimension().
-  [[nodiscard]] virtual double kernelValue(GlobalOrdinal node, int component, int mode) const = 0;
+  [[nodiscard]] double kernelValue(GlobalOrdinal node, int component, int mode) const;
   /// The rigid motions as motions in space; nothing of a scalar field.
-  [[nodiscard]] virtual std::optional<RigidMotions> rigidMotions() const { return std::nullopt; }
+  [[nodiscard]] std::optional<RigidMotions> rigidMotions() const;
   /// The node's frame, a rotation whose columns are the axes of its unknowns, or null where these are those of space. In
   /// the plane it turns about z.
-  [[nodiscard]] virtual const Eigen::Matrix3d* frame(GlobalOrdinal /*node*/) const { return nullptr; }
+  [[nodiscard]] const Eigen::Matrix3d* frame(GlobalOrdinal node) const { return supports_.frame(node); }
   /// Whether any node has one.
-  [[nodiscard]] virtual bool hasFrames() const { return false; }
+  [[nodiscard]] bool hasFrames() const { return supports_.hasFrames(); }
   /// Prescribed value of a node's component, or nothing where it is free.
-  [[nodiscard]] virtual std::optional<double> prescribed(GlobalOrdinal node, int component) const = 0;
-  /// All prescribed values at some ascending nodes, in any order, a value that two supports give perhaps
-  /// twice; `values` is overwritten.
-  virtual void prescribed(std::span<const GlobalOrdinal> nodes,
-                          std::vector<PrescribedValue>& values) const = 0;
+  [[nodiscard]] std::optional<double> prescribed(GlobalOrdinal node, int component) const {
+    return supports_.value(node, component);
+  }
+  /// All prescribed values at some ascending nodes; `values` is overwritten.
+  void prescribed(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const {
+    supports_.values(nodes, values);
+  }
 
   /// Kind of each element: elements of one kind have the same stiffness, to the last bit.
-  virtual void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const = 0;
+  void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const;
   /// Region of the scene that each element lies in: the last one that contains it, counted from 1; 0 outside of all.
-  virtual void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const;
+  void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const {
+    regions_.of(body_, elements, regions);
+  }
   /// Stiffness of the elements of a kind; size nodesPerElement · components, node by node.
-  virtual void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const = 0;
+  void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const;
   /// Loads of elements, one column each; rows as in the stiffness.
-  virtual void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const = 0;
-
+  void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   /// Stiffness and load of one element.
   void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const;
-};
 
-/// −∇·(κ∇u) = f on a rectangle with Q1 elements.
-class MembraneModel final : public BodyModel {
-public:
-  /// Keeps references to both. \throws InputError if two supports give a corner different values.
-  MembraneModel(const scene::Body& body, const RectangleMesh& mesh);
-
-  [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
-  [[nodiscard]] int components() const override { return 1; }
-  [[nodiscard]] int kernelDimension() const override { return body_.supports.empty() ? 1 : 0; }
-  [[nodiscard]] double kernelValue(GlobalOrdinal /*node*/, int /*component*/, int /*mode*/) const override {
-    return 1.0;
+  /// What an element is made of.
+  [[nodiscard]] const scene::Material& materialOf(GlobalOrdinal element) const {
+    return materialIn(body_.body, regions_.of(body_, element));
   }
-  [[nodiscard]] std::optional<double> prescribed(GlobalOrdinal node, int component) const override;
-  void prescribed(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const override;
-  void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const override {
-    regions(elements, kinds);
-  }
-  void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const override;
-  void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const override;
-  void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const override;
 
 private:
-  /// A region of the scene: its columns and rows of elements, ends excluded.
-  struct Patch {
-    std::array<GlobalOrdinal, 2> columns, rows;
-  };
-  /// A load of the scene: its share of each column and each row of elements.
-  struct Strips {
-    double value = 0;
-    std::vector<Eigen::Vector2d> alongX, alongY;
-  };
+  void integrateRegions();
+  void findFreeModes();
+  void findFramedElements();
+  /// Whether a node of the element has a frame.
+  [[nodiscard]] bool isFramed(GlobalOrdinal element) const;
+  void turnIntoFrames(GlobalOrdinal element, Eigen::MatrixXd& stiffness) const;
+  void turnIntoFrames(GlobalOrdinal element, Eigen::Ref<Eigen::VectorXd> load) const;
 
-  const scene::Body& body_;
-  const RectangleMesh& mesh_;
-  Eigen::Matrix4d unitStiffness_; ///< of conductivity 1; all elements have the same shape
-  std::vector<Patch> patches_;    ///< of each region
-  std::vector<Strips> strips_;    ///< of each load
+  SolidBody body_;
+  UnknownMap unknowns_;
+  SolidRegions regions_;
+  SolidLoads loads_;
+  SolidSupports supports_;
+  std::vector<Eigen::MatrixXd> stiffnesses_;  ///< of each region, if elements are congruent
+  std::vector<GlobalOrdinal> framedElements_; ///< ascending
+  RigidModes rigidModes_;
+  Eigen::MatrixXd freeModes_; ///< columns: combinations of the rigid modes
 };
 
 } // namespace epafi::fem

@@ -3,7 +3,11 @@
 #include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace epafi::fem {
+
 Point centreOf(std::span<const Point> points) {
   Point centre{0, 0, 0};
   for (const Point& point : points)
@@ -12,6 +16,18 @@ Point centreOf(std::span<const Point> points) {
   for (double& coordinate : centre)
     coordinate /= static_cast<double>(points.size());
   return centre;
+}
+
+double diameterOf(std::span<const Point> points) {
+  double square = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      double sum = 0;
+      for (std::size_t d = 0; d < 3; ++d)
+        sum += (points[i][d] - points[j][d]) * (points[i][d] - points[j][d]);
+      square = std::max(square, sum);
+    }
+  return std::sqrt(square);
 }
 
 double measureOf(CellType type, std::span<const Point> points) {
@@ -25,22 +41,19 @@ double measureOf(CellType type, std::span<const Point> points) {
   });
 }
 
-std::array<double, 4> nodalShares(std::span<const Point> points) {
-  return withFacetShape(points.size(), [&](auto shape) {
+void nodalShares(CellType facet, std::span<const Point> points, std::span<double> shares) {
+  withFacetShape(facet, [&](auto shape) {
     using Shape = decltype(shape);
     const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
-    std::array<double, 4> shares{};
-    for (const auto& sample : gaussSamples<Shape>()) {
-      const double measure = Shape::gaussWeight * facetNormal<Shape>(corners, sample).norm();
-      for (std::size_t a = 0; a < points.size(); ++a)
-        shares[a] += measure * sample.values[static_cast<Eigen::Index>(a)];
-    }
-    return shares;
+    Eigen::Map<typename Shape::Values> sums(shares.data());
+    sums.setZero();
+    for (const auto& sample : gaussSamples<Shape>())
+      sums += (Shape::gaussWeight * facetNormal<Shape>(corners, sample).norm()) * sample.values;
   });
 }
 
-Eigen::Vector3d areaVector(std::span<const Point> points) {
-  return withFacetShape(points.size(), [&](auto shape) {
+Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points) {
+  return withFacetShape(facet, [&](auto shape) {
     using Shape = decltype(shape);
     const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
     Eigen::Vector3d vector = Eigen::Vector3d::Zero();

@@ -4,7 +4,6 @@
 #include "epafi/fem/ShapeFunctions.hpp"
 
 #include <cassert>
-#include <iterator>
 
 namespace epafi::fem {
 namespace {
@@ -77,17 +76,6 @@ void elasticStiffness(std::span<const Point> points, double lambda, double mu, E
     }
 }
 
-/// Entry (i, j) = ∂u_i/∂x_j at the centre, from `components` values a node.
-template <class Shape, int components>
-Eigen::Matrix<double, components, Shape::dimension> gradientAtCentre(std::span<const Point> points,
-                                                                     std::span<const double> values) {
-  assert(std::ssize(values) == Shape::numNodes * components);
-  const auto& sample = centreSample<Shape>();
-  const ElementMap<Shape> map(relativeCorners<Shape>(points), sample);
-  const Eigen::Map<const Eigen::Matrix<double, components, Shape::numNodes>> nodal(values.data());
-  return nodal * map.gradients(sample).transpose();
-}
-
 } // namespace
 
 void elementStiffness(CellType type, std::span<const Point> points, Physics physics,
@@ -123,27 +111,6 @@ void bodyForceLoad(CellType type, std::span<const Point> points, Physics physics
     for (int a = 0; a < Shape::numNodes; ++a)
       for (int i = 0; i < components; ++i)
         load[a * components + i] = thickness * integrals[a] * force[static_cast<std::size_t>(i)];
-  });
-}
-
-SymmetricTensor stressAtCentre(CellType type, std::span<const Point> points, Physics physics,
-                               const scene::Material& material, std::span<const double> displacements) {
-  assert(fits(type, physics) && physics != Physics::membrane);
-  return withShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
-    constexpr int dim = Shape::dimension;
-    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-    gradient.topLeftCorner<dim, dim>() = gradientAtCentre<Shape, dim>(points, displacements);
-    return stressOf(gradient, physics, material);
-  });
-}
-
-std::array<double, 2> fluxAtCentre(CellType type, std::span<const Point> points,
-                                   const scene::Material& material, std::span<const double> values) {
-  assert(dimensionOf(type) == 2);
-  return withShape(type, [&](auto shape) {
-    const auto gradient = gradientAtCentre<decltype(shape), 1>(points, values);
-    return std::array{material.conductivity * gradient[0], material.conductivity * gradient[1]};
   });
 }
 

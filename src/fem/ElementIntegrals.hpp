@@ -1,6 +1,6 @@
 #pragma once
 
-/// Stiffness and loads of one linear element of a body, and what its displacements mean. Rows are node by node: node ×
+/// Stiffness and loads of one linear element of a body. Rows are node by node: node ×
 /// components + component, with one component for membranes and as many as the element has dimensions otherwise.
 /// Preconditions of all: points are the element's corners in the order of Cell.hpp; plane elements go with membranes, plane
 /// strain and plane stress, solid ones with elasticity in space; their leastJacobian (ElementShape.hpp) is positive. Nothing is allocated if
@@ -9,11 +9,10 @@
 #include "epafi/fem/Cell.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/Mesh.hpp"
-#include "epafi/scene/Solid.hpp"
+#include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
 
-#include <array>
 #include <span>
 
 namespace epafi::fem {
@@ -26,13 +25,5 @@ void elementStiffness(CellType type, std::span<const Point> points, scene::Physi
 /// t∫N_a f of a constant force f per volume; of a membrane ∫N_a f₀, f₀ per area. Exact. `load` is overwritten.
 void bodyForceLoad(CellType type, std::span<const Point> points, scene::Physics physics,
                    const scene::Material& material, const scene::Vector3& force, Eigen::VectorXd& load);
-
-/// Stress at the centre from the displacements at the nodes, rows as above. Precondition: not a membrane.
-SymmetricTensor stressAtCentre(CellType type, std::span<const Point> points, scene::Physics physics,
-                               const scene::Material& material, std::span<const double> displacements);
-
-/// κ∇u of a membrane at the centre from the values at the nodes.
-std::array<double, 2> fluxAtCentre(CellType type, std::span<const Point> points,
-                                   const scene::Material& material, std::span<const double> values);
 
 } // namespace epafi::fem

@@ -1,26 +1,13 @@
 #include "epafi/fem/ElementShape.hpp"
 
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace epafi::fem {
 namespace {
-
-double diameterOf(std::span<const Point> corners) {
-  double square = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      double sum = 0;
-      for (std::size_t d = 0; d < 3; ++d)
-        sum += (corners[i][d] - corners[j][d]) * (corners[i][d] - corners[j][d]);
-      square = std::max(square, sum);
-    }
-  return std::sqrt(square);
-}
 
 void noteJacobian(ElementShape& shape, double value, int corner) {
   if (value < shape.leastJacobian) {

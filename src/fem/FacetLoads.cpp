@@ -5,6 +5,7 @@
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
+#include <array>
 #include <cassert>
 
 namespace epafi::fem {
@@ -12,18 +13,19 @@ namespace {
 
 using scene::Physics;
 
-[[maybe_unused]] bool fits(std::span<const Point> points, Physics physics) {
-  return (points.size() == 2) == (physics != Physics::elasticity3d);
+[[maybe_unused]] bool fits(CellType facet, Physics physics) {
+  return dimensionOf(facet) + 1 == scene::dimensionOf(physics);
 }
 
 } // namespace
 
-void tractionLoad(std::span<const Point> points, Physics physics, const scene::Material& material,
-                  const scene::Vector3& traction, Eigen::VectorXd& load) {
-  assert(fits(points, physics));
-  const std::array<double, 4> shares = nodalShares(points);
+void tractionLoad(CellType facet, std::span<const Point> points, Physics physics,
+                  const scene::Material& material, const scene::Vector3& traction, Eigen::VectorXd& load) {
+  assert(fits(facet, physics));
+  std::array<double, mostFacetNodes> shares{};
+  nodalShares(facet, points, std::span(shares).first(points.size()));
   const auto numNodes = static_cast<int>(points.size());
-  const int components = physics == Physics::membrane ? 1 : numNodes == 2 ? 2 : 3;
+  const int components = componentsOf(physics);
   const double thickness = thicknessOf(physics, material);
   load.resize(static_cast<Eigen::Index>(numNodes) * components);
   for (int a = 0; a < numNodes; ++a)
@@ -32,10 +34,10 @@ void tractionLoad(std::span<const Point> points, Physics physics, const scene::M
           thickness * shares[static_cast<std::size_t>(a)] * traction[static_cast<std::size_t>(i)];
 }
 
-void pressureLoad(std::span<const Point> points, Physics physics, const scene::Material& material,
-                  double pressure, Eigen::VectorXd& load) {
-  assert(fits(points, physics) && physics != Physics::membrane);
-  withFacetShape(points.size(), [&](auto shape) {
+void pressureLoad(CellType facet, std::span<const Point> points, Physics physics,
+                  const scene::Material& material, double pressure, Eigen::VectorXd& load) {
+  assert(fits(facet, physics) && physics != Physics::membrane);
+  withFacetShape(facet, [&](auto shape) {
     using Shape = decltype(shape);
     constexpr int components = Shape::dimension + 1;
     const auto corners = relativeCorners<Shape, components>(points);

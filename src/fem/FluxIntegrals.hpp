@@ -6,7 +6,7 @@
 
 #include "epafi/fem/Cell.hpp"
 #include "epafi/fem/Mesh.hpp"
-#include "epafi/scene/Solid.hpp"
+#include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
 

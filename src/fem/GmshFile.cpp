@@ -1,6 +1,7 @@
 #include "epafi/fem/GmshFile.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -14,10 +15,6 @@ using Blocks = std::vector<const GmshBlock*>;
 
 std::size_t index(LocalOrdinal number) {
   return static_cast<std::size_t>(number);
-}
-
-std::string inQuotes(const std::string& text) {
-  return '"' + text + '"';
 }
 
 /// `"a", "b" and "c"`, or `a and b`.

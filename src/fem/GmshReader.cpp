@@ -1,6 +1,7 @@
 #include "epafi/fem/GmshReader.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/fem/GmshLibrary.hpp"
 #include "epafi/fem/MshReader.hpp"
 
@@ -14,10 +15,6 @@ namespace epafi::fem {
 namespace {
 
 constexpr int anyEntity = -1;
-
-std::string inQuotes(const std::string& text) {
-  return '"' + text + '"';
-}
 
 /// What Gmsh would take for an empty model, or read without a word.
 void checkFile(const std::string& file) {

@@ -25,6 +25,6 @@ std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTop
 
 /// Distance of a point from a facet: an edge, a triangle, or the bilinear patch that four points span. Exact where the nearest
 /// point is not on the facet's rim, else an upper bound.
-double distanceFrom(std::span<const Point> facet, const Point& point);
+double distanceFrom(CellType type, std::span<const Point> facet, const Point& point);
 
 } // namespace epafi::fem

@@ -2,7 +2,7 @@
 
 /// The law of the linear, isotropic, elastic material, in space and in the plane.
 
-#include "epafi/scene/Solid.hpp"
+#include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
 

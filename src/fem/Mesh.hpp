@@ -18,16 +18,28 @@ using Point = std::array<double, 3>;
 
 /// A named part of a body's boundary, whole on every rank: facets, each with the element that it bounds.
 struct Surface {
-  int nodesPerFacet = 2;
-  std::vector<GlobalOrdinal>
-      facetNodes; ///< nodesPerFacet each, in an order that makes the normal point outwards
+  CellType facetType = CellType::line;
+  /// nodesPerFacet() each, in an order that makes the normal point outwards.
+  std::vector<GlobalOrdinal> facetNodes;
   std::vector<GlobalOrdinal> elements; ///< of each facet
+
+  [[nodiscard]] int nodesPerFacet() const { return numNodesOf(facetType); } ///< the same for all
+  [[nodiscard]] std::size_t numFacets() const { return elements.size(); }   ///< of the whole surface
+  /// Nodes of one facet.
+  [[nodiscard]] std::span<const GlobalOrdinal> facet(std::size_t number) const {
+    const auto count = static_cast<std::size_t>(nodesPerFacet());
+    return std::span(facetNodes).subspan(number * count, count);
+  }
 };
+
+class StructuredMesh;
 
 class Mesh {
 public:
   virtual ~Mesh() = default;
 
+  /// The mesh itself if it is structured, else null.
+  [[nodiscard]] virtual const StructuredMesh* structured() const { return nullptr; }
   [[nodiscard]] virtual CellType cellType() const = 0;         ///< of all its elements
   [[nodiscard]] virtual GlobalOrdinal numNodes() const = 0;    ///< of the whole body
   [[nodiscard]] virtual GlobalOrdinal numElements() const = 0; ///< likewise
@@ -56,6 +68,41 @@ public:
   [[nodiscard]] virtual std::vector<std::string> groupNames() const = 0;
   /// Elements of a group, ascending. Precondition: `name` is one of groupNames().
   [[nodiscard]] virtual std::vector<GlobalOrdinal> group(const std::string& name) const = 0;
+
+  /// Where some nodes lie; `points` is overwritten.
+  void pointsAt(std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) const;
+  /// Corners of an element in the order of its nodes; `points` is overwritten.
+  void elementPoints(GlobalOrdinal element, std::vector<Point>& points) const;
 };
+
+/// The nodes of one element.
+class ElementNodes {
+public:
+  /// Of the element of a mesh.
+  ElementNodes(const Mesh& mesh, GlobalOrdinal element)
+      : number_(static_cast<std::size_t>(mesh.nodesPerElement())) {
+    mesh.elementNodes(element, std::span(nodes_).first(number_));
+  }
+  [[nodiscard]] std::size_t size() const { return number_; } ///< nodes an element
+  /// The i-th.
+  [[nodiscard]] GlobalOrdinal operator[](std::size_t i) const { return nodes_[i]; }
+  [[nodiscard]] const GlobalOrdinal* begin() const { return nodes_.data(); }         ///< the first
+  [[nodiscard]] const GlobalOrdinal* end() const { return nodes_.data() + number_; } ///< behind the last
+
+private:
+  std::array<GlobalOrdinal, mostNodes> nodes_{};
+  std::size_t number_;
+};
+
+inline void Mesh::pointsAt(std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) const {
+  points.clear();
+  for (const GlobalOrdinal node : nodes)
+    points.push_back(point(node));
+}
+
+inline void Mesh::elementPoints(GlobalOrdinal element, std::vector<Point>& points) const {
+  const ElementNodes nodes(*this, element);
+  pointsAt({nodes.begin(), nodes.size()}, points);
+}
 
 } // namespace epafi::fem

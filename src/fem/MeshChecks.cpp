@@ -1,12 +1,13 @@
 #include "epafi/fem/MeshChecks.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/fem/ElementShape.hpp"
 #include "epafi/fem/HangingNodes.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <span>
 
 namespace epafi::fem {
 namespace {
@@ -23,7 +24,9 @@ std::size_t index(LocalOrdinal number) {
 /// The checks of one mesh; what they say of nodes and elements is in the file's numbers.
 class Checker {
 public:
-  Checker(const MeshArrays& mesh, const MeshTopology& topology) : mesh_(mesh), topology_(topology) {}
+  Checker(const MeshArrays& mesh, const MeshTopology& topology)
+      : mesh_(mesh), topology_(topology), dimension_(dimensionOf(mesh.cellType)),
+        facet_(dimension_ == 2 ? "edge" : "face") {}
 
   void checkNodes() const;
   void checkPoints();
@@ -52,21 +55,17 @@ private:
 
   const MeshArrays& mesh_;
   const MeshTopology& topology_;
+  int dimension_;
+  std::string facet_;
   double size_ = 0; ///< diagonal of the body's box
 };
 
 std::string Checker::place(LocalOrdinal number) const {
-  const Point& point = mesh_.points[index(number)];
-  std::ostringstream text;
-  text << '(' << point[0] << ", " << point[1];
-  if (dimensionOf(mesh_.cellType) == 3)
-    text << ", " << point[2];
-  text << ')';
-  return text.str();
+  return text(std::span(mesh_.points[index(number)]).first(static_cast<std::size_t>(dimension_)));
 }
 
 ElementShape Checker::shape(LocalOrdinal number) const {
-  std::array<Point, 8> corners{};
+  std::array<Point, mostNodes> corners{};
   const auto places = nodes(number);
   for (std::size_t i = 0; i < places.size(); ++i)
     corners[i] = mesh_.points[index(places[i])];
@@ -105,26 +104,22 @@ void Checker::checkPoints() {
       upper[axis] = std::max(upper[axis], value);
     }
   size_ = std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
-  if (dimensionOf(mesh_.cellType) == 3)
+  if (dimension_ == 3)
     return;
   for (std::size_t n = 0; n < mesh_.points.size(); ++n)
-    if (std::abs(mesh_.points[n][2]) > placeTolerance * size_) {
-      std::ostringstream height;
-      height << mesh_.points[n][2];
-      refuse(node(static_cast<LocalOrdinal>(n)) + " lies at z = " + height.str() + ", but a body of " +
-             toString(mesh_.cellType) +
+    if (std::abs(mesh_.points[n][2]) > placeTolerance * size_)
+      refuse(node(static_cast<LocalOrdinal>(n)) + " lies at z = " + text(mesh_.points[n][2]) +
+             ", but a body of " + toString(mesh_.cellType) +
              "s lies in the plane z = 0; move it there, or, if the body is solid, mesh its volume (gmsh -3)");
-    }
 }
 
 void Checker::checkShapes() const {
-  const int dimension = dimensionOf(mesh_.cellType);
   LocalOrdinal first = -1;
   ElementShape bad;
   LocalOrdinal others = 0; // inverted as well
   for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e) {
     const ElementShape own = shape(e);
-    const double none = shapeTolerance * std::pow(own.diameter, dimension);
+    const double none = shapeTolerance * std::pow(own.diameter, dimension_);
     if (own.leastJacobian > none)
       continue;
     if (first < 0) {
@@ -138,27 +133,24 @@ void Checker::checkShapes() const {
   }
   if (first < 0)
     return;
-  const double none = shapeTolerance * std::pow(bad.diameter, dimension);
+  const double none = shapeTolerance * std::pow(bad.diameter, dimension_);
   if (bad.measure >= -none)
     refuseShape(first, bad);
-  std::ostringstream text;
-  const std::string more = others == 0   ? ""
-                           : others == 1 ? " and another one"
-                                         : " and " + std::to_string(others) + " others";
-  text << element(first) << more << (others == 0 ? " is inverted (" : " are inverted (")
-       << (dimension == 2 ? "area " : "volume ") << bad.measure << "); ";
-  if (dimension == 2)
-    text << "number nodes counter-clockwise, in a .geo file by turning the curve loop of the surface round";
-  else
-    text << "number the nodes of these elements the other way round, as Gmsh does, or mesh anew";
-  refuse(text.str());
+  const std::string more = others == 0   ? " is"
+                           : others == 1 ? " and another one are"
+                                         : " and " + std::to_string(others) + " others are";
+  refuse(
+      element(first) + more + " inverted (" + (dimension_ == 2 ? "area " : "volume ") + text(bad.measure) +
+      "); " +
+      (dimension_ == 2
+           ? "number nodes counter-clockwise, in a .geo file by turning the curve loop of the surface round"
+           : "number the nodes of these elements the other way round, as Gmsh does, or mesh anew"));
 }
 
 void Checker::refuseShape(LocalOrdinal first, const ElementShape& bad) const {
-  const int dimension = dimensionOf(mesh_.cellType);
-  if (bad.measure <= shapeTolerance * std::pow(bad.diameter, dimension))
+  if (bad.measure <= shapeTolerance * std::pow(bad.diameter, dimension_))
     refuse(element(first) + " near " + place(nodes(first)[0]) + " is flat: its " +
-           (dimension == 2 ? "area" : "volume") + " is 0; move its nodes, or mesh anew");
+           (dimension_ == 2 ? "area" : "volume") + " is 0; move its nodes, or mesh anew");
   refuse(element(first) + " is folded " +
          (bad.corner < 0 ? std::string("inside") : "at " + node(nodes(first)[index(bad.corner)])) +
          ": its Jacobian is not positive there; move its nodes, or mesh anew");
@@ -200,8 +192,7 @@ void Checker::checkSharing() const {
       refuseCopies(a, c);
     refuse("the elements " + std::to_string(mesh_.elementTags[index(a)]) + ", " +
            std::to_string(mesh_.elementTags[index(b)]) + " and " +
-           std::to_string(mesh_.elementTags[index(c)]) + " share one " +
-           (dimensionOf(mesh_.cellType) == 2 ? "edge" : "face") +
+           std::to_string(mesh_.elementTags[index(c)]) + " share one " + facet_ +
            ", which two elements at most can do; remove those that overlap others");
   }
   const std::size_t perElement = facetsOf(mesh_.cellType).size();
@@ -213,8 +204,8 @@ void Checker::checkSharing() const {
           continue;
         if (haveSameNodes(e, other))
           refuseCopies(e, other);
-        refuse(element(e) + " and " + element(other) + " share more than one " +
-               (dimensionOf(mesh_.cellType) == 2 ? "edge" : "face") + ", so that they overlap; mesh anew");
+        refuse(element(e) + " and " + element(other) + " share more than one " + facet_ +
+               ", so that they overlap; mesh anew");
       }
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 /// A facet in the bucket of its lowest node: its other nodes, ascending (those that it lacks: −1), and its place among
 /// the facets of all elements.
-struct Facet {
-  std::array<LocalOrdinal, 3> others;
+struct BucketEntry {
+  std::array<LocalOrdinal, mostFacetNodes - 1> others;
   std::uint32_t place;
 };
 
@@ -20,10 +20,10 @@ void forEachFacet(CellType type, std::span<const LocalOrdinal> cells, const Visi
   const auto perElement = static_cast<std::size_t>(numNodesOf(type));
   const auto perFacet = static_cast<std::size_t>(nodesPerFacet(type));
   const auto facets = facetsOf(type);
-  std::array<LocalOrdinal, 4> nodes{};
+  std::array<LocalOrdinal, mostFacetNodes> nodes{};
   std::uint32_t number = 0;
   for (std::size_t first = 0; first < cells.size(); first += perElement)
-    for (const auto& facet : facets) {
+    for (const Facet& facet : facets) {
       for (std::size_t i = 0; i < perFacet; ++i) { // sorted by insertion
         const LocalOrdinal node = cells[first + static_cast<std::size_t>(facet[i])];
         std::size_t place = i;
@@ -74,27 +74,27 @@ void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdina
     ++first[static_cast<std::size_t>(nodes[0]) + 1];
   });
   accumulate(first);
-  std::vector<Facet> facets(first.back());
+  std::vector<BucketEntry> facets(first.back());
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   forEachFacet(type_, cells, [&](std::uint32_t place, std::span<const LocalOrdinal> nodes) {
-    Facet& facet = facets[next[static_cast<std::size_t>(nodes[0])]++];
+    BucketEntry& facet = facets[next[static_cast<std::size_t>(nodes[0])]++];
     facet = {{-1, -1, -1}, place};
     std::copy(nodes.begin() + 1, nodes.end(), facet.others.begin());
   });
 
   across_.assign(facets.size(), -1);
-  const auto elementOf = [&](const Facet& facet) {
+  const auto elementOf = [&](const BucketEntry& facet) {
     return static_cast<LocalOrdinal>(facet.place / facetsPerElement_);
   };
   const auto at = [&](std::size_t i) { return facets.begin() + static_cast<std::ptrdiff_t>(i); };
   for (std::size_t node = 0; node + 1 < first.size(); ++node) {
     const auto end = at(first[node + 1]);
-    std::sort(at(first[node]), end, [](const Facet& a, const Facet& b) {
+    std::sort(at(first[node]), end, [](const BucketEntry& a, const BucketEntry& b) {
       return a.others != b.others ? a.others < b.others : a.place < b.place;
     });
     for (auto facet = at(first[node]); facet != end;) {
-      const auto other =
-          std::find_if(facet, end, [&](const Facet& candidate) { return candidate.others != facet->others; });
+      const auto other = std::find_if(
+          facet, end, [&](const BucketEntry& candidate) { return candidate.others != facet->others; });
       if (other - facet == 2) {
         across_[facet[0].place] = elementOf(facet[1]);
         across_[facet[1].place] = elementOf(facet[0]);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Linear shape functions on reference elements, with Gauss rules. Two families make all cells and facets; their nodes
+/// Shape functions of order 1 on reference elements, with Gauss rules. Two families make all cells and facets; their nodes
 /// are in the order of Cell.hpp:
 ///   Simplex<dim>  0 ≤ ξᵢ, Σξᵢ ≤ 1; node 0 at the origin, node i at 1 on axis i     edge, triangle, tetrahedron
 ///   Brick<dim>    [−1, 1]^dim                                                       quadrilateral, hexahedron
@@ -109,9 +109,11 @@ const ShapeSample<Shape>& centreSample() {
   return sample;
 }
 
-/// action(shape) for the shape of a type of cell; `decltype(shape)` is the shape. Returns what the action does.
+/// action(shape) for the shape of a type of plane or solid cell and an order; `decltype(shape)` is the shape. Returns what the
+/// action does.
 template <class Action>
-decltype(auto) withShape(CellType type, Action&& action) {
+decltype(auto) withShape(CellType type, Action&& action, [[maybe_unused]] int order = 1) {
+  assert(dimensionOf(type) > 1 && order == 1);
   switch (type) {
   case CellType::triangle:
     return std::forward<Action>(action)(Simplex<2>{});
@@ -119,21 +121,23 @@ decltype(auto) withShape(CellType type, Action&& action) {
     return std::forward<Action>(action)(Brick<2>{});
   case CellType::tetrahedron:
     return std::forward<Action>(action)(Simplex<3>{});
-  case CellType::hexahedron:
-    break;
+  default:
+    return std::forward<Action>(action)(Brick<3>{});
   }
-  return std::forward<Action>(action)(Brick<3>{});
 }
 
-/// The same for a facet, which its number of nodes tells: 2, 3 or 4.
+/// The same for a facet: a line, a triangle or a quadrilateral.
 template <class Action>
-decltype(auto) withFacetShape(std::size_t numNodes, Action&& action) {
-  assert(2 <= numNodes && numNodes <= 4);
-  if (numNodes == 2)
+decltype(auto) withFacetShape(CellType type, Action&& action, [[maybe_unused]] int order = 1) {
+  assert(dimensionOf(type) < 3 && order == 1);
+  switch (type) {
+  case CellType::line:
     return std::forward<Action>(action)(Simplex<1>{});
-  if (numNodes == 3)
+  case CellType::triangle:
     return std::forward<Action>(action)(Simplex<2>{});
-  return std::forward<Action>(action)(Brick<2>{});
+  default:
+    return std::forward<Action>(action)(Brick<2>{});
+  }
 }
 
 } // namespace epafi::fem

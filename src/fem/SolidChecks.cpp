@@ -7,10 +7,9 @@ namespace {
 
 /// Elements that share a node with this one.
 void neighboursInNodes(const Mesh& mesh, GlobalOrdinal element, std::vector<GlobalOrdinal>& neighbours) {
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement())), around;
-  mesh.elementNodes(element, nodes);
+  std::vector<GlobalOrdinal> around;
   neighbours.clear();
-  for (const GlobalOrdinal node : nodes) {
+  for (const GlobalOrdinal node : ElementNodes(mesh, element)) {
     mesh.nodeElements(node, around);
     neighbours.insert(neighbours.end(), around.begin(), around.end());
   }
@@ -42,10 +41,9 @@ GlobalOrdinal numReached(const Mesh& mesh, bool overNodes) {
 } // namespace
 
 void requireDimension(const SolidBody& body) {
-  const int dimension = dimensionOf(body.mesh.cellType());
-  const bool isPlane = body.solid.physics != scene::Physics::elasticity3d;
-  if (isPlane != (dimension == 2))
-    throw body.refusal("its physics is " + toString(body.solid.physics) + ", but its mesh consists of " +
+  const bool isPlane = dimensionOf(body.body.physics) == 2;
+  if (isPlane != (dimensionOf(body.mesh.cellType()) == 2))
+    throw body.refusal("its physics is " + toString(body.body.physics) + ", but its mesh consists of " +
                        toString(body.mesh.cellType()) + "s; choose " +
                        (isPlane ? "elasticity 3-D" : "membrane, plane strain or plane stress"));
 }

@@ -15,6 +15,21 @@ bool liesIn(const Point& point, const scene::Box& box, int dimension) {
   return true;
 }
 
+/// The columns, rows or layers whose middle lies in [low, high], the ends and round-off included: the first one, and the
+/// one after the last.
+std::array<GlobalOrdinal, 2> rangeIn(const StructuredMesh& mesh, std::size_t axis, double low, double high) {
+  const double roundOff = 1e-9 * mesh.elementSize()[axis];
+  const auto middle = [&](GlobalOrdinal k) {
+    return 0.5 * (mesh.coordinate(axis, k) + mesh.coordinate(axis, k + 1));
+  };
+  GlobalOrdinal first = 0, end = mesh.elements()[axis];
+  while (first < end && middle(first) < low - roundOff)
+    ++first;
+  while (end > first && middle(end - 1) > high + roundOff)
+    --end;
+  return {first, end};
+}
+
 } // namespace
 
 SolidDomain::SolidDomain(const SolidBody& body, const std::string& user, const std::string& group,
@@ -24,34 +39,52 @@ SolidDomain::SolidDomain(const SolidBody& body, const std::string& user, const s
     elements_ = body.groupOf(user, group);
     return;
   }
-  for (GlobalOrdinal element = 0; element < body.mesh.numElements(); ++element)
-    if (contains(body, element))
-      return;
-  throw body.refusal(user + ": no element has its centre in its box");
+  bool isEmpty = false;
+  if (const StructuredMesh* mesh = body.mesh.structured()) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      ranges_[d] = mesh->dimension() == 2 && d == 2 ? std::array<GlobalOrdinal, 2>{0, 1}
+                                                    : rangeIn(*mesh, d, box.lower[d], box.upper[d]);
+      isEmpty = isEmpty || ranges_[d][0] == ranges_[d][1];
+    }
+  } else {
+    GlobalOrdinal element = 0;
+    while (element < body.mesh.numElements() && !contains(body, element))
+      ++element;
+    isEmpty = element == body.mesh.numElements();
+  }
+  if (isEmpty && !isMembraneOnRectangle(body.body))
+    throw body.refusal(user + ": no element has its centre in its box");
 }
 
 bool SolidDomain::contains(const SolidBody& body, GlobalOrdinal element) const {
   if (isGroup_)
     return std::binary_search(elements_.begin(), elements_.end(), element);
   std::vector<Point> points;
-  body.pointsOf(element, points);
+  body.mesh.elementPoints(element, points);
   return liesIn(centreOf(points), box_, dimensionOf(body.mesh.cellType()));
 }
 
 SolidRegions::SolidRegions(const SolidBody& body) {
-  for (const scene::SolidRegion& region : body.solid.regions)
+  for (const scene::SolidRegion& region : body.body.regions)
     domains_.emplace_back(body, "region '" + region.name + "'", region.group, region.box);
 }
 
-std::size_t SolidRegions::regionOf(const SolidBody& body, GlobalOrdinal element) const {
-  for (std::size_t r = domains_.size(); r > 0; --r)
-    if (domains_[r - 1].contains(body, element))
-      return r;
-  return 0;
+void SolidRegions::of(const SolidBody& body, std::span<const GlobalOrdinal> elements,
+                      std::span<GlobalOrdinal> regions) const {
+  std::fill(regions.begin(), regions.end(), GlobalOrdinal{0});
+  for (std::size_t r = 0; r < domains_.size(); ++r)
+    domains_[r].forEachIn(body, elements,
+                          [&](std::size_t e) { regions[e] = static_cast<GlobalOrdinal>(r) + 1; });
 }
 
-const scene::Material& materialIn(const scene::Solid& solid, std::size_t region) {
-  return region == 0 ? solid.material : solid.regions[region - 1].material;
+std::size_t SolidRegions::of(const SolidBody& body, GlobalOrdinal element) const {
+  GlobalOrdinal region = 0;
+  of(body, std::span(&element, 1), std::span(&region, 1));
+  return static_cast<std::size_t>(region);
+}
+
+const scene::Material& materialIn(const scene::Body& body, std::size_t region) {
+  return region == 0 ? body.material : body.regions[region - 1].material;
 }
 
 } // namespace epafi::fem

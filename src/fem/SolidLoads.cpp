@@ -1,15 +1,28 @@
 #include "epafi/fem/SolidLoads.hpp"
 
+#include "epafi/base/Text.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/FacetLoads.hpp"
+#include "epafi/fem/HookesLaw.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace epafi::fem {
 namespace {
+
+/// ∫N over the part of the segment [a, b] that lies in [low, high], for the two linear functions N of the segment.
+std::array<double, 2> segmentLoad(double a, double b, double low, double high) {
+  const double from = std::max(a, low), to = std::min(b, high);
+  if (to <= from)
+    return {0, 0};
+  const double s =
+      (0.5 * (from + to) - a) / (b - a); // a linear function's value in the middle times the length
+  return {(to - from) * (1 - s), (to - from) * s};
+}
 
 /// The node that lies at the point of a load.
 GlobalOrdinal nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
@@ -30,7 +43,7 @@ GlobalOrdinal nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
   std::vector<GlobalOrdinal> elements;
   mesh.nodeElements(nearest, elements);
   std::vector<Point> points;
-  body.pointsOf(elements.front(), points);
+  mesh.elementPoints(elements.front(), points);
   double edge = 0;
   for (std::size_t d = 0; d < 3; ++d)
     edge = std::max(edge, std::abs(points[1][d] - points[0][d]));
@@ -43,38 +56,53 @@ GlobalOrdinal nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
 } // namespace
 
 SolidLoads::SolidLoads(const SolidBody& body, const SolidRegions& regions) {
-  for (const scene::SolidLoad& load : body.solid.loads) {
+  for (const scene::SolidLoad& load : body.body.loads) {
     using Kind = scene::SolidLoad::Kind;
-    if (load.kind == Kind::body)
+    if (load.kind == Kind::point)
+      addPoint(body, load);
+    else if (load.kind != Kind::body)
+      addSurface(body, regions, load);
+    else if (!load.wholeElements && body.isCongruent())
+      addGridForce(body, load);
+    else
       bodyForces_.push_back(
           {SolidDomain(body, "load '" + load.name + "'", load.where, load.box), load.value});
-    else if (load.kind == Kind::point)
-      addPoint(body, load);
-    else
-      addSurface(body, regions, load);
   }
   std::stable_sort(forces_.begin(), forces_.end(),
                    [](const NodalForce& a, const NodalForce& b) { return a.element < b.element; });
 }
 
+void SolidLoads::addGridForce(const SolidBody& body, const scene::SolidLoad& load) {
+  const StructuredMesh& mesh = *body.mesh.structured();
+  GridForce force{load.value, {}};
+  for (std::size_t d = 0; d < 3; ++d)
+    force.shares[d].assign(static_cast<std::size_t>(mesh.elements()[d]), {0, 0});
+  for (std::size_t d = 0; d < 3; ++d)
+    for (std::size_t k = 0; k < force.shares[d].size(); ++k)
+      force.shares[d][k] = segmentLoad(mesh.coordinate(d, static_cast<GlobalOrdinal>(k)),
+                                       mesh.coordinate(d, static_cast<GlobalOrdinal>(k) + 1),
+                                       load.box.lower[d], load.box.upper[d]);
+  if (mesh.dimension() == 2)
+    force.shares[2].front() = {1, 0};
+  gridForces_.push_back(std::move(force));
+}
+
 void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions,
                             const scene::SolidLoad& load) {
-  const scene::Physics physics = body.solid.physics;
+  const scene::Physics physics = body.body.physics;
   const Surface surface = body.surfaceOf("load '" + load.name + "'", load.where);
-  const auto perFacet = static_cast<std::size_t>(surface.nodesPerFacet);
   const int components = body.components();
-  std::vector<Point> points(perFacet);
+  std::vector<Point> points;
   Eigen::VectorXd values;
-  for (std::size_t f = 0; f < surface.elements.size(); ++f) {
-    const auto nodes = std::span(surface.facetNodes).subspan(f * perFacet, perFacet);
-    std::transform(nodes.begin(), nodes.end(), points.begin(),
-                   [&](GlobalOrdinal node) { return body.mesh.point(node); });
-    const scene::Material& material = materialIn(body.solid, regions.regionOf(body, surface.elements[f]));
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    const std::span<const GlobalOrdinal> nodes = surface.facet(f);
+    body.mesh.pointsAt(nodes, points);
+    const scene::Material& material = materialIn(body.body, regions.of(body, surface.elements[f]));
     if (load.kind == scene::SolidLoad::Kind::pressure)
-      pressureLoad(points, physics, material, load.value[0], values);
+      pressureLoad(surface.facetType, points, physics, material, load.value[0], values);
     else
-      tractionLoad(points, physics, material, load.value, values);
-    for (std::size_t i = 0; i < perFacet; ++i) {
+      tractionLoad(surface.facetType, points, physics, material, load.value, values);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
       NodalForce force{surface.elements[f], nodes[i], {0, 0, 0}};
       for (int c = 0; c < components; ++c)
         force.force[static_cast<std::size_t>(c)] = values[static_cast<Eigen::Index>(i) * components + c];
@@ -92,42 +120,75 @@ void SolidLoads::addPoint(const SolidBody& body, const scene::SolidLoad& load) {
 
 void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,
                     std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
-  const auto components = static_cast<std::size_t>(body.components());
-  loads.setZero(static_cast<Eigen::Index>(static_cast<std::size_t>(body.mesh.nodesPerElement()) * components),
+  const int components = body.components();
+  loads.setZero(static_cast<Eigen::Index>(body.mesh.nodesPerElement()) * components,
                 static_cast<Eigen::Index>(elements.size()));
-  Eigen::VectorXd values;
-  std::vector<Point> points;
-  for (const BodyForce& force : bodyForces_)
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      if (!force.domain.contains(body, elements[e]))
-        continue;
-      body.cornersOf(elements[e], points);
-      bodyForceLoad(body.mesh.cellType(), points, body.solid.physics,
-                    materialIn(body.solid, regions.regionOf(body, elements[e])), force.value, values);
-      loads.col(static_cast<Eigen::Index>(e)) += values;
-    }
+  if (!gridForces_.empty())
+    addGridForces(body, regions, elements, loads);
+  addBodyForces(body, regions, elements, loads);
   if (!forces_.empty())
     addNodalForces(body.mesh, components, elements, loads);
 }
 
-void SolidLoads::addNodalForces(const Mesh& mesh, std::size_t components,
-                                std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
-  std::array<GlobalOrdinal, 8> nodes{};
-  const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
+void SolidLoads::addGridForces(const SolidBody& body, const SolidRegions& regions,
+                               std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
+  const StructuredMesh& mesh = *body.mesh.structured();
+  const int components = body.components();
+  std::vector<double> thickness; // of plane elastic bodies; else 1
+  if (components == 2) {
+    std::vector<GlobalOrdinal> region(elements.size());
+    regions.of(body, elements, region);
+    for (const GlobalOrdinal r : region)
+      thickness.push_back(thicknessOf(body.body.physics, materialIn(body.body, static_cast<std::size_t>(r))));
+  }
+  const auto perElement = static_cast<std::size_t>(loads.rows());
+  for (const GridForce& force : gridForces_) {
+    GridWalk walk = mesh.elementWalk();
+    double* load = loads.data();
+    for (std::size_t e = 0; e < elements.size(); ++e, load += perElement) {
+      walk.to(elements[e]);
+      const auto share = [&](std::size_t d) { return force.shares[d][static_cast<std::size_t>(walk[d])]; };
+      const auto x = share(0), y = share(1), z = share(2);
+      if ((x[0] == 0 && x[1] == 0) || (y[0] == 0 && y[1] == 0) || (z[0] == 0 && z[1] == 0))
+        continue; // beside the box
+      const double factor = thickness.empty() ? 1 : thickness[e];
+      double* next = load;
+      for (int layer = 0; layer < mesh.dimension() - 1; ++layer)
+        for (const double inPlane : {x[0] * y[0], x[1] * y[0], x[1] * y[1], x[0] * y[1]})
+          for (int c = 0; c < components; ++c)
+            *next++ += factor * force.value[static_cast<std::size_t>(c)] *
+                       (inPlane * z[static_cast<std::size_t>(layer)]);
+    }
+  }
+}
+
+void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& regions,
+                               std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
+  Eigen::VectorXd values;
+  std::vector<Point> points;
+  for (const BodyForce& force : bodyForces_)
+    force.domain.forEachIn(body, elements, [&](std::size_t e) {
+      body.cornersOf(elements[e], points);
+      bodyForceLoad(body.mesh.cellType(), points, body.body.physics,
+                    materialIn(body.body, regions.of(body, elements[e])), force.value, values);
+      loads.col(static_cast<Eigen::Index>(e)) += values;
+    });
+}
+
+void SolidLoads::addNodalForces(const Mesh& mesh, int components, std::span<const GlobalOrdinal> elements,
+                                Eigen::MatrixXd& loads) const {
   for (std::size_t e = 0; e < elements.size(); ++e) {
     auto force =
         std::lower_bound(forces_.begin(), forces_.end(), elements[e],
                          [](const NodalForce& f, GlobalOrdinal element) { return f.element < element; });
     if (force == forces_.end() || force->element != elements[e])
       continue;
-    mesh.elementNodes(elements[e], std::span(nodes).first(number));
+    const ElementNodes nodes(mesh, elements[e]);
     for (; force != forces_.end() && force->element == elements[e]; ++force) {
-      const auto corner = static_cast<std::size_t>(
-          std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(number), force->node) -
-          nodes.begin());
-      for (std::size_t c = 0; c < components; ++c)
-        loads(static_cast<Eigen::Index>(corner * components + c), static_cast<Eigen::Index>(e)) +=
-            force->force[c];
+      const auto corner = std::find(nodes.begin(), nodes.end(), force->node) - nodes.begin();
+      for (int c = 0; c < components; ++c)
+        loads(corner * components + c, static_cast<Eigen::Index>(e)) +=
+            force->force[static_cast<std::size_t>(c)];
     }
   }
 }

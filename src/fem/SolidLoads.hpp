@@ -1,11 +1,12 @@
 #pragma once
 
-/// The loads of a solid, element by element.
+/// The loads of a body, element by element.
 
 #include "epafi/fem/SolidDomains.hpp"
 
 #include <Eigen/Core>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,12 +32,24 @@ private:
     SolidDomain domain;
     scene::Vector3 value;
   };
+  /// The same on what of a structured mesh lies in a box: ∫N over the loaded part of each column, row and layer, for the two linear functions N
+  /// there. Products of the three are the integrals of the elements' shape functions.
+  struct GridForce {
+    scene::Vector3 value;
+    std::array<std::vector<std::array<double, 2>>, 3> shares;
+  };
 
+  void addGridForce(const SolidBody& body, const scene::SolidLoad& load);
   void addSurface(const SolidBody& body, const SolidRegions& regions, const scene::SolidLoad& load);
   void addPoint(const SolidBody& body, const scene::SolidLoad& load);
-  void addNodalForces(const Mesh& mesh, std::size_t components, std::span<const GlobalOrdinal> elements,
+  void addGridForces(const SolidBody& body, const SolidRegions& regions,
+                     std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
+  void addBodyForces(const SolidBody& body, const SolidRegions& regions,
+                     std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
+  void addNodalForces(const Mesh& mesh, int components, std::span<const GlobalOrdinal> elements,
                       Eigen::MatrixXd& loads) const;
 
+  std::vector<GridForce> gridForces_;
   std::vector<BodyForce> bodyForces_;
   std::vector<NodalForce> forces_; ///< ascending by element
 };

@@ -1,10 +1,10 @@
 #include "epafi/fem/SolidSupports.hpp"
 
+#include "epafi/base/Text.hpp"
 #include "epafi/fem/SupportNormals.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace epafi::fem {
 namespace {
@@ -15,18 +15,6 @@ using Eigen::Vector3d;
 constexpr double sameDirection = 1e-6;
 /// Axes of a frame that are nearer to those of space than this are these.
 constexpr double onAxis = 1e-12;
-
-std::string text(const Vector3d& direction) {
-  std::ostringstream result;
-  result << '(' << direction[0] << ", " << direction[1] << ", " << direction[2] << ')';
-  return result.str();
-}
-
-std::string number(double value) {
-  std::ostringstream result;
-  result << value;
-  return result.str();
-}
 
 /// The axis of space that a direction of length 1 is, up to its sign, or −1.
 int axisOf(const Vector3d& direction) {
@@ -82,7 +70,7 @@ SolidSupports::SolidSupports(const SolidBody& body) : components_(body.component
 /// By ascending node; at each first the components, so that frames arise only where normals add something.
 std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBody& body) {
   std::vector<Condition> conditions;
-  for (const scene::SolidSupport& support : body.solid.supports) {
+  for (const scene::SolidSupport& support : body.body.supports) {
     const Surface surface = body.surfaceOf("support '" + support.name + "'", support.surface);
     std::vector<GlobalOrdinal> nodes = surface.facetNodes;
     std::sort(nodes.begin(), nodes.end());
@@ -117,12 +105,14 @@ void SolidSupports::hold(const SolidBody& body, std::span<const Condition> condi
     for (const double value : held.values())
       scale = std::max(scale, std::abs(value));
     if (std::abs(known->value - condition.value) > known->uncertainty * scale)
-      throw body.refusal("supports hold the node at " + text(body.mesh.point(condition.node)) +
+      throw body.refusal("supports '" + conditions.front().support->name + "' and '" +
+                         condition.support->name + "' hold the node at " +
+                         text(body.mesh.point(condition.node)) +
                          (condition.component >= 0
                               ? std::string(" in component ") + "xyz"[condition.component]
                               : " along " + text(condition.direction) + ", the normal of the surface of '" +
                                     condition.support->name + "',") +
-                         " at different values, " + number(known->value) + " and " + number(condition.value));
+                         " at different values, " + text(known->value) + " and " + text(condition.value));
   }
   holdInFrame(conditions.front().node, body.components(), held.axes(), held.values());
 }

@@ -1,8 +1,7 @@
 #pragma once
 
-/// What the supports of a solid hold: components of nodes, in the axes of space or in a frame of the node's own.
+/// What the supports of a body hold: components of nodes, in the axes of space or in a frame of the node's own.
 
-#include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/RigidModes.hpp"
 #include "epafi/fem/SolidBody.hpp"
 
@@ -14,6 +13,12 @@
 #include <vector>
 
 namespace epafi::fem {
+
+/// A value that a support prescribes; position = place among the nodes asked for × components + component.
+struct PrescribedValue {
+  std::size_t position = 0;
+  double value = 0;
+};
 
 class SolidSupports {
 public:

@@ -28,15 +28,12 @@ struct Facets {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     at.resize(nodes.size());
     nodesOf.resize(surface.elements.size());
-    const auto perFacet = static_cast<std::size_t>(surface.nodesPerFacet);
-    std::vector<Point> corners(perFacet);
+    std::vector<Point> corners;
     for (std::size_t f = 0; f < nodesOf.size(); ++f) {
-      const auto own = std::span(surface.facetNodes).subspan(f * perFacet, perFacet);
-      std::transform(own.begin(), own.end(), corners.begin(),
-                     [&](GlobalOrdinal node) { return mesh.point(node); });
-      areas.push_back(areaVector(corners));
+      mesh.pointsAt(surface.facet(f), corners);
+      areas.push_back(areaVector(surface.facetType, corners));
       normals.push_back(areas.back().normalized());
-      for (const GlobalOrdinal node : own) {
+      for (const GlobalOrdinal node : surface.facet(f)) {
         const auto place =
             static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
         nodesOf[f].push_back(place);

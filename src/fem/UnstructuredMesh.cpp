@@ -48,7 +48,7 @@ UnstructuredMesh::UnstructuredMesh(MeshArrays arrays)
 
 void UnstructuredMesh::findFacets(const NamedFacets& surface) {
   const auto perFacet = static_cast<std::size_t>(nodesPerFacet(arrays_.cellType));
-  std::vector<Facet> facets;
+  std::vector<FacetPlace> facets;
   facets.reserve(surface.nodes.size() / perFacet);
   for (std::size_t i = 0; i < surface.nodes.size(); i += perFacet)
     facets.push_back(findFacet(surface.name, std::span(surface.nodes).subspan(i, perFacet)));
@@ -63,16 +63,16 @@ void UnstructuredMesh::findFacets(const NamedFacets& surface) {
   facets_.push_back(std::move(facets));
 }
 
-UnstructuredMesh::Facet UnstructuredMesh::findFacet(const std::string& surface,
-                                                    std::span<const LocalOrdinal> nodes) const {
+UnstructuredMesh::FacetPlace UnstructuredMesh::findFacet(const std::string& surface,
+                                                         std::span<const LocalOrdinal> nodes) const {
   const auto facets = facetsOf(arrays_.cellType);
   LocalOrdinal inside = -1;
   for (const LocalOrdinal element : topology_.elementsOf(nodes[0])) {
     const auto own = nodesOf(arrays_.cellType, arrays_.cells, element);
     for (std::size_t f = 0; f < facets.size(); ++f) {
-      const bool isSame = std::all_of(
-          facets[f].begin(), facets[f].begin() + static_cast<std::ptrdiff_t>(nodes.size()),
-          [&](int place) { return std::find(nodes.begin(), nodes.end(), own[index(place)]) != nodes.end(); });
+      const bool isSame = std::all_of(facets[f].begin(), facets[f].end(), [&](int place) {
+        return std::find(nodes.begin(), nodes.end(), own[index(place)]) != nodes.end();
+      });
       if (isSame && topology_.across(element, f) < 0)
         return {element, static_cast<std::uint8_t>(f)};
       if (isSame)
@@ -122,13 +122,13 @@ std::vector<std::string> UnstructuredMesh::surfaceNames() const {
 }
 
 Surface UnstructuredMesh::surface(const std::string& name) const {
-  const std::vector<Facet>& facets = facets_[placeOf(name, arrays_.surfaces)];
+  const std::vector<FacetPlace>& facets = facets_[placeOf(name, arrays_.surfaces)];
   Surface surface;
-  surface.nodesPerFacet = nodesPerFacet(arrays_.cellType);
-  for (const Facet& facet : facets) {
+  surface.facetType = facetTypeOf(arrays_.cellType);
+  for (const FacetPlace& facet : facets) {
     const auto nodes = nodesOf(arrays_.cellType, arrays_.cells, facet.element);
-    for (std::size_t i = 0; i < index(surface.nodesPerFacet); ++i)
-      surface.facetNodes.push_back(nodes[index(facetsOf(arrays_.cellType)[facet.place][i])]);
+    for (const int node : facetsOf(arrays_.cellType)[facet.place])
+      surface.facetNodes.push_back(nodes[index(node)]);
     surface.elements.push_back(facet.element);
   }
   return surface;

@@ -52,22 +52,22 @@ public:
 
 private:
   /// A facet by its element and its place in facetsOf().
-  struct Facet {
+  struct FacetPlace {
     LocalOrdinal element;
     std::uint8_t place;
 
-    bool operator==(const Facet& other) const = default;
-    bool operator<(const Facet& other) const {
+    bool operator==(const FacetPlace& other) const = default;
+    bool operator<(const FacetPlace& other) const {
       return element != other.element ? element < other.element : place < other.place;
     }
   };
 
   void findFacets(const NamedFacets& surface);
-  [[nodiscard]] Facet findFacet(const std::string& surface, std::span<const LocalOrdinal> nodes) const;
+  [[nodiscard]] FacetPlace findFacet(const std::string& surface, std::span<const LocalOrdinal> nodes) const;
 
   MeshArrays arrays_; ///< without the surfaces' nodes
   MeshTopology topology_;
-  std::vector<std::vector<Facet>> facets_; ///< of each surface, ascending
+  std::vector<std::vector<FacetPlace>> facets_; ///< of each surface, ascending
 };
 
 } // namespace epafi::fem

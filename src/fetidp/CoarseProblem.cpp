@@ -2,9 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Maps.hpp"
 
 #include <Eigen/QR>
-#include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
@@ -17,16 +17,8 @@ namespace {
 
 using decomposition::DecomposedProblem;
 using decomposition::SparseMatrix;
+/// Entries (i, j, value), also in messages.
 using Triplets = std::vector<Eigen::Triplet<double>>;
-
-/// Entries (i, j, value), three numbers each.
-Triplets toTriplets(const std::vector<double>& numbers) {
-  Triplets triplets;
-  triplets.reserve(numbers.size() / 3);
-  for (std::size_t k = 0; k < numbers.size(); k += 3)
-    triplets.emplace_back(static_cast<int>(numbers[k]), static_cast<int>(numbers[k + 1]), numbers[k + 2]);
-  return triplets;
-}
 
 /// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from;
 /// on rank 0 alone unless replicated.
@@ -36,16 +28,15 @@ SparseMatrix assemble(const DecomposedProblem& problem, int size, std::span<cons
   for (const SubdomainGroup& group : groups)
     for (const std::size_t member : group.members())
       blocks[member] = &group.condensed().schurComplement();
-  std::vector<double> mine;
+  Triplets mine;
   for (std::size_t s = 0; s < blocks.size(); ++s) {
     const auto& indices = problem.subdomains[s].crosspointIndices;
     for (std::size_t j = 0; j < indices.size(); ++j)
       for (std::size_t i = 0; i < indices.size(); ++i)
-        mine.insert(mine.end(), {static_cast<double>(indices[i]), static_cast<double>(indices[j]),
-                                 (*blocks[s])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))});
+        mine.emplace_back(static_cast<int>(indices[i]), static_cast<int>(indices[j]),
+                          (*blocks[s])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
-  const Triplets all =
-      toTriplets(isReplicated ? gatherOnAll(*problem.comm, mine) : gatherOnFirst(*problem.comm, mine));
+  const Triplets all = isReplicated ? gatherOnAll(*problem.comm, mine) : gatherOnFirst(*problem.comm, mine);
   SparseMatrix result(size, size);
   result.setFromTriplets(all.begin(), all.end());
   return result;
@@ -59,18 +50,17 @@ struct CoarseKernel {
 };
 
 CoarseKernel gatherKernel(const DecomposedProblem& problem, int size) {
-  std::vector<double> mine;
+  Triplets mine;
   for (const auto& subdomain : problem.subdomains)
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
       for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
         const auto column = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset + mode;
-        mine.insert(mine.end(),
-                    {static_cast<double>(subdomain.crosspointIndices[i]), static_cast<double>(column),
-                     subdomain.kernel(subdomain.crosspointUnknowns[i], mode)});
+        mine.emplace_back(static_cast<int>(subdomain.crosspointIndices[i]), static_cast<int>(column),
+                          subdomain.kernel(subdomain.crosspointUnknowns[i], mode));
       }
   CoarseKernel kernel{Eigen::MatrixXd::Zero(size, problem.kernelDimension),
                       std::vector<int>(static_cast<std::size_t>(size), -1)};
-  for (const auto& entry : toTriplets(gatherOnAll(*problem.comm, mine))) {
+  for (const auto& entry : gatherOnAll(*problem.comm, mine)) {
     kernel.modes(entry.row(), entry.col()) = entry.value(); // copies of a crosspoint agree
     for (std::size_t body = 0; body < problem.bodies.size(); ++body)
       if (entry.col() >= problem.bodies[body].kernelOffset &&
@@ -171,8 +161,7 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   }
   const auto whole = static_cast<Tpetra::global_size_t>(size_);
   const RCP<const Map> firstMap = rcp(new Map(whole, static_cast<std::size_t>(isMine ? size_ : 0), 0, comm_));
-  const RCP<const Map> myMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                                           Teuchos::arrayViewFromVector(crosspoints_), 0, comm_));
+  const RCP<const Map> myMap = mapInOrder(crosspoints_, comm_);
   import_ = rcp(new Import(firstMap, myMap));
   first_ = rcp(new MultiVector(firstMap, 1));
   mine_ = rcp(new MultiVector(myMap, 1));

@@ -2,65 +2,55 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/qp/LocalData.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
 
-#include <utility>
+#include <vector>
 
 namespace epafi::fetidp {
 namespace {
 
-/// This rank's rows of a multivector.
-Eigen::MatrixXd localRows(const MultiVector& values) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(values.getLocalLength()),
-                       static_cast<Eigen::Index>(values.getNumVectors()));
-  for (Eigen::Index j = 0; j < rows.cols(); ++j) {
-    const auto column = values.getData(static_cast<std::size_t>(j));
-    for (Eigen::Index i = 0; i < rows.rows(); ++i)
-      rows(i, j) = column[i];
-  }
-  return rows;
+/// This rank's rows.
+Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rowsOf(MultiVector& values) {
+  const auto view = values.getLocalViewHost(Tpetra::Access::ReadWrite);
+  return {view.data(), static_cast<Eigen::Index>(view.extent(0)), static_cast<Eigen::Index>(view.extent(1)),
+          Eigen::OuterStride<>(static_cast<Eigen::Index>(view.stride(1)))};
 }
 
 } // namespace
 
-ConstrainedCrosspoints::ConstrainedCrosspoints(const DeflatedDualOperator& deflated, const MultiVector& jumps,
+ConstrainedCrosspoints::ConstrainedCrosspoints(const qp::ColumnSpace& space, const MultiVector& jumps,
                                                const MultiVector& atCrosspoints,
                                                const Eigen::MatrixXd& stiffness) {
+  const Comm& comm = *jumps.getMap()->getComm();
   const Eigen::Index size = stiffness.rows();
-  const Eigen::MatrixXd corners = localRows(atCrosspoints);
-  Eigen::MatrixXd flexibility, caused; // Ŝ⁻¹, D⁰
-  collectively(*jumps.getMap()->getComm(), [&] { flexibility = direct::inverseOfSpd(stiffness); });
-  caused = (localRows(jumps) + corners) * flexibility;
+  MultiVector constrained(jumps, Teuchos::Copy), corners(atCrosspoints, Teuchos::Copy),
+      held(jumps.getMap(), jumps.getNumVectors());
+  constrained.update(1.0, corners, 1.0); // J + B_C
+  Eigen::MatrixXd flexibility;           // Ŝ⁻¹
+  collectively(comm, [&] { flexibility = direct::inverseOfSpd(stiffness); });
+  const Eigen::MatrixXd caused = rowsOf(constrained) * flexibility; // D⁰
+  rowsOf(constrained) = caused;
+  qp::ColumnSpace::Coefficients c;
+  space.coefficients(constrained, c);
+  space.subtractImage(c, constrained); // D = P_Uᵀ D⁰
+  space.addColumns(c, held);           // U(UᵀFU)⁻¹UᵀD⁰
 
-  const DualColumnSpace& space = deflated.space();
-  std::vector<AccurateSum> held(static_cast<std::size_t>(size * size)); // D⁰ᵀU(UᵀFU)⁻¹UᵀD⁰
-  jumps_.resizeLike(caused);
-  Vector column(jumps.getMap()), constrained(jumps.getMap());
-  for (Eigen::Index j = 0; j < size; ++j) {
-    const std::span<double> values = qp::localDataNonConst(column);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = caused(static_cast<Eigen::Index>(i), j);
-    const Eigen::VectorXd& c = space.coefficients(column);
-    space.subtractImage(c, column); // D = P_Uᵀ D⁰
-    constrained.putScalar(0.0);
-    space.add(c, 1.0, constrained); // U(UᵀFU)⁻¹UᵀD⁰
-    const std::span<const double> projected = qp::localData(column), forces = qp::localData(constrained);
-    for (std::size_t i = 0; i < projected.size(); ++i) {
-      jumps_(static_cast<Eigen::Index>(i), j) = projected[i];
-      for (Eigen::Index k = 0; forces[i] != 0 && k < size; ++k)
-        held[static_cast<std::size_t>(k + j * size)].add(caused(static_cast<Eigen::Index>(i), k) * forces[i]);
-    }
-  }
-  sumOverRanks(*jumps.getMap()->getComm(), held);
+  const auto forces = rowsOf(held);
+  std::vector<AccurateSum> sums(static_cast<std::size_t>(size * size)); // D⁰ᵀU(UᵀFU)⁻¹UᵀD⁰
+  for (Eigen::Index j = 0; j < size; ++j)
+    for (Eigen::Index i = 0; i < forces.rows(); ++i)
+      for (Eigen::Index k = 0; forces(i, j) != 0 && k < size; ++k)
+        sums[static_cast<std::size_t>(k + j * size)].add(caused(i, k) * forces(i, j));
+  sumOverRanks(comm, sums);
   for (Eigen::Index k = 0; k < size * size; ++k)
-    flexibility.data()[k] -= held[static_cast<std::size_t>(k)].value();
-  collectively(*jumps.getMap()->getComm(), [&] {
+    flexibility.data()[k] -= sums[static_cast<std::size_t>(k)].value();
+  collectively(comm, [&] {
     stiffness_ = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
   });
-  jumps_ = (jumps_ * stiffness_ - corners).eval();
+  jumps_ = rowsOf(constrained) * stiffness_ - rowsOf(corners);
 }
 
 void ConstrainedCrosspoints::negativeJumps(const Eigen::MatrixXd& u, MultiVector& y) const {

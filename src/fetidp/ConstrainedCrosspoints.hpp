@@ -7,7 +7,8 @@
 /// Forces at these crosspoints cause the jumps D⁰ = (J + B_C) Ŝ⁻¹, and with the constraints
 ///   D = P_Uᵀ D⁰,   Ŝ_U⁻¹ = Ŝ⁻¹ − D⁰ᵀU(UᵀFU)⁻¹UᵀD⁰,   J_U = D Ŝ_U − B_C .
 
-#include "epafi/fetidp/DeflatedDualOperator.hpp"
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/qp/ColumnSpace.hpp"
 
 #include <Eigen/Core>
 
@@ -18,11 +19,12 @@ namespace epafi::fetidp {
 /// n_C crosspoint values. Memory: n_λ n_C numbers shared by the ranks.
 class ConstrainedCrosspoints {
 public:
+  /// \param space          U beside F
   /// \param jumps          J, n_λ × n_C: jumps of the boundaries that follow each crosspoint value
   /// \param atCrosspoints  B_C, n_λ × n_C: entries of B at these crosspoint values
   /// \param stiffness      Ŝ, n_C × n_C, on every rank
   /// \throws Error if Ŝ_U⁻¹ is not positive definite. Collective.
-  ConstrainedCrosspoints(const DeflatedDualOperator& deflated, const MultiVector& jumps,
+  ConstrainedCrosspoints(const qp::ColumnSpace& space, const MultiVector& jumps,
                          const MultiVector& atCrosspoints, const Eigen::MatrixXd& stiffness);
 
   /// Ŝ_U, on every rank.

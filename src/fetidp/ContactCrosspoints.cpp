@@ -15,8 +15,7 @@ using Unknowns = std::vector<GlobalOrdinal>;
 
 /// The union over the ranks, ascending. Collective.
 Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
-  const std::vector<double> all = gatherOnAll(comm, std::vector<double>(mine.begin(), mine.end()));
-  Unknowns unknowns(all.begin(), all.end());
+  Unknowns unknowns = gatherOnAll(comm, mine);
   std::sort(unknowns.begin(), unknowns.end());
   unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
   return unknowns;
@@ -25,7 +24,7 @@ Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
 /// Coarse unknowns that rows of contact touch, and all those of the bodies that these belong to. Collective.
 void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& near) {
   Unknowns myTouched, myNear;
-  std::vector<double> isTouched(problem.bodies.size(), 0.0); // of each body
+  std::vector<int> isTouched(problem.bodies.size(), 0); // of each body
   std::vector<int> crosspointOf;
   for (const auto& subdomain : problem.subdomains) {
     crosspointOf.assign(static_cast<std::size_t>(subdomain.stiffness->rows()), -1);
@@ -38,7 +37,7 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
       }
   }
   touched = unionOverRanks(*problem.comm, myTouched);
-  sumOverRanks(*problem.comm, isTouched);
+  sumOverRanks(*problem.comm, std::span(isTouched));
   for (const auto& subdomain : problem.subdomains)
     if (isTouched[static_cast<std::size_t>(subdomain.body)] > 0)
       myNear.insert(myNear.end(), subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
@@ -53,7 +52,7 @@ int positionIn(const Unknowns& unknowns, GlobalOrdinal unknown) {
 } // namespace
 
 ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& problem,
-                                       GeneralizedInverse& inverse) {
+                                       const GeneralizedInverse& inverse) {
   findUnknowns(problem, touched_, near_);
   const auto n = static_cast<Eigen::Index>(touched_.size());
   if (n == 0)
@@ -67,7 +66,7 @@ ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& p
     std::vector<bool> isOwner;
     for (const GlobalOrdinal unknown : unknowns)
       isOwner.push_back(problem.crosspointMap->isNodeGlobalElement(unknown));
-    const Eigen::MatrixXd& columns = inverse.coarseColumns(unknowns, isOwner);
+    const Eigen::MatrixXd columns = inverse.coarseColumns(unknowns, isOwner);
     for (std::size_t i = 0; i < near_.size(); ++i)
       if (problem.crosspointMap->isNodeGlobalElement(near_[i]))
         for (std::size_t j = 0; j < unknowns.size(); ++j)

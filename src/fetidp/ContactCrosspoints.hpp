@@ -19,7 +19,7 @@ namespace epafi::fetidp {
 class ContactCrosspoints {
 public:
   /// Costs a coarse solve for each crosspoint value that contact touches, sixteen at once. Collective.
-  ContactCrosspoints(const decomposition::DecomposedProblem& problem, GeneralizedInverse& inverse);
+  ContactCrosspoints(const decomposition::DecomposedProblem& problem, const GeneralizedInverse& inverse);
 
   /// Number of the crosspoint values, n_C; the same on all ranks.
   [[nodiscard]] Eigen::Index size() const { return stiffness_.rows(); }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace epafi::fetidp {
 namespace {
@@ -34,43 +35,40 @@ void DistinctDirections::add(const Eigen::VectorXd& direction, double value) {
   if (!(norm > 0))
     return;
   std::vector<long long> key;
-  key.reserve(static_cast<std::size_t>(dimension_));
   for (const double entry : direction)
     key.push_back(std::llround(entry / norm / resolution));
-  const auto [place, isNew] = places_.try_emplace(std::move(key), values_.size());
-  if (isNew) {
-    directions_.emplace_back(direction / norm);
-    values_.push_back(value / norm);
-  } else {
-    values_[place->second] = std::min(values_[place->second], value / norm);
-  }
+  const auto [known, isNew] = known_.try_emplace(std::move(key), dimension_ + 1);
+  Eigen::VectorXd& row = known->second;
+  if (isNew)
+    row << direction / norm, value / norm;
+  row[dimension_] = std::min(row[dimension_], value / norm);
+}
+
+Eigen::MatrixXd DistinctDirections::all() const {
+  Eigen::MatrixXd all(dimension_ + 1, static_cast<Eigen::Index>(known_.size()));
+  Eigen::Index column = 0;
+  for (const auto& [key, row] : known_)
+    all.col(column++) = row;
+  return all;
 }
 
 void DistinctDirections::gather(const Comm& comm) {
-  std::vector<double> mine;
-  mine.reserve(values_.size() * static_cast<std::size_t>(dimension_ + 1));
-  for (std::size_t j = 0; j < values_.size(); ++j) {
-    mine.insert(mine.end(), directions_[j].begin(), directions_[j].end());
-    mine.push_back(values_[j]);
-  }
-  const std::vector<double> all = gatherOnAll(comm, mine);
-  places_.clear();
-  directions_.clear();
-  values_.clear();
-  const auto stride = static_cast<std::size_t>(dimension_ + 1);
-  for (std::size_t first = 0; first < all.size(); first += stride)
-    add(Eigen::Map<const Eigen::VectorXd>(all.data() + first, dimension_), all[first + stride - 1]);
+  const Eigen::MatrixXd mine = all();
+  const std::vector<double> gathered =
+      gatherOnAll(comm, std::span(mine.data(), static_cast<std::size_t>(mine.size())));
+  const Eigen::Map<const Eigen::MatrixXd> rows(gathered.data(), mine.rows(),
+                                               static_cast<Eigen::Index>(gathered.size()) / mine.rows());
+  known_.clear();
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    add(rows.col(j).head(dimension_), rows(dimension_, j));
 }
 
 Eigen::MatrixXd DistinctDirections::matrix() const {
-  Eigen::MatrixXd result(dimension_, size());
-  for (std::size_t j = 0; j < directions_.size(); ++j)
-    result.col(static_cast<Eigen::Index>(j)) = directions_[j];
-  return result;
+  return all().topRows(dimension_);
 }
 
 Eigen::VectorXd DistinctDirections::values() const {
-  return Eigen::Map<const Eigen::VectorXd>(values_.data(), size());
+  return all().row(dimension_);
 }
 
 std::map<int, Eigen::VectorXd> contactRows(const std::vector<KernelEntry>& entries,

@@ -23,19 +23,20 @@ public:
 
   /// Takes in `direction`/‖direction‖ with `value`/‖direction‖. A direction 0 is left out. Logarithmic in their number.
   void add(const Eigen::VectorXd& direction, double value);
-  /// Takes in those of all ranks, in the order of the ranks. Collective.
+  /// Takes in those of all ranks. Collective.
   void gather(const Comm& comm);
 
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(values_.size()); }
-  /// k × size.
+  /// k × (as many as differ), in an order of their own: the same on all ranks after gather().
   [[nodiscard]] Eigen::MatrixXd matrix() const;
+  /// In the same order.
   [[nodiscard]] Eigen::VectorXd values() const;
 
 private:
+  [[nodiscard]] Eigen::MatrixXd all() const;
+
   Eigen::Index dimension_;
-  std::map<std::vector<long long>, std::size_t> places_; ///< by the rounded direction
-  std::vector<Eigen::VectorXd> directions_;
-  std::vector<double> values_;
+  std::map<std::vector<long long>, Eigen::VectorXd>
+      known_; ///< direction and number, by the rounded direction
 };
 
 /// This rank's rows of G̃ᵀ, with modes of the given lengths: by local index in multiplierMap.

@@ -2,6 +2,8 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
 
 #include <Tpetra_Map.hpp>
@@ -11,7 +13,36 @@
 
 namespace epafi::fetidp {
 
-bool provesContradiction(const decomposition::DecomposedProblem& problem, const Vector& d) {
+void requireFeasibleGaps(const decomposition::DecomposedProblem& problem) {
+  MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
+  const std::span<double> magnitude = exchange.values();
+  std::fill(magnitude.begin(), magnitude.end(), 0.0);
+  for (const auto& subdomain : problem.subdomains)
+    for (const auto& entry : subdomain.constraint)
+      magnitude[static_cast<std::size_t>(entry.multiplier)] += std::abs(entry.coefficient);
+  Vector rowSum(problem.multiplierMap);
+  exchange.sumToOwners(rowSum);
+  // The gaps are differences of prescribed values: what is round-off of these does not overlap.
+  double largest = problem.gap->normInf();
+  for (const auto& subdomain : problem.subdomains)
+    if (subdomain.prescribed.size() > 0)
+      largest = std::max(largest, subdomain.prescribed.lpNorm<Eigen::Infinity>());
+  const double roundOff = 1e-12 * maxOverRanks(*problem.comm, largest);
+  collectively(*problem.comm, [&] {
+    const auto sums = rowSum.getData();
+    const auto gaps = problem.gap->getData();
+    for (Teuchos_Ordinal i = 0; i < sums.size(); ++i)
+      if (sums[i] == 0 && gaps[i] < -roundOff)
+        throw SolvabilityError(
+            SolvabilityError::Kind::noSolution,
+            "no solution: contact row " +
+                std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
+                " lies where supports hold both sides, and they overlap by " + text(-gaps[i]) +
+                "; change a gap, an obstacle or a support");
+  });
+}
+
+void refuseContradiction(const decomposition::DecomposedProblem& problem, const Vector& d) {
   constexpr double roundOff = 1e-6; // what MPRGP calls zero curvature leaves as much of a direction
   const Comm& comm = *problem.comm;
   MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
@@ -42,8 +73,12 @@ bool provesContradiction(const decomposition::DecomposedProblem& problem, const 
   left = maxOverRanks(comm, left);
   terms = maxOverRanks(comm, terms);
   tension = maxOverRanks(comm, tension);
-  return terms > 0 && left <= roundOff * terms && tension <= roundOff * d.normInf() &&
-         gaps[0].value() < -1e-6 * gaps[1].value();
+  if (terms > 0 && left <= roundOff * terms && tension <= roundOff * d.normInf() &&
+      gaps[0].value() < -1e-6 * gaps[1].value())
+    throw SolvabilityError(
+        SolvabilityError::Kind::noSolution,
+        "no solution: contact rows contradict each other, no displacement satisfies them all; change a gap, "
+        "an obstacle or a direction of contact");
 }
 
 } // namespace epafi::fetidp

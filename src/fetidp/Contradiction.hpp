@@ -1,15 +1,18 @@
 #pragma once
 
-/// Do rows of contact contradict each other?
+/// Do rows of contact contradict each other, or the supports?
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
 namespace epafi::fetidp {
 
-/// Whether d proves that no u satisfies B_I u ≤ c_I, B_E u = 0: d_I ≥ 0, Bᵀd = 0 and cᵀd < 0 (Farkas), each to round-off of
-/// its terms, whatever the stiffness of the bodies.
-/// \param d  on multiplierMap
+/// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap
+/// contradict each other. Collective.
+void requireFeasibleGaps(const decomposition::DecomposedProblem& problem);
+
+/// Throws SolvabilityError if d proves that no u satisfies B_I u ≤ c_I, B_E u = 0: d_I ≥ 0, Bᵀd = 0 and cᵀd < 0 (Farkas), each
+/// to round-off of its terms, whatever the stiffness of the bodies. \param d  on multiplierMap
 /// Collective.
-bool provesContradiction(const decomposition::DecomposedProblem& problem, const Vector& d);
+void refuseContradiction(const decomposition::DecomposedProblem& problem, const Vector& d);
 
 } // namespace epafi::fetidp

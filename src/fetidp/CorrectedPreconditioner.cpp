@@ -6,21 +6,18 @@
 
 namespace epafi::fetidp {
 
-CorrectedPreconditioner::CorrectedPreconditioner(const Operator& h, RCP<const Operator> m,
-                                                 const OverratedColumns& columns, const Import& plan)
-    : m_(std::move(m)), space_(h, columns, plan, m_.get()), residual_(m_->getDomainMap()),
-      image_(m_->getRangeMap()) {}
+CorrectedPreconditioner::CorrectedPreconditioner(RCP<const Operator> m, qp::ColumnSpace space)
+    : SymmetricOperator(m->getDomainMap()), m_(std::move(m)), space_(std::move(space)),
+      residual_(getDomainMap()) {}
 
-void CorrectedPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/,
-                                    double alpha, double beta) const {
+void CorrectedPreconditioner::multiply(const MultiVector& x, MultiVector& y) const {
   forEachColumn(x, y, [&](const Vector& in, Vector& out) {
-    coefficients_ = space_.coefficients(in); // c = (VᵀHV)⁻¹Vᵀx
+    space_.coefficients(in, coefficients_); // c = (VᵀHV)⁻¹Vᵀx
     residual_.assign(in);
     space_.subtractImage(coefficients_, residual_); // Pᵀx = x − HVc
-    m_->apply(residual_, image_);
-    coefficients_ -= space_.imageCoefficients(image_);
-    space_.add(coefficients_, 1.0, image_); // P M Pᵀx + Vc
-    out.update(alpha, image_, beta);
+    m_->apply(residual_, out);
+    space_.project(out);                   // P M Pᵀx
+    space_.addColumns(coefficients_, out); // + Vc
   });
 }
 

@@ -10,36 +10,29 @@
 /// preconditioner, restricted to the free set; that is no longer the correction of the restricted M, but it serves
 /// (docs/theory.md, "Jumps of the stiffness", has figures).
 
-#include "epafi/fetidp/DualColumnSpace.hpp"
+#include "epafi/base/SymmetricOperator.hpp"
+#include "epafi/qp/ColumnSpace.hpp"
 
-#include <Tpetra_Operator.hpp>
 #include <Tpetra_Vector.hpp>
 
 namespace epafi::fetidp {
 
 /// n_λ × n_λ, symmetric positive definite if M is.
-class CorrectedPreconditioner final : public Operator {
+class CorrectedPreconditioner final : public SymmetricOperator {
 public:
-  /// Costs n_V products with H and with M. \param h  needed here only. \param columns  Y. \throws Error if VᵀHV is not positive definite. Collective.
-  CorrectedPreconditioner(const Operator& h, RCP<const Operator> m, const OverratedColumns& columns,
-                          const Import& plan);
+  /// \param space  V beside H, factorized
+  CorrectedPreconditioner(RCP<const Operator> m, qp::ColumnSpace space);
 
-  [[nodiscard]] RCP<const Map> getDomainMap() const override { return m_->getDomainMap(); }
-  [[nodiscard]] RCP<const Map> getRangeMap() const override { return m_->getRangeMap(); }
-  /// y = alpha M_V x + beta y: one application of M, two messages of n_V numbers, 3 n_λ n_V multiplications. Collective.
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
-             double alpha = 1.0, double beta = 0.0) const override;
-  [[nodiscard]] bool hasTransposeApply() const override { return true; }
-  /// n_V.
-  [[nodiscard]] int numColumns() const { return space_.size(); }
-  /// Bytes of this rank's part of HV and of V.
-  [[nodiscard]] std::size_t bytes() const { return space_.bytes(); }
+  [[nodiscard]] const qp::ColumnSpace& space() const { return space_; } ///< V, with HV and VᵀHV
 
 private:
+  /// One application of M, two messages of n_V numbers, 3 n_λ n_V multiplications.
+  void multiply(const MultiVector& x, MultiVector& y) const override;
+
   RCP<const Operator> m_;
-  DualColumnSpace space_;
-  mutable Vector residual_, image_;      ///< work
-  mutable Eigen::VectorXd coefficients_; ///< likewise
+  qp::ColumnSpace space_;
+  mutable Vector residual_;                            ///< Pᵀx, work
+  mutable qp::ColumnSpace::Coefficients coefficients_; ///< c, work
 };
 
 } // namespace epafi::fetidp

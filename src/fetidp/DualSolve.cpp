@@ -1,13 +1,12 @@
-// What of DualProblem depends on loads and gaps.
+#include "epafi/fetidp/DualSolve.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/Contradiction.hpp"
-#include "epafi/fetidp/DualPreconditioner.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
+#include "epafi/fetidp/FiniteData.hpp"
 #include "epafi/fetidp/Recovery.hpp"
-#include "epafi/fetidp/ShiftedObserver.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"
@@ -16,11 +15,11 @@
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace epafi::fetidp {
 
@@ -34,32 +33,14 @@ SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem) {
 
 namespace {
 
-/// Throws InputError on all ranks if a load or a gap is NaN or infinite. Collective.
-void requireFiniteData(const decomposition::DecomposedProblem& problem) {
-  collectively(*problem.comm, [&] {
-    for (const auto& subdomain : problem.subdomains)
-      if (!subdomain.load.allFinite())
-        throw InputError("the load of body '" +
-                         problem.bodies[static_cast<std::size_t>(subdomain.body)].name +
-                         "' has an entry in subdomain " + std::to_string(subdomain.number) +
-                         " that is not a finite number; check its loads and supports");
-    const auto gaps = problem.gap->getData();
-    for (Teuchos_Ordinal i = 0; i < gaps.size(); ++i)
-      if (!std::isfinite(gaps[i]))
-        throw InputError(
-            "the gap of contact row " +
-            std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
-            " is not a finite number; check the gaps");
-  });
-}
+using decomposition::DecomposedProblem;
 
 /// A fraction of the discretisation error, of the displacements that go with an iterate.
 class BalancedTarget final : public qp::ErrorTarget {
 public:
   /// Keeps references. \param complete  makes λ of an iterate
-  BalancedTarget(const decomposition::DecomposedProblem& problem, GeneralizedInverse& inverse,
-                 const ErrorBalance& balance, std::function<void(Vector&)> complete)
-      : problem_(problem), inverse_(inverse), balance_(balance), complete_(std::move(complete)) {}
+  BalancedTarget(const DualProblem& dual, const ErrorBalance& balance, std::function<void(Vector&)> complete)
+      : dual_(dual), balance_(balance), complete_(std::move(complete)) {}
 
   /// A first look at the discretisation error when the algebraic one has fallen so far that it hardly blurs it.
   double first(double error) override {
@@ -69,190 +50,238 @@ public:
   double at(const Vector& x) override {
     Vector lambda(x, Teuchos::Copy);
     complete_(lambda);
-    last_ = balance_.fraction * balance_.estimate(displacementOf(problem_, inverse_, lambda));
+    last_ = balance_.fraction * balance_.estimate(displacementOf(dual_, lambda));
     return last_;
   }
   [[nodiscard]] double last() const { return last_; }
 
 private:
-  const decomposition::DecomposedProblem& problem_;
-  GeneralizedInverse& inverse_;
+  const DualProblem& dual_;
   const ErrorBalance& balance_;
   std::function<void(Vector&)> complete_;
   double last_ = 0;
 };
 
-} // namespace
-
-DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer, const DualGoal& goal) {
-  const ErrorBalance* balance = goal.balance;
-  if (parameters_.isBalanced && balance == nullptr)
-    throw InputError("the tolerance 'balanced' needs an estimate of the discretisation error, and none was "
-                     "given; hand one "
-                     "over to solve(), or ask for a number");
-  if (!parameters_.isBalanced)
-    balance = nullptr;
-  tolerance_ = goal.tightening * parameters_.tolerance;
-  requireFiniteData(problem_);
-  const Eigen::VectorXd resultants = kernelLoad(problem_, loadsOf(problem_));
-  requireFeasibleGaps(problem_);
-  requireUniqueSolution(problem_, kernelEntries_, resultants);
-
-  DualSolution solution;
-  solution.lambda = rcp(new Vector(problem_.multiplierMap));
-  if (algorithm_ == Algorithm::direct) {
-    solution.report.status = qp::Status::converged;
-    solution.report.reason = "solved directly";
-    return solution;
+/// Shows λ where the iteration has μ = λ − λ̃.
+class ShiftedObserver final : public qp::Observer {
+public:
+  /// \param shift  λ̃
+  ShiftedObserver(qp::Observer& next, const Vector& shift)
+      : next_(next), shift_(shift), sum_(shift.getMap()) {}
+  void step(const qp::StepRecord& record) override { next_.step(record); }
+  [[nodiscard]] bool wantsToStop() override { return next_.wantsToStop(); }
+  [[nodiscard]] bool wantsToLook() override { return next_.wantsToLook(); }
+  void look(const Vector& mu) override {
+    sum_.update(1.0, mu, 1.0, shift_, 0.0);
+    next_.look(sum_);
   }
-  const RCP<Vector> rhs = rightHandSide();
-  if (!deflated_.is_null()) {
-    wholeRhs_ = rcp(new Vector(*rhs, Teuchos::Copy));
-    deflated_->project(*rhs);
-  }
-  if (algorithm_ == Algorithm::smalbe)
-    solveSemicoercive(rhs, resultants, start, observer, balance, solution);
-  else
-    solveCoercive(rhs, start, observer, balance, solution);
-  completeJumps(*solution.lambda);
-  if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null() &&
-      provesContradiction(problem_, *solution.report.certificate))
-    throw SolvabilityError(
-        SolvabilityError::Kind::noSolution,
-        "no solution: contact rows contradict each other, no displacement satisfies them all; change a gap, "
-        "an obstacle or a direction of contact");
-  return solution;
-}
 
-RCP<Vector> DualProblem::startFrom(std::span<const Eigen::VectorXd> displacement) const {
-  if (dirichlet_.is_null())
-    return Teuchos::null;
-  SubdomainVectors given;
-  for (std::size_t s = 0; s < problem_.subdomains.size(); ++s)
-    given.emplace_back(decomposition::unknownsOf(problem_.subdomains[s], displacement[s]));
-  const RCP<Vector> lambda = dirichlet_->multipliersOf(problem_, given);
-  const auto values = lambda->getDataNonConst();
-  for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
-    if (problem_.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem_.numInequalities)
-      values[i] = std::max(values[i], 0.0);
-  return lambda;
-}
+private:
+  qp::Observer& next_;
+  const Vector& shift_;
+  Vector sum_;
+};
 
-/// λ of the iterate of the deflated problem. Collective.
-void DualProblem::completeJumps(Vector& lambda) const {
-  if (!deflated_.is_null())
-    deflated_->complete(*wholeRhs_, lambda);
-}
+/// A right-hand side, and what it is the difference of.
+struct RightHandSide {
+  RCP<Vector> values;
+  double termSize = 0; ///< max |K̄⁺f̄| + max |c|
+};
 
-/// d̃ = B̄ K̄⁺ f̄ − c. Keeps the size of what it is the difference of, max |K̄⁺f̄| + max |c|.
-RCP<Vector> DualProblem::rightHandSide() {
+/// d̃ = B̄ K̄⁺ f̄ − c. Collective.
+RightHandSide rightHandSide(const DualProblem& dual) {
+  const DecomposedProblem& problem = dual.problem();
   SubdomainVectors u;
-  inverse_->apply(loadsOf(problem_), u);
-  MultiplierExchange exchange(inverse_->multiplierPlan());
-  inverse_->constraint(u, exchange.values());
-  const RCP<Vector> rhs = rcp(new Vector(problem_.multiplierMap));
-  exchange.sumToOwners(*rhs);
-  rhs->update(-1.0, *problem_.gap, 1.0);
+  dual.inverse().apply(loadsOf(problem), u);
+  MultiplierExchange exchange(dual.inverse().multiplierPlan());
+  dual.inverse().constraint(u, exchange.values());
+  RightHandSide rhs{rcp(new Vector(problem.multiplierMap))};
+  exchange.sumToOwners(*rhs.values);
+  rhs.values->update(-1.0, *problem.gap, 1.0);
   double largest = 0;
   for (const Eigen::MatrixXd& values : u)
     largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
-  termSize_ = maxOverRanks(*problem_.comm, largest) + problem_.gap->normInf();
+  rhs.termSize = maxOverRanks(*problem.comm, largest) + problem.gap->normInf();
   return rhs;
 }
 
-/// 0 for multipliers of contact, `free` for those of gluing.
-RCP<Vector> DualProblem::lowerBounds(double free) const {
-  const RCP<Vector> lower = rcp(new Vector(problem_.multiplierMap));
+/// λ ≥ 0 for contact, no bound for gluing.
+RCP<Vector> lowerBounds(const DecomposedProblem& problem) {
+  const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
   const auto values = lower->getDataNonConst();
-  for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
-    if (problem_.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) >= problem_.numInequalities)
-      values[i] = free;
+  for (LocalOrdinal row = 0; row < values.size(); ++row)
+    if (problem.kindOfOwned(row) == decomposition::RowKind::gluing)
+      values[row] = -std::numeric_limits<double>::infinity();
   return lower;
+}
+
+/// A solve that iterates.
+class IterativeSolve {
+public:
+  /// Keeps references; observer and balance may be null. Collective.
+  IterativeSolve(const DualProblem& dual, const Vector* start, qp::Observer* observer,
+                 const ErrorBalance* balance, double tolerance)
+      : dual_(dual), problem_(dual.problem()), start_(start), observer_(observer), balance_(balance),
+        tolerance_(tolerance), wholeRhs_(rightHandSide(dual)), rhs_(wholeRhs_.values) {
+    if (!dual.deflatedOperator().is_null()) {
+      rhs_ = rcp(new Vector(*wholeRhs_.values, Teuchos::Copy));
+      dual.deflatedOperator()->space().projectTransposed(*rhs_);
+    }
+    solution_.lambda = rcp(new Vector(problem_.multiplierMap));
+  }
+
+  DualSolution coercive();
+  /// \param resultants  ẽ
+  DualSolution semicoercive(const Eigen::VectorXd& resultants);
+
+private:
+  bool setReference();
+  void iterateInBounds();
+  void completeJumps(Vector& lambda) const;
+  [[nodiscard]] double equilibriumReference(const Eigen::VectorXd& e) const;
+
+  const DualProblem& dual_;
+  const DecomposedProblem& problem_;
+  const Vector* start_;
+  qp::Observer* observer_;
+  const ErrorBalance* balance_;
+  double tolerance_;
+  RightHandSide wholeRhs_; ///< d̃
+  RCP<Vector> rhs_;        ///< of the iteration: d̃, Pᵀd̃ where jumps are deflated, Pd where bodies float
+  DualSolution solution_;
+};
+
+/// λ of the iterate of the deflated problem. Collective.
+void IterativeSolve::completeJumps(Vector& lambda) const {
+  if (!dual_.deflatedOperator().is_null())
+    dual_.deflatedOperator()->complete(*wholeRhs_.values, lambda);
 }
 
 /// Residuals are relative to ‖d̃‖ or ‖Pd‖. One that is the round-off of its terms is set to zero, and their size
 /// becomes the measure; returns whether that is so. Collective.
-bool DualProblem::setReference(Vector& rhs, DualSolution& solution) const {
-  const bool vanishes = rhs.normInf() <= 1e-13 * termSize_;
+bool IterativeSolve::setReference() {
+  const bool vanishes = rhs_->normInf() <= 1e-13 * wholeRhs_.termSize;
   if (vanishes)
-    rhs.putScalar(0.0);
-  solution.reference = vanishes ? termSize_ : accurateNorm(rhs);
+    rhs_->putScalar(0.0);
+  solution_.reference = vanishes ? wholeRhs_.termSize : accurateNorm(*rhs_);
   return vanishes;
 }
 
-void DualProblem::solveCoercive(const RCP<Vector>& rhs, const Vector* start, qp::Observer* observer,
-                                const ErrorBalance* balance, DualSolution& solution) {
-  const bool vanishes = setReference(*rhs, solution);
-  if (start != nullptr && !vanishes) // else λ = 0 solves it, and no other start gets there
-    solution.lambda->assign(*start);
-  if (algorithm_ == Algorithm::conjugateGradient && balance == nullptr) {
-    solution.report = qp::solveUnconstrained(hessian_, rhs, solution.lambda, tolerance_,
-                                             parameters_.mprgp.maxMultiplications, observer, preconditioner_);
+DualSolution IterativeSolve::coercive() {
+  const bool vanishes = setReference();
+  if (start_ != nullptr && !vanishes) // else λ = 0 solves it, and no other start gets there
+    solution_.lambda->assign(*start_);
+  if (dual_.algorithm() == Algorithm::conjugateGradient && balance_ == nullptr)
+    solution_.report = qp::solveUnconstrained(dual_.hessian(), rhs_, solution_.lambda, tolerance_,
+                                              dual_.parameters().mprgp.maxMultiplications, observer_,
+                                              dual_.preconditioner());
+  else
+    iterateInBounds();
+  completeJumps(*solution_.lambda);
+  return std::move(solution_);
+}
+
+/// MPRGP; without contact it is CG, step by step.
+void IterativeSolve::iterateInBounds() {
+  const qp::MprgpParameters& mprgp = dual_.operators().mprgp;
+  const qp::BoundProblem problem{dual_.hessian(), rhs_, rcp(new qp::Box(lowerBounds(problem_))),
+                                 dual_.preconditioner(), dual_.norm().norm};
+  const double reference = accurateNorm(*rhs_);
+  if (balance_ == nullptr || reference == 0) {
+    solution_.report =
+        qp::solveBoundProblem(problem, *solution_.lambda, {tolerance_, reference, 0.0}, mprgp, observer_);
     return;
   }
-  const RCP<const qp::ConvexSet> set =
-      rcp(new qp::Box(lowerBounds(-std::numeric_limits<double>::infinity())));
-  const qp::BoundProblem problem{hessian_, rhs, set, preconditioner_, norm_.norm};
-  const double reference = accurateNorm(*rhs);
-  if (balance != nullptr && reference > 0) { // without contact this is CG, step by step
-    BalancedTarget target(problem_, *inverse_, *balance, [this](Vector& x) { completeJumps(x); });
-    qp::ErrorRule rule(target, reference);
-    solution.report =
-        qp::solveBoundProblem(problem, *solution.lambda, rule, reference, parameters_.mprgp, observer);
-    solution.errorTarget = target.last();
-    return;
-  }
-  solution.report = qp::solveBoundProblem(problem, *solution.lambda, {tolerance_, reference, 0.0},
-                                          parameters_.mprgp, observer);
+  BalancedTarget target(dual_, *balance_, [this](Vector& x) { completeJumps(x); });
+  qp::ErrorRule rule(target, reference);
+  solution_.report = qp::solveBoundProblem(problem, *solution_.lambda, rule, reference, mprgp, observer_);
+  solution_.errorTarget = target.last();
+}
+
+/// e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd asks for.
+double IterativeSolve::equilibriumReference(const Eigen::VectorXd& e) const {
+  const double largest =
+      dual_.coarseSpace()->normalized(kernelLoadMagnitude(problem_, loadsOf(problem_))).norm();
+  if (e.norm() > resultantTolerance * largest)
+    return e.norm();
+  return dual_.norm().norm > 0 ? solution_.reference / dual_.norm().norm : 0.0;
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
-void DualProblem::solveSemicoercive(const RCP<Vector>& rhs, const Eigen::VectorXd& resultants,
-                                    const Vector* start, qp::Observer* observer, const ErrorBalance* balance,
-                                    DualSolution& solution) {
-  const Eigen::VectorXd e = coarseSpace_->normalized(resultants);
+DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
+  const NaturalCoarseSpace& space = *dual_.coarseSpace();
+  const Eigen::VectorXd e = space.normalized(resultants);
   Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
-  coarseSpace_->feasiblePoint(e, feasible);
-  flexibility()->apply(feasible, *rhs, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
-  coarseSpace_->project(*rhs);                                        // Pd
-  const bool vanishes = setReference(*rhs, solution);
-  // e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd
-  // asks for.
-  const double largest = coarseSpace_->normalized(kernelLoadMagnitude(problem_, loadsOf(problem_))).norm();
-  const bool isBalanced = e.norm() <= resultantTolerance * largest;
-  const double equilibriumReference = !isBalanced      ? e.norm()
-                                      : norm_.norm > 0 ? solution.reference / norm_.norm
-                                                       : 0.0;
+  space.feasiblePoint(e, feasible);
+  const RCP<Vector> whole = wholeRhs_.values;
+  if (rhs_ == whole)
+    rhs_ = rcp(new Vector(*whole, Teuchos::Copy));
+  dual_.operators().flexibility()->apply(feasible, *rhs_, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
+  space.project(*rhs_);                                                                  // Pd
+  const bool vanishes = setReference();
+  const double reference = equilibriumReference(e);
 
-  const RCP<Vector> lower = lowerBounds(-std::numeric_limits<double>::infinity());
+  const RCP<Vector> lower = lowerBounds(problem_);
   lower->update(-1.0, feasible, 1.0); // −λ̃_I
   Vector mu(problem_.multiplierMap);
-  if (start != nullptr && !vanishes)
-    mu.update(1.0, *start, -1.0, feasible, 0.0);
-
-  qp::SmalbeTolerances tolerances{tolerance_, solution.reference, parameters_.equilibriumTolerance,
-                                  equilibriumReference};
+  if (start_ != nullptr && !vanishes)
+    mu.update(1.0, *start_, -1.0, feasible, 0.0);
+  qp::SmalbeTolerances tolerances{tolerance_, solution_.reference, dual_.parameters().equilibriumTolerance,
+                                  reference};
   std::optional<BalancedTarget> target;
-  if (balance != nullptr && !vanishes) {
-    tolerances.error = &target.emplace(problem_, *inverse_, *balance, [&](Vector& x) {
+  if (balance_ != nullptr && !vanishes)
+    tolerances.error = &target.emplace(dual_, *balance_, [&](Vector& x) {
       x.update(1.0, feasible, 1.0);
       completeJumps(x);
     });
-  }
-  const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lower));
-  std::vector<double> multiplier;
   std::optional<ShiftedObserver> shifted;
-  if (observer != nullptr)
-    observer = &shifted.emplace(*observer, feasible);
-  solution.report =
-      qp::solveEqualityBoundProblem({hessian_, rhs, set, coarseSpace_, preconditioner_, norm_.norm}, mu,
-                                    multiplier, tolerances, parameters_.smalbe, parameters_.mprgp, observer);
+  if (observer_ != nullptr)
+    shifted.emplace(*observer_, feasible);
+  std::vector<double> multiplier;
+  solution_.report =
+      qp::solveEqualityBoundProblem({dual_.hessian(), rhs_, rcp(new qp::Box(lower)), dual_.coarseSpace(),
+                                     dual_.preconditioner(), dual_.norm().norm},
+                                    mu, multiplier, tolerances, dual_.parameters().smalbe,
+                                    dual_.operators().mprgp, shifted ? &*shifted : nullptr);
   if (target)
-    solution.errorTarget = target->last();
-  solution.lambda->update(1.0, mu, 1.0, feasible, 0.0);
-  const Eigen::VectorXd imbalance = coarseSpace_->product(*solution.lambda) - e;
-  solution.equilibrium =
-      equilibriumReference > 0 ? imbalance.norm() / equilibriumReference : imbalance.norm();
+    solution_.errorTarget = target->last();
+  solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
+  const double imbalance = (space.product(*solution_.lambda) - e).norm();
+  solution_.equilibrium = reference > 0 ? imbalance / reference : imbalance;
+  completeJumps(*solution_.lambda);
+  return std::move(solution_);
+}
+
+/// Where there is nothing to iterate.
+DualSolution solvedDirectly(const DecomposedProblem& problem) {
+  DualSolution solution;
+  solution.lambda = rcp(new Vector(problem.multiplierMap));
+  solution.report.status = qp::Status::converged;
+  solution.report.reason = "solved directly";
+  return solution;
+}
+
+} // namespace
+
+DualSolution solveDual(const DualProblem& dual, const Vector* start, qp::Observer* observer,
+                       const DualGoal& goal) {
+  const DecomposedProblem& problem = dual.problem();
+  const ErrorBalance* balance = dual.parameters().isBalanced ? goal.balance : nullptr;
+  if (dual.parameters().isBalanced && balance == nullptr)
+    throw InputError("the tolerance 'balanced' needs an estimate of the discretisation error, and none was "
+                     "given; hand one over to solve(), or ask for a number");
+  requireFiniteData(problem);
+  const Eigen::VectorXd resultants = kernelLoad(problem, loadsOf(problem));
+  requireFeasibleGaps(problem);
+  requireUniqueSolution(problem, dual.kernelEntries());
+  if (dual.algorithm() == Algorithm::direct)
+    return solvedDirectly(problem);
+  IterativeSolve solve(dual, start, observer, balance, goal.tightening * dual.parameters().tolerance);
+  DualSolution solution =
+      dual.algorithm() == Algorithm::smalbe ? solve.semicoercive(resultants) : solve.coercive();
+  if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null())
+    refuseContradiction(problem, *solution.report.certificate);
+  return solution;
 }
 
 } // namespace epafi::fetidp

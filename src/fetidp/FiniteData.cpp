@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 
 #include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <cmath>
 #include <string>
@@ -32,9 +33,10 @@ void requireFiniteRows(const DecomposedProblem& problem, const Subdomain& subdom
   for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
     if (!std::isfinite(entry.coefficient)) {
       const GlobalOrdinal row = problem.multiplierGhostMap->getGlobalElement(entry.multiplier);
-      throw InputError(std::string(row < problem.numInequalities ? "contact" : "gluing") + " row " +
-                       std::to_string(row) + " has a coefficient in subdomain " +
-                       std::to_string(subdomain.number) + " of " + bodyOf(problem, subdomain) +
+      const bool isContact = problem.kindOf(row) == decomposition::RowKind::contact;
+      throw InputError(std::string(isContact ? "contact" : "gluing") + " row " + std::to_string(row) +
+                       " has a coefficient in subdomain " + std::to_string(subdomain.number) + " of " +
+                       bodyOf(problem, subdomain) +
                        " that is not a finite number; check what is entered in B");
     }
 }
@@ -50,6 +52,22 @@ void requireFiniteMatrices(const DecomposedProblem& problem) {
       last = subdomain.stiffness.get();
       requireFiniteRows(problem, subdomain);
     }
+  });
+}
+
+void requireFiniteData(const DecomposedProblem& problem) {
+  collectively(*problem.comm, [&] {
+    for (const Subdomain& subdomain : problem.subdomains)
+      if (!subdomain.load.allFinite())
+        throw InputError("the load of " + bodyOf(problem, subdomain) + " has an entry in subdomain " +
+                         std::to_string(subdomain.number) +
+                         " that is not a finite number; check its loads and supports");
+    const auto gaps = problem.gap->getData();
+    for (LocalOrdinal row = 0; row < gaps.size(); ++row)
+      if (!std::isfinite(gaps[row]))
+        throw InputError("the gap of contact row " +
+                         std::to_string(problem.multiplierMap->getGlobalElement(row)) +
+                         " is not a finite number; check the gaps");
   });
 }
 

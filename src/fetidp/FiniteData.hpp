@@ -10,4 +10,7 @@ namespace epafi::fetidp {
 /// one of a row of B. An infinite entry on the diagonal would pass for a support. Collective.
 void requireFiniteMatrices(const decomposition::DecomposedProblem& problem);
 
+/// The same for loads and gaps. Collective.
+void requireFiniteData(const decomposition::DecomposedProblem& problem);
+
 } // namespace epafi::fetidp

@@ -27,33 +27,39 @@ std::vector<GlobalOrdinal> crosspointsOf(const decomposition::DecomposedProblem&
 } // namespace
 
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
-                                       const DirectSolvers& solvers)
-    : solvers_(solvers) {
-  update(problem);
-}
-
-void GeneralizedInverse::update(const decomposition::DecomposedProblem& problem) {
-  multiplierPlan_ = rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap));
-  crosspoints_ = crosspointsOf(problem);
-  const bool isNew = makeGroups(problem) || crosspointMap_ != problem.crosspointMap;
-  crosspointMap_ = problem.crosspointMap;
+                                       const DirectSolvers& solvers,
+                                       std::shared_ptr<GeneralizedInverse> earlier)
+    : solvers_(solvers), crosspointMap_(problem.crosspointMap),
+      multiplierPlan_(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap))),
+      crosspoints_(crosspointsOf(problem)) {
+  std::vector<SubdomainGroup> earlierGroups;
+  std::shared_ptr<const CoarseProblem> earlierCoarse;
+  if (earlier) {
+    earlierGroups = earlier.use_count() == 1 ? std::move(earlier->groups_) : earlier->groups_;
+    if (earlier->crosspointMap_ == crosspointMap_)
+      earlierCoarse = earlier->coarseProblem_;
+    earlier.reset();
+  }
+  const bool isNew = makeGroups(problem, std::move(earlierGroups)) || !earlierCoarse;
   if (maxOverRanks(*problem.comm, isNew ? 1.0 : 0.0) > 0) {
-    coarseProblem_.reset();
-    coarseProblem_ = std::make_unique<CoarseProblem>(problem, groups_, crosspoints_, solvers_);
+    earlierCoarse.reset(); // before the new one takes memory
+    coarseProblem_ = std::make_shared<const CoarseProblem>(problem, groups_, crosspoints_, solvers_);
+  } else {
+    coarseProblem_ = std::move(earlierCoarse);
   }
 }
 
 /// Returns whether any factor is new. Earlier groups go as soon as none needs them. Collective.
-bool GeneralizedInverse::makeGroups(const decomposition::DecomposedProblem& problem) {
+bool GeneralizedInverse::makeGroups(const decomposition::DecomposedProblem& problem,
+                                    std::vector<SubdomainGroup> earlierGroups) {
   std::vector<std::shared_ptr<const SubdomainGroup>> earlier(problem.subdomains.size()); // of each subdomain
-  for (SubdomainGroup& group : groups_) {
+  for (SubdomainGroup& group : earlierGroups) {
     const auto shared = std::make_shared<const SubdomainGroup>(std::move(group));
     for (const std::size_t member : shared->members())
       earlier[member] = shared;
   }
-  groups_.clear();
   auto identical = groupIdentical(problem, solvers_.shareIdentical);
-  bool isNew = !coarseProblem_;
+  bool isNew = false;
   collectively(*problem.comm, [&] {
     direct::Factorizer factorizer(solvers_.subdomains);
     groups_.reserve(identical.size());
@@ -76,51 +82,56 @@ void GeneralizedInverse::prepareDual(const DualOperatorParameters& parameters) {
       group.makeExplicit();
 }
 
-/// Work space for k columns; the sums begin at 0.
-void GeneralizedInverse::prepareCoarse(int numColumns) {
-  coarseSums_.assign(crosspoints_.size() * static_cast<std::size_t>(numColumns), AccurateSum());
-  coarse_.resize(static_cast<Eigen::Index>(crosspoints_.size()), numColumns);
+/// The coarse sums begin at 0.
+void GeneralizedInverse::prepareColumns(int numColumns, Workspace& work) const {
+  work.groups.resize(groups_.size());
+  work.coarseForces.assign(crosspoints_.size() * static_cast<std::size_t>(numColumns), AccurateSum());
+  work.coarseValues.resize(static_cast<Eigen::Index>(crosspoints_.size()), numColumns);
 }
 
-void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result, int numColumns) {
+void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result, int numColumns,
+                                   Workspace& work) const {
   std::fill(result.begin(), result.end(), 0.0);
-  prepareCoarse(numColumns);
-  for (SubdomainGroup& group : groups_)
-    group.applyFlexibility(lambda, coarseSums_,
-                           numColumns); // B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ, kept, and z = Σ L_cᵀ Wᵀ λ
-  coarseProblem_->solve(coarseSums_, coarse_); // x_c = S_cc⁺ z
-  for (SubdomainGroup& group : groups_)
-    group.applyCoupling(coarse_, result); // Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c
+  prepareColumns(numColumns, work);
+  for (std::size_t g = 0; g < groups_.size(); ++g) // (K_rr⁻¹)_ΔΔ B_Δᵀ λ and z = Σ L_cᵀ Wᵀ λ
+    groups_[g].applyFlexibility(lambda, work.coarseForces, numColumns, work.groups[g]);
+  coarseProblem_->solve(work.coarseForces, work.coarseValues); // x_c = S_cc⁺ z
+  for (std::size_t g = 0; g < groups_.size(); ++g) // Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c
+    groups_[g].applyCoupling(work.coarseValues, result, work.groups[g]);
 }
 
-void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u, int numColumns) {
-  prepareCoarse(numColumns);
-  for (SubdomainGroup& group : groups_)
-    group.eliminate(b, coarseSums_);
-  coarseProblem_->solve(coarseSums_, coarse_);
+void GeneralizedInverse::apply(const SubdomainVectors& b, SubdomainVectors& u, int numColumns,
+                               Workspace& work) const {
+  prepareColumns(numColumns, work);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    groups_[g].eliminate(b, work.coarseForces, work.groups[g]);
+  coarseProblem_->solve(work.coarseForces, work.coarseValues);
   u.resize(b.size());
-  for (SubdomainGroup& group : groups_)
-    group.substitute(coarse_, b, u);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    groups_[g].substitute(work.coarseValues, b, u, work.groups[g]);
 }
 
-void GeneralizedInverse::solveRemainders(const SubdomainVectors& b, SubdomainVectors& u, int numColumns) {
-  prepareCoarse(numColumns);
-  coarse_.setZero();
+void GeneralizedInverse::solveRemainders(const SubdomainVectors& b, SubdomainVectors& u, int numColumns,
+                                         Workspace& work) const {
+  prepareColumns(numColumns, work);
+  work.coarseValues.setZero();
   for (const SubdomainGroup& group : groups_)
-    group.takeCrosspoints(u, coarse_);
-  for (SubdomainGroup& group : groups_)
-    group.substitute(coarse_, b, u);
+    group.takeCrosspoints(u, work.coarseValues);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    groups_[g].substitute(work.coarseValues, b, u, work.groups[g]);
 }
 
-const Eigen::MatrixXd& GeneralizedInverse::coarseColumns(std::span<const GlobalOrdinal> unknowns,
-                                                         const std::vector<bool>& isOwner) {
-  prepareCoarse(static_cast<int>(unknowns.size()));
+Eigen::MatrixXd GeneralizedInverse::coarseColumns(std::span<const GlobalOrdinal> unknowns,
+                                                  const std::vector<bool>& isOwner) const {
+  std::vector<AccurateSum> units(crosspoints_.size() * unknowns.size());
   for (std::size_t j = 0; j < unknowns.size(); ++j)
     if (isOwner[j])
-      coarseSums_[j * crosspoints_.size() + static_cast<std::size_t>(coarseIndexOf(unknowns[j]))] =
+      units[j * crosspoints_.size() + static_cast<std::size_t>(coarseIndexOf(unknowns[j]))] =
           AccurateSum(1.0);
-  coarseProblem_->solve(coarseSums_, coarse_);
-  return coarse_;
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(crosspoints_.size()),
+                          static_cast<Eigen::Index>(unknowns.size()));
+  coarseProblem_->solve(units, columns);
+  return columns;
 }
 
 int GeneralizedInverse::coarseIndexOf(GlobalOrdinal unknown) const {

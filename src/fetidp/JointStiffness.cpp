@@ -1,11 +1,10 @@
 #include "epafi/fetidp/JointStiffness.hpp"
 
 #include "epafi/base/Errors.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace epafi::fetidp {
@@ -34,14 +33,31 @@ std::vector<Entry> entriesOf(const decomposition::Subdomain& subdomain, const Su
   return entries;
 }
 
-void append(std::vector<double>& message, const Eigen::MatrixXd& matrix) {
-  message.insert(message.end(), matrix.data(), matrix.data() + matrix.size());
+template <class Values>
+void put(std::vector<std::byte>& message, const Values& values) {
+  const auto bytes = std::as_bytes(std::span(values.data(), static_cast<std::size_t>(values.size())));
+  message.insert(message.end(), bytes.begin(), bytes.end());
 }
 
-Eigen::MatrixXd take(std::span<const double>& message, Eigen::Index rows, Eigen::Index columns) {
-  const Eigen::MatrixXd matrix = Eigen::Map<const Eigen::MatrixXd>(message.data(), rows, columns);
-  message = message.subspan(static_cast<std::size_t>(matrix.size()));
-  return matrix;
+/// As many values as there are in `values`.
+template <class Values>
+void take(std::span<const std::byte>& message, Values& values) {
+  const auto bytes =
+      std::as_writable_bytes(std::span(values.data(), static_cast<std::size_t>(values.size())));
+  std::copy_n(message.begin(), bytes.size(), bytes.begin());
+  message = message.subspan(bytes.size());
+}
+
+/// All of a part but its number.
+template <class Part, class Action>
+void forEachTable(Part& part, const Action& action) {
+  action(part.crosspoints);
+  action(part.flexibility);
+  action(part.response);
+  action(part.crosspointStiffness);
+  action(part.crosspointDiagonal);
+  action(part.weightedStiffness);
+  action(part.weights);
 }
 
 /// Far below what any threshold asks for, and above the round-off of S but where stiffness jumps by orders of magnitude.
@@ -75,27 +91,29 @@ Eigen::MatrixXd crosspointFlexibility(const std::vector<JointPart>& parts) {
   if (size == 0)
     return Eigen::MatrixXd::Zero(response.rows(), response.rows());
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * stiffness *
-                                                              scale.asDiagonal());
-  const double spring = std::max(leastSpring, -10 * solver.eigenvalues()[0]); // what is negative is round-off
-  const Eigen::MatrixXd modes = response * scale.asDiagonal() * solver.eigenvectors();
-  return modes * solver.eigenvalues().cwiseMax(spring).cwiseInverse().asDiagonal() * modes.transpose();
+  const direct::SymmetricEigen eigen = direct::eigenOf(scale.asDiagonal() * stiffness * scale.asDiagonal());
+  const double spring = std::max(leastSpring, -10 * eigen.values[0]); // what is negative is round-off
+  const Eigen::MatrixXd modes = response * scale.asDiagonal() * eigen.vectors;
+  return modes * eigen.values.cwiseMax(spring).cwiseInverse().asDiagonal() * modes.transpose();
 }
 
 } // namespace
 
+JointPart::JointPart(int number, Eigen::Index numRows, Eigen::Index numCrosspoints)
+    : subdomain(number), crosspoints(static_cast<std::size_t>(numCrosspoints)),
+      flexibility(Eigen::MatrixXd::Zero(numRows, numRows)),
+      response(Eigen::MatrixXd::Zero(numRows, numCrosspoints)),
+      crosspointStiffness(Eigen::MatrixXd::Zero(numCrosspoints, numCrosspoints)),
+      crosspointDiagonal(Eigen::VectorXd::Zero(numCrosspoints)),
+      weightedStiffness(Eigen::MatrixXd::Zero(numRows, numRows)), weights(Eigen::VectorXd::Zero(numRows)) {}
+
 JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdomain& condensed,
                  const CondensedBoundary& boundary, std::span<const int> rows,
                  PreconditionerParameters::Scaling scaling) {
-  const auto size = static_cast<Eigen::Index>(rows.size());
-  JointPart part;
-  part.subdomain = subdomain.number;
+  JointPart part(subdomain.number, static_cast<Eigen::Index>(rows.size()), condensed.numCrosspoints());
   part.crosspoints = subdomain.crosspointIndices;
-  part.flexibility = part.weightedStiffness = Eigen::MatrixXd::Zero(size, size);
-  part.response = Eigen::MatrixXd::Zero(size, condensed.numCrosspoints());
   part.crosspointStiffness = condensed.schurComplement();
   part.crosspointDiagonal = subdomain.stiffness->diagonal()(subdomain.crosspointUnknowns);
-  part.weights = Eigen::VectorXd::Zero(size);
   const std::vector<Entry> entries = entriesOf(subdomain, condensed.interface(), rows, scaling);
   for (const Entry& b : entries) {
     part.response.row(b.row) += b.coefficient * condensed.boundaryResponse().row(b.place);
@@ -109,35 +127,18 @@ JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdo
   return part;
 }
 
-void pack(const JointPart& part, std::vector<double>& message) {
-  message.insert(message.end(),
-                 {static_cast<double>(part.subdomain), static_cast<double>(part.response.rows()),
-                  static_cast<double>(part.response.cols())});
-  message.insert(message.end(), part.crosspoints.begin(), part.crosspoints.end());
-  append(message, part.flexibility);
-  append(message, part.response);
-  append(message, part.crosspointStiffness);
-  append(message, part.crosspointDiagonal);
-  append(message, part.weightedStiffness);
-  append(message, part.weights);
+void pack(GlobalOrdinal firstRow, const JointPart& part, std::vector<std::byte>& message) {
+  put(message,
+      std::array<GlobalOrdinal, 4>{firstRow, part.subdomain, part.response.rows(), part.response.cols()});
+  forEachTable(part, [&](const auto& table) { put(message, table); });
 }
 
-JointPart unpack(std::span<const double>& message) {
-  JointPart part;
-  part.subdomain = static_cast<int>(message[0]);
-  const auto size = static_cast<Eigen::Index>(message[1]),
-             numCrosspoints = static_cast<Eigen::Index>(message[2]);
-  message = message.subspan(3);
-  for (const double crosspoint : message.first(static_cast<std::size_t>(numCrosspoints)))
-    part.crosspoints.push_back(static_cast<GlobalOrdinal>(crosspoint));
-  message = message.subspan(part.crosspoints.size());
-  part.flexibility = take(message, size, size);
-  part.response = take(message, size, numCrosspoints);
-  part.crosspointStiffness = take(message, numCrosspoints, numCrosspoints);
-  part.crosspointDiagonal = take(message, numCrosspoints, 1);
-  part.weightedStiffness = take(message, size, size);
-  part.weights = take(message, size, 1);
-  return part;
+std::pair<GlobalOrdinal, JointPart> unpack(std::span<const std::byte>& message) {
+  std::array<GlobalOrdinal, 4> head{};
+  take(message, head);
+  JointPart part(static_cast<int>(head[1]), head[2], head[3]);
+  forEachTable(part, [&](auto& table) { take(message, table); });
+  return {head[0], std::move(part)};
 }
 
 JointStiffness joined(const std::vector<JointPart>& parts) {
@@ -155,24 +156,22 @@ JointStiffness joined(const std::vector<JointPart>& parts) {
 }
 
 OverratedJumps overratedJumps(const JointStiffness& joint, double threshold) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(joint.preconditioner); // M_E = LLᵀ
-  if (factor.info() != Eigen::Success)
+  const std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(joint.preconditioner); // M_E = LLᵀ
+  if (!lower)
     throw Error(
         "the preconditioner of an interface is not positive definite: round-off has grown too large; avoid "
         "very flat elements and very large jumps of stiffness, or set Adaptive Constraints/Use to 'no'");
-  const Eigen::MatrixXd lower = factor.matrixL();
-  Eigen::MatrixXd product =
-      lower.transpose() * joint.flexibility * lower; // LᵀF_E L x = ω x, y = F_E L x, M_E y = ω L x
-  product = (0.5 * (product + product.transpose())).eval();
-  const Eigen::Index size = product.rows();
-  if ((threshold * Eigen::MatrixXd::Identity(size, size) - product).llt().info() == Eigen::Success)
+  const Eigen::MatrixXd product =
+      lower->transpose() * joint.flexibility * *lower; // LᵀF_E L x = ω x, y = F_E L x, M_E y = ω L x
+  const Eigen::MatrixXd symmetric = 0.5 * (product + product.transpose());
+  const Eigen::Index size = symmetric.rows();
+  if (direct::choleskyFactor(threshold * Eigen::MatrixXd::Identity(size, size) - symmetric))
     return {Eigen::VectorXd(0), Eigen::MatrixXd(size, 0), Eigen::MatrixXd(size, 0)}; // all ω are below it
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product);
-  Eigen::Index number = 0;
-  while (number < size && solver.eigenvalues()[size - 1 - number] > threshold)
-    ++number;
-  const Eigen::MatrixXd x = solver.eigenvectors().rightCols(number).rowwise().reverse();
-  return {solver.eigenvalues().tail(number).reverse(), factor.matrixU().solve(x), lower * x};
+  const direct::SymmetricEigen eigen = direct::eigenOf(symmetric);
+  const Eigen::Index number = size - eigen.numUpTo(threshold);
+  const Eigen::MatrixXd x = eigen.vectors.rightCols(number).rowwise().reverse();
+  return {eigen.values.tail(number).reverse(), lower->transpose().triangularView<Eigen::Upper>().solve(x),
+          *lower * x};
 }
 
 } // namespace epafi::fetidp

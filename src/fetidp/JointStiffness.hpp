@@ -13,14 +13,18 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace epafi::fetidp {
 
 /// What one subdomain contributes to a joint of n_E rows; n_c crosspoint values.
 struct JointPart {
-  int subdomain = 0;                      ///< its number
+  JointPart(int number, Eigen::Index numRows, Eigen::Index numCrosspoints); ///< all 0
+
+  int subdomain;                          ///< its number
   std::vector<GlobalOrdinal> crosspoints; ///< coarse index of each crosspoint value
   Eigen::MatrixXd flexibility;            ///< B_E S_ΔΔ⁻¹ B_Eᵀ, n_E × n_E
   Eigen::MatrixXd response;               ///< B_E Ψ_Δ, n_E × n_c
@@ -40,10 +44,10 @@ JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdo
                  const CondensedBoundary& boundary, std::span<const int> rows,
                  PreconditionerParameters::Scaling scaling);
 
-/// As numbers for a message.
-void pack(const JointPart& part, std::vector<double>& message);
-/// Takes a part off the front of `message`.
-JointPart unpack(std::span<const double>& message);
+/// Puts a part of the joint with a first row (global index) at the end of a message.
+void pack(GlobalOrdinal firstRow, const JointPart& part, std::vector<std::byte>& message);
+/// Takes first row and part off the front of `message`.
+std::pair<GlobalOrdinal, JointPart> unpack(std::span<const std::byte>& message);
 
 /// F_E and M_E, n_E × n_E, symmetric positive definite.
 struct JointStiffness {

@@ -5,7 +5,7 @@
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
-#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,59 +18,47 @@ namespace {
 using decomposition::DecomposedProblem;
 using decomposition::Subdomain;
 
+using IntVector = Tpetra::Vector<int>;
+
 /// values = the largest that any rank has at each row, everywhere; values ≥ 0. Collective.
-void maximiseOverRanks(const Import& plan, MultiVector& values) {
-  MultiVector owned(plan.getSourceMap(), values.getNumVectors());
+void maximiseOverRanks(const Import& plan, IntVector& values) {
+  IntVector owned(plan.getSourceMap());
   owned.doExport(values, plan, Tpetra::ABSMAX);
   values.doImport(owned, plan, Tpetra::INSERT);
 }
 
-/// Numbers of the subdomains that touch each row of this rank, ascending: the largest first, then the largest of the others,
-/// until none is left. Collective.
+/// Numbers of the subdomains that touch each row of this rank, ascending, and behind them `numSubdomains` where one does at a
+/// crosspoint value: the largest first, then the largest of the others, until none is left. Collective.
 std::vector<std::vector<int>> subdomainsOfRows(const DecomposedProblem& problem, const Import& plan) {
-  MultiVector largest(plan.getTargetMap(), 1); // number + 1; 0 where there is none
+  IntVector largest(plan.getTargetMap()); // number + 1; 0 where there is none
   std::vector<std::vector<int>> subdomains(largest.getLocalLength());
-  std::vector<double> limit(subdomains.size(), std::numeric_limits<double>::infinity());
-  double found = 1;
-  while (found > 0) {
+  bool isAnyLeft = true;
+  while (holdsAnywhere(*problem.comm, isAnyLeft)) {
     {
-      const auto values = largest.getDataNonConst(0);
-      std::fill(values.begin(), values.end(), 0.0);
-      for (const Subdomain& subdomain : problem.subdomains)
-        for (const auto& entry : subdomain.constraint)
-          if (const double number = subdomain.number + 1.0;
-              number < limit[static_cast<std::size_t>(entry.multiplier)])
-            values[entry.multiplier] = std::max(values[entry.multiplier], number);
+      const auto values = largest.getDataNonConst();
+      std::fill(values.begin(), values.end(), 0);
+      for (const Subdomain& subdomain : problem.subdomains) {
+        const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
+        for (const auto& entry : subdomain.constraint) {
+          const auto& found = subdomains[static_cast<std::size_t>(entry.multiplier)];
+          const bool isAtCrosspoint =
+              std::binary_search(crosspoints.begin(), crosspoints.end(), entry.unknown);
+          for (const int number : {subdomain.number, isAtCrosspoint ? problem.numSubdomains : -1})
+            if (found.empty() || number < found.front())
+              values[entry.multiplier] = std::max(values[entry.multiplier], number + 1);
+        }
+      }
     }
     maximiseOverRanks(plan, largest);
-    found = 0;
-    const auto values = largest.getData(0);
+    const auto values = largest.getData();
+    isAnyLeft = false;
     for (std::size_t row = 0; row < subdomains.size(); ++row)
-      if (const double number = values[static_cast<Teuchos_Ordinal>(row)]; number > 0) {
-        subdomains[row].insert(subdomains[row].begin(), static_cast<int>(number) - 1);
-        limit[row] = found = number;
+      if (const int number = values[static_cast<Teuchos_Ordinal>(row)]; number > 0) {
+        subdomains[row].insert(subdomains[row].begin(), number - 1);
+        isAnyLeft = true;
       }
-    found = maxOverRanks(*problem.comm, found);
   }
   return subdomains;
-}
-
-/// Whether a row touches a crosspoint value, anywhere. Collective.
-std::vector<bool> rowsAtCrosspoints(const DecomposedProblem& problem, const Import& plan) {
-  MultiVector touches(plan.getTargetMap(), 1);
-  for (const Subdomain& subdomain : problem.subdomains) {
-    const auto values = touches.getDataNonConst(0);
-    const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
-    for (const auto& entry : subdomain.constraint)
-      if (std::binary_search(crosspoints.begin(), crosspoints.end(), entry.unknown))
-        values[entry.multiplier] = 1;
-  }
-  maximiseOverRanks(plan, touches);
-  const auto values = touches.getData(0);
-  std::vector<bool> result;
-  for (const double value : values)
-    result.push_back(value > 0);
-  return result;
 }
 
 /// The diagonal of K^s as it is for the values of nodes, n_s. Where unknowns are an average a and deviations, the value of
@@ -113,13 +101,12 @@ std::vector<int> carriersOf(const Subdomain& subdomain) {
 
 std::vector<Joint> jointsOf(const DecomposedProblem& problem, const Import& plan, JointKind kind) {
   const std::vector<std::vector<int>> subdomains = subdomainsOfRows(problem, plan);
-  const std::vector<bool> isAtCrosspoint = rowsAtCrosspoints(problem, plan);
   const Map& ghosts = *plan.getTargetMap();
   std::map<std::vector<int>, std::vector<int>> rowsOf;
   for (std::size_t row = 0; row < subdomains.size(); ++row)
     if ((ghosts.getGlobalElement(static_cast<LocalOrdinal>(row)) < problem.numInequalities) ==
             (kind == JointKind::contact) &&
-        !subdomains[row].empty() && !isAtCrosspoint[row])
+        !subdomains[row].empty() && subdomains[row].back() < problem.numSubdomains)
       rowsOf[subdomains[row]].push_back(static_cast<int>(row));
   const auto before = [&ghosts](int a, int b) {
     return ghosts.getGlobalElement(a) < ghosts.getGlobalElement(b);
@@ -164,8 +151,8 @@ std::vector<bool> stiffnessVaries(const DecomposedProblem& problem, const Import
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (const int row : joints[j].rows)
       jointOf[static_cast<std::size_t>(row)] = static_cast<int>(j);
-  MultiVector varies(plan.getTargetMap(), 1); // at the joint's first row
-  std::vector<double> least, largest;         // of one subdomain at each joint
+  IntVector varies(plan.getTargetMap()); // at the joint's first row
+  std::vector<double> least, largest;    // of one subdomain at each joint
   for (const Subdomain& subdomain : problem.subdomains) {
     const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);
     const std::vector<int> carriers = carriersOf(subdomain);
@@ -179,14 +166,14 @@ std::vector<bool> stiffnessVaries(const DecomposedProblem& problem, const Import
           largest[static_cast<std::size_t>(j)] =
               std::max(largest[static_cast<std::size_t>(j)], diagonal[unknown]);
         }
-    const auto values = varies.getDataNonConst(0);
+    const auto values = varies.getDataNonConst();
     const bool isAlways = !always.empty() && always[static_cast<std::size_t>(subdomain.body)];
     for (std::size_t j = 0; j < joints.size(); ++j)
       if (largest[j] > ratio * least[j] || (isAlways && largest[j] > 0))
         values[joints[j].rows.front()] = 1;
   }
   maximiseOverRanks(plan, varies);
-  const auto values = varies.getData(0);
+  const auto values = varies.getData();
   std::vector<bool> result;
   for (const Joint& joint : joints)
     result.push_back(values[joint.rows.front()] > 0);

@@ -1,11 +1,13 @@
 #include "epafi/fetidp/MotionWords.hpp"
 
+#include "epafi/base/Text.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
-#include <sstream>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -18,49 +20,27 @@ using Eigen::Vector3d;
 /// Shares of a motion that are not worth a word.
 constexpr double small = 1e-6;
 
-/// Displacement of a body's centre, then its rotation times its size, so that all six are lengths; of a body without known
-/// motions the mode's amplitudes. Numbers, one block a body.
-Eigen::MatrixXd coordinatesOf(const Body& body) {
-  if (!body.motions)
-    return Eigen::MatrixXd::Identity(body.kernelDimension, body.kernelDimension);
-  Eigen::MatrixXd coordinates = body.motions->twists;
-  coordinates.bottomRows(3) *= body.motions->size;
+/// Motions (columns) as lengths, body after body: displacement of its centre, then its rotation times its size; of a body
+/// without known motions the modes' amplitudes.
+Eigen::MatrixXd coordinatesOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions) {
+  Eigen::MatrixXd coordinates(0, motions.cols());
+  for (const Body& body : problem.bodies) {
+    Eigen::MatrixXd own = motions.middleRows(body.kernelOffset, body.kernelDimension);
+    if (body.motions) {
+      own = (body.motions->twists * own).eval();
+      own.bottomRows(3) *= body.motions->size;
+    }
+    coordinates.conservativeResize(coordinates.rows() + own.rows(), Eigen::NoChange);
+    coordinates.bottomRows(own.rows()) = own;
+  }
   return coordinates;
-}
-
-Eigen::VectorXd coordinates(const Body& body, const Eigen::VectorXd& motion) {
-  return coordinatesOf(body) * motion.segment(body.kernelOffset, body.kernelDimension);
-}
-
-/// Places of the bodies that move.
-std::vector<std::size_t> moving(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
-  std::vector<double> sizes;
-  for (const Body& body : problem.bodies)
-    sizes.push_back(body.kernelDimension > 0 ? coordinates(body, motion).norm() : 0.0);
-  const double largest = sizes.empty() ? 0.0 : *std::max_element(sizes.begin(), sizes.end());
-  std::vector<std::size_t> places;
-  for (std::size_t b = 0; b < sizes.size(); ++b)
-    if (sizes[b] > small * largest)
-      places.push_back(b);
-  return places;
-}
-
-std::string named(const DecomposedProblem& problem, const std::vector<std::size_t>& places) {
-  std::string names;
-  for (const std::size_t b : places)
-    names += (names.empty() ? "'" : "', '") + problem.bodies[b].name;
-  return (places.size() > 1 ? "the floating bodies " : "the floating body ") + names + "'";
 }
 
 /// "(1, 2, 3)"; what is round-off beside `size` is 0.
 std::string pointText(const Vector3d& point, double size, int components) {
-  std::ostringstream text;
-  text.precision(4);
-  text << '(';
-  for (int c = 0; c < components; ++c)
-    text << (c > 0 ? ", " : "") << (std::abs(point[c]) > small * size ? point[c] : 0.0);
-  text << ')';
-  return text.str();
+  const Eigen::VectorXd rounded =
+      (point.array().abs() > small * size).select(point.array(), 0.0).head(components);
+  return text(rounded, 4);
 }
 
 /// "x" or "(0.6, 0.8, 0)".
@@ -72,7 +52,7 @@ std::string directionText(const Vector3d& direction, int components) {
   return pointText(unit, 1, components);
 }
 
-/// Slide, turn, or both.
+/// Slide, turn, or both; "move" where nobody knows.
 std::string verbOf(const Body& body, const Eigen::VectorXd& coordinates, int components) {
   if (!body.motions)
     return "move";
@@ -81,23 +61,46 @@ std::string verbOf(const Body& body, const Eigen::VectorXd& coordinates, int com
   if (turn.norm() * size <= small * slide.norm())
     return "slide along " + directionText(slide, components);
   const double squared = turn.squaredNorm();
-  const Vector3d arm = turn.cross(slide) / squared; // from the centre to the axis: c + ω × v/|ω|²
-  const Vector3d point = body.motions->centre + arm;
-  const double scale = std::max(size, body.motions->centre.norm());
+  // From the centre to the axis: c + ω × v/|ω|².
+  const Vector3d point = body.motions->centre + Vector3d(turn.cross(slide)) / squared;
+  const std::string where = pointText(point, std::max(size, body.motions->centre.norm()), components);
   if (components == 2)
-    return "turn about the point " + pointText(point, scale, 2);
+    return "turn about the point " + where;
   const double pitch = turn.dot(slide) / squared;
-  const std::string along = directionText(turn, 3);
-  return "turn about the axis through " + pointText(point, scale, 3) + " along " + along +
+  return "turn about the axis through " + where + " along " + directionText(turn, 3) +
          (std::abs(pitch) > small * size ? " while it slides along it" : "");
 }
 
-/// "a, b and c".
-std::string enumerated(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    text += (k == 0 ? "" : k + 1 < parts.size() ? ", " : " and ") + parts[k];
-  return text;
+struct Moves {
+  std::vector<const Body*> bodies; ///< in the order of the problem
+  std::vector<std::string> verbs;  ///< of each
+
+  [[nodiscard]] bool areAlike() const {
+    return std::adjacent_find(verbs.begin(), verbs.end(), std::not_equal_to<>()) == verbs.end();
+  }
+};
+
+/// Of the bodies that move by more than `share` of what moves most.
+Moves movesOf(const DecomposedProblem& problem, const Eigen::VectorXd& coordinates, double share) {
+  Moves moves;
+  Eigen::Index first = 0;
+  for (const Body& body : problem.bodies) {
+    const Eigen::Index size = body.motions ? body.motions->twists.rows() : body.kernelDimension;
+    const Eigen::VectorXd own = coordinates.segment(first, size);
+    first += size;
+    if (own.norm() > share * coordinates.norm()) {
+      moves.bodies.push_back(&body);
+      moves.verbs.push_back(verbOf(body, own, problem.components));
+    }
+  }
+  return moves;
+}
+
+std::string namesOf(const std::vector<const Body*>& bodies) {
+  std::string names;
+  for (const Body* body : bodies)
+    names += (names.empty() ? "'" : "', '") + body->name;
+  return (bodies.size() > 1 ? "the floating bodies " : "the floating body ") + names + "'";
 }
 
 /// Gauss–Jordan: rows that span the same, each beginning with a 1 where all others have a 0.
@@ -119,63 +122,32 @@ Eigen::MatrixXd reduced(Eigen::MatrixXd rows) {
 
 } // namespace
 
-std::string bodiesOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
-  return named(problem, moving(problem, motion));
-}
-
-std::string wordsOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
-  const std::vector<std::size_t> places = moving(problem, motion);
-  std::vector<std::string> verbs;
-  for (const std::size_t b : places)
-    verbs.push_back(verbOf(problem.bodies[b], coordinates(problem.bodies[b], motion), problem.components));
-  if (std::all_of(verbs.begin(), verbs.end(), [&](const std::string& verb) { return verb == verbs[0]; }))
-    return verbs.empty() ? "move" : verbs[0];
-  std::string text;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    text += (k > 0 ? ", '" : "'") + problem.bodies[places[k]].name + "' to " + verbs[k];
-  return text;
+MotionWords wordsOf(const DecomposedProblem& problem, const Eigen::VectorXd& motion) {
+  const Moves moves = movesOf(problem, coordinatesOf(problem, motion), small);
+  MotionWords words{namesOf(moves.bodies), ""};
+  if (moves.areAlike()) {
+    words.motion = moves.verbs.empty() || moves.verbs[0] == "move" ? "" : moves.verbs[0];
+    return words;
+  }
+  for (std::size_t k = 0; k < moves.verbs.size(); ++k)
+    words.motion += (k > 0 ? ", '" : "'") + moves.bodies[k]->name + "' to " + moves.verbs[k];
+  return words;
 }
 
 std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions) {
-  // In coordinates of all bodies, where the simplest combinations are those of fewest entries.
-  Eigen::Index numCoordinates = 0;
-  std::vector<Eigen::Index> offset;
-  for (const Body& body : problem.bodies) {
-    offset.push_back(numCoordinates);
-    numCoordinates += body.kernelDimension > 0 ? coordinatesOf(body).rows() : 0;
-  }
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(motions.cols(), numCoordinates);
-  for (std::size_t b = 0; b < problem.bodies.size(); ++b)
-    for (Eigen::Index m = 0; m < motions.cols() && problem.bodies[b].kernelDimension > 0; ++m) {
-      const Eigen::VectorXd own = coordinates(problem.bodies[b], motions.col(m));
-      rows.row(m).segment(offset[b], own.size()) = own.transpose();
-    }
-  for (Eigen::Index m = 0; m < rows.rows(); ++m)
-    rows.row(m).normalize();
-  rows = reduced(rows);
-
-  std::map<std::vector<std::size_t>, std::vector<std::string>> verbs; // of the bodies that do it together
+  // The simplest combinations are those with the fewest coordinates.
+  const Eigen::MatrixXd rows = reduced(coordinatesOf(problem, motions).colwise().normalized().transpose());
+  std::map<std::vector<const Body*>, std::vector<std::string>> verbs; // of the bodies that do it together
   for (Eigen::Index m = 0; m < rows.rows(); ++m) {
-    std::vector<std::size_t> who;
-    std::vector<std::string> what;
-    for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
-      const Body& body = problem.bodies[b];
-      if (body.kernelDimension == 0)
-        continue;
-      const Eigen::VectorXd own = rows.row(m).segment(offset[b], coordinatesOf(body).rows()).transpose();
-      if (own.norm() <= 1e-4 * rows.row(m).norm())
-        continue;
-      who.push_back(b);
-      what.push_back(verbOf(body, own, problem.components));
-    }
-    std::string text = what.empty() ? "move" : what[0];
-    if (std::any_of(what.begin(), what.end(), [&](const std::string& verb) { return verb != what[0]; }))
-      text = "move together";
-    verbs[who].push_back(text);
+    const Moves moves = movesOf(problem, rows.row(m).transpose(), 1e-4);
+    verbs[moves.bodies].push_back(moves.areAlike() ? moves.verbs.at(0) : "move together");
   }
   std::string all;
-  for (const auto& [who, what] : verbs)
-    all += (all.empty() ? "" : "; ") + named(problem, who) + " can " + enumerated(what);
+  for (const auto& [who, what] : verbs) {
+    all += (all.empty() ? "" : "; ") + namesOf(who) + " can ";
+    for (std::size_t k = 0; k < what.size(); ++k) // "a, b and c"
+      all += (k == 0 ? "" : k + 1 < what.size() ? ", " : " and ") + what[k];
+  }
   return all;
 }
 

@@ -10,12 +10,15 @@
 
 namespace epafi::fetidp {
 
-/// Names of the floating bodies that take part in a rigid motion α: "the floating body 'plate'".
-std::string bodiesOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
+struct MotionWords {
+  std::string bodies; ///< that take part: "the floating body 'plate'"
+  /// What they do, such as "slide along x" or "turn about the axis through (0, 1, 0) along z"; of several bodies each with its
+  /// name. Empty where the problem does not say what the modes are.
+  std::string motion;
+};
 
-/// What they do, such as "slide along x" or "turn about the axis through (0, 1, 0) along z"; of several bodies each with
-/// its name. "move" where the problem does not say what the modes are.
-std::string wordsOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
+/// Of a rigid motion α.
+MotionWords wordsOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
 
 /// All that bodies can do by combinations of some motions (columns), in the simplest ones: "the floating body 'cube' can
 /// slide along x, slide along y, turn about …".

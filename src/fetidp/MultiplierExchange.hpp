@@ -8,6 +8,7 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -30,6 +31,12 @@ public:
   std::span<double> values(std::size_t numColumns = 1) {
     prepare(numColumns);
     return view();
+  }
+  /// The same, with zeros.
+  std::span<double> zeros(std::size_t numColumns = 1) {
+    const std::span<double> all = values(numColumns);
+    std::fill(all.begin(), all.end(), 0.0);
+    return all;
   }
   /// owned = sum of the contributions of all ranks. Precondition: it has as many columns. Collective.
   void sumToOwners(MultiVector& owned) {

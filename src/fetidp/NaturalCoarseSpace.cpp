@@ -32,10 +32,9 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
 
   for (std::size_t mode = 0; mode < numModes; ++mode) {
     const auto column = owned.getData(mode);
-    for (Teuchos_Ordinal row = 0; row < column.size(); ++row) {
+    for (LocalOrdinal row = 0; row < column.size(); ++row) {
       // Gluing rows cancel: both copies of a node have the same value of R.
-      const bool isContact =
-          problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(row)) < problem.numInequalities;
+      const bool isContact = problem.kindOfOwned(row) == decomposition::RowKind::contact;
       if (isContact && column[row] != 0)
         entries.push_back({static_cast<int>(row), static_cast<int>(mode), column[row]});
     }

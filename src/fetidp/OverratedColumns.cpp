@@ -1,6 +1,7 @@
 #include "epafi/fetidp/OverratedColumns.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/base/PointToPoint.hpp"
 #include "epafi/fetidp/JointStiffness.hpp"
 #include "epafi/fetidp/Joints.hpp"
@@ -8,6 +9,8 @@
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Operator.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -41,14 +44,15 @@ std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Import& 
 
 /// The rank of each subdomain. Collective.
 std::vector<int> ranksOfSubdomains(const DecomposedProblem& problem) {
-  std::vector<double> mine;
+  struct Place {
+    int subdomain, rank;
+  };
+  std::vector<Place> mine;
   for (const auto& subdomain : problem.subdomains)
-    mine.insert(mine.end(),
-                {static_cast<double>(subdomain.number), static_cast<double>(problem.comm->getRank())});
-  const std::vector<double> all = gatherOnAll(*problem.comm, mine);
+    mine.push_back({subdomain.number, problem.comm->getRank()});
   std::vector<int> ranks(static_cast<std::size_t>(problem.numSubdomains));
-  for (std::size_t k = 0; k < all.size(); k += 2)
-    ranks[static_cast<std::size_t>(all[k])] = static_cast<int>(all[k + 1]);
+  for (const Place& place : gatherOnAll(*problem.comm, mine))
+    ranks[static_cast<std::size_t>(place.subdomain)] = place.rank;
   return ranks;
 }
 
@@ -75,6 +79,10 @@ void forEachPart(const DecomposedProblem& problem, const GeneralizedInverse& inv
   }
 }
 
+GlobalOrdinal firstRowOf(const Joint& joint, const DecomposedProblem& problem) {
+  return problem.multiplierGhostMap->getGlobalElement(joint.rows.front());
+}
+
 /// The parts of each joint whose first subdomain is on this rank, in the order of the subdomains. Collective.
 std::vector<std::vector<JointPart>> gatheredParts(const DecomposedProblem& problem,
                                                   const GeneralizedInverse& inverse,
@@ -85,41 +93,30 @@ std::vector<std::vector<JointPart>> gatheredParts(const DecomposedProblem& probl
   const auto rankOfFirst = [&](const Joint& joint) {
     return rankOf[static_cast<std::size_t>(joint.subdomains.front())];
   };
-  const Map& ghosts = *problem.multiplierGhostMap;
-  const auto key = [&](const Joint& joint) { return ghosts.getGlobalElement(joint.rows.front()); };
-  std::map<GlobalOrdinal, std::size_t> jointOf;
+  std::map<GlobalOrdinal, std::size_t> jointOf; // by its first row
   std::set<int> senders;
-  std::map<int, std::vector<double>> outgoing;
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    jointOf[key(joints[j])] = j;
-    for (const int number : joints[j].subdomains) {
-      const int rank = rankOf[static_cast<std::size_t>(number)];
-      if (rankOfFirst(joints[j]) == here && rank != here)
-        senders.insert(rank);
-      if (rank == here && rankOfFirst(joints[j]) != here)
-        outgoing[rankOfFirst(joints[j])];
-    }
+    jointOf[firstRowOf(joints[j], problem)] = j;
+    if (rankOfFirst(joints[j]) == here)
+      for (const int number : joints[j].subdomains)
+        senders.insert(rankOf[static_cast<std::size_t>(number)]);
   }
+  senders.erase(here);
   std::vector<std::vector<JointPart>> parts(joints.size());
+  std::map<int, std::vector<std::byte>> outgoing;
   collectively(*problem.comm, [&] {
     forEachPart(problem, inverse, joints, scaling, [&](std::size_t j, JointPart part) {
-      if (rankOfFirst(joints[j]) == here) {
+      if (const int rank = rankOfFirst(joints[j]); rank != here)
+        pack(firstRowOf(joints[j], problem), part, outgoing[rank]);
+      else
         parts[j].push_back(std::move(part));
-        return;
-      }
-      std::vector<double>& message = outgoing[rankOfFirst(joints[j])];
-      message.push_back(static_cast<double>(key(joints[j])));
-      pack(part, message);
     });
   });
-  for (const auto& [rank, values] : exchangeMessages(*problem.comm, outgoing, senders)) {
-    std::span<const double> message(values);
-    while (!message.empty()) {
-      const std::size_t j = jointOf.at(static_cast<GlobalOrdinal>(message.front()));
-      message = message.subspan(1);
-      parts[j].push_back(unpack(message));
+  for (const auto& [rank, bytes] : exchange(*problem.comm, outgoing, senders))
+    for (std::span<const std::byte> message(bytes); !message.empty();) {
+      auto [firstRow, part] = unpack(message);
+      parts[jointOf.at(firstRow)].push_back(std::move(part));
     }
-  }
   for (std::vector<JointPart>& list : parts)
     std::sort(list.begin(), list.end(),
               [](const JointPart& a, const JointPart& b) { return a.subdomain < b.subdomain; });
@@ -129,19 +126,15 @@ std::vector<std::vector<JointPart>> gatheredParts(const DecomposedProblem& probl
 /// A column that could be made: its ratio ω, the first row of its joint (global index), its place there.
 struct Candidate {
   double ratio;
-  GlobalOrdinal firstRow;
-  int place;
+  GlobalOrdinal firstRow, place;
 
-  [[nodiscard]] std::pair<GlobalOrdinal, int> key() const { return {firstRow, place}; }
+  [[nodiscard]] auto key() const { return std::pair(firstRow, place); }
 };
 
 /// Candidates of all ranks, the worst ones if there are too many, in the order of their joints. Collective.
-std::vector<Candidate> chosenCandidates(const Comm& comm, const std::vector<double>& mine,
+std::vector<Candidate> chosenCandidates(const Comm& comm, const std::vector<Candidate>& mine,
                                         std::size_t maxNumber) {
-  const std::vector<double> all = gatherOnAll(comm, mine);
-  std::vector<Candidate> candidates;
-  for (std::size_t k = 0; k < all.size(); k += 3)
-    candidates.push_back({all[k], static_cast<GlobalOrdinal>(all[k + 1]), static_cast<int>(all[k + 2])});
+  std::vector<Candidate> candidates = gatherOnAll(comm, mine);
   if (candidates.size() > maxNumber) {
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return a.ratio != b.ratio ? a.ratio > b.ratio : a.key() < b.key();
@@ -159,45 +152,63 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, const Ge
                                       JointKind kind, const AdaptiveConstraintParameters& parameters,
                                       PreconditionerParameters::Scaling scaling) {
   OverratedColumns columns;
+  const Comm& comm = *problem.comm;
   const std::vector<Joint> joints = chosenJoints(problem, *inverse.multiplierPlan(), kind, parameters);
-  if (maxOverRanks(*problem.comm, static_cast<double>(joints.size())) == 0)
+  if (!holdsAnywhere(comm, !joints.empty()))
     return columns;
   const std::vector<std::vector<JointPart>> parts = gatheredParts(problem, inverse, joints, scaling);
 
   std::vector<OverratedJumps> jumps(joints.size());
-  std::vector<double> mine; // ratio, first row, place of each candidate
-  const auto firstRow = [&](std::size_t j) {
-    return problem.multiplierGhostMap->getGlobalElement(joints[j].rows.front());
-  };
-  double numJoints = 0;
-  collectively(*problem.comm, [&] {
+  std::vector<Candidate> mine;
+  collectively(comm, [&] {
     for (std::size_t j = 0; j < joints.size(); ++j) {
       if (parts[j].empty())
         continue;
-      ++numJoints;
+      ++columns.numJoints;
       jumps[j] = overratedJumps(joined(parts[j]), parameters.threshold);
       for (Eigen::Index k = 0; k < jumps[j].ratios.size(); ++k)
-        mine.insert(mine.end(),
-                    {jumps[j].ratios[k], static_cast<double>(firstRow(j)), static_cast<double>(k)});
+        mine.push_back({jumps[j].ratios[k], firstRowOf(joints[j], problem), k});
     }
   });
-  columns.numJoints = static_cast<int>(sumOverRanks(*problem.comm, numJoints));
-  const std::vector<Candidate> chosen =
-      chosenCandidates(*problem.comm, mine, static_cast<std::size_t>(parameters.maxNumber));
-  std::map<std::pair<GlobalOrdinal, int>, int> columnOf;
-  for (const Candidate& candidate : chosen) {
+  columns.numJoints = sumOverRanks(comm, columns.numJoints);
+  std::map<std::pair<GlobalOrdinal, GlobalOrdinal>, int> columnOf;
+  for (const Candidate& candidate :
+       chosenCandidates(comm, mine, static_cast<std::size_t>(parameters.maxNumber))) {
     columnOf.emplace(candidate.key(), columns.number++);
     columns.largestRatio = std::max(columns.largestRatio, candidate.ratio);
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Eigen::MatrixXd& values = kind == JointKind::gluing ? jumps[j].forces : jumps[j].jumps;
     for (Eigen::Index k = 0; k < jumps[j].ratios.size(); ++k)
-      if (const auto found = columnOf.find({firstRow(j), static_cast<int>(k)}); found != columnOf.end())
+      if (const auto found = columnOf.find({firstRowOf(joints[j], problem), k}); found != columnOf.end())
         for (std::size_t i = 0; i < joints[j].rows.size(); ++i)
           columns.entries.push_back(
               {joints[j].rows[i], found->second, values(static_cast<Eigen::Index>(i), k)});
   }
   return columns;
+}
+
+qp::ColumnSpace spaceOf(const OverratedColumns& columns, const Import& plan, const Operator& a,
+                        const Operator* m) {
+  constexpr int batch = 32; // products at once
+  qp::ColumnSpace space(plan.getSourceMap());
+  for (int first = 0; first < columns.number; first += batch) {
+    const auto count = static_cast<std::size_t>(std::min(batch, columns.number - first));
+    MultiVector made(plan.getTargetMap(), count), u(plan.getSourceMap(), count);
+    for (const OverratedColumns::Entry& entry : columns.entries)
+      if (const auto column = static_cast<std::size_t>(entry.column - first);
+          entry.column >= first && column < count)
+        made.replaceLocalValue(entry.row, column, entry.value);
+    u.doExport(made, plan, Tpetra::ADD);
+    if (m != nullptr)
+      m->apply(MultiVector(u, Teuchos::Copy), u);
+    space.add(a, u);
+  }
+  if (!space.factorize()) // the same on all ranks
+    throw Error("the adaptive constraints are not independent: round-off in the subdomain solves has grown "
+                "too large; avoid very flat elements and very large jumps of stiffness, or set Adaptive "
+                "Constraints/Use to 'no'");
+  return space;
 }
 
 } // namespace epafi::fetidp

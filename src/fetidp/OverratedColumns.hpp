@@ -2,7 +2,7 @@
 
 /// Jumps between subdomains that the preconditioner overrates, of all joints (Joints.hpp), found where the stiffness jumps
 /// within a subdomain: along each joint a generalised eigenproblem shows them (JointStiffness.hpp). Jumps of gluing become
-/// *adaptive constraints*, enforced by deflation (DeflatedDualOperator.hpp), so that neither the decomposition nor the coarse
+/// *adaptive constraints*, enforced by deflation (qp/DeflatedOperator.hpp), so that neither the decomposition nor the coarse
 /// problem knows of them: with all ω below τ, κ(MF) ≤ N² τ where no contact is, N the most joints of a subdomain (Klawonn,
 /// Radtke, Rheinbach, *ETNA* 45 (2016)). Jumps of contact cannot be constrained, for contact may open; they correct the
 /// preconditioner (CorrectedPreconditioner.hpp).
@@ -10,6 +10,7 @@
 #include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/fetidp/Joints.hpp"
+#include "epafi/qp/ColumnSpace.hpp"
 
 #include <vector>
 
@@ -36,5 +37,16 @@ OverratedColumns findOverratedColumns(const decomposition::DecomposedProblem& pr
                                       const GeneralizedInverse& inverse, JointKind kind,
                                       const AdaptiveConstraintParameters& parameters,
                                       PreconditionerParameters::Scaling scaling);
+
+/// U beside A: the columns themselves, or M times them. Costs a product with A for each, and with M, 32 at once.
+///
+/// Columns of gluing have no entries in rows of contact, so that bounds are not touched, and rigid motions keep bodies glued,
+/// so that GU = 0 and GP = G: λ = Pμ + U(UᵀFU)⁻¹Uᵀd̃ is in equilibrium if μ is, and PᵀFP is the dual operator of the
+/// displacements with UᵀBu = 0 (Klawonn, Rheinbach, *ZAMM* 92 (2012)).
+/// \param plan  from multiplierMap to multiplierGhostMap
+/// \param m     null: the columns themselves
+/// \throws Error if UᵀAU is not positive definite. Collective.
+qp::ColumnSpace spaceOf(const OverratedColumns& columns, const Import& plan, const Operator& a,
+                        const Operator* m = nullptr);
 
 } // namespace epafi::fetidp

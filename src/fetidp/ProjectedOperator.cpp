@@ -8,17 +8,15 @@ namespace epafi::fetidp {
 
 ProjectedOperator::ProjectedOperator(RCP<const Operator> dualOperator,
                                      RCP<const NaturalCoarseSpace> coarseSpace)
-    : dualOperator_(std::move(dualOperator)), coarseSpace_(std::move(coarseSpace)),
-      projected_(dualOperator_->getDomainMap()), image_(dualOperator_->getRangeMap()) {}
+    : SymmetricOperator(dualOperator->getDomainMap()), dualOperator_(std::move(dualOperator)),
+      coarseSpace_(std::move(coarseSpace)), projected_(dualOperator_->getDomainMap()) {}
 
-void ProjectedOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
-                              double beta) const {
+void ProjectedOperator::multiply(const MultiVector& x, MultiVector& y) const {
   forEachColumn(x, y, [&](const Vector& in, Vector& out) {
     projected_.assign(in);
-    coarseSpace_->project(projected_);        // Px
-    dualOperator_->apply(projected_, image_); // FPx
-    coarseSpace_->project(image_);            // PFPx
-    out.update(alpha, image_, beta);
+    coarseSpace_->project(projected_);     // Px
+    dualOperator_->apply(projected_, out); // FPx
+    coarseSpace_->project(out);            // PFPx
   });
 }
 

@@ -1,21 +1,18 @@
 #include "epafi/fetidp/Projector.hpp"
 
-#include "epafi/base/Columns.hpp"
+#include <Tpetra_Vector.hpp>
 
 #include <utility>
 
 namespace epafi::fetidp {
 
 Projector::Projector(RCP<const Map> map, RCP<const NaturalCoarseSpace> space)
-    : map_(std::move(map)), space_(std::move(space)), projected_(map_) {}
+    : SymmetricOperator(std::move(map)), space_(std::move(space)) {}
 
-void Projector::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
-                      double beta) const {
-  forEachColumn(x, y, [&](const Vector& in, Vector& out) {
-    projected_.assign(in);
-    space_->project(projected_); // x − Gᵀ(Gx)
-    out.update(alpha, projected_, beta);
-  });
+void Projector::multiply(const MultiVector& x, MultiVector& y) const {
+  y.assign(x);
+  for (std::size_t column = 0; column < y.getNumVectors(); ++column)
+    space_->project(*y.getVectorNonConst(column)); // x − Gᵀ(Gx)
 }
 
 } // namespace epafi::fetidp

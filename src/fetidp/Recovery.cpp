@@ -56,9 +56,8 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
   const auto active = solution.active->getDataNonConst();
   AccurateSum sums[4]; // ‖g^P‖², λᵀg, force, active nodes
   double violation = 0, largestGap = 0;
-  for (Teuchos_Ordinal i = 0; i < force.size(); ++i) {
-    const bool isContact =
-        problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem.numInequalities;
+  for (LocalOrdinal i = 0; i < force.size(); ++i) {
+    const bool isContact = problem.kindOfOwned(i) == decomposition::RowKind::contact;
     const double projected = isContact && !(force[i] > 0) ? std::min(slack[i], 0.0) : slack[i];
     sums[0].add(projected * projected);
     violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]));
@@ -86,7 +85,7 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
 }
 
 /// K̄⁺(f̄ − B̄ᵀλ)
-SubdomainVectors unknownsOf(const DecomposedProblem& problem, GeneralizedInverse& inverse,
+SubdomainVectors unknownsOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
                             const Vector& lambda) {
   SubdomainVectors forces = loadsOf(problem), u;
   MultiplierExchange exchange(inverse.multiplierPlan());
@@ -97,29 +96,29 @@ SubdomainVectors unknownsOf(const DecomposedProblem& problem, GeneralizedInverse
 
 } // namespace
 
-std::vector<Eigen::VectorXd> displacementOf(const DecomposedProblem& problem, GeneralizedInverse& inverse,
-                                            const Vector& lambda) {
-  SubdomainVectors u = unknownsOf(problem, inverse, lambda);
+std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda) {
+  const DecomposedProblem& problem = dual.problem();
+  SubdomainVectors u = unknownsOf(problem, dual.inverse(), lambda);
   std::vector<Eigen::VectorXd> displacement;
   for (std::size_t s = 0; s < u.size(); ++s)
     displacement.push_back(atAllPositions(problem.subdomains[s], u[s]));
   return displacement;
 }
 
-ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& inverse,
-                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual,
-                        double operatorNorm) {
+ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
+  const DecomposedProblem& problem = dual.problem();
+  const GeneralizedInverse& inverse = dual.inverse();
   ContactSolution solution;
-  solution.multiplier = rcp(new Vector(*dual.lambda, Teuchos::Copy));
+  solution.multiplier = rcp(new Vector(*found.lambda, Teuchos::Copy));
   solution.slack = rcp(new Vector(problem.multiplierMap));
   solution.active = rcp(new Vector(problem.multiplierMap));
 
-  SubdomainVectors u = unknownsOf(problem, inverse, *dual.lambda);
+  SubdomainVectors u = unknownsOf(problem, inverse, *found.lambda);
   slackOf(problem, inverse, u, *solution.slack);
   solution.energy = energyOf(problem, u);
   if (problem.kernelDimension > 0) {
-    const Eigen::VectorXd alpha = rigidMotion(problem, kernelEntries, *dual.lambda, *solution.slack,
-                                              dual.report.status == qp::Status::converged);
+    const Eigen::VectorXd alpha = rigidMotion(problem, dual.kernelEntries(), *found.lambda, *solution.slack,
+                                              found.report.status == qp::Status::converged);
     solution.energy -= kernelLoad(problem, loadsOf(problem)).dot(alpha);
     for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
       const auto& subdomain = problem.subdomains[s];
@@ -137,7 +136,7 @@ ContactSolution recover(const DecomposedProblem& problem, GeneralizedInverse& in
     if (solution.displacement.back().size() > 0)
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
   }
-  assess(problem, dual, operatorNorm, largest, solution);
+  assess(problem, found, dual.norm().norm, largest, solution);
   return solution;
 }
 

@@ -10,15 +10,11 @@ namespace epafi::fetidp {
 
 /// K̄⁺(f̄ − B̄ᵀλ) at all positions of this rank's subdomains, components in space: u but for rigid motions of floating bodies.
 /// Collective.
-std::vector<Eigen::VectorXd> displacementOf(const decomposition::DecomposedProblem& problem,
-                                            GeneralizedInverse& inverse, const Vector& lambda);
+std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda);
 
-/// \param dual          λ and its reference
-/// \param operatorNorm  ‖F‖ or ‖PFP‖, the scale between forces and gaps in the test for an active contact
+/// \param found  λ of `dual` and its reference
 /// \throws SolvabilityError if floating bodies may come to rest in more than one place (see RigidMotion.hpp).
 /// Collective.
-ContactSolution recover(const decomposition::DecomposedProblem& problem, GeneralizedInverse& inverse,
-                        const std::vector<KernelEntry>& kernelEntries, const DualSolution& dual,
-                        double operatorNorm);
+ContactSolution recover(const DualProblem& dual, const DualSolution& found);
 
 } // namespace epafi::fetidp

@@ -6,10 +6,8 @@
 /// M = B_D S B_Dᵀ, which takes forces to displacements and back: of a residual along it nothing is left, and the iteration
 /// could not move there to the bound that decides which of the rows carry force.
 
-#include "epafi/base/Types.hpp"
+#include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
-
-#include <Tpetra_Operator.hpp>
 
 #include <vector>
 
@@ -19,20 +17,16 @@ namespace epafi::fetidp {
 std::vector<LocalOrdinal> sharedContactRows(const decomposition::DecomposedProblem& problem);
 
 /// M + σI on some rows, M elsewhere; symmetric positive definite if M is semidefinite, with a kernel on those rows alone.
-class ShiftedPreconditioner final : public Operator {
+class ShiftedPreconditioner final : public SymmetricOperator {
 public:
   /// \param rows   local indices, this rank's
   /// \param shift  σ > 0; 1/‖F‖ adds at most 1 to an eigenvalue of MF
   ShiftedPreconditioner(RCP<const Operator> m, std::vector<LocalOrdinal> rows, double shift);
 
-  [[nodiscard]] RCP<const Map> getDomainMap() const override { return m_->getDomainMap(); }
-  [[nodiscard]] RCP<const Map> getRangeMap() const override { return m_->getRangeMap(); }
-  /// One application of M, no message of its own. Collective.
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
-             double alpha = 1.0, double beta = 0.0) const override;
-  [[nodiscard]] bool hasTransposeApply() const override { return true; }
-
 private:
+  /// One application of M, no message of its own.
+  void multiply(const MultiVector& x, MultiVector& y) const override;
+
   RCP<const Operator> m_;
   std::vector<LocalOrdinal> rows_;
   double shift_;

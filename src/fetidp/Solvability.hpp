@@ -9,8 +9,6 @@
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
-#include <Eigen/Core>
-
 #include <vector>
 
 namespace epafi::fetidp {
@@ -24,19 +22,14 @@ inline constexpr double resultantTolerance = 1e-9;
 ///  - the load on it has no resultant against its contacts, or against a motion that they do not hinder, such as one that
 ///    acts exactly above the edge of the base (not unique).
 /// Bodies whose modes are known as motions in space (Body::motions) are said to slide or turn, with direction and axis.
-/// \param entries  this rank's rows of G̃ᵀ;
-/// \param kernelLoad  ẽ
+/// \param entries  this rank's rows of G̃ᵀ
 /// Collective.
 void requireUniqueSolution(const decomposition::DecomposedProblem& problem,
-                           const std::vector<KernelEntry>& entries, const Eigen::VectorXd& kernelLoad);
+                           const std::vector<KernelEntry>& entries);
 
 /// What can be said before any load is known: throws SolvabilityError (not unique) if a rigid motion of the
 /// floating bodies meets no contact at all. Collective.
 void requireContactForEveryMotion(const decomposition::DecomposedProblem& problem,
                                   const std::vector<KernelEntry>& entries);
-
-/// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap
-/// contradict each other. Collective.
-void requireFeasibleGaps(const decomposition::DecomposedProblem& problem);
 
 } // namespace epafi::fetidp

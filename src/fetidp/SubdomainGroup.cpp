@@ -11,6 +11,28 @@ constexpr Eigen::Index batch = 4;
 
 } // namespace
 
+void addTransposed(std::span<const InterfaceEntry> b, std::span<const double> lambda, Eigen::Index numColumns,
+                   Eigen::MatrixXd& values) {
+  const auto numMultipliers = static_cast<Eigen::Index>(lambda.size()) / numColumns;
+  for (Eigen::Index j = 0; j < numColumns; ++j) {
+    const double* multipliers = lambda.data() + j * numMultipliers;
+    double* column = values.data() + j * values.size() / numColumns;
+    for (const InterfaceEntry& entry : b)
+      column[entry.place] += entry.coefficient * multipliers[entry.multiplier];
+  }
+}
+
+void addProduct(std::span<const InterfaceEntry> b, const Eigen::MatrixXd& values, Eigen::Index numColumns,
+                std::span<double> result) {
+  const auto numMultipliers = static_cast<Eigen::Index>(result.size()) / numColumns;
+  for (Eigen::Index j = 0; j < numColumns; ++j) {
+    double* multipliers = result.data() + j * numMultipliers;
+    const double* column = values.data() + j * values.size() / numColumns;
+    for (const InterfaceEntry& entry : b)
+      multipliers[entry.multiplier] += entry.coefficient * column[entry.place];
+  }
+}
+
 SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains,
                                IdenticalSubdomains identical, std::span<const GlobalOrdinal> crosspoints,
                                direct::Factorizer& factorizer, const SubdomainGroup* previous)
@@ -83,132 +105,112 @@ SubdomainGroup::boundaryStiffness(direct::SymmetricBlock::Precision precision) c
   return boundaryStiffness_;
 }
 
-/// Work space for k columns.
-void SubdomainGroup::prepareColumns(Eigen::Index numColumns) {
-  boundary_.resize(condensed_->numBoundary(), numMembers() * numColumns);
-  response_.resizeLike(boundary_);
-  coarseLocal_.resize(condensed_->numCrosspoints(), boundary_.cols());
-}
-
 void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse,
-                                      int numColumns) {
-  prepareColumns(numColumns);
-  boundary_.setZero();
-  coarseLocal_.setZero();
-  for (Eigen::Index j = 0; j < numColumns; ++j) {
-    const double* values = lambda.data() + j * static_cast<Eigen::Index>(lambda.size()) / numColumns;
-    double *boundary = boundary_.data() + j * boundary_.size() / numColumns,
-           *crosspoints = coarseLocal_.data() + j * coarseLocal_.size() / numColumns;
-    for (const InterfaceEntry& entry : boundaryEntries_)
-      boundary[entry.place] += entry.coefficient * values[entry.multiplier]; // B_Δᵀ λ
-    for (const InterfaceEntry& entry : crosspointEntries_)
-      crosspoints[entry.place] += entry.coefficient * values[entry.multiplier];
-  }
-  for (Eigen::Index column = 0; column < boundary_.cols(); ++column) // one by one: see SymmetricBlock::Use
-    coarseLocal_.col(column).noalias() -=
-        condensed_->boundaryResponse().transpose() * boundary_.col(column); // Wᵀ λ
-  addToCoarse(coarse);
+                                      int numColumns, Workspace& work) const {
+  work.forces.setZero(condensed_->numBoundary(), numMembers() * numColumns);
+  work.displacement.resizeLike(work.forces);
+  work.crosspointForces.setZero(condensed_->numCrosspoints(), work.forces.cols());
+  addTransposed(boundaryEntries_, lambda, numColumns, work.forces); // B_Δᵀ λ
+  addTransposed(crosspointEntries_, lambda, numColumns, work.crosspointForces);
+  for (Eigen::Index column = 0; column < work.forces.cols(); ++column) // one by one: see SymmetricBlock::Use
+    work.crosspointForces.col(column).noalias() -=
+        condensed_->boundaryResponse().transpose() * work.forces.col(column); // Wᵀ λ
+  addToCoarse(work.crosspointForces, coarse);
   if (isExplicit_)
-    flexibility_->apply(boundary_, response_);
+    flexibility_->apply(work.forces, work.displacement);
   else
-    solveForBoundary();
+    solveForBoundary(work);
 }
 
-/// Number of columns, from `first` on, that are solved for at once; makes their work space, 0 in columns to spare. A
+/// Number of columns, of those left, that are solved for at once; makes their work space, 0 in columns to spare. A
 /// shared factor always gets as many columns: CHOLMOD adds in another order for fewer.
-Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index first) {
-  const Eigen::Index columns = std::min(batch, coarseLocal_.cols() - first);
+Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index numLeft, Workspace& work) const {
+  const Eigen::Index columns = std::min(batch, numLeft);
   const Eigen::Index width = use_ == direct::SymmetricBlock::Use::alone ? columns : batch;
-  if (rhs_.cols() != width) {
-    rhs_.resize(condensed_->numRemainders(), width);
-    solution_.resizeLike(rhs_);
-  }
-  rhs_.rightCols(width - columns).setZero();
+  work.rhs.resize(condensed_->numRemainders(), width);
+  work.solution.resizeLike(work.rhs);
+  work.rhs.rightCols(width - columns).setZero();
   return columns;
 }
 
 /// (K_rr⁻¹)_ΔΔ B_Δᵀ λ by sparse solves.
-void SubdomainGroup::solveForBoundary() {
+void SubdomainGroup::solveForBoundary(Workspace& work) const {
   const std::vector<int>& positions = condensed_->interface().boundary;
-  for (Eigen::Index first = 0; first < boundary_.cols(); first += batch) {
-    const Eigen::Index columns = prepareBatch(first);
-    rhs_.setZero();
-    rhs_.leftCols(columns)(positions, Eigen::all) = boundary_.middleCols(first, columns);
-    condensed_->factor().solve(rhs_, solution_);
-    response_.middleCols(first, columns) = solution_.leftCols(columns)(positions, Eigen::all);
+  for (Eigen::Index first = 0; first < work.forces.cols(); first += batch) {
+    const Eigen::Index columns = prepareBatch(work.forces.cols() - first, work);
+    work.rhs.setZero();
+    work.rhs.leftCols(columns)(positions, Eigen::all) = work.forces.middleCols(first, columns);
+    condensed_->factor().solve(work.rhs, work.solution);
+    work.displacement.middleCols(first, columns) = work.solution.leftCols(columns)(positions, Eigen::all);
   }
 }
 
-void SubdomainGroup::applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result) {
-  takeFromCoarse(coarse);
-  for (Eigen::Index column = 0; column < response_.cols(); ++column)
-    response_.col(column).noalias() -= condensed_->boundaryResponse() * coarseLocal_.col(column);
-  for (Eigen::Index j = 0; j < coarse.cols(); ++j) {
-    double* values = result.data() + j * static_cast<Eigen::Index>(result.size()) / coarse.cols();
-    const double *boundary = response_.data() + j * response_.size() / coarse.cols(),
-                 *crosspoints = coarseLocal_.data() + j * coarseLocal_.size() / coarse.cols();
-    for (const InterfaceEntry& entry : boundaryEntries_)
-      values[entry.multiplier] += entry.coefficient * boundary[entry.place];
-    for (const InterfaceEntry& entry : crosspointEntries_)
-      values[entry.multiplier] += entry.coefficient * crosspoints[entry.place];
-  }
+void SubdomainGroup::applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result,
+                                   Workspace& work) const {
+  takeFromCoarse(coarse, work.crosspointValues);
+  for (Eigen::Index column = 0; column < work.displacement.cols(); ++column)
+    work.displacement.col(column).noalias() -=
+        condensed_->boundaryResponse() * work.crosspointValues.col(column);
+  addProduct(boundaryEntries_, work.displacement, coarse.cols(), result);
+  addProduct(crosspointEntries_, work.crosspointValues, coarse.cols(), result);
 }
 
 /// coarse += Σ L_cᵀ of the members' columns.
-void SubdomainGroup::addToCoarse(std::span<AccurateSum> coarse) const {
-  const Eigen::Index numColumns = coarseLocal_.cols() / numMembers();
+void SubdomainGroup::addToCoarse(const Eigen::MatrixXd& crosspointForces,
+                                 std::span<AccurateSum> coarse) const {
+  const Eigen::Index numColumns = crosspointForces.cols() / numMembers();
   for (Eigen::Index j = 0; j < numColumns; ++j) {
     AccurateSum* sums = coarse.data() + j * static_cast<Eigen::Index>(coarse.size()) / numColumns;
-    const double* values = coarseLocal_.data() + j * coarseIndices_.size();
+    const double* values = crosspointForces.data() + j * coarseIndices_.size();
     for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
       sums[coarseIndices_.data()[i]].add(values[i]);
   }
 }
 
-/// The members' columns = L_c x_c.
-void SubdomainGroup::takeFromCoarse(const Eigen::MatrixXd& coarse) {
+/// The members' columns: L_c x_c.
+void SubdomainGroup::takeFromCoarse(const Eigen::MatrixXd& coarse, Eigen::MatrixXd& crosspointValues) const {
+  crosspointValues.resize(condensed_->numCrosspoints(), numMembers() * coarse.cols());
   for (Eigen::Index j = 0; j < coarse.cols(); ++j) {
-    double* values = coarseLocal_.data() + j * coarseIndices_.size();
+    double* values = crosspointValues.data() + j * coarseIndices_.size();
     for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
       values[i] = coarse(coarseIndices_.data()[i], j);
   }
 }
 
-void SubdomainGroup::eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<AccurateSum> coarse) {
+void SubdomainGroup::eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<AccurateSum> coarse,
+                               Workspace& work) const {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
-  const Eigen::Index numColumns = b[members_.front()].cols();
-  coarseLocal_.resize(condensed_->numCrosspoints(), numMembers() * numColumns);
-  Eigen::VectorXd remainders(condensed_->numRemainders());
-  for (Eigen::Index column = 0; column < coarseLocal_.cols(); ++column) {
-    const auto forces =
-        b[members_[static_cast<std::size_t>(column % numMembers())]].col(column / numMembers());
-    remainders = forces(like.remainderUnknowns);
-    coarseLocal_.col(column) = forces(like.crosspointUnknowns);
-    coarseLocal_.col(column).noalias() -= condensed_->crosspointResponse().transpose() * remainders;
+  work.crosspointForces.resize(condensed_->numCrosspoints(), numMembers() * b[members_.front()].cols());
+  for (Eigen::Index first = 0; first < work.crosspointForces.cols(); first += batch) {
+    const Eigen::Index columns = prepareBatch(work.crosspointForces.cols() - first, work);
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      const auto given = columnOf(b, first + j);
+      auto forces = work.crosspointForces.col(first + j);
+      work.rhs.col(j) = given(like.remainderUnknowns);
+      forces = given(like.crosspointUnknowns);
+      forces.noalias() -= condensed_->crosspointResponse().transpose() * work.rhs.col(j);
+    }
   }
-  addToCoarse(coarse);
+  addToCoarse(work.crosspointForces, coarse);
 }
 
 void SubdomainGroup::substitute(const Eigen::MatrixXd& coarse, const std::vector<Eigen::MatrixXd>& b,
-                                std::vector<Eigen::MatrixXd>& u) {
+                                std::vector<Eigen::MatrixXd>& u, Workspace& work) const {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
   for (const std::size_t member : members_)
     u[member].resize(like.stiffness->rows(), coarse.cols());
-  coarseLocal_.resize(condensed_->numCrosspoints(),
-                      numMembers() * coarse.cols()); // not all callers eliminate before
-  takeFromCoarse(coarse);
-  for (Eigen::Index first = 0; first < coarseLocal_.cols(); first += batch) {
-    const Eigen::Index columns = prepareBatch(first);
+  takeFromCoarse(coarse, work.crosspointValues);
+  const Eigen::MatrixXd& values = work.crosspointValues;
+  for (Eigen::Index first = 0; first < values.cols(); first += batch) {
+    const Eigen::Index columns = prepareBatch(values.cols() - first, work);
     for (Eigen::Index j = 0; j < columns; ++j)
-      rhs_.col(j) = b[members_[static_cast<std::size_t>((first + j) % numMembers())]].col(
-          (first + j) / numMembers())(like.remainderUnknowns);
-    rhs_.leftCols(columns) -= condensed_->remainderToCrosspoint() * coarseLocal_.middleCols(first, columns);
-    condensed_->factor().solve(rhs_, solution_);
+      work.rhs.col(j) = columnOf(b, first + j)(like.remainderUnknowns);
+    work.rhs.leftCols(columns) -= condensed_->remainderToCrosspoint() * values.middleCols(first, columns);
+    condensed_->factor().solve(work.rhs, work.solution);
     for (Eigen::Index j = 0; j < columns; ++j) {
-      auto values =
-          u[members_[static_cast<std::size_t>((first + j) % numMembers())]].col((first + j) / numMembers());
-      values(like.remainderUnknowns) = solution_.col(j);
-      values(like.crosspointUnknowns) = coarseLocal_.col(first + j);
+      auto result = columnOf(u, first + j);
+      result(like.remainderUnknowns) = work.solution.col(j);
+      result(like.crosspointUnknowns) = values.col(first + j);
     }
   }
 }

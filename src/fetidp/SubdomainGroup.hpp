@@ -16,17 +16,35 @@
 
 namespace epafi::fetidp {
 
-/// An entry of B in a group: multiplier (ghost map), place in the members' boundary values (n_Δ × m) or crosspoint
-/// values (n_c × m), column by column, value.
+/// An entry of B, or of a matrix with B's pattern, in a group: multiplier (ghost map), place in the members' boundary values
+/// (n_Δ × m) or crosspoint values (n_c × m), column by column, value.
 struct InterfaceEntry {
   int multiplier, place;
   double coefficient;
 };
 
+/// values += Bᵀ λ. \param lambda  multipliers × k, column by column; \param values  n × mk
+void addTransposed(std::span<const InterfaceEntry> b, std::span<const double> lambda, Eigen::Index numColumns,
+                   Eigen::MatrixXd& values);
+/// result += B values, likewise.
+void addProduct(std::span<const InterfaceEntry> b, const Eigen::MatrixXd& values, Eigen::Index numColumns,
+                std::span<double> result);
+
 /// m members; n_r, n_Δ, n_c as in CondensedSubdomain. What is multiplied or solved for has k ≥ 1 columns; multipliers and
-/// coarse unknowns lie column by column. Nothing here is collective.
+/// coarse unknowns lie column by column. Products leave the group as it is: whoever multiplies owns the work space, which
+/// also carries the first half of a product to the second. Nothing here is collective.
 class SubdomainGroup {
 public:
+  /// Of one product at a time; sized by the first half.
+  struct Workspace {
+    Eigen::MatrixXd forces; ///< B_Δᵀλ, n_Δ × mk
+    Eigen::MatrixXd
+        displacement; ///< of the boundaries, n_Δ × mk; crosspoints are held until the second half moves them
+    Eigen::MatrixXd crosspointForces; ///< n_c × mk
+    Eigen::MatrixXd crosspointValues; ///< n_c × mk
+    Eigen::MatrixXd rhs, solution;    ///< of sparse solves, n_r × a few
+  };
+
   /// \param identical    see groupIdentical; at least one
   /// \param crosspoints  this rank's coarse unknowns, ascending: `coarse` below is numbered like them
   /// \param previous     a group of earlier times, before K^s or B changed, or null: what still holds of its factor and its
@@ -61,22 +79,23 @@ public:
   [[nodiscard]] std::shared_ptr<const direct::SymmetricBlock>
   boundaryStiffness(direct::SymmetricBlock::Precision precision) const;
 
-  /// First half of F's part: keeps (K_rr⁻¹)_ΔΔ B_Δᵀ λ and adds L_cᵀ Wᵀ λ to `coarse`.
+  /// First half of F's part: (K_rr⁻¹)_ΔΔ B_Δᵀ λ, and `coarse` += L_cᵀ Wᵀ λ.
   /// \param lambda  this rank's multipliers (ghost map) × k
   /// \param coarse  this rank's coarse unknowns × k
-  void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse, int numColumns);
-  /// Second half: result += B_Δ (what was kept) + W L_c x_c.
+  void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse, int numColumns,
+                        Workspace& work) const;
+  /// Second half, with the work space of the first: result += B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c.
   /// \param coarse  this rank's coarse unknowns, with k columns
   /// \param result  this rank's multipliers (ghost map) × k
-  void applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result);
+  void applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result, Workspace& work) const;
 
   /// First half of K̄⁺: adds L_cᵀ(b_c − Ψᵀ b_r) to `coarse`.
   /// \param b  of all this rank's subdomains, n_s × k each
-  void eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<AccurateSum> coarse);
-  /// Second half: u_c = L_c x_c, u_r = K_rr⁻¹(b_r − K_rc u_c).
+  void eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<AccurateSum> coarse, Workspace& work) const;
+  /// Second half: u_c = L_c x_c, u_r = K_rr⁻¹(b_r − K_rc u_c). Needs nothing of the first.
   /// \param u  of all this rank's subdomains; the members' are overwritten
   void substitute(const Eigen::MatrixXd& coarse, const std::vector<Eigen::MatrixXd>& b,
-                  std::vector<Eigen::MatrixXd>& u);
+                  std::vector<Eigen::MatrixXd>& u, Workspace& work) const;
 
   /// x_c of the members' crosspoint values, which agree. \param coarse  this rank's coarse unknowns, with as many columns
   void takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eigen::MatrixXd& coarse) const;
@@ -95,12 +114,16 @@ private:
   [[nodiscard]] Eigen::Index numMembers() const { return static_cast<Eigen::Index>(members_.size()); }
   [[nodiscard]] bool fits(const decomposition::Subdomain& subdomain,
                           const SubdomainInterface& interface) const;
-  void prepareColumns(Eigen::Index numColumns);
+  /// Column j of the members' values: member after member, then the next of k.
+  template <class Values>
+  [[nodiscard]] auto columnOf(Values& of, Eigen::Index j) const {
+    return of[members_[static_cast<std::size_t>(j % numMembers())]].col(j / numMembers());
+  }
   void addEntries(std::size_t member, std::size_t subdomain);
-  [[nodiscard]] Eigen::Index prepareBatch(Eigen::Index first);
-  void solveForBoundary();
-  void addToCoarse(std::span<AccurateSum> coarse) const;
-  void takeFromCoarse(const Eigen::MatrixXd& coarse);
+  void solveForBoundary(Workspace& work) const;
+  [[nodiscard]] Eigen::Index prepareBatch(Eigen::Index numLeft, Workspace& work) const;
+  void addToCoarse(const Eigen::MatrixXd& crosspointForces, std::span<AccurateSum> coarse) const;
+  void takeFromCoarse(const Eigen::MatrixXd& coarse, Eigen::MatrixXd& crosspointValues) const;
 
   const std::vector<decomposition::Subdomain>* subdomains_;
   std::vector<std::size_t> members_;
@@ -114,9 +137,6 @@ private:
   std::shared_ptr<const direct::SymmetricBlock> flexibility_;       ///< (K_rr⁻¹)_ΔΔ, once it was made
   bool isExplicit_ = false;
   mutable std::shared_ptr<const direct::SymmetricBlock> boundaryStiffness_; ///< S_ΔΔ, likewise
-  Eigen::MatrixXd boundary_, response_; ///< work, n_Δ × mk: B_Δᵀλ and (K_rr⁻¹)_ΔΔ times it
-  Eigen::MatrixXd coarseLocal_;         ///< work, n_c × mk
-  Eigen::MatrixXd rhs_, solution_;      ///< work of sparse solves, n_r × a few
 };
 
 } // namespace epafi::fetidp

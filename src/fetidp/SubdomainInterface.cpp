@@ -68,8 +68,12 @@ std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedP
       groups.push_back({{s}});
     return groups;
   }
+  struct Hashed {
+    std::uint64_t hash;
+    int number;
+  };
   std::vector<std::vector<int>> touchedOf; // of each group
-  std::vector<double> hashOf;              // likewise, as a number that messages take
+  std::vector<std::uint64_t> hashOf;       // likewise
   std::unordered_multimap<std::uint64_t, std::size_t> candidates;
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     std::vector<int> touched = touchedUnknowns(subdomains[s]);
@@ -89,15 +93,14 @@ std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedP
     candidates.emplace(hash, groups.size());
     groups.push_back({{s}});
     touchedOf.push_back(std::move(touched));
-    hashOf.push_back(static_cast<double>(hash >> 12U)); // 52 bits
+    hashOf.push_back(hash);
   }
-  std::vector<double> mine; // hash and number of each group
+  std::vector<Hashed> mine;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    mine.insert(mine.end(), {hashOf[g], static_cast<double>(groups[g].members.size())});
-  const std::vector<double> all = gatherOnAll(*problem.comm, mine);
-  std::unordered_map<double, int> numOf;
-  for (std::size_t i = 0; i < all.size(); i += 2)
-    numOf[all[i]] += static_cast<int>(all[i + 1]);
+    mine.push_back({hashOf[g], static_cast<int>(groups[g].members.size())});
+  std::unordered_map<std::uint64_t, int> numOf;
+  for (const Hashed& group : gatherOnAll(*problem.comm, mine))
+    numOf[group.hash] += group.number;
   for (std::size_t g = 0; g < groups.size(); ++g)
     groups[g].numOnAllRanks = numOf[hashOf[g]];
   return groups;

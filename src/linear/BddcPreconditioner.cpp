@@ -20,13 +20,13 @@ void zeroRows(Eigen::MatrixXd& values, const std::vector<int>& rows) {
 } // namespace
 
 BddcPreconditioner::BddcPreconditioner(RCP<const UnassembledOperator> k, const BddcParameters& parameters)
-    : k_(std::move(k)), inverse_(std::make_shared<fetidp::GeneralizedInverse>(
-                            requireLinearProblem(*k_, "BDDC"), parameters.directSolvers)),
+    : SymmetricOperator(k->getDomainMap()), k_(std::move(k)),
+      inverse_(std::make_shared<const fetidp::GeneralizedInverse>(requireLinearProblem(*k_, "BDDC"),
+                                                                  parameters.directSolvers)),
       shares_(k_->problem(), k_->exchange(), parameters.scaling), stiffness_(k_->problem(), inverse_),
       sum_(rcp(new MultiVector(k_->getRangeMap(), 1))) {}
 
-void BddcPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
-                               double beta) const {
+void BddcPreconditioner::multiply(const MultiVector& x, MultiVector& y) const {
   const int numColumns = static_cast<int>(x.getNumVectors());
   if (sum_->getNumVectors() != x.getNumVectors())
     sum_ = rcp(new MultiVector(k_->getRangeMap(), x.getNumVectors()));
@@ -36,15 +36,14 @@ void BddcPreconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ET
     toForcesOfUnknowns(subdomains[s], forces_[s]);
   condenseInteriors(numColumns);
   shareOut();
-  inverse_->apply(forces_, values_, numColumns);
+  inverse_->apply(forces_, values_, numColumns, work_);
   average();
   extendIntoInteriors(numColumns);
   shares_.scale(values_); // the copies agree
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     toValues(subdomains[s], values_[s]);
-  k_->exchange().sum(values_, *sum_);
-  k_->copyIdentity(x, *sum_);
-  y.update(alpha, *sum_, beta);
+  k_->exchange().sum(values_, y);
+  k_->copyIdentity(x, y);
 }
 
 /// The forces t = −K_ΔI K_II⁻¹ f_I that interiors pass on to their boundaries: K_rr w = (f_I, 0) moves a boundary, and t = S w_Δ
@@ -57,7 +56,7 @@ void BddcPreconditioner::condenseInteriors(int numColumns) const {
     zeroRows(local_[s], stiffness_.boundary(s));
     values_[s].setZero(forces_[s].rows(), forces_[s].cols()); // crosspoints are held
   }
-  inverse_->solveRemainders(local_, values_, numColumns);
+  inverse_->solveRemainders(local_, values_, numColumns, work_);
   stiffness_.apply(values_, reaction_);
   k_->exchange().sum(reaction_, *sum_);
   k_->exchange().toSubdomains(*sum_, shared_);
@@ -93,7 +92,7 @@ void BddcPreconditioner::extendIntoInteriors(int numColumns) const {
   stiffness_.apply(local_, reaction_);
   for (std::size_t s = 0; s < values_.size(); ++s)
     local_[s].setZero();
-  inverse_->solveRemainders(reaction_, local_, numColumns);
+  inverse_->solveRemainders(reaction_, local_, numColumns, work_);
   for (std::size_t s = 0; s < values_.size(); ++s)
     values_[s] += local_[s];
 }

@@ -1,13 +1,6 @@
 #include "epafi/linear/DualIteration.hpp"
 
-#include <BelosLinearProblem.hpp>
-#include <BelosOutputManager.hpp>
-#include <BelosPseudoBlockCGIter.hpp>
-#include <BelosStatusTest.hpp>
-#include <BelosTpetraAdapter.hpp>
-#include <Teuchos_ParameterList.hpp>
-#include <Tpetra_Vector.hpp>
-#include <Trilinos_version.h>
+#include "epafi/qp/BelosIteration.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -18,21 +11,16 @@
 namespace epafi::linear {
 namespace {
 
-using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
-using Iteration = Belos::Iteration<double, MultiVector, Operator>;
-using Test = Belos::StatusTest<double, MultiVector, Operator>;
-using ConjugateGradients = Belos::PseudoBlockCGIter<double, MultiVector, Operator>;
-
 /// Passes when every column has met its goal, when one has met it so far that its steps would soon divide zero by zero, or at the
 /// limit.
-class PrimalGoal final : public Test {
+class PrimalGoal final : public qp::BelosTest {
 public:
   PrimalGoal(PrimalResidual& primal, std::vector<double> goals, int maxSteps)
       : primal_(primal), goals_(std::move(goals)), maxSteps_(maxSteps),
         expected_(goals_.size(), std::numeric_limits<double>::infinity()), dual_(goals_.size()),
         isMet_(goals_.size(), 0) {}
 
-  Belos::StatusType checkStatus(Iteration* iteration) override {
+  Belos::StatusType checkStatus(qp::BelosIteration* iteration) override {
     const auto residual = iteration->getNativeResiduals(nullptr);
     residual->norm2(Teuchos::arrayViewFromVector(dual_));
     if (isTimeToLook())
@@ -82,50 +70,28 @@ private:
   Belos::StatusType status_ = Belos::Failed;
 };
 
-void start(ConjugateGradients& iteration, const RCP<MultiVector>& residual) {
-#if TRILINOS_MAJOR_MINOR_VERSION >= 160000
-  const int columns = static_cast<int>(residual->getNumVectors());
-  iteration.initializeCG(rcp(new Belos::PseudoBlockCGIterationState<double, MultiVector>(residual, columns)),
-                         residual);
-#else
-  Belos::CGIterationState<double, MultiVector> state;
-  state.R = residual;
-  iteration.initializeCG(state);
-#endif
-}
-
 } // namespace
 
 DualOutcome iterateDual(const RCP<const Operator>& f, const RCP<const Operator>& m,
                         const RCP<const MultiVector>& rhs, const RCP<MultiVector>& lambda,
                         PrimalResidual& primal, std::span<const double> goals, int maxSteps) {
-  using Traits = Belos::MultiVecTraits<double, MultiVector>;
-  const RCP<Problem> problem = rcp(new Problem(f, lambda, rhs));
+  const RCP<qp::BelosProblem> problem = rcp(new qp::BelosProblem(f, lambda, rhs));
   if (!m.is_null())
     problem->setLeftPrec(m);
-  const auto printer = rcp(new Belos::OutputManager<double>(Belos::Errors));
   std::vector<int> open(goals.size()); // columns that have not met their goals
   std::iota(open.begin(), open.end(), 0);
   DualOutcome outcome;
   while (!open.empty() && outcome.steps < maxSteps) {
-    problem->setProblem(); // residuals afresh
-    problem->setLSIndex(open);
     std::vector<double> openGoals;
     for (const int column : open)
       openGoals.push_back(goals[static_cast<std::size_t>(column)]);
     const RCP<PrimalGoal> goal = rcp(new PrimalGoal(primal, openGoals, maxSteps - outcome.steps));
-    Teuchos::ParameterList parameters;
-    ConjugateGradients iteration(problem, printer, goal, parameters);
-    try {
-      start(iteration, Traits::CloneCopy(*problem->getInitResVec(), open));
-      iteration.iterate();
-    } catch (const Belos::BelosError&) { // pᵀFp ≤ 0 or rᵀMr < 0
+    const qp::BelosOutcome steps = qp::iterate(problem, open, goal);
+    outcome.steps += steps.steps;
+    if (steps.isIndefinite) {
       outcome.status = DualOutcome::Status::indefinite;
-      outcome.steps += iteration.getNumIters();
       return outcome;
     }
-    outcome.steps += iteration.getNumIters();
-    problem->setCurrLS();
     std::vector<int> left;
     for (std::size_t j = 0; j < open.size(); ++j)
       if (!goal->isMet(j))

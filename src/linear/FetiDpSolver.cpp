@@ -90,8 +90,10 @@ FetiDpSolver::FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParamet
 }
 
 void FetiDpSolver::update() {
-  dual_.reset(); // should this fail, there is none
-  inverse_->update(requireLinearProblem(*k_, "FETI-DP"));
+  dual_.reset(); // should this fail, there is none; and nothing else holds the inverse
+  const auto& problem = requireLinearProblem(*k_, "FETI-DP");
+  inverse_ =
+      std::make_shared<fetidp::GeneralizedInverse>(problem, parameters_.directSolvers, std::move(inverse_));
   prepare();
 }
 
@@ -192,7 +194,7 @@ DualOutcome FetiDpSolver::correct(const MultiVector& residual, std::span<const d
 DualOutcome FetiDpSolver::solveDual(std::span<const double> goals, int maxSteps) {
   const std::size_t numColumns = goals.size();
   const int columns = static_cast<int>(numColumns);
-  inverse_->apply(forces_, torn_, columns);
+  inverse_->apply(forces_, torn_, columns, work_);
   if (dual_->algorithm() == fetidp::Algorithm::direct)
     return {};
   inverse_->constraint(torn_, multipliers_->values(numColumns));
@@ -200,15 +202,15 @@ DualOutcome FetiDpSolver::solveDual(std::span<const double> goals, int maxSteps)
   multipliers_->sumToOwners(*rhs);
   const auto deflated = dual_->deflatedOperator();
   const RCP<MultiVector> whole = rcp(new MultiVector(*rhs, Teuchos::Copy));
-  for (std::size_t j = 0; j < numColumns && !deflated.is_null(); ++j)
-    deflated->project(*rhs->getVectorNonConst(j));
+  if (!deflated.is_null())
+    deflated->space().projectTransposed(*rhs);
   const RCP<MultiVector> lambda = rcp(new MultiVector(rhs->getMap(), numColumns));
   const DualOutcome outcome =
       iterateDual(dual_->hessian(), dual_->preconditioner(), rhs, lambda, *primal_, goals, maxSteps);
-  for (std::size_t j = 0; j < numColumns && !deflated.is_null(); ++j)
-    deflated->complete(*whole->getVector(j), *lambda->getVectorNonConst(j));
+  if (!deflated.is_null())
+    deflated->complete(*whole, *lambda);
   inverse_->subtractForces(multipliers_->toSubdomains(*lambda), forces_);
-  inverse_->apply(forces_, torn_, columns);
+  inverse_->apply(forces_, torn_, columns, work_);
   return outcome;
 }
 

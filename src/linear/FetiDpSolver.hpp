@@ -36,7 +36,7 @@ public:
   /// if a body floats, Error if a factorisation fails; the same on all ranks.
   FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParameters& parameters);
 
-  /// Follows a change of the matrices in the problem of k: what still holds is kept (GeneralizedInverse::update), the symbolic part
+  /// Follows a change of the matrices in the problem of k: what still holds is kept (see GeneralizedInverse), the symbolic part
   /// of factorisations where patterns are the same. Collective; throws as the constructor does, and solves have to wait until an
   /// update succeeds.
   void update();
@@ -74,6 +74,7 @@ private:
   std::unique_ptr<CopyShares> shares_;
   std::unique_ptr<PrimalResidual> primal_;
   std::unique_ptr<fetidp::MultiplierExchange> multipliers_;
+  fetidp::GeneralizedInverse::Workspace work_;
   SubdomainVectors forces_, torn_; ///< work: f̄ or f̄ − B̄ᵀλ, and the torn solution
 };
 

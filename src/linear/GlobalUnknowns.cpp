@@ -2,20 +2,20 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Maps.hpp"
 
-#include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
 
-#include <algorithm>
 #include <string>
+#include <utility>
 
 namespace epafi::linear {
 
-GlobalUnknowns globalUnknowns(const decomposition::Decomposition& decomposition) {
+GlobalUnknowns globalUnknowns(const model::Decomposition& decomposition) {
   const decomposition::DecomposedProblem& problem = decomposition.problem;
   const auto components = static_cast<GlobalOrdinal>(problem.components);
   std::vector<GlobalOrdinal> first{0}; // of each body
-  for (const decomposition::BodyLayout& body : decomposition.bodies)
+  for (const model::BodyLayout& body : decomposition.bodies)
     first.push_back(first.back() + components * static_cast<GlobalOrdinal>(body.mesh->numNodes()));
   GlobalUnknowns unknowns;
   unknowns.reserve(problem.subdomains.size());
@@ -66,15 +66,15 @@ GlobalUnknowns atUnknowns(const decomposition::DecomposedProblem& problem,
   return unknowns;
 }
 
-RCP<const Map> ownedUnknowns(const GlobalUnknowns& unknowns, const RCP<const Comm>& comm) {
+RCP<const Map> touchedUnknowns(const GlobalUnknowns& unknowns, const RCP<const Comm>& comm) {
   std::vector<GlobalOrdinal> touched;
   for (const std::vector<GlobalOrdinal>& numbers : unknowns)
     touched.insert(touched.end(), numbers.begin(), numbers.end());
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  const RCP<const Map> overlapping = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                                                 Teuchos::arrayViewFromVector(touched), 0, comm));
-  return Tpetra::createOneToOne(overlapping);
+  return makeMap(std::move(touched), comm);
+}
+
+RCP<const Map> ownedUnknowns(const GlobalUnknowns& unknowns, const RCP<const Comm>& comm) {
+  return Tpetra::createOneToOne(touchedUnknowns(unknowns, comm));
 }
 
 } // namespace epafi::linear

@@ -3,7 +3,7 @@
 /// Which unknown of the whole, assembled problem each unknown of a subdomain is a copy of. Copies that FETI-DP joins, by a
 /// gluing row or as a crosspoint, have the same number; no others have.
 
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <vector>
 
@@ -16,12 +16,15 @@ namespace epafi::linear {
 using GlobalUnknowns = std::vector<std::vector<GlobalOrdinal>>;
 
 /// The numbers of a scene: body after body, node after node, component after component. Not collective.
-GlobalUnknowns globalUnknowns(const decomposition::Decomposition& decomposition);
+GlobalUnknowns globalUnknowns(const model::Decomposition& decomposition);
 
 /// The numbers of the unknowns alone, n_s a subdomain: those at Subdomain::unknownPosition. \throws InputError, the same on all
 /// ranks, if there is not one list for each subdomain and one number for each position, or if the number of an unknown is
 /// negative. Collective.
 GlobalUnknowns atUnknowns(const decomposition::DecomposedProblem& problem, const GlobalUnknowns& atPositions);
+
+/// A map of the numbers that this rank's subdomains have, ascending. Collective.
+RCP<const Map> touchedUnknowns(const GlobalUnknowns& unknowns, const RCP<const Comm>& comm);
 
 /// A map that owns every number once, on one of the ranks that have it. Collective.
 RCP<const Map> ownedUnknowns(const GlobalUnknowns& unknowns, const RCP<const Comm>& comm);

@@ -55,7 +55,7 @@ void requireNoJump(const DecomposedProblem& problem, const GlobalUnknowns& unkno
       for (const auto& entry : problem.subdomains[s].constraint) {
         const auto multiplier = static_cast<std::size_t>(entry.multiplier);
         const GlobalOrdinal row = problem.multiplierGhostMap->getGlobalElement(entry.multiplier);
-        if (row >= problem.numInequalities && std::abs(total[multiplier]) > roundOff)
+        if (problem.kindOf(row) == decomposition::RowKind::gluing && std::abs(total[multiplier]) > roundOff)
           throw InputError("unknown " + std::to_string(entry.unknown) + " of subdomain " +
                            std::to_string(problem.subdomains[s].number) + ", with the global number " +
                            std::to_string(unknowns[s][static_cast<std::size_t>(entry.unknown)]) +

@@ -1,8 +1,7 @@
 #include "epafi/linear/PartiallyAssembledInverse.hpp"
 
 #include "epafi/base/Compatibility.hpp"
-
-#include <Teuchos_OrdinalTraits.hpp>
+#include "epafi/base/Maps.hpp"
 
 #include <utility>
 
@@ -22,8 +21,7 @@ RCP<const Map> mergedMap(const DecomposedProblem& problem) {
   std::vector<GlobalOrdinal> numbers(remainders.begin(), remainders.end());
   for (const GlobalOrdinal crosspoint : crosspoints)
     numbers.push_back(numRemainders(problem) + crosspoint);
-  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                     Teuchos::arrayViewFromVector(numbers), 0, problem.comm));
+  return mapInOrder(numbers, problem.comm);
 }
 
 GlobalUnknowns mergedUnknowns(const DecomposedProblem& problem) {
@@ -42,24 +40,18 @@ GlobalUnknowns mergedUnknowns(const DecomposedProblem& problem) {
 
 } // namespace
 
-PartiallyAssembledInverse::PartiallyAssembledInverse(std::shared_ptr<const DecomposedProblem> problem,
-                                                     std::shared_ptr<fetidp::GeneralizedInverse> inverse)
-    : problem_(std::move(problem)), inverse_(std::move(inverse)),
-      exchange_(mergedMap(*problem_), mergedUnknowns(*problem_)),
-      shares_(*problem_, exchange_, fetidp::PreconditionerParameters::Scaling::multiplicity),
-      result_(rcp(new MultiVector(exchange_.map(), 1))) {}
+PartiallyAssembledInverse::PartiallyAssembledInverse(
+    const DecomposedProblem& problem, std::shared_ptr<const fetidp::GeneralizedInverse> inverse)
+    : SymmetricOperator(mergedMap(problem)), inverse_(std::move(inverse)),
+      exchange_(getDomainMap(), mergedUnknowns(problem)),
+      shares_(problem, exchange_, fetidp::PreconditionerParameters::Scaling::multiplicity) {}
 
-void PartiallyAssembledInverse::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/,
-                                      double alpha, double beta) const {
-  const std::size_t numColumns = x.getNumVectors();
-  if (result_->getNumVectors() != numColumns)
-    result_ = rcp(new MultiVector(exchange_.map(), numColumns));
+void PartiallyAssembledInverse::multiply(const MultiVector& x, MultiVector& y) const {
   exchange_.toSubdomains(x, forces_);
   shares_.scale(forces_);
-  inverse_->apply(forces_, values_, static_cast<int>(numColumns));
+  inverse_->apply(forces_, values_, static_cast<int>(x.getNumVectors()), work_);
   shares_.scale(values_);
-  exchange_.sum(values_, *result_);
-  y.update(alpha, *result_, beta);
+  exchange_.sum(values_, y);
 }
 
 } // namespace epafi::linear

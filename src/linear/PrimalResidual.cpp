@@ -8,7 +8,7 @@
 
 namespace epafi::linear {
 
-PrimalResidual::PrimalResidual(const UnassembledOperator& k, fetidp::GeneralizedInverse& inverse,
+PrimalResidual::PrimalResidual(const UnassembledOperator& k, const fetidp::GeneralizedInverse& inverse,
                                fetidp::PreconditionerParameters::Scaling scaling)
     : k_(k), exchange_(inverse.multiplierPlan()), residual_(rcp(new MultiVector(k.getRangeMap(), 1))) {
   const fetidp::ContactCrosspoints none(k.problem(), inverse);

@@ -14,7 +14,7 @@ namespace epafi::linear {
 class PrimalResidual {
 public:
   /// Keeps a reference to `k`. Collective.
-  PrimalResidual(const UnassembledOperator& k, fetidp::GeneralizedInverse& inverse,
+  PrimalResidual(const UnassembledOperator& k, const fetidp::GeneralizedInverse& inverse,
                  fetidp::PreconditionerParameters::Scaling scaling);
 
   /// ‖b − Ku‖ of each column of r (n_λ × k): a sparse product a subdomain, one message to each neighbour twice. Collective.

@@ -29,12 +29,12 @@ std::vector<LocalOrdinal> rowsWithoutUnknown(const decomposition::DecomposedProb
 
 } // namespace
 
-UnassembledOperator::UnassembledOperator(std::shared_ptr<const decomposition::DecomposedProblem> problem,
-                                         const GlobalUnknowns& atPositions, const RCP<const Map>& map)
-    : problem_(std::move(problem)), unknowns_(atUnknowns(*problem_, atPositions)),
-      exchange_(map.is_null() ? ownedUnknowns(unknowns_, problem_->comm) : map, unknowns_),
-      identityRows_(rowsWithoutUnknown(*problem_, exchange_)),
-      result_(rcp(new MultiVector(exchange_.map(), 1))) {
+UnassembledOperator::UnassembledOperator(
+    const std::shared_ptr<const decomposition::DecomposedProblem>& problem, GlobalUnknowns unknowns,
+    const RCP<const Map>& map, Checked /*checked*/)
+    : SymmetricOperator(map.is_null() ? ownedUnknowns(unknowns, problem->comm) : map), problem_(problem),
+      unknowns_(std::move(unknowns)), exchange_(getDomainMap(), unknowns_),
+      identityRows_(rowsWithoutUnknown(*problem_, exchange_)) {
   requireJoinedCopies(*problem_, unknowns_, identityRows_.size(), exchange_);
 }
 
@@ -49,10 +49,7 @@ void UnassembledOperator::copyIdentity(const MultiVector& x, MultiVector& y) con
   }
 }
 
-void UnassembledOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp /*mode*/, double alpha,
-                                double beta) const {
-  if (result_->getNumVectors() != x.getNumVectors())
-    result_ = rcp(new MultiVector(exchange_.map(), x.getNumVectors()));
+void UnassembledOperator::multiply(const MultiVector& x, MultiVector& y) const {
   exchange_.toSubdomains(x, values_);
   forces_.resize(values_.size());
   for (std::size_t s = 0; s < values_.size(); ++s) {
@@ -61,9 +58,8 @@ void UnassembledOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::E
     forces_[s].noalias() = *subdomain.stiffness * values_[s];
     toForcesOfValues(subdomain, forces_[s]);
   }
-  exchange_.sum(forces_, *result_);
-  copyIdentity(x, *result_);
-  y.update(alpha, *result_, beta); // beta = 0 overwrites, NaN included
+  exchange_.sum(forces_, y);
+  copyIdentity(x, y);
 }
 
 RCP<Vector> UnassembledOperator::load() const {

@@ -2,10 +2,9 @@
 
 /// K = Σ R^sᵀ K^s R^s, never assembled: what a Trilinos application takes for its matrix where FETI-DP is to solve with it.
 
+#include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/linear/GlobalUnknowns.hpp"
 #include "epafi/linear/UnknownExchange.hpp"
-
-#include <Tpetra_Operator.hpp>
 
 #include <memory>
 #include <vector>
@@ -13,8 +12,9 @@
 namespace epafi::linear {
 
 /// n × n, symmetric, positive definite unless a body floats. Contact, if the problem has any, does not enter. Where the map has
-/// numbers that no unknown has, those of prescribed values in most applications, K is the identity.
-class UnassembledOperator final : public Operator {
+/// numbers that no unknown has, those of prescribed values in most applications, K is the identity. A product takes all columns in
+/// one pass: a sparse product a subdomain, two messages to each neighbour.
+class UnassembledOperator final : public SymmetricOperator {
 public:
   /// \param problem      shared; K follows its matrices, everything else but loads and gaps must stay
   /// \param atPositions  see GlobalUnknowns.hpp
@@ -22,15 +22,9 @@ public:
   /// \throws InputError, the same on all ranks, if lists are too short or too long, if the map lacks a number, or if copies of a
   /// number are not joined by the problem's gluing rows and crosspoints, or those of different numbers are.
   /// Collective.
-  UnassembledOperator(std::shared_ptr<const decomposition::DecomposedProblem> problem,
-                      const GlobalUnknowns& atPositions, const RCP<const Map>& map = Teuchos::null);
-
-  [[nodiscard]] RCP<const Map> getDomainMap() const override { return exchange_.map(); }
-  [[nodiscard]] RCP<const Map> getRangeMap() const override { return exchange_.map(); }
-  /// y = alpha K x + beta y, all columns in one pass: a sparse product a subdomain, two messages to each neighbour. Collective.
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
-             double alpha = 1.0, double beta = 0.0) const override;
-  [[nodiscard]] bool hasTransposeApply() const override { return true; }
+  UnassembledOperator(const std::shared_ptr<const decomposition::DecomposedProblem>& problem,
+                      const GlobalUnknowns& atPositions, const RCP<const Map>& map = Teuchos::null)
+      : UnassembledOperator(problem, atUnknowns(*problem, atPositions), map, Checked{}) {}
 
   [[nodiscard]] const decomposition::DecomposedProblem& problem() const { return *problem_; }
   [[nodiscard]] const std::shared_ptr<const decomposition::DecomposedProblem>& sharedProblem() const {
@@ -47,12 +41,16 @@ public:
   [[nodiscard]] RCP<Vector> load() const;
 
 private:
+  struct Checked {}; ///< of unknowns
+  UnassembledOperator(const std::shared_ptr<const decomposition::DecomposedProblem>& problem,
+                      GlobalUnknowns unknowns, const RCP<const Map>& map, Checked checked);
+  void multiply(const MultiVector& x, MultiVector& y) const override;
+
   std::shared_ptr<const decomposition::DecomposedProblem> problem_;
   GlobalUnknowns unknowns_;
   UnknownExchange exchange_;
   std::vector<LocalOrdinal> identityRows_;
   mutable SubdomainVectors values_, forces_; ///< work
-  mutable RCP<MultiVector> result_;          ///< work
 };
 
 /// K assembled, for whoever needs its entries: on the same map, rows complete. Collective.

@@ -1,34 +1,24 @@
 #include "epafi/linear/UnknownExchange.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 
-#include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_Map.hpp>
 
-#include <algorithm>
 #include <string>
 
 namespace epafi::linear {
 namespace {
 
-/// All numbers of this rank's subdomains, ascending, once each.
-std::vector<GlobalOrdinal> numbersOf(const GlobalUnknowns& unknowns) {
-  std::vector<GlobalOrdinal> numbers;
-  for (const std::vector<GlobalOrdinal>& list : unknowns)
-    numbers.insert(numbers.end(), list.begin(), list.end());
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return numbers;
-}
-
 /// \throws InputError if a number is on no rank of the map. Collective.
-void requireOnMap(const Map& map, const std::vector<GlobalOrdinal>& numbers) {
-  std::vector<int> ranks(numbers.size());
-  map.getRemoteIndexList(Teuchos::arrayViewFromVector(numbers), Teuchos::arrayViewFromVector(ranks));
+void requireOnMap(const Map& map, const Map& touched) {
+  const auto numbers = localIndices(touched);
+  std::vector<int> ranks(static_cast<std::size_t>(numbers.size()));
+  map.getRemoteIndexList(numbers, Teuchos::arrayViewFromVector(ranks));
   collectively(*map.getComm(), [&] {
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (ranks[i] < 0)
+    for (Teuchos_Ordinal i = 0; i < numbers.size(); ++i)
+      if (ranks[static_cast<std::size_t>(i)] < 0)
         throw InputError("a subdomain has the unknown with the global number " + std::to_string(numbers[i]) +
                          ", but the map of the whole problem has no such number; give it all of them");
   });
@@ -37,19 +27,15 @@ void requireOnMap(const Map& map, const std::vector<GlobalOrdinal>& numbers) {
 } // namespace
 
 UnknownExchange::UnknownExchange(const RCP<const Map>& map, const GlobalUnknowns& unknowns) : map_(map) {
-  const std::vector<GlobalOrdinal> numbers = numbersOf(unknowns);
-  requireOnMap(*map, numbers);
-  const RCP<const Map> touched =
-      rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                  Teuchos::arrayViewFromVector(numbers), map->getIndexBase(), map->getComm()));
+  const RCP<const Map> touched = touchedUnknowns(unknowns, map->getComm());
+  requireOnMap(*map, *touched);
   import_ = rcp(new Import(map, touched));
   touched_ = rcp(new MultiVector(touched, 1));
   for (const std::vector<GlobalOrdinal>& list : unknowns) {
     std::vector<int>& places = places_.emplace_back();
     places.reserve(list.size());
     for (const GlobalOrdinal number : list)
-      places.push_back(
-          static_cast<int>(std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin()));
+      places.push_back(touched->getLocalElement(number));
   }
 }
 

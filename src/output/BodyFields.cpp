@@ -2,6 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Maps.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>
@@ -13,8 +14,8 @@
 namespace epafi::output {
 namespace {
 
-using decomposition::BodyLayout;
 using decomposition::Subdomain;
+using model::BodyLayout;
 
 /// The parts that hold a node, ascending, without repetition.
 void partsOf(const BodyLayout& layout, GlobalOrdinal node, std::vector<GlobalOrdinal>& elements,
@@ -96,18 +97,14 @@ NodeValues valuesOfSubdomains(const SolvedScene& solved, int body) {
   return result;
 }
 
-/// Moves the values to the slab of nodes `range`, one column each.
-MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal numNodes, const RowRange& range,
+/// Moves the values to the slabs of nodes, one column each.
+MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal numNodes,
                    const RCP<const Comm>& comm) {
-  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  const Teuchos::ArrayView<const GlobalOrdinal> nodes(sent.nodes.data(),
-                                                      static_cast<Teuchos::Ordinal>(sent.nodes.size()));
-  const auto source = rcp(new Map(invalid, nodes, 0, comm));
+  const auto source = mapInOrder(sent.nodes, comm);
   if (source->getGlobalNumElements() != static_cast<Tpetra::global_size_t>(numNodes))
     throw Error("The subdomains of a body hold " + std::to_string(source->getGlobalNumElements()) +
                 " of its " + std::to_string(numNodes) + " nodes.");
-  const auto target = rcp(
-      new Map(static_cast<Tpetra::global_size_t>(numNodes), static_cast<std::size_t>(range.count), 0, comm));
+  const auto target = slabMap(numNodes, comm);
   MultiVector from(source, columns);
   for (std::size_t column = 0; column < columns; ++column) {
     const auto data = from.getDataNonConst(column);
@@ -173,7 +170,7 @@ BodyFields gatherBodyFields(const SolvedScene& solved, int body) {
   fields.cells = evenShare(fields.numCells, *problem.comm);
   fields.cellType = layout.mesh->cellType();
   const auto columns = static_cast<std::size_t>(problem.components) + 1;
-  const MultiVector values = toSlab(sent, columns, fields.numNodes, fields.nodes, problem.comm);
+  const MultiVector values = toSlab(sent, columns, fields.numNodes, problem.comm);
   fillNodes(*layout.mesh, values, problem.components, fields);
   fillCells(layout, fields);
   numberCrosspoints(*problem.comm, fields);

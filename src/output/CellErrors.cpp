@@ -1,5 +1,6 @@
 #include "epafi/output/CellErrors.hpp"
 
+#include "epafi/base/Maps.hpp"
 #include "epafi/output/Slab.hpp"
 
 #include <Tpetra_Import.hpp>
@@ -23,11 +24,8 @@ std::vector<double> cellErrors(const SolvedScene& solved, const accuracy::ErrorE
     for (const double squared : estimate.elements[s])
       errors.push_back(std::sqrt(squared));
   }
-  const auto numCells = static_cast<Tpetra::global_size_t>(layout.mesh->numElements());
-  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  const auto share = evenShare(layout.mesh->numElements(), *problem.comm);
-  const auto source = rcp(new Map(invalid, Teuchos::arrayViewFromVector(cells), 0, problem.comm));
-  const auto target = rcp(new Map(numCells, static_cast<std::size_t>(share.count), 0, problem.comm));
+  const auto source = mapInOrder(cells, problem.comm);
+  const auto target = slabMap(layout.mesh->numElements(), problem.comm);
   const Vector mine(source, Teuchos::arrayViewFromVector(errors));
   Vector slab(target);
   slab.doImport(mine, Import(source, target), Tpetra::INSERT);

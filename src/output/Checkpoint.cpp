@@ -27,12 +27,6 @@ namespace fs = std::filesystem;
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// The map of even shares of λ.
-RCP<const Map> shareMap(GlobalOrdinal numMultipliers, const RCP<const Comm>& comm) {
-  const auto count = static_cast<std::size_t>(evenShare(numMultipliers, *comm).count);
-  return rcp(new Map(static_cast<Tpetra::global_size_t>(numMultipliers), count, 0, comm));
-}
-
 std::size_t sizeOfShare(GlobalOrdinal rows, int rank, const Comm& comm) {
   return static_cast<std::size_t>(evenShare(rows, rank, comm.getSize()).count);
 }
@@ -190,7 +184,7 @@ void writeCheckpoint(const fs::path& file, const Fingerprint& fingerprint, const
   const RCP<const Comm> comm = lambda.getMap()->getComm();
   prepareTarget(file, *comm);
   const fs::path temporary = temporaryBeside(file, *comm);
-  const RCP<const Map> shares = shareMap(fingerprint.numMultipliers(), comm);
+  const RCP<const Map> shares = slabMap(fingerprint.numMultipliers(), comm);
   Vector ordered(shares);
   ordered.doImport(lambda, Import(lambda.getMap(), shares), Tpetra::INSERT);
   const auto values = ordered.getData();
@@ -245,7 +239,7 @@ RCP<Vector> multipliersOf(const Checkpoint& checkpoint, const decomposition::Dec
         throw InputError("belongs to another problem: it " + difference);
     });
   });
-  const RCP<const Map> shares = shareMap(fingerprint.numMultipliers(), problem.comm);
+  const RCP<const Map> shares = slabMap(fingerprint.numMultipliers(), problem.comm);
   Vector ordered(shares);
   std::copy(checkpoint.share.begin(), checkpoint.share.end(), ordered.getDataNonConst().begin());
   const RCP<Vector> lambda = rcp(new Vector(problem.multiplierMap));

@@ -1,5 +1,6 @@
 #include "epafi/output/ContactFields.hpp"
 
+#include "epafi/base/Maps.hpp"
 #include "epafi/output/ContactGeometry.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
@@ -14,7 +15,7 @@
 namespace epafi::output {
 namespace {
 
-using decomposition::ContactLayout;
+using contact::ContactLayout;
 
 std::vector<double> rowsOf(const Vector& whole, const Import& toSlab) {
   Vector slab(toSlab.getTargetMap());
@@ -28,10 +29,9 @@ std::vector<long long> completeFacets(const ContactLayout& layout, const fem::Su
   std::unordered_map<GlobalOrdinal, long long> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     rowOf.emplace(layout.firstNodes[row], static_cast<long long>(row));
-  const auto perFacet = static_cast<std::size_t>(surface.nodesPerFacet);
   std::vector<long long> corners;
-  for (std::size_t first = 0; first < surface.facetNodes.size(); first += perFacet) {
-    const auto nodes = std::span(surface.facetNodes).subspan(first, perFacet);
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    const auto nodes = surface.facet(f);
     if (std::all_of(nodes.begin(), nodes.end(), [&](GlobalOrdinal node) { return rowOf.contains(node); }))
       for (const GlobalOrdinal node : nodes)
         corners.push_back(rowOf.at(node));
@@ -46,7 +46,7 @@ void fillFacets(const SolvedScene& solved, int contact, ContactFields& fields) {
     const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
     const fem::Surface surface = mesh.surface(between->firstSurface);
     corners = completeFacets(layout, surface);
-    fields.nodesPerFacet = surface.nodesPerFacet;
+    fields.nodesPerFacet = surface.nodesPerFacet();
   }
   if (corners.empty()) {
     fields.nodesPerFacet = 1;
@@ -81,8 +81,7 @@ ContactFields gatherContactFields(const SolvedScene& solved, int contact, std::s
   }
   fillFacets(solved, contact, fields);
 
-  const auto slab = rcp(new Map(static_cast<Tpetra::global_size_t>(layout.numRows()),
-                                Teuchos::arrayViewFromVector(multipliers), 0, problem.comm));
+  const auto slab = mapInOrder(multipliers, problem.comm);
   const Import toSlab(problem.multiplierMap, slab);
   fields.initialGap = rowsOf(*problem.gap, toSlab);
   fields.gap = rowsOf(*solved.solution.slack, toSlab);

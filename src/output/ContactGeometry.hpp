@@ -15,6 +15,6 @@ namespace epafi::output {
 std::vector<double> pressureAreas(const SolvedScene& solved, int contact);
 
 /// Direction from the first body to the other side at a row; deflections of membranes are along z.
-std::array<double, 3> directionOf(const decomposition::ContactLayout& contact, std::size_t row);
+std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::size_t row);
 
 } // namespace epafi::output

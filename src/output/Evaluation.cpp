@@ -16,7 +16,7 @@
 namespace epafi::output {
 namespace {
 
-using decomposition::ContactLayout;
+using contact::ContactLayout;
 
 /// Sums over the rows of one contact, in this order in what is sent.
 struct ContactSums {

@@ -29,6 +29,8 @@ XdmfData put(Hdf5File& file, const std::string& dataset, GlobalOrdinal rows, int
 
 XdmfTopology topologyOf(fem::CellType type) {
   switch (type) {
+  case fem::CellType::line:
+    return XdmfTopology::lines;
   case fem::CellType::triangle:
     return XdmfTopology::triangles;
   case fem::CellType::quadrilateral:
@@ -73,11 +75,10 @@ XdmfGrid putBody(Hdf5File& file, const std::string& group, const SolvedScene& so
   const BodyFields fields = gatherBodyFields(solved, body);
   const auto place = static_cast<std::size_t>(body);
   const std::string& name = solved.decomposition.bodies[place].name;
-  const auto& solid = solved.scene.bodies[place].solid;
   file.createGroup(group);
   file.attribute(group, "name", name);
   file.attribute(group, "cell_type", std::string(fem::toString(fields.cellType)));
-  file.attribute(group, "physics", toString(solid ? solid->physics : scene::Physics::membrane));
+  file.attribute(group, "physics", toString(solved.scene.bodies[place].physics));
   const GlobalOrdinal n = fields.numNodes;
   const GlobalOrdinal cells = fields.numCells;
   XdmfGrid grid;
@@ -128,40 +129,29 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   return grid;
 }
 
-/// One column of the history; every rank has it whole, rank 0 writes it.
-template <class T, class Value>
-void putHistoryColumn(Hdf5File& file, const std::string& name, const qp::History& history, const Comm& comm,
-                      Value value) {
-  const auto rows = static_cast<GlobalOrdinal>(history.size());
-  const RowRange range = onFirstRank(rows, comm);
-  std::vector<T> column;
-  for (GlobalOrdinal k = 0; k < range.count; ++k)
-    column.push_back(static_cast<T>(value(history[static_cast<std::size_t>(k)])));
-  file.write("/history/" + name, rows, 0, range, std::span<const T>(column));
-}
-
+/// The history; every rank has it whole, rank 0 writes it.
 void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
   using Record = qp::StepRecord;
   file.createGroup("/history");
-  const auto integers = [&](const std::string& name, auto value) {
-    putHistoryColumn<int>(file, name, history, comm, value);
+  const auto rows = static_cast<GlobalOrdinal>(history.size());
+  const RowRange range = onFirstRank(rows, comm);
+  const auto column = [&]<class T>(const std::string& name, T, auto member) { // T: what is written
+    std::vector<T> values;
+    for (GlobalOrdinal k = 0; k < range.count; ++k)
+      values.push_back(static_cast<T>(history[static_cast<std::size_t>(k)].*member));
+    file.write("/history/" + name, rows, 0, range, std::span<const T>(values));
   };
-  const auto reals = [&](const std::string& name, auto value) {
-    putHistoryColumn<double>(file, name, history, comm, value);
-  };
-  integers("iteration", [](const Record& record) { return record.iteration; });
-  integers("outer", [](const Record& record) { return record.outer; });
-  putHistoryColumn<signed char>(file, "step", history, comm,
-                                [](const Record& record) { return record.kind; });
-  reals("projected_gradient", [](const Record& record) { return record.projectedGradient; });
-  reals("constraint_residual", [](const Record& record) { return record.constraintResidual; });
-  reals("objective", [](const Record& record) { return record.objective; });
-  putHistoryColumn<long long>(file, "active_bounds", history, comm,
-                              [](const Record& record) { return record.activeBounds; });
-  integers("hessian_multiplications", [](const Record& record) { return record.hessianMultiplications; });
+  column("iteration", 0, &Record::iteration);
+  column("outer", 0, &Record::outer);
+  column("step", static_cast<signed char>(0), &Record::kind);
+  column("projected_gradient", 0.0, &Record::projectedGradient);
+  column("constraint_residual", 0.0, &Record::constraintResidual);
+  column("objective", 0.0, &Record::objective);
+  column("active_bounds", 0LL, &Record::activeBounds);
+  column("hessian_multiplications", 0, &Record::hessianMultiplications);
 }
 
-void putHead(Hdf5File& file, const decomposition::Decomposition& decomposition,
+void putHead(Hdf5File& file, const model::Decomposition& decomposition,
              const fetidp::ContactSolution& solution) {
   file.attribute("/", "program", std::string("Epafi"));
   file.attribute("/", "format", 1LL);
@@ -184,7 +174,7 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
                        const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history) {
   if (name.empty() || name.find('/') != std::string::npos) // the same on all ranks
     throw InputError("'" + name + "' is no name for an output file; it must not be empty nor contain '/'.");
-  const decomposition::Decomposition& decomposition = solved.decomposition;
+  const model::Decomposition& decomposition = solved.decomposition;
   const auto& problem = decomposition.problem;
   FieldFiles files{directory / (name + ".h5"), directory / (name + ".xdmf")};
 

@@ -7,6 +7,9 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <span>
+#include <utility>
 
 namespace epafi::output {
 namespace {
@@ -46,10 +49,11 @@ Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem) {
       stiffness.add((1 + share) * subdomain.stiffness->coeff(i, i));
     }
   }
-  // Halves of 32 bits: their sums over the ranks are exact in doubles.
-  std::array<AccurateSum, 3> sums{stiffness, AccurateSum(static_cast<double>(rows >> 32U)),
-                                  AccurateSum(static_cast<double>(rows & 0xffffffffU))};
-  sumOverRanks(*problem.comm, sums);
+  // Halves of 32 bits, whose sums overflow on no number of ranks.
+  std::array<GlobalOrdinal, 2> halves{static_cast<GlobalOrdinal>(rows >> 32U),
+                                      static_cast<GlobalOrdinal>(rows & 0xffffffffU)};
+  sumOverRanks(*problem.comm, std::span(halves));
+  sumOverRanks(*problem.comm, {&stiffness, 1});
   Fingerprint fingerprint;
   fingerprint.numInequalities = problem.numInequalities;
   fingerprint.numEqualities = problem.numEqualities;
@@ -57,28 +61,24 @@ Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem) {
   fingerprint.numSubdomains = problem.numSubdomains;
   fingerprint.components = problem.components;
   fingerprint.kernelDimension = problem.kernelDimension;
-  fingerprint.rows =
-      (static_cast<std::uint64_t>(sums[1].value()) << 32U) + static_cast<std::uint64_t>(sums[2].value());
-  fingerprint.stiffness = sums[0].value();
+  fingerprint.rows = (static_cast<std::uint64_t>(halves[0]) << 32U) + static_cast<std::uint64_t>(halves[1]);
+  fingerprint.stiffness = stiffness.value();
   return fingerprint;
 }
 
 std::string differenceBetween(const Fingerprint& mine, const Fingerprint& other) {
-  const auto counts = [](GlobalOrdinal here, const char* what, GlobalOrdinal there) {
-    return "has " + std::to_string(there) + what + " instead of " + std::to_string(here);
-  };
-  if (other.components != mine.components)
-    return counts(mine.components, " unknowns a node", other.components);
-  if (other.numSubdomains != mine.numSubdomains)
-    return counts(mine.numSubdomains, " subdomains", other.numSubdomains);
-  if (other.primalDimension != mine.primalDimension)
-    return counts(mine.primalDimension, " primal unknowns", other.primalDimension);
-  if (other.numInequalities != mine.numInequalities)
-    return counts(mine.numInequalities, " multipliers of contact", other.numInequalities);
-  if (other.numEqualities != mine.numEqualities)
-    return counts(mine.numEqualities, " multipliers of gluing", other.numEqualities);
-  if (other.kernelDimension != mine.kernelDimension)
-    return counts(mine.kernelDimension, " rigid modes of floating bodies", other.kernelDimension);
+  using Count = GlobalOrdinal Fingerprint::*;
+  const std::initializer_list<std::pair<const char*, Count>> counts{
+      {"unknowns a node", &Fingerprint::components},
+      {"subdomains", &Fingerprint::numSubdomains},
+      {"primal unknowns", &Fingerprint::primalDimension},
+      {"multipliers of contact", &Fingerprint::numInequalities},
+      {"multipliers of gluing", &Fingerprint::numEqualities},
+      {"rigid modes of floating bodies", &Fingerprint::kernelDimension}};
+  for (const auto& [what, count] : counts)
+    if (other.*count != mine.*count)
+      return "has " + std::to_string(other.*count) + " " + what + " instead of " +
+             std::to_string(mine.*count);
   if (other.rows != mine.rows)
     return "joins other nodes";
   constexpr double tolerance = 1e-9;

@@ -22,7 +22,7 @@ struct Fingerprint {
   [[nodiscard]] GlobalOrdinal numMultipliers() const { return numInequalities + numEqualities; }
 };
 
-/// One message. Collective.
+/// Collective.
 Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem);
 
 /// In what `other` differs from `mine`, "has 369 multipliers of contact and gluing instead of 120"; empty if they agree

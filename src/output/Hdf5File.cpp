@@ -2,9 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/RawCommunicator.hpp"
 #include "epafi/output/AtomicFile.hpp"
 
-#include <Teuchos_DefaultMpiComm.hpp>
 #include <hdf5.h>
 
 #include <algorithm>
@@ -80,11 +80,6 @@ Result checked(Result result, const std::filesystem::path& file, const std::stri
   return result;
 }
 
-MPI_Comm rawComm(const Comm& comm) {
-  const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(&comm);
-  return mpi != nullptr ? (*mpi->getRawMpiComm())() : MPI_COMM_SELF;
-}
-
 template <class T>
 hid_t memoryType() {
   if constexpr (std::is_same_v<T, double>)
@@ -155,7 +150,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& com
   const QuietHdf5 quiet;
   try {
     createForAll(temporary_, *comm); // HDF5 would wait for a rank that cannot open it
-    collectively(*comm, [&] { file_ = createFile(temporary_, rawComm(*comm)); });
+    collectively(*comm, [&] {
+      file_ = createFile(temporary_, comm->getSize() > 1 ? rawCommunicator(*comm) : MPI_COMM_SELF);
+    });
     reserve(bytesOfFile);
   } catch (const Error&) {
     abandon();
@@ -237,33 +234,30 @@ void Hdf5File::createGroup(const std::string& group) {
 template <class T>
 void Hdf5File::write(const std::string& dataset, GlobalOrdinal rows, int columns, const RowRange& range,
                      std::span<const T> values) {
-  together([&] { writeOrThrow(dataset, rows, columns, range, values); });
-}
-
-template <class T>
-void Hdf5File::writeOrThrow(const std::string& dataset, GlobalOrdinal rows, int columns,
-                            const RowRange& range, std::span<const T> values) {
-  const GlobalOrdinal written = sumOverRanks(*comm_, range.count);
-  collectively(*comm_, [&] {
-    const auto expected = static_cast<std::size_t>(range.count * (columns == 0 ? 1 : columns));
-    if (columns < 0 || range.first < 0 || range.count < 0 || range.first + range.count > rows ||
-        values.size() != expected || written != rows)
-      throw Error("File '" + path_.string() + "', dataset '" + dataset + "': rank " +
-                  std::to_string(comm_->getRank()) + " hands over " + std::to_string(values.size()) +
-                  " values for rows " + std::to_string(range.first) + " to " +
-                  std::to_string(range.first + range.count) + " of " + std::to_string(rows) + " × " +
-                  std::to_string(columns) + ", and all ranks together " + std::to_string(written) + " rows.");
-  });
-  const int width = columns == 0 ? 1 : columns;
-  reserve(static_cast<std::uintmax_t>(rows) * static_cast<std::uintmax_t>(width) * sizeof(T) +
-          bytesOfPath(dataset));
-  const QuietHdf5 quiet;
-  hid_t id = -1;
-  collectively(*comm_, [&] { id = createDataset(file_, path_, dataset, memoryType<T>(), rows, columns); });
-  const Handle owned(id, H5Dclose);
-  collectively(*comm_, [&] {
-    if (rows > 0)
-      writeRows(id, path_, dataset, memoryType<T>(), columns, range, values.data());
+  together([&] {
+    const GlobalOrdinal written = sumOverRanks(*comm_, range.count);
+    collectively(*comm_, [&] {
+      const auto expected = static_cast<std::size_t>(range.count * (columns == 0 ? 1 : columns));
+      if (columns < 0 || range.first < 0 || range.count < 0 || range.first + range.count > rows ||
+          values.size() != expected || written != rows)
+        throw Error("File '" + path_.string() + "', dataset '" + dataset + "': rank " +
+                    std::to_string(comm_->getRank()) + " hands over " + std::to_string(values.size()) +
+                    " values for rows " + std::to_string(range.first) + " to " +
+                    std::to_string(range.first + range.count) + " of " + std::to_string(rows) + " × " +
+                    std::to_string(columns) + ", and all ranks together " + std::to_string(written) +
+                    " rows.");
+    });
+    const int width = columns == 0 ? 1 : columns;
+    reserve(static_cast<std::uintmax_t>(rows) * static_cast<std::uintmax_t>(width) * sizeof(T) +
+            bytesOfPath(dataset));
+    const QuietHdf5 quiet;
+    hid_t id = -1;
+    collectively(*comm_, [&] { id = createDataset(file_, path_, dataset, memoryType<T>(), rows, columns); });
+    const Handle owned(id, H5Dclose);
+    collectively(*comm_, [&] {
+      if (rows > 0)
+        writeRows(id, path_, dataset, memoryType<T>(), columns, range, values.data());
+    });
   });
 }
 

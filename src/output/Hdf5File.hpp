@@ -65,9 +65,6 @@ private:
   void forget() noexcept;
   template <class Work>
   void together(const Work& work);
-  template <class T>
-  void writeOrThrow(const std::string& dataset, GlobalOrdinal rows, int columns, const RowRange& range,
-                    std::span<const T> values);
 
   std::filesystem::path path_;
   std::filesystem::path temporary_;

@@ -1,29 +1,16 @@
 #include "epafi/output/HistoryTable.hpp"
 
+#include "epafi/base/ParameterValue.hpp"
 #include "epafi/output/AtomicFile.hpp"
 
-#include <array>
-#include <charconv>
-
 namespace epafi::output {
-namespace {
-
-/// Shortest decimal form that reads back as the same number, whatever the locale.
-std::string exact(double value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
-}
-
-} // namespace
-
 std::string historyTable(const qp::History& history) {
   std::string table = "iteration,outer,step,projected_gradient,constraint_residual,objective,active_bounds,"
                       "hessian_multiplications\n";
   for (const qp::StepRecord& record : history) {
     table += std::to_string(record.iteration) + ',' + std::to_string(record.outer) + ',' +
-             static_cast<char>(record.kind) + ',' + exact(record.projectedGradient) + ',' +
-             exact(record.constraintResidual) + ',' + exact(record.objective) + ',' +
+             static_cast<char>(record.kind) + ',' + valueText(record.projectedGradient) + ',' +
+             valueText(record.constraintResidual) + ',' + valueText(record.objective) + ',' +
              std::to_string(record.activeBounds) + ',' + std::to_string(record.hessianMultiplications) + '\n';
   }
   return table;

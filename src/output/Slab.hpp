@@ -6,6 +6,7 @@
 #include "epafi/base/Types.hpp"
 
 #include <Teuchos_Comm.hpp>
+#include <Tpetra_Map.hpp>
 
 #include <algorithm>
 
@@ -28,6 +29,12 @@ inline RowRange evenShare(GlobalOrdinal rows, GlobalOrdinal rank, GlobalOrdinal 
 /// This rank's. Not collective.
 inline RowRange evenShare(GlobalOrdinal rows, const Comm& comm) {
   return evenShare(rows, comm.getRank(), comm.getSize());
+}
+
+/// The rows, each rank with its share. Collective.
+inline RCP<const Map> slabMap(GlobalOrdinal rows, const RCP<const Comm>& comm) {
+  return rcp(new Map(static_cast<Tpetra::global_size_t>(rows),
+                     static_cast<std::size_t>(evenShare(rows, *comm).count), 0, comm));
 }
 
 /// All rows on rank 0, none elsewhere; for short tables that every rank holds whole. Not collective.

@@ -1,50 +1,33 @@
 #include "epafi/output/Xdmf.hpp"
 
+#include <array>
+#include <map>
 #include <sstream>
 
 namespace epafi::output {
 namespace {
 
 std::string escaped(const std::string& text) {
+  static const std::map<char, const char*> entities{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-    case '&':
-      result += "&amp;";
-      break;
-    case '<':
-      result += "&lt;";
-      break;
-    case '>':
-      result += "&gt;";
-      break;
-    case '"':
-      result += "&quot;";
-      break;
-    default:
+  for (const char letter : text)
+    if (const auto entity = entities.find(letter); entity != entities.end())
+      result += entity->second;
+    else
       result += letter;
-    }
-  }
   return result;
 }
 
 /// Value of TopologyType, and the attribute that goes with it where cells are of any length.
 const char* nameOf(XdmfTopology topology) {
-  switch (topology) {
-  case XdmfTopology::points:
-    return "Polyvertex\" NodesPerElement=\"1";
-  case XdmfTopology::lines:
-    return "Polyline\" NodesPerElement=\"2";
-  case XdmfTopology::triangles:
-    return "Triangle";
-  case XdmfTopology::quadrilaterals:
-    return "Quadrilateral";
-  case XdmfTopology::tetrahedra:
-    return "Tetrahedron";
-  case XdmfTopology::hexahedra:
-    return "Hexahedron";
-  }
-  return "";
+  constexpr std::array names{"Polyvertex\" NodesPerElement=\"1",
+                             "Polyline\" NodesPerElement=\"2",
+                             "Triangle",
+                             "Quadrilateral",
+                             "Tetrahedron",
+                             "Hexahedron"};
+  return names.at(static_cast<std::size_t>(topology));
 }
 
 /// Writes the document's elements with the name of the HDF5 file at hand.

@@ -1,93 +1,21 @@
 #include "epafi/scene/BodyReader.hpp"
 
 #include "epafi/base/ParameterValue.hpp"
-#include "epafi/scene/SolidReader.hpp"
+#include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace epafi::scene {
 namespace {
 
-bool overlap(const Rectangle& a, const Rectangle& b) {
-  return std::max(a.x0, b.x0) < std::min(a.x1, b.x1) && std::max(a.y0, b.y0) < std::min(a.y1, b.y1);
+bool isElastic(const Body& body) {
+  return body.physics != Physics::membrane;
 }
 
-std::string text(const Rectangle& box) {
-  return '{' + valueText(box.x0) + ", " + valueText(box.x1) + ", " + valueText(box.y0) + ", " +
-         valueText(box.y1) + '}';
-}
-
-const std::string noMesh = "the body has no mesh file with groups and surfaces";
-
-void refuseElastic(const ListReader& list) {
-  list.refuseGiven({"Young's Modulus", "Poisson's Ratio", "Thickness"}, "membranes have none; remove it");
-}
-
-bool isVertical(Edge edge) {
-  return edge == Edge::left || edge == Edge::right;
-}
-
-Rectangle boxInside(const ListReader& list, const Body& body) {
-  const Rectangle box = list.rectangle("Box");
-  if (!overlap(box, body.rectangle))
-    list.refuseValue("Box",
-                     "must overlap the body \"" + body.name + "\", which fills " + text(body.rectangle));
-  return box;
-}
-
-std::vector<Region> readRegions(const ListReader& list, const Body& body) {
-  std::vector<Region> regions;
-  for (const std::string& name : list.names()) {
-    const ListReader region = list.inside(name);
-    refuseElastic(region);
-    region.refuseGiven({"Group"}, noMesh);
-    for (const char* const needed : {"Box", "Conductivity"})
-      region.require(needed);
-    regions.push_back({name, boxInside(region, body), region.positive("Conductivity")});
-  }
-  return regions;
-}
-
-std::vector<Support> readSupports(const ListReader& list) {
-  std::vector<Support> supports;
-  for (const std::string& name : list.names()) {
-    const ListReader entry = list.inside(name);
-    entry.refuseGiven({"Surface"}, "a membrane on a rectangle is supported on an \"Edge\"");
-    entry.refuseGiven({"X", "Y", "Z"}, "a membrane's deflection is its \"Value\"");
-    entry.require("Edge");
-    const Support support{name, entry.edge("Edge"), entry.real("Value")};
-    for (const Support& other : supports) {
-      if (other.edge == support.edge)
-        entry.refuseValue("Edge", "that edge has the support \"" + other.name + "\" already");
-      if (isVertical(other.edge) != isVertical(support.edge) && other.value != support.value)
-        entry.refuseValue("Value", "must equal the value " + valueText(other.value) + " of the support \"" +
-                                       other.name + "\", with which it shares a corner");
-    }
-    supports.push_back(support);
-  }
-  return supports;
-}
-
-std::vector<Load> readLoads(const ListReader& list, const Body& body) {
-  std::vector<Load> loads;
-  for (const std::string& name : list.names()) {
-    const ListReader load = list.inside(name);
-    if (load.word("Kind") != "body")
-      load.refuseValue("Kind", "a membrane on a rectangle carries loads of the kind \"body\" only");
-    load.refuseGiven({"Group", "Surface"}, noMesh);
-    load.refuseGiven({"Point"}, "a load of the kind \"body\" has no use for it");
-    load.refuseGiven({"Force"}, "a membrane's load is a number, its \"Value\"");
-    load.require("Value");
-    loads.push_back(
-        {name, load.hasEntries("Box") ? boxInside(load, body) : body.rectangle, load.real("Value")});
-  }
-  return loads;
-}
-
-/// Elements in x, y and z of a structured mesh; zeros of another one.
-std::array<int, 3> elementsOf(const Body& body) {
-  return body.solid ? body.solid->mesh.elements : std::array<int, 3>{body.elements[0], body.elements[1], 0};
+int dimensionOf(const Body& body) {
+  return dimensionOf(body.physics);
 }
 
 std::string text(const std::array<int, 3>& counts) {
@@ -95,16 +23,248 @@ std::string text(const std::array<int, 3>& counts) {
          (counts[2] > 0 ? ", " + std::to_string(counts[2]) : "") + '}';
 }
 
+Physics physicsOf(const std::string& word) {
+  for (const Physics physics : {Physics::planeStrain, Physics::planeStress, Physics::elasticity3d})
+    if (toString(physics) == word)
+      return physics;
+  return Physics::membrane;
+}
+
+/// Nodes are counted by int, and their coordinates must be told apart by a double with digits to spare.
+void requireTellableNodes(const ListReader& list, const std::string& extent, const MeshSource& mesh,
+                          std::size_t dimension) {
+  constexpr double mostNodes = std::numeric_limits<int>::max();
+  double numNodes = 1;
+  for (std::size_t d = 0; d < dimension; ++d)
+    numNodes *= mesh.elements[d] + 1.0;
+  if (numNodes > mostNodes)
+    list.refuseValue("Elements", "that makes " + valueText(numNodes) + " nodes and a body may have at most " +
+                                     valueText(mostNodes));
+  constexpr double relativeWidth = 1e-12;
+  for (std::size_t d = 0; d < dimension; ++d) {
+    const double lower = mesh.box.lower[d], upper = mesh.box.upper[d];
+    if ((upper - lower) / mesh.elements[d] <= relativeWidth * std::max(std::abs(lower), std::abs(upper)))
+      list.refuseValue(extent, "elements of its size over " + text(mesh.elements) +
+                                   " are too thin at that distance from the origin to be told apart");
+  }
+}
+
+MeshSource readMesh(const ListReader& list, int dimension) {
+  MeshSource source;
+  if (list.hasEntries("Mesh")) {
+    list.refuseGiven({"Rectangle", "Box", "Elements"}, "the body has a mesh file; remove one of them");
+    source.file = list.file("Mesh");
+    source.sizeFactor = list.positive("Mesh Size Factor");
+    if (!source.file.ends_with(".geo"))
+      list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
+    source.refinements = list.integer("Mesh Refinements");
+    source.group = list.word("Group");
+    return source;
+  }
+  list.refuseGiven({"Group", "Mesh Size Factor", "Mesh Refinements"},
+                   "the body has no mesh file that it could apply to");
+  list.refuseGiven({dimension == 3 ? "Rectangle" : "Box"},
+                   "a body in " +
+                       std::string(dimension == 3 ? "space has a \"Box\"" : "the plane has a \"Rectangle\""));
+  const std::string extent = dimension == 3 ? "Box" : "Rectangle";
+  for (const std::string& name : {extent, std::string("Elements")})
+    list.require(name, " unless it has a mesh file");
+  source.box = list.box(extent, dimension);
+  source.elements = list.counts("Elements", dimension);
+  if (dimension == 2)
+    source.elements[2] = 0;
+  requireTellableNodes(list, extent, source, static_cast<std::size_t>(dimension));
+  return source;
+}
+
+/// What is not given is as in `outer`. Of a region nothing is required.
+Material readMaterial(const ListReader& list, Physics physics, const Material& outer, bool isRegion) {
+  Material material = outer;
+  const auto take = [&](const char* name, double& value) {
+    if (list.has(name))
+      value = list.positive(name);
+  };
+  if (physics == Physics::membrane) {
+    list.refuseGiven({"Young's Modulus", "Poisson's Ratio", "Thickness"}, "membranes have none; remove it");
+    take("Conductivity", material.conductivity);
+    return material;
+  }
+  const std::string useless = "bodies of the physics \"" + toString(physics) + "\" have none; remove it";
+  list.refuseGiven({"Conductivity"}, useless);
+  if (physics == Physics::elasticity3d)
+    list.refuseGiven({"Thickness"}, useless);
+  if (!isRegion)
+    for (const char* const name : {"Young's Modulus", "Poisson's Ratio"})
+      list.require(name, " of an elastic body");
+  take("Young's Modulus", material.youngsModulus);
+  take("Thickness", material.thickness);
+  if (list.has("Poisson's Ratio"))
+    material.poissonsRatio = list.real("Poisson's Ratio");
+  return material;
+}
+
+/// A box that meets the body's own, if this is known.
+Box boxIn(const ListReader& list, const Body& body) {
+  const Box box = list.box("Box", dimensionOf(body));
+  if (body.mesh.file.empty())
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dimensionOf(body)); ++d) {
+      const double lower = body.mesh.box.lower[d], upper = body.mesh.box.upper[d];
+      if (!(std::max(box.lower[d], lower) < std::min(box.upper[d], upper)))
+        list.refuseValue("Box", "must overlap the body, which in " + std::string(1, "xyz"[d]) +
+                                    " goes from " + valueText(lower) + " to " + valueText(upper));
+    }
+  return box;
+}
+
+void requireOneDomain(const ListReader& list, const MeshSource& mesh) {
+  if (list.hasEntries("Box"))
+    list.refuseGiven({"Group"}, "there is a box, too; give one of them");
+  if (mesh.file.empty())
+    list.refuseGiven({"Group"}, "the body has no mesh file with groups; give a box");
+}
+
+std::vector<SolidRegion> readRegions(const ListReader& list, const Body& body) {
+  std::vector<SolidRegion> regions;
+  for (const std::string& name : list.names()) {
+    const ListReader entry = list.inside(name);
+    SolidRegion region{name, {}, entry.word("Group"), readMaterial(entry, body.physics, body.material, true)};
+    requireOneDomain(entry, body.mesh);
+    if (region.group.empty()) {
+      entry.require("Box", body.mesh.file.empty() ? "" : " unless there is a group");
+      region.box = boxIn(entry, body);
+    }
+    if (isMembraneOnRectangle(body))
+      entry.require("Conductivity");
+    regions.push_back(region);
+  }
+  return regions;
+}
+
+/// Throws unless an edge has no support yet and those that it meets in corners have its value.
+void requireAgreement(const ListReader& entry, const SolidSupport& support,
+                      const std::vector<SolidSupport>& others) {
+  const auto isVertical = [](const SolidSupport& s) { return s.surface == "left" || s.surface == "right"; };
+  for (const SolidSupport& other : others) {
+    if (other.surface == support.surface)
+      entry.refuseValue("Edge", "that edge has the support \"" + other.name + "\" already");
+    if (isVertical(other) != isVertical(support) && other.value != support.value)
+      entry.refuseValue("Value", "must equal the value " + valueText(*other.value[0]) + " of the support \"" +
+                                     other.name + "\", with which it shares a corner");
+  }
+}
+
+/// The components of an elastic body, or its normal.
+void readComponents(const ListReader& entry, const Body& body, SolidSupport& support) {
+  entry.refuseGiven({"Value"}, "the components \"X\", \"Y\" and \"Z\" say what is held of an elastic body");
+  if (dimensionOf(body) == 2)
+    entry.refuseGiven({"Z"}, "the body lies in the plane");
+  for (int c = 0; c < componentsOf(body.physics); ++c)
+    if (const std::string component(1, "XYZ"[c]); entry.has(component))
+      support.value[static_cast<std::size_t>(c)] = entry.real(component);
+  if (entry.has("Normal"))
+    support.normal = entry.real("Normal");
+  if (!support.normal && std::none_of(support.value.begin(), support.value.end(),
+                                      [](const auto& value) { return value.has_value(); }))
+    entry.refuseList("holds nothing; give at least one of the components that it prescribes, \"X\", \"Y\"" +
+                     std::string(dimensionOf(body) == 3 ? ", \"Z\"" : "") + ", or \"Normal\"");
+}
+
+std::vector<SolidSupport> readSupports(const ListReader& list, const Body& body) {
+  std::vector<SolidSupport> supports;
+  for (const std::string& name : list.names()) {
+    const ListReader entry = list.inside(name);
+    SolidSupport support{name, "", {}, {}};
+    if (isElastic(body) || !body.mesh.file.empty()) {
+      entry.refuseGiven({"Edge"}, "only membranes on rectangles have edges; name the \"Surface\"");
+      entry.require("Surface");
+      support.surface = entry.word("Surface");
+    } else {
+      entry.refuseGiven({"Surface"}, "a membrane on a rectangle is supported on an \"Edge\"");
+      entry.require("Edge");
+      support.surface = entry.edge("Edge");
+    }
+    if (isElastic(body)) {
+      readComponents(entry, body, support);
+    } else {
+      entry.refuseGiven({"X", "Y", "Z", "Normal"}, "a membrane's deflection is its \"Value\"");
+      support.value[0] = entry.real("Value");
+      if (isMembraneOnRectangle(body))
+        requireAgreement(entry, support, supports);
+    }
+    supports.push_back(support);
+  }
+  return supports;
+}
+
+/// Where a load acts; the parameters of the other kinds are refused.
+void readPlace(const ListReader& list, const Body& body, SolidLoad& load) {
+  const std::string reason = "a load of the kind \"" + list.word("Kind") + "\" has no use for it";
+  using Kind = SolidLoad::Kind;
+  if (load.kind != Kind::body)
+    list.refuseGiven({"Box", "Group"}, reason);
+  if (load.kind == Kind::body || load.kind == Kind::point)
+    list.refuseGiven({"Surface"}, reason);
+  if (load.kind != Kind::point)
+    list.refuseGiven({"Point"}, reason);
+  if (load.kind == Kind::body) {
+    requireOneDomain(list, body.mesh);
+    load.where = list.word("Group");
+    if (list.hasEntries("Box"))
+      load.box = boxIn(list, body);
+    load.wholeElements = !isMembraneOnRectangle(body);
+  } else if (load.kind == Kind::point) {
+    list.require("Point");
+    load.point = list.vector("Point", dimensionOf(body));
+  } else {
+    list.require("Surface");
+    load.where = list.word("Surface");
+  }
+}
+
+SolidLoad::Kind kindOf(const std::string& word) {
+  using Kind = SolidLoad::Kind;
+  return word == "body"       ? Kind::body
+         : word == "traction" ? Kind::traction
+         : word == "pressure" ? Kind::pressure
+                              : Kind::point;
+}
+
+std::vector<SolidLoad> readLoads(const ListReader& list, const Body& body) {
+  std::vector<SolidLoad> loads;
+  for (const std::string& name : list.names()) {
+    const ListReader entry = list.inside(name);
+    SolidLoad load;
+    load.name = name;
+    load.kind = kindOf(entry.word("Kind"));
+    if (load.kind != SolidLoad::Kind::body && isMembraneOnRectangle(body))
+      entry.refuseValue("Kind", "a membrane on a rectangle carries loads of the kind \"body\" only");
+    if (load.kind == SolidLoad::Kind::pressure && !isElastic(body))
+      entry.refuseValue("Kind", "membranes carry no pressure on their edges; give a traction");
+    readPlace(entry, body, load);
+    if (!isElastic(body) || load.kind == SolidLoad::Kind::pressure) {
+      entry.refuseGiven({"Force"}, "a load of this kind is a number, its \"Value\"");
+      entry.require("Value");
+      load.value[0] = entry.real("Value");
+    } else {
+      entry.refuseGiven({"Value"}, "a load of this kind has components, its \"Force\"");
+      entry.require("Force");
+      load.value = entry.vector("Force", dimensionOf(body));
+    }
+    loads.push_back(load);
+  }
+  return loads;
+}
+
 Decomposition readDecomposition(const ListReader& list, const Body& body) {
   Decomposition cut;
-  const std::array<int, 3> elements = elementsOf(body);
-  const bool isStructured = elements[0] > 0;
+  const std::array<int, 3>& elements = body.mesh.elements;
+  const bool isStructured = body.mesh.file.empty();
   const std::string tooMany = "body \"" + body.name + "\" has only " + text(elements) + " elements";
   if (list.word("Method") == "grid" && (isStructured || list.has("Method"))) {
     if (!isStructured)
       list.refuseValue("Method", "body \"" + body.name + "\" has a mesh file; cut it by \"metis\"");
     cut.method = Decomposition::Method::grid;
-    if (const int dimension = elements[2] > 0 ? 3 : 2; list.has("Grid") || dimension == 2)
+    if (const int dimension = dimensionOf(body); list.has("Grid") || dimension == 2)
       cut.counts = list.counts("Grid", dimension);
     else
       for (std::size_t d = 0; d < 3; ++d)
@@ -122,39 +282,17 @@ Decomposition readDecomposition(const ListReader& list, const Body& body) {
   return cut;
 }
 
-Physics physicsOf(const std::string& word) {
-  for (const Physics physics : {Physics::planeStrain, Physics::planeStress, Physics::elasticity3d})
-    if (toString(physics) == word)
-      return physics;
-  return Physics::membrane;
-}
-
-void readMembrane(const ListReader& list, Body& body) {
-  refuseElastic(list);
-  list.refuseGiven({"Box"}, "a membrane has a \"Rectangle\"");
-  list.refuseGiven({"Group", "Mesh Size Factor"}, noMesh);
-  for (const char* const needed : {"Rectangle", "Elements"})
-    list.require(needed);
-  body.rectangle = list.rectangle("Rectangle");
-  const std::array<int, 3> elements = list.counts("Elements", 2);
-  requireTellableNodes(list, "Rectangle", list.box("Rectangle", 2), elements, 2);
-  body.elements = {elements[0], elements[1]};
-  body.conductivity = list.positive("Conductivity");
-  body.regions = readRegions(list.inside("Regions"), body);
-  body.supports = readSupports(list.inside("Supports"));
-  body.loads = readLoads(list.inside("Loads"), body);
-}
-
 } // namespace
 
 Body readBody(const std::string& name, const ListReader& list) {
   Body body;
   body.name = name;
-  const Physics physics = physicsOf(list.word("Physics"));
-  if (physics == Physics::membrane && !list.hasEntries("Mesh"))
-    readMembrane(list, body);
-  else
-    body.solid = readSolid(list, physics);
+  body.physics = physicsOf(list.word("Physics"));
+  body.mesh = readMesh(list, dimensionOf(body));
+  body.material = readMaterial(list, body.physics, {}, false);
+  body.regions = readRegions(list.inside("Regions"), body);
+  body.supports = readSupports(list.inside("Supports"), body);
+  body.loads = readLoads(list.inside("Loads"), body);
   body.decomposition = readDecomposition(list.inside("Decomposition"), body);
   return body;
 }

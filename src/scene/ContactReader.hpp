@@ -10,8 +10,8 @@
 
 namespace epafi::scene {
 
-/// Fills contacts and surface contacts of a scene whose bodies are there: pairs of membranes on rectangles meet along edges,
-/// all others on surfaces.
+/// Fills the contacts of a scene whose bodies are there: pairs of membranes on rectangles meet along edges, all others on
+/// surfaces.
 /// \throws InputError if a body or obstacle is unknown (the nearest name is suggested), a body in contact with itself, or an
 ///         obstacle in no contact; of membranes on rectangles, if an edge is supported or in another pair, or the two edges
 ///         do not coincide or have different numbers of elements; of all others, if surfaces are not named. Whether the

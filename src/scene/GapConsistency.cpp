@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/ParameterValue.hpp"
+#include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,18 +22,12 @@ struct Constraint {
 };
 
 /// Corners of an edge, in the order in which edges run: 0 lower left, 1 lower right, 2 upper left, 3 upper right.
-std::array<int, 2> cornersOf(Edge edge) {
-  switch (edge) {
-  case Edge::left:
+std::array<int, 2> cornersOf(const std::string& edge) {
+  if (edge == "left")
     return {0, 2};
-  case Edge::right:
+  if (edge == "right")
     return {1, 3};
-  case Edge::bottom:
-    return {0, 1};
-  case Edge::top:
-    return {2, 3};
-  }
-  return {0, 0};
+  return edge == "bottom" ? std::array{0, 1} : std::array{2, 3};
 }
 
 int nodeOf(std::size_t body, int corner) {
@@ -44,17 +39,22 @@ std::vector<Constraint> constraintsOf(const Scene& scene) {
   const int ground = nodeOf(scene.bodies.size(), 0);
   std::vector<Constraint> constraints;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    for (const Support& support : scene.bodies[b].supports)
-      for (const int corner : cornersOf(support.edge)) {
-        constraints.push_back({ground, nodeOf(b, corner), support.value, -1, static_cast<int>(b)});
-        constraints.push_back({nodeOf(b, corner), ground, -support.value, -1, static_cast<int>(b)});
-      }
+    if (isMembraneOnRectangle(scene.bodies[b]))
+      for (const SolidSupport& support : scene.bodies[b].supports)
+        for (const int corner : cornersOf(support.surface)) {
+          const double value = support.value[0].value_or(0);
+          constraints.push_back({ground, nodeOf(b, corner), value, -1, static_cast<int>(b)});
+          constraints.push_back({nodeOf(b, corner), ground, -value, -1, static_cast<int>(b)});
+        }
   for (std::size_t p = 0; p < scene.contacts.size(); ++p) {
-    const ContactPair& pair = scene.contacts[p];
+    const SurfaceContact& pair = scene.contacts[p];
+    if (!isAlongEdges(scene, pair))
+      continue;
     for (std::size_t end = 0; end < 2; ++end)
-      constraints.push_back({nodeOf(static_cast<std::size_t>(pair.second), cornersOf(pair.secondEdge)[end]),
-                             nodeOf(static_cast<std::size_t>(pair.first), cornersOf(pair.firstEdge)[end]),
-                             pair.gap, static_cast<int>(p), -1});
+      constraints.push_back(
+          {nodeOf(static_cast<std::size_t>(pair.second), cornersOf(pair.secondSurface)[end]),
+           nodeOf(static_cast<std::size_t>(pair.first), cornersOf(pair.firstSurface)[end]), pair.gap,
+           static_cast<int>(p), -1});
   }
   return constraints;
 }
@@ -103,11 +103,11 @@ std::string listed(std::vector<std::string> names) {
 }
 
 std::string placeOf(const Scene& scene, int node) {
-  const Rectangle& r = scene.bodies[static_cast<std::size_t>(node / 4)].rectangle;
+  const Box& box = scene.bodies[static_cast<std::size_t>(node / 4)].mesh.box;
   const int corner = node % 4;
   std::ostringstream text;
-  text << '(' << valueText(corner % 2 == 0 ? r.x0 : r.x1) << ", " << valueText(corner < 2 ? r.y0 : r.y1)
-       << ')';
+  text << '(' << valueText((corner % 2 == 0 ? box.lower : box.upper)[0]) << ", "
+       << valueText((corner < 2 ? box.lower : box.upper)[1]) << ')';
   return text.str();
 }
 

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/ParameterValue.hpp"
+#include "epafi/scene/EdgeContact.hpp"
 
 #include <Teuchos_Array.hpp>
 
@@ -51,11 +52,10 @@ double ListReader::positive(const std::string& name) const {
   return value;
 }
 
-Edge ListReader::edge(const std::string& name) const {
-  for (const Edge edge : {Edge::left, Edge::right, Edge::bottom, Edge::top})
-    if (toString(edge) == word(name))
-      return edge;
-  refuseValue(name, "must be one of \"left\", \"right\", \"bottom\", \"top\"");
+const std::string& ListReader::edge(const std::string& name) const {
+  if (std::find(edges.begin(), edges.end(), word(name)) == edges.end())
+    refuseValue(name, "must be one of \"left\", \"right\", \"bottom\", \"top\"");
+  return word(name);
 }
 
 Box ListReader::box(const std::string& name, int dimension) const {
@@ -75,11 +75,6 @@ Box ListReader::box(const std::string& name, int dimension) const {
     box.upper[static_cast<std::size_t>(d)] = upper;
   }
   return box;
-}
-
-Rectangle ListReader::rectangle(const std::string& name) const {
-  const Box plane = box(name, 2);
-  return {plane.lower[0], plane.upper[0], plane.lower[1], plane.upper[1]};
 }
 
 std::array<int, 3> ListReader::counts(const std::string& name, int dimension) const {

@@ -39,13 +39,11 @@ public:
   [[nodiscard]] const std::string& word(const std::string& name) const {
     return list_.get<std::string>(name);
   }
-  /// A word that names an edge.
-  [[nodiscard]] Edge edge(const std::string& name) const;
+  /// A word that names an edge of a rectangle.
+  [[nodiscard]] const std::string& edge(const std::string& name) const;
   /// {x0, x1, y0, y1} in the plane, {x0, x1, y0, y1, z0, z1} in space, of positive size; coordinates as real(),
   /// sides 1e-30 … 1e30. In the plane z is unbounded.
   [[nodiscard]] Box box(const std::string& name, int dimension) const;
-  /// The same in the plane.
-  [[nodiscard]] Rectangle rectangle(const std::string& name) const;
   /// {nx, ny} in the plane, {nx, ny, nz} in space, each ≥ 1; nz = 1 in the plane.
   [[nodiscard]] std::array<int, 3> counts(const std::string& name, int dimension) const;
   /// {x, y} or {x, y, z}, as real(); z = 0 in the plane.

@@ -2,8 +2,8 @@
 
 /// The rigid obstacles out of a scene's list `Obstacles`.
 
+#include "epafi/scene/Body.hpp"
 #include "epafi/scene/ListReader.hpp"
-#include "epafi/scene/Solid.hpp"
 
 #include <string>
 #include <vector>

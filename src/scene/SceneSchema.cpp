@@ -1,6 +1,7 @@
 #include "epafi/scene/SceneSchema.hpp"
 
 #include "epafi/base/Parameters.hpp"
+#include "epafi/scene/EdgeContact.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -13,7 +14,7 @@ namespace {
 using Teuchos::Array;
 using Teuchos::ParameterList;
 
-const std::vector<std::string> edges = {"left", "right", "bottom", "top"};
+const std::vector<std::string> edgeNames(edges.begin(), edges.end());
 /// What the arrays may hold, for the reference; ListReader checks it.
 const std::string box = "x0 < x1, y0 < y1, z0 < z1", counts = "each ≥ 1";
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -76,9 +77,9 @@ void describeSupports(ParameterList& body) {
           .sublist("<support>", false,
                    "One supported edge or surface. Of an elastic body those components "
                    "are held that are given: one alone, or the normal, makes a sliding support.");
-  addChoice(support, "Edge", "", "Membranes on rectangles, required: the supported edge.", edges);
+  addChoice(support, "Edge", "", "Membranes on rectangles, required: the supported edge.", edgeNames);
   support.set("Surface", "", "All other bodies, required: the supported surface.");
-  addReal(support, "Value", Support().value, "Membranes: deflection along it.");
+  addReal(support, "Value", 0.0, "Membranes: deflection along it.");
   addReal(support, "X", 0.0, "Elastic bodies: displacement in x; free if not given.");
   addReal(support, "Y", 0.0, "Elastic bodies: displacement in y; free if not given.");
   addReal(support, "Z", 0.0, "Elastic bodies in space: displacement in z; free if not given.");
@@ -105,7 +106,7 @@ void describeLoads(ParameterList& body) {
   load.set("Surface", "", "Kinds traction and pressure, required: the loaded surface.");
   addArray(load, "Point", Array<double>(), "Kind point, required: where the node lies, {x, y} or {x, y, z}.",
            "");
-  addReal(load, "Value", Load().value,
+  addReal(load, "Value", 0.0,
           "Membranes, required: force, positive upwards. Kind pressure, required: the pressure.");
   addArray(load, "Force", Array<double>(),
            "Elastic bodies, required but for pressure: components {x, y} or {x, y, z} of the force.", "");
@@ -148,13 +149,14 @@ void describePair(ParameterList& contact) {
                       "two coinciding edges; the second body must stay above the first one.");
   pair.set("First Body", "", "Name of the first (of membranes: the lower) body.");
   setRequired(pair, {"First Body"});
-  addChoice(pair, "First Edge", "", "Membranes on rectangles, required: edge of the first body.", edges);
+  addChoice(pair, "First Edge", "", "Membranes on rectangles, required: edge of the first body.", edgeNames);
   pair.set("First Surface", "", "All other bodies, required: surface of the first body.");
   pair.set("Second Body", "", "Name of the second (of membranes: the upper) body.");
-  addChoice(pair, "Second Edge", "", "Membranes on rectangles, required: edge of the second body.", edges);
+  addChoice(pair, "Second Edge", "", "Membranes on rectangles, required: edge of the second body.",
+            edgeNames);
   pair.set("Second Surface", "", "All other bodies, required: surface of the second body.");
   pair.set("Obstacle", "", "Name of the obstacle that the first body meets instead of a second one.");
-  addReal(pair, "Gap", ContactPair().gap,
+  addReal(pair, "Gap", SurfaceContact().gap,
           "Initial gap g between membranes: u_second − u_first ≥ −g; of elastic bodies what is added to the "
           "gap that "
           "their shapes leave. Negative means initial penetration.");

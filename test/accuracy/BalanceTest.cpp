@@ -18,12 +18,12 @@ using BalanceTest = test::AccuracyTest;
 
 struct Solved {
   scene::Scene scene;
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   ContactSolver solver;
   fetidp::ContactSolution solution;
 
   Solved(const scene::Scene& given, const Teuchos::ParameterList& parameters, const RCP<const Comm>& comm)
-      : scene(given), decomposition(decomposition::decompose(scene, comm)), solver(parameters) {
+      : scene(given), decomposition(model::decompose(scene, comm)), solver(parameters) {
     solver.setup(decomposition.problem);
     ErrorEstimator estimator(scene, decomposition);
     fetidp::ErrorBalance balance;
@@ -48,7 +48,7 @@ double distance(const Solved& a, const Solved& b) {
 /// Scenes with all algorithms: MPRGP, SMALBE, CG.
 std::vector<scene::Scene> scenes(const BalanceTest& fixture) {
   scene::Scene glued = test::membrane(16, 4);
-  glued.bodies[0].loads.push_back({"load", {0, 2, 0, 0.5}, -1});
+  glued.bodies[0].loads.push_back(scene::loadInside("load", scene::rectangle(0, 2, 0, 0.5), -1));
   return {scene::modelProblem(true, 3, 24), scene::modelProblem(false, 3, 24),
           test::stackedBlocks(test::kinds()[1], 5, 1, fixture.directory, *fixture.comm), glued};
 }
@@ -88,7 +88,7 @@ TEST_F(BalanceTest, StopsAtTheFractionThatWasAskedForAndSavesProducts) {
 TEST_F(BalanceTest, IsRefusedWhereItCannotBeMeasured) {
   Teuchos::ParameterList parameters;
   parameters.set("Tolerance", std::string("balanced"));
-  const auto decomposition = decomposition::decompose(scene::modelProblem(true, 2, 4), comm);
+  const auto decomposition = model::decompose(scene::modelProblem(true, 2, 4), comm);
   ContactSolver solver(parameters);
   solver.setup(decomposition.problem);
   epafi::test::expectSays(epafi::test::refusal([&] { solver.solve(); }),

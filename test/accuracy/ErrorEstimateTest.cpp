@@ -22,7 +22,7 @@ TEST_F(ErrorEstimateTest, AStateOfConstantStressHasNoError) {
   for (const test::Kind& kind : test::kinds())
     for (const int parts : {1, 5}) {
       const scene::Scene scene = test::stackedBlocks(kind, parts, 1, directory, *comm);
-      const auto decomposition = decomposition::decompose(scene, comm);
+      const auto decomposition = model::decompose(scene, comm);
       const ErrorEstimate estimate = ErrorEstimator(scene, decomposition)(displacement(decomposition, field));
       EXPECT_GT(estimate.energyNorm, 1);
       EXPECT_LE(estimate.discretisation, 1e-12 * estimate.energyNorm) << toString(kind.physics);
@@ -32,11 +32,11 @@ TEST_F(ErrorEstimateTest, AStateOfConstantStressHasNoError) {
 TEST_F(ErrorEstimateTest, AFluxThatJumpsWithTheMaterialHasNoError) {
   // κ = 1 left of x = 1 and 100 right of it; the flux along x is the same, that along y jumps.
   scene::Scene scene = test::membrane(6, 3);
-  scene.bodies[0].regions.push_back({"right", {1, 2, 0, 1}, 100});
+  scene.bodies[0].regions.push_back({"right", scene::rectangle(1, 2, 0, 1), "", {100}});
   const Field field = [](const fem::Point& x) {
     return std::array<double, 3>{(x[0] < 1 ? x[0] : 1 + (x[0] - 1) / 100) + x[1], 0, 0};
   };
-  const auto decomposition = decomposition::decompose(scene, comm);
+  const auto decomposition = model::decompose(scene, comm);
   const ErrorEstimate estimate = ErrorEstimator(scene, decomposition)(displacement(decomposition, field));
   EXPECT_NEAR(estimate.energyNorm, std::sqrt(1 + 0.01 + 1 + 100), 1e-12);
   EXPECT_LE(estimate.discretisation, 1e-12 * estimate.energyNorm);
@@ -54,7 +54,7 @@ TEST_F(ErrorEstimateTest, IsAsymptoticallyExactForASmoothField) {
   double distance = 1; // of the effectivity from 1
   for (const int elements : {8, 16, 32}) {
     const scene::Scene scene = test::membrane(elements, 4);
-    const auto decomposition = decomposition::decompose(scene, comm);
+    const auto decomposition = model::decompose(scene, comm);
     const auto u = displacement(decomposition, [&](const fem::Point& x) {
       return std::array<double, 3>{value(x), 0, 0};
     });
@@ -73,10 +73,10 @@ TEST_F(ErrorEstimateTest, IsTheSameForEveryCutAndNumberOfRanks) {
   for (const test::Kind& kind : test::kinds()) {
     const auto estimate = [&](int parts, const RCP<const Comm>& ranks) {
       scene::Scene scene = test::stackedBlocks(kind, parts, 1, directory, *comm);
-      scene::SolidRegion core{"core", {{-1, -1, -1}, {0.5, 0.5, 0.5}}, "", scene.bodies[0].solid->material};
+      scene::SolidRegion core{"core", {{-1, -1, -1}, {0.5, 0.5, 0.5}}, "", scene.bodies[0].material};
       core.material.youngsModulus *= 10;
-      scene.bodies[0].solid->regions.push_back(core);
-      const auto decomposition = decomposition::decompose(scene, ranks);
+      scene.bodies[0].regions.push_back(core);
+      const auto decomposition = model::decompose(scene, ranks);
       return ErrorEstimator(scene, decomposition)(displacement(decomposition, field));
     };
     const ErrorEstimate whole = estimate(1, comm->split(comm->getRank(), 0));

@@ -19,7 +19,7 @@ TEST_F(ErrorNormsTest, OfAQuadraticFieldAreTheIntegralsOfTheTextbook) {
   const int elements = 8;
   const double h = 1.0 / elements;
   const scene::Scene scene = test::membrane(elements, 2);
-  const auto decomposition = decomposition::decompose(scene, comm);
+  const auto decomposition = model::decompose(scene, comm);
   const auto u = displacement(decomposition, [](const fem::Point& x) {
     return std::array<double, 3>{x[0] * x[0], 0, 0};
   });
@@ -43,7 +43,7 @@ TEST_F(ErrorNormsTest, OfALinearDisplacementAreExactOnAllElements) {
   gradient << 0.1, -0.2, 0, 0.3, 0.4, -0.1, 0, 0, 0.2;
   for (const test::Kind& kind : test::kinds()) {
     const scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
-    const auto decomposition = decomposition::decompose(scene, comm);
+    const auto decomposition = model::decompose(scene, comm);
     const auto u = displacement(decomposition, field);
     const bool isPlane = fem::dimensionOf(kind.cell) == 2;
     Eigen::Matrix3d inPlane = gradient;
@@ -52,7 +52,7 @@ TEST_F(ErrorNormsTest, OfALinearDisplacementAreExactOnAllElements) {
       inPlane.col(2).setZero();
     }
     const ExactField exact = [&](int body, const fem::Point& x) {
-      const auto& solid = *scene.bodies[static_cast<std::size_t>(body)].solid;
+      const auto& solid = scene.bodies[static_cast<std::size_t>(body)];
       return fem::FieldValue{field(x), fem::stressOf(inPlane, solid.physics, solid.material)};
     };
     const ErrorNorms error = errorNorms(scene, decomposition, u, exact),
@@ -69,7 +69,7 @@ TEST_F(ErrorNormsTest, AgainstAFinerMeshIsTheDifferenceOfTheEnergies) {
   // dimension are, so that squares of errors subtract.
   const Field field = [](const fem::Point& x) { return std::array<double, 3>{x[0] * x[0], 0, 0}; };
   const scene::Scene scene = test::membrane(4, 2), finer = refined(refined(scene));
-  const auto coarse = decomposition::decompose(scene, comm), fine = decomposition::decompose(finer, comm);
+  const auto coarse = model::decompose(scene, comm), fine = model::decompose(finer, comm);
   const auto u = displacement(coarse, field), reference = displacement(fine, field);
   const double error = errorAgainst(finer, fine, reference, coarse, u).energy;
   const double h = 1.0 / 4, small = 1.0 / 16;

@@ -4,7 +4,7 @@
 
 #include "../output/ElasticSample.hpp"
 
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 #include "epafi/scene/Scene.hpp"
 
@@ -28,7 +28,7 @@ struct AccuracyTest : testing::Test {
   TemporaryDirectory directory{comm};
 
   /// u of a field on a decomposition.
-  static std::vector<Eigen::VectorXd> displacement(const decomposition::Decomposition& decomposition,
+  static std::vector<Eigen::VectorXd> displacement(const model::Decomposition& decomposition,
                                                    const Field& field) {
     return solutionWith(decomposition, field).displacement;
   }
@@ -38,9 +38,9 @@ struct AccuracyTest : testing::Test {
 inline scene::Scene membrane(int elements, int counts) {
   scene::Body body;
   body.name = "membrane";
-  body.rectangle = {0, 2, 0, 1};
-  body.elements = {2 * elements, elements};
-  body.supports.push_back({"left", scene::Edge::left, 0});
+  body.mesh.box = scene::rectangle(0, 2, 0, 1);
+  body.mesh.elements = {2 * elements, elements, 0};
+  body.supports.push_back({"left", "left", {0}});
   body.decomposition.counts = {counts, counts, 1};
   scene::Scene scene;
   scene.bodies.push_back(body);

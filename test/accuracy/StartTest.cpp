@@ -15,12 +15,12 @@ namespace {
 using StartTest = test::AccuracyTest;
 
 struct Solved {
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   ContactSolver solver;
   fetidp::ContactSolution solution;
 
   Solved(const scene::Scene& scene, const RCP<const Comm>& comm, double tolerance = 1e-12)
-      : decomposition(decomposition::decompose(scene, comm)),
+      : decomposition(model::decompose(scene, comm)),
         solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
     solver.setup(decomposition.problem);
     solution = solver.solve();
@@ -42,10 +42,10 @@ TEST_F(StartTest, TheMultipliersOfASolutionAreItsOwn) {
   }
   for (const test::Kind& kind : test::kinds()) { // turned axes, averages along edges, floating bodies
     scene::Scene scene = test::stackedBlocks(kind, 6, 1, directory, *comm);
-    scene.bodies[1].solid->loads.push_back(
+    scene.bodies[1].loads.push_back(
         {"corner", scene::SolidLoad::Kind::point, {}, "", {1, 1, 2}, {0.01, -0.02, 0.03}});
     if (fem::dimensionOf(kind.cell) == 2)
-      scene.bodies[1].solid->loads.back().point = {1, 2, 0};
+      scene.bodies[1].loads.back().point = {1, 2, 0};
     const Solved solved(scene, comm);
     const RCP<const Vector> lambda = solved.solver.startFrom(solved.solution.displacement);
     EXPECT_LE(distance(*lambda, *solved.solution.multiplier), 1e-9) << toString(kind.physics);

@@ -30,8 +30,7 @@ TEST_F(TransferTest, EveryPointOfABodyIsFoundWhereItIs) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> inside(0, 1);
   for (const test::Kind& kind : test::kinds()) {
-    const auto decomposition =
-        decomposition::decompose(test::stackedBlocks(kind, 1, 1, directory, *comm), comm);
+    const auto decomposition = model::decompose(test::stackedBlocks(kind, 1, 1, directory, *comm), comm);
     const fem::Mesh& mesh = *decomposition.bodies[0].mesh;
     PointLocation location(mesh);
     for (int k = 0; k < 200; ++k) {
@@ -57,8 +56,8 @@ TEST_F(TransferTest, LinearFieldsAndCoarseOnesAreCarriedOverWithoutError) {
   };
   for (const test::Kind& kind : test::kinds()) {
     const scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
-    const auto coarse = decomposition::decompose(scene, comm);
-    const auto fine = decomposition::decompose(refined(scene), comm);
+    const auto coarse = model::decompose(scene, comm);
+    const auto fine = model::decompose(refined(scene), comm);
     const auto u = displacement(coarse, field), expected = displacement(fine, field);
     const auto everywhere = interpolate(coarse, u, fine, NodesOf::subdomains),
                interfaces = interpolate(coarse, u, fine, NodesOf::interfaces);

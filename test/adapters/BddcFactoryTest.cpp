@@ -2,7 +2,7 @@
 #include "../linear/Samples.hpp"
 
 #include "epafi/adapters/BddcFactory.hpp"
-#include "epafi/fetidp/ThyraOperators.hpp"
+#include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
 
 #include <Thyra_DefaultLinearOpSource.hpp>
@@ -32,8 +32,8 @@ TEST(BddcFactoryTest, MakesBddcOfAnUnassembledOrAnAssembledOperator) {
   const RCP<const Vector> b = problem.k->load();
   Vector expected(b->getMap());
   linear::BddcPreconditioner(problem.k, {}).apply(*b, expected);
-  const auto unassembled = fetidp::asThyra(problem.k);
-  const auto matrix = fetidp::asThyra(assembled(*problem.k));
+  const auto unassembled = adapters::asThyra(problem.k);
+  const auto matrix = adapters::asThyra(assembled(*problem.k));
 
   const BddcFactory alone, informed(problem.k);
   EXPECT_LE(linear::relativeError(applied(*Thyra::prec<double>(alone, unassembled), b), denseOf(expected)),
@@ -48,7 +48,7 @@ TEST(BddcFactoryTest, MakesBddcOfAnUnassembledOrAnAssembledOperator) {
                    {"BDDC knows no decomposition"});
   const linear::LinearProblem other(linear::plate(6, decomposition::grid(2, 2)));
   EXPECT_FALSE(
-      informed.isCompatible(*Thyra::defaultLinearOpSource<double>(fetidp::asThyra(assembled(*other.k)))));
+      informed.isCompatible(*Thyra::defaultLinearOpSource<double>(adapters::asThyra(assembled(*other.k)))));
 }
 
 TEST(BddcFactoryTest, WrongParametersAreRefusedByName) {

@@ -2,7 +2,7 @@
 #include "../linear/Samples.hpp"
 
 #include "epafi/adapters/FetiDpFactory.hpp"
-#include "epafi/fetidp/ThyraOperators.hpp"
+#include "epafi/adapters/ThyraOperators.hpp"
 
 #include <Thyra_DefaultLinearOpSource.hpp>
 #include <Thyra_DefaultScaledAdjointLinearOp.hpp>
@@ -28,7 +28,7 @@ using Operators = RCP<const Thyra::LinearOpBase<double>>;
 /// K of a plate as Thyra sees it, two right-hand sides and what they ask for.
 struct Sample {
   LinearProblem problem{plate(12, decomposition::grid(3, 3))};
-  Operators k = fetidp::asThyra(problem.k);
+  Operators k = adapters::asThyra(problem.k);
   Eigen::MatrixXd dense = denseOf(*problem.k);
   Eigen::MatrixXd loads{dense.rows(), 2};
   RCP<MultiVector> b, x;
@@ -122,7 +122,7 @@ TEST(FetiDpFactoryTest, SaysNoToOtherOperators) {
   const FetiDpFactory factory;
   EXPECT_TRUE(factory.isCompatible(*Thyra::defaultLinearOpSource<double>(sample.k)));
   const RCP<const Operator> matrix = assembled(*sample.problem.k);
-  const Operators other = fetidp::asThyra(matrix);
+  const Operators other = adapters::asThyra(matrix);
   EXPECT_FALSE(factory.isCompatible(*Thyra::defaultLinearOpSource<double>(other)));
   test::expectSays(test::refusal([&] { Thyra::linearOpWithSolve<double>(factory, other); }),
                    {"FETI-DP cannot solve with the operator", "UnassembledOperator"});
@@ -137,7 +137,7 @@ TEST(FetiDpFactoryTest, AnOperatorCanBeInitialisedAgainAndOutlivesItsFactory) {
     const FetiDpFactory factory;
     op = factory.createOp();
     EXPECT_TRUE(op->range().is_null());
-    Thyra::initializeOp<double>(factory, fetidp::asThyra(stiffer.k), op.ptr());
+    Thyra::initializeOp<double>(factory, adapters::asThyra(stiffer.k), op.ptr());
     factory.uninitializeOp(&*op, &given, nullptr, nullptr, nullptr);
     EXPECT_EQ(given->getOp()->domain()->dim(),
               static_cast<Teuchos_Ordinal>(stiffer.k->getDomainMap()->getGlobalNumElements()));

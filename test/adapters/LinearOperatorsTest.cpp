@@ -1,7 +1,7 @@
 #include "../linear/Samples.hpp"
 
+#include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/fetidp/Projector.hpp"
-#include "epafi/fetidp/ThyraOperators.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
 #include "epafi/linear/PartiallyAssembledInverse.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 /// Thyra's own checks with random vectors: linear in both ways of multiplying, equal adjoint, symmetric.
 void expectSymmetricOperator(const RCP<const Operator>& a) {
-  const auto op = fetidp::asThyra(a);
+  const auto op = adapters::asThyra(a);
   Thyra::LinearOpTester<double> tester;
   tester.check_adjoint(true);
   tester.check_for_symmetry(true);
@@ -28,7 +28,7 @@ void expectSymmetricOperator(const RCP<const Operator>& a) {
 
 /// F, its preconditioner, P, PFP and K̄⁺ of a contact problem.
 void expectSymmetricOperators(const scene::Scene& scene) {
-  const auto cut = std::make_shared<linear::Decomposition>(decomposition::decompose(scene, fetidp::world()));
+  const auto cut = std::make_shared<linear::Decomposition>(model::decompose(scene, fetidp::world()));
   const std::shared_ptr<const decomposition::DecomposedProblem> problem(cut, &cut->problem);
   ContactSolver solver{Teuchos::ParameterList()};
   solver.setup(*problem);
@@ -51,7 +51,7 @@ void expectSymmetricOperators(const scene::Scene& scene) {
   }
   SCOPED_TRACE("generalised inverse");
   const auto inverse = std::make_shared<fetidp::GeneralizedInverse>(*problem, fetidp::DirectSolvers());
-  expectSymmetricOperator(rcp(new linear::PartiallyAssembledInverse(problem, inverse)));
+  expectSymmetricOperator(rcp(new linear::PartiallyAssembledInverse(*problem, inverse)));
 }
 
 TEST(LinearOperatorsTest, ThoseOfContactProblemsAreSymmetricThroughThyra) {
@@ -69,8 +69,8 @@ TEST(LinearOperatorsTest, KAndBddcAreSymmetricThroughThyra) {
 }
 
 TEST(LinearOperatorsTest, TheProjectorLeavesWhatIsInEquilibrium) {
-  const auto cut = decomposition::decompose(decomposition::twoMembranes(false, 4, decomposition::grid(2, 2)),
-                                            fetidp::world());
+  const auto cut =
+      model::decompose(decomposition::twoMembranes(false, 4, decomposition::grid(2, 2)), fetidp::world());
   const auto space = rcp(new fetidp::NaturalCoarseSpace(cut.problem, fetidp::kernelConstraint(cut.problem)));
   const Eigen::MatrixXd p = linear::denseOf(fetidp::Projector(cut.problem.multiplierMap, space));
   EXPECT_LE(linear::relativeError(p * p, p), 1e-13);

@@ -3,7 +3,7 @@
 #include "Builder.hpp"
 
 #include "epafi/adapters/Stratimikos.hpp"
-#include "epafi/fetidp/ThyraOperators.hpp"
+#include "epafi/adapters/ThyraOperators.hpp"
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <Thyra_LinearOpWithSolveFactoryHelpers.hpp>
@@ -25,7 +25,7 @@ RCP<Teuchos::ParameterList> shippedList(const std::string& name) {
 /// Solves with K as `forward` by a strategy; x, and the status. Collective.
 Eigen::MatrixXd solved(const LinearSolveStrategy& strategy, const linear::LinearProblem& problem,
                        const RCP<const Operator>& forward, Thyra::SolveStatus<double>& status) {
-  const auto k = fetidp::asThyra(forward);
+  const auto k = adapters::asThyra(forward);
   const auto op = Thyra::linearOpWithSolve<double>(strategy, k);
   const RCP<Vector> x = rcp(new Vector(forward->getDomainMap()));
   status = op->solve(Thyra::NOTRANS, *Thyra::createVector<double>(problem.k->load(), k->range()),

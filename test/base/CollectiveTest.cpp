@@ -119,6 +119,27 @@ TEST_F(CollectiveTest, ReducesOverTheRanks) {
   EXPECT_EQ(values[1], -3 * ranks);
 }
 
+TEST_F(CollectiveTest, ReducesIntegersWithoutRounding) {
+  const GlobalOrdinal large = (GlobalOrdinal{1} << 53) + 1; // no double
+  EXPECT_EQ(maxOverRanks(*comm, large + comm->getRank()), large + lastRank);
+  EXPECT_EQ(minOverRanks(*comm, large + comm->getRank()), large);
+  EXPECT_EQ(sumOverRanks(*comm, large), large * comm->getSize());
+  std::vector<GlobalOrdinal> several{large, -1};
+  sumOverRanks(*comm, several);
+  EXPECT_EQ(several, (std::vector<GlobalOrdinal>{large * comm->getSize(), -comm->getSize()}));
+  EXPECT_EQ(sumOverRanks(*comm, 3), 3 * comm->getSize());
+  EXPECT_EQ(maxOverRanks(*comm, comm->getRank()), lastRank);
+  EXPECT_EQ(minOverRanks(*comm, -comm->getRank()), -lastRank);
+  std::vector<int> counts{comm->getRank() == lastRank ? 7 : 0};
+  sumOverRanks(*comm, counts);
+  EXPECT_EQ(counts.front(), 7);
+}
+
+TEST_F(CollectiveTest, KnowsWhatHoldsOnOneRank) {
+  EXPECT_TRUE(holdsAnywhere(*comm, comm->getRank() == lastRank));
+  EXPECT_FALSE(holdsAnywhere(*comm, false));
+}
+
 TEST_F(CollectiveTest, GathersUnevenPiecesInTheOrderOfTheRanks) {
   const std::vector<double> mine(static_cast<std::size_t>(comm->getRank()),
                                  comm->getRank()); // none on rank 0
@@ -127,6 +148,27 @@ TEST_F(CollectiveTest, GathersUnevenPiecesInTheOrderOfTheRanks) {
     expected.insert(expected.end(), static_cast<std::size_t>(rank), rank);
   EXPECT_EQ(gatherOnAll(*comm, mine), expected);
   EXPECT_EQ(gatherOnFirst(*comm, mine), comm->getRank() == 0 ? expected : std::vector<double>());
+}
+
+/// What two ranks may tell each other: an index and a value.
+struct Entry {
+  GlobalOrdinal row;
+  double value;
+  friend bool operator==(const Entry&, const Entry&) = default;
+};
+
+TEST_F(CollectiveTest, GathersIndicesAndStructs) {
+  const GlobalOrdinal large = (GlobalOrdinal{1} << 53) + 1; // no double
+  std::vector<GlobalOrdinal> rows;
+  std::vector<Entry> entries;
+  for (int rank = 0; rank < comm->getSize(); ++rank) {
+    rows.push_back(large + rank);
+    entries.push_back({large + rank, 0.5 * rank});
+  }
+  const auto here = static_cast<std::size_t>(comm->getRank());
+  EXPECT_EQ(gatherOnAll(*comm, std::span<const GlobalOrdinal>(rows).subspan(here, 1)), rows);
+  EXPECT_EQ(gatherOnAll(*comm, std::array<Entry, 1>{entries[here]}), entries);
+  EXPECT_TRUE(gatherOnAll(*comm, std::vector<int>()).empty());
 }
 
 } // namespace

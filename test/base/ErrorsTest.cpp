@@ -55,7 +55,7 @@ TEST(NearestNameTest, LooksForNoneWhereWordsAreEndless) {
 
 TEST(ShortenedTest, KeepsTheBeginningOfLongTexts) {
   EXPECT_EQ(epafi::shortened(std::string(200, 'x')), std::string(200, 'x'));
-  EXPECT_EQ(epafi::shortened(std::string(201, 'x')), std::string(200, 'x') + "...");
+  EXPECT_EQ(epafi::shortened(std::string(201, 'x')), std::string(200, 'x').append("..."));
   EXPECT_EQ(epafi::shortened(""), "");
 }
 

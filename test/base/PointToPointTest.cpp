@@ -27,7 +27,7 @@ TEST(PointToPointTest, EveryRankGetsWhatEveryOtherSendsEmptyMessagesToo) {
       senders.insert(rank);
     }
 
-  const auto received = exchangeMessages(*comm, outgoing, senders);
+  const auto received = exchange(*comm, outgoing, senders);
 
   ASSERT_EQ(received.size(), senders.size());
   for (const auto& [rank, values] : received)
@@ -44,12 +44,24 @@ TEST(PointToPointTest, RanksMayHaveNothingToSayToEachOther) {
   if (here == 0 && last > 0)
     senders = {last};
 
-  const auto received = exchangeMessages(*comm, outgoing, senders);
+  const auto received = exchange(*comm, outgoing, senders);
 
   if (here == 0 && last > 0)
     EXPECT_EQ(received.at(last), (std::vector<double>{1.5, -2.5}));
   else
     EXPECT_TRUE(received.empty());
+}
+
+TEST(PointToPointTest, IndicesTravelAsWhatTheyAreAndMessagesInTheirOrder) {
+  const auto comm = Tpetra::getDefaultComm();
+  const int here = comm->getRank(), size = comm->getSize(), next = (here + 1) % size,
+            last = (here + size - 1) % size;
+  const GlobalOrdinal large = (GlobalOrdinal{1} << 53) + 1; // no double
+  for (GlobalOrdinal message = 0; message < 3; ++message) {
+    const std::map<int, std::vector<GlobalOrdinal>> outgoing{{next, {large + message, here}}};
+    const auto received = exchange(*comm, outgoing, {last});
+    EXPECT_EQ(received.at(last), (std::vector<GlobalOrdinal>{large + message, last}));
+  }
 }
 
 } // namespace

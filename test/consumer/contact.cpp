@@ -1,5 +1,5 @@
 #include "epafi/ContactSolver.hpp"
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 
 #include <Tpetra_Core.hpp>
@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
 
   // Any DecomposedProblem will do; this one comes from a scene, 4 x 4 subdomains a body.
   const epafi::scene::Scene scene = epafi::scene::modelProblem(true, 4, 32);
-  epafi::decomposition::Decomposition cut = epafi::decomposition::decompose(scene, comm);
+  epafi::model::Decomposition cut = epafi::model::decompose(scene, comm);
 
   Teuchos::ParameterList parameters("Solver");
   parameters.set("Tolerance", 1e-10);

@@ -14,8 +14,6 @@
 namespace epafi::decomposition {
 namespace {
 
-using scene::Edge;
-
 TEST(ConstraintTest, EveryGluingRowJoinsTwoCopiesOfOneNode) {
   for (const Case& c : smallCases()) {
     SCOPED_TRACE(c.name);
@@ -61,7 +59,7 @@ TEST(ConstraintTest, NoRowIsRedundant) {
 /// Energy minimum of a floating or held scene whose gluing is enforced by eliminating rows from the merged
 /// problem.
 TEST(ConstraintTest, GluedSubdomainsAreTheUndividedBody) {
-  const std::vector<scene::Support> supports = {{"left", Edge::left, 1.0}};
+  const std::vector<scene::SolidSupport> supports = {{"left", "left", {1.0}}};
   const auto whole = decompose(oneBody(6, 5, grid(1, 1), supports), world());
   const auto energyOf = [](const DecomposedProblem& p) {
     // Saddle point [K Bᵀ; B 0], dense; the load is found like the matrix, copy by copy.

@@ -1,8 +1,7 @@
-#include "epafi/decomposition/ContactSearch.hpp"
+#include "epafi/model/SceneContacts.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/BoxMesh.hpp"
-#include "epafi/fem/RectangleMesh.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
@@ -10,15 +9,12 @@
 #include <cmath>
 #include <numeric>
 
-namespace epafi::decomposition {
+namespace epafi::model {
+using contact::ContactLayout;
 namespace {
 
 BodyLayout box(const std::string& name, const scene::Box& extent, std::array<int, 3> elements) {
-  return {name, std::make_unique<const fem::BoxMesh>(extent, elements), nullptr, 0};
-}
-
-BodyLayout rectangle(const std::string& name, const scene::Rectangle& extent, std::array<int, 2> elements) {
-  return {name, std::make_unique<const fem::RectangleMesh>(extent, elements), nullptr, 0};
+  return {name, std::make_unique<const fem::StructuredMesh>(extent, elements), nullptr, 0};
 }
 
 scene::SurfaceContact topOnBottom() {
@@ -37,7 +33,7 @@ double sum(const std::vector<double>& values) {
 std::string complaint(const scene::SurfaceContact& contact, const std::vector<BodyLayout>& bodies,
                       int components) {
   try {
-    searchContact(contact, bodies, components);
+    layoutContact(contact, bodies, components);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -49,7 +45,7 @@ TEST(ContactSearchTest, FindsTheNodesThatFaceEachOther) {
     std::vector<BodyLayout> bodies;
     bodies.push_back(box("lower", {{0, 0, 0}, {2, 1, 1}}, {4, 3, 2}));
     bodies.push_back(box("upper", {{0, 0, 1 + gap}, {2, 1, 2 + gap}}, {4, 3, 1}));
-    const ContactLayout contact = searchContact(topOnBottom(), bodies, 3);
+    const ContactLayout contact = layoutContact(topOnBottom(), bodies, 3);
     ASSERT_EQ(contact.numRows(), 20);
     EXPECT_NEAR(sum(contact.areas), 2.0, 1e-13);
     for (std::size_t row = 0; row < 20; ++row) {
@@ -66,27 +62,27 @@ TEST(ContactSearchTest, FindsTheNodesThatFaceEachOther) {
 
 TEST(ContactSearchTest, NodesBesideAPunchGetNoRow) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(rectangle("ground", {0, 4, 0, 1}, {8, 2}));
-  bodies.push_back(rectangle("punch", {1, 2, 1, 3}, {2, 2}));
-  const ContactLayout contact = searchContact(topOnBottom(), bodies, 2);
+  bodies.push_back(box("ground", scene::rectangle(0, 4, 0, 1), {8, 2, 0}));
+  bodies.push_back(box("punch", scene::rectangle(1, 2, 1, 3), {2, 2, 0}));
+  const ContactLayout contact = layoutContact(topOnBottom(), bodies, 2);
   EXPECT_EQ(contact.numRows(), 3);
 }
 
 TEST(ContactSearchTest, NodesTooFarFromTheOtherSideGetNoRow) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(rectangle("ground", {0, 1, 0, 1}, {4, 2}));
-  bodies.push_back(rectangle("far", {0, 1, 1.5, 3}, {4, 2}));
+  bodies.push_back(box("ground", scene::rectangle(0, 1, 0, 1), {4, 2, 0}));
+  bodies.push_back(box("far", scene::rectangle(0, 1, 1.5, 3), {4, 2, 0}));
   scene::SurfaceContact contact = topOnBottom();
   contact.distance = 0.4;
   EXPECT_NE(complaint(contact, bodies, 2).find("distance"), std::string::npos);
   contact.distance = 0.6;
-  EXPECT_EQ(searchContact(contact, bodies, 2).numRows(), 5);
+  EXPECT_EQ(layoutContact(contact, bodies, 2).numRows(), 5);
 }
 
 TEST(ContactSearchTest, RefusesSurfacesThatDoNotMatch) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(rectangle("lower", {0, 1, 0, 1}, {4, 2}));
-  bodies.push_back(rectangle("upper", {0, 1, 1, 2}, {5, 2}));
+  bodies.push_back(box("lower", scene::rectangle(0, 1, 0, 1), {4, 2, 0}));
+  bodies.push_back(box("upper", scene::rectangle(0, 1, 1, 2), {5, 2, 0}));
   EXPECT_NE(complaint(topOnBottom(), bodies, 2).find("do not match"), std::string::npos);
   scene::SurfaceContact unknown = topOnBottom();
   unknown.secondSurface = "sole";
@@ -96,13 +92,13 @@ TEST(ContactSearchTest, RefusesSurfacesThatDoNotMatch) {
 
 TEST(ContactSearchTest, ObstaclesHaveTheGapOfTheirGeometry) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(rectangle("block", {-1, 1, 0, 1}, {8, 2}));
+  bodies.push_back(box("block", scene::rectangle(-1, 1, 0, 1), {8, 2, 0}));
   scene::SurfaceContact contact = topOnBottom();
   contact.second = -1;
   contact.obstacle.kind = scene::Obstacle::Kind::sphere;
   contact.obstacle.point = {0, 3.5, 0};
   contact.obstacle.radius = 2.4;
-  const ContactLayout all = searchContact(contact, bodies, 2);
+  const ContactLayout all = layoutContact(contact, bodies, 2);
   ASSERT_EQ(all.numRows(), 9);
   EXPECT_TRUE(all.secondNodes.empty());
   for (std::size_t row = 0; row < 9; ++row) {
@@ -113,18 +109,18 @@ TEST(ContactSearchTest, ObstaclesHaveTheGapOfTheirGeometry) {
     EXPECT_NEAR(all.directions[2 * row + 1], 2.5 / distance, 1e-14);
   }
   contact.distance = 0.12; // only the middle is as near as that
-  EXPECT_EQ(searchContact(contact, bodies, 2).numRows(), 3);
+  EXPECT_EQ(layoutContact(contact, bodies, 2).numRows(), 3);
 
   contact.obstacle = {scene::Obstacle::Kind::plane, {0, 1.2, 0}, {0, -1, 0}, 1};
   contact.distance = 1;
-  for (const double gap : searchContact(contact, bodies, 2).gaps)
+  for (const double gap : layoutContact(contact, bodies, 2).gaps)
     EXPECT_NEAR(gap, 0.2, 1e-15);
 }
 
 TEST(ContactSearchTest, SaysWhyNothingMeets) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(rectangle("block", {-1, 1, 0, 1}, {8, 2}));
-  bodies.push_back(rectangle("aside", {5, 7, 1, 2}, {8, 2}));
+  bodies.push_back(box("block", scene::rectangle(-1, 1, 0, 1), {8, 2, 0}));
+  bodies.push_back(box("aside", scene::rectangle(5, 7, 1, 2), {8, 2, 0}));
   const auto says = [&](const scene::SurfaceContact& contact, const std::string& words) {
     const std::string said = complaint(contact, bodies, 2);
     EXPECT_NE(said.find("contact 'joint'"), std::string::npos) << said;
@@ -156,11 +152,11 @@ TEST(ContactSearchTest, NodesHaveTheShareOfTheirShapeFunctions) {
   scene::SurfaceContact contact = topOnBottom();
   contact.second = -1;
   contact.obstacle = {scene::Obstacle::Kind::plane, {0, 0, 2}, {0, 0, -1}, 1};
-  const std::vector<double> areas = searchContact(contact, bodies, 3).areas;
+  const std::vector<double> areas = layoutContact(contact, bodies, 3).areas;
   ASSERT_EQ(areas.size(), 4U);
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_NEAR(areas[k], (k < 2 ? 7.0 : 5.0) / 12, 1e-15);
 }
 
 } // namespace
-} // namespace epafi::decomposition
+} // namespace epafi::model

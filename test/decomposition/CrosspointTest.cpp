@@ -2,7 +2,6 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
-#include "epafi/decomposition/Pieces.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>
@@ -11,8 +10,6 @@
 
 namespace epafi::decomposition {
 namespace {
-
-using scene::Edge;
 
 TEST(CrosspointTest, EverySubdomainIsRegularOnceItsCrosspointsAreHeld) {
   for (const Case& c : smallCases()) {
@@ -75,10 +72,10 @@ TEST(CrosspointTest, UnknownsAreSplitWithoutLossOrOverlap) {
 }
 
 TEST(CrosspointTest, AGridHasItsInnerAndEdgeCornersOnlyWhateverIsSupported) {
-  const scene::Support left{"left", Edge::left, 0.0}, right{"right", Edge::right, 0.0},
-      top{"top", Edge::top, 0.0}, bottom{"bottom", Edge::bottom, 0.0};
-  for (const std::vector<scene::Support>& supports :
-       {std::vector<scene::Support>{}, {left}, {left, right}, {bottom}, {left, right, top, bottom}})
+  const scene::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}},
+      top{"top", "top", {0.0}}, bottom{"bottom", "bottom", {0.0}};
+  for (const std::vector<scene::SolidSupport>& supports :
+       {std::vector<scene::SolidSupport>{}, {left}, {left, right}, {bottom}, {left, right, top, bottom}})
     for (const auto& [nx, ny] : {std::pair{2, 2}, {3, 2}, {4, 4}, {1, 2}, {2, 1}}) {
       const auto result = decompose(oneBody(8, 8, grid(nx, ny), supports), world());
       EXPECT_EQ(result.problem.numCrosspoints, (nx + 1) * (ny + 1) - 4)
@@ -88,7 +85,7 @@ TEST(CrosspointTest, AGridHasItsInnerAndEdgeCornersOnlyWhateverIsSupported) {
 
 TEST(CrosspointTest, AMiddleRowBetweenSupportedEndsIsHeldByItsOwnSupports) {
   // Both ends of each interface are supported, and so are both sides of it: nothing is added.
-  const scene::Support left{"left", Edge::left, 0.0}, right{"right", Edge::right, 0.0};
+  const scene::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}};
   EXPECT_EQ(decompose(oneBody(4, 6, grid(1, 3), {left, right}), world()).problem.numCrosspoints, 4);
 }
 
@@ -99,14 +96,14 @@ TEST(CrosspointTest, AFloatingBodyInOnePieceIsHeldAtItsCentre) {
     ASSERT_EQ(s.crosspointUnknowns.size(), 1u);
     EXPECT_EQ(nodeKey(s, s.crosspointUnknowns.front(), 1), 1e6 + 12); // node (2,2) of 5 × 5
   }
-  const auto held = decompose(oneBody(4, 4, grid(1, 1), {{"left", Edge::left, 0.0}}), world());
+  const auto held = decompose(oneBody(4, 4, grid(1, 1), {{"left", "left", {0.0}}}), world());
   EXPECT_EQ(held.problem.numCrosspoints, 0);
 }
 
 /// Part 1 is a box of elements inside part 0.
 class InclusionPartition final : public Partition {
 public:
-  InclusionPartition(const fem::RectangleMesh& mesh, int margin)
+  InclusionPartition(const fem::StructuredMesh& mesh, int margin)
       : elements_(mesh.elements()), margin_(margin) {}
   [[nodiscard]] int numParts() const override { return 2; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override {
@@ -124,26 +121,24 @@ public:
   }
 
 private:
-  std::array<int, 2> elements_;
+  std::array<int, 3> elements_;
   int margin_;
 };
 
 TEST(CrosspointTest, AnInterfaceThatIsAClosedLoopGetsOnePoint) {
-  const scene::Body body = oneBody(6, 6, grid(1, 1), {{"left", Edge::left, 0.0}}).bodies.front();
+  const scene::Body body = oneBody(6, 6, grid(1, 1), {{"left", "left", {0.0}}}).bodies.front();
   std::vector<BodyLayout> bodies(1);
-  auto mesh = std::make_unique<const fem::RectangleMesh>(body.rectangle, body.elements);
+  auto mesh = std::make_unique<const fem::StructuredMesh>(body.mesh.box, body.mesh.elements);
   bodies[0].partition = std::make_unique<InclusionPartition>(*mesh, 2);
-  Layout layout{bodies, {}, 2};
-  layout.models.push_back(std::make_unique<fem::MembraneModel>(body, *mesh));
   bodies[0].mesh = std::move(mesh);
-  std::vector<Piece> pieces = assemblePieces(layout, *world());
-  const CrosspointNumbering crosspoints(outlineOf(layout), pieces, *world());
-  EXPECT_EQ(crosspoints.numNodes(), 1);
-  EXPECT_EQ(crosspoints.numUnknowns(), 1);
-  for (const Piece& piece : pieces) { // both sides know it
-    const auto marked = std::count(piece.isCrosspoint.begin(), piece.isCrosspoint.end(), 1);
-    EXPECT_EQ(marked, 1) << piece.number;
-  }
+  bodies[0].name = body.name;
+  scene::Scene scene;
+  scene.bodies = {body};
+  const DecomposedProblem problem = std::move(model::decompose(scene, std::move(bodies), world()).problem);
+  EXPECT_EQ(problem.numCrosspoints, 1);
+  EXPECT_EQ(problem.crosspointMap->getGlobalNumElements(), 1U);
+  for (const Subdomain& subdomain : problem.subdomains) // both sides know it
+    EXPECT_EQ(subdomain.crosspointUnknowns.size(), 1U) << subdomain.number;
 }
 
 } // namespace

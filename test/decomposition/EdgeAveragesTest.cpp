@@ -1,8 +1,9 @@
 #include "epafi/decomposition/EdgeAverages.hpp"
+#include "epafi/fem/SubdomainAssembly.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/decomposition/Corners.hpp"
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
@@ -15,9 +16,15 @@
 namespace epafi::decomposition {
 namespace {
 
+using model::decompose;
+using model::Decomposition;
+using model::makeModel;
+
 /// A body in space, cut as a grid.
 scene::Scene cube(int subdomains, int elementsPerSubdomain) {
-  scene::Solid solid;
+  scene::Body solid;
+  solid.name = "cube";
+  solid.physics = scene::Physics::elasticity3d;
   solid.mesh.box = {{0, 0, 0}, {1, 1, 1}};
   const int n = subdomains * elementsPerSubdomain;
   solid.mesh.elements = {n, n, n};
@@ -25,12 +32,9 @@ scene::Scene cube(int subdomains, int elementsPerSubdomain) {
   scene::SolidLoad weight;
   weight.value = {0.5, 0.25, -1};
   solid.loads = {weight};
-  scene::Body body;
-  body.name = "cube";
-  body.decomposition.counts = {subdomains, subdomains, subdomains};
-  body.solid = solid;
+  solid.decomposition.counts = {subdomains, subdomains, subdomains};
   scene::Scene scene;
-  scene.bodies = {body};
+  scene.bodies = {solid};
   return scene;
 }
 
@@ -84,9 +88,9 @@ TEST(EdgeAveragesTest, EnergyIsThatOfTheValuesOfNodes) {
 
 TEST(EdgeAveragesTest, RowsActOnTheSameValues) {
   const std::vector<Average> averages{{2, {0, 1, 4}}, {3, {6}}};
-  std::vector<RowEntry> rows{{7, 0, 1.5}, {7, 2, -2.0}, {8, 3, 1.0}, {8, 5, 4.0}, {9, 6, 1.0}, {9, 3, 1.0}};
-  const std::vector<RowEntry> nodalRows = rows;
-  changeBasisOfRows(averages, 0, rows);
+  const std::vector<RowEntry> nodalRows{{7, 0, 1.5}, {7, 2, -2.0}, {8, 3, 1.0},
+                                        {8, 5, 4.0}, {9, 6, 1.0},  {9, 3, 1.0}};
+  const std::vector<RowEntry> rows = inBasisOf(averages, nodalRows);
   Subdomain subdomain;
   subdomain.averages = averages;
   const Eigen::VectorXd changed = Eigen::VectorXd::Random(7);

@@ -27,11 +27,10 @@ Decomposition decomposedAlone(const scene::Scene& scene) {
 }
 
 TEST(EqualSubdomainsTest, InnerSubdomainsOfAUniformMeshAreEqualToTheLastBit) {
-  for (const scene::Rectangle& rectangle :
-       {scene::Rectangle{0, 1, 0, 1}, scene::Rectangle{0.1, 0.8, -3.3, 1.1},
-        scene::Rectangle{100, 101, 7, 9}}) {
-    scene::Scene scene = oneBody(30, 30, grid(5, 5), {{"wall", scene::Edge::left, 0.3}});
-    scene.bodies[0].rectangle = rectangle; // 1/30 is no binary fraction
+  for (const scene::Box& rectangle : {scene::rectangle(0, 1, 0, 1), scene::rectangle(0.1, 0.8, -3.3, 1.1),
+                                      scene::rectangle(100, 101, 7, 9)}) {
+    scene::Scene scene = oneBody(30, 30, grid(5, 5), {{"wall", "left", {0.3}}});
+    scene.bodies[0].mesh.box = rectangle; // 1/30 is no binary fraction
     const auto result = decomposedAlone(scene);
     const std::vector<Subdomain>& s = result.problem.subdomains;
     ASSERT_EQ(s.size(), 25u);
@@ -48,7 +47,7 @@ TEST(EqualSubdomainsTest, InnerSubdomainsOfAUniformMeshAreEqualToTheLastBit) {
 }
 
 TEST(EqualSubdomainsTest, EqualMatricesAreStoredOnce) {
-  const auto result = decomposedAlone(oneBody(30, 30, grid(5, 5), {{"wall", scene::Edge::left, 0.3}}));
+  const auto result = decomposedAlone(oneBody(30, 30, grid(5, 5), {{"wall", "left", {0.3}}}));
   std::set<const SparseMatrix*> stored;
   for (const Subdomain& s : result.problem.subdomains)
     stored.insert(s.stiffness.get());
@@ -72,7 +71,7 @@ TEST(EqualSubdomainsTest, UnevenGridsHaveAsManyMatricesAsShapes) {
 
 TEST(EqualSubdomainsTest, AnotherMaterialMakesAnotherMatrixOfTheSamePattern) {
   scene::Scene scene = oneBody(30, 30, grid(5, 5), {});
-  scene.bodies[0].regions = {{"middle", {0.4, 0.6, 0.4, 0.6}, 10}};
+  scene.bodies[0].regions = {{"middle", scene::rectangle(0.4, 0.6, 0.4, 0.6), "", {10}}};
   const auto result = decomposedAlone(scene);
   const std::vector<Subdomain>& s = result.problem.subdomains;
   EXPECT_FALSE(haveEqualBits(*s[12].stiffness, *s[6].stiffness));

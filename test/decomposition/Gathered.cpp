@@ -12,8 +12,6 @@
 namespace epafi::decomposition {
 namespace {
 
-using scene::Edge;
-
 void sum(const Comm& comm, Eigen::MatrixXd& matrix) {
   sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
 }
@@ -54,26 +52,27 @@ scene::Decomposition metis(int parts) {
 }
 
 scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
-                     const std::vector<scene::Support>& supports) {
+                     const std::vector<scene::SolidSupport>& supports) {
   scene::Body body;
   body.name = "plate";
-  body.elements = {n, m};
+  body.mesh.box = scene::rectangle(0, 1, 0, 1);
+  body.mesh.elements = {n, m, 0};
   body.supports = supports;
   body.decomposition = cut;
-  body.loads = {{"all", {0, 1, 0, 1}, -1.0}};
-  return {"one body", {body}, {}, {}};
+  body.loads = {scene::loadInside("all", scene::rectangle(0, 1, 0, 1), -1.0)};
+  return {"one body", {body}, {}};
 }
 
 scene::Scene twoMembranes(bool coercive, int elements, const scene::Decomposition& cut) {
-  scene::Scene scene = oneBody(elements, elements, cut, {{"wall", Edge::left, 0.0}});
+  scene::Scene scene = oneBody(elements, elements, cut, {{"wall", "left", {0.0}}});
   scene.bodies.push_back(scene.bodies.front());
   scene.bodies.front().name = "left";
   scene.bodies.back().name = "right";
-  scene.bodies.back().rectangle = {1, 2, 0, 1};
+  scene.bodies.back().mesh.box = scene::rectangle(1, 2, 0, 1);
   scene.bodies.back().supports.clear();
   if (coercive)
-    scene.bodies.back().supports = {{"wall", Edge::right, 0.0}};
-  scene.contacts = {{"interface", 0, Edge::right, 1, Edge::left, 0.0}};
+    scene.bodies.back().supports = {{"wall", "right", {0.0}}};
+  scene.contacts = {{"interface", 0, "right", 1, "left", {}, 0.0}};
   return scene;
 }
 
@@ -140,8 +139,8 @@ int kernelDimension(const Eigen::MatrixXd& symmetric) {
 }
 
 std::vector<Case> smallCases() {
-  const scene::Support left{"left", Edge::left, 0.0}, right{"right", Edge::right, 0.0},
-      top{"top", Edge::top, 0.0}, bottom{"bottom", Edge::bottom, 0.0};
+  const scene::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}},
+      top{"top", "top", {0.0}}, bottom{"bottom", "bottom", {0.0}};
   std::vector<Case> cases;
   for (const bool coercive : {true, false}) {
     const std::string kind = coercive ? "coercive " : "semicoercive ";

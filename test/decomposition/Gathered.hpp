@@ -3,7 +3,7 @@
 /// Small decomposed problems and what the tests look at: the matrices of the whole problem, dense, on every
 /// rank.
 
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>
 
@@ -12,6 +12,16 @@
 #include <vector>
 
 namespace epafi::decomposition {
+
+using contact::ContactLayout;
+using model::BodyLayout;
+using model::decompose;
+using model::Decomposition;
+using model::GraphPartition;
+using model::GridPartition;
+using model::layoutBodies;
+using model::makeModel;
+using model::Partition;
 
 /// Lets `change(matrix)` change the stiffness of one subdomain, and of no other that shares it.
 template <class Change>
@@ -32,7 +42,7 @@ scene::Decomposition metis(int parts);
 
 /// One square body of n × m elements, without contact.
 scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
-                     const std::vector<scene::Support>& supports);
+                     const std::vector<scene::SolidSupport>& supports);
 
 /// A node of the whole problem as one number: unique over bodies.
 double nodeKey(const Subdomain& subdomain, int unknown, int components);

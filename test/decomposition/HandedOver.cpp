@@ -3,7 +3,8 @@
 #include "Gathered.hpp"
 
 #include "epafi/base/Compatibility.hpp"
-#include "epafi/decomposition/Pieces.hpp"
+#include "epafi/fem/SubdomainAssembly.hpp"
+#include "epafi/model/BodyLayout.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_CrsMatrix.hpp>
@@ -16,21 +17,18 @@ namespace epafi::decomposition {
 namespace {
 
 scene::Scene withoutSupports(scene::Scene scene) {
-  for (scene::Body& body : scene.bodies) {
+  for (scene::Body& body : scene.bodies)
     body.supports.clear();
-    if (body.solid)
-      body.solid->supports.clear();
-  }
   return scene;
 }
 
-Layout layoutOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
-  Layout layout{bodies, {}, 0};
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    layout.models.push_back(makeModel(scene.bodies[b], *bodies[b].mesh));
-    layout.numSubdomains += bodies[b].partition->numParts();
-  }
-  return layout;
+using Models = std::vector<std::unique_ptr<fem::BodyModel>>;
+
+Models modelsOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
+  Models models;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    models.push_back(makeModel(scene.bodies[b], *bodies[b].mesh));
+  return models;
 }
 
 std::vector<GlobalOrdinal> firstNodesOf(const std::vector<BodyLayout>& bodies) {
@@ -52,9 +50,9 @@ std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene,
   std::vector<std::string> names;
   for (const BodyLayout& body : bodies)
     names.push_back(body.name);
-  auto problem = std::make_unique<UnassembledProblem>(
-      world(), fem::dimensionOf(bodies.front().mesh->cellType()),
-      layoutOf(scene, bodies).models.front()->components(), std::move(names));
+  auto problem =
+      std::make_unique<UnassembledProblem>(world(), fem::dimensionOf(bodies.front().mesh->cellType()),
+                                           modelsOf(scene, bodies).front()->components(), std::move(names));
   for (SubdomainMatrix& matrix : matrices)
     problem->add(std::move(matrix));
   return problem;
@@ -63,26 +61,31 @@ std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene,
 std::vector<SubdomainMatrix> matricesOf(const scene::Scene& scene, Supports supports) {
   const std::vector<BodyLayout> bodies = layoutBodies(scene, *world());
   const scene::Scene assembled = supports == Supports::prescribed ? withoutSupports(scene) : scene;
-  const Layout layout = layoutOf(assembled, bodies), supported = layoutOf(scene, bodies);
+  const Models models = modelsOf(assembled, bodies), supported = modelsOf(scene, bodies);
   const std::vector<GlobalOrdinal> first = firstNodesOf(bodies);
   const int dimension = fem::dimensionOf(bodies.front().mesh->cellType()),
-            components = layout.models.front()->components();
+            components = models.front()->components();
   std::vector<SubdomainMatrix> matrices;
-  for (const Piece& piece : assemblePieces(layout, *world())) {
-    const auto b = static_cast<std::size_t>(piece.body);
+  const model::Share share = model::shareOf(bodies, *world());
+  for (int number = share.begin; number < share.end; ++number) {
+    std::size_t b = bodies.size() - 1;
+    while (number < bodies[b].firstSubdomain)
+      --b;
+    const fem::AssembledSubdomain assembledPart =
+        fem::assemble(*models[b], bodies[b].partition->elementsOf(number - bodies[b].firstSubdomain));
     SubdomainMatrix& matrix = matrices.emplace_back();
-    matrix.body = piece.body;
-    matrix.stiffness = *piece.stiffness;
-    matrix.load = piece.assembled.load;
+    matrix.body = static_cast<int>(b);
+    matrix.stiffness = assembledPart.stiffness;
+    matrix.load = assembledPart.load;
     matrix.coordinates.resize(matrix.load.size(), dimension);
-    for (const int position : piece.assembled.unknownPosition) {
-      const GlobalOrdinal node = piece.assembled.nodes[static_cast<std::size_t>(position / components)];
+    for (const int position : assembledPart.unknownPosition) {
+      const GlobalOrdinal node = assembledPart.nodes[static_cast<std::size_t>(position / components)];
       const auto row = static_cast<Eigen::Index>(matrix.unknowns.size());
       for (Eigen::Index c = 0; c < dimension; ++c)
         matrix.coordinates(row, c) = bodies[b].mesh->point(node)[static_cast<std::size_t>(c)];
       matrix.unknowns.push_back((first[b] + node) * components + position % components);
       if (supports == Supports::prescribed)
-        if (const auto value = supported.models[b]->prescribed(node, position % components))
+        if (const auto value = supported[b]->prescribed(node, position % components))
           matrix.prescribed.emplace_back(matrix.unknowns.back(), *value);
     }
   }
@@ -90,9 +93,9 @@ std::vector<SubdomainMatrix> matricesOf(const scene::Scene& scene, Supports supp
 }
 
 ContactMatrix contactOf(const scene::Scene& scene, const Decomposition& decomposition, Supports supports) {
-  const Layout layout = layoutOf(scene, decomposition.bodies);
+  const Models models = modelsOf(scene, decomposition.bodies);
   const std::vector<GlobalOrdinal> first = firstNodes(decomposition);
-  const int components = layout.models.front()->components();
+  const int components = models.front()->components();
   const RCP<const Map> rows =
       rcp(new Map(static_cast<Tpetra::global_size_t>(decomposition.problem.numInequalities), 0, world()));
   const RCP<const Map> unknowns =
@@ -111,7 +114,7 @@ ContactMatrix contactOf(const scene::Scene& scene, const Decomposition& decompos
           const double value =
               sign *
               contact.directions[k * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
-          const auto held = layout.models[b]->prescribed(node, c);
+          const auto held = models[b]->prescribed(node, c);
           if (held && supports == Supports::eliminated)
             gap -= value * *held;
           else if (value != 0)

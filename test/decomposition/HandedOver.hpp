@@ -2,8 +2,8 @@
 
 /// Scenes handed over as an application would do it: subdomain matrices with global numbers, contact rows as a matrix.
 
-#include "epafi/decomposition/Decompose.hpp"
 #include "epafi/decomposition/UnassembledProblem.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <memory>
 #include <vector>
@@ -24,10 +24,11 @@ std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene,
                                              std::vector<SubdomainMatrix> matrices);
 
 /// Global number of a body's first node, in that problem: bodies follow each other.
-std::vector<GlobalOrdinal> firstNodes(const Decomposition& decomposition);
+std::vector<GlobalOrdinal> firstNodes(const model::Decomposition& decomposition);
 
 /// The contact rows of a decomposed scene as a matrix over all unknowns, distributed evenly. \param supports  eliminated: no
 /// entries where there is no unknown, and gaps take account of it. Collective.
-ContactMatrix contactOf(const scene::Scene& scene, const Decomposition& decomposition, Supports supports);
+ContactMatrix contactOf(const scene::Scene& scene, const model::Decomposition& decomposition,
+                        Supports supports);
 
 } // namespace epafi::decomposition

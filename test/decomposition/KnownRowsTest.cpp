@@ -1,6 +1,6 @@
 // Rows that two contacts of a scene would both bring.
 
-#include "epafi/decomposition/KnownRows.hpp"
+#include "epafi/contact/KnownRows.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 namespace {
 
 using namespace epafi;
-using decomposition::ContactLayout;
-using decomposition::KnownRows;
+using contact::ContactLayout;
+using contact::KnownRows;
 
 /// A contact of nodes 0, 1, … of body 0 with an obstacle, in the plane, in one direction.
 ContactLayout onObstacle(const std::string& name, const std::vector<GlobalOrdinal>& nodes, double upwards,

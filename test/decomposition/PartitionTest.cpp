@@ -2,9 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/decomposition/ConnectedParts.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/model/ConnectedParts.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
@@ -46,8 +46,8 @@ void expectSound(const Partition& partition, const fem::Mesh& mesh) {
 TEST(PartitionTest, GridsCutIntoEqualPartsThatCoverTheBody) {
   for (const auto& [n, m] : {std::pair{8, 8}, {7, 5}, {3, 11}})
     for (const auto& [a, b] : {std::pair{1, 1}, {2, 2}, {3, 5}, {3, 1}}) {
-      const fem::RectangleMesh mesh({0, 1, 0, 1}, {n, m});
-      const GridPartition partition(mesh, {a, b});
+      const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {n, m, 0});
+      const GridPartition partition(mesh, {a, b, 1});
       EXPECT_EQ(partition.numParts(), a * b);
       expectSound(partition, mesh);
       for (int part = 0; part < a * b; ++part) {
@@ -58,12 +58,12 @@ TEST(PartitionTest, GridsCutIntoEqualPartsThatCoverTheBody) {
     }
 }
 
-fem::BoxMesh boxMesh(int nx, int ny, int nz) {
+fem::StructuredMesh boxMesh(int nx, int ny, int nz) {
   return {{{0, 0, 0}, {1, 1, 1}}, {nx, ny, nz}};
 }
 
 TEST(PartitionTest, GridsCutBoxesXFirstThenYThenZ) {
-  const fem::BoxMesh mesh = boxMesh(4, 3, 2);
+  const fem::StructuredMesh mesh = boxMesh(4, 3, 2);
   const GridPartition partition(mesh, {2, 3, 2});
   EXPECT_EQ(partition.numParts(), 12);
   EXPECT_EQ(partition.elementsOf(0), (std::vector<GlobalOrdinal>{0, 1}));
@@ -78,7 +78,7 @@ TEST(PartitionTest, GridsCutBoxesXFirstThenYThenZ) {
 TEST(PartitionTest, GridsCutBoxesIntoEqualPartsThatCoverTheBody) {
   for (const auto& size : {std::array{6, 6, 6}, {7, 5, 4}, {3, 8, 5}})
     for (const auto& counts : {std::array{1, 1, 1}, {2, 2, 2}, {3, 5, 4}, {3, 1, 2}, {1, 4, 1}}) {
-      const fem::BoxMesh mesh = boxMesh(size[0], size[1], size[2]);
+      const fem::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
       const GridPartition partition(mesh, counts);
       ASSERT_EQ(partition.numParts(), counts[0] * counts[1] * counts[2]);
       expectSound(partition, mesh);
@@ -96,8 +96,8 @@ TEST(PartitionTest, GridsCutBoxesIntoEqualPartsThatCoverTheBody) {
 }
 
 TEST(PartitionTest, OneLayerIsCutAsARectangle) {
-  const fem::RectangleMesh rectangle({0, 1, 0, 1}, {7, 5});
-  const GridPartition flat(rectangle, {3, 2}), solid(boxMesh(7, 5, 1), {3, 2, 1});
+  const fem::StructuredMesh rectangle(scene::rectangle(0, 1, 0, 1), {7, 5, 0});
+  const GridPartition flat(rectangle, {3, 2, 1}), solid(boxMesh(7, 5, 1), {3, 2, 1});
   ASSERT_EQ(solid.numParts(), flat.numParts());
   for (int part = 0; part < flat.numParts(); ++part)
     EXPECT_EQ(solid.elementsOf(part), flat.elementsOf(part));
@@ -129,7 +129,7 @@ std::vector<std::pair<fem::LocalNumbering, int>> numberingsOf(const Partition& p
 }
 
 TEST(PartitionTest, EqualBoxesOfAMeshAreNumberedAlike) {
-  const fem::BoxMesh mesh = boxMesh(6, 9, 8);
+  const fem::StructuredMesh mesh = boxMesh(6, 9, 8);
   const auto equal = numberingsOf(GridPartition(mesh, {2, 3, 4}), mesh);
   ASSERT_EQ(equal.size(), 1u);
   EXPECT_EQ(equal[0].second, 24);
@@ -140,7 +140,7 @@ TEST(PartitionTest, EqualBoxesOfAMeshAreNumberedAlike) {
 }
 
 TEST(PartitionTest, GraphPartsAreConnectedAndCoverTheBody) {
-  const fem::RectangleMesh mesh({0, 1, 0, 1}, {13, 9});
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {13, 9, 0});
   for (const int parts : {1, 2, 3, 7, 16, 40, 117}) {
     const GraphPartition partition(mesh, parts, *world());
     EXPECT_LE(partition.numParts(), parts);
@@ -152,7 +152,7 @@ TEST(PartitionTest, GraphPartsAreConnectedAndCoverTheBody) {
 }
 
 TEST(PartitionTest, GraphPartsAreTheSameOnEveryRank) {
-  const fem::RectangleMesh mesh({0, 1, 0, 1}, {13, 9});
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {13, 9, 0});
   const GraphPartition partition(mesh, 7, *world());
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const double part = partition.partOf(element);
@@ -182,7 +182,7 @@ std::vector<int> partsOf(const Partition& partition, const fem::Mesh& mesh) {
 
 TEST(PartitionTest, GraphPartsOfBoxesAreConnectedAndBalanced) {
   for (const auto& size : {std::array{12, 12, 12}, {20, 9, 5}, {31, 30, 1}}) {
-    const fem::BoxMesh mesh = boxMesh(size[0], size[1], size[2]);
+    const fem::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
     for (const int parts : {1, 2, 5, 8, 13}) {
       const GraphPartition partition(mesh, parts, *world());
       EXPECT_EQ(partition.numParts(), parts);
@@ -190,14 +190,14 @@ TEST(PartitionTest, GraphPartsOfBoxesAreConnectedAndBalanced) {
       EXPECT_LE(imbalanceOf(partition), 1.1) << size[0] << ' ' << parts;
     }
   }
-  const fem::BoxMesh tiny = boxMesh(3, 3, 3);
+  const fem::StructuredMesh tiny = boxMesh(3, 3, 3);
   for (const int parts : {1, 2, 9, 20, 27})
     expectSound(GraphPartition(tiny, parts, *world()), tiny);
 }
 
 TEST(PartitionTest, GraphPartsDoNotDependOnTheNumberOfRanks) {
   const Teuchos::MpiComm<int> alone(MPI_COMM_SELF);
-  const fem::BoxMesh mesh = boxMesh(9, 8, 7);
+  const fem::StructuredMesh mesh = boxMesh(9, 8, 7);
   std::vector<int> weights(static_cast<std::size_t>(mesh.numElements()));
   std::iota(weights.begin(), weights.end(), 1);
   EXPECT_EQ(partsOf(GraphPartition(mesh, 6, *world()), mesh), partsOf(GraphPartition(mesh, 6, alone), mesh));
@@ -208,8 +208,8 @@ TEST(PartitionTest, GraphPartsDoNotDependOnTheNumberOfRanks) {
 }
 
 TEST(PartitionTest, WeightsBalanceTheCostOfTheParts) {
-  const fem::BoxMesh box = boxMesh(12, 10, 8);
-  const fem::RectangleMesh rectangle({0, 1, 0, 1}, {40, 24});
+  const fem::StructuredMesh box = boxMesh(12, 10, 8);
+  const fem::StructuredMesh rectangle(scene::rectangle(0, 1, 0, 1), {40, 24, 0});
   const std::array<const fem::Mesh*, 2> meshes{&box, &rectangle};
   for (const fem::Mesh* mesh : meshes) {
     const auto size = static_cast<std::size_t>(mesh->numElements());
@@ -233,7 +233,7 @@ TEST(PartitionTest, WeightsBalanceTheCostOfTheParts) {
 }
 
 TEST(PartitionTest, ImpossibleWeightsAreRefused) {
-  const fem::BoxMesh mesh = boxMesh(2, 2, 1);
+  const fem::StructuredMesh mesh = boxMesh(2, 2, 1);
   EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, 1, 1}), InputError);
   EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, 1, 0, 1}), InputError);
   EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, -3, 1, 1}), InputError);
@@ -265,7 +265,7 @@ int expectConnected(const fem::Mesh& mesh, const std::vector<int>& part) {
 }
 
 TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
-  const fem::RectangleMesh mesh({0, 1, 0, 1}, {12, 11});
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {12, 11, 0});
   const auto size = static_cast<std::size_t>(mesh.numElements());
   std::vector<int> checkerboard(size), stripes(size), scattered(size);
   for (std::size_t e = 0; e < size; ++e) {
@@ -274,7 +274,7 @@ TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
     scattered[e] = static_cast<int>(e * 7919 % 13 * (e % 5) % 6);
   }
   for (std::vector<int>* part : {&checkerboard, &stripes, &scattered}) {
-    makeConnected(mesh, *part);
+    model::makeConnected(mesh, *part);
     EXPECT_GE(expectConnected(mesh, *part), 1);
   }
   // A stray element goes where most of its edges are.
@@ -283,12 +283,12 @@ TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
     halves[e] = e % 12 < 6 ? 0 : 1;
   std::vector<int> withStray = halves;
   withStray[12 * 5 + 2] = 1;
-  makeConnected(mesh, withStray);
+  model::makeConnected(mesh, withStray);
   EXPECT_EQ(withStray, halves);
 }
 
 TEST(PartitionTest, PartsOfABoxInManyPiecesAreMadeConnectedThroughFaces) {
-  const fem::BoxMesh mesh = boxMesh(5, 4, 6);
+  const fem::StructuredMesh mesh = boxMesh(5, 4, 6);
   const auto size = static_cast<std::size_t>(mesh.numElements());
   std::vector<int> checkerboard(size), scattered(size), halves(size);
   for (std::size_t e = 0; e < size; ++e) {
@@ -297,20 +297,20 @@ TEST(PartitionTest, PartsOfABoxInManyPiecesAreMadeConnectedThroughFaces) {
     halves[e] = e < size / 2 ? 0 : 1;
   }
   for (std::vector<int>* part : {&checkerboard, &scattered}) {
-    makeConnected(mesh, *part);
+    model::makeConnected(mesh, *part);
     EXPECT_GE(expectConnected(mesh, *part), 1);
   }
   // A stray element goes where most of its faces are.
   std::vector<int> withStray = halves;
   withStray[2 + 5 * (1 + 4 * 1)] = 1;
-  makeConnected(mesh, withStray);
+  model::makeConnected(mesh, withStray);
   EXPECT_EQ(withStray, halves);
 }
 
 TEST(PartitionTest, BoxesThatTouchInAnEdgeOrACornerAreNotConnected) {
   std::vector<int> edge{0, 1, 1, 1, 1, 1, 0, 1}, corner{0, 1, 1, 1, 1, 1, 1, 0}; // part 0 is two of 2 × 2 × 2
   for (std::vector<int>* part : {&edge, &corner}) {
-    makeConnected(boxMesh(2, 2, 2), *part);
+    model::makeConnected(boxMesh(2, 2, 2), *part);
     EXPECT_EQ(*part, (std::vector<int>{0, 1, 1, 1, 1, 1, 1, 1})); // of equal pieces, the first one stays
   }
 }
@@ -327,7 +327,7 @@ TEST(PartitionTest, BodiesThatAreMeshedAndCutAlikeShareTheirPartition) {
 }
 
 TEST(PartitionTest, ImpossibleCountsAreRefused) {
-  const fem::RectangleMesh mesh({0, 1, 0, 1}, {3, 2});
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {3, 2, 0});
   EXPECT_THROW(GraphPartition(mesh, 0, *world()), InputError);
   EXPECT_THROW(GraphPartition(mesh, 7, *world()), InputError);
   EXPECT_NO_THROW(GraphPartition(mesh, 6, *world()));

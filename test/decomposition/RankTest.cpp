@@ -63,7 +63,7 @@ TEST(RankTest, RanksTakeContiguousRunsAndMayBeEmpty) {
 }
 
 TEST(RankTest, OneSubdomainOnManyRanksIsAccepted) {
-  const auto result = decompose(oneBody(3, 3, metis(1), {{"left", scene::Edge::left, 0.0}}), world());
+  const auto result = decompose(oneBody(3, 3, metis(1), {{"left", "left", {0.0}}}), world());
   EXPECT_EQ(result.problem.dualDimension(), 0);
   EXPECT_EQ(result.problem.numCrosspoints, 0);
   EXPECT_EQ(result.problem.primalDimension, 16);

@@ -1,4 +1,4 @@
-#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -19,11 +19,11 @@ const scene::Box brick{{-1, 0.5, 2}, {2, 1.5, 2.5}}; // 3 × 1 × ½
 const std::vector<std::array<int, 3>> sizes{{3, 2, 4}, {1, 1, 1}, {4, 1, 1}, {1, 4, 1},
                                             {1, 1, 4}, {1, 3, 2}, {3, 1, 2}, {3, 2, 1}};
 
-BoxMesh meshOf(const std::array<int, 3>& size) {
+StructuredMesh meshOf(const std::array<int, 3>& size) {
   return {brick, size};
 }
 
-Corners cornersOf(const BoxMesh& mesh, GlobalOrdinal element) {
+Corners cornersOf(const StructuredMesh& mesh, GlobalOrdinal element) {
   Corners corners{};
   mesh.elementNodes(element, corners);
   return corners;
@@ -40,7 +40,7 @@ Eigen::Vector3d at(const Mesh& mesh, GlobalOrdinal node) {
 }
 
 TEST(BoxMeshTest, NumbersNodesAndElementsXFirstThenYThenZ) {
-  const BoxMesh mesh(brick, {3, 2, 4});
+  const StructuredMesh mesh(brick, {3, 2, 4});
   EXPECT_EQ(mesh.numNodes(), 60);
   EXPECT_EQ(mesh.numElements(), 24);
   EXPECT_EQ(mesh.nodesPerElement(), 8);
@@ -57,7 +57,7 @@ TEST(BoxMeshTest, CornersOfElementsLieAsThoseOfTheUnitCube) {
   const std::array<Eigen::Vector3d, 8> cube{
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
   for (const auto& size : sizes) {
-    const BoxMesh mesh = meshOf(size);
+    const StructuredMesh mesh = meshOf(size);
     const scene::Vector3 side = mesh.elementSize();
     for (std::size_t d = 0; d < 3; ++d)
       EXPECT_DOUBLE_EQ(side[d] * size[d], brick.upper[d] - brick.lower[d]);
@@ -75,7 +75,7 @@ TEST(BoxMeshTest, CornersOfElementsLieAsThoseOfTheUnitCube) {
 TEST(BoxMeshTest, NodesKnowExactlyTheElementsThatKnowThem) {
   std::vector<GlobalOrdinal> elements;
   for (const auto& size : sizes) {
-    const BoxMesh mesh = meshOf(size);
+    const StructuredMesh mesh = meshOf(size);
     for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
       mesh.nodeElements(node, elements);
       EXPECT_TRUE(std::is_sorted(elements.begin(), elements.end()));
@@ -88,7 +88,7 @@ TEST(BoxMeshTest, NodesKnowExactlyTheElementsThatKnowThem) {
 
 TEST(BoxMeshTest, ManyAtOnceAreTheSameAsOneByOne) {
   for (const auto& size : sizes) {
-    const BoxMesh mesh = meshOf(size);
+    const StructuredMesh mesh = meshOf(size);
     std::vector<GlobalOrdinal> elements; // ascending with gaps, then backwards
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element)
       if (element % 5 != 2)
@@ -121,7 +121,7 @@ TEST(BoxMeshTest, ManyAtOnceAreTheSameAsOneByOne) {
 TEST(BoxMeshTest, NeighboursAreThoseWhoShareFourNodes) {
   std::vector<GlobalOrdinal> neighbours;
   for (const auto& size : sizes) {
-    const BoxMesh mesh = meshOf(size);
+    const StructuredMesh mesh = meshOf(size);
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
       mesh.elementNeighbours(element, neighbours);
       EXPECT_TRUE(std::is_sorted(neighbours.begin(), neighbours.end()));
@@ -139,7 +139,7 @@ TEST(BoxMeshTest, NeighboursAreThoseWhoShareFourNodes) {
 
 TEST(BoxMeshTest, EndPointsAreExactWhateverTheSpacing) {
   const scene::Box box{{0.1, -0.3, 100.1}, {0.7, 0.9, 100.3}};
-  const BoxMesh fine(box, {7, 49, 11});
+  const StructuredMesh fine(box, {7, 49, 11});
   EXPECT_EQ(fine.point(0), box.lower);
   EXPECT_EQ(fine.point(fine.numNodes() - 1), box.upper);
   const std::map<std::string, std::pair<std::size_t, double>> faces{
@@ -150,19 +150,20 @@ TEST(BoxMeshTest, EndPointsAreExactWhateverTheSpacing) {
       EXPECT_EQ(fine.point(node)[plane.first], plane.second) << name << ' ' << node;
 }
 
-TEST(BoxMeshTest, ElementBoxesFillTheBox) {
+TEST(BoxMeshTest, ElementsFillTheBox) {
   for (const auto& size : sizes) {
-    const BoxMesh mesh = meshOf(size);
-    double volume = 0;
+    const StructuredMesh mesh = meshOf(size);
+    const auto [a, b, c] = mesh.elementSize();
+    EXPECT_NEAR(a * b * c * static_cast<double>(mesh.numElements()), 1.5, 1e-14);
+    const std::vector<Point> corners = mesh.elementCorners();
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
-      const scene::Box box = mesh.elementBox(element);
-      double product = 1;
-      for (std::size_t d = 0; d < 3; ++d)
-        product *= box.upper[d] - box.lower[d];
-      EXPECT_GT(product, 0);
-      volume += product;
+      const Corners nodes = cornersOf(mesh, element);
+      for (std::size_t corner = 0; corner < 8; ++corner)
+        EXPECT_LT((at(mesh, nodes[corner]) - at(mesh, nodes[0]) -
+                   Eigen::Vector3d(corners[corner][0], corners[corner][1], corners[corner][2]))
+                      .norm(),
+                  1e-15);
     }
-    EXPECT_NEAR(volume, 1.5, 1e-14);
   }
 }
 
@@ -173,13 +174,13 @@ TEST(BoxMeshTest, SurfacesLookOutwards) {
                                                     {"front", {0, -1.5, 0}},  {"back", {0, 1.5, 0}},
                                                     {"bottom", {0, 0, -3.0}}, {"top", {0, 0, 3.0}}};
   for (const auto& size : sizes) {
-    const BoxMesh mesh = meshOf(size);
+    const StructuredMesh mesh = meshOf(size);
     double volume = 0;
     ASSERT_EQ(mesh.surfaceNames().size(), 6u);
     for (const std::string& name : mesh.surfaceNames()) {
       SCOPED_TRACE(name);
       const Surface surface = mesh.surface(name);
-      ASSERT_EQ(surface.nodesPerFacet, 4);
+      ASSERT_EQ(surface.nodesPerFacet(), 4);
       ASSERT_EQ(surface.facetNodes.size(), 4 * surface.elements.size());
       EXPECT_TRUE(std::is_sorted(surface.elements.begin(), surface.elements.end()));
       Eigen::Vector3d sum(0, 0, 0);
@@ -202,7 +203,7 @@ TEST(BoxMeshTest, SurfacesLookOutwards) {
 /// Each edge of a facet is run through once in both directions, and each facet belongs to one element only.
 TEST(BoxMeshTest, SurfacesCloseTheBoundary) {
   for (const auto& size : sizes) {
-    const BoxMesh mesh = meshOf(size);
+    const StructuredMesh mesh = meshOf(size);
     std::map<std::pair<GlobalOrdinal, GlobalOrdinal>, int> edges;
     std::set<GlobalOrdinal> nodes;
     for (const std::string& name : mesh.surfaceNames()) {
@@ -223,7 +224,7 @@ TEST(BoxMeshTest, SurfacesCloseTheBoundary) {
 }
 
 TEST(BoxMeshTest, NumbersOfLargeMeshesFit) {
-  const BoxMesh large(brick, {3000, 3000, 3000});
+  const StructuredMesh large(brick, {3000, 3000, 3000});
   const GlobalOrdinal last = large.numElements() - 1;
   EXPECT_EQ(last, 26999999999);
   EXPECT_EQ(cornersOf(large, last)[6], large.numNodes() - 1);

@@ -11,7 +11,13 @@ namespace {
 
 using Points = std::vector<Point>;
 
-double sumOf(const std::array<double, 4>& shares) {
+std::vector<double> sharesOf(CellType facet, const Points& points) {
+  std::vector<double> shares(points.size());
+  nodalShares(facet, points, shares);
+  return shares;
+}
+
+double sumOf(const std::vector<double>& shares) {
   return std::accumulate(shares.begin(), shares.end(), 0.0);
 }
 
@@ -33,10 +39,10 @@ TEST(ElementGeometryTest, BoundaryEnclosesTheMeasure) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& facet : facetsOf(type)) {
       const Points corners = facetPoints(type, points, facet);
-      const Eigen::Vector3d area = areaVector(corners);
+      const Eigen::Vector3d area = areaVector(facet.type, corners);
       flux += area.dot(vectorOf(corners[0])); // the same all over a plane face
       sum += area;
-      const double measure = sumOf(nodalShares(corners));
+      const double measure = sumOf(sharesOf(facet.type, corners));
       surface += measure;
       EXPECT_NEAR(area.norm(), measure, 1e-14);
     }
@@ -50,7 +56,7 @@ TEST(ElementGeometryTest, AreaVectorsCloseTheBoundaryEvenIfFacesAreWarped) {
     const Points points = distortedCell(type, 2);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& facet : facetsOf(type))
-      sum += areaVector(facetPoints(type, points, facet));
+      sum += areaVector(facet.type, facetPoints(type, points, facet));
     EXPECT_LT(sum.norm(), 1e-14) << toString(type);
   }
 }
@@ -58,11 +64,13 @@ TEST(ElementGeometryTest, AreaVectorsCloseTheBoundaryEvenIfFacesAreWarped) {
 TEST(ElementGeometryTest, FacetsOfTheUnitCubeHaveTheirNormals) {
   const Points cube = unitCell(CellType::hexahedron);
   const auto facets = facetsOf(CellType::hexahedron);
-  EXPECT_EQ(areaVector(facetPoints(CellType::hexahedron, cube, facets[0])), Eigen::Vector3d(0, 0, -1));
-  EXPECT_EQ(areaVector(facetPoints(CellType::hexahedron, cube, facets[1])), Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(areaVector(facets[0].type, facetPoints(CellType::hexahedron, cube, facets[0])),
+            Eigen::Vector3d(0, 0, -1));
+  EXPECT_EQ(areaVector(facets[1].type, facetPoints(CellType::hexahedron, cube, facets[1])),
+            Eigen::Vector3d(0, 0, 1));
   const Points edge{{0, 0, 5}, {2, 0, -7}}; // an edge below its element; z does not matter
-  EXPECT_EQ(areaVector(edge), Eigen::Vector3d(0, -2, 0));
-  EXPECT_EQ(nodalShares(edge), (std::array<double, 4>{1, 1, 0, 0}));
+  EXPECT_EQ(areaVector(CellType::line, edge), Eigen::Vector3d(0, -2, 0));
+  EXPECT_EQ(sharesOf(CellType::line, edge), (std::vector<double>{1, 1}));
 }
 
 TEST(ElementGeometryTest, CentreIsTheMeanOfTheCorners) {
@@ -76,11 +84,11 @@ TEST(ElementGeometryTest, CentreIsTheMeanOfTheCorners) {
 TEST(ElementGeometryTest, NodesShareAFacetAsTheirShapeFunctionsDo) {
   const Points trapezium{{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}},
       triangle{{0, 0, 0}, {3, 0, 0}, {0, 0, 2}};
-  const std::array<double, 4> expected{7.0 / 12, 7.0 / 12, 5.0 / 12, 5.0 / 12},
-      shares = nodalShares(trapezium);
+  const std::vector<double> expected{7.0 / 12, 7.0 / 12, 5.0 / 12, 5.0 / 12},
+      shares = sharesOf(CellType::quadrilateral, trapezium);
   for (std::size_t a = 0; a < 4; ++a)
     EXPECT_NEAR(shares[a], expected[a], 1e-15);
-  EXPECT_EQ(nodalShares(triangle), (std::array<double, 4>{1, 1, 1, 0}));
+  EXPECT_EQ(sharesOf(CellType::triangle, triangle), (std::vector<double>{1, 1, 1}));
 }
 
 } // namespace

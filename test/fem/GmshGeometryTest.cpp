@@ -54,7 +54,7 @@ void expectEnclosed(const Mesh& mesh) {
   for (const std::string& name : mesh.surfaceNames()) {
     const Surface surface = mesh.surface(name);
     const std::vector<Eigen::Vector3d> areas = areaVectors(mesh, surface);
-    const auto count = static_cast<std::size_t>(surface.nodesPerFacet);
+    const auto count = static_cast<std::size_t>(surface.nodesPerFacet());
     for (std::size_t f = 0; f < areas.size(); ++f) {
       Eigen::Vector3d centre = Eigen::Vector3d::Zero();
       for (std::size_t i = 0; i < count; ++i) {

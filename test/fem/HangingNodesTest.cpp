@@ -11,16 +11,16 @@ namespace {
 
 TEST(HangingNodesTest, DistancesFromEdgesTrianglesAndWarpedPatches) {
   const std::vector<Point> edge{{1, 1, 0}, {4, 5, 0}};
-  EXPECT_NEAR(distanceFrom(edge, {2.5, 3, 0}), 0, 1e-15);
-  EXPECT_NEAR(distanceFrom(edge, {2.5 - 0.4, 3 + 0.3, 0}), 0.5, 1e-15);
-  EXPECT_NEAR(distanceFrom(edge, {4 + 3, 5 + 4, 0}), 5, 1e-14); // beyond its end
+  EXPECT_NEAR(distanceFrom(CellType::line, edge, {2.5, 3, 0}), 0, 1e-15);
+  EXPECT_NEAR(distanceFrom(CellType::line, edge, {2.5 - 0.4, 3 + 0.3, 0}), 0.5, 1e-15);
+  EXPECT_NEAR(distanceFrom(CellType::line, edge, {4 + 3, 5 + 4, 0}), 5, 1e-14); // beyond its end
   const std::vector<Point> triangle{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  EXPECT_NEAR(distanceFrom(triangle, {0.5, 0.5, 1}), 0, 1e-15);
-  EXPECT_NEAR(distanceFrom(triangle, {0.8, 0.8, 1}), 0.3 * std::sqrt(2.0), 1e-15);
-  EXPECT_NEAR(distanceFrom(triangle, {0.2, 0.2, 1.25}), 0.25, 1e-15);
+  EXPECT_NEAR(distanceFrom(CellType::triangle, triangle, {0.5, 0.5, 1}), 0, 1e-15);
+  EXPECT_NEAR(distanceFrom(CellType::triangle, triangle, {0.8, 0.8, 1}), 0.3 * std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(distanceFrom(CellType::triangle, triangle, {0.2, 0.2, 1.25}), 0.25, 1e-15);
   const std::vector<Point> warped{{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 1, 0}}; // z = x y
-  EXPECT_NEAR(distanceFrom(warped, {0.3, 0.9, 0.27}), 0, 1e-12);
-  EXPECT_GT(distanceFrom(warped, {0.3, 0.9, 0.3}), 0.01);
+  EXPECT_NEAR(distanceFrom(CellType::quadrilateral, warped, {0.3, 0.9, 0.27}), 0, 1e-12);
+  EXPECT_GT(distanceFrom(CellType::quadrilateral, warped, {0.3, 0.9, 0.3}), 0.01);
 }
 
 TEST(PointTreeTest, FindsWhatASearchOfAllPointsFinds) {

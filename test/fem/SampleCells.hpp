@@ -4,7 +4,7 @@
 
 #include "epafi/fem/Cell.hpp"
 #include "epafi/fem/Mesh.hpp"
-#include "epafi/scene/Solid.hpp"
+#include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -53,7 +53,7 @@ inline std::vector<Point> unitCell(CellType type) {
     return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   case CellType::tetrahedron:
     return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  case CellType::hexahedron:
+  default:
     break;
   }
   return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
@@ -123,16 +123,15 @@ inline Eigen::Matrix3d rotation(CellType type, double angle) {
 }
 
 /// Corners of a facet.
-inline std::vector<Point> facetPoints(CellType type, std::span<const Point> points,
-                                      const std::array<int, 4>& facet) {
+inline std::vector<Point> facetPoints(CellType /*type*/, std::span<const Point> points, const Facet& facet) {
   std::vector<Point> corners;
-  for (int i = 0; i < nodesPerFacet(type); ++i)
-    corners.push_back(points[static_cast<std::size_t>(facet[static_cast<std::size_t>(i)])]);
+  for (const int place : facet)
+    corners.push_back(points[static_cast<std::size_t>(place)]);
   return corners;
 }
 
 /// Adds a facet's load to that of the element.
-inline void addFacetLoad(CellType type, const std::array<int, 4>& facet, const Eigen::VectorXd& facetLoad,
+inline void addFacetLoad(CellType type, const Facet& facet, const Eigen::VectorXd& facetLoad,
                          Eigen::VectorXd& load) {
   const auto components = facetLoad.size() / nodesPerFacet(type);
   for (int i = 0; i < nodesPerFacet(type); ++i)

@@ -14,8 +14,8 @@ namespace epafi::fem {
 inline scene::Body plainBody() {
   scene::Body body;
   body.name = "plate";
-  body.rectangle = {0, 2, 0, 1};
-  body.elements = {4, 3};
+  body.mesh.box = scene::rectangle(0, 2, 0, 1);
+  body.mesh.elements = {4, 3, 0};
   return body;
 }
 

@@ -81,10 +81,9 @@ TEST(ShapeOfCellTest, HasTheNodesAndTheDimensionOfTheCellAndItsFacets) {
     SCOPED_TRACE(toString(type));
     EXPECT_EQ(withShape(type, [](auto shape) { return decltype(shape)::numNodes; }), numNodesOf(type));
     EXPECT_EQ(withShape(type, [](auto shape) { return decltype(shape)::dimension; }), dimensionOf(type));
-    const auto facetNodes = static_cast<std::size_t>(nodesPerFacet(type));
-    EXPECT_EQ(withFacetShape(facetNodes, [](auto shape) { return decltype(shape)::numNodes; }),
+    EXPECT_EQ(withFacetShape(facetTypeOf(type), [](auto shape) { return decltype(shape)::numNodes; }),
               nodesPerFacet(type));
-    EXPECT_EQ(withFacetShape(facetNodes, [](auto shape) { return decltype(shape)::dimension; }),
+    EXPECT_EQ(withFacetShape(facetTypeOf(type), [](auto shape) { return decltype(shape)::dimension; }),
               dimensionOf(type) - 1);
   }
 }

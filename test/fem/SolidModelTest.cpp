@@ -1,6 +1,6 @@
-#include "epafi/fem/SolidModel.hpp"
+#include "epafi/fem/BodyModel.hpp"
 
-#include "epafi/fem/BoxMesh.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/fem/SubdomainAssembly.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 
@@ -17,12 +17,13 @@ using Value = std::optional<double>;
 
 std::unique_ptr<Mesh> meshFor(Physics physics) {
   if (physics == Physics::elasticity3d)
-    return std::make_unique<BoxMesh>(scene::Box{{1, -1, 0}, {3, 1, 1}}, std::array<int, 3>{3, 2, 2});
-  return std::make_unique<RectangleMesh>(scene::Rectangle{1, 3, -1, 1}, std::array<int, 2>{4, 3});
+    return std::make_unique<StructuredMesh>(scene::Box{{1, -1, 0}, {3, 1, 1}}, std::array<int, 3>{3, 2, 2});
+  return std::make_unique<StructuredMesh>(scene::rectangle(1, 3, -1, 1), std::array<int, 3>{4, 3, 0});
 }
 
-scene::Solid solidOf(Physics physics) {
-  scene::Solid solid;
+scene::Body solidOf(Physics physics) {
+  scene::Body solid;
+  solid.name = "block";
   solid.physics = physics;
   solid.material = {2.0, 10.0, 0.3, 0.5};
   return solid;
@@ -74,9 +75,9 @@ TEST(SolidModelTest, KernelIsExactlyWhatSupportsLeaveFree) {
   for (const Supported& body : supportedBodies()) {
     SCOPED_TRACE(body.name);
     const auto mesh = meshFor(body.physics);
-    scene::Solid solid = solidOf(body.physics);
+    scene::Body solid = solidOf(body.physics);
     solid.supports = body.supports;
-    const SolidModel model("block", solid, *mesh);
+    const BodyModel model(solid, *mesh);
     EXPECT_EQ(model.kernelDimension(), body.numModes);
     const AssembledSubdomain whole = assembled(model);
     EXPECT_EQ(whole.kernel.cols(), body.numModes);
@@ -86,7 +87,7 @@ TEST(SolidModelTest, KernelIsExactlyWhatSupportsLeaveFree) {
 }
 
 /// Sum of the loads' components over all nodes.
-Eigen::Vector3d resultant(const SolidModel& model) {
+Eigen::Vector3d resultant(const BodyModel& model) {
   const AssembledSubdomain whole = assembled(model);
   Eigen::Vector3d sum(0, 0, 0);
   for (std::size_t i = 0; i < whole.unknownPosition.size(); ++i)
@@ -97,7 +98,7 @@ Eigen::Vector3d resultant(const SolidModel& model) {
 TEST(SolidModelTest, LoadsAddUpToTheirForces) {
   using Kind = scene::SolidLoad::Kind;
   const auto space = meshFor(Physics::elasticity3d), plane = meshFor(Physics::planeStress);
-  scene::Solid solid = solidOf(Physics::elasticity3d), plate = solidOf(Physics::planeStress);
+  scene::Body solid = solidOf(Physics::elasticity3d), plate = solidOf(Physics::planeStress);
   solid.loads = {{"weight", Kind::body, {}, "", {}, {1, 2, 3}},
                  {"half", Kind::body, {{1, -1, 0}, {3, 0, 1}}, "", {}, {0, 0, 1}},
                  {"pull", Kind::traction, {}, "right", {}, {0, 5, 0}},
@@ -105,24 +106,23 @@ TEST(SolidModelTest, LoadsAddUpToTheirForces) {
                  {"pin", Kind::point, {}, "", {3, 1, 1}, {0, 0, 11}}};
   // Volume 4, half of it 2, right face 2, top face 4.
   const Eigen::Vector3d expected(4 * 1, 4 * 2 + 2 * 5, 4 * 3 + 2 * 1 - 4 * 7 + 11);
-  EXPECT_LE((resultant(SolidModel("block", solid, *space)) - expected).norm(), 1e-12);
+  EXPECT_LE((resultant(BodyModel(solid, *space)) - expected).norm(), 1e-12);
 
   plate.loads = {{"weight", Kind::body, {}, "", {}, {1, 2, 0}},
                  {"press", Kind::pressure, {}, "left", {}, {3, 0, 0}}};
   // Area 4, left edge 2, thickness 0.5.
-  EXPECT_LE(
-      (resultant(SolidModel("plate", plate, *plane)) - Eigen::Vector3d(4 * 0.5 + 2 * 3 * 0.5, 4, 0)).norm(),
-      1e-12);
+  EXPECT_LE((resultant(BodyModel(plate, *plane)) - Eigen::Vector3d(4 * 0.5 + 2 * 3 * 0.5, 4, 0)).norm(),
+            1e-12);
 }
 
 TEST(SolidModelTest, RegionsHaveTheirMaterial) {
   const auto mesh = meshFor(Physics::planeStrain);
-  scene::Solid solid = solidOf(Physics::planeStrain);
+  scene::Body solid = solidOf(Physics::planeStrain);
   scene::Material hard = solid.material;
   hard.youngsModulus *= 8;
   solid.regions = {{"right half", {{2, -1, 0}, {3, 1, 0}}, "", hard}};
-  const scene::Solid plain = solidOf(Physics::planeStrain);
-  const SolidModel model("block", solid, *mesh), uniform("block", plain, *mesh);
+  const scene::Body plain = solidOf(Physics::planeStrain);
+  const BodyModel model(solid, *mesh), uniform(plain, *mesh);
   for (GlobalOrdinal element = 0; element < mesh->numElements(); ++element) {
     Eigen::MatrixXd k, reference;
     Eigen::VectorXd load;
@@ -134,9 +134,9 @@ TEST(SolidModelTest, RegionsHaveTheirMaterial) {
   }
 }
 
-std::string complaint(const scene::Solid& solid, const Mesh& mesh) {
+std::string complaint(const scene::Body& solid, const Mesh& mesh) {
   try {
-    const SolidModel model("block", solid, mesh);
+    const BodyModel model(solid, mesh);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -148,19 +148,19 @@ TEST(SolidModelTest, SaysWhatDoesNotGoTogether) {
   const Value free, held = 0.0, other = 1.0;
   const auto mesh = meshFor(Physics::elasticity3d);
   const auto expectSays = [&](const auto& change, const std::string& words) {
-    scene::Solid solid = solidOf(Physics::elasticity3d);
+    scene::Body solid = solidOf(Physics::elasticity3d);
     change(solid);
     const std::string said = complaint(solid, *mesh);
     EXPECT_NE(said.find(words), std::string::npos) << said;
     EXPECT_NE(said.find("block"), std::string::npos) << said;
   };
-  expectSays([&](scene::Solid& s) { s.supports = {{"foot", "sole", {held, free, free}}}; }, "'sole'");
-  expectSays([&](scene::Solid& s) { s.regions = {{"inlay", {}, "steel", {}}}; }, "'steel'");
-  expectSays([&](scene::Solid& s) { s.regions = {{"inlay", {{8, 8, 8}, {9, 9, 9}}, "", {}}}; }, "inlay");
-  expectSays([&](scene::Solid& s) { s.loads = {{"pin", Kind::point, {}, "", {1.1, 0, 0}, {}}}; }, "no node");
-  expectSays([&](scene::Solid& s) { s.physics = Physics::planeStrain; }, "hexahedron");
+  expectSays([&](scene::Body& s) { s.supports = {{"foot", "sole", {held, free, free}}}; }, "'sole'");
+  expectSays([&](scene::Body& s) { s.regions = {{"inlay", {}, "steel", {}}}; }, "'steel'");
+  expectSays([&](scene::Body& s) { s.regions = {{"inlay", {{8, 8, 8}, {9, 9, 9}}, "", {}}}; }, "inlay");
+  expectSays([&](scene::Body& s) { s.loads = {{"pin", Kind::point, {}, "", {1.1, 0, 0}, {}}}; }, "no node");
+  expectSays([&](scene::Body& s) { s.physics = Physics::planeStrain; }, "hexahedron");
   expectSays(
-      [&](scene::Solid& s) {
+      [&](scene::Body& s) {
         s.supports = {{"a", "left", {held, free, free}}, {"b", "top", {other, free, free}}};
       },
       "different values");

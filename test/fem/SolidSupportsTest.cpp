@@ -3,7 +3,7 @@
 #include "MeshFiles.hpp"
 #include "TurnedMesh.hpp"
 
-#include "epafi/fem/SolidModel.hpp"
+#include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/SubdomainAssembly.hpp"
 #include "epafi/fem/SupportNormals.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
@@ -34,8 +34,8 @@ SolidSupport slide(const std::string& surface, double normal = 0) {
 
 std::unique_ptr<Mesh> structured(int dimension) {
   if (dimension == 3)
-    return std::make_unique<BoxMesh>(scene::Box{{0, 0, 0}, {2, 1, 1.5}}, std::array<int, 3>{3, 2, 2});
-  return std::make_unique<RectangleMesh>(scene::Rectangle{0, 2, 0, 1}, std::array<int, 2>{4, 3});
+    return std::make_unique<StructuredMesh>(scene::Box{{0, 0, 0}, {2, 1, 1.5}}, std::array<int, 3>{3, 2, 2});
+  return std::make_unique<StructuredMesh>(scene::rectangle(0, 2, 0, 1), std::array<int, 3>{4, 3, 0});
 }
 
 UnstructuredMesh turned(int dimension, double angle, bool simplices, double shift = 17) {
@@ -43,8 +43,9 @@ UnstructuredMesh turned(int dimension, double angle, bool simplices, double shif
   return UnstructuredMesh(arraysOf(*structured(dimension), placed(dimension, angle, far), simplices));
 }
 
-scene::Solid solidWith(int dimension, std::vector<SolidSupport> supports) {
-  scene::Solid solid;
+scene::Body solidWith(int dimension, std::vector<SolidSupport> supports) {
+  scene::Body solid;
+  solid.name = "block";
   solid.physics = dimension == 3 ? Physics::elasticity3d : Physics::planeStrain;
   solid.supports = std::move(supports);
   return solid;
@@ -57,7 +58,7 @@ AssembledSubdomain assembled(const BodyModel& model) {
 }
 
 /// The kernel that geometry tells must be the kernel of the matrix: K R = 0, and no further eigenvalue vanishes.
-void expectKernelOfMatrix(const SolidModel& model) {
+void expectKernelOfMatrix(const BodyModel& model) {
   const AssembledSubdomain whole = assembled(model);
   ASSERT_EQ(whole.kernel.cols(), model.kernelDimension());
   EXPECT_LE((whole.stiffness * whole.kernel).norm(), 1e-11 * whole.stiffness.norm());
@@ -72,9 +73,9 @@ TEST(SolidSupportsTest, NormalsOfAxisParallelPlanesAreComponents) {
     const auto mesh = structured(dimension);
     SolidSupport left{"left", "left", {-0.25, none, none}}, bottom{"bottom", "bottom", {}};
     bottom.value[static_cast<std::size_t>(dimension - 1)] = 0.5;
-    const scene::Solid byComponents = solidWith(dimension, {left, bottom}),
-                       byNormals = solidWith(dimension, {slide("left", 0.25), slide("bottom", -0.5)});
-    const SolidModel a("block", byComponents, *mesh), b("block", byNormals, *mesh);
+    const scene::Body byComponents = solidWith(dimension, {left, bottom}),
+                      byNormals = solidWith(dimension, {slide("left", 0.25), slide("bottom", -0.5)});
+    const BodyModel a(byComponents, *mesh), b(byNormals, *mesh);
     EXPECT_FALSE(b.hasFrames());
     const AssembledSubdomain x = assembled(a), y = assembled(b);
     EXPECT_EQ(x.unknownOf, y.unknownOf);
@@ -94,9 +95,9 @@ TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
   for (const int dimension : {2, 3})
     for (const bool simplices : {false, true})
       for (const auto& [supports, numModes] : dimension == 2 ? plane : space) {
-        const scene::Solid solid = solidWith(dimension, supports);
+        const scene::Body solid = solidWith(dimension, supports);
         const UnstructuredMesh mesh = turned(dimension, 0.7, simplices);
-        const SolidModel model("block", solid, mesh);
+        const BodyModel model(solid, mesh);
         EXPECT_TRUE(model.hasFrames());
         EXPECT_EQ(model.kernelDimension(), numModes);
         expectKernelOfMatrix(model);
@@ -104,7 +105,7 @@ TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
 }
 
 /// u of all unknowns, prescribed ones included, turned back into space.
-Eigen::VectorXd inSpace(const SolidModel& model, const AssembledSubdomain& whole, const Eigen::VectorXd& u) {
+Eigen::VectorXd inSpace(const BodyModel& model, const AssembledSubdomain& whole, const Eigen::VectorXd& u) {
   Eigen::VectorXd all = whole.prescribed;
   for (std::size_t i = 0; i < whole.unknownPosition.size(); ++i)
     all[whole.unknownPosition[i]] = u[static_cast<Eigen::Index>(i)];
@@ -123,13 +124,13 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
       std::vector<SolidSupport> supports{slide("left", 0.0), slide("right", 0.3), slide("bottom", 0.0)};
       if (dimension == 3)
         supports.push_back(slide("front"));
-      const scene::Solid solid = solidWith(dimension, supports);
+      const scene::Body solid = solidWith(dimension, supports);
       const test::Placement placement = placed(dimension, 0.7, {11, -5, dimension == 3 ? 3.0 : 0.0});
       const auto straightMesh = structured(dimension);
       const UnstructuredMesh mesh(arraysOf(*straightMesh, placement, simplices)),
           original(arraysOf(*straightMesh, {}, simplices));
-      const SolidModel model("turned", solid, mesh), straight("straight", solid, original);
-      const auto solution = [](const SolidModel& m) {
+      const BodyModel model(solid, mesh), straight(solid, original);
+      const auto solution = [](const BodyModel& m) {
         const AssembledSubdomain whole = assembled(m);
         return inSpace(m, whole, Eigen::MatrixXd(whole.stiffness).ldlt().solve(whole.load));
       };
@@ -148,12 +149,12 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
 TEST(SolidSupportsTest, LoadsAndEnergyTurnWithTheFrames) {
   using Kind = scene::SolidLoad::Kind;
   for (const int dimension : {2, 3}) {
-    scene::Solid framed = solidWith(dimension, {slide("left")}), plain = solidWith(dimension, {});
+    scene::Body framed = solidWith(dimension, {slide("left")}), plain = solidWith(dimension, {});
     framed.loads = {{"press", Kind::pressure, {}, "left", {}, {7, 0, 0}},
                     {"weight", Kind::body, {}, "", {}, {1, 2, dimension == 3 ? 3.0 : 0.0}}};
     plain.loads = framed.loads;
     const UnstructuredMesh mesh = turned(dimension, 1.1, false);
-    const SolidModel a("framed", framed, mesh), b("plain", plain, mesh);
+    const BodyModel a(framed, mesh), b(plain, mesh);
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
       Eigen::MatrixXd k, reference;
       Eigen::VectorXd f, expected;
@@ -194,9 +195,9 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
         support.value[static_cast<std::size_t>(draw(dimension))] = 0.0;
       supports.push_back(support);
     }
-    const scene::Solid solid = solidWith(dimension, supports);
+    const scene::Body solid = solidWith(dimension, supports);
     const UnstructuredMesh mesh = turned(dimension, trial % 4 < 2 ? 0.0 : 0.1 * trial, trial % 3 == 0);
-    const SolidModel model("block", solid, mesh);
+    const BodyModel model(solid, mesh);
     SCOPED_TRACE(trial);
     expectKernelOfMatrix(model);
     ++seen[static_cast<std::size_t>(model.kernelDimension())];
@@ -208,9 +209,9 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
 TEST(SolidSupportsTest, NormalsAndComponentsMeetInANode) {
   const double s = std::sqrt(0.5);
   const UnstructuredMesh mesh = turned(2, std::atan(1.0), false, 0); // left: outward (−s, −s)
-  const scene::Solid solid =
+  const scene::Body solid =
       solidWith(2, {{"pull", "left", {1.0, none, none}}, slide("left", 0.0)}); // held altogether: (1, −1)
-  const SolidModel model("block", solid, mesh);
+  const BodyModel model(solid, mesh);
   EXPECT_FALSE(model.hasFrames());
   const Surface left = mesh.surface("left");
   EXPECT_NEAR(*model.prescribed(left.facetNodes[0], 0), 1.0, 1e-14);
@@ -221,21 +222,21 @@ TEST(SolidSupportsTest, NormalsAndComponentsMeetInANode) {
 TEST(SolidSupportsTest, ContradictionsAreRefused) {
   const UnstructuredMesh mesh = turned(3, 0.4, false);
   const auto refused = [&](std::vector<SolidSupport> supports, const std::vector<std::string>& words) {
-    const scene::Solid solid = solidWith(3, std::move(supports));
-    expectRefusal([&] { SolidModel("block", solid, mesh); }, words);
+    const scene::Body solid = solidWith(3, std::move(supports));
+    expectRefusal([&] { BodyModel(solid, mesh); }, words);
   };
   SolidSupport held{"glue", "left", {0.0, 0.0, 0.0}};
   refused({held, slide("left", 0.1)}, {"'block'", "'slide left'", "different values"});
   refused({slide("left", 0.0), slide("left", 0.2)}, {"different values"});
   refused({held, {"twist", "bottom", {0.0, 0.5, 0.0}}}, {"component y", "different values"});
-  const scene::Solid agreeing =
+  const scene::Body agreeing =
       solidWith(3, {held, slide("left", 0.0), slide("bottom", 0.0), slide("front", 0.0)});
-  EXPECT_NO_THROW(SolidModel("block", agreeing, mesh));
+  EXPECT_NO_THROW(BodyModel(agreeing, mesh));
 
-  scene::Solid membrane = solidWith(2, {slide("left")});
+  scene::Body membrane = solidWith(2, {slide("left")});
   membrane.physics = Physics::membrane;
   const auto flat = structured(2);
-  expectRefusal([&] { SolidModel("skin", membrane, *flat); }, {"'skin'", "membrane", "normal"});
+  expectRefusal([&] { BodyModel(membrane, *flat); }, {"'block'", "membrane", "normal"});
 }
 
 /// A ring of quadrilaterals, its outer edge "rim"; spacing of the spokes: `angle(i)`.
@@ -260,18 +261,18 @@ UnstructuredMesh ring(int spokes, const Angle& angle) {
 }
 
 TEST(SolidSupportsTest, ARimThatSlidesAlongItselfLeavesTheTurnWhereItsNormalsDo) {
-  const scene::Solid solid = solidWith(2, {slide("rim")});
+  const scene::Body solid = solidWith(2, {slide("rim")});
   const UnstructuredMesh even = ring(24, [](int i) { return i * M_PI / 12; });
   for (const NodeNormal& at : supportNormals(even, even.surface("rim"))) {
     const Point x = even.point(at.node); // the mean of two chords' normals is the circle's
     EXPECT_LE((2 * at.normal - Eigen::Vector3d(x[0] - 3, x[1], 0)).norm(), 1e-14);
   }
-  const SolidModel turns("ring", solid, even);
+  const BodyModel turns(solid, even);
   EXPECT_EQ(turns.kernelDimension(), 1);
   expectKernelOfMatrix(turns);
   // Uneven chords: their mean normals are no radii, and hold the turn; K says so too.
   const UnstructuredMesh uneven = ring(24, [](int i) { return (i + 0.3 * (i % 3)) * M_PI / 12; });
-  const SolidModel holds("ring", solid, uneven);
+  const BodyModel holds(solid, uneven);
   EXPECT_EQ(holds.kernelDimension(), 0);
   expectKernelOfMatrix(holds);
 }
@@ -280,8 +281,8 @@ TEST(SolidSupportsTest, AnEdgeOfASurfaceHoldsAlongBothNormals) {
   const UnstructuredMesh square = ring(4, [](int i) { return i * M_PI / 2; });
   const auto normals = supportNormals(square, square.surface("rim"));
   EXPECT_EQ(normals.size(), 8U);
-  const scene::Solid solid = solidWith(2, {slide("rim")});
-  const SolidModel model("square", solid, square);
+  const scene::Body solid = solidWith(2, {slide("rim")});
+  const BodyModel model(solid, square);
   EXPECT_EQ(model.kernelDimension(), 0);
   EXPECT_FALSE(model.hasFrames());
 }
@@ -301,8 +302,8 @@ TEST(SolidSupportsTest, TinyChangesOfTheGeometryKeepTheMotionsOfSlidingPlanes) {
     for (const double size : {1e-12, 1e-9, 1e-7}) {
       const MeshArrays arrays = arraysOf(*structured(dimension), placed(dimension, 0.7, {11, -5, 0}), true);
       const UnstructuredMesh mesh = disturbed(arrays, size, 5);
-      const scene::Solid solid = solidWith(dimension, {slide("left")});
-      const SolidModel model("block", solid, mesh);
+      const scene::Body solid = solidWith(dimension, {slide("left")});
+      const BodyModel model(solid, mesh);
       EXPECT_EQ(model.kernelDimension(), dimension == 2 ? 1 : 3) << size;
       const AssembledSubdomain whole = assembled(model);
       EXPECT_LE((whole.stiffness * whole.kernel).norm(), 1e-12 * whole.stiffness.norm()) << size;
@@ -333,8 +334,8 @@ TEST(SolidSupportsTest, ABodyThatIsHardlyHeldIsRefused) {
     if (point[0] == 2)
       point[0] += 1e-7 * 3 * point[1];
   const UnstructuredMesh mesh(arrays);
-  const scene::Solid solid = solidWith(2, {slide("left"), slide("right")});
-  expectRefusal([&] { SolidModel("strip", solid, mesh); }, {"'strip'", "hardly hold"});
+  const scene::Body solid = solidWith(2, {slide("left"), slide("right")});
+  expectRefusal([&] { BodyModel(solid, mesh); }, {"'block'", "hardly hold"});
 }
 
 } // namespace

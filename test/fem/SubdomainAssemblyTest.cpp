@@ -11,26 +11,24 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Edge;
-
-AssembledSubdomain assembleAll(const scene::Body& body, const RectangleMesh& mesh) {
-  return assemble(MembraneModel(body, mesh), allElements(mesh.numElements()));
+AssembledSubdomain assembleAll(const scene::Body& body, const StructuredMesh& mesh) {
+  return assemble(BodyModel(body, mesh), allElements(mesh.numElements()));
 }
 
 TEST(SubdomainAssemblyTest, StiffnessIsSymmetricToTheLastDigit) {
   scene::Body body = plainBody();
-  body.rectangle = {0.1, 1.7, 0.3, 0.9};
-  body.regions = {{"stiff", {0, 1, 0, 0.5}, 0.1}};
-  body.supports = {{"wall", Edge::top, 0.7}};
-  const RectangleMesh mesh(body.rectangle, body.elements);
+  body.mesh.box = scene::rectangle(0.1, 1.7, 0.3, 0.9);
+  body.regions = {{"stiff", scene::rectangle(0, 1, 0, 0.5), "", {0.1}}};
+  body.supports = {{"wall", "top", {0.7}}};
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const Eigen::MatrixXd k = assembleAll(body, mesh).stiffness;
   EXPECT_EQ(k, k.transpose());
 }
 
 TEST(SubdomainAssemblyTest, PatternsHaveNoZeroBlocksAndAscendingRows) {
   scene::Body body = plainBody();
-  body.supports = {{"wall", Edge::left, 0.0}};
-  const RectangleMesh mesh(body.rectangle, body.elements);
+  body.supports = {{"wall", "left", {0.0}}};
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const auto all = assembleAll(body, mesh); // 4 × 4 free nodes: 3-point stencils in each direction
   EXPECT_TRUE(all.stiffness.isCompressed());
   EXPECT_EQ(all.stiffness.nonZeros(), 10 * 10);
@@ -43,8 +41,8 @@ TEST(SubdomainAssemblyTest, PatternsHaveNoZeroBlocksAndAscendingRows) {
 
 TEST(SubdomainAssemblyTest, BorderNodesAreThoseThatOtherElementsTouch) {
   const scene::Body body = plainBody();
-  const RectangleMesh mesh(body.rectangle, body.elements);
-  const auto part = assemble(MembraneModel(body, mesh), std::vector<GlobalOrdinal>{0, 1, 4, 5});
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const auto part = assemble(BodyModel(body, mesh), std::vector<GlobalOrdinal>{0, 1, 4, 5});
   EXPECT_EQ(part.nodes, (std::vector<GlobalOrdinal>{0, 1, 2, 5, 6, 7, 10, 11, 12}));
   EXPECT_EQ(part.borderNodes, (std::vector<int>{2, 5, 6, 7, 8}));
   EXPECT_TRUE(assembleAll(body, mesh).borderNodes.empty());
@@ -52,8 +50,8 @@ TEST(SubdomainAssemblyTest, BorderNodesAreThoseThatOtherElementsTouch) {
 
 TEST(SubdomainAssemblyTest, ConstantsAreTheKernelOfAFloatingSubdomain) {
   const scene::Body body = plainBody();
-  const RectangleMesh mesh(body.rectangle, body.elements);
-  const auto part = assemble(MembraneModel(body, mesh), std::vector<GlobalOrdinal>{5, 1, 2});
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const auto part = assemble(BodyModel(body, mesh), std::vector<GlobalOrdinal>{5, 1, 2});
   EXPECT_EQ(part.nodes, (std::vector<GlobalOrdinal>{1, 2, 3, 6, 7, 8, 11, 12}));
   ASSERT_EQ(part.kernel.rows(), 8);
   ASSERT_EQ(part.kernel.cols(), 1);
@@ -62,8 +60,8 @@ TEST(SubdomainAssemblyTest, ConstantsAreTheKernelOfAFloatingSubdomain) {
 
 TEST(SubdomainAssemblyTest, ASupportedBodyHasNoKernel) {
   scene::Body body = plainBody();
-  body.supports = {{"wall", Edge::left, 0}};
-  const RectangleMesh mesh(body.rectangle, body.elements);
+  body.supports = {{"wall", "left", {0}}};
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const auto all = assembleAll(body, mesh);
   EXPECT_EQ(all.kernel.cols(), 0);
   EXPECT_EQ(all.nodes.size(), 20u);
@@ -74,10 +72,10 @@ TEST(SubdomainAssemblyTest, ASupportedBodyHasNoKernel) {
 
 TEST(SubdomainAssemblyTest, LinearFieldsBetweenSupportsAreExact) {
   scene::Body body = plainBody();
-  body.rectangle = {0, 2, 0, 1};
-  body.supports = {{"left", Edge::left, 1.0}, {"right", Edge::right, 5.0}};
-  body.conductivity = 3;
-  const RectangleMesh mesh(body.rectangle, body.elements);
+  body.mesh.box = scene::rectangle(0, 2, 0, 1);
+  body.supports = {{"left", "left", {1.0}}, {"right", "right", {5.0}}};
+  body.material.conductivity = 3;
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const auto all = assembleAll(body, mesh);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(all.stiffness);
   const Eigen::VectorXd u = factor.solve(all.load);
@@ -91,17 +89,18 @@ TEST(SubdomainAssemblyTest, LinearFieldsBetweenSupportsAreExact) {
 
 TEST(SubdomainAssemblyTest, LoadsSumToForceTimesArea) {
   scene::Body body = plainBody();
-  body.loads = {{"cuts elements", {0.3, 1.1, -5, 0.37}, -2.0}, {"overlaps it", {1.0, 1.9, 0.1, 0.9}, 0.5}};
-  const RectangleMesh mesh(body.rectangle, body.elements);
+  body.loads = {scene::loadInside("cuts elements", scene::rectangle(0.3, 1.1, -5, 0.37), -2.0),
+                scene::loadInside("overlaps it", scene::rectangle(1.0, 1.9, 0.1, 0.9), 0.5)};
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   EXPECT_NEAR(assembleAll(body, mesh).load.sum(), -2.0 * 0.8 * 0.37 + 0.5 * 0.9 * 0.8, 1e-14);
 }
 
 TEST(SubdomainAssemblyTest, LoadsOnSupportsCountInTheEnergyOnly) {
   scene::Body body = plainBody();
-  body.elements = {1, 1};
-  body.supports = {{"left", Edge::left, 3.0}, {"right", Edge::right, 3.0}};
-  body.loads = {{"all", {0, 2, 0, 1}, -1.0}};
-  const RectangleMesh mesh(body.rectangle, body.elements);
+  body.mesh.elements = {1, 1, 0};
+  body.supports = {{"left", "left", {3.0}}, {"right", "right", {3.0}}};
+  body.loads = {scene::loadInside("all", scene::rectangle(0, 2, 0, 1), -1.0)};
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const auto all = assembleAll(body, mesh);
   EXPECT_EQ(all.stiffness.rows(), 0);
   EXPECT_NEAR(all.energyOffset, 6.0, 1e-14); // −∫fu with u = 3
@@ -109,10 +108,10 @@ TEST(SubdomainAssemblyTest, LoadsOnSupportsCountInTheEnergyOnly) {
 
 TEST(SubdomainAssemblyTest, AQuarterOfAMillionElementsAreAssembledInSeconds) {
   scene::Body body = plainBody();
-  body.elements = {512, 512};
-  body.supports = {{"left", Edge::left, 0.0}};
-  body.loads = {{"strip", {0, 2, 0.75, 1}, -1.0}};
-  const RectangleMesh mesh(body.rectangle, body.elements);
+  body.mesh.elements = {512, 512, 0};
+  body.supports = {{"left", "left", {0.0}}};
+  body.loads = {scene::loadInside("strip", scene::rectangle(0, 2, 0.75, 1), -1.0)};
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const auto start = std::chrono::steady_clock::now();
   const auto all = assembleAll(body, mesh);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

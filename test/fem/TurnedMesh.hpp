@@ -2,9 +2,8 @@
 
 /// Structured meshes as arrays, turned, shifted and cut into simplices, and their files.
 
-#include "epafi/fem/BoxMesh.hpp"
 #include "epafi/fem/MeshArrays.hpp"
-#include "epafi/fem/RectangleMesh.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
 
 #include <Eigen/Geometry>
 
@@ -61,10 +60,10 @@ inline NamedFacets facetsOn(const Mesh& mesh, const std::string& name, const Mes
       seen; // sorted: count, ordered
   for (LocalOrdinal e = 0; e < arrays.numElements(); ++e) {
     const auto nodes = nodesOf(arrays.cellType, arrays.cells, e);
-    for (const std::array<int, 4>& facet : facetsOf(arrays.cellType)) {
+    for (const Facet& facet : facetsOf(arrays.cellType)) {
       std::vector<LocalOrdinal> own;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(nodesPerFacet(arrays.cellType)); ++i)
-        own.push_back(nodes[static_cast<std::size_t>(facet[i])]);
+      for (const int place : facet)
+        own.push_back(nodes[static_cast<std::size_t>(place)]);
       std::vector<LocalOrdinal> key = own;
       std::sort(key.begin(), key.end());
       auto& entry = seen[key];

@@ -95,14 +95,14 @@ TEST(UnstructuredMeshTest, SurfacesLookOutwardWhicheverWayTheirFacetsAreGiven) {
   const UnstructuredMesh plate(fourSquares());
   EXPECT_EQ(plate.surfaceNames(), (std::vector<std::string>{"bottom", "left"}));
   const Surface bottom = plate.surface("bottom");
-  EXPECT_EQ(bottom.nodesPerFacet, 2);
+  EXPECT_EQ(bottom.nodesPerFacet(), 2);
   EXPECT_EQ(bottom.facetNodes, (std::vector<GlobalOrdinal>{0, 1, 1, 2}));
   EXPECT_EQ(bottom.elements, (std::vector<GlobalOrdinal>{0, 1}));
   EXPECT_EQ(plate.surface("left").facetNodes, (std::vector<GlobalOrdinal>{3, 0, 6, 3}));
 
   const UnstructuredMesh block(eightCubes());
   const Surface top = block.surface("top");
-  EXPECT_EQ(top.nodesPerFacet, 4);
+  EXPECT_EQ(top.nodesPerFacet(), 4);
   EXPECT_EQ(top.elements, (std::vector<GlobalOrdinal>{4, 5, 6, 7}));
   for (const Eigen::Vector3d& area : areaVectors(block, top))
     EXPECT_EQ(area, Eigen::Vector3d(0, 0, 0.25));

@@ -1,4 +1,4 @@
-/// Several unknowns a node: what elasticity will need, on a model that a reader checks by hand.
+/// Several unknowns a node, some of them held: what an assembler adds up is what the dense sum says.
 
 #include "Scenes.hpp"
 
@@ -12,50 +12,16 @@
 namespace epafi::fem {
 namespace {
 
-/// The membrane's matrices times a coupling of the components, K ⊗ C with C = [2 1; 1 3]; component 1 is held at
-/// the nodes of the bottom, component 0 at node 0.
-class CoupledModel final : public BodyModel {
-public:
-  CoupledModel(const scene::Body& body, const RectangleMesh& mesh) : membrane_(body, mesh) {}
-  [[nodiscard]] const Mesh& mesh() const override { return membrane_.mesh(); }
-  [[nodiscard]] int components() const override { return 2; }
-  [[nodiscard]] int kernelDimension() const override { return 1; }
-  [[nodiscard]] double kernelValue(GlobalOrdinal node, int component, int /*mode*/) const override {
-    return static_cast<double>(10 * node + component);
-  }
-  [[nodiscard]] std::optional<double> prescribed(GlobalOrdinal node, int component) const override {
-    if (node == 0 || (component == 1 && node <= 4))
-      return 0.5 + component;
-    return std::nullopt;
-  }
-  void prescribed(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const override {
-    values.clear();
-    for (std::size_t position = 0; position < 2 * nodes.size(); ++position)
-      if (const auto value = prescribed(nodes[position / 2], static_cast<int>(position % 2)))
-        values.push_back({position, *value});
-  }
-  void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const override {
-    membrane_.kinds(elements, kinds);
-  }
-  void stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const override {
-    Eigen::MatrixXd k;
-    membrane_.stiffness(kind, k);
-    stiffness.resize(2 * k.rows(), 2 * k.cols());
-    for (Eigen::Index i = 0; i < k.rows(); ++i)
-      for (Eigen::Index j = 0; j < k.cols(); ++j)
-        stiffness.block(2 * i, 2 * j, 2, 2) = k(i, j) * coupling_;
-  }
-  void loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const override {
-    loads.resize(8, static_cast<Eigen::Index>(elements.size()));
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      for (Eigen::Index row = 0; row < 8; ++row)
-        loads(row, static_cast<Eigen::Index>(e)) = static_cast<double>(elements[e] + row);
-  }
-
-private:
-  MembraneModel membrane_;
-  Eigen::Matrix2d coupling_{{2, 1}, {1, 3}};
-};
+/// A plate that is held in y along its bottom and may slide in x: a kernel of one mode, nodes that are held in part.
+scene::Body slidingPlate() {
+  scene::Body body = plainBody(); // 4 × 3 elements
+  body.physics = scene::Physics::planeStress;
+  body.supports = {{"floor", "bottom", {std::nullopt, 1.5, std::nullopt}}};
+  scene::SolidLoad load = scene::loadInside("load", scene::rectangle(0.3, 1.7, 0.1, 0.8), 2);
+  load.value[1] = -5;
+  body.loads = {load};
+  return body;
+}
 
 /// K, f and the energy of the supports, added up element by element over all positions.
 struct Dense {
@@ -108,9 +74,10 @@ void expectEqualToDense(const BodyModel& model, std::span<const GlobalOrdinal> e
 }
 
 TEST(VectorModelTest, PartlySupportedNodesAreAssembledAsTheDenseSumSays) {
-  const scene::Body body = plainBody(); // 4 × 3 elements
-  const RectangleMesh mesh(body.rectangle, body.elements);
-  const CoupledModel model(body, mesh);
+  const scene::Body body = slidingPlate();
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const BodyModel model(body, mesh);
+  ASSERT_EQ(model.kernelDimension(), 1);
   SubdomainAssembler assembler(model);
   const std::vector<std::vector<GlobalOrdinal>> parts{
       {0, 1, 4, 5}, {2, 3, 6, 7}, {8, 9}, {10, 11}, {5, 4, 1, 0}, {3, 7, 11, 10, 2}, allElements(12)};
@@ -122,9 +89,10 @@ TEST(VectorModelTest, PartlySupportedNodesAreAssembledAsTheDenseSumSays) {
 }
 
 TEST(VectorModelTest, WhatAnAssemblerRemembersDoesNotShowInItsResults) {
-  const scene::Body body = plainBody();
-  const RectangleMesh mesh(body.rectangle, body.elements);
-  const CoupledModel model(body, mesh);
+  const scene::Body body = slidingPlate();
+  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const BodyModel model(body, mesh);
+  ASSERT_EQ(model.kernelDimension(), 1);
   SubdomainAssembler assembler(model);
   AssembledSubdomain part; // overwritten again and again
   for (int round = 0; round < 2; ++round)

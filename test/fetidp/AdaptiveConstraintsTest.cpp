@@ -3,9 +3,10 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/CorrectedPreconditioner.hpp"
-#include "epafi/fetidp/DeflatedDualOperator.hpp"
 #include "epafi/fetidp/Joints.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/OverratedColumns.hpp"
+#include "epafi/qp/DeflatedOperator.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Teuchos_Comm.hpp>
@@ -30,9 +31,9 @@ scene::Scene channels(bool coercive, double jump, const scene::Decomposition& cu
   const double h = 1.0 / elements;
   for (scene::Body& body : scene.bodies)
     for (const int row : {1, elements / 3, elements / 2 + 1, elements - 2}) {
-      const double x = body.rectangle.x0;
-      body.regions.push_back({"along", {x, x + 1, row * h, (row + 1) * h}, jump});
-      body.regions.push_back({"upwards", {x + row * h, x + (row + 1) * h, 0, 1}, jump});
+      const double x = body.mesh.box.lower[0];
+      body.regions.push_back({"along", scene::rectangle(x, x + 1, row * h, (row + 1) * h), "", {jump}});
+      body.regions.push_back({"upwards", scene::rectangle(x + row * h, x + (row + 1) * h, 0, 1), "", {jump}});
     }
   return scene;
 }
@@ -52,7 +53,8 @@ struct Deflated : Preconditioned {
       : Preconditioned(scene, {}, comm),
         constraints(
             findOverratedColumns(problem, *inverse, JointKind::gluing, parameters, Scaling::stiffness)),
-        operatorF(rcp(new DualOperator(problem, inverse))), deflated(operatorF, constraints) {}
+        operatorF(rcp(new DualOperator(inverse))),
+        deflated(operatorF, spaceOf(constraints, *inverse->multiplierPlan(), *operatorF)) {}
 
   /// U, n_λ × n_U, on every rank. Collective.
   [[nodiscard]] Eigen::MatrixXd columns() const {
@@ -67,7 +69,7 @@ struct Deflated : Preconditioned {
 
   OverratedColumns constraints;
   RCP<const DualOperator> operatorF;
-  DeflatedDualOperator deflated;
+  qp::DeflatedOperator deflated;
 };
 
 /// Eigenvalues of M F_U on Ker G but for the zeros that U makes, ascending. Collective.
@@ -158,7 +160,8 @@ TEST(AdaptiveConstraintsTest, AutoLooksAlongJumpsOnly) {
   const Deflated uniform(channels(true, 1, grid(3, 3)), {});
   EXPECT_EQ(uniform.constraints.numJoints, 0);
   scene::Scene scene = channels(true, 1, grid(3, 3));
-  scene.bodies[0].regions = {{"channel", {0, 1, 1.0 / 12, 2.0 / 12}, 1e6}}; // crosses two edges
+  scene.bodies[0].regions = {
+      {"channel", scene::rectangle(0, 1, 1.0 / 12, 2.0 / 12), "", {1e6}}}; // crosses two edges
   EXPECT_EQ(Deflated(scene, {}).constraints.numJoints, 2);
   EXPECT_EQ(Deflated(scene, {Use::yes}).constraints.numJoints, 24);
 }
@@ -183,7 +186,7 @@ struct Corrected : Deflated {
       : Deflated(scene, parameters, comm),
         jumps(findOverratedColumns(problem, *inverse, JointKind::contact, parameters, Scaling::stiffness)),
         constrained(rcp(new DualPreconditioner(problem, inverse, {}, Teuchos::rcpFromRef(deflated)))),
-        corrected(deflated, constrained, jumps, *inverse->multiplierPlan()) {}
+        corrected(constrained, spaceOf(jumps, *inverse->multiplierPlan(), deflated, constrained.get())) {}
 
   OverratedColumns jumps;
   RCP<const DualPreconditioner> constrained; ///< M, with crosspoints that keep the constraints
@@ -220,7 +223,7 @@ TEST(AdaptiveConstraintsTest, WithTheCorrectionContactForgetsTheJumpToo) {
     SCOPED_TRACE(cut.parts);
     scene::Scene scene = channels(false, 1e6, cut);
     for (scene::Body& body : scene.bodies)
-      std::erase_if(body.regions, [](const scene::Region& region) { return region.name == "upwards"; });
+      std::erase_if(body.regions, [](const scene::SolidRegion& region) { return region.name == "upwards"; });
     const Corrected c(scene, {}, thisRankOnly());
     const Eigen::VectorXd deflated = spectrum(c, *c.constrained), corrected = spectrum(c, c.corrected);
     EXPECT_GE(deflated.maxCoeff(), 1e3); // channels end at the contact
@@ -243,7 +246,7 @@ struct Solution {
   }
   [[nodiscard]] Field field() const { return fieldOf(decomposition, solution); }
 
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   ContactSolver solver;
   ContactSolution solution;
 };
@@ -281,8 +284,8 @@ TEST(AdaptiveConstraintsTest, TheyServeOtherLoadsAndWarmStarts) {
       subdomain.load *= -2;
     scene::Scene other = scene;
     for (scene::Body& body : other.bodies)
-      for (scene::Load& load : body.loads)
-        load.value *= -2;
+      for (scene::SolidLoad& load : body.loads)
+        load.value[0] *= -2;
     if (!coercive)
       continue; // it would be pulled off
     const ContactSolution changed = solution.solver.solve();

@@ -28,8 +28,7 @@ TEST(CoarseProblemTest, TakesManyColumnsOnOneRankAsOnAll) {
   const auto matrixWith = [&](int maxReplicated) {
     DirectSolvers solvers;
     solvers.maxReplicated = maxReplicated;
-    return matrixOf(DualOperator(decomposition.problem,
-                                 std::make_shared<GeneralizedInverse>(decomposition.problem, solvers)));
+    return matrixOf(DualOperator(std::make_shared<GeneralizedInverse>(decomposition.problem, solvers)));
   };
   const Eigen::MatrixXd onAll = matrixWith(1000);
   EXPECT_LE(relativeError(matrixWith(0), onAll), 1e-13);

@@ -71,7 +71,7 @@ struct Crosspoints {
     return stiffness(others, others).llt().solve(stiffness(others, touched));
   }
 
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   const DecomposedProblem& problem;
   GeneralizedInverse inverse;
   ContactCrosspoints found;

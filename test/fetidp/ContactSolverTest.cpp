@@ -104,7 +104,7 @@ TEST(ContactSolverTest, AnyStartLeadsToTheSolution) {
 }
 
 TEST(ContactSolverTest, ChoosesTheLeastAlgorithm) {
-  const scene::Support wall{"wall", scene::Edge::left, 0.0};
+  const scene::SolidSupport wall{"wall", "left", {0.0}};
   const auto algorithmOf = [](const scene::Scene& scene) {
     return Solved(scene, 1e-6).solver.dualProblem().algorithm();
   };
@@ -115,7 +115,7 @@ TEST(ContactSolverTest, ChoosesTheLeastAlgorithm) {
 }
 
 TEST(ContactSolverTest, BodiesWithoutContactAreSolvedToo) {
-  const scene::Support wall{"wall", scene::Edge::left, 0.5}, foot{"foot", scene::Edge::bottom, 0.5};
+  const scene::SolidSupport wall{"wall", "left", {0.5}}, foot{"foot", "bottom", {0.5}};
   for (const auto& cut : {grid(1, 1), grid(2, 2), metis(3)}) {
     const Solved solved(decomposition::oneBody(4, 5, cut, {wall, foot}));
     const PrimalSolution reference = solveUndecomposed(solved.decomposition);
@@ -215,10 +215,12 @@ TEST(ContactSolverTest, ABodyThatHardlyAnythingHoldsIsSolvedToItsDisplacements) 
   // Held by springs of 1e-8, the right body makes ‖d̃‖ 1e8 times as large as any displacement of the solution.
   scene::Scene scene = membranes(true);
   scene::Body& right = scene.bodies[1];
-  const double h = (right.rectangle.x1 - right.rectangle.x0) / right.elements[0];
+  const double h = (right.mesh.box.upper[0] - right.mesh.box.lower[0]) / right.mesh.elements[0];
   right.regions = {{"springs",
-                    {right.rectangle.x1 - h, right.rectangle.x1, right.rectangle.y0, right.rectangle.y1},
-                    1e-8}};
+                    scene::rectangle(right.mesh.box.upper[0] - h, right.mesh.box.upper[0],
+                                     right.mesh.box.lower[1], right.mesh.box.upper[1]),
+                    "",
+                    {1e-8}}};
   setLoad(right, -1.0);
   const Solved solved(scene, 1e-8);
   EXPECT_EQ(solved.solver.report().status, qp::Status::converged) << solved.solver.report().reason;

@@ -1,6 +1,6 @@
 #include "epafi/fetidp/CostModel.hpp"
-#include "epafi/decomposition/Decompose.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/model/Decompose.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 
 #include <Tpetra_Core.hpp>
@@ -12,11 +12,10 @@ namespace {
 /// The model problem with 1/H = 4.
 struct Factorised {
   explicit Factorised(int elementsPerSide, bool share = false)
-      : cut(decomposition::decompose(scene::modelProblem(true, 4, 4 * elementsPerSide),
-                                     Tpetra::getDefaultComm())),
+      : cut(model::decompose(scene::modelProblem(true, 4, 4 * elementsPerSide), Tpetra::getDefaultComm())),
         inverse(cut.problem, {"CHOLMOD", "CHOLMOD", share}) {}
 
-  decomposition::Decomposition cut;
+  model::Decomposition cut;
   GeneralizedInverse inverse;
 };
 

@@ -40,24 +40,24 @@ scene::Scene threeMembranes(bool lastFloats, int elements, const scene::Decompos
   scene::Scene scene = twoMembranes(false, elements, cut);
   scene::Body last = scene.bodies.back();
   scene.bodies.back().name = "middle";
-  last.rectangle = {2, 3, 0, 1};
+  last.mesh.box = scene::rectangle(2, 3, 0, 1);
   if (!lastFloats)
-    last.supports = {{"wall", scene::Edge::right, 0.0}};
+    last.supports = {{"wall", "right", {0.0}}};
   scene.bodies.push_back(last);
-  scene.contacts.push_back({"second interface", 1, scene::Edge::right, 2, scene::Edge::left, 0.0});
+  scene.contacts.push_back({"second interface", 1, "right", 2, "left", {}, 0.0});
   for (scene::Body& body : scene.bodies)
     setLoad(body, -1.0);
   return scene;
 }
 
 void setLoad(scene::Body& body, double value) {
-  body.loads = {{"all over", body.rectangle, value}};
+  body.loads = {scene::loadInside("all over", body.mesh.box, value)};
 }
 
 void setHalves(scene::Body& body, double lower, double upper) {
-  scene::Rectangle low = body.rectangle, high = body.rectangle;
-  low.y1 = high.y0 = 0.5 * (body.rectangle.y0 + body.rectangle.y1);
-  body.loads = {{"lower half", low, lower}, {"upper half", high, upper}};
+  scene::Box low = body.mesh.box, high = low;
+  low.upper[1] = high.lower[1] = 0.5 * (body.mesh.box.lower[1] + body.mesh.box.upper[1]);
+  body.loads = {scene::loadInside("lower half", low, lower), scene::loadInside("upper half", high, upper)};
 }
 
 std::vector<ContactCase> contactCases() {
@@ -71,7 +71,7 @@ std::vector<ContactCase> contactCases() {
     cases.push_back({kind + "METIS", twoMembranes(coercive, 6, metis(3)), coercive});
     scene::Scene withBystander = twoMembranes(coercive, 4, grid(2, 1));
     withBystander.bodies.push_back(
-        decomposition::oneBody(2, 2, grid(1, 1), {{"foot", scene::Edge::bottom, 0.0}}).bodies.front());
+        decomposition::oneBody(2, 2, grid(1, 1), {{"foot", "bottom", {0.0}}}).bodies.front());
     cases.push_back({kind + "a subdomain without multipliers", withBystander, coercive});
   }
   cases.push_back({"two of three float", threeMembranes(true, 4, grid(2, 1)), false});

@@ -4,8 +4,8 @@
 
 #include "../decomposition/Gathered.hpp"
 
-#include "epafi/decomposition/Decompose.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>
 
@@ -14,12 +14,12 @@
 
 namespace epafi::fetidp {
 
-using decomposition::decompose;
 using decomposition::DecomposedProblem;
 using decomposition::grid;
 using decomposition::metis;
 using decomposition::twoMembranes;
 using decomposition::world;
+using model::decompose;
 
 /// Three unit membranes side by side with a contact pair between neighbours. The first one is held on its
 /// left side, the last one on its right side unless it floats; the middle one floats always.

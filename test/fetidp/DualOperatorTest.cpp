@@ -1,5 +1,7 @@
 #include "DenseProblem.hpp"
 
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Compatibility.hpp"
 #include "epafi/fetidp/DualOperator.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -16,10 +18,9 @@ namespace {
 struct Assembled {
   explicit Assembled(const scene::Scene& scene)
       : decomposition(decompose(scene, world())),
-        inverse(std::make_shared<GeneralizedInverse>(decomposition.problem, DirectSolvers())),
-        op(decomposition.problem, inverse) {}
+        inverse(std::make_shared<GeneralizedInverse>(decomposition.problem, DirectSolvers())), op(inverse) {}
 
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   std::shared_ptr<GeneralizedInverse> inverse;
   DualOperator op;
 };
@@ -81,7 +82,7 @@ TEST(DualOperatorTest, EqualsTheUndecomposedComputation) {
 }
 
 TEST(DualOperatorTest, GluesABodyWithoutContact) {
-  const Assembled assembled(decomposition::oneBody(4, 4, metis(4), {{"wall", scene::Edge::left, 0.0}}));
+  const Assembled assembled(decomposition::oneBody(4, 4, metis(4), {{"wall", "left", {0.0}}}));
   const DenseProblem dense = densify(assembled.decomposition.problem);
   ASSERT_GT(dense.constraint.rows(), 0);
   const Eigen::MatrixXd expected =
@@ -90,7 +91,7 @@ TEST(DualOperatorTest, GluesABodyWithoutContact) {
 }
 
 TEST(DualOperatorTest, HasNoRowsWhereNothingIsGlued) {
-  const Assembled assembled(decomposition::oneBody(3, 3, grid(1, 1), {{"wall", scene::Edge::left, 0.0}}));
+  const Assembled assembled(decomposition::oneBody(3, 3, grid(1, 1), {{"wall", "left", {0.0}}}));
   EXPECT_EQ(assembled.op.getDomainMap()->getGlobalNumElements(), 0u);
   const Vector x(assembled.op.getDomainMap());
   Vector y(assembled.op.getRangeMap());
@@ -113,13 +114,23 @@ TEST(DualOperatorTest, ScalesAndAddsAsTpetraOperatorsDo) {
   EXPECT_LE(relativeError(gathered(*input), x), 0);
 }
 
-TEST(DualOperatorTest, CountsItsColumns) {
-  const Assembled assembled(twoMembranes(true, 3, grid(1, 1)));
-  const MultiVector x(assembled.op.getDomainMap(), 3);
-  MultiVector y(assembled.op.getRangeMap(), 3);
-  const int before = assembled.op.applications();
-  assembled.op.apply(x, y);
-  EXPECT_EQ(assembled.op.applications(), before + 3);
+TEST(DualOperatorTest, HalvesOfTwoProductsMayAlternate) {
+  const Assembled assembled(twoMembranes(true, 4, grid(2, 2)));
+  const GeneralizedInverse& inverse = *assembled.inverse;
+  const std::size_t numMultipliers = numLocal(*assembled.decomposition.problem.multiplierGhostMap);
+  const std::vector<double> one(numMultipliers, 1.0), two(numMultipliers, 2.0);
+  std::vector<AccurateSum> coarse(static_cast<std::size_t>(inverse.coarseProblem().size()));
+  const Eigen::MatrixXd held = Eigen::MatrixXd::Zero(inverse.coarseProblem().size(), 1);
+  for (const SubdomainGroup& group : inverse.groups()) {
+    SubdomainGroup::Workspace first, second;
+    std::vector<double> ofOne(numMultipliers, 0.0), ofTwo(numMultipliers, 0.0);
+    group.applyFlexibility(one, coarse, 1, first);
+    group.applyFlexibility(two, coarse, 1, second);
+    group.applyCoupling(held, ofOne, first);
+    group.applyCoupling(held, ofTwo, second);
+    for (std::size_t i = 0; i < numMultipliers; ++i)
+      EXPECT_NEAR(ofTwo[i], 2 * ofOne[i], 1e-14);
+  }
 }
 
 } // namespace

@@ -217,7 +217,7 @@ TEST(DualPreconditionerTest, ABodyWithoutContactLeavesTheOthersAlone) {
   const Eigen::MatrixXd two = matrixOf(Preconditioned(scene).m);
   scene.bodies.push_back(scene.bodies.back()); // its subdomains are identical to those of a body with contact
   scene.bodies.back().name = "alone";
-  scene.bodies.back().rectangle = {5, 6, 0, 1};
+  scene.bodies.back().mesh.box = scene::rectangle(5, 6, 0, 1);
   const Eigen::MatrixXd three = matrixOf(Preconditioned(scene).m);
   ASSERT_GT(three.rows(), two.rows());
   EXPECT_LE(relativeError(three.topLeftCorner(two.rows(), two.cols()), two), 1e-12); // its rows come last
@@ -245,7 +245,7 @@ TEST(DualPreconditionerTest, ItsUnitsAreThoseOfTheStiffness) {
     scene::Scene scene = twoMembranes(false, 6, grid(3, 3));
     const Eigen::MatrixXd m = matrixOf(Preconditioned(scene, parameters).m);
     for (scene::Body& body : scene.bodies)
-      body.conductivity *= 1024;
+      body.material.conductivity *= 1024;
     EXPECT_LE(relativeError(matrixOf(Preconditioned(scene, parameters).m), 1024 * m), 1e-14);
   }
 }

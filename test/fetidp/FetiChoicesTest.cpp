@@ -80,7 +80,7 @@ int products(const scene::Scene& scene, const std::string& type) {
 
 TEST(FetiChoicesTest, ConjugateGradientsWithoutContactTakeFewerProductsWithAPreconditioner) {
   for (const auto& cut : {grid(4, 4), metis(7)}) {
-    scene::Scene scene = decomposition::oneBody(32, 32, cut, {{"wall", scene::Edge::left, 0.0}});
+    scene::Scene scene = decomposition::oneBody(32, 32, cut, {{"wall", "left", {0.0}}});
     setHalves(scene.bodies[0], 1.0, -3.0); // else u depends on x alone
     const int none = products(scene, "none"), lumped = products(scene, "lumped"),
               dirichlet = products(scene, "dirichlet");

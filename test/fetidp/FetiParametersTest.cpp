@@ -135,7 +135,7 @@ TEST(FetiParametersTest, TheReportSaysWhatWasDone) {
   EXPECT_EQ(said.get<std::string>("Preconditioner"), "none");
   EXPECT_EQ(said.get<std::string>("Dual Operator"), "implicit");
 
-  said = algorithmOf(decomposition::oneBody(3, 3, grid(1, 1), {{"wall", scene::Edge::left, 0.0}}), list);
+  said = algorithmOf(decomposition::oneBody(3, 3, grid(1, 1), {{"wall", "left", {0.0}}}), list);
   EXPECT_EQ(said.get<std::string>("Dual Operator"), "none");
 }
 

@@ -15,19 +15,22 @@ scene::Scene membranes(bool coercive, int elements, const scene::Decomposition& 
 
 /// The coordinates and the gap in another unit of length; `deflection` scales u alone.
 scene::Scene rescaled(scene::Scene scene, double length, double load, double conductivity) {
-  const auto scale = [length](scene::Rectangle& box) {
-    box = {length * box.x0, length * box.x1, length * box.y0, length * box.y1};
+  const auto scale = [length](scene::Box& box) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      box.lower[d] *= length;
+      box.upper[d] *= length;
+    }
   };
   for (scene::Body& body : scene.bodies) {
-    scale(body.rectangle);
-    body.conductivity *= conductivity;
-    for (scene::Region& region : body.regions) {
+    scale(body.mesh.box);
+    body.material.conductivity *= conductivity;
+    for (scene::SolidRegion& region : body.regions) {
       scale(region.box);
-      region.conductivity *= conductivity;
+      region.material.conductivity *= conductivity;
     }
-    for (scene::Load& l : body.loads) {
+    for (scene::SolidLoad& l : body.loads) {
       scale(l.box);
-      l.value *= load;
+      l.value[0] *= load;
     }
   }
   return scene;
@@ -71,8 +74,8 @@ TEST(IndependenceTest, TheConductivityMayJumpAcrossAndInsideSubdomains) {
       for (const auto& cut : {grid(2, 2), metis(3)}) { // along the cut of the one, across that of the other
         SCOPED_TRACE(testing::Message() << coercive << ' ' << jump << ' ' << cut.parts);
         scene::Scene scene = membranes(coercive, 4, cut);
-        scene.bodies[0].regions = {{"corner", {0, 0.5, 0, 0.5}, jump}};
-        scene.bodies[1].regions = {{"right half", {1.5, 2, 0, 1}, jump}};
+        scene.bodies[0].regions = {{"corner", scene::rectangle(0, 0.5, 0, 0.5), "", {jump}}};
+        scene.bodies[1].regions = {{"right half", scene::rectangle(1.5, 2, 0, 1), "", {jump}}};
         const Solved solved(scene);
         const PrimalSolution reference = solveUndecomposed(solved.decomposition);
         ASSERT_LE(reference.violation, 1e-10);
@@ -86,7 +89,7 @@ TEST(IndependenceTest, TheConductivityMayJumpFromBodyToBody) {
     for (const double jump : {1e-4, 1e4}) {
       SCOPED_TRACE(testing::Message() << coercive << ' ' << jump);
       scene::Scene scene = membranes(coercive, 4, grid(2, 2));
-      scene.bodies[1].conductivity = jump;
+      scene.bodies[1].material.conductivity = jump;
       const Solved solved(scene);
       const PrimalSolution reference = solveUndecomposed(solved.decomposition);
       ASSERT_LE(reference.violation, 1e-10);

@@ -40,7 +40,7 @@ struct Floating {
     return g;
   }
 
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   const DecomposedProblem& problem;
   RCP<const Map> map;
   RCP<const NaturalCoarseSpace> space;
@@ -155,7 +155,7 @@ TEST(ProjectedOperatorTest, IsTheProjectedDualOperator) {
     SCOPED_TRACE(c.name);
     const Floating floating(c.scene);
     const auto inverse = std::make_shared<GeneralizedInverse>(floating.problem, DirectSolvers());
-    const RCP<const Operator> f = rcp(new DualOperator(floating.problem, inverse));
+    const RCP<const Operator> f = rcp(new DualOperator(inverse));
     const ProjectedOperator projected(f, floating.space);
     const Eigen::MatrixXd p = floating.projector();
     EXPECT_LE(relativeError(matrixOf(projected), p * matrixOf(*f) * p), 1e-13);
@@ -165,7 +165,7 @@ TEST(ProjectedOperatorTest, IsTheProjectedDualOperator) {
 TEST(ProjectedOperatorTest, ScalesAndAddsAsTpetraOperatorsDo) {
   const Floating floating(twoMembranes(false, 4, grid(2, 2)));
   const auto inverse = std::make_shared<GeneralizedInverse>(floating.problem, DirectSolvers());
-  const ProjectedOperator projected(rcp(new DualOperator(floating.problem, inverse)), floating.space);
+  const ProjectedOperator projected(rcp(new DualOperator(inverse)), floating.space);
   const Eigen::MatrixXd a = matrixOf(projected);
   const Eigen::VectorXd x = randomVector(a.rows(), 1), y = randomVector(a.rows(), 2);
   const RCP<Vector> input = spread(floating.map, x), output = spread(floating.map, y);

@@ -50,7 +50,7 @@ Eigen::MatrixXd matrixIn(const DecomposedProblem& problem, const Form& form) {
   auto inverse =
       std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
   inverse->prepareDual({form.mode, 40});
-  return matrixOf(DualOperator(problem, std::move(inverse)));
+  return matrixOf(DualOperator(std::move(inverse)));
 }
 
 TEST(OperatorFormsTest, EveryFormEqualsTheUndecomposedComputation) {
@@ -100,7 +100,7 @@ TEST(OperatorFormsTest, ProductsWithManyMultipliersAtOnceAreTheSumOfSingleOnes) 
     auto inverse =
         std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
     inverse->prepareDual({form.mode, 40});
-    const DualOperator f(problem, inverse);
+    const DualOperator f(inverse);
     const Eigen::MatrixXd matrix = matrixOf(f);
     const Eigen::VectorXd x = randomVector(matrix.cols(), 5);
     Vector image(problem.multiplierMap);

@@ -20,7 +20,7 @@ RCP<const Comm> thisRankOnly() {
 Preconditioned::Preconditioned(const scene::Scene& scene, const PreconditionerParameters& parameters,
                                const RCP<const Comm>& comm)
     : decomposition(decompose(scene, comm)), problem(decomposition.problem),
-      inverse(std::make_shared<GeneralizedInverse>(problem, DirectSolvers())), f(problem, inverse),
+      inverse(std::make_shared<GeneralizedInverse>(problem, DirectSolvers())), f(inverse),
       m(problem, inverse, parameters) {}
 
 Eigen::MatrixXd kernelRows(const DecomposedProblem& problem) {
@@ -86,10 +86,10 @@ scene::Scene contactsThatMeet(bool coercive) {
   scene::Scene scene = twoMembranes(coercive, 4, grid(2, 2));
   scene::Body top = scene.bodies.front();
   top.name = "top";
-  top.rectangle = {0, 1, 1, 2};
-  top.supports = {{"ceiling", scene::Edge::top, 0.0}};
+  top.mesh.box = scene::rectangle(0, 1, 1, 2);
+  top.supports = {{"ceiling", "top", {0.0}}};
   scene.bodies.push_back(top);
-  scene.contacts.push_back({"seam", 0, scene::Edge::top, 2, scene::Edge::bottom, 0.0});
+  scene.contacts.push_back({"seam", 0, "top", 2, "bottom", {}, 0.0});
   return scene;
 }
 
@@ -101,26 +101,26 @@ std::vector<ContactCase> hardCases() {
     for (const double jump : {1e-6, 1e6}) {
       const std::string what = kindOf(coercive) + (jump < 1 ? "jumps of 1e-6 " : "jumps of 1e6 ");
       scene::Scene bodies = twoMembranes(coercive, 4, grid(2, 2)), regions = bodies;
-      bodies.bodies[1].conductivity = jump;
+      bodies.bodies[1].material.conductivity = jump;
       cases.push_back({what + "between bodies", bodies, coercive});
       for (scene::Body& body : bodies.bodies)
         body.decomposition = metis(3);
       cases.push_back({what + "between bodies, METIS", bodies, coercive});
       // Where a body floats P mixes all rows of contact, so that a soft part of the other one must not be among them.
-      const scene::Rectangle corner{coercive ? 0.5 : 0.0, coercive ? 1.0 : 0.5, 0, 0.5};
-      regions.bodies[0].regions = {{"corner", corner, jump}};
-      regions.bodies[1].regions = {{"lower right", {1.5, 2, 0, 0.5}, jump}};
+      const scene::Box corner = scene::rectangle(coercive ? 0.5 : 0.0, coercive ? 1.0 : 0.5, 0, 0.5);
+      regions.bodies[0].regions = {{"corner", corner, "", {jump}}};
+      regions.bodies[1].regions = {{"lower right", scene::rectangle(1.5, 2, 0, 0.5), "", {jump}}};
       cases.push_back({what + "between regions", regions, coercive});
     }
     scene::Scene heldEnd = twoMembranes(coercive, 4, grid(2, 2));
-    heldEnd.bodies[0].supports.push_back({"foot", scene::Edge::bottom, 0.0});
+    heldEnd.bodies[0].supports.push_back({"foot", "bottom", {0.0}});
     cases.push_back({kindOf(coercive) + "contact that ends at one body's support", heldEnd, coercive});
     cases.push_back({kindOf(coercive) + "contacts that meet", contactsThatMeet(coercive), coercive});
     cases.push_back({kindOf(coercive) + "three bodies", threeMembranes(!coercive, 4, grid(2, 2)), false});
   }
   scene::Scene heldEnds = twoMembranes(true, 4, grid(2, 2));
   for (scene::Body& body : heldEnds.bodies)
-    body.supports.push_back({"foot", scene::Edge::bottom, 0.0});
+    body.supports.push_back({"foot", "bottom", {0.0}});
   cases.push_back({"contact that ends at both bodies' supports", heldEnds, true});
   return cases;
 }
@@ -131,8 +131,8 @@ std::vector<ContactCase> jumpsInside() {
     for (const double jump : {1e-6, 1e6})
       for (const auto& cut : {grid(2, 2), metis(3)}) {
         scene::Scene scene = twoMembranes(coercive, 4, cut);
-        scene.bodies[0].regions = {{"corner", {0.5, 1, 0, 0.5}, jump}};
-        scene.bodies[1].regions = {{"strip", {1, 1.75, 0, 0.25}, jump}};
+        scene.bodies[0].regions = {{"corner", scene::rectangle(0.5, 1, 0, 0.5), "", {jump}}};
+        scene.bodies[1].regions = {{"strip", scene::rectangle(1, 1.75, 0, 0.25), "", {jump}}};
         cases.push_back({kindOf(coercive) + (jump < 1 ? "1e-6 inside" : "1e6 inside"), scene, coercive});
       }
   return cases;

@@ -22,7 +22,7 @@ struct Preconditioned {
   explicit Preconditioned(const scene::Scene& scene, const PreconditionerParameters& parameters = {},
                           const RCP<const Comm>& comm = world());
 
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   const DecomposedProblem& problem;
   std::shared_ptr<GeneralizedInverse> inverse;
   DualOperator f;

@@ -159,8 +159,8 @@ TEST(RecoveryTest, ContactForcesBalanceTheLoadOfAFloatingBody) {
 
 TEST(RecoveryTest, SupportsKeepTheirValues) {
   scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
-  scene.bodies[0].supports.front().value = 0.25;
-  scene.bodies[1].supports.front().value = -0.5; // 0.75 too low: pressed together
+  scene.bodies[0].supports.front().value[0] = 0.25;
+  scene.bodies[1].supports.front().value[0] = -0.5; // 0.75 too low: pressed together
   const Solved solved(scene);
   const PrimalSolution reference = solveUndecomposed(solved.decomposition);
   const Field field = fieldOf(solved.decomposition, solved.solution);

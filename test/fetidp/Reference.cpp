@@ -33,7 +33,7 @@ Eigen::Index nodeOf(const PrimalProblem& primal, const decomposition::Subdomain&
          static_cast<Eigen::Index>(subdomain.nodes[static_cast<std::size_t>(position)]);
 }
 
-std::vector<Eigen::Index> firstNodes(const decomposition::Decomposition& decomposition) {
+std::vector<Eigen::Index> firstNodes(const model::Decomposition& decomposition) {
   std::vector<Eigen::Index> first{0};
   for (const auto& body : decomposition.bodies)
     first.push_back(first.back() + static_cast<Eigen::Index>(body.mesh->numNodes()));
@@ -67,7 +67,7 @@ void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdoma
   primal.energyOffset += subdomain.energyOffset;
 }
 
-PrimalProblem assemble(const decomposition::Decomposition& decomposition) {
+PrimalProblem assemble(const model::Decomposition& decomposition) {
   const DecomposedProblem& problem = decomposition.problem;
   PrimalProblem primal;
   primal.firstNode = firstNodes(decomposition);
@@ -113,7 +113,7 @@ Solved::Solved(const scene::Scene& scene, double tolerance)
   solution = solver.solve();
 }
 
-Field fieldOf(const decomposition::Decomposition& decomposition, const ContactSolution& solution) {
+Field fieldOf(const model::Decomposition& decomposition, const ContactSolution& solution) {
   PrimalProblem primal;
   primal.firstNode = firstNodes(decomposition);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(primal.firstNode.back()), copies = values;
@@ -128,7 +128,7 @@ Field fieldOf(const decomposition::Decomposition& decomposition, const ContactSo
   return split(primal, values.cwiseQuotient(copies));
 }
 
-double largestJump(const decomposition::Decomposition& decomposition, const ContactSolution& solution) {
+double largestJump(const model::Decomposition& decomposition, const ContactSolution& solution) {
   const Field mean = fieldOf(decomposition, solution);
   double jump = 0;
   for (std::size_t s = 0; s < solution.displacement.size(); ++s) {
@@ -152,7 +152,7 @@ double fieldError(const Field& a, const Field& b) {
   return size > 0 ? difference / size : difference;
 }
 
-PrimalSolution solveUndecomposed(const decomposition::Decomposition& decomposition) {
+PrimalSolution solveUndecomposed(const model::Decomposition& decomposition) {
   const PrimalProblem primal = assemble(decomposition);
   const Eigen::MatrixXd k = primal.stiffness(primal.unknowns, primal.unknowns),
                         b = primal.constraint(Eigen::all, primal.unknowns);

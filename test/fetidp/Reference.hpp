@@ -18,15 +18,15 @@ Teuchos::ParameterList toleranceOf(double tolerance);
 struct Solved {
   explicit Solved(const scene::Scene& scene, double tolerance = 1e-11);
 
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   ContactSolver solver;
   ContactSolution solution;
 };
 
 /// u at the nodes, all copies of a node averaged. Collective.
-Field fieldOf(const decomposition::Decomposition& decomposition, const ContactSolution& solution);
+Field fieldOf(const model::Decomposition& decomposition, const ContactSolution& solution);
 /// Largest difference of the copies of a node. Collective.
-double largestJump(const decomposition::Decomposition& decomposition, const ContactSolution& solution);
+double largestJump(const model::Decomposition& decomposition, const ContactSolution& solution);
 
 /// max |a − b| over all bodies, relative to max |b|.
 double fieldError(const Field& a, const Field& b);
@@ -41,6 +41,6 @@ struct PrimalSolution {
 };
 
 /// Collective.
-PrimalSolution solveUndecomposed(const decomposition::Decomposition& decomposition);
+PrimalSolution solveUndecomposed(const model::Decomposition& decomposition);
 
 } // namespace epafi::fetidp

@@ -66,7 +66,7 @@ TEST(SharedRowsTest, AShiftAddsItsMultipleOnItsRowsAlone) {
     rows.push_back(row);
   auto inverse = std::make_shared<GeneralizedInverse>(decomposition.problem, DirectSolvers());
   inverse->prepareDual({});
-  const RCP<const Operator> f = rcp(new DualOperator(decomposition.problem, inverse));
+  const RCP<const Operator> f = rcp(new DualOperator(inverse));
   const ShiftedPreconditioner shifted(f, rows, 3.0);
   Eigen::MatrixXd expected = zero;
   expected(2, 2) = 3;

@@ -18,9 +18,8 @@ namespace {
 using decomposition::Subdomain;
 
 /// All subdomains on every rank.
-decomposition::Decomposition plate() {
-  return decompose(decomposition::oneBody(30, 30, grid(5, 5), {{"wall", scene::Edge::left, 0.0}}),
-                   thisRankOnly());
+model::Decomposition plate() {
+  return decompose(decomposition::oneBody(30, 30, grid(5, 5), {{"wall", "left", {0.0}}}), thisRankOnly());
 }
 
 /// Index of the group that a subdomain is in.

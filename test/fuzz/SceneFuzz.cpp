@@ -4,9 +4,7 @@
 #include "Refusals.hpp"
 
 #include "epafi/fem/BodyModel.hpp"
-#include "epafi/fem/BoxMesh.hpp"
-#include "epafi/fem/RectangleMesh.hpp"
-#include "epafi/fem/SolidModel.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/scene/ParameterFile.hpp"
 #include "epafi/scene/SceneReader.hpp"
 
@@ -40,8 +38,7 @@ void assemble(const fem::BodyModel& model) {
 }
 
 void model(const scene::Body& body) {
-  const std::array<int, 3> elements =
-      body.solid ? body.solid->mesh.elements : std::array<int, 3>{body.elements[0], body.elements[1], 0};
+  const std::array<int, 3>& elements = body.mesh.elements;
   if (elements[0] == 0) // from a file
     return;
   long long number = 1;
@@ -50,18 +47,8 @@ void model(const scene::Body& body) {
     if (number > mostElements)
       return;
   }
-  if (!body.solid) {
-    const fem::RectangleMesh mesh(body.rectangle, body.elements);
-    assemble(fem::MembraneModel(body, mesh));
-  } else if (elements[2] == 0) {
-    const scene::Box& box = body.solid->mesh.box;
-    const fem::RectangleMesh mesh({box.lower[0], box.upper[0], box.lower[1], box.upper[1]},
-                                  {elements[0], elements[1]});
-    assemble(fem::SolidModel(body.name, *body.solid, mesh));
-  } else {
-    const fem::BoxMesh mesh(body.solid->mesh.box, elements);
-    assemble(fem::SolidModel(body.name, *body.solid, mesh));
-  }
+  const fem::StructuredMesh mesh(body.mesh.box, elements);
+  assemble(fem::BodyModel(body, mesh));
 }
 
 } // namespace

@@ -170,7 +170,8 @@ TEST(FetiDpSolverTest, EveryChoiceOfParametersSolves) {
   using Type = fetidp::PreconditionerParameters::Type;
   using Use = fetidp::AdaptiveConstraintParameters::Use;
   scene::Scene scene = patchwork(12, 1e4);
-  scene.bodies.front().regions.push_back({"channel", {0, 1, 0.25, 0.34}, 1e6}); // jumps inside subdomains
+  scene.bodies.front().regions.push_back(
+      {"channel", scene::rectangle(0, 1, 0.25, 0.34), "", {1e6}}); // jumps inside subdomains
   const LinearProblem problem(scene);
   const RCP<const Vector> b = problem.k->load();
   for (const Type type : {Type::none, Type::lumped, Type::dirichlet})

@@ -13,10 +13,10 @@
 
 namespace epafi::linear {
 
-using decomposition::Decomposition;
 using fetidp::gathered;
 using fetidp::relativeError;
 using fetidp::world;
+using model::Decomposition;
 
 /// A scene and its name.
 struct LinearCase {
@@ -25,16 +25,14 @@ struct LinearCase {
 };
 
 inline scene::Scene plate(int elements, const scene::Decomposition& cut) {
-  using scene::Edge;
-  return decomposition::oneBody(elements, elements, cut,
-                                {{"left", Edge::left, 0.25}, {"top", Edge::top, 0.25}});
+  return decomposition::oneBody(elements, elements, cut, {{"left", "left", {0.25}}, {"top", "top", {0.25}}});
 }
 
 /// A grid whose conductivity jumps from subdomain to subdomain.
 inline scene::Scene patchwork(int elements, double jump) {
   scene::Scene scene = plate(elements, decomposition::grid(2, 2));
-  scene.bodies.front().regions = {{"corner", {0, 0.5, 0, 0.5}, jump},
-                                  {"other corner", {0.5, 1, 0.5, 1}, jump}};
+  scene.bodies.front().regions = {{"corner", scene::rectangle(0, 0.5, 0, 0.5), "", {jump}},
+                                  {"other corner", scene::rectangle(0.5, 1, 0.5, 1), "", {jump}}};
   return scene;
 }
 
@@ -42,7 +40,7 @@ inline scene::Scene patchwork(int elements, double jump) {
 inline scene::Scene elasticBlock(int elements, int depth, const scene::Decomposition& cut) {
   scene::Scene scene;
   scene.bodies = {test::block("block", {{0, 0, 0}, {1, 1, 1}}, {elements, elements, depth}, cut)};
-  scene::Solid& solid = *scene.bodies.front().solid;
+  scene::Body& solid = scene.bodies.front();
   solid.supports = {{"wall", "left", {0.0, 0.0, 0.0}}};
   solid.loads = {test::weight({1, -2, 0.5})};
   return scene;
@@ -64,7 +62,7 @@ inline std::vector<LinearCase> linearCases() {
 /// A scene, cut, and its unassembled K.
 struct LinearProblem {
   explicit LinearProblem(const scene::Scene& scene, const RCP<const Comm>& comm = world())
-      : decomposition(std::make_shared<Decomposition>(decomposition::decompose(scene, comm))),
+      : decomposition(std::make_shared<Decomposition>(model::decompose(scene, comm))),
         k(rcp(new UnassembledOperator({decomposition, &decomposition->problem},
                                       globalUnknowns(*decomposition)))) {}
 

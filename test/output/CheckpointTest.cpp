@@ -50,7 +50,7 @@ protected:
   RCP<const Comm> comm = Tpetra::getDefaultComm();
   test::TemporaryDirectory directory{comm};
   std::filesystem::path file = directory.path() / "checkpoint.epafi";
-  decomposition::Decomposition cut = decomposition::decompose(test::sampleScene(), comm);
+  model::Decomposition cut = model::decompose(test::sampleScene(), comm);
   Fingerprint fingerprint = fingerprintOf(cut.problem);
   const std::size_t stride =
       comm->getSize() == 1 ? 1 : 37; ///< from one place in a file to the next that is tried
@@ -89,7 +89,7 @@ protected:
     writeCheckpoint(file, fingerprint, *multipliers());
     scene::Scene scene = test::sampleScene();
     change(scene);
-    const auto other = decomposition::decompose(scene, comm);
+    const auto other = model::decompose(scene, comm);
     const Checkpoint checkpoint = readCheckpoint(file, *comm);
     return ::epafi::test::refusal(
         [&] { static_cast<void>(multipliersOf(checkpoint, other.problem, fingerprintOf(other.problem))); });
@@ -110,7 +110,7 @@ TEST_F(CheckpointTest, WhatIsReadIsWhatWasWritten) {
 }
 
 TEST_F(CheckpointTest, TheFingerprintDoesNotDependOnTheRanks) {
-  const auto alone = decomposition::decompose(test::sampleScene(), ::epafi::test::thisRankOnly());
+  const auto alone = model::decompose(test::sampleScene(), ::epafi::test::thisRankOnly());
   const Fingerprint same = fingerprintOf(alone.problem);
   EXPECT_EQ(differenceBetween(fingerprint, same), "");
   EXPECT_EQ(fingerprint.rows, same.rows);
@@ -119,10 +119,10 @@ TEST_F(CheckpointTest, TheFingerprintDoesNotDependOnTheRanks) {
 
 TEST_F(CheckpointTest, LoadsGapsAndPrescribedValuesMayChange) {
   scene::Scene scene = test::sampleScene();
-  scene.bodies[0].loads = {{"weight", {0, 1, 0, 1}, -3.0}};
-  scene.bodies[0].supports[0].value = 0.5;
+  scene.bodies[0].loads = {scene::loadInside("weight", scene::rectangle(0, 1, 0, 1), -3.0)};
+  scene.bodies[0].supports[0].value[0] = 0.5;
   scene.contacts[0].gap = 0.75;
-  const auto other = decomposition::decompose(scene, comm);
+  const auto other = model::decompose(scene, comm);
   EXPECT_EQ(differenceBetween(fingerprint, fingerprintOf(other.problem)), "");
 }
 
@@ -135,10 +135,10 @@ TEST_F(CheckpointTest, AnotherProblemIsRefusedWithTheDifference) {
         scene.bodies[0].decomposition.counts = {4, 2};
       },
       "has 7 subdomains instead of 11");
-  says([](scene::Scene& scene) { scene.bodies[0].elements = {6, 4}; }, "primal unknowns");
+  says([](scene::Scene& scene) { scene.bodies[0].mesh.elements = {6, 4, 0}; }, "primal unknowns");
   says([](scene::Scene& scene) { scene.bodies[1].decomposition.counts = {1, 3}; }, "instead of");
   says([](scene::Scene& scene) { scene.contacts.clear(); }, "multipliers of contact");
-  says([](scene::Scene& scene) { scene.bodies[0].conductivity = 1.001; }, "stiffness");
+  says([](scene::Scene& scene) { scene.bodies[0].material.conductivity = 1.001; }, "stiffness");
   // As many rows of each kind, between other nodes.
   says(
       [](scene::Scene& scene) {

@@ -3,8 +3,8 @@
 #include "GmshBox.hpp"
 #include "TemporaryDirectory.hpp"
 
-#include "epafi/decomposition/Decompose.hpp"
 #include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/model/Decompose.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -60,22 +60,20 @@ inline scene::Body elasticBlock(const Kind& kind, const std::string& name, doubl
   body.name = name;
   body.decomposition.method = scene::Decomposition::Method::metis;
   body.decomposition.parts = parts;
-  scene::Solid solid;
-  solid.physics = kind.physics;
-  solid.material = {1.0, 200.0, 0.3, 0.5};
+  body.physics = kind.physics;
+  body.material = {1.0, 200.0, 0.3, 0.5};
   if (kind.cell == fem::CellType::triangle || kind.cell == fem::CellType::tetrahedron) {
     const std::vector<double> across = evenLines(0, 1, cells), up = evenLines(bottom, bottom + 1, cells);
-    solid.mesh.file = writeMesh(directory, comm, name + ".msh", kind.cell,
-                                isPlane ? GridLines{across, up, {}} : GridLines{across, across, up});
+    body.mesh.file = writeMesh(directory, comm, name + ".msh", kind.cell,
+                               isPlane ? GridLines{across, up, {}} : GridLines{across, across, up});
   } else {
-    solid.mesh.box = isPlane ? scene::Box{{0, bottom, 0}, {1, bottom + 1, 0}}
-                             : scene::Box{{0, 0, bottom}, {1, 1, bottom + 1}};
-    solid.mesh.elements = {cells, cells, isPlane ? 0 : cells};
+    body.mesh.box = isPlane ? scene::Box{{0, bottom, 0}, {1, bottom + 1, 0}}
+                            : scene::Box{{0, 0, bottom}, {1, 1, bottom + 1}};
+    body.mesh.elements = {cells, cells, isPlane ? 0 : cells};
   }
-  solid.supports.push_back({"symmetry in x", "left", {0.0, std::nullopt, std::nullopt}});
+  body.supports.push_back({"symmetry in x", "left", {0.0, std::nullopt, std::nullopt}});
   if (!isPlane)
-    solid.supports.push_back({"symmetry in y", "front", {std::nullopt, 0.0, std::nullopt}});
-  body.solid = solid;
+    body.supports.push_back({"symmetry in y", "front", {std::nullopt, 0.0, std::nullopt}});
   return body;
 }
 
@@ -87,28 +85,27 @@ inline scene::Scene stackedBlocks(const Kind& kind, int parts, double pressure,
                   elasticBlock(kind, "upper", 1, parts, directory, comm)};
   scene::SolidSupport floor{"floor", "bottom", {}};
   floor.value[static_cast<std::size_t>(fem::dimensionOf(kind.cell)) - 1] = 0.0;
-  scene.bodies[0].solid->supports.push_back(floor);
+  scene.bodies[0].supports.push_back(floor);
   scene::SolidLoad press;
   press.name = "press";
   press.kind = scene::SolidLoad::Kind::pressure;
   press.where = "top";
   press.value[0] = pressure;
-  scene.bodies[1].solid->loads.push_back(press);
+  scene.bodies[1].loads.push_back(press);
   scene::SurfaceContact joint;
   joint.name = "joint";
   joint.first = 0;
   joint.firstSurface = "top";
   joint.second = 1;
   joint.secondSurface = "bottom";
-  scene.surfaceContacts.push_back(joint);
+  scene.contacts.push_back(joint);
   return scene;
 }
 
 using Field = std::function<std::array<double, 3>(const fem::Point&)>;
 
 /// A solution with the displacement `field` and no contact force.
-inline fetidp::ContactSolution solutionWith(const decomposition::Decomposition& decomposition,
-                                            const Field& field) {
+inline fetidp::ContactSolution solutionWith(const model::Decomposition& decomposition, const Field& field) {
   const auto& problem = decomposition.problem;
   fetidp::ContactSolution solution;
   for (const auto& subdomain : problem.subdomains) {

@@ -22,7 +22,7 @@ struct FieldWriterTest : testing::Test {
   RCP<const Comm> comm = Tpetra::getDefaultComm();
   test::TemporaryDirectory directory{comm};
   scene::Scene scene = test::sampleScene();
-  decomposition::Decomposition decomposition = decomposition::decompose(scene, comm);
+  model::Decomposition decomposition = model::decompose(scene, comm);
   fetidp::ContactSolution solution = test::sampleSolution(decomposition);
   SolvedScene solved{scene, decomposition, solution};
   Evaluation evaluation = evaluate(solved);

@@ -21,10 +21,9 @@ inline std::vector<std::vector<int>> cellsOfCube(fem::CellType type) {
     return {{0, 1, 3, 2}};
   case fem::CellType::tetrahedron: // around the diagonal 0–7
     return {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
-  case fem::CellType::hexahedron:
+  default:
     return {{0, 1, 3, 2, 4, 5, 7, 6}};
   }
-  return {};
 }
 
 /// Writes a file of Gmsh, format 2.2: the grid's cells, and as surfaces "left" (x least), "front" (y least, in space),

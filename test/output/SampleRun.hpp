@@ -1,7 +1,7 @@
 #pragma once
 
-#include "epafi/decomposition/Decompose.hpp"
 #include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/model/Decompose.hpp"
 #include "epafi/qp/SolveReport.hpp"
 #include "epafi/scene/Scene.hpp"
 
@@ -16,17 +16,18 @@ inline scene::Scene sampleScene() {
   scene.title = "sample";
   scene::Body left;
   left.name = "left body";
-  left.elements = {5, 4};
-  left.supports = {{"wall", scene::Edge::left, 0.0}};
+  left.mesh.box = scene::rectangle(0, 1, 0, 1);
+  left.mesh.elements = {5, 4, 0};
+  left.supports = {{"wall", "left", {0.0}}};
   left.decomposition.counts = {2, 2};
   scene::Body right = left;
   right.name = "right";
-  right.rectangle = {1, 3, 0, 1};
-  right.elements = {6, 4};
+  right.mesh.box = scene::rectangle(1, 3, 0, 1);
+  right.mesh.elements = {6, 4, 0};
   right.supports = {};
   right.decomposition.counts = {3, 1};
   scene.bodies = {left, right};
-  scene.contacts = {{"left/right", 0, scene::Edge::right, 1, scene::Edge::left, 0.25}};
+  scene.contacts = {{"left/right", 0, "right", 1, "left", {}, 0.25}};
   return scene;
 }
 
@@ -36,7 +37,7 @@ inline double sampleField(const fem::Point& point) {
 }
 
 /// u = sampleField at all nodes; contact row k: multiplier k + 1, slack (k + 1)/10, active where k is even.
-inline fetidp::ContactSolution sampleSolution(const decomposition::Decomposition& decomposition) {
+inline fetidp::ContactSolution sampleSolution(const model::Decomposition& decomposition) {
   const auto& problem = decomposition.problem;
   fetidp::ContactSolution solution;
   for (const auto& subdomain : problem.subdomains) {

@@ -21,7 +21,7 @@ using namespace epafi;
 void writeMembranes(const std::filesystem::path& directory, const RCP<const Comm>& comm) {
   using namespace output;
   const scene::Scene scene = test::sampleScene();
-  const auto decomposition = decomposition::decompose(scene, comm);
+  const auto decomposition = model::decompose(scene, comm);
   const auto solution = test::sampleSolution(decomposition);
   const SolvedScene solved{scene, decomposition, solution};
   writeFields(directory, "run", solved, evaluate(solved), test::sampleHistory());
@@ -37,7 +37,7 @@ void writeBlocks(const std::filesystem::path& directory, const std::string& cell
     throw std::invalid_argument("no cells are called " + cells);
   const test::TemporaryDirectory meshes(comm);
   const scene::Scene scene = test::stackedBlocks(*kind, 3, 3.0, meshes, *comm);
-  const auto decomposition = decomposition::decompose(scene, comm);
+  const auto decomposition = model::decompose(scene, comm);
   ContactSolver solver{Teuchos::ParameterList()};
   solver.setup(decomposition.problem);
   const auto solution = solver.solve();

@@ -71,8 +71,7 @@ TEST_P(QpLateFaultTest, IsNamedWhereverItAppears) {
 INSTANTIATE_TEST_SUITE_P(Faults, QpLateFaultTest,
                          testing::Combine(testing::Bool(),
                                           testing::Values(std::nan(""), unlimited, -unlimited),
-                                          testing::Values("projected CG", "fixed step", "optimal",
-                                                          "Barzilai-Borwein", "active set")));
+                                          testing::Values("projected CG", "fixed step", "active set")));
 
 TEST(QpNotFiniteTest, NanInAFixedEntryIsNotOverlooked) {
   const DenseProgram program = mixedProgram(10, 10, 71); // entry 4 is fixed

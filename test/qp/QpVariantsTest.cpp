@@ -122,8 +122,7 @@ TEST_P(QpVariantsTest, EveryStepIsInTheHistoryAndEveryProductCounted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Expansions, QpVariantsTest,
-                         testing::Combine(testing::Values("projected CG", "fixed step", "optimal",
-                                                          "Barzilai-Borwein", "active set"),
+                         testing::Combine(testing::Values("projected CG", "fixed step", "active set"),
                                           testing::Values("projected gradient", "chopped gradient")));
 
 /// Residuals of conjugate gradients from 0 with the preconditioner M.

@@ -12,17 +12,18 @@ namespace {
 /// u_c ≤ u_d, u_d ≤ u_a.
 Scene ring(double gap) {
   Scene scene;
-  const Rectangle places[] = {{0, 1, 0, 1}, {1, 2, 0, 1}, {1, 2, 1, 2}, {0, 1, 1, 2}};
+  const Box places[] = {rectangle(0, 1, 0, 1), rectangle(1, 2, 0, 1), rectangle(1, 2, 1, 2),
+                        rectangle(0, 1, 1, 2)};
   for (int b = 0; b < 4; ++b) {
     Body body;
     body.name = std::string(1, static_cast<char>('a' + b));
-    body.rectangle = places[b];
+    body.mesh.box = places[b];
     scene.bodies.push_back(body);
   }
-  scene.contacts = {{"ab", 0, Edge::right, 1, Edge::left, gap},
-                    {"bc", 1, Edge::top, 2, Edge::bottom, 0},
-                    {"cd", 2, Edge::left, 3, Edge::right, 0},
-                    {"da", 3, Edge::bottom, 0, Edge::top, 0}};
+  scene.contacts = {{"ab", 0, "right", 1, "left", {}, gap},
+                    {"bc", 1, "top", 2, "bottom", {}, 0},
+                    {"cd", 2, "left", 3, "right", {}, 0},
+                    {"da", 3, "bottom", 0, "top", {}, 0}};
   return scene;
 }
 
@@ -49,11 +50,11 @@ TEST(GapConsistencyTest, AnOpenChainBetweenSupportsMayNotOverlapInTotal) {
   Scene scene = ring(-0.5);
   scene.contacts.pop_back(); // a under b under c under d
   EXPECT_NO_THROW(requireConsistentGaps(scene));
-  scene.bodies[0].supports = {{"floor", Edge::top, 1.0}};
+  scene.bodies[0].supports = {{"floor", "top", {1.0}}};
   EXPECT_NO_THROW(requireConsistentGaps(scene));
-  scene.bodies[3].supports = {{"ceiling", Edge::bottom, 1.5}};
+  scene.bodies[3].supports = {{"ceiling", "bottom", {1.5}}};
   EXPECT_NO_THROW(requireConsistentGaps(scene));
-  scene.bodies[3].supports[0].value = 1.25; // u_d ≥ u_a + 0.5
+  scene.bodies[3].supports[0].value[0] = 1.25; // u_d ≥ u_a + 0.5
   try {
     requireConsistentGaps(scene);
     ADD_FAILURE() << "nothing was refused";

@@ -27,22 +27,20 @@ Scene sceneOf(const std::string& file) {
   return readScene(readParameterFile(pathOf(file), *Tpetra::getDefaultComm()), file);
 }
 
-void expectSame(const scene::Rectangle& a, const scene::Rectangle& b) {
-  EXPECT_EQ(a.x0, b.x0);
-  EXPECT_EQ(a.x1, b.x1);
-  EXPECT_EQ(a.y0, b.y0);
-  EXPECT_EQ(a.y1, b.y1);
+void expectSame(const scene::Box& a, const scene::Box& b) {
+  EXPECT_EQ(a.lower, b.lower);
+  EXPECT_EQ(a.upper, b.upper);
 }
 
 void expectSame(const Body& a, const Body& b) {
   EXPECT_EQ(a.name, b.name);
-  expectSame(a.rectangle, b.rectangle);
-  EXPECT_EQ(a.elements, b.elements);
-  EXPECT_EQ(a.conductivity, b.conductivity);
+  expectSame(a.mesh.box, b.mesh.box);
+  EXPECT_EQ(a.mesh.elements, b.mesh.elements);
+  EXPECT_EQ(a.material.conductivity, b.material.conductivity);
   EXPECT_EQ(a.regions.size(), b.regions.size());
   ASSERT_EQ(a.supports.size(), b.supports.size());
   for (std::size_t i = 0; i < a.supports.size(); ++i) {
-    EXPECT_EQ(a.supports[i].edge, b.supports[i].edge);
+    EXPECT_EQ(a.supports[i].surface, b.supports[i].surface);
     EXPECT_EQ(a.supports[i].value, b.supports[i].value);
   }
   ASSERT_EQ(a.loads.size(), b.loads.size());
@@ -63,9 +61,9 @@ void expectSame(const Scene& a, const Scene& b) {
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
     EXPECT_EQ(a.contacts[i].name, b.contacts[i].name);
     EXPECT_EQ(a.contacts[i].first, b.contacts[i].first);
-    EXPECT_EQ(a.contacts[i].firstEdge, b.contacts[i].firstEdge);
+    EXPECT_EQ(a.contacts[i].firstSurface, b.contacts[i].firstSurface);
     EXPECT_EQ(a.contacts[i].second, b.contacts[i].second);
-    EXPECT_EQ(a.contacts[i].secondEdge, b.contacts[i].secondEdge);
+    EXPECT_EQ(a.contacts[i].secondSurface, b.contacts[i].secondSurface);
     EXPECT_EQ(a.contacts[i].gap, b.contacts[i].gap);
   }
 }
@@ -131,13 +129,13 @@ TEST(SceneFilesTest, SingleMembranesHaveNoContact) {
 TEST(SceneFilesTest, RegionsReplaceTheConductivityInBoxes) {
   const Scene scene = sceneOf("regions.xml");
   ASSERT_EQ(scene.bodies[0].regions.size(), 1u);
-  EXPECT_EQ(scene.bodies[0].regions[0].conductivity, 1e3);
-  EXPECT_EQ(scene.bodies[1].regions.at(0).conductivity, 1e-2);
+  EXPECT_EQ(scene.bodies[0].regions[0].material.conductivity, 1e3);
+  EXPECT_EQ(scene.bodies[1].regions.at(0).material.conductivity, 1e-2);
 }
 
 TEST(SceneFilesTest, ChannelsRunThroughBothBlocksAtTheSameHeights) {
   const Scene scene = sceneOf("channels.xml");
-  const auto &left = scene.bodies.at(0).solid->regions, &right = scene.bodies.at(1).solid->regions;
+  const auto &left = scene.bodies.at(0).regions, &right = scene.bodies.at(1).regions;
   ASSERT_EQ(left.size(), 6u);
   ASSERT_EQ(right.size(), 6u);
   for (std::size_t k = 0; k < left.size(); ++k) {

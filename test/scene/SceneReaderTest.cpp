@@ -19,14 +19,14 @@ TEST(SceneReaderTest, ReadsTwoBodiesAndTheirContact) {
   EXPECT_EQ(scene.title, "two");
   ASSERT_EQ(scene.bodies.size(), 2u);
   EXPECT_EQ(scene.bodies[1].name, "right");
-  EXPECT_EQ(scene.bodies[1].rectangle.x1, 2.0);
+  EXPECT_EQ(scene.bodies[1].mesh.box.upper[0], 2.0);
   ASSERT_EQ(scene.bodies[0].supports.size(), 1u);
-  EXPECT_EQ(scene.bodies[0].supports[0].edge, scene::Edge::left);
+  EXPECT_EQ(scene.bodies[0].supports[0].surface, "left");
   ASSERT_EQ(scene.contacts.size(), 1u);
   EXPECT_EQ(scene.contacts[0].name, "interface");
   EXPECT_EQ(scene.contacts[0].first, 0);
   EXPECT_EQ(scene.contacts[0].second, 1);
-  EXPECT_EQ(scene.contacts[0].secondEdge, scene::Edge::left);
+  EXPECT_EQ(scene.contacts[0].secondSurface, "left");
   EXPECT_EQ(scene.contacts[0].gap, 0.5);
 }
 

@@ -41,12 +41,12 @@ std::string entryRefusal(const std::string& kind, const Change& change) {
   return refusalOf([&](ParameterList& list) { change(bodyOf(list, "cube").sublist(kind).sublist("new")); });
 }
 
-scene::Solid solidOf(const ParameterList& list) {
-  return scene::readScene(list, "scenes/a.xml").bodies.at(0).solid.value();
+scene::Body solidOf(const ParameterList& list) {
+  return scene::readScene(list, "scenes/a.xml").bodies.at(0);
 }
 
 TEST(SolidReaderTest, ReadsMeshAndMaterialOfABodyInSpace) {
-  const scene::Solid solid = solidOf(cubeOnFloor());
+  const scene::Body solid = solidOf(cubeOnFloor());
   EXPECT_EQ(solid.physics, scene::Physics::elasticity3d);
   EXPECT_EQ(solid.mesh.elements, (std::array<int, 3>{2, 2, 2}));
   EXPECT_EQ(solid.mesh.box.upper[2], 1.0);
@@ -61,7 +61,7 @@ TEST(SolidReaderTest, ReadsBodiesInThePlaneWithThickness) {
     ParameterList& plate = bodyOf(list, "plate");
     plate.set("Physics", word).set("Rectangle", numbers({0, 4, 0, 2})).set("Elements", counts({4, 2}));
     plate.set("Young's Modulus", 1.0).set("Poisson's Ratio", 0.0).set("Thickness", 5.0);
-    const scene::Solid solid = solidOf(list);
+    const scene::Body solid = solidOf(list);
     EXPECT_EQ(solid.physics, physics);
     EXPECT_EQ(solid.material.thickness, 5.0);
     EXPECT_EQ(solid.mesh.elements, (std::array<int, 3>{4, 2, 0}));
@@ -78,10 +78,10 @@ TEST(SolidReaderTest, FindsMeshFilesBesideTheScene) {
       .set("Mesh Size Factor", 0.5)
       .set("Mesh Refinements", 2);
   const scene::Scene scene = scene::readScene(list, "scenes/a.xml");
-  EXPECT_EQ(scene.bodies[0].solid->mesh.file, "scenes/parts/cube.geo");
-  EXPECT_EQ(scene.bodies[0].solid->mesh.group, "cube");
-  EXPECT_EQ(scene.bodies[0].solid->mesh.sizeFactor, 0.5);
-  EXPECT_EQ(scene.bodies[0].solid->mesh.refinements, 2);
+  EXPECT_EQ(scene.bodies[0].mesh.file, "scenes/parts/cube.geo");
+  EXPECT_EQ(scene.bodies[0].mesh.group, "cube");
+  EXPECT_EQ(scene.bodies[0].mesh.sizeFactor, 0.5);
+  EXPECT_EQ(scene.bodies[0].mesh.refinements, 2);
   EXPECT_EQ(scene.bodies[0].decomposition.method, scene::Decomposition::Method::metis)
       << "a mesh file has no grid";
   cube.set("Mesh", "/parts/cube.geo");
@@ -94,7 +94,7 @@ TEST(SolidReaderTest, ReadsAMembraneOnAMeshFile) {
   body.set("Mesh", "skin.msh").set("Conductivity", 3.0);
   body.sublist("Supports").sublist("rim").set("Surface", "rim").set("Value", 0.5);
   body.sublist("Loads").sublist("wind").set("Value", -2.0);
-  const scene::Solid solid = solidOf(list);
+  const scene::Body solid = solidOf(list);
   EXPECT_EQ(solid.physics, scene::Physics::membrane);
   EXPECT_EQ(solid.material.conductivity, 3.0);
   EXPECT_EQ(solid.supports.at(0).value[0], 0.5);
@@ -121,7 +121,7 @@ TEST(SolidReaderTest, HoldsASurfaceAlongItsNormal) {
   ParameterList& supports = bodyOf(list, "cube").sublist("Supports");
   supports.sublist("rail").set("Surface", "left").set("Normal", -0.25);
   supports.sublist("wall").set("Surface", "right").set("X", 0.0);
-  const scene::Solid solid = solidOf(list);
+  const scene::Body solid = solidOf(list);
   ASSERT_EQ(solid.supports.size(), 2u);
   EXPECT_EQ(solid.supports[0].normal, -0.25);
   EXPECT_FALSE(solid.supports[0].value[0]);
@@ -173,7 +173,7 @@ TEST(SolidReaderTest, ARegionKeepsWhatItDoesNotChange) {
 }
 
 TEST(SolidReaderTest, ReadsObstaclesWithNormalsOfLengthOne) {
-  const scene::SurfaceContact contact = scene::readScene(cubeOnFloor(), "a.xml").surfaceContacts.at(0);
+  const scene::SurfaceContact contact = scene::readScene(cubeOnFloor(), "a.xml").contacts.at(0);
   EXPECT_EQ(contact.second, -1);
   EXPECT_EQ(contact.obstacle.kind, scene::Obstacle::Kind::plane);
   EXPECT_EQ(contact.obstacle.normal, (scene::Vector3{0, 0, 1}));
@@ -186,7 +186,7 @@ TEST(SolidReaderTest, ReadsObstaclesWithNormalsOfLengthOne) {
       .set("Point", numbers({0, 0, -3}))
       .set("Radius", 3.0);
   list.sublist("Contact").sublist("rest").set("Distance", 0.25).set("Gap", -0.1);
-  const scene::SurfaceContact ball = scene::readScene(list, "a.xml").surfaceContacts.at(0);
+  const scene::SurfaceContact ball = scene::readScene(list, "a.xml").contacts.at(0);
   EXPECT_EQ(ball.obstacle.kind, scene::Obstacle::Kind::sphere);
   EXPECT_EQ(ball.obstacle.radius, 3.0);
   EXPECT_EQ(ball.distance, 0.25);

@@ -15,9 +15,9 @@ const scene::Vector3 origin{0, 0, 0};
 scene::Scene inCorner(const scene::Decomposition& cut) {
   scene::Scene scene;
   scene.bodies = {block("square", {{0, 0, 0}, {1, 1, 0}}, {4, 4, 0}, cut)};
-  scene.bodies[0].solid->loads = {weight({-0.5, -1, 0})};
-  scene.surfaceContacts = {onPlane("floor", 0, "bottom", origin, {0, 1, 0}),
-                           onPlane("wall", 0, "left", origin, {1, 0, 0})};
+  scene.bodies[0].loads = {weight({-0.5, -1, 0})};
+  scene.contacts = {onPlane("floor", 0, "bottom", origin, {0, 1, 0}),
+                    onPlane("wall", 0, "left", origin, {1, 0, 0})};
   return scene;
 }
 
@@ -45,7 +45,7 @@ TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
   scene::SurfaceContact foot = onPlane("foot", 0, "bottom", {0, -1, 0}, {0, 1, 0});
   foot.obstacle.kind = scene::Obstacle::Kind::sphere; // the corner again, and lower beside it
   foot.obstacle.radius = 1;
-  scene.surfaceContacts.push_back(foot);
+  scene.contacts.push_back(foot);
   const SolidRun run(scene);
   EXPECT_EQ(run.decomposition.problem.numInequalities, 14);
   EXPECT_EQ(run.solution.activeContactNodes, reference.solution.activeContactNodes);
@@ -55,8 +55,8 @@ TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
 
 TEST(ContactNodesTest, AContactThatSaysNothingNewIsRefused) {
   scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
-  scene.surfaceContacts.push_back(scene.surfaceContacts[0]);
-  scene.surfaceContacts.back().name = "again";
+  scene.contacts.push_back(scene.contacts[0]);
+  scene.contacts.back().name = "again";
   try {
     SolidRun run(scene);
     ADD_FAILURE() << "not refused";
@@ -71,11 +71,11 @@ TEST(ContactNodesTest, APairSeenFromBothSidesIsTheSamePair) {
   for (int level = 0; level < 2; ++level) {
     scene.bodies.push_back(block(level == 0 ? "lower" : "upper", {{0, 1.0 * level, 0}, {1, 1.0 + level, 0}},
                                  {4, 4, 0}, cutInGrid({2, 1, 1})));
-    scene.bodies.back().solid->supports = {slide("left")};
+    scene.bodies.back().supports = {slide("left")};
   }
-  scene.bodies[0].solid->supports.push_back(slide("bottom"));
-  scene.bodies[1].solid->loads = {weight({0, -1, 0})};
-  scene.surfaceContacts = {between("joint", 0, "top", 1, "bottom"), between("again", 1, "bottom", 0, "top")};
+  scene.bodies[0].supports.push_back(slide("bottom"));
+  scene.bodies[1].loads = {weight({0, -1, 0})};
+  scene.contacts = {between("joint", 0, "top", 1, "bottom"), between("again", 1, "bottom", 0, "top")};
   EXPECT_THROW(SolidRun{scene}, InputError);
 }
 
@@ -85,7 +85,7 @@ TEST(ContactNodesTest, RedundantRowsAtANodeDoNoHarm) {
     const SolidRun reference(inCorner(cut), 1e-11); // energies err by λᵀ(c − Bu), a few tolerances
     scene::Scene scene = inCorner(cut);
     scene::SurfaceContact edge = onPlane("edge", 0, "left", origin, {s, s, 0}); // meets the corner alone
-    scene.surfaceContacts.push_back(edge);
+    scene.contacts.push_back(edge);
     const SolidRun run(scene, 1e-11);
     EXPECT_EQ(run.decomposition.problem.numInequalities, 15);
     expectSame(reference, run);
@@ -95,12 +95,12 @@ TEST(ContactNodesTest, RedundantRowsAtANodeDoNoHarm) {
 TEST(ContactNodesTest, SupportsThatHoldAContactNodeDecideItsRow) {
   scene::Scene scene;
   scene.bodies = {block("square", {{0, 0, 0}, {1, 1, 0}}, {4, 4, 0}, cutInGrid({2, 2, 1}))};
-  scene.bodies[0].solid->supports = {slide("bottom", 0.125), slide("left")}; // moved down by ⅛
-  scene.surfaceContacts = {onPlane("floor", 0, "bottom", {0, -0.25, 0}, {0, 1, 0})};
+  scene.bodies[0].supports = {slide("bottom", 0.125), slide("left")}; // moved down by ⅛
+  scene.contacts = {onPlane("floor", 0, "bottom", {0, -0.25, 0}, {0, 1, 0})};
   const SolidRun run(scene); // nothing left to decide: no row has a free unknown
   EXPECT_EQ(run.solution.contactForce, 0);
   EXPECT_NEAR(run.displacement(0)[1], -0.125, 1e-12);
-  scene.surfaceContacts[0].obstacle.point[1] = -0.0625;
+  scene.contacts[0].obstacle.point[1] = -0.0625;
   const Refusal refusal = refusalOf(scene);
   EXPECT_EQ(refusal.kind, SolvabilityError::Kind::noSolution);
   EXPECT_TRUE(refusal.says("overlap by 0.0625")) << refusal.text;

@@ -43,7 +43,16 @@ void* operator new(std::size_t size) {
   throw std::bad_alloc();
 }
 
+// Whoever asks in this way goes on without (std::stable_sort does), so that it is no failure to plan.
+void* operator new(std::size_t size, const std::nothrow_t& /*unused*/) noexcept {
+  return std::malloc(size > 0 ? size : 1);
+}
+
 void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+
+void operator delete(void* memory, const std::nothrow_t& /*unused*/) noexcept {
   std::free(memory);
 }
 

@@ -19,14 +19,14 @@ scene::Scene chain(const std::vector<double>& loads, int elements) {
     const auto x = static_cast<double>(b);
     scene::Body body;
     body.name = std::string("b").append(std::to_string(b));
-    body.rectangle = {x, x + 1, 0, 1};
-    body.elements = {elements, elements};
-    body.loads = {{"all", body.rectangle, loads[b]}};
+    body.mesh.box = scene::rectangle(x, x + 1, 0, 1);
+    body.mesh.elements = {elements, elements, 0};
+    body.loads = {scene::loadInside("all", body.mesh.box, loads[b])};
     if (b == 0)
-      body.supports = {{"wall", scene::Edge::left, 0.0}};
+      body.supports = {{"wall", "left", {0.0}}};
     else
-      scene.contacts.push_back({std::string("c").append(std::to_string(b)), static_cast<int>(b) - 1,
-                                scene::Edge::right, static_cast<int>(b), scene::Edge::left, 0.0});
+      scene.contacts.push_back({std::string("c").append(std::to_string(b)), static_cast<int>(b) - 1, "right",
+                                static_cast<int>(b), "left"});
     scene.bodies.push_back(body);
   }
   return scene;
@@ -72,7 +72,7 @@ TEST(FloatingChainTest, ALightBodyThatIsPulledUpIsFoundBesideHeavyOnes) {
 
 TEST(FloatingChainTest, StiffFloatingBodiesKeepTheDigitsOfTheEnergy) {
   scene::Scene scene = chain({-1, -2}, 6);
-  scene.bodies[1].conductivity = 1e8;
+  scene.bodies[1].material.conductivity = 1e8;
   const double whole = test::solve(test::cutInGrid(scene, 1), 1e-10).solution.energy;
 
   for (const scene::Scene& cut : {test::cutInGrid(scene, 3), test::cutByMetis(scene, 5)})
@@ -82,9 +82,9 @@ TEST(FloatingChainTest, StiffFloatingBodiesKeepTheDigitsOfTheEnergy) {
 TEST(FloatingChainTest, FlatElementsEndWithAnHonestStatus) {
   scene::Scene scene = chain({-1, -2}, 6);
   for (scene::Body& body : scene.bodies)
-    body.rectangle.y1 = 1e6;
+    body.mesh.box.upper[1] = 1e6;
   for (scene::Body& body : scene.bodies)
-    body.loads[0].box = body.rectangle;
+    body.loads[0].box = body.mesh.box;
 
   const drivers::SceneRun run = test::solve(test::cutInGrid(scene, 2), 1e-10);
 

@@ -18,7 +18,7 @@ const scene::Vector3 origin{0, 0, 0}, up{0, 0, 1}, upInPlane{0, 1, 0}, right{1, 
 scene::Body cube(const std::string& name, double bottom, double size = 1) {
   scene::Body body =
       block(name, {{0, 0, bottom}, {size, size, bottom + size}}, {2, 2, 2}, cutInGrid({2, 1, 1}));
-  body.solid->loads = {weight({0, 0, -1})};
+  body.loads = {weight({0, 0, -1})};
   return body;
 }
 
@@ -26,8 +26,8 @@ scene::Body cube(const std::string& name, double bottom, double size = 1) {
 scene::Scene cubeOnPlane(const std::vector<scene::SolidSupport>& supports) {
   scene::Scene scene;
   scene.bodies = {cube("cube", 0)};
-  scene.bodies[0].solid->supports = supports;
-  scene.surfaceContacts = {onPlane("floor", 0, "bottom", origin, up)};
+  scene.bodies[0].supports = supports;
+  scene.contacts = {onPlane("floor", 0, "bottom", origin, up)};
   return scene;
 }
 
@@ -50,15 +50,15 @@ TEST(FloatingSolidTest, ACubeOnAPlaneBetweenTwoSlidingPlanesIsUnique) {
 
 TEST(FloatingSolidTest, AHorizontalForceMovesACubeThatOnlyStands) {
   scene::Scene scene = cubeOnPlane({slide("left")});
-  scene.bodies[0].solid->loads.push_back(weight({0, 0.25, 0}));
+  scene.bodies[0].loads.push_back(weight({0, 0.25, 0}));
   expectNoSolution(scene, {"'cube'", "the load moves it", "slide along y"});
 }
 
 TEST(FloatingSolidTest, APulledBodyFliesOff) {
   scene::Scene scene = cubeOnPlane({slide("left"), slide("front")});
-  scene.bodies[0].solid->loads = {weight({0, 0, 1})};
+  scene.bodies[0].loads = {weight({0, 0, 1})};
   expectNoSolution(scene, {"'cube'", "away from its contacts", "slide along z"});
-  scene.bodies[0].solid->loads.clear();
+  scene.bodies[0].loads.clear();
   expectNotUnique(scene, {"'cube'", "does not press", "slide along z"});
 }
 
@@ -69,12 +69,12 @@ scene::Scene leaning(double x, double unit = 1, double force = 1,
   scene::Scene scene;
   scene.bodies = {block("square", {{0, 0, 0}, {unit, unit, 0}}, {4, 4, 0}, cut)};
   // A force at the right and one at the left add up to 1 at x.
-  scene.bodies[0].solid->loads = {pointForce({unit, unit, 0}, {0, -x * force, 0}),
-                                  pointForce({0, unit, 0}, {0, -(1 - x) * force, 0}),
-                                  pointForce({unit, 0, 0}, {-0.5 * force, 0, 0})};
-  scene.bodies[0].solid->material.youngsModulus *= force / unit;
-  scene.surfaceContacts = {onPlane("floor", 0, "bottom", origin, upInPlane),
-                           onPlane("wall", 0, "left", origin, right)};
+  scene.bodies[0].loads = {pointForce({unit, unit, 0}, {0, -x * force, 0}),
+                           pointForce({0, unit, 0}, {0, -(1 - x) * force, 0}),
+                           pointForce({unit, 0, 0}, {-0.5 * force, 0, 0})};
+  scene.bodies[0].material.youngsModulus *= force / unit;
+  scene.contacts = {onPlane("floor", 0, "bottom", origin, upInPlane),
+                    onPlane("wall", 0, "left", origin, right)};
   return scene;
 }
 
@@ -114,10 +114,10 @@ TEST(FloatingSolidTest, ThreeStackedCubesCarryEachOther) {
     scene::Scene scene;
     for (int level = 0; level < 3; ++level) {
       scene.bodies.push_back(cube("cube " + std::to_string(level), level));
-      scene.bodies.back().solid->supports = {slide("front")};
+      scene.bodies.back().supports = {slide("front")};
       if (isHeldInX || level < 2)
-        scene.bodies.back().solid->supports.push_back(slide("left"));
-      scene.surfaceContacts.push_back(
+        scene.bodies.back().supports.push_back(slide("left"));
+      scene.contacts.push_back(
           level == 0 ? onPlane("floor", 0, "bottom", origin, up)
                      : between("joint " + std::to_string(level), level - 1, "top", level, "bottom"));
     }
@@ -141,8 +141,8 @@ TEST(FloatingSolidTest, ThreeStackedCubesCarryEachOther) {
 /// A cube without load between a floor and a lid at the given distance from it.
 scene::Scene cubeUnderLid(double gap) {
   scene::Scene scene = cubeOnPlane({slide("left"), slide("front")});
-  scene.bodies[0].solid->loads.clear();
-  scene.surfaceContacts.push_back(onPlane("lid", 0, "top", {0, 0, 1 + gap}, {0, 0, -1}));
+  scene.bodies[0].loads.clear();
+  scene.contacts.push_back(onPlane("lid", 0, "top", {0, 0, 1 + gap}, {0, 0, -1}));
   return scene;
 }
 
@@ -172,13 +172,13 @@ TEST(FloatingSolidTest, APressFitHoldsABodyByContactAlone) {
 scene::Scene onCircle(double distance, double stiffness, double x) {
   scene::Scene scene;
   scene.bodies = {block("square", {{-0.5, 0, 0}, {0.5, 1, 0}}, {4, 4, 0}, cutInGrid({2, 1, 1}))};
-  scene.bodies[0].solid->material.youngsModulus = stiffness;
-  scene.bodies[0].solid->loads = {pointForce({x, 1, 0}, {0, -1, 0})};
+  scene.bodies[0].material.youngsModulus = stiffness;
+  scene.bodies[0].loads = {pointForce({x, 1, 0}, {0, -1, 0})};
   scene::SurfaceContact ball = onPlane("ball", 0, "bottom", {0, -5, 0}, upInPlane);
   ball.obstacle.kind = scene::Obstacle::Kind::sphere;
   ball.obstacle.radius = 5;
   ball.distance = distance;
-  scene.surfaceContacts = {ball};
+  scene.contacts = {ball};
   return scene;
 }
 
@@ -194,10 +194,10 @@ TEST(FloatingSolidTest, ABlockThatBalancesOnABallIsRefused) {
 scene::Scene betweenWalls(double gap) {
   scene::Scene scene;
   scene.bodies = {block("square", {{0, 0, 0}, {1, 1, 0}}, {4, 4, 0}, cutInGrid({2, 2, 1}))};
-  scene.bodies[0].solid->loads = {weight({0, -1, 0})};
-  scene.surfaceContacts = {onPlane("floor", 0, "bottom", origin, upInPlane),
-                           onPlane("left wall", 0, "left", {-gap, 0, 0}, right),
-                           onPlane("right wall", 0, "right", {1 + gap, 0, 0}, {-1, 0, 0})};
+  scene.bodies[0].loads = {weight({0, -1, 0})};
+  scene.contacts = {onPlane("floor", 0, "bottom", origin, upInPlane),
+                    onPlane("left wall", 0, "left", {-gap, 0, 0}, right),
+                    onPlane("right wall", 0, "right", {1 + gap, 0, 0}, {-1, 0, 0})};
   return scene;
 }
 
@@ -239,13 +239,13 @@ fem::MeshArrays halfRing(int numSpokes) {
 scene::Scene squeezedRing(const fem::test::MeshFolder& folder, bool isCutHeld) {
   scene::Scene scene;
   scene.bodies = {block("ring", {}, {0, 0, 0}, cutByMetis(3))};
-  scene.bodies[0].solid->mesh = {};
-  scene.bodies[0].solid->mesh.file = folder.write("ring.msh", fem::test::fileOf(halfRing(24)));
-  scene.bodies[0].solid->mesh.group = "body";
+  scene.bodies[0].mesh = {};
+  scene.bodies[0].mesh.file = folder.write("ring.msh", fem::test::fileOf(halfRing(24)));
+  scene.bodies[0].mesh.group = "body";
   if (isCutHeld)
-    scene.bodies[0].solid->supports = {slide("cut")};
-  scene.surfaceContacts = {onPlane("floor", 0, "rim", {0, -0.99, 0}, upInPlane),
-                           onPlane("lid", 0, "rim", {0, 0.99, 0}, {0, -1, 0})};
+    scene.bodies[0].supports = {slide("cut")};
+  scene.contacts = {onPlane("floor", 0, "rim", {0, -0.99, 0}, upInPlane),
+                    onPlane("lid", 0, "rim", {0, 0.99, 0}, {0, -1, 0})};
   return scene;
 }
 
@@ -265,17 +265,17 @@ TEST(FloatingSolidTest, ARingBetweenPlatesIsSqueezedAlike) {
 
 TEST(FloatingSolidTest, SixModesAreHeldByThreePlanesOrByTheirLoadAlone) {
   scene::Scene scene = cubeOnPlane({});
-  scene.bodies[0].solid->loads = {weight({-0.5, -0.25, -1})};
-  scene.surfaceContacts.push_back(onPlane("wall", 0, "left", origin, right));
-  scene.surfaceContacts.push_back(onPlane("back", 0, "front", origin, upInPlane));
+  scene.bodies[0].loads = {weight({-0.5, -0.25, -1})};
+  scene.contacts.push_back(onPlane("wall", 0, "left", origin, right));
+  scene.contacts.push_back(onPlane("back", 0, "front", origin, upInPlane));
   const SolidRun run(scene);
   EXPECT_EQ(run.decomposition.problem.kernelDimension, 6);
   EXPECT_EQ(run.solver.report().status, qp::Status::converged);
   EXPECT_NEAR(run.solution.contactForce, 1.75, 1e-8);
   EXPECT_LE(run.solution.feasibility, 1e-8);
-  scene.bodies[0].solid->loads = {weight({-0.5, 0.25, -1})};
+  scene.bodies[0].loads = {weight({-0.5, 0.25, -1})};
   expectNoSolution(scene, {"'cube'", "away from its contacts"});
-  scene.surfaceContacts.pop_back();
+  scene.contacts.pop_back();
   expectNoSolution(scene, {"'cube'", "the load moves it"});
 }
 

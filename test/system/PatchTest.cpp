@@ -5,7 +5,8 @@
 #include "../fem/TurnedMesh.hpp"
 #include "SolidScenes.hpp"
 
-#include "epafi/fem/ElementIntegrals.hpp"
+#include "epafi/fem/FluxIntegrals.hpp"
+#include "epafi/fem/HookesLaw.hpp"
 
 #include <array>
 #include <vector>
@@ -91,15 +92,10 @@ scene::MeshSource meshOf(const Kind& kind, const std::string& name, double botto
   source.elements = isSpace ? std::array{4, 4, 3} : std::array{6, 6, 0};
   if (kind.source == Source::structured && !kind.isSimplex())
     return source;
-  std::unique_ptr<fem::Mesh> mesh;
-  if (isSpace)
-    mesh = std::make_unique<fem::BoxMesh>(source.box, source.elements);
-  else
-    mesh = std::make_unique<fem::RectangleMesh>(scene::Rectangle{0, 1, bottom, bottom + 1},
-                                                std::array{source.elements[0], source.elements[1]});
+  const fem::StructuredMesh mesh(source.box, source.elements);
   scene::MeshSource file;
   file.file =
-      folder.write(name + ".msh", fem::test::fileOf(arraysOf(*mesh, kind.placement(), kind.isSimplex())));
+      folder.write(name + ".msh", fem::test::fileOf(arraysOf(mesh, kind.placement(), kind.isSimplex())));
   file.group = "body";
   return file;
 }
@@ -112,33 +108,30 @@ scene::Scene stack(const Kind& kind, Below below, const MeshFolder& folder) {
   for (int level = 0; level < 2; ++level) {
     scene::Body body;
     body.name = level == 0 ? "lower" : "upper";
-    scene::Solid solid;
-    solid.physics = kind.physics;
-    solid.material = {1.0, 200.0, 0.3, 0.5};
+    body.physics = kind.physics;
+    body.material = {1.0, 200.0, 0.3, 0.5};
     if (kind.source == Source::gmsh) {
-      solid.mesh.file =
+      body.mesh.file =
           level == 0 ? folder.write("stack.geo", geometryOf(kind.cell, gap)) : folder.path("stack.geo");
-      solid.mesh.group = body.name;
+      body.mesh.group = body.name;
     } else
-      solid.mesh = meshOf(kind, body.name, level == 0 ? 0 : 1 + gap, folder);
-    solid.supports = {slide("left")};
+      body.mesh = meshOf(kind, body.name, level == 0 ? 0 : 1 + gap, folder);
+    body.supports = {slide("left")};
     if (kind.dimension() == 3)
-      solid.supports.push_back(slide("front"));
-    body.solid = solid;
+      body.supports.push_back(slide("front"));
     scene.bodies.push_back(body);
   }
-  scene.bodies[0].solid->supports.push_back(slide("bottom"));
-  scene.bodies[1].solid->loads = {
+  scene.bodies[0].supports.push_back(slide("bottom"));
+  scene.bodies[1].loads = {
       {"press", scene::SolidLoad::Kind::pressure, {}, "top", {0, 0, 0}, {pressure, 0, 0}}};
-  scene.surfaceContacts = {between("joint", 0, "top", 1, "bottom")};
+  scene.contacts = {between("joint", 0, "top", 1, "bottom")};
   if (below == Below::plane) {
     scene.bodies.erase(scene.bodies.begin());
     const Placement placement = kind.placement();
     const Eigen::Vector3d up = placement.turn.col(kind.dimension() - 1),
                           point =
                               placement.of(kind.dimension() == 3 ? fem::Point{0, 0, 1} : fem::Point{0, 1, 0});
-    scene.surfaceContacts = {
-        onPlane("joint", 0, "bottom", {point[0], point[1], point[2]}, {up[0], up[1], up[2]})};
+    scene.contacts = {onPlane("joint", 0, "bottom", {point[0], point[1], point[2]}, {up[0], up[1], up[2]})};
   }
   return scene;
 }
@@ -208,7 +201,7 @@ double displacementError(const SolidRun& run, const UniaxialStress& exact) {
 /// Largest error of the stress over all elements of a body.
 double stressError(const SolidRun& run, const scene::Scene& scene, int body, const UniaxialStress& exact) {
   const fem::Mesh& mesh = *run.decomposition.bodies[static_cast<std::size_t>(body)].mesh;
-  const scene::Solid& solid = *scene.bodies[static_cast<std::size_t>(body)].solid;
+  const scene::Body& solid = scene.bodies[static_cast<std::size_t>(body)];
   const Eigen::VectorXd u = run.displacement(body);
   const int n = run.decomposition.problem.components;
   std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
@@ -222,7 +215,8 @@ double stressError(const SolidRun& run, const scene::Scene& scene, int body, con
       for (int c = 0; c < n; ++c)
         values.push_back(u[node * n + c]);
     }
-    const auto stress = stressAtCentre(mesh.cellType(), points, solid.physics, solid.material, values);
+    fem::SymmetricTensor stress{};
+    fem::fluxAtCentre(mesh.cellType(), points, solid.physics, solid.material, values, stress);
     error = std::max(error, largestError(stress, exact.stress()));
   }
   return error;

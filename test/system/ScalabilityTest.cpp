@@ -35,8 +35,8 @@ scene::Scene twoBlocks(int dimension, Load load, Decomposition::Method method, i
   if (dimension == 3)
     floor.value[2] = lid.value[2] = 0.0;
   lid.value[up] = -0.01;
-  scene.bodies[0].solid->supports = {floor};
-  scene.bodies[1].solid->supports = {lid};
+  scene.bodies[0].supports = {floor};
+  scene.bodies[1].supports = {lid};
   scene::SolidLoad weight;
   weight.name = "weight";
   weight.value[up] = -1;
@@ -46,10 +46,10 @@ scene::Scene twoBlocks(int dimension, Load load, Decomposition::Method method, i
   lift.value[up] = 8;
   lift.box = scene::Box{};
   lift.box.lower[0] = 0.5;
-  scene.bodies[1].solid->loads = {weight};
+  scene.bodies[1].loads = {weight};
   if (load == Load::halfLifted)
-    scene.bodies[1].solid->loads.push_back(lift);
-  scene.surfaceContacts = {test::between("joint", 0, "top", 1, "bottom")};
+    scene.bodies[1].loads.push_back(lift);
+  scene.contacts = {test::between("joint", 0, "top", 1, "bottom")};
   return scene;
 }
 

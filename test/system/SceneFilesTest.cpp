@@ -26,17 +26,16 @@ std::vector<std::string> sceneFiles() {
 
 /// The scene on meshes that a solver without decomposition is quick on.
 scene::Scene coarsened(scene::Scene scene) {
-  for (scene::Body& body : scene.bodies)
-    if (body.solid) {
-      scene::MeshSource& mesh = body.solid->mesh;
-      if (!mesh.file.empty()) {
-        mesh.sizeFactor = componentsOf(body.solid->physics) == 3 ? 4 : 2;
-        body.decomposition.parts = 4;
-      } else if (mesh.elements[2] > 0) {
-        for (int& count : mesh.elements)
-          count /= 3;
-      }
+  for (scene::Body& body : scene.bodies) {
+    scene::MeshSource& mesh = body.mesh;
+    if (!mesh.file.empty()) {
+      mesh.sizeFactor = componentsOf(body.physics) == 3 ? 4 : 2;
+      body.decomposition.parts = 4;
+    } else if (mesh.elements[2] > 0) {
+      for (int& count : mesh.elements)
+        count /= 3;
     }
+  }
   return scene;
 }
 

@@ -46,13 +46,13 @@ scene::Scene halfOpen(const Case& c, const MeshFolder& folder) {
     scene::Body body = block(level == 0 ? "lower" : "upper", box,
                              isSpace ? std::array{4, 4, 3} : std::array{10, 10, 0}, cutByMetis(1));
     if (c.isGmsh) {
-      body.solid->mesh = {};
-      body.solid->mesh.file = level == 0 ? folder.write("cubes.geo", cubes()) : folder.path("cubes.geo");
-      body.solid->mesh.group = body.name;
+      body.mesh = {};
+      body.mesh.file = level == 0 ? folder.write("cubes.geo", cubes()) : folder.path("cubes.geo");
+      body.mesh.group = body.name;
     }
     scene.bodies.push_back(body);
   }
-  scene::Solid &lower = *scene.bodies[0].solid, &upper = *scene.bodies[1].solid;
+  scene::Body &lower = scene.bodies[0], &upper = scene.bodies[1];
   lower.supports = {{"floor", "bottom", {0.0, 0.0, 0.0}}};
   if (!isSpace)
     lower.supports[0].value[2].reset();
@@ -73,7 +73,7 @@ scene::Scene halfOpen(const Case& c, const MeshFolder& folder) {
   lift.box.lower[0] = 0.5;
   down.box.upper[0] = 0.5;
   upper.loads = {down, lift};
-  scene.surfaceContacts = {between("joint", 0, "top", 1, "bottom")};
+  scene.contacts = {between("joint", 0, "top", 1, "bottom")};
   return scene;
 }
 

@@ -5,7 +5,7 @@
 #include "epafi/ContactSolver.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/decomposition/Decompose.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>
@@ -43,12 +43,10 @@ inline scene::Body block(const std::string& name, const scene::Box& box, std::ar
                          const scene::Decomposition& cut) {
   scene::Body body;
   body.name = name;
-  scene::Solid solid;
-  solid.physics = elements[2] > 0 ? Physics::elasticity3d : Physics::planeStrain;
-  solid.material.youngsModulus = 200;
-  solid.mesh.box = box;
-  solid.mesh.elements = elements;
-  body.solid = solid;
+  body.physics = elements[2] > 0 ? Physics::elasticity3d : Physics::planeStrain;
+  body.material.youngsModulus = 200;
+  body.mesh.box = box;
+  body.mesh.elements = elements;
   body.decomposition = cut;
   return body;
 }
@@ -85,13 +83,13 @@ inline scene::SurfaceContact between(const std::string& name, int first, const s
 
 /// A solved scene.
 struct SolidRun {
-  decomposition::Decomposition decomposition;
+  model::Decomposition decomposition;
   ContactSolver solver;
   fetidp::ContactSolution solution;
 
   explicit SolidRun(const scene::Scene& scene, double tolerance = 1e-10,
                     const RCP<const Comm>& comm = Tpetra::getDefaultComm())
-      : decomposition(decomposition::decompose(scene, comm)),
+      : decomposition(model::decompose(scene, comm)),
         solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
     solver.setup(decomposition.problem);
     solution = solver.solve();

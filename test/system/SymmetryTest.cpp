@@ -34,7 +34,7 @@ scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
     box.upper[up] = level == 0 ? 0 : 0.25;
     elements[up] = isSpace ? 2 : 4;
     scene.bodies.push_back(block(level == 0 ? "lower" : "upper", box, elements, cutByMetis(6)));
-    scene::Solid& solid = *scene.bodies.back().solid;
+    scene::Body& solid = scene.bodies.back();
     scene::SolidSupport held{
         "held sideways", level == 0 ? "bottom" : "top", {0.0, std::nullopt, std::nullopt}};
     if (isSpace)
@@ -52,8 +52,8 @@ scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
     press.box.lower[d] = -0.2;
     press.box.upper[d] = 0.2;
   }
-  scene.bodies[1].solid->loads = {press};
-  scene.surfaceContacts = {between("joint", 1, "bottom", 0, "top")};
+  scene.bodies[1].loads = {press};
+  scene.contacts = {between("joint", 1, "bottom", 0, "top")};
   return scene;
 }
 

@@ -25,34 +25,29 @@ scene::Scene stack(const Case& c, const Placement& placement, const MeshFolder& 
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
     const double low = level, high = 1.0 + level;
-    std::unique_ptr<fem::Mesh> mesh;
-    if (isSpace)
-      mesh = std::make_unique<fem::BoxMesh>(scene::Box{{0, 0, low}, {1, 1.5, high}},
-                                            std::array<int, 3>{3, 3, 2});
-    else
-      mesh =
-          std::make_unique<fem::RectangleMesh>(scene::Rectangle{0, 1.5, low, high}, std::array<int, 2>{6, 4});
+    const fem::StructuredMesh mesh(isSpace ? scene::Box{{0, 0, low}, {1, 1.5, high}}
+                                           : scene::rectangle(0, 1.5, low, high),
+                                   isSpace ? std::array{3, 3, 2} : std::array{6, 4, 0});
     const std::string name = level == 0 ? "lower" : "upper";
     scene::Body body = block(name, {}, {0, 0, isSpace ? 1 : 0}, cutByMetis(c.parts));
-    body.solid->mesh = {};
-    body.solid->mesh.file =
-        folder.write(name + ".msh", fem::test::fileOf(arraysOf(*mesh, placement, c.simplices)));
-    body.solid->mesh.group = "body";
-    body.solid->supports = {slide("left")};
+    body.mesh = {};
+    body.mesh.file = folder.write(name + ".msh", fem::test::fileOf(arraysOf(mesh, placement, c.simplices)));
+    body.mesh.group = "body";
+    body.supports = {slide("left")};
     if (isSpace)
-      body.solid->supports.push_back(slide("front"));
+      body.supports.push_back(slide("front"));
     if (level == 0)
-      body.solid->supports.push_back(slide("bottom"));
+      body.supports.push_back(slide("bottom"));
     scene.bodies.push_back(body);
   }
-  scene::Solid& upper = *scene.bodies[1].solid;
+  scene::Body& upper = scene.bodies[1];
   if (c.coercive)
     upper.supports.push_back(slide("top", -0.02));
   const Eigen::Vector3d force =
       placement.turn * (isSpace ? Eigen::Vector3d(0.25, 0.5, -1) : Eigen::Vector3d(0.25, -1, 0));
   upper.loads = {weight({force[0], force[1], force[2]})};
   upper.loads.push_back({"press", scene::SolidLoad::Kind::pressure, {}, "right", {}, {0.3, 0, 0}});
-  scene.surfaceContacts = {between("joint", 0, "top", 1, "bottom")};
+  scene.contacts = {between("joint", 0, "top", 1, "bottom")};
   return scene;
 }
 
@@ -123,12 +118,11 @@ TEST(TurnedContactTest, AFloatingBlockOnATurnedPlaneKeepsItsModes) {
     scene.bodies.erase(scene.bodies.begin()); // the upper one on an obstacle in the lower one's place
     const Eigen::Vector3d up = placement.turn.col(dimension - 1),
                           point = placement.of(dimension == 3 ? fem::Point{0, 0, 1} : fem::Point{0, 1, 0});
-    scene.surfaceContacts = {
-        onPlane("floor", 0, "bottom", {point[0], point[1], point[2]}, {up[0], up[1], up[2]})};
+    scene.contacts = {onPlane("floor", 0, "bottom", {point[0], point[1], point[2]}, {up[0], up[1], up[2]})};
     const SolidRun run(scene);
     EXPECT_EQ(run.decomposition.problem.kernelDimension, 1);
     EXPECT_NEAR(run.solution.contactForce, 1.5, 1e-8); // the weight's part across the plane
-    scene.bodies[0].solid->supports.clear();
+    scene.bodies[0].supports.clear();
     const Refusal refusal = refusalOf(scene);
     EXPECT_EQ(refusal.kind, SolvabilityError::Kind::noSolution); // it slides down the slope
     EXPECT_TRUE(refusal.says("'upper'") && refusal.says("the load moves it")) << refusal.text;

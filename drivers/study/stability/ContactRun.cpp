@@ -4,6 +4,9 @@
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/model/Decompose.hpp"
+#include "epafi/scene/SceneReader.hpp"
 
 #include <Teuchos_ArrayRCP.hpp>
 #include <Teuchos_Comm.hpp>
@@ -12,13 +15,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 namespace epafi::drivers {
 namespace {
 
+using decomposition::DecomposedProblem;
+
 constexpr double secondsOfIteration = 60;
+
+/// What is allowed of a solution to the tolerance ε on the dual residual, ‖r‖ ≤ ε‖d̃‖. Its error in the energy norm is
+/// rᵀF⁻¹r, relative to d̃ᵀF⁻¹d̃ no more than ε²κ(F); κ(F) grows with the contrast of materials and with H/h: up to 1e4 times
+/// the contrast here. No less is asked for than 100 times the error of sparse LU without refinement.
+struct Allowance {
+  Allowance(double tolerance, double contrast)
+      : balance(std::max(100 * tolerance * std::sqrt(std::max(contrast, 1 / contrast)), 1e-8)),
+        penetration(std::max(1000 * tolerance, 1e-7)), complementarity(std::max(100 * tolerance, 1e-8)),
+        energyNorm(std::max(1e4 * tolerance, balance)) {}
+
+  double balance;     ///< a dual energy norm too
+  double penetration; ///< as ContactSolver promises
+  double complementarity;
+  double energyNorm;
+};
 
 void sum(const Comm& comm, Eigen::VectorXd& values) {
   sumOverRanks(comm, {values.data(), static_cast<std::size_t>(values.size())});
@@ -26,7 +48,7 @@ void sum(const Comm& comm, Eigen::VectorXd& values) {
 
 /// Values of each body at its nodes, on every rank: the mean of the copies of a node, weighted by their stiffness as the
 /// rows of gluing weigh them. Collective.
-std::vector<Eigen::VectorXd> nodalValues(const decomposition::Decomposition& decomposition,
+std::vector<Eigen::VectorXd> nodalValues(const model::Decomposition& decomposition,
                                          const fetidp::ContactSolution& solution) {
   const auto& problem = decomposition.problem;
   const Eigen::Index n = problem.components;
@@ -86,18 +108,18 @@ std::string complaint(const CaseResult& result, double tension, const Allowance&
 }
 
 /// Fills what is recomputed from u and λ on the undecomposed problem; returns what is wrong.
-std::string inspect(const ContactTask& task, const decomposition::Decomposition& decomposition,
-                    const fetidp::ContactSolution& solution, CaseResult& result) {
+std::string inspect(const scene::Scene& scene, const model::Decomposition& decomposition,
+                    const fetidp::ContactSolution& solution, bool hasReference, Allowance allowance,
+                    CaseResult& result) {
   const std::vector<Eigen::VectorXd> values = nodalValues(decomposition, solution);
   const Eigen::VectorXd forces = contactForces(decomposition.problem, *solution.multiplier);
-  const UndecomposedSystem system = undecomposedSystem(task.scene);
+  const UndecomposedSystem system = undecomposedSystem(scene);
   const Eigen::VectorXd u = system.unknownsOf(values);
   const Optimality optimality = optimalityOf(system, u, forces);
   result.balance = optimality.balance;
   result.penetration = optimality.penetration;
   result.complementarity = optimality.complementarity;
-  Allowance allowance = allowanceOf(task.tolerance, task.contrast);
-  if (task.hasReference) {
+  if (hasReference) {
     try {
       const UndecomposedSolution reference = solveUndecomposed(system);
       result.energyError = energyNormError(system, u, reference.unknowns);
@@ -108,33 +130,86 @@ std::string inspect(const ContactTask& task, const decomposition::Decomposition&
   return complaint(result, optimality.tension, allowance);
 }
 
-} // namespace
-
-Teuchos::ParameterList plainMethod() {
-  Teuchos::ParameterList list;
-  list.sublist("Preconditioner").set("Type", "none");
-  return list;
+/// Two rows of B for the same nodes that ask for opposite things.
+void contradict(DecomposedProblem& problem) {
+  for (auto& subdomain : problem.subdomains) {
+    auto& rows = subdomain.constraint;
+    const int first = problem.multiplierGhostMap->getLocalElement(0),
+              second = problem.multiplierGhostMap->getLocalElement(1);
+    if (first < 0 || second < 0)
+      continue;
+    std::erase_if(rows, [&](const auto& entry) { return entry.multiplier == second; });
+    const auto copy = rows;
+    for (const auto& entry : copy)
+      if (entry.multiplier == first)
+        rows.push_back({second, entry.unknown, -entry.coefficient});
+  }
+  if (problem.multiplierMap->isNodeGlobalElement(1))
+    problem.gap->replaceGlobalValue(1, -1.0);
 }
 
-Allowance allowanceOf(double tolerance, double contrast) {
-  const double inEnergy = 100 * tolerance * std::sqrt(contrast);
-  return {std::max(inEnergy, 1e-8), std::max(1000 * tolerance, 1e-7), std::max(100 * tolerance, 1e-8),
-          std::max({1e4 * tolerance, inEnergy, 1e-8})};
+/// Writes one number into what `what` names, on the rank that has it.
+void write(const std::string& what, double value, DecomposedProblem& problem) {
+  if (what == "gap" && problem.multiplierMap->isNodeGlobalElement(1))
+    problem.gap->replaceGlobalValue(1, value);
+  for (auto& subdomain : problem.subdomains) {
+    if (what == "constraint row" && !subdomain.constraint.empty())
+      subdomain.constraint[0].coefficient = value;
+    if (what == "load" && subdomain.number == 1)
+      subdomain.load[0] = value;
+    if (what == "stiffness" && subdomain.number == 1) {
+      const auto matrix = std::make_shared<decomposition::SparseMatrix>(*subdomain.stiffness);
+      matrix->coeffRef(3, 3) = value;
+      subdomain.stiffness = matrix;
+    }
+  }
 }
 
-CaseResult solveContact(const ContactTask& task, const RCP<const Comm>& comm) {
-  Teuchos::ParameterList parameters = task.solver;
-  parameters.set("Tolerance", task.tolerance).set("Equilibrium Tolerance", task.tolerance);
+/// The pressed squares as membranes in one place, each of which is to lie above the other one by 1: along one edge the first,
+/// along the next one the second.
+void layCrosswise(scene::Scene& scene) {
+  for (scene::Body& body : scene.bodies) {
+    body.physics = scene::Physics::membrane;
+    body.mesh.box = scene.bodies[0].mesh.box;
+    body.supports = {{"wall", "right", {0.0}}};
+    body.loads.clear();
+  }
+  scene.contacts = {{"joint", 1, "left", 0, "left", {}, -1}, {"back", 0, "bottom", 1, "bottom", {}, -1}};
+}
+
+CaseResult solve(const Case& which, const RCP<const Comm>& comm) {
+  Teuchos::ParameterList given = which.list;
+  const double tolerance = given.get("Tolerance", 1e-8);
+  const std::string application = given.get("Application", "");
+  scene::Scene scene = scene::readScene(which.scene(), "scene.xml");
+  for (scene::Body& body : scene.bodies)
+    for (scene::SolidLoad& load : body.loads)
+      for (double& component : load.value)
+        component *= given.get("Unit of Loads", 1.0);
+  const bool isScene = application.empty() || application.starts_with("two membranes");
+  if (isScene && !application.empty())
+    layCrosswise(scene);
+
+  Teuchos::ParameterList& parameters = given.sublist("Solver");
+  parameters.set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance);
   parameters.sublist("MPRGP").set("Time Limit", secondsOfIteration);
   ContactSolver solver(parameters);
-  decomposition::Decomposition decomposition = decomposition::decompose(task.scene, comm);
-  if (task.change)
-    task.change(decomposition.problem);
+  model::Decomposition decomposition = model::decompose(scene, comm);
+  if (application == "contradictory rows")
+    contradict(decomposition.problem);
+  else if (!isScene)
+    write(application, given.get("Number", 0.0), decomposition.problem);
   solver.setup(decomposition.problem);
-  const fetidp::ContactSolution solution = solver.solve();
+  fetidp::ContactSolution solution = solver.solve();
+  const double energy = solution.energy;
+  for (int again = 0; again < 3 && given.get("Check", "") == "start from the solution"; ++again) {
+    const RCP<Vector> start = solution.multiplier;
+    solution = solver.solve(start.get());
+  }
 
   CaseResult result;
   const qp::SolveReport& report = solver.report();
+  result.outcome = report.status == qp::Status::converged ? Outcome::solved : Outcome::stopped;
   result.status = qp::toString(report.status);
   result.reason = report.reason;
   result.products = report.counts.hessianMultiplications;
@@ -143,22 +218,59 @@ CaseResult solveContact(const ContactTask& task, const RCP<const Comm>& comm) {
   result.energy = solution.energy;
   result.force = solution.contactForce;
   result.active = static_cast<long long>(solution.activeContactNodes);
+  const Allowance allowance(tolerance, given.get("Contrast", 1.0));
   std::string wrong;
-  if (task.change) {
+  if (isScene) {
+    wrong = inspect(scene, decomposition, solution, given.get("Reference Solution", "") != "no", allowance,
+                    result);
+  } else {
     result.penetration = solution.feasibility;
     result.complementarity = solution.complementarity;
     result.balance = solution.relativeProjectedGradient;
-    wrong = complaint(result, 0.0, allowanceOf(task.tolerance, task.contrast));
-  } else {
-    wrong = inspect(task, decomposition, solution, result);
+    wrong = complaint(result, 0.0, allowance);
   }
-  if (report.status != qp::Status::converged) {
-    result.outcome = Outcome::stopped;
-  } else if (!wrong.empty()) {
-    result.outcome = Outcome::wrongAnswer;
-    result.reason = "it is claimed to be solved, but: " + wrong;
-  } else {
-    result.outcome = Outcome::solved;
+  result.judge(wrong.empty() ? "" : "it is claimed to be solved, but: " + wrong);
+  if (!(std::abs(result.energy - energy) <= 1e-6 * std::abs(energy)))
+    result.judge("started from the solution, the energy changes from " + std::to_string(energy));
+  return result;
+}
+
+/// What `found` should share with a reference; empty if it does.
+std::string difference(const CaseResult& found, const CaseResult& reference, double unit) {
+  std::ostringstream text;
+  if (const double energy = found.energy / unit / reference.energy; !(std::abs(energy - 1) < 1e-6))
+    text << "the energy is " << energy << " of that of the reference; ";
+  if (found.active != reference.active)
+    text << found.active << " closed nodes, not " << reference.active << "; ";
+  if (std::abs(found.products - reference.products) > reference.products / 5)
+    text << found.products << " products, not " << reference.products << "; ";
+  return text.str();
+}
+
+} // namespace
+
+CaseResult runContact(const Case& which, const RCP<const Comm>& comm) {
+  CaseResult result = solve(which, comm);
+  Teuchos::ParameterList given = which.list;
+  if (const double active = given.get("Closed Nodes", unknown);
+      !std::isnan(active) && static_cast<double>(result.active) != active)
+    result.judge("closed nodes: " + std::to_string(result.active) + ", not " +
+                 std::to_string(std::lround(active)));
+  if (given.isSublist("Reference")) {
+    Case reference = which;
+    reference.list = which.list.sublist("Reference");
+    result.judge(difference(result, solve(reference, comm), given.get("Unit of Energy", 1.0)));
+  }
+  if (given.get("Check", "") == "on one rank too") {
+    const CaseResult alone = solve(which, comm->split(comm->getRank(), 0));
+    std::ostringstream text;
+    if (!(std::abs(result.energy - alone.energy) <= 1e-9 * std::abs(alone.energy)) ||
+        !(std::abs(result.force - alone.force) <= 1e-6 * std::abs(alone.force)) ||
+        result.active != alone.active)
+      text << "energy, force and closed nodes are " << result.energy << ", " << result.force << ", "
+           << result.active << " on " << comm->getSize() << " ranks and " << alone.energy << ", "
+           << alone.force << ", " << alone.active << " on one";
+    result.judge(text.str());
   }
   return result;
 }

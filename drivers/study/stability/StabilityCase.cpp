@@ -1,5 +1,9 @@
 #include "StabilityCase.hpp"
 
+#include "CaseTable.hpp"
+#include "ContactRun.hpp"
+#include "ProgramRun.hpp"
+
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 
@@ -7,27 +11,53 @@
 #include <Teuchos_Time.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace epafi::drivers {
+namespace {
+
+constexpr std::array<const char*, 7> outcomes{"solved",
+                                              "refused: no solution",
+                                              "refused: not unique",
+                                              "refused: wrong input",
+                                              "stopped",
+                                              "wrong answer",
+                                              "failed"};
+
+Outcome outcomeOf(const std::string& words) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (words == outcomes[i] || "refused: " + words == outcomes[i])
+      return static_cast<Outcome>(i);
+  throw InputError('"' + words + "\" is no outcome of a case");
+}
+
+StabilityCase trialOf(Case&& one) {
+  StabilityCase trial{one.family, one.name, one.parameter};
+  trial.expected = Expectation(one.list.get("Expected", "solved"));
+  trial.value = one.value;
+  trial.variant = one.list.get("Variant", trial.variant);
+  trial.ranks = static_cast<int>(one.list.get("Ranks", 0.0));
+  trial.remains = one.list.get("Known", "");
+  trial.run = [one = std::move(one)](const RCP<const Comm>& comm) {
+    return one.list.isSublist("Program") ? runProgram(one.list, comm) : runContact(one, comm);
+  };
+  return trial;
+}
+
+} // namespace
 
 std::string toString(Outcome outcome) {
-  switch (outcome) {
-  case Outcome::solved:
-    return "solved";
-  case Outcome::noSolution:
-    return "refused: no solution";
-  case Outcome::notUnique:
-    return "refused: not unique";
-  case Outcome::wrongInput:
-    return "refused: wrong input";
-  case Outcome::stopped:
-    return "stopped";
-  case Outcome::wrongAnswer:
-    return "wrong answer";
-  case Outcome::failed:
-    return "failed";
-  }
-  return "unknown";
+  return outcomes.at(static_cast<std::size_t>(outcome));
+}
+
+Expectation::Expectation(const std::string& words) {
+  const std::string ends = words.substr(0, words.find(": "));
+  if (ends.size() < words.size())
+    keyword = words.substr(ends.size() + 2);
+  const auto next = ends.find(" or ");
+  outcomes.push_back(outcomeOf(ends.substr(0, next)));
+  if (next != std::string::npos)
+    outcomes.push_back(outcomeOf(ends.substr(next + 4)));
 }
 
 std::string toString(const Expectation& expectation) {
@@ -35,6 +65,20 @@ std::string toString(const Expectation& expectation) {
   for (const Outcome outcome : expectation.outcomes)
     text.append(text.empty() ? "" : " or ").append(toString(outcome));
   return expectation.keyword.empty() ? text : text + " (" + expectation.keyword + ")";
+}
+
+void CaseResult::judge(const std::string& complaint) {
+  if (outcome != Outcome::solved || complaint.empty())
+    return;
+  outcome = Outcome::wrongAnswer;
+  reason = complaint;
+}
+
+std::vector<StabilityCase> stabilityCases(const std::string& family, bool quick) {
+  std::vector<StabilityCase> trials;
+  for (Case& one : expandCases(caseText("stability"), family, quick))
+    trials.push_back(trialOf(std::move(one)));
+  return trials;
 }
 
 CaseResult runCase(const StabilityCase& trial, const RCP<const Comm>& comm) {
@@ -60,18 +104,9 @@ CaseResult runCase(const StabilityCase& trial, const RCP<const Comm>& comm) {
 }
 
 bool isAsExpected(const Expectation& expectation, const CaseResult& result) {
-  const auto& outcomes = expectation.outcomes;
-  return std::find(outcomes.begin(), outcomes.end(), result.outcome) != outcomes.end() &&
+  const auto& ends = expectation.outcomes;
+  return std::find(ends.begin(), ends.end(), result.outcome) != ends.end() &&
          (result.status + ": " + result.reason).find(expectation.keyword) != std::string::npos;
-}
-
-StabilityCases allStabilityCases(bool quick) {
-  StabilityCases all;
-  for (const auto family : {jumpCases, shapeCases, floatingCases, contactCases, incompressibleCases,
-                            unitCases, choiceCases, rankCases, knownFailureCases, programCases, inputCases})
-    for (StabilityCase& trial : family(quick))
-      all.push_back(std::move(trial));
-  return all;
 }
 
 } // namespace epafi::drivers

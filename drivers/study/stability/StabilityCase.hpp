@@ -15,35 +15,17 @@ namespace epafi::drivers {
 /// that is claimed but not confirmed is `wrongAnswer`, the worst of all.
 enum class Outcome { solved, noSolution, notUnique, wrongInput, stopped, wrongAnswer, failed };
 
+/// "solved", "refused: no solution", …
+std::string toString(Outcome outcome);
+
 /// What is expected, written before the run: one of these ends, the reason of which contains `keyword`.
 struct Expectation {
-  std::vector<Outcome> outcomes;
+  /// From "solved or stopped", "no solution: pulls", … \throws InputError if it names no outcome
+  explicit Expectation(const std::string& words);
+  std::vector<Outcome> outcomes = {};
   std::string keyword = {};
 };
 
-inline Expectation solved() {
-  return {{Outcome::solved}};
-}
-inline Expectation noSolution(const std::string& keyword) {
-  return {{Outcome::noSolution}, keyword};
-}
-inline Expectation notUnique(const std::string& keyword) {
-  return {{Outcome::notUnique}, keyword};
-}
-inline Expectation wrongInput(const std::string& keyword) {
-  return {{Outcome::wrongInput}, keyword};
-}
-/// It ends without the answer, and says so.
-inline Expectation stopped(const std::string& keyword) {
-  return {{Outcome::stopped}, keyword};
-}
-/// Where arithmetic or a method without a preconditioner promises no answer: none is claimed that is not one.
-inline Expectation solvedOrStopped() {
-  return {{Outcome::solved, Outcome::stopped}};
-}
-
-/// "solved", "refused: no solution", …
-std::string toString(Outcome outcome);
 /// "solved", "refused: no solution (pulls)", "solved or stopped", …
 std::string toString(const Expectation& expectation);
 
@@ -63,41 +45,29 @@ struct CaseResult {
   double energy = unknown, force = unknown;
   long long active = -1;
   double seconds = 0;
+
+  /// A solved case of which a check has something to say is a wrong answer.
+  void judge(const std::string& complaint);
 };
 
 struct StabilityCase {
-  std::string family;    ///< one of the files in this folder
+  std::string family;    ///< one of those in cases/stability.cases
   std::string name;      ///< what is hard
   std::string parameter; ///< how hard, in words
-  Expectation expected;
-  std::function<CaseResult(const RCP<const Comm>&)> run; ///< collective
-  double value = unknown;                                ///< how hard, as a number where there is one
-  std::string variant = "default";                       ///< "plain": without preconditioner
-  int ranks = 0;                                         ///< how many it takes; 0: as many as there are
+  Expectation expected{"solved"};
+  std::function<CaseResult(const RCP<const Comm>&)> run = {}; ///< collective
+  double value = unknown;                                     ///< how hard, as a number where there is one
+  std::string variant = "default";                            ///< "plain": without preconditioner
+  int ranks = 0;                                              ///< how many it takes; 0: as many as there are
   std::string remains = {}; ///< why it is known to end otherwise than expected; empty if it is not
 };
 
-using StabilityCases = std::vector<StabilityCase>;
+/// Those of a family, or all if it is empty. Quick ones are small enough for tests.
+std::vector<StabilityCase> stabilityCases(const std::string& family, bool quick);
 
 /// Runs it; whatever is thrown becomes an outcome. Collective over `comm`, which has the ranks that the case takes.
 CaseResult runCase(const StabilityCase& trial, const RCP<const Comm>& comm);
 
 [[nodiscard]] bool isAsExpected(const Expectation& expectation, const CaseResult& result);
-
-// The families. Quick ones are small enough for tests.
-StabilityCases jumpCases(bool quick);
-StabilityCases shapeCases(bool quick);
-StabilityCases floatingCases(bool quick);
-StabilityCases contactCases(bool quick);
-StabilityCases incompressibleCases(bool quick);
-StabilityCases unitCases(bool quick);
-StabilityCases choiceCases(bool quick);
-StabilityCases rankCases(bool quick);
-StabilityCases knownFailureCases(bool quick); ///< where programs of this kind have failed their users
-StabilityCases programCases(bool quick);      ///< the same for quadratic programs taken alone
-StabilityCases inputCases(bool quick);        ///< degenerate and ill-posed input
-
-/// All families, in this order.
-StabilityCases allStabilityCases(bool quick);
 
 } // namespace epafi::drivers

@@ -1,0 +1,25 @@
+#include "epafi/base/Maps.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Teuchos_OrdinalTraits.hpp>
+#include <Tpetra_Map.hpp>
+
+#include <algorithm>
+
+namespace epafi {
+
+RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm) {
+  if (!std::is_sorted(indices.begin(), indices.end()))
+    std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  return mapInOrder(indices, comm);
+}
+
+RCP<const Map> mapInOrder(std::span<const GlobalOrdinal> indices, const RCP<const Comm>& comm) {
+  return rcp(new Map(
+      Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+      Teuchos::ArrayView<const GlobalOrdinal>(indices.data(), static_cast<Teuchos_Ordinal>(indices.size())),
+      0, comm));
+}
+
+} // namespace epafi

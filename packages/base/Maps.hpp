@@ -1,0 +1,18 @@
+#pragma once
+
+/// Maps of given indices.
+
+#include "epafi/base/Types.hpp"
+
+#include <span>
+#include <vector>
+
+namespace epafi {
+
+/// Of these indices, sorted, each once. Several ranks may have the same ones. Collective.
+RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm);
+
+/// Of these indices in the order given. Precondition: none stands twice on a rank. Collective.
+RCP<const Map> mapInOrder(std::span<const GlobalOrdinal> indices, const RCP<const Comm>& comm);
+
+} // namespace epafi

@@ -1,0 +1,25 @@
+#include "epafi/base/Text.hpp"
+
+#include <sstream>
+
+namespace epafi {
+
+std::string text(double value, int digits) {
+  std::ostringstream result;
+  result.precision(digits);
+  result << value;
+  return result.str();
+}
+
+std::string text(std::span<const double> point, int digits) {
+  std::string result = "(";
+  for (std::size_t i = 0; i < point.size(); ++i)
+    result += (i > 0 ? ", " : "") + text(point[i], digits);
+  return result + ')';
+}
+
+std::string inQuotes(const std::string& text) {
+  return '"' + text + '"';
+}
+
+} // namespace epafi

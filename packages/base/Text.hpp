@@ -1,0 +1,31 @@
+#pragma once
+
+/// Numbers, points and names in sentences.
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace epafi {
+
+/// As a stream writes it: 0.25, 1e-09. \param digits  significant ones
+std::string text(double value, int digits = 6);
+
+/// "(1, 2, 3)", for a point or a direction.
+std::string text(std::span<const double> point, int digits = 6);
+
+/// The same of a vector of Eigen's, or whatever has data() and size().
+template <class Point>
+requires requires(const Point& point) {
+  { point.data() } -> std::convertible_to<const double*>;
+  point.size();
+}
+std::string text(const Point& point, int digits = 6) {
+  return text(std::span<const double>(point.data(), static_cast<std::size_t>(point.size())), digits);
+}
+
+/// "name", with the quotes.
+std::string inQuotes(const std::string& text);
+
+} // namespace epafi

@@ -1,0 +1,40 @@
+#include "epafi/qp/BelosIteration.hpp"
+
+#include <BelosOutputManager.hpp>
+#include <BelosPseudoBlockCGIter.hpp>
+#include <Teuchos_ParameterList.hpp>
+#include <Trilinos_version.h>
+
+namespace epafi::qp {
+
+BelosOutcome iterate(const RCP<BelosProblem>& problem, const std::vector<int>& columns,
+                     const RCP<BelosTest>& test) {
+  problem->setProblem(); // residuals afresh
+  problem->setLSIndex(columns);
+  const auto printer = rcp(new Belos::OutputManager<double>(Belos::Errors));
+  Teuchos::ParameterList parameters;
+  Belos::PseudoBlockCGIter<double, MultiVector, Operator> iteration(problem, printer, test, parameters);
+  BelosOutcome outcome;
+  try {
+    const RCP<MultiVector> residual =
+        Belos::MultiVecTraits<double, MultiVector>::CloneCopy(*problem->getInitResVec(), columns);
+#if TRILINOS_MAJOR_MINOR_VERSION >= 160000
+    iteration.initializeCG(rcp(new Belos::PseudoBlockCGIterationState<double, MultiVector>(
+                               residual, static_cast<int>(columns.size()))),
+                           residual);
+#else
+    Belos::CGIterationState<double, MultiVector> state;
+    state.R = residual;
+    iteration.initializeCG(state);
+#endif
+    iteration.iterate();
+  } catch (const Belos::BelosError&) {
+    outcome.isIndefinite = true;
+  }
+  outcome.steps = iteration.getNumIters();
+  if (!outcome.isIndefinite)
+    problem->setCurrLS();
+  return outcome;
+}
+
+} // namespace epafi::qp

@@ -1,0 +1,45 @@
+#include "epafi/base/Parameters.hpp"
+#include "epafi/qp/Smalbe.hpp"
+
+#include <string>
+
+namespace epafi::qp {
+
+Teuchos::ParameterList SmalbeParameters::validParameters() {
+  const SmalbeParameters defaults;
+  Teuchos::ParameterList list("SMALBE");
+  addChoice(list, "Update", "both",
+            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M "
+            "(SMALBE-M) or the "
+            "penalty ρ (SMALBE-ρ). 'both' is 'balance', and ρ grows where ‖Bx − c‖ falls slowly.",
+            {"both", "balance", "penalty"});
+  addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0,
+          1e12, true);
+  addReal(list, "Balance", defaults.balance,
+          "M‖B‖ at the start as a multiple of ‖A‖: inner loops stop at ‖gᴾ‖ ≤ M‖Bx − c‖.", 0.0, 1e12, true);
+  addReal(list, "Balance Reduction", defaults.balanceReduction,
+          "Factor on M, with Update 'balance' or 'both'.", 0.0, 1.0, true, true);
+  addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty' or 'both'.",
+          1.0, 1e6, true);
+  addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
+  addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
+             "Updates of the multiplier of the equality constraints at most.", 1);
+  return list;
+}
+
+SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
+  SmalbeParameters parameters;
+  const auto& update = list.get<std::string>("Update");
+  parameters.update = update == "both"      ? Update::both
+                      : update == "penalty" ? Update::penalty
+                                            : Update::balance;
+  parameters.penalty = list.get<double>("Penalty");
+  parameters.balance = list.get<double>("Balance");
+  parameters.balanceReduction = list.get<double>("Balance Reduction");
+  parameters.penaltyGrowth = list.get<double>("Penalty Growth");
+  parameters.forcing = list.get<double>("Forcing");
+  parameters.maxOuterIterations = list.get<int>("Maximum Outer Iterations");
+  return parameters;
+}
+
+} // namespace epafi::qp

@@ -1,0 +1,97 @@
+#include "epafi/contact/ContactMatrix.hpp"
+
+#include "epafi/base/Maps.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace epafi::contact {
+namespace {
+
+/// A node that can move in a row's direction by no more than this share of what it is moved by does not count in it: the
+/// rest is round-off of normals.
+constexpr double heldDirection = 1e-6;
+/// Coefficients that would be 0 without round-off of normals and frames.
+constexpr double roundOff = 1e-14;
+
+/// A row of B.
+struct Row {
+  GlobalOrdinal number;
+  double gap;
+  std::vector<GlobalOrdinal> unknowns;
+  std::vector<double> coefficients;
+};
+
+/// d in the unknowns of a node: its components, or Qᵀd where the node has a frame Q.
+Eigen::Vector3d directionAt(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns,
+                            int body, GlobalOrdinal node) {
+  const auto components = static_cast<std::size_t>(unknowns.components);
+  Eigen::Vector3d direction(0, 0, 0);
+  for (std::size_t c = 0; c < components; ++c)
+    direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];
+  if (const Eigen::Matrix3d* frame = unknowns.frame(body, node))
+    direction = frame->transpose() * direction;
+  return direction;
+}
+
+/// Enters one side of a row.
+void enter(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns, int body,
+           GlobalOrdinal node, double sign, Row& row) {
+  const Eigen::Vector3d direction = directionAt(contact, place, unknowns, body, node);
+  double free = 0;
+  for (int c = 0; c < unknowns.components; ++c)
+    if (!unknowns.isHeld(body, node, c))
+      free = std::hypot(free, direction[c]);
+  for (int c = 0; c < unknowns.components; ++c)
+    if (std::abs(direction[c]) > roundOff && (free > heldDirection || unknowns.isHeld(body, node, c))) {
+      row.unknowns.push_back(
+          (unknowns.firstNode[static_cast<std::size_t>(body)] + node) * unknowns.components + c);
+      row.coefficients.push_back(sign * direction[c]);
+    }
+}
+
+/// The rows that this rank owns, ascending.
+std::vector<Row> ownRows(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns) {
+  std::vector<Row> rows;
+  for (const ContactLayout& contact : contacts)
+    for (std::size_t place = 0; place < contact.firstNodes.size(); ++place) {
+      if (!unknowns.isMine(contact.firstBody, contact.firstNodes[place]))
+        continue;
+      Row& row = rows.emplace_back(
+          Row{contact.firstRow + static_cast<GlobalOrdinal>(place), contact.gaps[place], {}, {}});
+      enter(contact, place, unknowns, contact.firstBody, contact.firstNodes[place], 1.0, row);
+      if (contact.secondBody >= 0)
+        enter(contact, place, unknowns, contact.secondBody, contact.secondNodes[place], -1.0, row);
+    }
+  return rows;
+}
+
+} // namespace
+
+ContactMatrix contactMatrix(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns,
+                            const RCP<const Comm>& comm) {
+  const std::vector<Row> rows = ownRows(contacts, unknowns);
+  std::vector<GlobalOrdinal> numbers, columns;
+  std::size_t longest = 0;
+  for (const Row& row : rows) {
+    numbers.push_back(row.number);
+    columns.insert(columns.end(), row.unknowns.begin(), row.unknowns.end());
+    longest = std::max(longest, row.unknowns.size());
+  }
+  const RCP<const Map> map = mapInOrder(numbers, comm);
+  const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(map, longest));
+  const RCP<Vector> gap = rcp(new Vector(map));
+  for (const Row& row : rows) {
+    matrix->insertGlobalValues(row.number, Teuchos::arrayViewFromVector(row.unknowns),
+                               Teuchos::arrayViewFromVector(row.coefficients));
+    gap->replaceGlobalValue(row.number, row.gap);
+  }
+  matrix->fillComplete(Tpetra::createOneToOne(makeMap(std::move(columns), comm)), map);
+  return {matrix, gap};
+}
+
+} // namespace epafi::contact

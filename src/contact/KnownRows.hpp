@@ -1,0 +1,44 @@
+#pragma once
+
+/// Contact rows that two contacts of a scene would both bring.
+
+#include "epafi/contact/ContactLayout.hpp"
+
+#include <Eigen/Core>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace epafi::contact {
+
+/// Remembers the rows of contacts. Two that hold the same nodes apart in the same direction by the same gap would share one
+/// force in any proportion: the second one is left out, so that forces and active nodes are counted once. Rows that differ
+/// all stay, also several at one node.
+class KnownRows {
+public:
+  /// Leaves out the rows that earlier contacts have, and keeps the others in mind. \throws InputError if none is left,
+  /// SolvabilityError (no solution) if rows of two contacts at the same node oppose each other without room between them.
+  void dropFrom(ContactLayout& contact);
+
+private:
+  using Place = std::pair<int, GlobalOrdinal>; ///< body (−1: an obstacle) and node
+  struct Row {
+    std::string contact;
+    Eigen::Vector3d direction; ///< from the lower to the higher place
+    double gap;
+    double spacing; ///< of nodes
+  };
+
+  using Entry = std::pair<std::pair<Place, Place>, Row>;
+
+  using Iterator = std::multimap<std::pair<Place, Place>, Row>::const_iterator;
+
+  static void requireRoom(const Entry& entry, Iterator first, Iterator last);
+  static Entry entryOf(const ContactLayout& contact, std::size_t place);
+
+  std::multimap<std::pair<Place, Place>, Row> rows_;
+};
+
+} // namespace epafi::contact

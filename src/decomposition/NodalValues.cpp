@@ -1,0 +1,44 @@
+#include "epafi/decomposition/DecomposedProblem.hpp"
+
+namespace epafi::decomposition {
+
+void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u) {
+  for (const Average& average : subdomain.averages) {
+    const double mean = u[average.carrier];
+    for (const int other : average.others) {
+      u[average.carrier] -= u[other];
+      u[other] += mean;
+    }
+  }
+}
+
+void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values) {
+  if (subdomain.frames.empty())
+    return;
+  const Eigen::Index components = values.size() / static_cast<Eigen::Index>(subdomain.nodes.size());
+  for (const NodeFrame& frame : subdomain.frames) {
+    auto own = values.segment(frame.node * components, components);
+    own = (frame.axes.topLeftCorner(components, components) * own).eval();
+  }
+}
+
+Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values) {
+  const Eigen::Index components = values.size() / static_cast<Eigen::Index>(subdomain.nodes.size());
+  for (const NodeFrame& frame : subdomain.frames) {
+    auto own = values.segment(frame.node * components, components);
+    own = (frame.axes.topLeftCorner(components, components).transpose() * own).eval();
+  }
+  Eigen::VectorXd u = values(subdomain.unknownPosition);
+  for (const Average& average : subdomain.averages) {
+    double mean = u[average.carrier];
+    for (const int other : average.others)
+      mean += u[other];
+    mean /= static_cast<double>(average.others.size() + 1);
+    u[average.carrier] = mean;
+    for (const int other : average.others)
+      u[other] -= mean;
+  }
+  return u;
+}
+
+} // namespace epafi::decomposition

@@ -1,0 +1,186 @@
+#include "epafi/fem/StructuredMesh.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace epafi::fem {
+namespace {
+
+using Place = std::array<GlobalOrdinal, 3>;
+
+/// A side of the box and the facet of an element that lies on it.
+struct Side {
+  std::string_view name;
+  std::size_t axis = 0; ///< that it is normal to
+  bool isFar = false;
+  std::size_t facet = 0; ///< among facetsOf() the cells
+};
+
+constexpr std::array<Side, 4> sidesOfRectangle{
+    {{"left", 0, false, 3}, {"right", 0, true, 1}, {"bottom", 1, false, 0}, {"top", 1, true, 2}}};
+constexpr std::array<Side, 6> sidesOfBox{{{"left", 0, false, 5},
+                                          {"right", 0, true, 3},
+                                          {"front", 1, false, 2},
+                                          {"back", 1, true, 4},
+                                          {"bottom", 2, false, 0},
+                                          {"top", 2, true, 1}}};
+
+std::span<const Side> sidesOf(int dimension) {
+  return dimension == 2 ? std::span<const Side>(sidesOfRectangle) : std::span<const Side>(sidesOfBox);
+}
+
+/// (i,j,k) of the corners of an element; the first four are those of a quadrilateral.
+constexpr std::array<std::array<int, 3>, 8> corners{
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+
+/// (i,j,k) of a number.
+Place placeOf(GlobalOrdinal number, const std::array<int, 3>& size) {
+  GridWalk walk(size[0], size[1]);
+  walk.to(number);
+  return walk.place();
+}
+
+/// Of the n elements in a row, how many touch its node i.
+int numTouching(GlobalOrdinal i, int n) {
+  return (i > 0 ? 1 : 0) + (i < n ? 1 : 0);
+}
+
+/// Appends the elements from (i,j,k) = first to end, the latter excluded, ascending.
+void appendElements(const Place& first, const Place& end, const std::array<int, 3>& size,
+                    std::vector<GlobalOrdinal>& elements) {
+  for (GlobalOrdinal k = first[2]; k < end[2]; ++k)
+    for (GlobalOrdinal j = first[1]; j < end[1]; ++j)
+      for (GlobalOrdinal i = first[0]; i < end[0]; ++i)
+        elements.push_back(i + size[0] * (j + size[1] * k));
+}
+
+} // namespace
+
+StructuredMesh::StructuredMesh(const scene::Box& box, const std::array<int, 3>& elements)
+    : box_(box),
+      dimension_(elements[2] > 0 ? 3 : 2), elements_{elements[0], elements[1], std::max(elements[2], 1)},
+      nodes_{elements[0] + 1, elements[1] + 1, elements[2] + 1} {
+  if (dimension_ == 2)
+    box_.lower[2] = box_.upper[2] = 0;
+  for (std::size_t d = 0; d < 3; ++d)
+    elementSize_[d] = (box_.upper[d] - box_.lower[d]) / elements_[d];
+}
+
+GlobalOrdinal StructuredMesh::numNodes() const {
+  return static_cast<GlobalOrdinal>(nodes_[0]) * nodes_[1] * nodes_[2];
+}
+
+GlobalOrdinal StructuredMesh::numElements() const {
+  return static_cast<GlobalOrdinal>(elements_[0]) * elements_[1] * elements_[2];
+}
+
+double StructuredMesh::coordinate(std::size_t axis, GlobalOrdinal k) const {
+  // Interpolated from both ends, so that the last node lies on the far side to the last digit.
+  const double t = static_cast<double>(k) / elements_[axis];
+  return (1 - t) * box_.lower[axis] + t * box_.upper[axis];
+}
+
+Point StructuredMesh::point(GlobalOrdinal node) const {
+  const Place place = placeOf(node, nodes_);
+  return {coordinate(0, place[0]), coordinate(1, place[1]), coordinate(2, place[2])};
+}
+
+void StructuredMesh::elementNodes(std::span<const GlobalOrdinal> elements,
+                                  std::span<GlobalOrdinal> nodes) const {
+  const GlobalOrdinal row = nodes_[0], layer = row * nodes_[1];
+  const std::array<GlobalOrdinal, 8> offsets{0,     1,         row + 1,         row,
+                                             layer, layer + 1, layer + row + 1, layer + row};
+  GridWalk walk = elementWalk();
+  GlobalOrdinal* next = nodes.data();
+  for (const GlobalOrdinal element : elements) {
+    walk.to(element);
+    const GlobalOrdinal lowest = walk[0] + walk[1] * row + walk[2] * layer;
+    for (std::size_t corner = 0; corner < 4; ++corner)
+      *next++ = lowest + offsets[corner];
+    for (std::size_t corner = 4; dimension_ == 3 && corner < 8; ++corner)
+      *next++ = lowest + offsets[corner];
+  }
+}
+
+void StructuredMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
+  elements.clear();
+  const Place place = placeOf(node, nodes_);
+  Place first{}, end{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    first[d] = std::max<GlobalOrdinal>(place[d] - 1, 0);
+    end[d] = std::min<GlobalOrdinal>(place[d] + 1, elements_[d]);
+  }
+  appendElements(first, end, elements_, elements);
+}
+
+void StructuredMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const {
+  GridWalk walk(nodes_[0], nodes_[1]);
+  auto number = numbers.begin();
+  for (const GlobalOrdinal node : nodes) {
+    walk.to(node);
+    *number++ = numTouching(walk[0], elements_[0]) * numTouching(walk[1], elements_[1]) *
+                numTouching(walk[2], elements_[2]);
+  }
+}
+
+void StructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
+  elements.clear();
+  const Place place = placeOf(element, elements_);
+  const Place step{1, elements_[0], static_cast<GlobalOrdinal>(elements_[0]) * elements_[1]};
+  for (std::size_t d = 3; d-- > 0;)
+    if (place[d] > 0)
+      elements.push_back(element - step[d]);
+  for (std::size_t d = 0; d < 3; ++d)
+    if (place[d] + 1 < elements_[d])
+      elements.push_back(element + step[d]);
+}
+
+bool StructuredMesh::isBoundaryNode(GlobalOrdinal node) const {
+  const Place place = placeOf(node, nodes_);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d)
+    if (place[d] == 0 || place[d] == elements_[d])
+      return true;
+  return false;
+}
+
+std::vector<std::string> StructuredMesh::surfaceNames() const {
+  std::vector<std::string> names;
+  for (const Side& side : sidesOf(dimension_))
+    names.emplace_back(side.name);
+  return names;
+}
+
+Surface StructuredMesh::surface(const std::string& name) const {
+  const auto sides = sidesOf(dimension_);
+  const Side& side = *std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.name == name; });
+  Place first{0, 0, 0}, end{elements_[0], elements_[1], elements_[2]};
+  if (side.isFar)
+    first[side.axis] = end[side.axis] - 1;
+  else
+    end[side.axis] = 1;
+  Surface surface{facetTypeOf(cellType()), {}, {}};
+  appendElements(first, end, elements_, surface.elements);
+  const Facet& facet = facetsOf(cellType())[side.facet];
+  surface.facetNodes.reserve(facet.size() * surface.elements.size());
+  for (const GlobalOrdinal element : surface.elements) {
+    const ElementNodes nodes(*this, element);
+    for (const int corner : facet)
+      surface.facetNodes.push_back(nodes[static_cast<std::size_t>(corner)]);
+  }
+  return surface;
+}
+
+std::vector<Point> StructuredMesh::elementCorners() const {
+  std::vector<Point> points;
+  for (int corner = 0; corner < nodesPerElement(); ++corner) {
+    const auto& [i, j, k] = corners[static_cast<std::size_t>(corner)];
+    points.push_back({i * elementSize_[0], j * elementSize_[1], k * elementSize_[2]});
+  }
+  return points;
+}
+
+std::vector<Point> congruentCorners(const Mesh& mesh) {
+  return mesh.structured() != nullptr ? mesh.structured()->elementCorners() : std::vector<Point>();
+}
+
+} // namespace epafi::fem

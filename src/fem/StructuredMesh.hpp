@@ -1,0 +1,69 @@
+#pragma once
+
+/// Structured mesh of quadrilaterals on a rectangle, or of hexahedra on an axis-parallel box. Nodes are numbered row by row
+/// and layer by layer from the lowest corner, x fastest, then y, then z: node (i,j,k) is i + (n_x + 1)(j + (n_y + 1)k); element
+/// (i,j,k) is i + n_x(j + n_y k). Nothing of the mesh's size is stored.
+
+#include "epafi/fem/GridWalk.hpp"
+#include "epafi/fem/Mesh.hpp"
+#include "epafi/scene/Body.hpp"
+
+namespace epafi::fem {
+
+class StructuredMesh final : public Mesh {
+public:
+  /// \param elements  in x, y and z; z: 0 in the plane, where the box's third coordinates do not matter
+  /// Precondition: elements ≥ 1 in all directions, box of positive and finite size (the scene's validation sees to both).
+  StructuredMesh(const scene::Box& box, const std::array<int, 3>& elements);
+
+  [[nodiscard]] const StructuredMesh* structured() const override { return this; }
+  [[nodiscard]] GlobalOrdinal numNodes() const override;
+  [[nodiscard]] GlobalOrdinal numElements() const override;
+  [[nodiscard]] CellType cellType() const override {
+    return dimension_ == 2 ? CellType::quadrilateral : CellType::hexahedron;
+  }
+  [[nodiscard]] Point point(GlobalOrdinal node) const override;
+  void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const override {
+    elementNodes(std::span(&element, 1), nodes);
+  }
+  void elementNodes(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> nodes) const override;
+  void nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const override;
+  void numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const override;
+  void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const override;
+  [[nodiscard]] bool isBoundaryNode(GlobalOrdinal node) const override;
+  /// "left" and "right" (lowest and highest x); in the plane "bottom" and "top" (y), in space "front" and "back" (y), "bottom"
+  /// and "top" (z).
+  [[nodiscard]] std::vector<std::string> surfaceNames() const override;
+  /// Facets in the order of their elements, which ascend.
+  [[nodiscard]] Surface surface(const std::string& name) const override;
+  [[nodiscard]] std::vector<std::string> groupNames() const override { return {}; }
+  [[nodiscard]] std::vector<GlobalOrdinal> group(const std::string& /*name*/) const override { return {}; }
+
+  /// 2 or 3.
+  [[nodiscard]] int dimension() const { return dimension_; }
+  /// In x, y and z; z: 1 in the plane.
+  [[nodiscard]] const std::array<int, 3>& elements() const { return elements_; }
+  /// In the plane z is 0.
+  [[nodiscard]] const scene::Box& box() const { return box_; }
+  /// Lengths of the sides of an element, 0 in z in the plane. All elements are congruent: what depends on size and shape
+  /// alone, such as a stiffness, is the same for all; the coordinates of point() differ from this by round-off only.
+  [[nodiscard]] const scene::Vector3& elementSize() const { return elementSize_; }
+  /// Corners of every element, from its lowest one on.
+  [[nodiscard]] std::vector<Point> elementCorners() const;
+  /// Coordinate of the k-th plane (in the plane: line) of nodes across an axis.
+  [[nodiscard]] double coordinate(std::size_t axis, GlobalOrdinal k) const;
+  /// From element to element.
+  [[nodiscard]] GridWalk elementWalk() const { return {elements_[0], elements_[1]}; }
+
+private:
+  scene::Box box_;
+  int dimension_;
+  std::array<int, 3> elements_; ///< layers in z: 1 in the plane
+  std::array<int, 3> nodes_;    ///< along each axis; in z: 1 in the plane
+  scene::Vector3 elementSize_{0, 0, 0};
+};
+
+/// Corners of every element, from the origin on, where the mesh is structured and all are congruent; else empty.
+std::vector<Point> congruentCorners(const Mesh& mesh);
+
+} // namespace epafi::fem

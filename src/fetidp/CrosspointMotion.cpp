@@ -1,0 +1,236 @@
+#include "epafi/fetidp/CrosspointMotion.hpp"
+
+#include "epafi/base/Collective.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace epafi::fetidp {
+namespace {
+
+/// Sums over the ranks, as a matrix. Collective.
+void sumInto(const Comm& comm, std::vector<AccurateSum>& sums, Eigen::MatrixXd& values) {
+  sumOverRanks(comm, sums);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    values.data()[i] = sums[i].value();
+}
+
+} // namespace
+
+CrosspointMotion::CrosspointMotion(const decomposition::DecomposedProblem& problem,
+                                   std::shared_ptr<const GeneralizedInverse> inverse,
+                                   ContactCrosspoints crosspoints, const ScaledConstraint& scaled,
+                                   const RCP<const qp::DeflatedOperator>& deflated)
+    : inverse_(std::move(inverse)),
+      crosspoints_(std::move(crosspoints)), work_{MultiplierExchange(inverse_->multiplierPlan()),
+                                                  MultiplierExchange(inverse_->multiplierPlan()),
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  rcp(new MultiVector(problem.multiplierMap, 1))} {
+  takeWeights(scaled, *problem.multiplierMap);
+  findFollowers();
+  if (!deflated.is_null())
+    constrain(problem, *deflated);
+}
+
+/// C and the shares go to the owners of their rows. Collective.
+void CrosspointMotion::takeWeights(const ScaledConstraint& scaled, const Map& map) {
+  MultiVector shares(inverse_->multiplierPlan()->getSourceMap(), 1);
+  std::copy(scaled.boundaryShares.begin(), scaled.boundaryShares.end(), work_.output.values().begin());
+  work_.output.sumToOwners(shares);
+  for (const double share : shares.getData(0))
+    inverseShares_.push_back(share > 0 ? 1 / share : 0.0);
+
+  const Map& ghosts = *inverse_->multiplierPlan()->getTargetMap();
+  struct Weight {
+    GlobalOrdinal row;
+    int touched;
+    double value;
+  };
+  std::vector<Weight> mine;
+  for (const ScaledConstraint::CrosspointEntry& entry : scaled.atCrosspoints)
+    mine.push_back({ghosts.getGlobalElement(entry.multiplier), entry.touched, entry.weight});
+  for (const Weight& weight : gatherOnAll(*map.getComm(), mine))
+    if (const LocalOrdinal row = map.getLocalElement(weight.row); row >= 0)
+      weights_.push_back({row, weight.touched, weight.value});
+  std::sort(weights_.begin(), weights_.end(),
+            [](const ScaledConstraint::CrosspointEntry& a, const ScaledConstraint::CrosspointEntry& b) {
+              return std::pair(a.multiplier, a.touched) < std::pair(b.multiplier, b.touched);
+            });
+}
+
+/// The groups of bodies that contact touches at a crosspoint.
+void CrosspointMotion::findFollowers() {
+  for (const SubdomainGroup& group : inverse_->groups()) {
+    Eigen::MatrixXi near(group.condensed().numCrosspoints(),
+                         static_cast<Eigen::Index>(group.members().size()));
+    for (Eigen::Index member = 0; member < near.cols(); ++member) {
+      const auto crosspoints = group.crosspointIndices(static_cast<std::size_t>(member));
+      for (Eigen::Index c = 0; c < near.rows(); ++c)
+        near(c, member) = crosspoints_.nearIndexOf(crosspoints[static_cast<std::size_t>(c)]);
+    }
+    if ((near.array() >= 0).any())
+      followers_.push_back({&group, std::move(near)});
+  }
+  work_.followers.resize(followers_.size());
+}
+
+/// Lets the boundaries that follow one crosspoint value after the other come apart, and constrains that. Collective.
+void CrosspointMotion::constrain(const decomposition::DecomposedProblem& problem,
+                                 const qp::DeflatedOperator& deflated) {
+  const auto size = static_cast<std::size_t>(crosspoints_.size());
+  MultiVector jumps(problem.multiplierMap, size), atCrosspoints(problem.multiplierMap, size);
+  prepareColumns(crosspoints_.size());
+  work_.nearDisplacement = crosspoints_.extension();
+  negativeJumps(jumps);
+  jumps.scale(-1.0); // J
+  const std::span<double> entries = work_.output.zeros(size);
+  for (const auto& subdomain : problem.subdomains)
+    for (const auto& entry : subdomain.constraint) {
+      const auto& all = subdomain.crosspointUnknowns; // ascending
+      const auto found = std::lower_bound(all.begin(), all.end(), entry.unknown);
+      if (found == all.end() || *found != entry.unknown)
+        continue;
+      const auto coarse = subdomain.crosspointIndices[static_cast<std::size_t>(found - all.begin())];
+      entries[static_cast<std::size_t>(entry.multiplier) +
+              static_cast<std::size_t>(crosspoints_.indexOf(coarse)) * entries.size() / size] +=
+          entry.coefficient;
+    }
+  work_.output.sumToOwners(atCrosspoints); // B_C
+  constrained_.emplace(deflated.space(), jumps, atCrosspoints, crosspoints_.stiffness());
+}
+
+/// Work space for k columns; sums begin at 0.
+void CrosspointMotion::prepareColumns(Eigen::Index numColumns) const {
+  for (std::size_t f = 0; f < followers_.size(); ++f) {
+    const Eigen::MatrixXi& near = followers_[f].near;
+    work_.followers[f].atCrosspoints.resize(near.rows(), near.cols() * numColumns);
+    work_.followers[f].atBoundary.resize(followers_[f].group->condensed().numBoundary(),
+                                         near.cols() * numColumns);
+  }
+  work_.nearDisplacement.resize(crosspoints_.extension().rows(), numColumns);
+  work_.nearForces.resizeLike(work_.nearDisplacement);
+  work_.forces.resize(crosspoints_.size(), numColumns);
+  work_.touchedSums.assign(static_cast<std::size_t>(work_.forces.size()), AccurateSum());
+  work_.nearSums.assign(static_cast<std::size_t>(work_.nearForces.size()), AccurateSum());
+  if (work_.shared->getNumVectors() != static_cast<std::size_t>(numColumns))
+    work_.shared = rcp(new MultiVector(work_.shared->getMap(), static_cast<std::size_t>(numColumns)));
+}
+
+void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, MultiVector& rest) const {
+  prepareColumns(static_cast<Eigen::Index>(lambda.getNumVectors()));
+  u.resize(crosspoints_.size(), work_.forces.cols());
+  for (Eigen::Index j = 0; j < u.cols(); ++j) {
+    const auto values = lambda.getData(static_cast<std::size_t>(j));
+    for (const ScaledConstraint::CrosspointEntry& entry : weights_)
+      work_.touchedSums[static_cast<std::size_t>(entry.touched + j * u.rows())].add(entry.weight *
+                                                                                    values[entry.multiplier]);
+  }
+  sumInto(*lambda.getMap()->getComm(), work_.touchedSums, u);
+  if (constrained_) {
+    constrained_->negativeJumps(u, rest);
+  } else {
+    work_.nearDisplacement.noalias() = crosspoints_.extension() * u;
+    negativeJumps(rest);
+  }
+  for (std::size_t j = 0; j < rest.getNumVectors(); ++j) {
+    const auto values = lambda.getData(j);
+    const auto jumps = rest.getDataNonConst(j);
+    for (Teuchos_Ordinal row = 0; row < jumps.size(); ++row)
+      jumps[row] = values[row] + jumps[row] * inverseShares_[static_cast<std::size_t>(row)];
+  }
+}
+
+/// −J of the near displacement, but for the shares: boundaries move by −Ψ_Δ X u, each subdomain for itself.
+void CrosspointMotion::negativeJumps(MultiVector& jumps) const {
+  const Eigen::Index numColumns = work_.nearDisplacement.cols();
+  const std::span<double> result = work_.output.zeros(static_cast<std::size_t>(numColumns));
+  for (std::size_t f = 0; f < followers_.size(); ++f) {
+    const auto& [group, near] = followers_[f];
+    auto& [motion, displacement] = work_.followers[f];
+    for (Eigen::Index j = 0; j < numColumns; ++j)
+      for (Eigen::Index member = 0; member < near.cols(); ++member)
+        for (Eigen::Index c = 0; c < near.rows(); ++c)
+          motion(c, member + j * near.cols()) =
+              near(c, member) < 0 ? 0.0 : work_.nearDisplacement(near(c, member), j);
+    for (Eigen::Index column = 0; column < motion.cols(); ++column) // one by one: see SymmetricBlock::Use
+      displacement.col(column).noalias() = group->condensed().boundaryResponse() * motion.col(column);
+    addProduct(group->boundaryEntries(), displacement, numColumns, result);
+  }
+  work_.output.sumToOwners(jumps);
+}
+
+/// What forces at the boundaries, −Jᵀ of the shared ones, are at the near crosspoints.
+void CrosspointMotion::addForcesOfJumps() const {
+  const Eigen::Index numColumns = work_.nearForces.cols();
+  const std::span<const double> given = work_.input.toSubdomains(*work_.shared);
+  for (std::size_t f = 0; f < followers_.size(); ++f) {
+    const auto& [group, near] = followers_[f];
+    auto& [passedOn, forces] = work_.followers[f];
+    forces.setZero();
+    addTransposed(group->boundaryEntries(), given, numColumns, forces);
+    for (Eigen::Index column = 0; column < passedOn.cols(); ++column)
+      passedOn.col(column).noalias() = group->condensed().boundaryResponse().transpose() * forces.col(column);
+    for (Eigen::Index j = 0; j < numColumns; ++j)
+      for (Eigen::Index member = 0; member < near.cols(); ++member)
+        for (Eigen::Index c = 0; c < near.rows(); ++c)
+          if (near(c, member) >= 0)
+            work_.nearSums[static_cast<std::size_t>(near(c, member) + j * work_.nearForces.rows())].add(
+                passedOn(c, member + j * near.cols()));
+  }
+}
+
+void CrosspointMotion::addForces(const Eigen::MatrixXd& u, MultiVector& y) const {
+  prepareColumns(u.cols());
+  pullBack(u, y);
+}
+
+void CrosspointMotion::addForcesAtRest(const decomposition::DecomposedProblem& problem,
+                                       const SubdomainVectors& v, MultiVector& y) const {
+  prepareColumns(1);
+  for (const auto& [group, near] : followers_)
+    for (Eigen::Index m = 0; m < near.cols(); ++m) {
+      const std::size_t s = group->members()[static_cast<std::size_t>(m)];
+      const decomposition::Subdomain& subdomain = problem.subdomains[s];
+      const Eigen::VectorXd missing = subdomain.load - *subdomain.stiffness * v[s].col(0);
+      for (Eigen::Index c = 0; c < near.rows(); ++c)
+        if (near(c, m) >= 0)
+          work_.nearSums[static_cast<std::size_t>(near(c, m))].add(
+              missing[subdomain.crosspointUnknowns[static_cast<std::size_t>(c)]]);
+    }
+  pullBack(Eigen::MatrixXd::Zero(crosspoints_.size(), 1), y);
+}
+
+/// Adds Cᵀ (Ŝ u − Jᵀy) and what the near sums begin with to y, Jᵀ by way of the near crosspoints or at once.
+void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const {
+  const Comm& comm = *y.getMap()->getComm();
+  for (std::size_t j = 0; j < y.getNumVectors(); ++j) {
+    const auto forces = y.getData(j);
+    const auto shared = work_.shared->getDataNonConst(j);
+    for (Teuchos_Ordinal row = 0; row < shared.size(); ++row)
+      shared[row] = forces[row] * inverseShares_[static_cast<std::size_t>(row)];
+  }
+  if (constrained_) {
+    constrained_->subtractForces(*work_.shared, work_.touchedSums);
+    sumOverRanks(comm, work_.touchedSums);
+    work_.forces.noalias() = constrained_->stiffness() * u;
+    for (std::size_t i = 0; i < work_.touchedSums.size(); ++i)
+      work_.forces.data()[i] += work_.touchedSums[i].value();
+  } else {
+    addForcesOfJumps();
+    sumInto(comm, work_.nearSums, work_.nearForces);
+    work_.forces.noalias() = crosspoints_.stiffness() * u;
+    work_.forces.noalias() += crosspoints_.extension().transpose() * work_.nearForces;
+  }
+  for (Eigen::Index j = 0; j < u.cols(); ++j) {
+    const auto values = y.getDataNonConst(static_cast<std::size_t>(j));
+    for (const ScaledConstraint::CrosspointEntry& entry : weights_)
+      values[entry.multiplier] += entry.weight * work_.forces(entry.touched, j);
+  }
+}
+
+} // namespace epafi::fetidp

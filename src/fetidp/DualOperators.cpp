@@ -1,0 +1,130 @@
+#include "epafi/fetidp/DualOperators.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/OverratedColumns.hpp"
+#include "epafi/fetidp/ProjectedOperator.hpp"
+#include "epafi/fetidp/ProjectedPreconditioner.hpp"
+#include "epafi/fetidp/SharedRows.hpp"
+#include "epafi/fetidp/Solvability.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::DecomposedProblem;
+
+/// F_U, or null if there are no adaptive constraints.
+RCP<const qp::DeflatedOperator> deflatedOperator(const DecomposedProblem& problem,
+                                                 const RCP<const DualOperator>& f,
+                                                 const DualParameters& parameters) {
+  using Use = AdaptiveConstraintParameters::Use;
+  const Use use = parameters.adaptiveConstraints.use;
+  const bool hasPreconditioner = parameters.preconditioner.type != PreconditionerParameters::Type::none;
+  if (use == Use::no || (use == Use::automatic && !hasPreconditioner))
+    return Teuchos::null;
+  const OverratedColumns columns =
+      findOverratedColumns(problem, f->inverse(), JointKind::gluing, parameters.adaptiveConstraints,
+                           parameters.preconditioner.scaling);
+  if (columns.number == 0)
+    return Teuchos::null;
+  return rcp(new qp::DeflatedOperator(f, spaceOf(columns, *f->inverse().multiplierPlan(), *f)));
+}
+
+/// M corrected for the jumps of contact that it overrates, or null if there are none.
+RCP<const CorrectedPreconditioner> correctedPreconditioner(const DecomposedProblem& problem,
+                                                           const DualOperators& operators,
+                                                           const DualParameters& parameters) {
+  if (parameters.adaptiveConstraints.use == AdaptiveConstraintParameters::Use::no)
+    return Teuchos::null;
+  const GeneralizedInverse& inverse = operators.f->inverse();
+  const OverratedColumns columns =
+      findOverratedColumns(problem, inverse, JointKind::contact, parameters.adaptiveConstraints,
+                           parameters.preconditioner.scaling);
+  if (columns.number == 0)
+    return Teuchos::null;
+  return rcp(new CorrectedPreconditioner(
+      operators.preconditioner,
+      spaceOf(columns, *inverse.multiplierPlan(), *operators.flexibility(), operators.preconditioner.get())));
+}
+
+/// M, or PMP + ρ⁻¹Q for the penalty ρ that SMALBE starts with.
+void addPreconditioner(const DecomposedProblem& problem,
+                       const std::shared_ptr<const GeneralizedInverse>& inverse,
+                       const DualParameters& parameters, DualOperators& operators) {
+  operators.dualPreconditioner =
+      rcp(new DualPreconditioner(problem, inverse, parameters.preconditioner, operators.deflated));
+  operators.preconditioner = operators.dualPreconditioner;
+  const double norm = operators.norm.norm > 0 ? operators.norm.norm : 1.0;
+  std::vector<LocalOrdinal> shared = sharedContactRows(problem);
+  if (holdsAnywhere(*problem.comm, !shared.empty()))
+    operators.preconditioner =
+        rcp(new ShiftedPreconditioner(operators.preconditioner, std::move(shared), 1 / norm));
+  operators.corrected = correctedPreconditioner(problem, operators, parameters);
+  if (!operators.corrected.is_null())
+    operators.preconditioner = operators.corrected;
+  if (!operators.coarseSpace.is_null())
+    operators.preconditioner = rcp(new ProjectedPreconditioner(
+        operators.preconditioner, operators.coarseSpace, parameters.smalbe.penalty * norm));
+}
+
+/// Whether averages along edges are coarse unknowns, somewhere. Collective.
+bool hasAverages(const DecomposedProblem& problem) {
+  return holdsAnywhere(*problem.comm,
+                       std::any_of(problem.subdomains.begin(), problem.subdomains.end(),
+                                   [](const auto& subdomain) { return !subdomain.averages.empty(); }));
+}
+
+/// With a preconditioner, what the parameters leave open. Collective.
+qp::MprgpParameters preconditionedMprgp(const DecomposedProblem& problem, Algorithm algorithm,
+                                        bool isCorrected, qp::MprgpParameters mprgp) {
+  if (mprgp.sufficientShare == 0)
+    mprgp.sufficientShare = 0.25; // most expansions would fix one multiplier or two
+  const bool solvesFacesInFewSteps = algorithm == Algorithm::smalbe || (hasAverages(problem) && !isCorrected);
+  if (mprgp.proportioningConstant == 0 && solvesFacesInFewSteps)
+    mprgp.proportioningConstant = 0.1; // steps in a wrong face are lost
+  return mprgp;
+}
+
+} // namespace
+
+RCP<const Operator> DualOperators::flexibility() const {
+  if (deflated.is_null())
+    return f;
+  return deflated;
+}
+
+std::size_t DualOperators::preconditionerBytes() const {
+  return (dualPreconditioner.is_null() ? 0 : dualPreconditioner->bytes()) +
+         (corrected.is_null() ? 0 : corrected->space().bytes());
+}
+
+DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algorithm,
+                                const std::shared_ptr<GeneralizedInverse>& inverse,
+                                const std::vector<KernelEntry>& kernelEntries,
+                                const DualParameters& parameters) {
+  DualOperators operators;
+  operators.mprgp = parameters.mprgp;
+  if (algorithm == Algorithm::direct)
+    return operators;
+  collectively(*problem.comm, [&] { inverse->prepareDual(parameters.dualOperator); });
+  operators.f = rcp(new DualOperator(inverse));
+  operators.deflated = deflatedOperator(problem, operators.f, parameters);
+  operators.hessian = operators.flexibility();
+  if (algorithm == Algorithm::smalbe) {
+    requireContactForEveryMotion(problem, kernelEntries);
+    operators.coarseSpace = rcp(new NaturalCoarseSpace(problem, kernelEntries));
+    operators.hessian = rcp(new ProjectedOperator(operators.flexibility(), operators.coarseSpace));
+  }
+  if (algorithm != Algorithm::conjugateGradient || parameters.isBalanced)
+    operators.norm = qp::estimateNorm(*operators.hessian, parameters.norm);
+  if (parameters.preconditioner.type != PreconditionerParameters::Type::none) {
+    addPreconditioner(problem, inverse, parameters, operators);
+    operators.mprgp =
+        preconditionedMprgp(problem, algorithm, !operators.corrected.is_null(), parameters.mprgp);
+  }
+  return operators;
+}
+
+} // namespace epafi::fetidp

@@ -1,0 +1,135 @@
+#include "epafi/model/BodyLayout.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/model/MeshFiles.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace epafi::model {
+namespace {
+
+/// Elements in x, y and z of a structured mesh (z: 1 in the plane); zeros of another one.
+std::array<int, 3> elementCounts(const fem::Mesh& mesh) {
+  return mesh.structured() != nullptr ? mesh.structured()->elements() : std::array<int, 3>{0, 0, 0};
+}
+
+void requireCut(const scene::Body& body, const fem::Mesh& mesh) {
+  const scene::Decomposition& cut = body.decomposition;
+  const std::string where = "body '" + body.name + "' has ";
+  if (cut.method == scene::Decomposition::Method::metis) {
+    if (cut.parts < 1 || cut.parts > mesh.numElements())
+      throw InputError(where + std::to_string(mesh.numElements()) + " elements and cannot be cut into " +
+                       std::to_string(cut.parts) + " parts; choose between 1 and " +
+                       std::to_string(mesh.numElements()));
+    return;
+  }
+  const std::array<int, 3> elements = elementCounts(mesh);
+  if (elements[0] == 0)
+    throw InputError("body '" + body.name +
+                     "' has a mesh from a file and cannot be cut as a grid; choose the method metis");
+  const auto dimension = static_cast<std::size_t>(dimensionOf(mesh.cellType()));
+  for (std::size_t d = 0; d < dimension; ++d)
+    if (cut.counts[d] < 1 || cut.counts[d] > elements[d])
+      throw InputError(where + std::to_string(elements[d]) + " elements in " + "xyz"[d] +
+                       " and cannot be cut into " + std::to_string(cut.counts[d]) +
+                       " subdomains there; choose between 1 and " + std::to_string(elements[d]));
+}
+
+std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, const MeshFiles& files) {
+  const scene::MeshSource& source = body.mesh;
+  if (!source.file.empty())
+    return std::make_unique<const fem::UnstructuredMesh>(files.of(source).body(source.group));
+  return std::make_unique<const fem::StructuredMesh>(source.box, source.elements);
+}
+
+/// Whether two bodies are meshed and cut alike: their partitions are the same.
+bool areCutAlike(const fem::Mesh& a, const scene::Decomposition& cut, const fem::Mesh& b,
+                 const scene::Decomposition& other) {
+  if (elementCounts(a) != elementCounts(b) || elementCounts(a)[0] == 0 || cut.method != other.method)
+    return false;
+  return cut.method == scene::Decomposition::Method::metis ? cut.parts == other.parts
+                                                           : cut.counts == other.counts;
+}
+
+/// Collective.
+std::shared_ptr<const Partition> cutByMetis(const scene::Body& body, const fem::Mesh& mesh,
+                                            const Comm& comm) {
+  try {
+    return std::make_shared<const GraphPartition>(mesh, body.decomposition.parts, comm);
+  } catch (const InputError& error) { // the same on all ranks
+    throw InputError("body '" + body.name + "': " + error.what());
+  }
+}
+
+/// Collective.
+std::shared_ptr<const Partition> makePartition(const scene::Body& body, const fem::Mesh& mesh,
+                                               const Comm& comm) {
+  const scene::Decomposition& cut = body.decomposition;
+  if (cut.method == scene::Decomposition::Method::metis)
+    return cutByMetis(body, mesh, comm);
+  return std::make_shared<const GridPartition>(*mesh.structured(), cut.counts);
+}
+
+int componentsOf(const scene::Body& body) {
+  return scene::componentsOf(body.physics);
+}
+
+/// Bodies that touch have the same unknowns; a vector of the dual problem knows no other.
+void requireSameComponents(const scene::Scene& scene) {
+  for (const scene::Body& body : scene.bodies)
+    if (componentsOf(body) != componentsOf(scene.bodies.front()))
+      throw InputError(
+          "the bodies '" + scene.bodies.front().name + "' and '" + body.name + "' have " +
+          std::to_string(componentsOf(scene.bodies.front())) + " and " + std::to_string(componentsOf(body)) +
+          " unknowns a node; all bodies of a scene must have the same physics or the same dimension");
+}
+
+} // namespace
+
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
+  std::vector<BodyLayout> bodies;
+  collectively(comm, [&] { requireSameComponents(scene); });
+  const MeshFiles files(scene, comm);
+  collectively(comm, [&] {
+    for (const scene::Body& body : scene.bodies) {
+      bodies.push_back({body.name, makeMesh(body, files), nullptr, 0});
+      requireCut(body, *bodies.back().mesh);
+    }
+  });
+  int firstSubdomain = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::size_t alike = 0; // the first body that is cut like this one, perhaps itself
+    while (alike < b && !areCutAlike(*bodies[alike].mesh, scene.bodies[alike].decomposition, *bodies[b].mesh,
+                                     scene.bodies[b].decomposition))
+      ++alike;
+    bodies[b].partition =
+        alike < b ? bodies[alike].partition : makePartition(scene.bodies[b], *bodies[b].mesh, comm);
+    bodies[b].firstSubdomain = firstSubdomain;
+    firstSubdomain += bodies[b].partition->numParts();
+  }
+  return bodies;
+}
+
+Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm) {
+  const GlobalOrdinal number = bodies.back().firstSubdomain + bodies.back().partition->numParts();
+  const auto first = [&](GlobalOrdinal rank) { return static_cast<int>(rank * number / comm.getSize()); };
+  return {first(comm.getRank()), first(comm.getRank() + 1)};
+}
+
+int lowestPartAt(const BodyLayout& body, GlobalOrdinal node) {
+  std::vector<GlobalOrdinal> elements;
+  body.mesh->nodeElements(node, elements);
+  int lowest = body.partition->numParts();
+  for (const GlobalOrdinal element : elements)
+    lowest = std::min(lowest, body.partition->partOf(element));
+  return lowest;
+}
+
+std::unique_ptr<fem::BodyModel> makeModel(const scene::Body& body, const fem::Mesh& mesh) {
+  return std::make_unique<fem::BodyModel>(body, mesh);
+}
+
+} // namespace epafi::model

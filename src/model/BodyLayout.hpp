@@ -1,0 +1,41 @@
+#pragma once
+
+/// The bodies of a scene: their meshes, the way they are cut, and their physics.
+
+#include "epafi/fem/BodyModel.hpp"
+#include "epafi/fem/Mesh.hpp"
+#include "epafi/model/Partition.hpp"
+#include "epafi/scene/Scene.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace epafi::model {
+
+/// A body of the scene with its mesh and the way it is cut.
+struct BodyLayout {
+  std::string name;
+  std::unique_ptr<const fem::Mesh> mesh;
+  std::shared_ptr<const Partition> partition; ///< bodies that are meshed and cut alike share one
+  int firstSubdomain = 0;                     ///< number of its part 0 in the whole problem
+};
+
+/// Meshes the bodies and cuts them. Collective. \throws InputError, the same on all ranks, if a body cannot be meshed or
+/// cut as the scene says, or bodies differ in the unknowns of a node.
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm);
+
+/// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P).
+struct Share {
+  int begin = 0, end = 0; ///< this rank's numbers
+};
+/// That of this rank. Not collective.
+Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm);
+
+/// The lowest part that has a node.
+int lowestPartAt(const BodyLayout& body, GlobalOrdinal node);
+
+/// The physics of a body; keeps references to both. \throws InputError if mesh and scene do not go together.
+std::unique_ptr<fem::BodyModel> makeModel(const scene::Body& body, const fem::Mesh& mesh);
+
+} // namespace epafi::model

@@ -1,0 +1,140 @@
+#include "epafi/model/Decompose.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/EqualMatrices.hpp"
+#include "epafi/decomposition/UnassembledProblem.hpp"
+#include "epafi/model/SceneContacts.hpp"
+
+#include <Teuchos_Comm.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace epafi::model {
+namespace {
+
+using decomposition::Body;
+using decomposition::NodeFrame;
+using decomposition::NodeOrderedSubdomain;
+using decomposition::SparseMatrix;
+
+using Models = std::vector<std::unique_ptr<fem::BodyModel>>;
+
+/// What K R may keep of the sum of its terms' magnitudes: far above round-off, far below a mode that is none.
+constexpr double kernelTolerance = 1e-6;
+
+std::vector<NodeFrame> framesOf(const fem::BodyModel& model, const std::vector<GlobalOrdinal>& nodes) {
+  std::vector<NodeFrame> frames;
+  if (!model.hasFrames())
+    return frames;
+  for (std::size_t place = 0; place < nodes.size(); ++place)
+    if (const Eigen::Matrix3d* axes = model.frame(nodes[place]))
+      frames.push_back({static_cast<int>(place), *axes});
+  return frames;
+}
+
+std::vector<Body> describeBodies(const std::vector<BodyLayout>& layouts, const Models& models) {
+  std::vector<Body> bodies;
+  int kernelOffset = 0;
+  GlobalOrdinal firstNode = 0;
+  for (std::size_t b = 0; b < layouts.size(); ++b) {
+    const int modes = models[b]->kernelDimension();
+    Body& body = bodies.emplace_back(Body{layouts[b].name, modes, kernelOffset, firstNode});
+    if (const auto motions = modes > 0 ? models[b]->rigidMotions() : std::nullopt)
+      body.motions = {
+          {motions->centre[0], motions->centre[1], motions->centre[2]}, motions->size, motions->twists};
+    kernelOffset += modes;
+    firstNode += layouts[b].mesh->numNodes();
+  }
+  return bodies;
+}
+
+decomposition::NodePlaces placesOf(const std::vector<BodyLayout>& bodies) {
+  const auto meshOf = [&bodies](int body) -> const fem::Mesh& {
+    return *bodies[static_cast<std::size_t>(body)].mesh;
+  };
+  return {fem::dimensionOf(bodies.front().mesh->cellType()),
+          [meshOf](int body, GlobalOrdinal node) { return meshOf(body).point(node); },
+          [meshOf](int body, GlobalOrdinal node) { return meshOf(body).isBoundaryNode(node); }};
+}
+
+/// Body of a subdomain.
+std::size_t bodyOf(const std::vector<BodyLayout>& bodies, int number) {
+  const auto next =
+      std::upper_bound(bodies.begin(), bodies.end(), number,
+                       [](int wanted, const BodyLayout& body) { return wanted < body.firstSubdomain; });
+  return static_cast<std::size_t>(next - bodies.begin()) - 1;
+}
+
+/// Assembles this rank's subdomains and hands them over, in the order of their numbers. Not collective.
+void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, const Share& share,
+                   decomposition::UnassembledProblem& problem) {
+  std::optional<fem::SubdomainAssembler> assembler;
+  decomposition::EqualMatrices matrices;
+  SparseMatrix scratch;
+  std::size_t last = bodies.size();
+  for (int number = share.begin; number < share.end; ++number) {
+    const std::size_t b = bodyOf(bodies, number);
+    if (std::exchange(last, b) != b)
+      assembler.emplace(*models[b]);
+    NodeOrderedSubdomain subdomain{static_cast<int>(b), {}, nullptr, {}};
+    subdomain.values.stiffness.swap(scratch); // its memory is used again if the last matrix was a known one
+    assembler->assemble(bodies[b].partition->elementsOf(number - bodies[b].firstSubdomain), subdomain.values);
+    subdomain.stiffness = matrices.store(subdomain.values.stiffness);
+    scratch.swap(subdomain.values.stiffness);
+    if (models[b]->components() > 1) // of a scalar field R = 1, and nothing can go wrong
+      requireKernel(*subdomain.stiffness, subdomain.values.kernel, bodies[b].name);
+    subdomain.frames = framesOf(*models[b], subdomain.values.nodes);
+    problem.add(std::move(subdomain));
+  }
+}
+
+} // namespace
+
+void requireKernel(const SparseMatrix& k, const Eigen::MatrixXd& r, const std::string& body) {
+  for (Eigen::Index mode = 0; mode < r.cols(); ++mode)
+    for (Eigen::Index j = 0; j < k.cols(); ++j) {
+      double sum = 0, magnitude = 0;
+      for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry) { // K is symmetric: columns are rows
+        const double term = entry.value() * r(entry.row(), mode);
+        sum += term;
+        magnitude += std::abs(term);
+      }
+      if (!(std::abs(sum) <= kernelTolerance * magnitude))
+        throw Error("body '" + body + "': its stiffness does not vanish on the rigid motion number " +
+                    std::to_string(mode) + " that its supports seem to leave free (" + std::to_string(sum) +
+                    " beside terms of " + std::to_string(magnitude) +
+                    "); this is a fault of Epafi, please report the scene");
+    }
+}
+
+Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) {
+  return decompose(scene, layoutBodies(scene, *comm), comm);
+}
+
+Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodies,
+                        const RCP<const Comm>& comm) {
+  Decomposition result;
+  result.bodies = std::move(bodies);
+  Models models;
+  collectively(*comm, [&] {
+    result.contacts = layoutContacts(scene, result.bodies);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      models.push_back(makeModel(scene.bodies[b], *result.bodies[b].mesh));
+  });
+  decomposition::UnassembledProblem problem(comm, models.front()->components(),
+                                            describeBodies(result.bodies, models), placesOf(result.bodies));
+  const Share share = shareOf(result.bodies, *comm);
+  collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
+  if (!result.contacts.empty())
+    problem.setContact(contactMatrix(result.bodies, result.contacts, models, comm));
+  problem.complete();
+  result.problem = problem.take();
+  return result;
+}
+
+} // namespace epafi::model

@@ -1,0 +1,37 @@
+#pragma once
+
+/// From a scene to a DecomposedProblem: a scene is an application like others, which meshes bodies, cuts and assembles them,
+/// and hands over subdomains and a contact matrix.
+
+#include "epafi/contact/ContactLayout.hpp"
+#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/model/BodyLayout.hpp"
+#include "epafi/scene/Scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace epafi::model {
+
+/// The scene cut into subdomains: where everything lies (for output), and the problem itself (for FETI-DP).
+struct Decomposition {
+  std::vector<BodyLayout> bodies;
+  std::vector<contact::ContactLayout> contacts;
+  decomposition::DecomposedProblem problem;
+};
+
+/// Cuts the scene into subdomains, gives each rank a contiguous run of them and assembles them.
+/// Collective. \throws InputError (the same on all ranks) if contact edges do not match, or if a contact edge
+/// is supported.
+Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm);
+
+/// The same of bodies that are meshed and cut already, on all ranks alike.
+Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodies,
+                        const RCP<const Comm>& comm);
+
+/// The modes come from geometry and supports, K from integrals: one proves the other. One product a mode.
+/// \param r  R^s, n_s × modes  \param body  its name
+/// \throws Error if K^s R^s does not vanish.
+void requireKernel(const decomposition::SparseMatrix& k, const Eigen::MatrixXd& r, const std::string& body);
+
+} // namespace epafi::model

@@ -1,0 +1,66 @@
+#pragma once
+
+/// Partition of one body's elements into subdomains.
+
+#include "epafi/fem/StructuredMesh.hpp"
+
+#include <array>
+#include <vector>
+
+namespace epafi::model {
+
+/// Which part each element belongs to. Parts are numbered from 0 and each is connected through facets of
+/// elements.
+class Partition {
+public:
+  virtual ~Partition() = default;
+  [[nodiscard]] virtual int numParts() const = 0;                    ///< at least 1
+  [[nodiscard]] virtual int partOf(GlobalOrdinal element) const = 0; ///< of an element of the body
+  /// Elements of a part, ascending.
+  [[nodiscard]] virtual std::vector<GlobalOrdinal> elementsOf(int part) const = 0;
+};
+
+/// Cuts a rectangle into counts[0] × counts[1] rectangles, a box into counts[0] × counts[1] × counts[2] boxes,
+/// of as equal numbers of elements as possible; parts are numbered x fastest, then y, then z. Stores one number
+/// a column and one a row of elements, nothing of the mesh's size.
+class GridPartition final : public Partition {
+public:
+  /// Precondition: 1 ≤ counts ≤ number of elements in each direction; in the plane the third count does not matter.
+  GridPartition(const fem::StructuredMesh& mesh, std::array<int, 3> counts);
+  [[nodiscard]] int numParts() const override { return counts_[0] * counts_[1] * counts_[2]; }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override;
+  [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override;
+
+private:
+  std::array<int, 3> elements_;
+  std::array<int, 3> counts_;
+  std::vector<int> columnOf_; ///< column of parts of each column of elements
+  std::vector<int> rowOf_;    ///< row of parts of each row of elements; rows are counted through all layers
+};
+
+/// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the
+/// body is kept on each rank (two ints an element): the one place where something of the mesh's size is
+/// replicated.
+class GraphPartition final : public Partition {
+public:
+  /// METIS runs on rank 0, its result is broadcast; the same mesh, count and weights give the same parts on any
+  /// number of ranks. The number of parts may differ from the one asked for where METIS leaves parts empty.
+  /// Collective. \throws InputError if METIS refuses, or if the weights are not as said.
+  ///
+  /// \param weights  cost of each element, ≥ 1, their sum an int: parts get nearly equal sums of them instead of
+  ///                 equal numbers of elements. Empty if all cost the same. Those of rank 0 count
+  GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm, const std::vector<int>& weights = {});
+  [[nodiscard]] int numParts() const override { return numParts_; }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override {
+    return part_[static_cast<std::size_t>(element)];
+  }
+  [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override;
+
+private:
+  int numParts_ = 0;
+  std::vector<int> part_;
+  std::vector<std::size_t> start_; ///< of each part in members_
+  std::vector<int> members_;       ///< elements, part by part, ascending in each
+};
+
+} // namespace epafi::model

@@ -1,0 +1,130 @@
+#include "epafi/fem/StructuredMesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace epafi::fem {
+namespace {
+
+const StructuredMesh mesh(scene::rectangle(-1, 2, 0.5, 1.5), {3, 2, 0});
+
+bool contains(const std::vector<GlobalOrdinal>& list, GlobalOrdinal value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+TEST(RectangleTest, NumbersNodesAndElementsRowByRow) {
+  EXPECT_EQ(mesh.numNodes(), 12);
+  EXPECT_EQ(mesh.numElements(), 6);
+  EXPECT_EQ(mesh.point(0), (Point{-1, 0.5, 0}));
+  EXPECT_EQ(mesh.point(11), (Point{2, 1.5, 0}));
+  std::array<GlobalOrdinal, 4> nodes{};
+  mesh.elementNodes(4, nodes);
+  EXPECT_EQ(nodes, (std::array<GlobalOrdinal, 4>{5, 6, 10, 9}));
+}
+
+TEST(RectangleTest, NodesKnowExactlyTheElementsThatKnowThem) {
+  std::vector<GlobalOrdinal> elements;
+  std::array<GlobalOrdinal, 4> nodes{};
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
+    mesh.nodeElements(node, elements);
+    for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+      mesh.elementNodes(element, nodes);
+      EXPECT_EQ(std::find(nodes.begin(), nodes.end(), node) != nodes.end(), contains(elements, element));
+    }
+    EXPECT_EQ(mesh.isBoundaryNode(node), elements.size() < 4) << node;
+  }
+}
+
+TEST(RectangleTest, ManyAtOnceAreTheSameAsOneByOne) {
+  const std::vector<GlobalOrdinal> elements{1, 2, 3, 5, 0, 4}; // runs, a gap, a step back
+  std::vector<GlobalOrdinal> all(4 * elements.size());
+  mesh.elementNodes(elements, all);
+  std::array<GlobalOrdinal, 4> nodes{};
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    mesh.elementNodes(elements[e], nodes);
+    EXPECT_TRUE(std::equal(nodes.begin(), nodes.end(), all.begin() + static_cast<std::ptrdiff_t>(4 * e)))
+        << e;
+  }
+
+  for (const std::array<int, 3> size : {std::array{3, 2, 0}, {1, 1, 0}, {1, 4, 0}, {5, 1, 0}}) {
+    const StructuredMesh other(scene::rectangle(0, 1, 0, 1), size);
+    std::vector<GlobalOrdinal> touching;
+    std::vector<GlobalOrdinal> some; // two of three nodes
+    for (GlobalOrdinal node = 0; node < other.numNodes(); ++node)
+      if (node % 3 != 1)
+        some.push_back(node);
+    std::vector<int> numbers(some.size());
+    other.numNodeElements(some, numbers);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      other.nodeElements(some[i], touching);
+      EXPECT_EQ(numbers[i], static_cast<int>(touching.size())) << some[i];
+    }
+  }
+}
+
+TEST(RectangleTest, NeighboursShareTwoNodes) {
+  std::vector<GlobalOrdinal> neighbours;
+  std::array<GlobalOrdinal, 4> a{}, b{};
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    mesh.elementNeighbours(element, neighbours);
+    mesh.elementNodes(element, a);
+    for (GlobalOrdinal other = 0; other < mesh.numElements(); ++other) {
+      mesh.elementNodes(other, b);
+      const auto common = std::count_if(
+          a.begin(), a.end(), [&](GlobalOrdinal n) { return std::find(b.begin(), b.end(), n) != b.end(); });
+      EXPECT_EQ(contains(neighbours, other), common == 2) << element << ' ' << other;
+    }
+  }
+}
+
+TEST(RectangleTest, EdgesHaveTheNodesOnThem) {
+  const std::vector<std::pair<std::string, std::set<GlobalOrdinal>>> edges{
+      {"left", {0, 4, 8}}, {"right", {3, 7, 11}}, {"bottom", {0, 1, 2, 3}}, {"top", {8, 9, 10, 11}}};
+  std::vector<std::string> names;
+  for (const auto& [name, nodes] : edges) {
+    names.push_back(name);
+    const std::vector<GlobalOrdinal> all = mesh.surface(name).facetNodes;
+    EXPECT_EQ(std::set<GlobalOrdinal>(all.begin(), all.end()), nodes) << name;
+  }
+  EXPECT_EQ(mesh.surfaceNames(), names);
+}
+
+TEST(RectangleTest, EndPointsAreExactWhateverTheSpacing) {
+  const StructuredMesh fine(scene::rectangle(0.1, 0.7, -0.3, 0.9), {7, 49, 0});
+  EXPECT_EQ(fine.point(fine.numNodes() - 1), (Point{0.7, 0.9, 0}));
+}
+
+TEST(RectangleTest, ElementsFillTheRectangle) {
+  EXPECT_EQ(mesh.elements(), (std::array<int, 3>{3, 2, 1}));
+  EXPECT_EQ(mesh.elementSize(), (scene::Vector3{1, 0.5, 0}));
+  EXPECT_EQ(mesh.elementCorners(), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {0, 0.5, 0}}));
+}
+
+TEST(RectangleTest, SurfacesRunAroundTheBodyWithItOnTheirLeft) {
+  const StructuredMesh plate(scene::rectangle(1, 4, -2, 0), {5, 3, 0});
+  double twiceArea = 0, length = 0;
+  for (const std::string& name : plate.surfaceNames()) {
+    const Surface surface = plate.surface(name);
+    ASSERT_EQ(surface.facetNodes.size(), 2 * surface.elements.size());
+    for (std::size_t k = 0; k < surface.elements.size(); ++k) {
+      const Point a = plate.point(surface.facetNodes[2 * k]), b = plate.point(surface.facetNodes[2 * k + 1]);
+      twiceArea += a[0] * b[1] - a[1] * b[0];
+      length += std::hypot(b[0] - a[0], b[1] - a[1]);
+      std::array<GlobalOrdinal, 4> corners{};
+      plate.elementNodes(surface.elements[k], corners);
+      for (std::size_t end = 0; end < 2; ++end)
+        EXPECT_NE(std::find(corners.begin(), corners.end(), surface.facetNodes[2 * k + end]), corners.end());
+    }
+  }
+  EXPECT_NEAR(twiceArea, 2 * 6.0, 1e-14);
+  EXPECT_NEAR(length, 10.0, 1e-14);
+}
+
+} // namespace
+} // namespace epafi::fem

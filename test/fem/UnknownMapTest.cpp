@@ -1,0 +1,36 @@
+#include "epafi/fem/UnknownMap.hpp"
+
+#include "epafi/fem/StructuredMesh.hpp"
+
+#include <gtest/gtest.h>
+
+namespace epafi::fem {
+namespace {
+
+TEST(UnknownMapTest, OfOrderOneTheNodesAreTheVertices) {
+  const StructuredMesh mesh(scene::rectangle(0, 3, 0, 2), {3, 2, 0});
+  const UnknownMap unknowns(mesh, 1, 2);
+  EXPECT_EQ(unknowns.numNodes(), mesh.numNodes());
+  EXPECT_EQ(unknowns.nodesPerElement(), 4);
+  EXPECT_EQ(unknowns.unknownsPerElement(), 8);
+  std::vector<GlobalOrdinal> nodes(8), elements, around;
+  unknowns.elementNodes(std::vector<GlobalOrdinal>{0, 5}, nodes);
+  EXPECT_EQ(nodes, (std::vector<GlobalOrdinal>{0, 1, 5, 4, 6, 7, 11, 10}));
+  std::vector<int> numbers(static_cast<std::size_t>(mesh.numNodes()));
+  std::vector<GlobalOrdinal> all;
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+    all.push_back(node);
+  unknowns.numNodeElements(all, numbers);
+  for (const GlobalOrdinal node : all) {
+    EXPECT_EQ(unknowns.point(node), mesh.point(node));
+    EXPECT_EQ(unknowns.isBoundaryNode(node), mesh.isBoundaryNode(node));
+    unknowns.nodeElements(node, elements);
+    mesh.nodeElements(node, around);
+    EXPECT_EQ(elements, around);
+    EXPECT_EQ(numbers[static_cast<std::size_t>(node)], static_cast<int>(around.size()));
+  }
+  EXPECT_EQ(unknowns.surface("top").facetNodes, mesh.surface("top").facetNodes);
+}
+
+} // namespace
+} // namespace epafi::fem
