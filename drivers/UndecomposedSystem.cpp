@@ -57,8 +57,8 @@ UndecomposedSystem::Matrix contactRows(const DecomposedProblem& problem, const s
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
     for (const decomposition::ConstraintEntry& entry : problem.subdomains[s].constraint)
-      entries.emplace_back(static_cast<int>(problem.multiplierGhostMap->getGlobalElement(entry.multiplier)),
-                           first[s] + entry.unknown, entry.coefficient);
+      entries.emplace_back(static_cast<int>(problem.numberOf(entry.multiplier)), first[s] + entry.unknown,
+                           entry.coefficient);
   UndecomposedSystem::Matrix result(static_cast<int>(problem.numInequalities), first.back());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;

@@ -131,7 +131,8 @@ double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) 
     const auto g = gradient.getDataNonConst();
     const auto lambda = solution.multiplier->getData();
     for (LocalOrdinal row = 0; row < g.size(); ++row)
-      if (problem_->kindOfOwned(row) == decomposition::RowKind::contact && !(lambda[row] > 0))
+      if (problem_->kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact &&
+          !(lambda[row] > 0))
         g[row] = std::min(g[row], 0.0);
   }
   dual_->preconditioner()->apply(gradient, image);

@@ -14,6 +14,7 @@
 #include <string>
 
 using epafi::decomposition::DecomposedProblem;
+using epafi::decomposition::RowKind;
 using epafi::decomposition::SparseMatrix;
 
 /// Solves and prints a line; `seconds` are those of setup or update.
@@ -50,7 +51,7 @@ int main(int argc, char** argv) {
 
   for (auto& subdomain : problem.subdomains) // the same rows in another unit: their unknowns stay
     for (auto& entry : subdomain.constraint)
-      if (problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities)
+      if (problem.kindOf(entry.multiplier) == RowKind::contact)
         entry.coefficient *= 2;
   press(0.04);
   solver.update();

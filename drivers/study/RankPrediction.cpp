@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace epafi::drivers {
 namespace {
@@ -25,8 +24,9 @@ Row timeCoarseProblem(int subdomainsPerSide) {
       scene::modelProblem(true, subdomainsPerSide, subdomainsPerSide * elementsPerSide), alone);
   const fetidp::DirectSolvers solvers;
   const fetidp::GeneralizedInverse inverse(cut.problem, solvers);
-  std::vector<GlobalOrdinal> crosspoints(static_cast<std::size_t>(inverse.coarseProblem().size()));
-  std::iota(crosspoints.begin(), crosspoints.end(), GlobalOrdinal{0}); // a single rank has them all
+  std::vector<decomposition::CoarseNumber> crosspoints; // a single rank has them all
+  for (int unknown = 0; unknown < inverse.coarseProblem().size(); ++unknown)
+    crosspoints.emplace_back(unknown);
   const double begin = Teuchos::Time::wallTime();
   const fetidp::CoarseProblem coarse(cut.problem, inverse.groups(), crosspoints, solvers);
   const double setup = Teuchos::Time::wallTime() - begin;

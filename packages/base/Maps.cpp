@@ -15,7 +15,7 @@ RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>
   return mapInOrder(indices, comm);
 }
 
-RCP<const Map> mapInOrder(std::span<const GlobalOrdinal> indices, const RCP<const Comm>& comm) {
+RCP<const Map> mapInOrder(const std::vector<GlobalOrdinal>& indices, const RCP<const Comm>& comm) {
   return rcp(new Map(
       Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
       Teuchos::ArrayView<const GlobalOrdinal>(indices.data(), static_cast<Teuchos_Ordinal>(indices.size())),

@@ -13,6 +13,6 @@ namespace epafi {
 RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>& comm);
 
 /// Of these indices in the order given. Precondition: none stands twice on a rank. Collective.
-RCP<const Map> mapInOrder(std::span<const GlobalOrdinal> indices, const RCP<const Comm>& comm);
+RCP<const Map> mapInOrder(const std::vector<GlobalOrdinal>& indices, const RCP<const Comm>& comm);
 
 } // namespace epafi

@@ -190,7 +190,7 @@ Crosspoints::Crosspoints(const Substructures& all, const SharedNodes& shared) {
   }
 }
 
-GlobalOrdinal Crosspoints::firstIndex(GlobalOrdinal node) const {
+CoarseNumber Crosspoints::firstIndex(NodeNumber node) const {
   const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), CrosspointNode{node, 0});
   return firstIndex_[static_cast<std::size_t>(found - nodes_.begin())];
 }

@@ -20,8 +20,8 @@ namespace epafi::decomposition {
 
 /// A node that is a crosspoint.
 struct CrosspointNode {
-  GlobalOrdinal node = 0; ///< numbered through all bodies
-  int numFree = 0;        ///< components that are unknowns
+  NodeNumber node;
+  int numFree = 0; ///< components that are unknowns
   bool operator<(const CrosspointNode& other) const { return node < other.node; }
 };
 
@@ -31,20 +31,19 @@ public:
   /// Collective.
   Crosspoints(const Substructures& all, const SharedNodes& shared);
 
-  [[nodiscard]] bool isCrosspoint(std::size_t subdomain, std::size_t place) const {
+  [[nodiscard]] bool isCrosspoint(SubdomainPlace subdomain, NodePlace place) const {
     return isCrosspoint_[subdomain][place] != 0;
   }
   /// Edges' averages, edge by edge.
-  [[nodiscard]] const std::vector<EdgeAverage>& averages(std::size_t subdomain) const {
+  [[nodiscard]] const std::vector<EdgeAverage>& averages(SubdomainPlace subdomain) const {
     return averages_[subdomain];
   }
   /// Number of crosspoints proper, edges' averages left out.
   [[nodiscard]] GlobalOrdinal numNodes() const { return numCorners_; }
   /// Number of free unknowns at crosspoints.
   [[nodiscard]] GlobalOrdinal numUnknowns() const { return numUnknowns_; }
-  /// Coarse index of a crosspoint's first free component; the next ones follow.
-  /// \param node  numbered through all bodies
-  [[nodiscard]] GlobalOrdinal firstIndex(GlobalOrdinal node) const;
+  /// Coarse unknown of a crosspoint's first free component; the next ones follow.
+  [[nodiscard]] CoarseNumber firstIndex(NodeNumber node) const;
 
 private:
   std::vector<std::vector<char>> isCrosspoint_; ///< of each node of this rank's subdomains

@@ -11,6 +11,8 @@
 /// of MF below 1 appear and products with F grow in number (from 20 to 36 in space, two blocks of 2 × 2 × 2 subdomains).
 
 #include "epafi/base/Types.hpp"
+#include "epafi/decomposition/Indices.hpp"
+#include "epafi/fem/RigidMotions.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -26,49 +28,41 @@ namespace epafi::decomposition {
 /// Sparse symmetric matrix of one subdomain, both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// Rigid modes of a body as motions in space.
-struct RigidMotions {
-  Eigen::Vector3d centre{0, 0, 0}; ///< of the body
-  double size = 1;                 ///< half its largest extent
-  Eigen::MatrixXd twists;          ///< 6 × kernelDimension: displacement of the centre, rotation vector
-};
-
 /// What a row of B asks for: that bodies do not penetrate, or that copies of a value agree.
 enum class RowKind { contact, gluing };
 
-/// One entry of B in a subdomain: row (local index in DecomposedProblem::multiplierGhostMap), column
-/// (unknown), value.
+/// One entry of B in a subdomain: row, column, value.
 struct ConstraintEntry {
-  int multiplier = 0;
-  int unknown = 0;
+  TouchedMultiplier multiplier;
+  Unknown unknown;
   double coefficient = 0;
 };
 
 /// An unknown that is the average a of several values, and the others, which are deviations ũ_i from it:
 /// u_i = ũ_i + a, u_carrier = a − Σ ũ_i (see EdgeAverages.hpp).
 struct Average {
-  int carrier = 0; ///< unknown a
+  Unknown carrier; ///< a
   std::vector<int> others;
   bool operator==(const Average& other) const = default;
 };
 
 /// A node whose unknowns are the components of its displacement along axes of its own, not those of space.
 struct NodeFrame {
-  int node = 0;         ///< place among the subdomain's nodes
+  NodePlace node;
   Eigen::Matrix3d axes; ///< a rotation; its columns are the axes. In the plane it turns about z
 };
 
 /// One subdomain Ω^s. Its *unknowns* are the free values v of its nodes (components a node, supported ones
 /// left out), numbered 0 … n_s − 1 in the order of its nodes; some may stand for averages and deviations.
 struct Subdomain {
-  int body = 0;                     ///< index into DecomposedProblem::bodies
-  int number = 0;                   ///< number of the subdomain in the whole problem
+  int body = 0; ///< index into DecomposedProblem::bodies
+  SubdomainNumber number;
   std::vector<GlobalOrdinal> nodes; ///< all its nodes, as numbered in the body, ascending
   std::vector<int>
       unknownPosition; ///< n_s: position (node of `nodes` × components + component) of an unknown
   std::vector<int> remainderUnknowns;            ///< v_r: unknowns that are not crosspoint values, ascending
   std::vector<int> crosspointUnknowns;           ///< v_c: unknowns that are crosspoint values, ascending
-  std::vector<GlobalOrdinal> crosspointIndices;  ///< L_c: global index of each v_c in crosspointMap
+  std::vector<CoarseNumber> crosspointIndices;   ///< L_c: coarse unknown of each v_c
   std::vector<Average> averages;                 ///< where unknowns are no values of nodes; most often none
   std::vector<ConstraintEntry> constraint;       ///< B^s
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
@@ -96,7 +90,7 @@ struct Body {
   GlobalOrdinal firstNode = 0; ///< number of its node 0 among those of all bodies
   /// What the modes are in space, for errors that say how a body can move; most often there where a body with
   /// several unknowns a node floats. Nothing is computed from it.
-  std::optional<RigidMotions> motions = std::nullopt;
+  std::optional<fem::RigidMotions> motions = std::nullopt;
 };
 
 /// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are
@@ -128,16 +122,18 @@ struct DecomposedProblem {
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
   GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
   /// Of a row of B.
-  [[nodiscard]] RowKind kindOf(GlobalOrdinal row) const {
+  [[nodiscard]] RowKind kindOf(MultiplierNumber row) const {
     return row < numInequalities ? RowKind::contact : RowKind::gluing;
   }
-  /// Of a row that this rank owns, by its local index in multiplierMap.
-  [[nodiscard]] RowKind kindOfOwned(LocalOrdinal row) const {
-    return kindOf(multiplierMap->getGlobalElement(row));
+  /// The same where this rank owns it.
+  [[nodiscard]] RowKind kindOf(OwnedMultiplier row) const { return kindOf(numberOf(row)); }
+  /// The same where this rank's subdomains touch it.
+  [[nodiscard]] RowKind kindOf(TouchedMultiplier row) const { return kindOf(numberOf(row)); }
+  [[nodiscard]] MultiplierNumber numberOf(OwnedMultiplier row) const {
+    return multiplierMap->getGlobalElement(row);
   }
-  /// Of a row that this rank's subdomains touch, by its local index in multiplierGhostMap.
-  [[nodiscard]] RowKind kindOfTouched(LocalOrdinal row) const {
-    return kindOf(multiplierGhostMap->getGlobalElement(row));
+  [[nodiscard]] MultiplierNumber numberOf(TouchedMultiplier row) const {
+    return multiplierGhostMap->getGlobalElement(row);
   }
   /// n_λ
   [[nodiscard]] GlobalOrdinal dualDimension() const { return numInequalities + numEqualities; }

@@ -7,15 +7,17 @@
 #include <Teuchos_Comm.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
+#include <utility>
 
 namespace epafi::decomposition {
 namespace {
 
 /// A subdomain that has a node.
 struct Sighting {
-  GlobalOrdinal node; ///< numbered through all bodies
-  int number;         ///< of the subdomain
+  NodeNumber node;
+  SubdomainNumber number;
   int rank;
   unsigned free; ///< which components are unknowns, as the digits of a binary number
 
@@ -34,7 +36,7 @@ void forEachNode(std::span<const Sighting> sightings, Action&& action) {
   }
 }
 
-unsigned freeComponents(const Substructures& all, std::size_t s, std::size_t node) {
+unsigned freeComponents(const Substructures& all, SubdomainPlace s, NodePlace node) {
   unsigned digits = 0;
   for (const int unknown : all.unknownsAt(s, node))
     digits = 2 * digits + (unknown >= 0 ? 1 : 0);
@@ -54,40 +56,64 @@ std::vector<Sighting> sightingsHere(const Substructures& all) {
   return sightings;
 }
 
-/// Sightings of nodes that have two or more.
-std::vector<Sighting> ofSharedNodes(std::span<const Sighting> sightings) {
-  std::vector<Sighting> shared;
-  forEachNode(sightings, [&](std::span<const Sighting> atNode) {
-    if (atNode.size() > 1)
-      shared.insert(shared.end(), atNode.begin(), atNode.end());
+/// A node that another rank has too.
+struct Encounter {
+  NodeNumber node;
+  int rank;
+};
+
+/// The nodes of `here` that other ranks have, with each of these, ascending: each node has a rank, its number modulo the number
+/// of ranks, that hears who has it and tells them of each other. Collective.
+std::vector<Encounter> encounters(const RCP<const Comm>& comm, std::span<const Sighting> here) {
+  std::vector<Encounter> mine;
+  std::vector<int> ranks;
+  forEachNode(here, [&](std::span<const Sighting> atNode) {
+    mine.push_back({atNode.front().node, comm->getRank()});
+    ranks.push_back(static_cast<int>(atNode.front().node % comm->getSize()));
   });
-  return shared;
+  const auto isLess = [](const Encounter& a, const Encounter& b) {
+    return a.node != b.node ? a.node < b.node : a.rank < b.rank;
+  };
+  std::vector<Encounter> heard = sendRecords<Encounter>(comm, mine, ranks), told;
+  std::sort(heard.begin(), heard.end(), isLess);
+  ranks.clear();
+  for (auto first = heard.begin(), end = first; first != heard.end(); first = end) {
+    end = std::find_if(first, heard.end(), [&](const Encounter& other) { return other.node != first->node; });
+    for (auto listener = first; listener != end; ++listener)
+      for (auto other = first; other != end; ++other)
+        if (other != listener) {
+          told.push_back(*other);
+          ranks.push_back(listener->rank);
+        }
+  }
+  std::vector<Encounter> result = sendRecords<Encounter>(comm, told, ranks);
+  std::sort(result.begin(), result.end(), isLess);
+  return result;
 }
 
-/// All ranks' sightings of the shared nodes that this rank has: each node has a rank, its number modulo the number of ranks,
-/// that hears of all of them and tells those who have it. Collective.
+/// All ranks' sightings, ascending, of the nodes that this rank has and several subdomains see. Collective.
 std::vector<Sighting> ofSharedNodes(const RCP<const Comm>& comm, std::span<const Sighting> here) {
+  std::vector<Sighting> ours, sent;
   std::vector<int> ranks;
-  for (const Sighting& sighting : here)
-    ranks.push_back(static_cast<int>(sighting.node % comm->getSize()));
-  std::vector<Sighting> heard = sendRecords(comm, here, ranks);
-  std::sort(heard.begin(), heard.end());
-  std::vector<Sighting> told;
-  ranks.clear();
-  forEachNode(heard, [&](std::span<const Sighting> atNode) {
-    if (atNode.size() < 2)
-      return;
-    int last = -1; // numbers ascend with ranks
-    for (const Sighting& listener : atNode)
-      if (std::exchange(last, listener.rank) != listener.rank)
-        for (const Sighting& sighting : atNode) {
-          told.push_back(sighting);
-          ranks.push_back(listener.rank);
-        }
+  const std::vector<Encounter> others =
+      comm->getSize() == 1 ? std::vector<Encounter>() : encounters(comm, here);
+  auto other = others.begin();
+  forEachNode(here, [&](std::span<const Sighting> atNode) {
+    const bool isElsewhere = other != others.end() && other->node == atNode.front().node;
+    for (; other != others.end() && other->node == atNode.front().node; ++other) {
+      sent.insert(sent.end(), atNode.begin(), atNode.end());
+      ranks.insert(ranks.end(), atNode.size(), other->rank);
+    }
+    if (isElsewhere || atNode.size() > 1)
+      ours.insert(ours.end(), atNode.begin(), atNode.end());
   });
-  std::vector<Sighting> shared = sendRecords<Sighting>(comm, told, ranks);
-  std::sort(shared.begin(), shared.end());
-  return shared;
+  if (comm->getSize() == 1)
+    return ours;
+  std::vector<Sighting> theirs = sendRecords<Sighting>(comm, sent, ranks), all;
+  std::sort(theirs.begin(), theirs.end());
+  all.reserve(ours.size() + theirs.size());
+  std::merge(ours.begin(), ours.end(), theirs.begin(), theirs.end(), std::back_inserter(all));
+  return all;
 }
 
 void requireEqualUnknowns(const Comm& comm, std::span<const Sighting> shared) {
@@ -107,11 +133,11 @@ void requireEqualUnknowns(const Comm& comm, std::span<const Sighting> shared) {
 } // namespace
 
 SharedNodes::SharedNodes(const Substructures& all) : comm_(all.comm) {
-  std::vector<Sighting> shared = sightingsHere(all);
-  shared = comm_->getSize() == 1 ? ofSharedNodes(shared) : ofSharedNodes(comm_, shared);
+  const std::vector<Sighting> shared = ofSharedNodes(comm_, sightingsHere(all));
   requireEqualUnknowns(*comm_, shared);
 
-  const int me = comm_->getRank(), firstNumber = all.size() > 0 ? all.subdomains.front().number : 0;
+  const int me = comm_->getRank(),
+            firstNumber = all.size() > 0 ? static_cast<int>(all.subdomains.front().number) : 0;
   firstCopy_.assign(all.size() + 1, 0);
   for (const Sighting& sighting : shared)
     if (sighting.rank == me)
@@ -156,7 +182,7 @@ SharedNodes::SharedNodes(const Substructures& all) : comm_(all.comm) {
   }
 }
 
-std::optional<std::size_t> SharedNodes::find(std::size_t subdomain, std::size_t place) const {
+std::optional<std::size_t> SharedNodes::find(SubdomainPlace subdomain, NodePlace place) const {
   const std::span<const Copy> copies = copiesOf(subdomain);
   const auto found =
       std::lower_bound(copies.begin(), copies.end(), place,
@@ -166,7 +192,7 @@ std::optional<std::size_t> SharedNodes::find(std::size_t subdomain, std::size_t 
   return firstCopy_[subdomain] + static_cast<std::size_t>(found - copies.begin());
 }
 
-bool SharedNodes::isLowest(std::size_t subdomain, std::size_t place) const {
+bool SharedNodes::isLowest(SubdomainPlace subdomain, NodePlace place) const {
   const std::optional<std::size_t> copy = find(subdomain, place);
   return !copy || copies_[*copy].order == 0;
 }

@@ -25,7 +25,7 @@ public:
   explicit SharedNodes(const Substructures& all);
 
   struct Copy {
-    std::size_t place; ///< of the node in its subdomain
+    NodePlace place;
     std::size_t node;  ///< its number among the shared nodes
     std::size_t order; ///< its place among the subdomains at the node
   };
@@ -34,7 +34,7 @@ public:
   [[nodiscard]] std::size_t numCopies() const { return copies_.size(); }
   [[nodiscard]] const Copy& copy(std::size_t number) const { return copies_[number]; }
   /// Those of a subdomain, ascending places.
-  [[nodiscard]] std::span<const Copy> copiesOf(std::size_t subdomain) const {
+  [[nodiscard]] std::span<const Copy> copiesOf(SubdomainPlace subdomain) const {
     return std::span(copies_).subspan(firstCopy_[subdomain],
                                       firstCopy_[subdomain + 1] - firstCopy_[subdomain]);
   }
@@ -43,9 +43,9 @@ public:
     return std::span(numbers_).subspan(start_[node], start_[node + 1] - start_[node]);
   }
   /// The number of the copy at a place of a subdomain; nothing if no other subdomain has the node.
-  [[nodiscard]] std::optional<std::size_t> find(std::size_t subdomain, std::size_t place) const;
+  [[nodiscard]] std::optional<std::size_t> find(SubdomainPlace subdomain, NodePlace place) const;
   /// Whether no lower subdomain has the node at a place.
-  [[nodiscard]] bool isLowest(std::size_t subdomain, std::size_t place) const;
+  [[nodiscard]] bool isLowest(SubdomainPlace subdomain, NodePlace place) const;
 
   /// What the copies tell each other: `values` holds `columns` numbers a copy; those of all copies at this rank's shared nodes come
   /// back, in the places that `slot` tells. Only the nodes for which `isWanted(node)`, the same on all ranks, send messages. Collective.

@@ -16,7 +16,9 @@ Splitting splitUnknowns(const Substructures& all, const SharedNodes& shared, con
     for (std::size_t node = 0; node < all.numNodes(s); ++node) {
       const bool isCrosspoint = crosspoints.isCrosspoint(s, node);
       const bool owned = isCrosspoint && shared.isLowest(s, node);
-      GlobalOrdinal index = isCrosspoint ? crosspoints.firstIndex(all.globalNode(s, node)) : 0;
+      GlobalOrdinal index = 0;
+      if (isCrosspoint)
+        index = crosspoints.firstIndex(all.globalNode(s, node));
       for (const int unknown : all.unknownsAt(s, node)) {
         if (unknown < 0)
           continue;

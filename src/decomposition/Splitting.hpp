@@ -12,7 +12,7 @@ namespace epafi::decomposition {
 /// The unknowns of a subdomain, as in `Subdomain`.
 struct Split {
   std::vector<int> remainderUnknowns, crosspointUnknowns;
-  std::vector<GlobalOrdinal> crosspointIndices;
+  std::vector<CoarseNumber> crosspointIndices;
 };
 
 struct Splitting {

@@ -42,30 +42,29 @@ struct Substructures {
   int numSubdomains;                     ///< of the whole problem; ranks have theirs in ascending order
 
   [[nodiscard]] std::size_t size() const { return subdomains.size(); }
-  [[nodiscard]] std::size_t numNodes(std::size_t s) const { return subdomains[s].nodes.size(); }
-  /// Number of a subdomain's node among those of all bodies.
-  [[nodiscard]] GlobalOrdinal globalNode(std::size_t s, std::size_t node) const {
+  [[nodiscard]] std::size_t numNodes(SubdomainPlace s) const { return subdomains[s].nodes.size(); }
+  [[nodiscard]] NodeNumber globalNode(SubdomainPlace s, NodePlace node) const {
     return bodies[static_cast<std::size_t>(subdomains[s].body)].firstNode + subdomains[s].nodes[node];
   }
   /// Number of an unknown, or prescribed value, among those of all bodies.
-  [[nodiscard]] GlobalOrdinal globalUnknown(std::size_t s, std::size_t node, std::size_t component) const {
+  [[nodiscard]] GlobalOrdinal globalUnknown(SubdomainPlace s, NodePlace node, std::size_t component) const {
     return globalNode(s, node) * static_cast<GlobalOrdinal>(components) +
            static_cast<GlobalOrdinal>(component);
   }
-  [[nodiscard]] fem::Point point(std::size_t s, std::size_t node) const {
+  [[nodiscard]] fem::Point point(SubdomainPlace s, NodePlace node) const {
     return places.point(subdomains[s].body, subdomains[s].nodes[node]);
   }
   /// Unknown of each component of a node, −1 where it has none.
-  [[nodiscard]] std::span<const int> unknownsAt(std::size_t s, std::size_t node) const {
+  [[nodiscard]] std::span<const int> unknownsAt(SubdomainPlace s, NodePlace node) const {
     return std::span(nodal[s].unknownOf).subspan(node * components, components);
   }
-  [[nodiscard]] int numFree(std::size_t s, std::size_t node) const {
+  [[nodiscard]] int numFree(SubdomainPlace s, NodePlace node) const {
     int number = 0;
     for (const int unknown : unknownsAt(s, node))
       number += unknown >= 0 ? 1 : 0;
     return number;
   }
-  [[nodiscard]] bool isFree(std::size_t s, std::size_t node) const { return numFree(s, node) > 0; }
+  [[nodiscard]] bool isFree(SubdomainPlace s, NodePlace node) const { return numFree(s, node) > 0; }
 };
 
 /// The stiffness of a node's values, diag K, component by component; 0 where it has no unknown.

@@ -107,7 +107,9 @@ double BodyModel::kernelValue(GlobalOrdinal node, int component, int mode) const
 std::optional<RigidMotions> BodyModel::rigidMotions() const {
   if (components() == 1)
     return std::nullopt;
-  return RigidMotions{rigidModes_.centre(), rigidModes_.size(), rigidModes_.twists() * freeModes_};
+  const Point& centre = rigidModes_.centre();
+  return RigidMotions{
+      {centre[0], centre[1], centre[2]}, rigidModes_.size(), rigidModes_.twists() * freeModes_};
 }
 
 /// Where elements are congruent the kind is the region, and behind the regions come those that turn into frames; else

@@ -4,6 +4,7 @@
 /// after `fem` never knows which physics it is.
 
 #include "epafi/fem/RigidModes.hpp"
+#include "epafi/fem/RigidMotions.hpp"
 #include "epafi/fem/SolidBody.hpp"
 #include "epafi/fem/SolidDomains.hpp"
 #include "epafi/fem/SolidLoads.hpp"
@@ -18,13 +19,6 @@
 #include <vector>
 
 namespace epafi::fem {
-
-/// The rigid motions that supports leave free, as motions in space.
-struct RigidMotions {
-  Point centre{};         ///< of the body
-  double size = 1;        ///< half its largest extent
-  Eigen::MatrixXd twists; ///< 6 × kernelDimension: displacement of the centre, rotation vector
-};
 
 /// A node's unknowns are its displacement's components along the axes of space, or of its frame if it has one. Stiffness,
 /// loads, prescribed values and kernel are all in these unknowns.

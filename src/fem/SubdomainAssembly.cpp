@@ -39,9 +39,9 @@ void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, Assem
   std::shared_ptr<const StiffnessPattern> pattern = patterns_.find(
       [&](const StiffnessPattern& known) { return known.fits(*numbering, subdomain.unknownOf); });
   if (!pattern)
-    pattern = patterns_.add(
-        StiffnessPattern(numbering, model_.components(), subdomain.unknownOf),
-        elements.size() * square(static_cast<std::size_t>(model_.mesh().nodesPerElement()) * components_));
+    pattern = patterns_.add(StiffnessPattern(numbering, model_.components(), subdomain.unknownOf),
+                            elements.size() *
+                                square(static_cast<std::size_t>(model_.unknowns().unknownsPerElement())));
 
   kinds_.resize(elements.size());
   model_.kinds(elements, kinds_);
@@ -55,9 +55,9 @@ void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, Assem
 /// Finds the nodes.
 std::shared_ptr<const LocalNumbering> SubdomainAssembler::number(std::span<const GlobalOrdinal> elements,
                                                                  AssembledSubdomain& subdomain) {
-  const int perElement = model_.mesh().nodesPerElement();
+  const int perElement = model_.unknowns().nodesPerElement();
   corners_.resize(elements.size() * static_cast<std::size_t>(perElement));
-  model_.mesh().elementNodes(elements, corners_);
+  model_.unknowns().elementNodes(elements, corners_);
   std::optional<GlobalOrdinal> firstNode;
   std::shared_ptr<const LocalNumbering> numbering = numberings_.find([&](const LocalNumbering& known) {
     firstNode = known.firstNodeIfShifted(corners_);
@@ -73,7 +73,7 @@ std::shared_ptr<const LocalNumbering> SubdomainAssembler::number(std::span<const
 
 void SubdomainAssembler::findBorder(const LocalNumbering& numbering, AssembledSubdomain& subdomain) {
   numElementsAt_.resize(subdomain.nodes.size());
-  model_.mesh().numNodeElements(subdomain.nodes, numElementsAt_);
+  model_.unknowns().numNodeElements(subdomain.nodes, numElementsAt_);
   subdomain.borderNodes.clear();
   for (std::size_t i = 0; i < numElementsAt_.size(); ++i)
     if (numElementsAt_[i] > numbering.numElementsAt()[i])

@@ -130,7 +130,8 @@ void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const
 } // namespace
 
 CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
-                             std::span<const GlobalOrdinal> crosspoints, const DirectSolvers& solvers)
+                             std::span<const decomposition::CoarseNumber> crosspoints,
+                             const DirectSolvers& solvers)
     : comm_(problem.comm), size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())),
       crosspoints_(crosspoints.begin(), crosspoints.end()) {
   const bool isReplicated = size_ <= solvers.maxReplicated || comm_->getSize() == 1;
@@ -161,7 +162,7 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   }
   const auto whole = static_cast<Tpetra::global_size_t>(size_);
   const RCP<const Map> firstMap = rcp(new Map(whole, static_cast<std::size_t>(isMine ? size_ : 0), 0, comm_));
-  const RCP<const Map> myMap = mapInOrder(crosspoints_, comm_);
+  const RCP<const Map> myMap = mapInOrder({crosspoints_.begin(), crosspoints_.end()}, comm_);
   import_ = rcp(new Import(firstMap, myMap));
   first_ = rcp(new MultiVector(firstMap, 1));
   mine_ = rcp(new MultiVector(myMap, 1));
@@ -183,7 +184,7 @@ void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) co
 void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
   sums_.assign(static_cast<std::size_t>(rhs_.size()), AccurateSum());
   for (Eigen::Index j = 0, k = 0; j < x.cols(); ++j)
-    for (const GlobalOrdinal crosspoint : crosspoints_)
+    for (const decomposition::CoarseNumber crosspoint : crosspoints_)
       sums_[static_cast<std::size_t>(j * size_ + crosspoint)] = z[static_cast<std::size_t>(k++)];
   sumOverRanks(*comm_, sums_);
   for (std::size_t i = 0; i < sums_.size(); ++i)

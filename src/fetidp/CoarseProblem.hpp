@@ -31,7 +31,7 @@ public:
   /// \param crosspoints  this rank's coarse unknowns, ascending
   /// Collective. \throws Error if the kernel handed over is none of S_cc, or if the factorisation fails.
   CoarseProblem(const decomposition::DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
-                std::span<const GlobalOrdinal> crosspoints, const DirectSolvers& solvers);
+                std::span<const decomposition::CoarseNumber> crosspoints, const DirectSolvers& solvers);
 
   /// Coarse unknowns of the whole problem.
   [[nodiscard]] int size() const { return size_; }
@@ -48,7 +48,7 @@ private:
 
   RCP<const Comm> comm_;
   int size_ = 0;
-  std::vector<GlobalOrdinal> crosspoints_;
+  std::vector<decomposition::CoarseNumber> crosspoints_;
   std::unique_ptr<direct::SpdFactor> factor_; ///< null where another rank has it
   mutable std::vector<AccurateSum> sums_;     ///< work of a replicated one
   mutable Eigen::MatrixXd rhs_, solution_;    ///< work

@@ -11,7 +11,7 @@
 namespace epafi::fetidp {
 namespace {
 
-using Unknowns = std::vector<GlobalOrdinal>;
+using Unknowns = std::vector<decomposition::CoarseNumber>;
 
 /// The union over the ranks, ascending. Collective.
 Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
@@ -44,7 +44,7 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
   near = unionOverRanks(*problem.comm, myNear);
 }
 
-int positionIn(const Unknowns& unknowns, GlobalOrdinal unknown) {
+int positionIn(const Unknowns& unknowns, decomposition::CoarseNumber unknown) {
   const auto found = std::lower_bound(unknowns.begin(), unknowns.end(), unknown);
   return found != unknowns.end() && *found == unknown ? static_cast<int>(found - unknowns.begin()) : -1;
 }
@@ -64,7 +64,7 @@ ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& p
   for (std::size_t first = 0; first < touched_.size(); first += batch) {
     const auto unknowns = std::span(touched_).subspan(first, std::min(batch, touched_.size() - first));
     std::vector<bool> isOwner;
-    for (const GlobalOrdinal unknown : unknowns)
+    for (const decomposition::CoarseNumber unknown : unknowns)
       isOwner.push_back(problem.crosspointMap->isNodeGlobalElement(unknown));
     const Eigen::MatrixXd columns = inverse.coarseColumns(unknowns, isOwner);
     for (std::size_t i = 0; i < near_.size(); ++i)
@@ -84,11 +84,11 @@ ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& p
   extension_ = response * stiffness_;
 }
 
-int ContactCrosspoints::indexOf(GlobalOrdinal coarseUnknown) const {
+int ContactCrosspoints::indexOf(decomposition::CoarseNumber coarseUnknown) const {
   return positionIn(touched_, coarseUnknown);
 }
 
-int ContactCrosspoints::nearIndexOf(GlobalOrdinal coarseUnknown) const {
+int ContactCrosspoints::nearIndexOf(decomposition::CoarseNumber coarseUnknown) const {
   return positionIn(near_, coarseUnknown);
 }
 

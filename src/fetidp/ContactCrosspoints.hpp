@@ -24,16 +24,16 @@ public:
   /// Number of the crosspoint values, n_C; the same on all ranks.
   [[nodiscard]] Eigen::Index size() const { return stiffness_.rows(); }
   /// Index of a coarse unknown among them, or −1.
-  [[nodiscard]] int indexOf(GlobalOrdinal coarseUnknown) const;
+  [[nodiscard]] int indexOf(decomposition::CoarseNumber coarseUnknown) const;
   /// Index of a coarse unknown among the n_N *near* ones, all those of bodies with touched ones, or −1.
-  [[nodiscard]] int nearIndexOf(GlobalOrdinal coarseUnknown) const;
+  [[nodiscard]] int nearIndexOf(decomposition::CoarseNumber coarseUnknown) const;
   /// How the near ones follow, X: n_N × n_C, on every rank.
   [[nodiscard]] const Eigen::MatrixXd& extension() const { return extension_; }
   /// Ŝ, n_C × n_C, symmetric positive definite, on every rank.
   [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }
 
 private:
-  std::vector<GlobalOrdinal> touched_, near_; ///< ascending
+  std::vector<decomposition::CoarseNumber> touched_, near_; ///< ascending
   Eigen::MatrixXd stiffness_, extension_;
 };
 

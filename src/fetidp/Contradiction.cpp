@@ -66,7 +66,8 @@ void refuseContradiction(const decomposition::DecomposedProblem& problem, const 
   for (Teuchos_Ordinal i = 0; i < mine.size(); ++i) {
     gaps[0].add(gap[i] * mine[i]);
     gaps[1].add(std::abs(gap[i] * mine[i]));
-    if (problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i)) < problem.numInequalities)
+    if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(i))) ==
+        decomposition::RowKind::contact)
       tension = std::max(tension, -mine[i]);
   }
   sumOverRanks(comm, gaps);

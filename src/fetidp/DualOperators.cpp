@@ -25,7 +25,7 @@ RCP<const qp::DeflatedOperator> deflatedOperator(const DecomposedProblem& proble
   if (use == Use::no || (use == Use::automatic && !hasPreconditioner))
     return Teuchos::null;
   const OverratedColumns columns =
-      findOverratedColumns(problem, f->inverse(), JointKind::gluing, parameters.adaptiveConstraints,
+      findOverratedColumns(problem, f->inverse(), RowKind::gluing, parameters.adaptiveConstraints,
                            parameters.preconditioner.scaling);
   if (columns.number == 0)
     return Teuchos::null;
@@ -39,9 +39,8 @@ RCP<const CorrectedPreconditioner> correctedPreconditioner(const DecomposedProbl
   if (parameters.adaptiveConstraints.use == AdaptiveConstraintParameters::Use::no)
     return Teuchos::null;
   const GeneralizedInverse& inverse = operators.f->inverse();
-  const OverratedColumns columns =
-      findOverratedColumns(problem, inverse, JointKind::contact, parameters.adaptiveConstraints,
-                           parameters.preconditioner.scaling);
+  const OverratedColumns columns = findOverratedColumns(
+      problem, inverse, RowKind::contact, parameters.adaptiveConstraints, parameters.preconditioner.scaling);
   if (columns.number == 0)
     return Teuchos::null;
   return rcp(new CorrectedPreconditioner(

@@ -22,7 +22,7 @@ RCP<Vector> DualProblem::startFrom(std::span<const Eigen::VectorXd> displacement
   const RCP<Vector> lambda = operators_.dualPreconditioner->multipliersOf(problem_, given);
   const auto values = lambda->getDataNonConst();
   for (LocalOrdinal row = 0; row < values.size(); ++row)
-    if (problem_.kindOfOwned(row) == decomposition::RowKind::contact)
+    if (problem_.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact)
       values[row] = std::max(values[row], 0.0);
   return lambda;
 }

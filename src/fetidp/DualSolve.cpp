@@ -110,7 +110,7 @@ RCP<Vector> lowerBounds(const DecomposedProblem& problem) {
   const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
   const auto values = lower->getDataNonConst();
   for (LocalOrdinal row = 0; row < values.size(); ++row)
-    if (problem.kindOfOwned(row) == decomposition::RowKind::gluing)
+    if (problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::gluing)
       values[row] = -std::numeric_limits<double>::infinity();
   return lower;
 }

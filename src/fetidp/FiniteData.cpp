@@ -32,9 +32,9 @@ void requireFiniteStiffness(const DecomposedProblem& problem, const Subdomain& s
 void requireFiniteRows(const DecomposedProblem& problem, const Subdomain& subdomain) {
   for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
     if (!std::isfinite(entry.coefficient)) {
-      const GlobalOrdinal row = problem.multiplierGhostMap->getGlobalElement(entry.multiplier);
-      const bool isContact = problem.kindOf(row) == decomposition::RowKind::contact;
-      throw InputError(std::string(isContact ? "contact" : "gluing") + " row " + std::to_string(row) +
+      const bool isContact = problem.kindOf(entry.multiplier) == decomposition::RowKind::contact;
+      throw InputError(std::string(isContact ? "contact" : "gluing") + " row " +
+                       std::to_string(problem.numberOf(entry.multiplier)) +
                        " has a coefficient in subdomain " + std::to_string(subdomain.number) + " of " +
                        bodyOf(problem, subdomain) +
                        " that is not a finite number; check what is entered in B");

@@ -14,8 +14,8 @@ namespace epafi::fetidp {
 namespace {
 
 /// This rank's coarse unknowns, ascending.
-std::vector<GlobalOrdinal> crosspointsOf(const decomposition::DecomposedProblem& problem) {
-  std::vector<GlobalOrdinal> crosspoints;
+std::vector<decomposition::CoarseNumber> crosspointsOf(const decomposition::DecomposedProblem& problem) {
+  std::vector<decomposition::CoarseNumber> crosspoints;
   for (const auto& subdomain : problem.subdomains)
     crosspoints.insert(crosspoints.end(), subdomain.crosspointIndices.begin(),
                        subdomain.crosspointIndices.end());
@@ -121,7 +121,7 @@ void GeneralizedInverse::solveRemainders(const SubdomainVectors& b, SubdomainVec
     groups_[g].substitute(work.coarseValues, b, u, work.groups[g]);
 }
 
-Eigen::MatrixXd GeneralizedInverse::coarseColumns(std::span<const GlobalOrdinal> unknowns,
+Eigen::MatrixXd GeneralizedInverse::coarseColumns(std::span<const decomposition::CoarseNumber> unknowns,
                                                   const std::vector<bool>& isOwner) const {
   std::vector<AccurateSum> units(crosspoints_.size() * unknowns.size());
   for (std::size_t j = 0; j < unknowns.size(); ++j)
@@ -134,7 +134,7 @@ Eigen::MatrixXd GeneralizedInverse::coarseColumns(std::span<const GlobalOrdinal>
   return columns;
 }
 
-int GeneralizedInverse::coarseIndexOf(GlobalOrdinal unknown) const {
+decomposition::CoarsePlace GeneralizedInverse::coarseIndexOf(decomposition::CoarseNumber unknown) const {
   const auto found = std::lower_bound(crosspoints_.begin(), crosspoints_.end(), unknown);
   return found != crosspoints_.end() && *found == unknown ? static_cast<int>(found - crosspoints_.begin())
                                                           : -1;

@@ -65,10 +65,10 @@ public:
   /// Columns of S_cc⁺ at this rank's coarse unknowns.
   /// \param isOwner  of each of `unknowns`: true on exactly one rank, which must have it
   /// Collective.
-  [[nodiscard]] Eigen::MatrixXd coarseColumns(std::span<const GlobalOrdinal> unknowns,
+  [[nodiscard]] Eigen::MatrixXd coarseColumns(std::span<const decomposition::CoarseNumber> unknowns,
                                               const std::vector<bool>& isOwner) const;
   /// Place of a coarse unknown among this rank's, or −1.
-  [[nodiscard]] int coarseIndexOf(GlobalOrdinal unknown) const;
+  [[nodiscard]] decomposition::CoarsePlace coarseIndexOf(decomposition::CoarseNumber unknown) const;
 
   /// This rank's subdomains, identical ones together.
   [[nodiscard]] std::span<const SubdomainGroup> groups() const { return groups_; }
@@ -85,7 +85,7 @@ private:
   DirectSolvers solvers_;
   RCP<const Map> crosspointMap_;
   RCP<const Import> multiplierPlan_;
-  std::vector<GlobalOrdinal> crosspoints_; ///< this rank's coarse unknowns, ascending
+  std::vector<decomposition::CoarseNumber> crosspoints_; ///< this rank's coarse unknowns, ascending
   std::vector<SubdomainGroup> groups_;
   std::shared_ptr<const CoarseProblem> coarseProblem_;
 };

@@ -68,7 +68,7 @@ constexpr double leastSpring = 1e-12;
 Eigen::MatrixXd crosspointFlexibility(const std::vector<JointPart>& parts) {
   std::map<GlobalOrdinal, Eigen::Index> placeOf;
   for (const JointPart& part : parts)
-    for (const GlobalOrdinal crosspoint : part.crosspoints)
+    for (const decomposition::CoarseNumber crosspoint : part.crosspoints)
       placeOf.emplace(crosspoint, 0);
   Eigen::Index size = 0;
   for (auto& [crosspoint, place] : placeOf)
@@ -78,7 +78,7 @@ Eigen::MatrixXd crosspointFlexibility(const std::vector<JointPart>& parts) {
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(size);
   for (const JointPart& part : parts) {
     std::vector<Eigen::Index> places;
-    for (const GlobalOrdinal crosspoint : part.crosspoints)
+    for (const decomposition::CoarseNumber crosspoint : part.crosspoints)
       places.push_back(placeOf[crosspoint]);
     for (std::size_t j = 0; j < places.size(); ++j) {
       const auto column = static_cast<Eigen::Index>(j);

@@ -24,12 +24,12 @@ namespace epafi::fetidp {
 struct JointPart {
   JointPart(int number, Eigen::Index numRows, Eigen::Index numCrosspoints); ///< all 0
 
-  int subdomain;                          ///< its number
-  std::vector<GlobalOrdinal> crosspoints; ///< coarse index of each crosspoint value
-  Eigen::MatrixXd flexibility;            ///< B_E S_ΔΔ⁻¹ B_Eᵀ, n_E × n_E
-  Eigen::MatrixXd response;               ///< B_E Ψ_Δ, n_E × n_c
-  Eigen::MatrixXd crosspointStiffness;    ///< S, n_c × n_c
-  Eigen::VectorXd crosspointDiagonal;     ///< diag K_cc, n_c
+  int subdomain;                                        ///< its number
+  std::vector<decomposition::CoarseNumber> crosspoints; ///< coarse index of each crosspoint value
+  Eigen::MatrixXd flexibility;                          ///< B_E S_ΔΔ⁻¹ B_Eᵀ, n_E × n_E
+  Eigen::MatrixXd response;                             ///< B_E Ψ_Δ, n_E × n_c
+  Eigen::MatrixXd crosspointStiffness;                  ///< S, n_c × n_c
+  Eigen::VectorXd crosspointDiagonal;                   ///< diag K_cc, n_c
   Eigen::MatrixXd weightedStiffness; ///< B_E D⁻¹ S_ΔΔ D⁻¹ B_Eᵀ, n_E × n_E, D the weights of the scaling
   Eigen::VectorXd weights;           ///< Σ b²/δ of each row, n_E
 };

@@ -17,6 +17,8 @@ namespace {
 
 using decomposition::DecomposedProblem;
 using decomposition::Subdomain;
+using decomposition::SubdomainNumber;
+using decomposition::Unknown;
 
 using IntVector = Tpetra::Vector<int>;
 
@@ -43,7 +45,8 @@ std::vector<std::vector<int>> subdomainsOfRows(const DecomposedProblem& problem,
           const auto& found = subdomains[static_cast<std::size_t>(entry.multiplier)];
           const bool isAtCrosspoint =
               std::binary_search(crosspoints.begin(), crosspoints.end(), entry.unknown);
-          for (const int number : {subdomain.number, isAtCrosspoint ? problem.numSubdomains : -1})
+          for (const SubdomainNumber number :
+               {subdomain.number, SubdomainNumber(isAtCrosspoint ? problem.numSubdomains : -1)})
             if (found.empty() || number < found.front())
               values[entry.multiplier] = std::max(values[entry.multiplier], number + 1);
         }
@@ -87,8 +90,8 @@ Eigen::VectorXd nodalDiagonal(const Subdomain& subdomain) {
 }
 
 /// The carrier of the average that each unknown deviates from, or the unknown itself, n_s.
-std::vector<int> carriersOf(const Subdomain& subdomain) {
-  std::vector<int> carriers(static_cast<std::size_t>(subdomain.stiffness->rows()));
+std::vector<Unknown> carriersOf(const Subdomain& subdomain) {
+  std::vector<Unknown> carriers(static_cast<std::size_t>(subdomain.stiffness->rows()));
   for (std::size_t unknown = 0; unknown < carriers.size(); ++unknown)
     carriers[unknown] = static_cast<int>(unknown);
   for (const decomposition::Average& average : subdomain.averages)
@@ -99,13 +102,12 @@ std::vector<int> carriersOf(const Subdomain& subdomain) {
 
 } // namespace
 
-std::vector<Joint> jointsOf(const DecomposedProblem& problem, const Import& plan, JointKind kind) {
+std::vector<Joint> jointsOf(const DecomposedProblem& problem, const Import& plan, RowKind kind) {
   const std::vector<std::vector<int>> subdomains = subdomainsOfRows(problem, plan);
   const Map& ghosts = *plan.getTargetMap();
   std::map<std::vector<int>, std::vector<int>> rowsOf;
   for (std::size_t row = 0; row < subdomains.size(); ++row)
-    if ((ghosts.getGlobalElement(static_cast<LocalOrdinal>(row)) < problem.numInequalities) ==
-            (kind == JointKind::contact) &&
+    if (problem.kindOf(decomposition::TouchedMultiplier(static_cast<LocalOrdinal>(row))) == kind &&
         !subdomains[row].empty() && subdomains[row].back() < problem.numSubdomains)
       rowsOf[subdomains[row]].push_back(static_cast<int>(row));
   const auto before = [&ghosts](int a, int b) {
@@ -155,12 +157,12 @@ std::vector<bool> stiffnessVaries(const DecomposedProblem& problem, const Import
   std::vector<double> least, largest;    // of one subdomain at each joint
   for (const Subdomain& subdomain : problem.subdomains) {
     const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);
-    const std::vector<int> carriers = carriersOf(subdomain);
+    const std::vector<Unknown> carriers = carriersOf(subdomain);
     least.assign(joints.size(), std::numeric_limits<double>::infinity());
     largest.assign(joints.size(), 0.0);
     for (const auto& entry : subdomain.constraint)
       if (const int j = jointOf[static_cast<std::size_t>(entry.multiplier)]; j >= 0)
-        for (const int unknown : {entry.unknown, carriers[static_cast<std::size_t>(entry.unknown)]}) {
+        for (const Unknown unknown : {entry.unknown, carriers[static_cast<std::size_t>(entry.unknown)]}) {
           least[static_cast<std::size_t>(j)] =
               std::min(least[static_cast<std::size_t>(j)], diagonal[unknown]);
           largest[static_cast<std::size_t>(j)] =

@@ -11,7 +11,7 @@
 
 namespace epafi::fetidp {
 
-enum class JointKind { gluing, contact };
+using decomposition::RowKind;
 
 struct Joint {
   std::vector<int> subdomains; ///< numbers, ascending
@@ -22,7 +22,7 @@ struct Joint {
 /// each of them. \param plan  from multiplierMap to multiplierGhostMap. Messages between neighbours, two for every subdomain
 /// that meets in a joint. Collective.
 std::vector<Joint> jointsOf(const decomposition::DecomposedProblem& problem, const Import& plan,
-                            JointKind kind);
+                            RowKind kind);
 
 /// Of each body: whether one of its subdomains is stiffer than another by more than the factor `ratio`, by the largest
 /// diagonal entry of K^s on its boundary. The same on all ranks. Collective.

@@ -24,7 +24,8 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
     const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
     for (const auto& entry : subdomain.constraint)
       for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
-        ghost.sumIntoLocalValue(entry.multiplier, static_cast<std::size_t>(offset + mode),
+        ghost.sumIntoLocalValue(static_cast<LocalOrdinal>(entry.multiplier),
+                                static_cast<std::size_t>(offset + mode),
                                 entry.coefficient * subdomain.kernel(entry.unknown, mode));
   }
   const Import plan(problem.multiplierMap, problem.multiplierGhostMap);
@@ -34,7 +35,8 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
     const auto column = owned.getData(mode);
     for (LocalOrdinal row = 0; row < column.size(); ++row) {
       // Gluing rows cancel: both copies of a node have the same value of R.
-      const bool isContact = problem.kindOfOwned(row) == decomposition::RowKind::contact;
+      const bool isContact =
+          problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact;
       if (isContact && column[row] != 0)
         entries.push_back({static_cast<int>(row), static_cast<int>(mode), column[row]});
     }

@@ -23,7 +23,7 @@ namespace {
 using decomposition::DecomposedProblem;
 
 /// The joints to look at. Collective.
-std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Import& plan, JointKind kind,
+std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Import& plan, RowKind kind,
                                 const AdaptiveConstraintParameters& parameters) {
   std::vector<Joint> all = jointsOf(problem, plan, kind);
   if (parameters.use == AdaptiveConstraintParameters::Use::yes)
@@ -32,7 +32,7 @@ std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Import& 
   // contact alone, knows nothing of it. Scaling takes care of gluing. Membranes do without: they gain with checkerboards and
   // lose with stripes.
   std::vector<bool> always;
-  if (kind == JointKind::contact && problem.components > 1)
+  if (kind == RowKind::contact && problem.components > 1)
     always = bodiesOfVaryingStiffness(problem, parameters.stiffnessRatio);
   const std::vector<bool> varies = stiffnessVaries(problem, plan, all, parameters.stiffnessRatio, always);
   std::vector<Joint> chosen;
@@ -149,7 +149,7 @@ std::vector<Candidate> chosenCandidates(const Comm& comm, const std::vector<Cand
 } // namespace
 
 OverratedColumns findOverratedColumns(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
-                                      JointKind kind, const AdaptiveConstraintParameters& parameters,
+                                      RowKind kind, const AdaptiveConstraintParameters& parameters,
                                       PreconditionerParameters::Scaling scaling) {
   OverratedColumns columns;
   const Comm& comm = *problem.comm;
@@ -178,7 +178,7 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, const Ge
     columns.largestRatio = std::max(columns.largestRatio, candidate.ratio);
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const Eigen::MatrixXd& values = kind == JointKind::gluing ? jumps[j].forces : jumps[j].jumps;
+    const Eigen::MatrixXd& values = kind == RowKind::gluing ? jumps[j].forces : jumps[j].jumps;
     for (Eigen::Index k = 0; k < jumps[j].ratios.size(); ++k)
       if (const auto found = columnOf.find({firstRowOf(joints[j], problem), k}); found != columnOf.end())
         for (std::size_t i = 0; i < joints[j].rows.size(); ++i)

@@ -34,7 +34,7 @@ struct OverratedColumns {
 /// them but the first, and a dense eigenproblem of size n_E. The same on any number of ranks. Collective.
 /// \throws Error if round-off has spoilt a joint's matrices, the same on all ranks.
 OverratedColumns findOverratedColumns(const decomposition::DecomposedProblem& problem,
-                                      const GeneralizedInverse& inverse, JointKind kind,
+                                      const GeneralizedInverse& inverse, RowKind kind,
                                       const AdaptiveConstraintParameters& parameters,
                                       PreconditionerParameters::Scaling scaling);
 

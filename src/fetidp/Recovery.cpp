@@ -57,7 +57,8 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
   AccurateSum sums[4]; // ‖g^P‖², λᵀg, force, active nodes
   double violation = 0, largestGap = 0;
   for (LocalOrdinal i = 0; i < force.size(); ++i) {
-    const bool isContact = problem.kindOfOwned(i) == decomposition::RowKind::contact;
+    const bool isContact =
+        problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact;
     const double projected = isContact && !(force[i] > 0) ? std::min(slack[i], 0.0) : slack[i];
     sums[0].add(projected * projected);
     violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]));

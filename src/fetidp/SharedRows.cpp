@@ -16,8 +16,7 @@ std::vector<LocalOrdinal> sharedContactRows(const decomposition::DecomposedProbl
   for (const decomposition::Subdomain& subdomain : problem.subdomains) {
     std::map<int, std::vector<int>> rowsOf; // of an unknown
     for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
-      if (entry.coefficient != 0 &&
-          problem.kindOfTouched(entry.multiplier) == decomposition::RowKind::contact)
+      if (entry.coefficient != 0 && problem.kindOf(entry.multiplier) == decomposition::RowKind::contact)
         rowsOf[entry.unknown].push_back(entry.multiplier);
     for (auto& [unknown, rows] : rowsOf) {
       std::sort(rows.begin(), rows.end());

@@ -34,7 +34,8 @@ void addProduct(std::span<const InterfaceEntry> b, const Eigen::MatrixXd& values
 }
 
 SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains,
-                               IdenticalSubdomains identical, std::span<const GlobalOrdinal> crosspoints,
+                               IdenticalSubdomains identical,
+                               std::span<const decomposition::CoarseNumber> crosspoints,
                                direct::Factorizer& factorizer, const SubdomainGroup* previous)
     : subdomains_(&subdomains), members_(std::move(identical.members)),
       numOnAllRanks_(identical.numOnAllRanks),

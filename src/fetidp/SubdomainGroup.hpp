@@ -51,7 +51,7 @@ public:
   ///                     block is used again
   /// Keeps a reference to `subdomains`, which must outlive it. \throws Error if the factorisation fails.
   SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains, IdenticalSubdomains identical,
-                 std::span<const GlobalOrdinal> crosspoints, direct::Factorizer& factorizer,
+                 std::span<const decomposition::CoarseNumber> crosspoints, direct::Factorizer& factorizer,
                  const SubdomainGroup* previous = nullptr);
 
   [[nodiscard]] const CondensedSubdomain& condensed() const { return *condensed_; }
@@ -61,7 +61,7 @@ public:
   /// How dense blocks of the group are used: the same on any number of ranks, and with it the last digit of products.
   [[nodiscard]] direct::SymmetricBlock::Use use() const { return use_; }
   /// Global coarse index of each crosspoint value of a member.
-  [[nodiscard]] std::span<const GlobalOrdinal> crosspointIndices(std::size_t member) const {
+  [[nodiscard]] std::span<const decomposition::CoarseNumber> crosspointIndices(std::size_t member) const {
     return (*subdomains_)[members_[member]].crosspointIndices;
   }
   /// B's entries in the members' boundaries, member after member.

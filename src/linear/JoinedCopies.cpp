@@ -54,12 +54,12 @@ void requireNoJump(const DecomposedProblem& problem, const GlobalUnknowns& unkno
     for (std::size_t s = 0; s < u.size(); ++s)
       for (const auto& entry : problem.subdomains[s].constraint) {
         const auto multiplier = static_cast<std::size_t>(entry.multiplier);
-        const GlobalOrdinal row = problem.multiplierGhostMap->getGlobalElement(entry.multiplier);
-        if (problem.kindOf(row) == decomposition::RowKind::gluing && std::abs(total[multiplier]) > roundOff)
+        if (problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing &&
+            std::abs(total[multiplier]) > roundOff)
           throw InputError("unknown " + std::to_string(entry.unknown) + " of subdomain " +
                            std::to_string(problem.subdomains[s].number) + ", with the global number " +
                            std::to_string(unknowns[s][static_cast<std::size_t>(entry.unknown)]) +
-                           ", is glued by row " + std::to_string(row) +
+                           ", is glued by row " + std::to_string(problem.numberOf(entry.multiplier)) +
                            " to one with another number; copies that are glued must have the same");
       }
   });
@@ -71,7 +71,7 @@ void requireCommonCrosspoints(const DecomposedProblem& problem, const SubdomainV
   SubdomainVectors values, ones;
   for (std::size_t s = 0; s < u.size(); ++s) {
     const decomposition::Subdomain& subdomain = problem.subdomains[s];
-    crosspoints.push_back(subdomain.crosspointIndices);
+    crosspoints.emplace_back(subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
     values.emplace_back(u[s](subdomain.crosspointUnknowns, 0));
     ones.emplace_back(Eigen::MatrixXd::Ones(values.back().rows(), 1));
   }

@@ -44,22 +44,21 @@ std::vector<Body> describeBodies(const std::vector<BodyLayout>& layouts, const M
   for (std::size_t b = 0; b < layouts.size(); ++b) {
     const int modes = models[b]->kernelDimension();
     Body& body = bodies.emplace_back(Body{layouts[b].name, modes, kernelOffset, firstNode});
-    if (const auto motions = modes > 0 ? models[b]->rigidMotions() : std::nullopt)
-      body.motions = {
-          {motions->centre[0], motions->centre[1], motions->centre[2]}, motions->size, motions->twists};
+    if (modes > 0)
+      body.motions = models[b]->rigidMotions();
     kernelOffset += modes;
-    firstNode += layouts[b].mesh->numNodes();
+    firstNode += models[b]->unknowns().numNodes();
   }
   return bodies;
 }
 
-decomposition::NodePlaces placesOf(const std::vector<BodyLayout>& bodies) {
-  const auto meshOf = [&bodies](int body) -> const fem::Mesh& {
-    return *bodies[static_cast<std::size_t>(body)].mesh;
+decomposition::NodePlaces placesOf(const Models& models) {
+  const auto mapOf = [&models](int body) -> const fem::UnknownMap& {
+    return models[static_cast<std::size_t>(body)]->unknowns();
   };
-  return {fem::dimensionOf(bodies.front().mesh->cellType()),
-          [meshOf](int body, GlobalOrdinal node) { return meshOf(body).point(node); },
-          [meshOf](int body, GlobalOrdinal node) { return meshOf(body).isBoundaryNode(node); }};
+  return {fem::dimensionOf(models.front()->mesh().cellType()),
+          [mapOf](int body, GlobalOrdinal node) { return mapOf(body).point(node); },
+          [mapOf](int body, GlobalOrdinal node) { return mapOf(body).isBoundaryNode(node); }};
 }
 
 /// Body of a subdomain.
@@ -127,7 +126,7 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
       models.push_back(makeModel(scene.bodies[b], *result.bodies[b].mesh));
   });
   decomposition::UnassembledProblem problem(comm, models.front()->components(),
-                                            describeBodies(result.bodies, models), placesOf(result.bodies));
+                                            describeBodies(result.bodies, models), placesOf(models));
   const Share share = shareOf(result.bodies, *comm);
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
   if (!result.contacts.empty())

@@ -32,8 +32,8 @@ std::vector<ContactSums> sumOwnRows(const SolvedScene& solved, const Evaluation&
   const auto active = solved.solution.active->getData();
   std::vector<ContactSums> sums(contacts.size());
   for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
-    const GlobalOrdinal index = map.getGlobalElement(static_cast<LocalOrdinal>(i));
-    if (index >= solved.decomposition.problem.numInequalities)
+    const decomposition::MultiplierNumber index = map.getGlobalElement(static_cast<LocalOrdinal>(i));
+    if (solved.decomposition.problem.kindOf(index) != decomposition::RowKind::contact)
       continue;
     const auto contact = std::find_if(contacts.begin(), contacts.end(), [index](const ContactLayout& c) {
       return index < c.firstRow + c.numRows();

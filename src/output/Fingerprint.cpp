@@ -38,8 +38,7 @@ Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem) {
   AccurateSum stiffness;
   for (const decomposition::Subdomain& subdomain : problem.subdomains) {
     for (const decomposition::ConstraintEntry& entry : subdomain.constraint) {
-      const auto row =
-          static_cast<std::uint64_t>(problem.multiplierGhostMap->getGlobalElement(entry.multiplier));
+      const auto row = static_cast<std::uint64_t>(problem.numberOf(entry.multiplier));
       rows += mixed(numberOf(subdomain, static_cast<std::size_t>(entry.unknown), problem.components) + row);
     }
     for (int i = 0; i < subdomain.stiffness->rows(); ++i) {

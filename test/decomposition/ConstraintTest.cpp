@@ -23,7 +23,7 @@ TEST(ConstraintTest, EveryGluingRowJoinsTwoCopiesOfOneNode) {
     std::vector<double> plus(n, 0), minus(n, 0), other(n, 0), lower(n, 0), higher(n, 0), difference(n, 0);
     for (const Subdomain& s : p.subdomains)
       for (const ConstraintEntry& entry : s.constraint) {
-        const auto row = static_cast<std::size_t>(p.multiplierGhostMap->getGlobalElement(entry.multiplier));
+        const auto row = static_cast<std::size_t>(p.numberOf(entry.multiplier));
         plus[row] += entry.coefficient == 1 ? 1 : 0;
         minus[row] += entry.coefficient == -1 ? 1 : 0;
         other[row] += std::abs(entry.coefficient) != 1 ? 1 : 0;

@@ -35,7 +35,7 @@ std::array<double, 2> entryOf(const DecomposedProblem& p, GlobalOrdinal row, int
   std::vector<double> found{0, 0};
   for (const Subdomain& s : p.subdomains)
     for (const ConstraintEntry& entry : s.constraint)
-      if (s.body == body && p.multiplierGhostMap->getGlobalElement(entry.multiplier) == row) {
+      if (s.body == body && p.numberOf(entry.multiplier) == row) {
         found[0] += entry.coefficient;
         found[1] += nodeKey(s, entry.unknown, 1) - 1e6 * (body + 1);
       }
@@ -78,7 +78,7 @@ TEST(ContactTest, ASharedNodesEntryAndRowBelongToItsLowestSubdomain) {
   std::vector<int> holders;
   for (const Subdomain& s : p.subdomains)
     for (const ConstraintEntry& entry : s.constraint)
-      if (p.multiplierGhostMap->getGlobalElement(entry.multiplier) == 2) { // the middle node, a crosspoint
+      if (p.numberOf(entry.multiplier) == 2) { // the middle node, a crosspoint
         EXPECT_TRUE(s.number == 1 || s.number == 4) << s.number;
         EXPECT_EQ(entry.coefficient, s.number == 1 ? 1.0 : -1.0);
         holders.push_back(s.number);

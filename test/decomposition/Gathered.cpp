@@ -103,7 +103,7 @@ Eigen::MatrixXd mergedConstraint(const DecomposedProblem& problem) {
   const auto columns = mergedColumns(problem);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
     for (const ConstraintEntry& entry : problem.subdomains[s].constraint)
-      merged(static_cast<Eigen::Index>(problem.multiplierGhostMap->getGlobalElement(entry.multiplier)),
+      merged(static_cast<Eigen::Index>(problem.numberOf(entry.multiplier)),
              columns[s][static_cast<std::size_t>(entry.unknown)]) += entry.coefficient;
   sum(*problem.comm, merged);
   return merged;

@@ -51,8 +51,7 @@ struct Deflated : Preconditioned {
   Deflated(const scene::Scene& scene, const AdaptiveConstraintParameters& parameters,
            const RCP<const Comm>& comm = world())
       : Preconditioned(scene, {}, comm),
-        constraints(
-            findOverratedColumns(problem, *inverse, JointKind::gluing, parameters, Scaling::stiffness)),
+        constraints(findOverratedColumns(problem, *inverse, RowKind::gluing, parameters, Scaling::stiffness)),
         operatorF(rcp(new DualOperator(inverse))),
         deflated(operatorF, spaceOf(constraints, *inverse->multiplierPlan(), *operatorF)) {}
 
@@ -89,7 +88,7 @@ Eigen::VectorXd spectrum(const Deflated& d, const Operator& preconditioner) {
 int mostJoints(const Deflated& d) {
   std::map<int, int> numOf;
   int most = 0;
-  for (const Joint& joint : jointsOf(d.problem, *d.inverse->multiplierPlan(), JointKind::gluing))
+  for (const Joint& joint : jointsOf(d.problem, *d.inverse->multiplierPlan(), RowKind::gluing))
     for (const int number : joint.subdomains)
       most = std::max(most, ++numOf[number]);
   return static_cast<int>(maxOverRanks(*d.problem.comm, most));
@@ -184,7 +183,7 @@ struct Corrected : Deflated {
   Corrected(const scene::Scene& scene, const AdaptiveConstraintParameters& parameters,
             const RCP<const Comm>& comm = world())
       : Deflated(scene, parameters, comm),
-        jumps(findOverratedColumns(problem, *inverse, JointKind::contact, parameters, Scaling::stiffness)),
+        jumps(findOverratedColumns(problem, *inverse, RowKind::contact, parameters, Scaling::stiffness)),
         constrained(rcp(new DualPreconditioner(problem, inverse, {}, Teuchos::rcpFromRef(deflated)))),
         corrected(constrained, spaceOf(jumps, *inverse->multiplierPlan(), deflated, constrained.get())) {}
 

@@ -50,7 +50,7 @@ struct Crosspoints {
     const Indices indices(subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
     stiffness(indices, indices) += s;
     for (const auto& entry : subdomain.constraint)
-      if (problem.multiplierGhostMap->getGlobalElement(entry.multiplier) < problem.numInequalities) {
+      if (problem.numberOf(entry.multiplier) < problem.numInequalities) {
         const auto at = std::find(c.begin(), c.end(), entry.unknown);
         if (at != c.end())
           isTouched[indices[static_cast<std::size_t>(at - c.begin())]] = 1;

@@ -144,7 +144,7 @@ private:
   }
 
   [[nodiscard]] Eigen::Index row(const decomposition::ConstraintEntry& entry) const {
-    return static_cast<Eigen::Index>(problem_.multiplierGhostMap->getGlobalElement(entry.multiplier));
+    return static_cast<Eigen::Index>(problem_.numberOf(entry.multiplier));
   }
   [[nodiscard]] double weight(const Subdomain& s, int unknown) const {
     if (parameters_.scaling == Scaling::multiplicity)

@@ -59,7 +59,7 @@ TEST(JointStiffnessTest, TheStiffnessOfThePreconditionerIsItsDiagonalBlock) {
     for (const scene::Scene& scene : {membranesWithAChannel(), elasticBar(4, 2)}) {
       const Preconditioned p(scene, {Type::dirichlet, scaling, false}, thisRankOnly());
       const Eigen::MatrixXd m = matrixOf(p.m);
-      for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing)) {
+      for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing)) {
         const std::vector<int> rows = globalRows(p, joint);
         EXPECT_LE(relativeError(joined(partsOf(p, joint, scaling)).preconditioner, m(rows, rows)), 1e-12);
       }
@@ -70,7 +70,7 @@ TEST(JointStiffnessTest, TheFlexibilityIsThatOfFWhereTheSubdomainsAreTheWholeBod
   scene::Scene scene = decomposition::oneBody(8, 4, grid(2, 1), {{"wall", "left", {0.0}}});
   for (const scene::Scene& body : {scene, elasticBar(2, 1)}) {
     const Preconditioned p(body, {}, thisRankOnly());
-    const auto joints = jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing);
+    const auto joints = jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing);
     ASSERT_EQ(joints.size(), 1U);
     EXPECT_LE(relativeError(joined(partsOf(p, joints[0])).flexibility, matrixOf(p.f)), 1e-9);
   }
@@ -81,7 +81,7 @@ TEST(JointStiffnessTest, TheFlexibilityIsAboveThatOfF) {
   for (const scene::Scene& scene : {membranesWithAChannel(), elasticBar(4, 2)}) {
     const Preconditioned p(scene, {}, thisRankOnly());
     const Eigen::MatrixXd f = matrixOf(p.f);
-    for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing)) {
+    for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing)) {
       const std::vector<int> rows = globalRows(p, joint);
       const Eigen::MatrixXd local = joined(partsOf(p, joint)).flexibility;
       const Eigen::VectorXd difference =
@@ -113,12 +113,12 @@ TEST(JointStiffnessTest, RefusesAPreconditionerThatIsNotPositive) {
 /// Two elastic subdomains joined at one crosspoint, the second one otherwise free, turn about it against no stiffness at all.
 TEST(JointStiffnessTest, AHingeIsOneJumpWithoutEnergy) {
   const Preconditioned p(elasticBar(2, 1), {}, thisRankOnly());
-  const Joint joint = jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing).front();
+  const Joint joint = jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing).front();
   std::vector<JointPart> parts = partsOf(p, joint);
   EXPECT_EQ(overratedJumps(joined(parts), 30).ratios.size(), 0);
   const GlobalOrdinal hinge = parts[1].crosspoints.front();
   GlobalOrdinal number = 1000;
-  for (GlobalOrdinal& crosspoint : parts[1].crosspoints)
+  for (decomposition::CoarseNumber& crosspoint : parts[1].crosspoints)
     if (crosspoint > hinge + 1) // both components of the first one stay joined
       crosspoint = number++;
 
@@ -141,7 +141,7 @@ TEST(JointStiffnessTest, PartsSurviveAMessage) {
   const Preconditioned p(elasticBar(4, 2), {}, thisRankOnly());
   std::vector<std::byte> message;
   std::vector<JointPart> sent;
-  for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), JointKind::gluing))
+  for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing))
     for (const JointPart& part : partsOf(p, joint)) {
       pack(static_cast<GlobalOrdinal>(sent.size()), part, message);
       sent.push_back(part);

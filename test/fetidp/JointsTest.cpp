@@ -15,7 +15,7 @@ namespace epafi::fetidp {
 namespace {
 
 struct Found {
-  explicit Found(const scene::Scene& scene, JointKind kind = JointKind::gluing)
+  explicit Found(const scene::Scene& scene, RowKind kind = RowKind::gluing)
       : decomposition(decompose(scene, world())), problem(decomposition.problem),
         plan(problem.multiplierMap, problem.multiplierGhostMap), joints(jointsOf(problem, plan, kind)) {}
 
@@ -146,7 +146,7 @@ TEST(JointsTest, BodiesVaryWhereOneSubdomainIsStifferThanAnother) {
 TEST(JointsTest, ContactOfABodyThatVariesIsAlwaysLookedAt) {
   scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
   scene.bodies[1].regions = {{"far from the contact", scene::rectangle(1.5, 2, 0, 1), "", {1e3}}};
-  const Found found(scene, JointKind::contact);
+  const Found found(scene, RowKind::contact);
   EXPECT_EQ(found.varies(10), std::vector<bool>(found.joints.size(), false));
   const std::vector<bool> always = bodiesOfVaryingStiffness(found.problem, 10);
   EXPECT_EQ(stiffnessVaries(found.problem, found.plan, found.joints, 10, always),
@@ -174,7 +174,7 @@ TEST(JointsTest, StiffnessThatVariesIsSeenBehindAverages) {
 }
 
 TEST(JointsTest, ContactJoinsTheSubdomainsThatFaceEachOther) {
-  const auto joints = allJoints(Found(twoMembranes(true, 12, grid(3, 3)), JointKind::contact));
+  const auto joints = allJoints(Found(twoMembranes(true, 12, grid(3, 3)), RowKind::contact));
   ASSERT_EQ(joints.size(), 3U);
   for (const auto& [subdomains, rows] : joints) {
     ASSERT_EQ(subdomains.size(), 2U);

@@ -59,7 +59,7 @@ void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdoma
     primal.copies[at] += 1;
   }
   for (const auto& entry : subdomain.constraint) {
-    const GlobalOrdinal row = problem.multiplierGhostMap->getGlobalElement(entry.multiplier);
+    const GlobalOrdinal row = problem.numberOf(entry.multiplier);
     if (row < problem.numInequalities)
       primal.constraint(static_cast<Eigen::Index>(row), node[static_cast<std::size_t>(entry.unknown)]) +=
           entry.coefficient;

@@ -145,10 +145,10 @@ TEST(GroupIdenticalTest, WhatDoesNotEnterTheFactorsMayDiffer) {
     s.body = 1;
     for (auto& entry : s.constraint) {
       entry.coefficient *= -2;
-      ++entry.multiplier;
+      entry.multiplier = entry.multiplier + 1;
     }
-    for (GlobalOrdinal& index : s.crosspointIndices)
-      ++index;
+    for (decomposition::CoarseNumber& index : s.crosspointIndices)
+      index = index + 1;
   }));
 }
 

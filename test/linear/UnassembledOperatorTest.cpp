@@ -146,8 +146,9 @@ TEST(UnassembledOperatorTest, RefusesNumbersThatContradictTheGluing) {
     return [crosspoint](const decomposition::DecomposedProblem& problem, GlobalUnknowns& unknowns) {
       for (std::size_t s = 0; s < unknowns.size(); ++s)
         if (problem.subdomains[s].number == 0) {
-          const int unknown = crosspoint ? problem.subdomains[s].crosspointUnknowns.front()
-                                         : problem.subdomains[s].constraint.front().unknown;
+          int unknown = problem.subdomains[s].constraint.front().unknown;
+          if (crosspoint)
+            unknown = problem.subdomains[s].crosspointUnknowns.front();
           numberOf(problem, unknowns, s, unknown) = 100000;
         }
     };

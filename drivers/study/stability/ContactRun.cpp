@@ -83,9 +83,9 @@ Eigen::VectorXd contactForces(const decomposition::DecomposedProblem& problem, c
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.numInequalities));
   const auto values = multiplier.getData();
   for (Teuchos_Ordinal i = 0; i < values.size(); ++i) {
-    const GlobalOrdinal row = problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i));
-    if (row < problem.numInequalities)
-      forces[static_cast<Eigen::Index>(row)] = values[i];
+    const auto row = static_cast<LocalOrdinal>(i);
+    if (problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact)
+      forces[static_cast<Eigen::Index>(problem.multiplierMap->getGlobalElement(row))] = values[i];
   }
   sum(*problem.comm, forces);
   return forces;
