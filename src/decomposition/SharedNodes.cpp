@@ -52,7 +52,7 @@ std::vector<Sighting> sightingsHere(const Substructures& all) {
       sightings.push_back({all.globalNode(s, node), all.subdomains[s].number, all.comm->getRank(),
                            freeComponents(all, s, node)});
     }
-  std::stable_sort(sightings.begin(), sightings.end()); // runs that are sorted already
+  std::sort(sightings.begin(), sightings.end());
   return sightings;
 }
 

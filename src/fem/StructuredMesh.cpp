@@ -42,7 +42,7 @@ Place placeOf(GlobalOrdinal number, const std::array<int, 3>& size) {
 
 /// Of the n elements in a row, how many touch its node i.
 int numTouching(GlobalOrdinal i, int n) {
-  return (i > 0 ? 1 : 0) + (i < n ? 1 : 0);
+  return 2 - static_cast<int>(i == 0) - static_cast<int>(i == n);
 }
 
 /// Appends the elements from (i,j,k) = first to end, the latter excluded, ascending.
@@ -115,11 +115,12 @@ void StructuredMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>
 
 void StructuredMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const {
   GridWalk walk(nodes_[0], nodes_[1]);
-  auto number = numbers.begin();
-  for (const GlobalOrdinal node : nodes) {
-    walk.to(node);
-    *number++ = numTouching(walk[0], elements_[0]) * numTouching(walk[1], elements_[1]) *
-                numTouching(walk[2], elements_[2]);
+  for (std::size_t k = 0; k < nodes.size();) { // row by row
+    walk.to(nodes[k]);
+    const GlobalOrdinal first = nodes[k] - walk[0];
+    const int ofRow = numTouching(walk[1], elements_[1]) * numTouching(walk[2], elements_[2]);
+    for (; k < nodes.size() && nodes[k] < first + nodes_[0]; ++k)
+      numbers[k] = ofRow * numTouching(nodes[k] - first, elements_[0]);
   }
 }
 

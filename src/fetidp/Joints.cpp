@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace epafi::fetidp {
 namespace {
@@ -154,25 +155,23 @@ std::vector<bool> stiffnessVaries(const DecomposedProblem& problem, const Import
     for (const int row : joints[j].rows)
       jointOf[static_cast<std::size_t>(row)] = static_cast<int>(j);
   IntVector varies(plan.getTargetMap()); // at the joint's first row
-  std::vector<double> least, largest;    // of one subdomain at each joint
   for (const Subdomain& subdomain : problem.subdomains) {
     const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);
     const std::vector<Unknown> carriers = carriersOf(subdomain);
-    least.assign(joints.size(), std::numeric_limits<double>::infinity());
-    largest.assign(joints.size(), 0.0);
+    std::map<int, std::pair<double, double>> rangeAt; // least and largest at each of its joints
     for (const auto& entry : subdomain.constraint)
       if (const int j = jointOf[static_cast<std::size_t>(entry.multiplier)]; j >= 0)
         for (const Unknown unknown : {entry.unknown, carriers[static_cast<std::size_t>(entry.unknown)]}) {
-          least[static_cast<std::size_t>(j)] =
-              std::min(least[static_cast<std::size_t>(j)], diagonal[unknown]);
-          largest[static_cast<std::size_t>(j)] =
-              std::max(largest[static_cast<std::size_t>(j)], diagonal[unknown]);
+          auto& [least, largest] =
+              rangeAt.try_emplace(j, std::numeric_limits<double>::infinity(), 0.0).first->second;
+          least = std::min(least, diagonal[unknown]);
+          largest = std::max(largest, diagonal[unknown]);
         }
     const auto values = varies.getDataNonConst();
     const bool isAlways = !always.empty() && always[static_cast<std::size_t>(subdomain.body)];
-    for (std::size_t j = 0; j < joints.size(); ++j)
-      if (largest[j] > ratio * least[j] || (isAlways && largest[j] > 0))
-        values[joints[j].rows.front()] = 1;
+    for (const auto& [j, range] : rangeAt)
+      if (range.second > ratio * range.first || (isAlways && range.second > 0))
+        values[joints[static_cast<std::size_t>(j)].rows.front()] = 1;
   }
   maximiseOverRanks(plan, varies);
   const auto values = varies.getData();
