@@ -35,17 +35,7 @@ struct GmshContents {
   std::vector<GmshGroup> groups;   ///< of dimension d
   std::vector<GmshBlock> facets;   ///< of dimension d − 1, on entities that belong to a group
   std::vector<GmshGroup> surfaces; ///< groups of dimension d − 1
-  std::vector<GmshGroup> lesser;   ///< groups of lower dimension still, without entities: for errors
-
-  /// The nodes in the order of their tags, which are not so yet. Throws InputError if two have the same.
-  void setNodes(const std::vector<GlobalOrdinal>& tags, const std::vector<Point>& places,
-                const std::vector<std::array<int, 2>>& entities);
-  /// Index of the node with that tag. Throws InputError if there is none. Precondition: tag ≥ 0.
-  [[nodiscard]] LocalOrdinal nodeOf(GlobalOrdinal tag) const;
-  /// Adds a group to one of the three lists, under its number if it has no name. Throws InputError if the list has one of
-  /// that name.
-  void addGroup(std::vector<GmshGroup>& list, int groupDimension, int number, GmshGroup group) const;
-  [[noreturn]] void refuseNoElements() const;
+  std::vector<GmshGroup> lesser;   ///< groups of lower dimension still: for errors
 };
 
 /// Nodes of a linear element by Gmsh's number of its kind; 0 if it is not linear or unknown.

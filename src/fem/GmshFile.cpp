@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/fem/GmshReader.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -284,7 +285,7 @@ void BodyMaker::addSurfaces() {
 
 } // namespace
 
-GmshFile::GmshFile(const std::string& file) : GmshFile(readGmshFile(file)) {}
+GmshFile::GmshFile(const std::string& file) : GmshFile(readMsh(file, textOfMeshFile(file))) {}
 
 GmshFile::GmshFile(GmshContents contents) : contents_(std::move(contents)) {
   checkSurfaces(contents_);

@@ -1,142 +1,25 @@
 #include "epafi/model/MeshFiles.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/fem/GmshReader.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <set>
-#include <type_traits>
-#include <vector>
+#include <utility>
 
 namespace epafi::model {
 namespace {
 
-/// Values as bytes, one after the other.
-class Packer {
-public:
-  template <class T>
-  void operator()(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* first = reinterpret_cast<const char*>(&value);
-    bytes.insert(bytes.end(), first, first + sizeof(T));
-  }
-  template <class T>
-  void array(std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    std::size_t size = values.size();
-    (*this)(size);
-    const auto* first = reinterpret_cast<const char*>(values.data());
-    bytes.insert(bytes.end(), first, first + size * sizeof(T));
-  }
-  void text(std::string& text) {
-    std::vector<char> letters(text.begin(), text.end());
-    array(letters);
-  }
-  template <class T>
-  void resize(std::vector<T>& values) {
-    std::size_t size = values.size();
-    (*this)(size);
-  }
-
-  std::vector<char> bytes;
-};
-
-/// The same calls bring the values back.
-class Unpacker {
-public:
-  explicit Unpacker(const std::vector<char>& bytes) : next_(bytes.data()) {}
-
-  template <class T>
-  void operator()(T& value) {
-    std::memcpy(&value, next_, sizeof(T));
-    next_ += sizeof(T);
-  }
-  template <class T>
-  void array(std::vector<T>& values) {
-    resize(values);
-    if (!values.empty())
-      std::memcpy(values.data(), next_, values.size() * sizeof(T));
-    next_ += values.size() * sizeof(T);
-  }
-  void text(std::string& text) {
-    std::vector<char> letters;
-    array(letters);
-    text.assign(letters.begin(), letters.end());
-  }
-  template <class T>
-  void resize(std::vector<T>& values) {
-    std::size_t size = 0;
-    (*this)(size);
-    values.resize(size);
-  }
-
-private:
-  const char* next_;
-};
-
-template <class Archive>
-void pass(Archive& archive, std::vector<fem::GmshBlock>& blocks) {
-  archive.resize(blocks);
-  for (fem::GmshBlock& block : blocks) {
-    archive(block.entity);
-    archive(block.type);
-    archive.array(block.tags);
-    archive.array(block.nodes);
-  }
-}
-
-template <class Archive>
-void pass(Archive& archive, std::vector<fem::GmshGroup>& groups) {
-  archive.resize(groups);
-  for (fem::GmshGroup& group : groups) {
-    archive.text(group.name);
-    archive.array(group.entities);
-  }
-}
-
-template <class Archive>
-void pass(Archive& archive, fem::GmshContents& contents) {
-  archive.text(contents.file);
-  archive(contents.dimension);
-  archive.array(contents.points);
-  archive.array(contents.nodeTags);
-  archive.array(contents.nodeEntities);
-  for (auto* blocks : {&contents.elements, &contents.facets})
-    pass(archive, *blocks);
-  for (auto* groups : {&contents.groups, &contents.surfaces, &contents.lesser})
-    pass(archive, *groups);
-}
-
-/// Rank 0's bytes on all ranks, in messages whose length an int counts.
-void broadcastBytes(const Comm& comm, std::vector<char>& bytes) {
-  auto size = static_cast<long long>(bytes.size());
+/// Rank 0's text on all ranks, in messages whose length an int counts. Collective.
+void broadcastText(const Comm& comm, std::string& text) {
+  auto size = static_cast<long long>(text.size());
   Teuchos::broadcast(comm, 0, 1, &size);
-  bytes.resize(static_cast<std::size_t>(size));
+  collectively(comm, [&] { text.resize(static_cast<std::size_t>(size)); });
   constexpr long long longest = 1 << 30;
   for (long long first = 0; first < size; first += longest)
-    Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), bytes.data() + first);
-}
-
-fem::GmshContents readOnFirstRank(const std::string& file, double meshSizeFactor, int refinements,
-                                  const Comm& comm) {
-  fem::GmshContents contents;
-  collectively(comm, [&] {
-    if (comm.getRank() == 0)
-      contents = fem::readGmshFile(file, meshSizeFactor, refinements);
-  });
-  if (comm.getSize() == 1)
-    return contents;
-  Packer packer;
-  if (comm.getRank() == 0)
-    pass(packer, contents);
-  broadcastBytes(comm, packer.bytes);
-  if (comm.getRank() > 0) {
-    Unpacker unpacker(packer.bytes);
-    pass(unpacker, contents);
-  }
-  return contents;
+    Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), text.data() + first);
 }
 
 } // namespace
@@ -148,7 +31,13 @@ MeshFiles::MeshFiles(const scene::Scene& scene, const Comm& comm) {
       keys.insert({body.mesh.file, body.mesh.sizeFactor, body.mesh.refinements});
   for (const Key& key : keys) {
     const auto& [file, factor, refinements] = key;
-    files_.emplace(key, fem::GmshFile(readOnFirstRank(file, factor, refinements, comm)));
+    std::string text;
+    collectively(comm, [&] {
+      if (comm.getRank() == 0)
+        text = fem::textOfMeshFile(file, factor, refinements);
+    });
+    broadcastText(comm, text);
+    collectively(comm, [&] { files_.emplace(key, fem::readMsh(file, std::move(text))); });
   }
 }
 

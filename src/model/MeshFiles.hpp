@@ -12,11 +12,12 @@
 
 namespace epafi::model {
 
-/// Rank 0 reads (and, of a geometry, meshes) each file and hands its contents to the others: they all have the same mesh,
+/// Rank 0 reads (and, of a geometry, meshes) each file and hands its text to the others: they all have the same mesh,
 /// whatever Gmsh does on their machines. Every rank keeps the contents of all files while the object lives.
 class MeshFiles {
 public:
-  /// Reads the files of the scene's bodies. Collective. \throws InputError, the same on all ranks, as fem::readGmshFile.
+  /// Reads the files of the scene's bodies. Collective. \throws InputError, the same on all ranks, as fem::textOfMeshFile,
+  /// fem::readMsh and fem::GmshFile.
   MeshFiles(const scene::Scene& scene, const Comm& comm);
 
   /// The file of a body, as its scene says. Precondition: it has one.
