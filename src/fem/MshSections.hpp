@@ -4,7 +4,7 @@
 /// and ends before its last one. They throw InputError at what does not fit the format, and allocate in proportion to
 /// the file's size, whatever it promises.
 
-#include "epafi/fem/GmshContents.hpp"
+#include "epafi/fem/MshReader.hpp"
 #include "epafi/fem/MshScanner.hpp"
 
 #include <array>

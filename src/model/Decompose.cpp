@@ -40,15 +40,14 @@ std::vector<NodeFrame> framesOf(const fem::BodyModel& model, const std::vector<G
 std::vector<Body> describeBodies(const std::vector<BodyLayout>& layouts, const Models& models) {
   std::vector<Body> bodies;
   int kernelOffset = 0;
-  GlobalOrdinal firstNode = 0;
+  const std::vector<GlobalOrdinal> firstNode = firstNodes(layouts);
   for (std::size_t b = 0; b < layouts.size(); ++b) {
     const int modes = models[b]->kernelDimension();
-    Body& body = bodies.emplace_back(Body{layouts[b].name, modes, kernelOffset, firstNode});
+    Body& body = bodies.emplace_back(Body{layouts[b].name, modes, kernelOffset, firstNode[b]});
     if (const auto motions = modes > 0 ? models[b]->rigidMotions() : std::nullopt)
       body.motions = {
           {motions->centre[0], motions->centre[1], motions->centre[2]}, motions->size, motions->twists};
     kernelOffset += modes;
-    firstNode += layouts[b].mesh->numNodes();
   }
   return bodies;
 }
