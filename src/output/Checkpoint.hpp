@@ -27,12 +27,13 @@ std::string checkpointHeader(const Fingerprint& fingerprint);
 /// Fowler, Noll, Vo: FNV-1a, 64 bits, over pieces one after the other.
 class Checksum {
 public:
+  /// The next piece.
   void add(const void* bytes, std::size_t size) {
     const auto* next = static_cast<const unsigned char*>(bytes);
     for (std::size_t i = 0; i < size; ++i)
       value_ = (value_ ^ next[i]) * 0x100000001b3ULL;
   }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
+  [[nodiscard]] std::uint64_t value() const { return value_; } ///< of all pieces so far
 
 private:
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
