@@ -43,12 +43,9 @@ function(epafi_install_library target name)
   set_property(GLOBAL APPEND_STRING PROPERTY EPAFI_USES "set(epafi_uses_${name} ${uses})\n")
 endfunction()
 
-# epafi_install_headers(<room> HIDDEN a.hpp ...): those of the current folder.
+# epafi_install_headers(<room>): those of the current folder.
 function(epafi_install_headers room)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "HIDDEN")
   file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp")
-  list(TRANSFORM ROOM_HIDDEN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
-  list(REMOVE_ITEM headers ${ROOM_HIDDEN})
   install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/epafi/${room}" COMPONENT development)
 endfunction()
 

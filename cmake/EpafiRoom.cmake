@@ -80,14 +80,13 @@ function(epafi_library target name)
   endif()
 endfunction()
 
-# epafi_room(<room> SOURCES ... USES ... [NEEDS ...] [HIDDEN_HEADERS a.hpp ...])
-# The library of the folder, as above, and the include path epafi/<room>/. Hidden headers are not installed: they name what
-# users of the library do without.
+# epafi_room(<room> SOURCES ... USES ... [NEEDS ...])
+# The library of the folder, as above, and the include path epafi/<room>/.
 function(epafi_room room)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "HIDDEN_HEADERS;SOURCES;USES;NEEDS")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "SOURCES;USES;NEEDS")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${EPAFI_INCLUDE_ROOT}/epafi/${room}" SYMBOLIC)
   epafi_library(epafi_${room} ${room} SOURCES ${ROOM_SOURCES} USES ${ROOM_USES} NEEDS ${ROOM_NEEDS})
   if(EPAFI_INSTALL)
-    epafi_install_headers(${room} HIDDEN ${ROOM_HIDDEN_HEADERS})
+    epafi_install_headers(${room})
   endif()
 endfunction()

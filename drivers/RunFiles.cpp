@@ -3,7 +3,6 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/FieldWriter.hpp"
-#include "epafi/output/HistoryTable.hpp"
 #include "epafi/output/Report.hpp"
 
 #include <Teuchos_Time.hpp>

@@ -1,5 +1,6 @@
 #include "epafi/accuracy/PointLocation.hpp"
 
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
@@ -56,17 +57,12 @@ typename Shape::Coordinates coordinatesOf(std::span<const Point> corners, const 
 
 /// \param[out] outside  how far the point is outside of the element, in reference coordinates
 Location locateIn(const Mesh& mesh, GlobalOrdinal element, const Point& point, double& outside) {
-  std::array<GlobalOrdinal, 8> nodes{};
-  std::array<Point, 8> corners{};
-  const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
-  mesh.elementNodes(element, std::span(nodes).first(number));
-  for (std::size_t i = 0; i < number; ++i)
-    corners[i] = mesh.point(nodes[i]);
+  std::vector<Point> corners;
+  mesh.elementPoints(element, corners);
   Location location{element, {}};
   fem::withShape(mesh.cellType(), [&](auto shape) {
     using Shape = decltype(shape);
-    typename Shape::Coordinates xi =
-        coordinatesOf<Shape>(std::span<const Point>(corners).first(number), point);
+    typename Shape::Coordinates xi = coordinatesOf<Shape>(corners, point);
     outside = xi.allFinite() ? pullIn(shape, xi) : std::numeric_limits<double>::infinity();
     const typename Shape::Values values = Shape::values(xi.allFinite() ? xi : Shape::centre());
     std::copy(values.begin(), values.end(), location.weights.begin());
@@ -78,34 +74,18 @@ int cellOf(double x, double low, double size, int number) {
   return std::clamp(static_cast<int>(std::floor((x - low) / size)), 0, number - 1);
 }
 
-Point centreOf(const Mesh& mesh, GlobalOrdinal element) {
-  std::array<GlobalOrdinal, 8> nodes{};
-  const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
-  mesh.elementNodes(element, std::span(nodes).first(number));
-  Point centre{};
-  for (std::size_t i = 0; i < number; ++i)
-    for (std::size_t d = 0; d < 3; ++d)
-      centre[d] += mesh.point(nodes[i])[d] / static_cast<double>(number);
-  return centre;
-}
-
 } // namespace
 
 PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.structured() != nullptr)
     return;
-  std::vector<Point> centres;
+  std::vector<Point> centres, corners;
   centres.reserve(static_cast<std::size_t>(mesh.numElements()));
-  Point lower, upper;
-  lower.fill(std::numeric_limits<double>::infinity());
-  upper.fill(-std::numeric_limits<double>::infinity());
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
-    centres.push_back(centreOf(mesh, element));
-    for (std::size_t d = 0; d < 3; ++d) {
-      lower[d] = std::min(lower[d], centres.back()[d]);
-      upper[d] = std::max(upper[d], centres.back()[d]);
-    }
+    mesh.elementPoints(element, corners);
+    centres.push_back(fem::centreOf(corners));
   }
+  const auto [lower, upper] = fem::boxOf(centres);
   centres_ = std::make_unique<fem::PointTree>(centres);
   for (std::size_t d = 0; d < 3; ++d)
     extent_ = std::max(extent_, upper[d] - lower[d]);
@@ -143,11 +123,7 @@ Location PointLocation::find(const Point& point) {
   }
   constexpr double roundOff = 1e-9, near = 0.5;
   for (double reach = reach_;; reach *= 2) {
-    Point lower = point, upper = point;
-    for (std::size_t d = 0; d < 3; ++d) {
-      lower[d] -= reach;
-      upper[d] += reach;
-    }
+    const auto [lower, upper] = fem::boxOf(std::span(&point, 1), reach);
     centres_->inBox(lower, upper, found_);
     if (found_.empty())
       continue;

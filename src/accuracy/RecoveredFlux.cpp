@@ -59,52 +59,23 @@ void addElements(const BodyElements& body, const Subdomain& subdomain, const Eig
   });
 }
 
-/// The same on a structured mesh.
-void addCongruentElements(const BodyElements& body, const Eigen::VectorXd& displacement,
-                          SubdomainFlux& flux) {
-  const int numFluxes = fem::numFluxes(body.physics());
-  const double measure = body.measure();
-  const std::span<const int> slots = flux.cornerSlots();
-  const std::size_t perElement = flux.elements.numbering->nodesPerElement();
-  for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
-    const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
-    Eigen::MatrixXd weighted(numFluxes + 1, static_cast<Eigen::Index>(which.size()));
-    weighted.topRows(numFluxes) =
-        body.congruentFluxes(region)->atCentre(body.gather(flux.elements, which, displacement));
-    weighted.row(numFluxes).setOnes();
-    weighted *= measure;
-    for (std::size_t k = 0; k < which.size(); ++k)
-      for (std::size_t i = 0; i < perElement; ++i)
-        flux.values.col(slots[which[k] * perElement + i]) += weighted.col(static_cast<Eigen::Index>(k));
-  }
-}
-
-/// Slots at nodes that other subdomains of the body touch too, by a number of their own in the whole problem.
-class SharedSlots {
-public:
-  SharedSlots(const Decomposition& decomposition, std::span<const SubdomainFlux> fluxes);
-  /// Adds up over subdomains and ranks. Collective.
-  void add(const RCP<const Comm>& comm, Eigen::Index rows, std::span<SubdomainFlux> fluxes) const;
-
-private:
-  struct Slot {
-    GlobalOrdinal key;
-    std::size_t subdomain;
-    int slot;
-  };
-  std::vector<Slot> slots_;
-  std::vector<GlobalOrdinal> keys_; ///< ascending, each once
+/// A slot at a node that other subdomains of the body touch too.
+struct SharedSlot {
+  GlobalOrdinal key; ///< a number of its own in the whole problem
+  std::size_t subdomain;
+  Eigen::Index slot;
 };
 
-SharedSlots::SharedSlots(const Decomposition& decomposition, std::span<const SubdomainFlux> fluxes) {
+/// Collective.
+std::vector<SharedSlot> sharedSlots(const Decomposition& decomposition,
+                                    std::span<const SubdomainFlux> fluxes) {
   GlobalOrdinal regions = 1; // numbers of regions differ between bodies: keys leave room for the most
   for (const SubdomainFlux& flux : fluxes)
     for (const GlobalOrdinal region : flux.regions)
       regions = std::max(regions, region + 1);
   regions = maxOverRanks(*decomposition.problem.comm, regions);
-  std::vector<GlobalOrdinal> firstKey(1, 0); // of each body
-  for (const auto& body : decomposition.bodies)
-    firstKey.push_back(firstKey.back() + regions * body.mesh->numNodes());
+  const std::vector<GlobalOrdinal> firstNode = model::firstNodes(decomposition.bodies);
+  std::vector<SharedSlot> shared;
   std::vector<int> numElementsAt;
   for (std::size_t s = 0; s < fluxes.size(); ++s) {
     const Subdomain& subdomain = decomposition.problem.subdomains[s];
@@ -115,43 +86,42 @@ SharedSlots::SharedSlots(const Decomposition& decomposition, std::span<const Sub
     for (std::size_t slot = 0; slot < static_cast<std::size_t>(flux.values.cols()); ++slot) {
       const std::size_t node = flux.nodeOf(slot);
       if (numElementsAt[node] > flux.elements.numbering->numElementsAt()[node])
-        slots_.push_back({firstKey[body] + regions * subdomain.nodes[node] + flux.regionOf(slot), s,
-                          static_cast<int>(slot)});
+        shared.push_back({regions * (firstNode[body] + subdomain.nodes[node]) + flux.regionOf(slot), s,
+                          static_cast<Eigen::Index>(slot)});
     }
   }
-  keys_.reserve(slots_.size());
-  for (const Slot& slot : slots_)
-    keys_.push_back(slot.key);
-  std::sort(keys_.begin(), keys_.end());
-  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  return shared;
 }
 
-void SharedSlots::add(const RCP<const Comm>& comm, Eigen::Index rows, std::span<SubdomainFlux> fluxes) const {
-  const auto placeOf = [this](GlobalOrdinal key) {
-    return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
-  };
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(keys_.size()));
-  for (const Slot& slot : slots_)
-    sums.col(placeOf(slot.key)) += fluxes[slot.subdomain].values.col(slot.slot);
-
+/// Adds up shared slots over subdomains and ranks. Collective.
+void addShared(const Decomposition& decomposition, std::span<SubdomainFlux> fluxes, std::size_t rows) {
+  const RCP<const Comm>& comm = decomposition.problem.comm;
+  const std::vector<SharedSlot> shared = sharedSlots(decomposition, fluxes);
+  std::vector<GlobalOrdinal> keys;
+  for (const SharedSlot& slot : shared)
+    keys.push_back(slot.key);
+  const RCP<const Map> here = makeMap(std::move(keys), comm);
+  std::vector<LocalOrdinal> places;
+  for (const SharedSlot& slot : shared)
+    places.push_back(here->getLocalElement(slot.key));
+  MultiVector sums(here, rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto data = sums.getDataNonConst(row);
+    for (std::size_t k = 0; k < shared.size(); ++k)
+      data[places[k]] += fluxes[shared[k].subdomain].values(static_cast<Eigen::Index>(row), shared[k].slot);
+  }
   if (comm->getSize() > 1) {
-    const RCP<const Map> here = mapInOrder(keys_, comm);
     const RCP<const Map> owned = Tpetra::createOneToOne(here);
     const Export plan(here, owned);
-    MultiVector mine(here, static_cast<std::size_t>(rows)), total(owned, static_cast<std::size_t>(rows));
-    for (Eigen::Index row = 0; row < rows; ++row) {
-      const auto data = mine.getDataNonConst(static_cast<std::size_t>(row));
-      std::copy(sums.row(row).begin(), sums.row(row).end(), data.begin());
-    }
-    total.doExport(mine, plan, Tpetra::ADD);
-    mine.doImport(total, plan, Tpetra::REPLACE);
-    for (Eigen::Index row = 0; row < rows; ++row) {
-      const auto data = mine.getData(static_cast<std::size_t>(row));
-      std::copy(data.begin(), data.end(), sums.row(row).begin());
-    }
+    MultiVector total(owned, rows);
+    total.doExport(sums, plan, Tpetra::ADD);
+    sums.doImport(total, plan, Tpetra::REPLACE);
   }
-  for (const Slot& slot : slots_)
-    fluxes[slot.subdomain].values.col(slot.slot) = sums.col(placeOf(slot.key));
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto data = sums.getData(row);
+    for (std::size_t k = 0; k < shared.size(); ++k)
+      fluxes[shared[k].subdomain].values(static_cast<Eigen::Index>(row), shared[k].slot) = data[places[k]];
+  }
 }
 
 } // namespace
@@ -160,10 +130,7 @@ SubdomainFlux sumFlux(BodyElements& body, const Subdomain& subdomain, const Eige
   SubdomainFlux flux;
   flux.elements = body.elementsOf(subdomain);
   flux.values.setZero(fem::numFluxes(body.physics()) + 1, findSlots(subdomain, flux));
-  if (body.congruentFluxes(0) != nullptr)
-    addCongruentElements(body, displacement, flux);
-  else
-    addElements(body, subdomain, displacement, flux);
+  addElements(body, subdomain, displacement, flux);
   return flux;
 }
 
@@ -177,7 +144,7 @@ std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies, const 
                                problem.subdomains[s], displacement[s]));
   });
   const int numFluxes = fem::numFluxes(bodies.front().physics()); // all bodies have as many unknowns a node
-  SharedSlots(decomposition, fluxes).add(problem.comm, numFluxes + 1, fluxes);
+  addShared(decomposition, fluxes, static_cast<std::size_t>(numFluxes) + 1);
   for (SubdomainFlux& flux : fluxes)
     for (Eigen::Index slot = 0; slot < flux.values.cols(); ++slot)
       flux.values.col(slot) *= 1 / flux.values(numFluxes, slot);

@@ -28,14 +28,6 @@ struct Guess {
   std::size_t numSources = 0;
 };
 
-/// First number of each body's nodes in the whole problem.
-std::vector<GlobalOrdinal> firstNodes(const Decomposition& decomposition) {
-  std::vector<GlobalOrdinal> first(1, 0);
-  for (const auto& body : decomposition.bodies)
-    first.push_back(first.back() + body.mesh->numNodes());
-  return first;
-}
-
 /// Places of the nodes with crosspoint values or entries of B, ascending.
 std::vector<std::size_t> interfaceNodes(const Subdomain& subdomain, int components) {
   std::vector<char> isWanted(subdomain.nodes.size(), 0);
@@ -66,7 +58,7 @@ std::vector<std::size_t> allNodes(const Subdomain& subdomain) {
 }
 
 std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, NodesOf nodes) {
-  const std::vector<GlobalOrdinal> first = firstNodes(from);
+  const std::vector<GlobalOrdinal> first = model::firstNodes(from.bodies);
   std::vector<std::optional<PointLocation>> locations(from.bodies.size());
   std::vector<Guess> guesses;
   for (std::size_t s = 0; s < to.problem.subdomains.size(); ++s) {
@@ -93,7 +85,7 @@ std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, No
 RCP<MultiVector> gatherSources(const Decomposition& from, std::span<const Eigen::VectorXd> displacement,
                                std::span<const Guess> guesses) {
   const auto& problem = from.problem;
-  const std::vector<GlobalOrdinal> first = firstNodes(from);
+  const std::vector<GlobalOrdinal> first = model::firstNodes(from.bodies);
   std::vector<GlobalOrdinal> here, wanted;
   for (const Subdomain& subdomain : problem.subdomains)
     for (const GlobalOrdinal node : subdomain.nodes)

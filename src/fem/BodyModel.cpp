@@ -1,14 +1,53 @@
 #include "epafi/fem/BodyModel.hpp"
 
 #include "epafi/base/Text.hpp"
+#include "epafi/fem/ConnectedElements.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
-#include "epafi/fem/SolidChecks.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace epafi::fem {
 namespace {
+
+/// \throws InputError if a plane physics meets a mesh in space, or the other way round.
+void requireDimension(const SolidBody& body) {
+  const bool isPlane = dimensionOf(body.body.physics) == 2;
+  if (isPlane != (dimensionOf(body.mesh.cellType()) == 2))
+    throw body.refusal("its physics is " + toString(body.body.physics) + ", but its mesh consists of " +
+                       toString(body.mesh.cellType()) + "s; choose " +
+                       (isPlane ? "elasticity 3-D" : "membrane, plane strain or plane stress"));
+}
+
+/// Elements joined in facets move as one rigid body; those joined in less may turn about each other, which membranes
+/// cannot. \throws InputError if an elastic body is not joined in facets, or a membrane not even in nodes. Linear in the number
+/// of elements.
+void requireJoined(const SolidBody& body) {
+  if (body.isCongruent())
+    return;
+  const Mesh& mesh = body.mesh;
+  const bool isMembrane = body.components() == 1;
+  std::vector<GlobalOrdinal> around;
+  const auto pieces = connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
+    if (!isMembrane)
+      return mesh.elementNeighbours(element, found);
+    found.clear();
+    for (const GlobalOrdinal node : ElementNodes(mesh, element)) {
+      mesh.nodeElements(node, around);
+      found.insert(found.end(), around.begin(), around.end());
+    }
+  });
+  if (pieces.size() == 1)
+    return;
+  const std::string counts = "only " + std::to_string(pieces.front().size()) + " of its " +
+                             std::to_string(mesh.numElements()) + " elements are joined with each other";
+  if (isMembrane)
+    throw body.refusal(counts + "; make each part a body of its own, or join the parts in the mesh");
+  throw body.refusal(counts + " in whole " + (dimensionOf(mesh.cellType()) == 2 ? "edges" : "faces") +
+                     "; the others hang on nodes, or on nothing, and could turn: a mechanism. Make each part "
+                     "a body of its own, or join the parts in the mesh");
+}
 
 SolidBody checked(SolidBody body) {
   requireDimension(body);
@@ -32,14 +71,11 @@ Eigen::Matrix4d rectangleStiffness(double hx, double hy) {
 /// About the middle of the body's bounding box.
 RigidModes rigidModesOf(const SolidBody& body) {
   const Mesh& mesh = body.mesh;
-  Point lower = mesh.point(0), upper = lower, centre{};
-  for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += body.isCongruent() ? mesh.numNodes() - 1 : 1) {
-    const Point point = mesh.point(node); // of a structured mesh the first and the last will do
-    for (std::size_t d = 0; d < 3; ++d) {
-      lower[d] = std::min(lower[d], point[d]);
-      upper[d] = std::max(upper[d], point[d]);
-    }
-  }
+  std::vector<Point> points; // of a structured mesh the first and the last will do
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += body.isCongruent() ? mesh.numNodes() - 1 : 1)
+    points.push_back(mesh.point(node));
+  const auto [lower, upper] = boxOf(points);
+  Point centre{};
   double size = 0;
   for (std::size_t d = 0; d < 3; ++d) {
     centre[d] = 0.5 * (lower[d] + upper[d]);

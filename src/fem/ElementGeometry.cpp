@@ -5,8 +5,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace epafi::fem {
+namespace {
+
+void noteJacobian(ElementShape& shape, double value, int corner) {
+  if (value < shape.leastJacobian) {
+    shape.leastJacobian = value;
+    shape.corner = corner;
+  }
+}
+
+/// Of a simplex the determinant is the same everywhere; of a quadrilateral it is linear, so that its least value lies at a
+/// corner.
+template <class Shape>
+void measure(std::span<const Point> points, ElementShape& shape) {
+  constexpr double reference = Shape::numGaussPoints * Shape::gaussWeight; // measure of the reference element
+  const auto corners = relativeCorners<Shape>(points);
+  if constexpr (Shape::numGaussPoints > 1) {
+    int corner = 0;
+    for (const auto& sample : cornerSamples<Shape>())
+      noteJacobian(shape, reference * ElementMap<Shape>(corners, sample).determinant(), corner++);
+  }
+  for (const auto& sample : gaussSamples<Shape>()) {
+    const double inside = ElementMap<Shape>(corners, sample).determinant();
+    shape.measure += Shape::gaussWeight * inside; // exact, see Brick
+    noteJacobian(shape, reference * inside, -1);
+  }
+}
+
+} // namespace
 
 Point centreOf(std::span<const Point> points) {
   Point centre{0, 0, 0};
@@ -16,6 +45,19 @@ Point centreOf(std::span<const Point> points) {
   for (double& coordinate : centre)
     coordinate /= static_cast<double>(points.size());
   return centre;
+}
+
+std::array<Point, 2> boxOf(std::span<const Point> points, double margin) {
+  Point lower = points[0], upper = points[0];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const Point& point : points) {
+      lower[axis] = std::min(lower[axis], point[axis]);
+      upper[axis] = std::max(upper[axis], point[axis]);
+    }
+    lower[axis] -= margin;
+    upper[axis] += margin;
+  }
+  return {lower, upper};
 }
 
 double diameterOf(std::span<const Point> points) {
@@ -61,6 +103,14 @@ Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points) {
       vector.head<Shape::dimension + 1>() += Shape::gaussWeight * facetNormal<Shape>(corners, sample);
     return vector;
   });
+}
+
+ElementShape shapeOf(CellType type, std::span<const Point> corners) {
+  ElementShape shape;
+  shape.diameter = diameterOf(corners);
+  shape.leastJacobian = std::numeric_limits<double>::infinity();
+  withShape(type, [&](auto reference) { measure<decltype(reference)>(corners, shape); });
+  return shape;
 }
 
 } // namespace epafi::fem

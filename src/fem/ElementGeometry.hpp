@@ -8,12 +8,16 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <span>
 
 namespace epafi::fem {
 
 /// Mean of the corners, which is the image of the reference element's centre.
 Point centreOf(std::span<const Point> points);
+
+/// Lowest and highest coordinates of points, at least one; the box that they make is widened by a margin on all sides.
+std::array<Point, 2> boxOf(std::span<const Point> points, double margin = 0);
 
 /// Longest distance between two points.
 double diameterOf(std::span<const Point> points);
@@ -27,5 +31,18 @@ void nodalShares(CellType facet, std::span<const Point> points, std::span<double
 
 /// ∫n over a facet, exact; the normal points outwards if the nodes are in the order of facetsOf() or Surface.
 Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points);
+
+/// Size and shape of an element, to tell a sound one from inverted, flat and folded ones.
+struct ElementShape {
+  double diameter = 0; ///< longest distance between two nodes
+  double measure = 0;  ///< area or volume; negative if the nodes are numbered the other way round
+  /// Smallest determinant of the element map's Jacobian, scaled to the element's measure if it is a parallelogram or
+  /// parallelepiped (a simplex: its measure). At the corners, and of a hexahedron at the 2×2×2 Gauss points too.
+  double leastJacobian = 0;
+  int corner = -1; ///< where that is, as a place among the element's nodes; −1: inside
+};
+
+/// \param corners  numNodesOf(type) points; of plane elements the first two coordinates count.
+ElementShape shapeOf(CellType type, std::span<const Point> corners);
 
 } // namespace epafi::fem

@@ -1,8 +1,10 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
+#include <array>
 #include <cassert>
 
 namespace epafi::fem {
@@ -20,6 +22,21 @@ using GradientProducts = Eigen::Matrix<double, numGradients<Shape>, numGradients
 
 [[maybe_unused]] bool fits(CellType type, Physics physics) {
   return dimensionOf(type) == (physics == Physics::elasticity3d ? 3 : 2);
+}
+
+[[maybe_unused]] bool boundsElement(CellType facet, Physics physics) {
+  return dimensionOf(facet) + 1 == scene::dimensionOf(physics);
+}
+
+/// Load of a constant force of which each node bears its share.
+void shareOut(std::span<const double> shares, Physics physics, const scene::Material& material,
+              const scene::Vector3& force, Eigen::VectorXd& load) {
+  const auto components = static_cast<std::size_t>(componentsOf(physics));
+  const double thickness = thicknessOf(physics, material);
+  load.resize(static_cast<Eigen::Index>(shares.size() * components));
+  for (std::size_t a = 0; a < shares.size(); ++a)
+    for (std::size_t i = 0; i < components; ++i)
+      load[static_cast<Eigen::Index>(a * components + i)] = thickness * shares[a] * force[i];
 }
 
 /// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its upper triangle.
@@ -105,12 +122,32 @@ void bodyForceLoad(CellType type, std::span<const Point> points, Physics physics
     typename Shape::Values integrals = Shape::Values::Zero(); // ∫N_a
     for (const auto& sample : gaussSamples<Shape>())
       integrals += (Shape::gaussWeight * ElementMap<Shape>(corners, sample).determinant()) * sample.values;
-    const int components = physics == Physics::membrane ? 1 : Shape::dimension;
-    const double thickness = thicknessOf(physics, material);
-    load.resize(Shape::numNodes * components);
-    for (int a = 0; a < Shape::numNodes; ++a)
-      for (int i = 0; i < components; ++i)
-        load[a * components + i] = thickness * integrals[a] * force[static_cast<std::size_t>(i)];
+    shareOut({integrals.data(), Shape::numNodes}, physics, material, force, load);
+  });
+}
+
+void tractionLoad(CellType facet, std::span<const Point> points, Physics physics,
+                  const scene::Material& material, const scene::Vector3& traction, Eigen::VectorXd& load) {
+  assert(boundsElement(facet, physics));
+  std::array<double, mostFacetNodes> shares{};
+  const auto own = std::span(shares).first(points.size());
+  nodalShares(facet, points, own);
+  shareOut(own, physics, material, traction, load);
+}
+
+void pressureLoad(CellType facet, std::span<const Point> points, Physics physics,
+                  const scene::Material& material, double pressure, Eigen::VectorXd& load) {
+  assert(boundsElement(facet, physics) && physics != Physics::membrane);
+  withFacetShape(facet, [&](auto shape) {
+    using Shape = decltype(shape);
+    constexpr int components = Shape::dimension + 1;
+    const auto corners = relativeCorners<Shape, components>(points);
+    Eigen::Matrix<double, components, Shape::numNodes> forces;
+    forces.setZero();
+    const double factor = -pressure * thicknessOf(physics, material) * Shape::gaussWeight;
+    for (const auto& sample : gaussSamples<Shape>())
+      forces += (factor * facetNormal<Shape>(corners, sample)) * sample.values.transpose();
+    load = forces.reshaped();
   });
 }
 

@@ -2,11 +2,13 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/fem/GmshReader.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <set>
+#include <span>
+#include <utility>
 
 namespace epafi::fem {
 namespace {
@@ -41,37 +43,26 @@ std::vector<std::string> namesOf(const std::vector<GmshGroup>& groups) {
 
 /// Which facets of the file, in its order, have all their nodes in one of the elements.
 std::vector<bool> facetsIn(const GmshContents& file, const Blocks& elements) {
-  struct Facet {
-    std::span<const LocalOrdinal> nodes;
-    std::size_t next; ///< facet with the same first node, noted before; itself: none
-  };
-  std::vector<Facet> facets;
-  std::vector<std::size_t> last(file.points.size(), std::numeric_limits<std::size_t>::max());
+  using Nodes = std::span<const LocalOrdinal>;
+  std::vector<std::vector<std::pair<std::size_t, Nodes>>> at(file.points.size()); // by their first nodes
+  std::size_t numFacets = 0;
   for (const GmshBlock& block : file.facets) {
     const auto count = index(numNodesOfGmsh(block.type));
-    for (std::size_t i = 0; i < block.nodes.size(); i += count) {
-      std::size_t& before = last[index(block.nodes[i])];
-      facets.push_back(
-          {std::span(block.nodes).subspan(i, count), before < facets.size() ? before : facets.size()});
-      before = facets.size() - 1;
-    }
+    for (std::size_t i = 0; i < block.nodes.size(); i += count)
+      at[index(block.nodes[i])].emplace_back(numFacets++, Nodes(block.nodes).subspan(i, count));
   }
-  std::vector<bool> isIn(facets.size(), false);
-  const auto note = [&](std::span<const LocalOrdinal> element) {
-    const auto isNode = [&](LocalOrdinal node) {
-      return std::find(element.begin(), element.end(), node) != element.end();
-    };
-    for (const LocalOrdinal node : element)
-      for (std::size_t f = last[index(node)]; f < facets.size();) {
-        if (std::all_of(facets[f].nodes.begin(), facets[f].nodes.end(), isNode))
-          isIn[f] = true;
-        f = facets[f].next == f ? facets.size() : facets[f].next;
-      }
-  };
+  std::vector<bool> isIn(numFacets, false);
   for (const GmshBlock* block : elements) {
     const auto count = index(numNodesOfGmsh(block->type));
-    for (std::size_t i = 0; i < block->nodes.size(); i += count)
-      note(std::span(block->nodes).subspan(i, count));
+    for (std::size_t i = 0; i < block->nodes.size(); i += count) {
+      const Nodes element = Nodes(block->nodes).subspan(i, count);
+      for (const LocalOrdinal node : element)
+        for (const auto& [facet, nodes] : at[index(node)])
+          if (std::all_of(nodes.begin(), nodes.end(), [&](LocalOrdinal other) {
+                return std::find(element.begin(), element.end(), other) != element.end();
+              }))
+            isIn[facet] = true;
+    }
   }
   return isIn;
 }
@@ -284,7 +275,7 @@ void BodyMaker::addSurfaces() {
 
 } // namespace
 
-GmshFile::GmshFile(const std::string& file) : GmshFile(readGmshFile(file)) {}
+GmshFile::GmshFile(const std::string& file) : GmshFile(readMsh(file, textOfMeshFile(file))) {}
 
 GmshFile::GmshFile(GmshContents contents) : contents_(std::move(contents)) {
   checkSurfaces(contents_);

@@ -10,7 +10,7 @@
 /// ones that only many ranks can hold: a million hexahedra take 330 MB while they are read (by Gmsh 500), of which the object keeps 80, and
 /// each body made of them 140 (tetrahedra: 130, 35 and 70).
 
-#include "epafi/fem/GmshReader.hpp"
+#include "epafi/fem/MshReader.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 
 namespace epafi::fem {

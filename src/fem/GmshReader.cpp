@@ -2,27 +2,216 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
-#include "epafi/fem/GmshLibrary.hpp"
 #include "epafi/fem/MshReader.hpp"
 
-#include <algorithm>
+#include <dlfcn.h>
+#include <gmshc.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <string>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 namespace epafi::fem {
 namespace {
 
-constexpr int anyEntity = -1;
+namespace fs = std::filesystem;
+
+/// Loaded at the first call, by the name that the run-time linker knows, wherever it lies; then where CMake found it.
+void* gmshLibrary() {
+  for (const char* name : {EPAFI_GMSH_SONAME, EPAFI_GMSH_FILE})
+    if (void* library = ::dlopen(name, RTLD_NOW | RTLD_LOCAL))
+      return library;
+  const char* reason = ::dlerror();
+  throw Error(std::string("Mesh files are read by Gmsh, whose library cannot be loaded (") +
+              (reason == nullptr ? "no reason given" : reason) +
+              "); install it (Debian: libgmsh-dev), or name its folder in LD_LIBRARY_PATH");
+}
+
+/// A function of the library, of the type that it is assigned to.
+struct Symbol {
+  void* library;
+  const char* name;
+
+  template <class Function>
+  operator Function*() const { // NOLINT(google-explicit-constructor): stands for the function
+    auto* function = reinterpret_cast<Function*>(::dlsym(library, name));
+    if (function == nullptr)
+      throw Error(std::string("The library ") + EPAFI_GMSH_SONAME + " lacks the function " + name +
+                  "; build Epafi anew with the Gmsh that is installed");
+    return function;
+  }
+};
+
+/// The functions of gmshc.h that are called; each ends with an int* for its error.
+struct Gmsh {
+  void* library = gmshLibrary();
+  decltype(&gmshInitialize) initialize = Symbol{library, "gmshInitialize"};
+  decltype(&gmshFinalize) finalize = Symbol{library, "gmshFinalize"};
+  decltype(&gmshFree) free = Symbol{library, "gmshFree"};
+  decltype(&gmshOptionSetNumber) setNumber = Symbol{library, "gmshOptionSetNumber"};
+  decltype(&gmshLoggerGetLastError) lastError = Symbol{library, "gmshLoggerGetLastError"};
+  decltype(&gmshOpen) open = Symbol{library, "gmshOpen"};
+  decltype(&gmshWrite) write = Symbol{library, "gmshWrite"};
+  decltype(&gmshModelGetDimension) dimension = Symbol{library, "gmshModelGetDimension"};
+  decltype(&gmshModelMeshGenerate) generate = Symbol{library, "gmshModelMeshGenerate"};
+  decltype(&gmshModelMeshRefine) refine = Symbol{library, "gmshModelMeshRefine"};
+  decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
+  decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
+
+  static const Gmsh& get() {
+    static const Gmsh functions;
+    return functions;
+  }
+};
+
+/// An array that Gmsh allocated, given back at the end.
+template <class T>
+struct GmshArray {
+  T* data = nullptr;
+  std::size_t size = 0;
+
+  GmshArray() = default;
+  ~GmshArray() {
+    if (data != nullptr)
+      Gmsh::get().free(data);
+  }
+  GmshArray(const GmshArray&) = delete;
+  GmshArray& operator=(const GmshArray&) = delete;
+};
+
+/// Gmsh 4.9 and later take one argument more: whether to run as a program.
+template <class Initialize>
+int initialize(Initialize function) {
+  std::string name = "epafi";
+  char* arguments[] = {name.data(), nullptr};
+  constexpr int readConfigFiles = 0;
+  int error = 0;
+  if constexpr (std::is_invocable_v<Initialize, int, char**, int, int, int*>)
+    function(1, arguments, readConfigFiles, 0, &error);
+  else
+    function(1, arguments, readConfigFiles, &error);
+  return error;
+}
+
+/// Gmsh at work on one file, from initialisation to its end: silent, with no configuration of the user read. One at a
+/// time.
+class Session {
+public:
+  explicit Session(std::string file) : file_(std::move(file)) {
+    if (initialize(gmsh_.initialize) != 0)
+      throw Error("Gmsh cannot be initialised to read \"" + file_ + '"');
+    int error = 0;
+    gmsh_.setNumber("General.Terminal", 0, &error);
+  }
+  ~Session() {
+    int error = 0;
+    gmsh_.finalize(&error);
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  void open(double meshSizeFactor) const {
+    call(gmsh_.setNumber, "Mesh.MeshSizeFactor", meshSizeFactor);
+    call(gmsh_.open, file_.c_str());
+  }
+  /// Elements that the file does not make itself, split so many times.
+  void mesh(int refinements) const;
+  /// Throws InputError if elements of the highest dimension are not linear.
+  void requireLinear() const;
+  /// Saves all there is, whatever the file says of how and what to save.
+  void save(const std::string& file) const;
+
+private:
+  [[nodiscard]] std::vector<int> elementTypes(int dimension) const;
+  /// Calls a function and adds its last argument. Throws InputError with the file's name and Gmsh's own message.
+  template <class Function, class... Arguments>
+  void call(Function function, Arguments... arguments) const {
+    int error = 0;
+    function(arguments..., &error);
+    if (error == 0)
+      return;
+    GmshArray<char> text;
+    gmsh_.lastError(&text.data, &error);
+    throw InputError("The mesh file " + inQuotes(file_) + " cannot be read: Gmsh says: " +
+                     asSentence(text.data == nullptr || *text.data == '\0' ? "unknown error" : text.data));
+  }
+
+  static constexpr int anyEntity = -1;
+  const Gmsh& gmsh_ = Gmsh::get();
+  std::string file_;
+};
+
+std::vector<int> Session::elementTypes(int dimension) const {
+  GmshArray<int> types;
+  call(gmsh_.elementTypes, &types.data, &types.size, dimension, anyEntity);
+  return {types.data, types.data + types.size};
+}
+
+void Session::mesh(int refinements) const {
+  int error = 0;
+  const int dimension = gmsh_.dimension(&error);
+  if (dimension > 0 && elementTypes(dimension).empty())
+    call(gmsh_.generate, dimension);
+  for (int i = 0; i < refinements; ++i)
+    call(gmsh_.refine);
+}
+
+void Session::requireLinear() const {
+  const std::vector<int> solid = elementTypes(3);
+  for (const int type : solid.empty() ? elementTypes(2) : solid) {
+    if (numNodesOfGmsh(type) > 0)
+      continue;
+    GmshArray<std::size_t> tags, nodes;
+    constexpr std::size_t task = 0, numTasks = 1;
+    call(gmsh_.elements, type, &tags.data, &tags.size, &nodes.data, &nodes.size, anyEntity, task, numTasks);
+    throw InputError("The mesh file " + inQuotes(file_) + ": " +
+                     notLinear(type, static_cast<GlobalOrdinal>(*tags.data)));
+  }
+}
+
+void Session::save(const std::string& file) const {
+  constexpr std::pair<const char*, double> options[] = {
+      {"Mesh.MshFileVersion", 4.1}, {"Mesh.Binary", 1},        {"Mesh.SaveAll", 1},
+      {"Mesh.SaveParametric", 0},   {"Mesh.ScalingFactor", 1}, {"Mesh.PartitionSplitMeshFiles", 0}};
+  for (const auto& [name, value] : options)
+    call(gmsh_.setNumber, name, value);
+  call(gmsh_.write, file.c_str());
+}
+
+/// A folder of our own, which is removed with all that is in it.
+class TemporaryFolder {
+public:
+  TemporaryFolder() : path_(fs::temp_directory_path() / "epafi-XXXXXX") {
+    std::string name = path_.string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error("No folder for Gmsh's mesh can be made in " + path_.parent_path().string() + ": " +
+                  std::strerror(errno) + "; name another one in TMPDIR");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] std::string file() const { return path_ / "mesh.msh"; }
+
+private:
+  fs::path path_;
+};
 
 /// What Gmsh would take for an empty model, or read without a word.
 void checkFile(const std::string& file) {
-  const std::filesystem::path path(file);
+  const fs::path path(file);
   if (path.extension() != ".msh" && path.extension() != ".geo")
     throw InputError("The mesh file " + inQuotes(file) +
                      " is of an unknown kind; its name must end in .msh or .geo");
-  if (!std::filesystem::is_regular_file(path))
+  if (!fs::is_regular_file(path))
     throw InputError("There is no mesh file " + inQuotes(file) + "; check its name and the folder");
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
@@ -35,150 +224,36 @@ void checkFile(const std::string& file) {
                      " has no end, so that Gmsh would pass over it; end it with a line break");
 }
 
-/// One reading of a geometry by Gmsh.
-class Reader {
-public:
-  explicit Reader(const std::string& file) : session_(file), gmsh_(session_.gmsh()) { contents_.file = file; }
-
-  GmshContents read(double meshSizeFactor, int refinements);
-
-private:
-  void mesh();
-  void readGroups();
-  void readNodes();
-  std::vector<GmshGroup> groupsOf(int dimension) const;
-  std::vector<int> entitiesOf(int dimension) const;
-  bool hasElements(int dimension) const;
-  void readElements(int dimension, int entity, std::vector<GmshBlock>& blocks) const;
-
-  GmshSession session_;
-  const GmshFunctions& gmsh_;
-  GmshContents contents_;
-};
-
-GmshContents Reader::read(double meshSizeFactor, int refinements) {
-  session_.call(gmsh_.setNumber, "Mesh.MeshSizeFactor", meshSizeFactor);
-  session_.call(gmsh_.open, contents_.file.c_str());
-  mesh();
-  for (int i = 0; i < refinements; ++i)
-    session_.call(gmsh_.refine);
-  readGroups();
-  readNodes();
-  for (const int entity : entitiesOf(contents_.dimension))
-    readElements(contents_.dimension, entity, contents_.elements);
-  std::vector<int> named;
-  for (const GmshGroup& surface : contents_.surfaces)
-    named.insert(named.end(), surface.entities.begin(), surface.entities.end());
-  std::sort(named.begin(), named.end());
-  named.erase(std::unique(named.begin(), named.end()), named.end());
-  for (const int entity : named)
-    readElements(contents_.dimension - 1, entity, contents_.facets);
-  return std::move(contents_);
+std::string textOf(const std::string& path, const std::string& file) {
+  std::string text(fs::file_size(path), '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream)
+    throw InputError("The mesh file " + inQuotes(file) + " could not be read to its end");
+  return text;
 }
 
-bool Reader::hasElements(int dimension) const {
-  GmshArray<int> types;
-  session_.call(gmsh_.elementTypes, types.data(), types.size(), dimension, anyEntity);
-  return !types.span().empty();
-}
-
-void Reader::mesh() {
-  const int dimension = session_.call(gmsh_.dimension);
-  if (dimension > 0 && !hasElements(dimension))
-    session_.call(gmsh_.generate, dimension);
-  contents_.dimension = hasElements(3) ? 3 : 2;
-  if (!hasElements(contents_.dimension))
-    contents_.refuseNoElements();
-}
-
-void Reader::readGroups() {
-  contents_.groups = groupsOf(contents_.dimension);
-  contents_.surfaces = groupsOf(contents_.dimension - 1);
-  for (int lower = contents_.dimension - 2; lower >= 0; --lower)
-    for (GmshGroup& group : groupsOf(lower))
-      contents_.lesser.push_back({std::move(group.name), {}});
-}
-
-std::vector<GmshGroup> Reader::groupsOf(int dimension) const {
-  GmshArray<int> dimTags;
-  session_.call(gmsh_.physicalGroups, dimTags.data(), dimTags.size(), dimension);
-  std::vector<GmshGroup> groups;
-  for (std::size_t i = 1; i < dimTags.span().size(); i += 2) {
-    const int tag = dimTags.span()[i];
-    GmshArray<char> name;
-    session_.call(gmsh_.physicalName, dimension, tag, name.data());
-    GmshArray<int> entities;
-    session_.call(gmsh_.entitiesOfGroup, dimension, tag, entities.data(), entities.size());
-    contents_.addGroup(groups, dimension, tag,
-                       {*name.data(), {entities.span().begin(), entities.span().end()}});
-  }
-  return groups;
-}
-
-std::vector<int> Reader::entitiesOf(int dimension) const {
-  GmshArray<int> dimTags;
-  session_.call(gmsh_.entities, dimTags.data(), dimTags.size(), dimension);
-  std::vector<int> tags;
-  for (std::size_t i = 1; i < dimTags.span().size(); i += 2)
-    tags.push_back(dimTags.span()[i]);
-  return tags;
-}
-
-void Reader::readNodes() {
-  std::vector<GlobalOrdinal> tags;
-  std::vector<Point> points;
-  std::vector<std::array<int, 2>> places;
-  for (int dimension = 0; dimension <= contents_.dimension; ++dimension)
-    for (const int entity : entitiesOf(dimension)) {
-      GmshArray<std::size_t> nodes;
-      GmshArray<double> coordinates, parameters;
-      constexpr int includeBoundary = 0, returnParameters = 0;
-      session_.call(gmsh_.nodes, nodes.data(), nodes.size(), coordinates.data(), coordinates.size(),
-                    parameters.data(), parameters.size(), dimension, entity, includeBoundary,
-                    returnParameters);
-      for (std::size_t i = 0; i < nodes.span().size(); ++i) {
-        const double* xyz = &coordinates.span()[3 * i];
-        tags.push_back(static_cast<GlobalOrdinal>(nodes.span()[i]));
-        points.push_back({xyz[0], xyz[1], xyz[2]});
-        places.push_back({dimension, entity});
-      }
-    }
-  contents_.setNodes(tags, points, places);
-}
-
-void Reader::readElements(int dimension, int entity, std::vector<GmshBlock>& blocks) const {
-  GmshArray<int> types;
-  session_.call(gmsh_.elementTypes, types.data(), types.size(), dimension, entity);
-  for (const int type : types.span()) {
-    GmshArray<std::size_t> tags, nodes;
-    constexpr std::size_t task = 0, numTasks = 1;
-    session_.call(gmsh_.elementsByType, type, tags.data(), tags.size(), nodes.data(), nodes.size(), entity,
-                  task, numTasks);
-    if (numNodesOfGmsh(type) == 0)
-      throw InputError("The mesh file " + inQuotes(contents_.file) + ": " +
-                       notLinear(type, static_cast<GlobalOrdinal>(tags.span().front())));
-    GmshBlock block{entity, type, {tags.span().begin(), tags.span().end()}, {}};
-    block.nodes.reserve(nodes.span().size());
-    for (const std::size_t tag : nodes.span())
-      block.nodes.push_back(contents_.nodeOf(static_cast<GlobalOrdinal>(tag)));
-    blocks.push_back(std::move(block));
-  }
+std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refinements) {
+  const TemporaryFolder folder;
+  const Session session(file);
+  session.open(meshSizeFactor);
+  session.mesh(refinements);
+  session.requireLinear();
+  session.save(folder.file());
+  return textOf(folder.file(), file);
 }
 
 } // namespace
 
-GmshContents readGmshFile(const std::string& file, double meshSizeFactor, int refinements) {
+std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements) {
   checkFile(file);
   if (file.ends_with(".geo"))
-    return Reader(file).read(meshSizeFactor, refinements);
-  std::string text(std::filesystem::file_size(file), '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream)
-    throw InputError("The mesh file " + inQuotes(file) + " could not be read to its end");
-  GmshContents contents = readMsh(file, std::move(text));
-  // A mesh is split by Gmsh's library, which is safe once the file is known to be sound.
-  return refinements == 0 ? std::move(contents) : Reader(file).read(meshSizeFactor, refinements);
+    return textOfGmsh(file, meshSizeFactor, refinements);
+  std::string text = textOf(file, file);
+  if (refinements == 0)
+    return text;
+  (void)readMsh(file, std::move(text)); // a file that is known to be sound can be handed to Gmsh
+  return textOfGmsh(file, meshSizeFactor, refinements);
 }
 
 } // namespace epafi::fem

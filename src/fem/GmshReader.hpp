@@ -1,21 +1,22 @@
 #pragma once
 
-/// Mesh files: .msh, which we read ourselves, and geometries (.geo), which are programs that Gmsh runs.
-
-#include "epafi/fem/GmshContents.hpp"
+/// The text of mesh files: .msh as it is, geometries (.geo), which are programs that Gmsh runs, as Gmsh meshes and saves them.
+///
+/// Gmsh's library is loaded when first used: it brings some eighty other libraries along, which a program without
+/// geometries need not wait for. It saves into a folder of its own under TMPDIR (else /tmp), which is removed at once.
 
 #include <string>
 
 namespace epafi::fem {
 
-/// Reads .msh as readMsh() does, and meshes .geo (unless it makes elements itself). Throws InputError if there is no such file,
-/// it or Gmsh refuses it, it has no elements of dimension 2 or 3, or some that are not linear; Error if Gmsh is needed and
-/// cannot be loaded.
+/// Text that readMsh() takes. A .geo is meshed unless it makes elements itself. Throws InputError if there is no such file, it
+/// cannot be read, Gmsh refuses it or makes elements of it that are not linear; Error if Gmsh is needed and cannot be loaded, or
+/// the folder cannot be made.
 ///
 /// \param meshSizeFactor  of a .geo that is meshed: by which all its mesh sizes are multiplied (Gmsh's option
 ///        Mesh.MeshSizeFactor, which the geometry itself can read, for what it does not apply to)
 /// \param refinements  how many times every element is split then, into 4 in the plane and 8 in space; new nodes on curved
 ///        borders lie on the geometry if the file has one
-GmshContents readGmshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0);
+std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0);
 
 } // namespace epafi::fem

@@ -42,20 +42,6 @@ double distanceToNeighbours(LocalOrdinal node, const MeshArrays& mesh, const Mes
   return nearest;
 }
 
-/// The corners' box, widened.
-std::array<Point, 2> boxOf(std::span<const Point> corners, double margin) {
-  Point lower = corners[0], upper = corners[0];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const Point& corner : corners) {
-      lower[axis] = std::min(lower[axis], corner[axis]);
-      upper[axis] = std::max(upper[axis], corner[axis]);
-    }
-    lower[axis] -= margin;
-    upper[axis] += margin;
-  }
-  return {lower, upper};
-}
-
 } // namespace
 
 double distanceFrom(CellType type, std::span<const Point> facet, const Point& point) {

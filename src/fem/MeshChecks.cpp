@@ -2,7 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
-#include "epafi/fem/ElementShape.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/HangingNodes.hpp"
 
 #include <algorithm>
@@ -93,16 +93,12 @@ void Checker::checkNodes() const {
 }
 
 void Checker::checkPoints() {
-  Point lower = mesh_.points.front(), upper = lower;
   for (std::size_t n = 0; n < mesh_.points.size(); ++n)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double value = mesh_.points[n][axis];
+    for (const double value : mesh_.points[n])
       if (!std::isfinite(value))
         refuse(node(static_cast<LocalOrdinal>(n)) +
                " has a coordinate that is not a finite number; mesh anew");
-      lower[axis] = std::min(lower[axis], value);
-      upper[axis] = std::max(upper[axis], value);
-    }
+  const auto [lower, upper] = boxOf(mesh_.points);
   size_ = std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
   if (dimension_ == 3)
     return;
@@ -160,11 +156,7 @@ void Checker::checkPlaces(const PointTree& tree) const {
   const double tolerance = placeTolerance * size_;
   std::vector<LocalOrdinal> found;
   for (const Point& point : mesh_.points) {
-    Point lower = point, upper = point;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lower[axis] -= tolerance;
-      upper[axis] += tolerance;
-    }
+    const auto [lower, upper] = boxOf(std::span(&point, 1), tolerance);
     tree.inBox(lower, upper, found);
     if (found.size() < 2)
       continue;

@@ -1,16 +1,18 @@
 #include "epafi/fem/MshReader.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/MshRecords.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/fem/MshSections.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <limits>
+#include <numeric>
 #include <set>
 #include <sstream>
 
 namespace epafi::fem {
 namespace {
+
+constexpr int pointType = 15; ///< Gmsh's number
 
 /// Reads the sections of a file in their order.
 class Reader {
@@ -112,8 +114,10 @@ public:
   GmshContents make();
 
 private:
-  void addGroups(int dimension, std::vector<GmshGroup>& list);
-  void addBlocks(int dimension, std::vector<GmshBlock>& list);
+  void setNodes();
+  [[nodiscard]] LocalOrdinal nodeOf(GlobalOrdinal tag) const;
+  std::vector<GmshGroup> groupsOf(int dimension) const;
+  std::vector<GmshBlock> blocksOf(int dimension);
 
   MshRecords records_;
   GmshContents contents_;
@@ -122,85 +126,105 @@ private:
 GmshContents Contents::make() {
   const int d = contents_.dimension = records_.blocks[3].empty() ? 2 : 3;
   if (records_.blocks[static_cast<std::size_t>(d)].empty())
-    contents_.refuseNoElements();
-  addGroups(d, contents_.groups);
-  addGroups(d - 1, contents_.surfaces);
+    throw InputError("The mesh file " + inQuotes(contents_.file) +
+                     " holds no elements of dimension 2 or 3; mesh its surfaces or volumes, and save all of "
+                     "them or those in physical groups");
+  contents_.groups = groupsOf(d);
+  contents_.surfaces = groupsOf(d - 1);
   for (int lower = d - 2; lower >= 0; --lower)
-    addGroups(lower, contents_.lesser);
-  for (GmshGroup& group : contents_.lesser)
-    group.entities.clear();
-  contents_.setNodes(records_.nodeTags, records_.points, records_.nodeEntities);
-  addBlocks(d, contents_.elements);
+    for (GmshGroup& group : groupsOf(lower))
+      contents_.lesser.push_back(std::move(group));
+  setNodes();
+  contents_.elements = blocksOf(d);
   std::set<int> named;
   for (const GmshGroup& surface : contents_.surfaces)
     named.insert(surface.entities.begin(), surface.entities.end());
   std::erase_if(records_.blocks[static_cast<std::size_t>(d - 1)],
-                [&](const MshBlock& block) { return !named.contains(block.entity); });
-  addBlocks(d - 1, contents_.facets);
+                [&](const MshBlock& made) { return !named.contains(made.block.entity); });
+  contents_.facets = blocksOf(d - 1);
   return std::move(contents_);
 }
 
-void Contents::addGroups(int dimension, std::vector<GmshGroup>& list) {
-  for (auto& [number, entities] : records_.groupEntities[static_cast<std::size_t>(dimension)]) {
-    std::sort(entities.begin(), entities.end());
-    entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
-    const auto name = records_.groupNames.find({dimension, number});
-    contents_.addGroup(list, dimension, number,
-                       {name == records_.groupNames.end() ? "" : name->second, entities});
+/// In the order of their tags.
+void Contents::setNodes() {
+  const std::vector<GlobalOrdinal>& tags = records_.nodeTags;
+  std::vector<std::size_t> order(tags.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
+  for (const std::size_t i : order) {
+    if (!contents_.nodeTags.empty() && contents_.nodeTags.back() == tags[i])
+      throw InputError("The mesh file " + inQuotes(contents_.file) + " lists node " +
+                       std::to_string(tags[i]) + " twice; number its nodes differently, or mesh anew");
+    contents_.nodeTags.push_back(tags[i]);
+    contents_.points.push_back(records_.points[i]);
+    contents_.nodeEntities.push_back(records_.nodeEntities[i]);
   }
 }
 
-void Contents::addBlocks(int dimension, std::vector<GmshBlock>& list) {
-  for (MshBlock& block : records_.blocks[static_cast<std::size_t>(dimension)]) {
-    GmshBlock made{block.entity, block.type, std::move(block.tags), {}};
-    made.nodes.reserve(block.nodes.size());
-    for (const GlobalOrdinal tag : block.nodes)
-      made.nodes.push_back(contents_.nodeOf(tag));
-    block.nodes = {};
-    list.push_back(std::move(made));
+/// Index of the node with that tag, which is ≥ 0.
+LocalOrdinal Contents::nodeOf(GlobalOrdinal tag) const {
+  const std::vector<GlobalOrdinal>& tags = contents_.nodeTags;
+  // Mostly numbers have no gaps, and there is nothing to search.
+  if (!tags.empty() && tag >= tags.front()) {
+    const auto guess = static_cast<std::size_t>(tag - tags.front());
+    if (guess < tags.size() && tags[guess] == tag)
+      return static_cast<LocalOrdinal>(guess);
   }
+  const auto found = std::lower_bound(tags.begin(), tags.end(), tag);
+  if (found == tags.end() || *found != tag)
+    throw InputError("The mesh file " + inQuotes(contents_.file) + " has an element with node " +
+                     std::to_string(tag) + ", but no such node; mesh anew");
+  return static_cast<LocalOrdinal>(found - tags.begin());
+}
+
+/// A group without a name is called by its number.
+std::vector<GmshGroup> Contents::groupsOf(int dimension) const {
+  std::vector<GmshGroup> groups;
+  for (auto [number, entities] : records_.groupEntities[static_cast<std::size_t>(dimension)]) {
+    std::sort(entities.begin(), entities.end());
+    entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
+    const auto found = records_.groupNames.find({dimension, number});
+    const bool hasName = found != records_.groupNames.end() && !found->second.empty();
+    const std::string name = hasName ? found->second : std::to_string(number);
+    if (std::any_of(groups.begin(), groups.end(), [&](const GmshGroup& other) { return other.name == name; }))
+      throw InputError("The mesh file " + inQuotes(contents_.file) + " has two physical groups " +
+                       inQuotes(name) + " of dimension " + std::to_string(dimension) +
+                       "; give them different names");
+    groups.push_back({name, std::move(entities)});
+  }
+  return groups;
+}
+
+std::vector<GmshBlock> Contents::blocksOf(int dimension) {
+  std::vector<GmshBlock> blocks;
+  for (MshBlock& made : records_.blocks[static_cast<std::size_t>(dimension)]) {
+    made.block.nodes.reserve(made.nodes.size());
+    for (const GlobalOrdinal tag : made.nodes)
+      made.block.nodes.push_back(nodeOf(tag));
+    made.nodes = {};
+    blocks.push_back(std::move(made.block));
+  }
+  return blocks;
 }
 
 } // namespace
 
-void readPhysicalNames(MshScanner& file, MshRecords& records) {
-  const LocalOrdinal number = file.countInLine("names", 6, 3);
-  for (LocalOrdinal i = 0; i < number; ++i) {
-    const std::string line(file.line());
-    std::istringstream words(line);
-    int dimension = -1, group = 0;
-    words >> dimension >> group;
-    const std::size_t first = line.find('"'), last = line.rfind('"');
-    if (!words || dimension < 0 || dimension > 3 || first == last)
-      file.refuse("here should be a physical group such as 2 1 \"name\", not \"" + shortened(line) +
-                  "\"; the file is damaged or cut off, so save it anew");
-    const std::string name = line.substr(first + 1, last - first - 1);
-    if (shortened(name) != name)
-      file.refuse("the name of a physical group, \"" + shortened(name) +
-                  "\", must have at most 200 letters and no control characters among them");
-    records.groupNames[{dimension, groupOfTag(file, group)}] = name;
-  }
+int numNodesOfGmsh(int type) {
+  // line 1, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid 7
+  constexpr std::array<int, 8> counts{0, 2, 3, 4, 4, 8, 6, 5};
+  if (type == pointType)
+    return 1;
+  return type > 0 && type < 8 ? counts[static_cast<std::size_t>(type)] : 0;
 }
 
-int numNodesOfMsh(const MshScanner& file, int type, GlobalOrdinal element) {
-  const int number = numNodesOfGmsh(type);
-  if (number == 0)
-    file.refuse(notLinear(type, element));
-  return number;
+int dimensionOfGmsh(int type) {
+  return type == pointType ? 0 : type == 1 ? 1 : type < 4 ? 2 : 3;
 }
 
-GlobalOrdinal checkedTag(const MshScanner& file, GlobalOrdinal tag) {
-  if (tag < 0)
-    file.refuse("a node has the number " + std::to_string(tag) +
-                ", but must not have a negative one; the file is damaged, so save it anew");
-  return tag;
-}
-
-int groupOfTag(const MshScanner& file, int tag) {
-  if (tag == std::numeric_limits<int>::min())
-    file.refuse("a physical group has the number " + std::to_string(tag) +
-                "; the file is damaged, so save it anew");
-  return std::abs(tag);
+std::string notLinear(int type, GlobalOrdinal element) {
+  return "element " + std::to_string(element) + " is of Gmsh's kind " + std::to_string(type) +
+         ", of second or higher order or unknown; only linear elements are allowed, so mesh with "
+         "Mesh.ElementOrder = 1";
 }
 
 GmshContents readMsh(const std::string& name, std::string text) {

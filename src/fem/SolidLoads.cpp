@@ -2,7 +2,6 @@
 
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
-#include "epafi/fem/FacetLoads.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 
 #include <algorithm>

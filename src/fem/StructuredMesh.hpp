@@ -4,11 +4,44 @@
 /// and layer by layer from the lowest corner, x fastest, then y, then z: node (i,j,k) is i + (n_x + 1)(j + (n_y + 1)k); element
 /// (i,j,k) is i + n_x(j + n_y k). Nothing of the mesh's size is stored.
 
-#include "epafi/fem/GridWalk.hpp"
 #include "epafi/fem/Mesh.hpp"
 #include "epafi/scene/Body.hpp"
 
+#include <array>
+#include <cstddef>
+
 namespace epafi::fem {
+
+/// Column, row and layer of numbers in a numbering row by row and layer by layer.
+/// Numbers that follow each other cost a division a row at most; others two.
+class GridWalk {
+public:
+  /// \param rowLength  numbers a row, ≥ 1
+  /// \param rowsPerLayer  rows a layer, ≥ 1
+  GridWalk(GlobalOrdinal rowLength, GlobalOrdinal rowsPerLayer)
+      : rowLength_(rowLength), rowsPerLayer_(rowsPerLayer) {}
+
+  /// Goes to a number ≥ 0.
+  void to(GlobalOrdinal number) {
+    place_[0] += number - number_;
+    number_ = number;
+    if (place_[0] < 0 || place_[0] >= rowLength_) {
+      const GlobalOrdinal row = number / rowLength_;
+      place_[0] = number - row * rowLength_;
+      place_[2] = row / rowsPerLayer_;
+      place_[1] = row - place_[2] * rowsPerLayer_;
+    }
+  }
+
+  /// Column, row and layer.
+  [[nodiscard]] const std::array<GlobalOrdinal, 3>& place() const { return place_; }
+  [[nodiscard]] GlobalOrdinal operator[](std::size_t axis) const { return place_[axis]; }
+
+private:
+  GlobalOrdinal rowLength_, rowsPerLayer_;
+  GlobalOrdinal number_ = 0;
+  std::array<GlobalOrdinal, 3> place_{0, 0, 0};
+};
 
 class StructuredMesh final : public Mesh {
 public:

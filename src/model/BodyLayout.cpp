@@ -2,14 +2,55 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/fem/GmshFile.hpp"
+#include "epafi/fem/GmshReader.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/model/MeshFiles.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace epafi::model {
 namespace {
+
+/// Meshes from files by file, factor of mesh sizes, and refinements.
+using MeshFiles = std::map<std::tuple<std::string, double, int>, fem::GmshFile>;
+
+MeshFiles::key_type keyOf(const scene::MeshSource& source) {
+  return {source.file, source.sizeFactor, source.refinements};
+}
+
+/// Rank 0's text on all ranks, in messages whose length an int counts. Collective.
+void broadcastText(const Comm& comm, std::string& text) {
+  auto size = static_cast<long long>(text.size());
+  Teuchos::broadcast(comm, 0, 1, &size);
+  collectively(comm, [&] { text.resize(static_cast<std::size_t>(size)); });
+  constexpr long long longest = 1 << 30;
+  for (long long first = 0; first < size; first += longest)
+    Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), text.data() + first);
+}
+
+/// The mesh files of a scene, each read once. Rank 0 reads (and, of a geometry, meshes) each and hands its text to the others:
+/// they all have the same mesh, whatever Gmsh does on their machines. Collective.
+MeshFiles readMeshFiles(const scene::Scene& scene, const Comm& comm) {
+  MeshFiles files;
+  for (const scene::Body& body : scene.bodies) {
+    const scene::MeshSource& source = body.mesh;
+    if (source.file.empty() || files.contains(keyOf(source)))
+      continue;
+    std::string text;
+    collectively(comm, [&] {
+      if (comm.getRank() == 0)
+        text = fem::textOfMeshFile(source.file, source.sizeFactor, source.refinements);
+    });
+    broadcastText(comm, text);
+    collectively(comm, [&] { files.emplace(keyOf(source), fem::readMsh(source.file, std::move(text))); });
+  }
+  return files;
+}
 
 /// Elements in x, y and z of a structured mesh (z: 1 in the plane); zeros of another one.
 std::array<int, 3> elementCounts(const fem::Mesh& mesh) {
@@ -41,7 +82,7 @@ void requireCut(const scene::Body& body, const fem::Mesh& mesh) {
 std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, const MeshFiles& files) {
   const scene::MeshSource& source = body.mesh;
   if (!source.file.empty())
-    return std::make_unique<const fem::UnstructuredMesh>(files.of(source).body(source.group));
+    return std::make_unique<const fem::UnstructuredMesh>(files.at(keyOf(source)).body(source.group));
   return std::make_unique<const fem::StructuredMesh>(source.box, source.elements);
 }
 
@@ -92,7 +133,7 @@ void requireSameComponents(const scene::Scene& scene) {
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
   std::vector<BodyLayout> bodies;
   collectively(comm, [&] { requireSameComponents(scene); });
-  const MeshFiles files(scene, comm);
+  const MeshFiles files = readMeshFiles(scene, comm);
   collectively(comm, [&] {
     for (const scene::Body& body : scene.bodies) {
       bodies.push_back({body.name, makeMesh(body, files), nullptr, 0});
@@ -117,6 +158,13 @@ Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm) {
   const GlobalOrdinal number = bodies.back().firstSubdomain + bodies.back().partition->numParts();
   const auto first = [&](GlobalOrdinal rank) { return static_cast<int>(rank * number / comm.getSize()); };
   return {first(comm.getRank()), first(comm.getRank() + 1)};
+}
+
+std::vector<GlobalOrdinal> firstNodes(const std::vector<BodyLayout>& bodies) {
+  std::vector<GlobalOrdinal> first(1, 0);
+  for (const BodyLayout& body : bodies)
+    first.push_back(first.back() + body.mesh->numNodes());
+  return first;
 }
 
 int lowestPartAt(const BodyLayout& body, GlobalOrdinal node) {

@@ -32,6 +32,9 @@ struct Share {
 /// That of this rank. Not collective.
 Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm);
 
+/// First number of each body's nodes in the whole problem, and the number of them all.
+std::vector<GlobalOrdinal> firstNodes(const std::vector<BodyLayout>& bodies);
+
 /// The lowest part that has a node.
 int lowestPartAt(const BodyLayout& body, GlobalOrdinal node);
 

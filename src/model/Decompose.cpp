@@ -40,14 +40,13 @@ std::vector<NodeFrame> framesOf(const fem::BodyModel& model, const std::vector<G
 std::vector<Body> describeBodies(const std::vector<BodyLayout>& layouts, const Models& models) {
   std::vector<Body> bodies;
   int kernelOffset = 0;
-  GlobalOrdinal firstNode = 0;
+  const std::vector<GlobalOrdinal> firstNode = firstNodes(layouts);
   for (std::size_t b = 0; b < layouts.size(); ++b) {
     const int modes = models[b]->kernelDimension();
-    Body& body = bodies.emplace_back(Body{layouts[b].name, modes, kernelOffset, firstNode});
+    Body& body = bodies.emplace_back(Body{layouts[b].name, modes, kernelOffset, firstNode[b]});
     if (modes > 0)
       body.motions = models[b]->rigidMotions();
     kernelOffset += modes;
-    firstNode += models[b]->unknowns().numNodes();
   }
   return bodies;
 }

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/model/ConnectedParts.hpp"
+#include "epafi/fem/ConnectedElements.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <metis.h>
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <csignal>
 #include <limits>
+#include <map>
 #include <new>
 #include <numeric>
 #include <span>
@@ -39,35 +40,22 @@ DualGraph dualGraphOf(const fem::Mesh& mesh) {
 }
 
 /// METIS would refuse in words of its own. \throws InputError
-void requireConnected(const DualGraph& graph, const fem::Mesh& mesh) {
-  std::vector<char> isReached(static_cast<std::size_t>(mesh.numElements()), 0);
-  std::vector<idx_t> front{0};
-  isReached[0] = 1;
-  GlobalOrdinal numReached = 1;
-  while (!front.empty()) {
-    const auto element = static_cast<std::size_t>(front.back());
-    front.pop_back();
-    for (idx_t k = graph.start[element]; k < graph.start[element + 1]; ++k)
-      if (const idx_t other = graph.neighbours[static_cast<std::size_t>(k)];
-          isReached[static_cast<std::size_t>(other)] == 0) {
-        isReached[static_cast<std::size_t>(other)] = 1;
-        ++numReached;
-        front.push_back(other);
-      }
-  }
-  if (numReached < mesh.numElements())
-    throw InputError("only " + std::to_string(numReached) + " of its " + std::to_string(mesh.numElements()) +
-                     " elements are joined with each other in whole " +
+void requireConnected(const fem::Mesh& mesh) {
+  const auto pieces = fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
+    mesh.elementNeighbours(element, found);
+  });
+  if (pieces.size() > 1)
+    throw InputError("only " + std::to_string(pieces.front().size()) + " of its " +
+                     std::to_string(mesh.numElements()) + " elements are joined with each other in whole " +
                      (dimensionOf(mesh.cellType()) == 2 ? "edges" : "faces") +
                      ", so that it cannot be cut into parts that hang together; make each part a body of its "
                      "own, or join the parts in the mesh");
 }
 
 /// METIS on the dual graph of the mesh; the part of every element.
-std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts, const std::vector<int>& weights) {
+std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
+  requireConnected(mesh);
   DualGraph graph = dualGraphOf(mesh);
-  requireConnected(graph, mesh);
-  std::vector<idx_t> cost(weights.begin(), weights.end());
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_NUMBERING] = 0;
@@ -78,8 +66,8 @@ std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts, const std::vector<
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
   const auto partition = [&] {
     return METIS_PartGraphKway(&numVertices, &numConstraints, graph.start.data(), graph.neighbours.data(),
-                               cost.empty() ? nullptr : cost.data(), nullptr, nullptr, &numParts, nullptr,
-                               nullptr, options, &cut, part.data());
+                               nullptr, nullptr, nullptr, &numParts, nullptr, nullptr, options, &cut,
+                               part.data());
   };
   int status = partition();
   // METIS takes a SIGTERM from outside for a failure of its own: such a one is passed on to whom it was meant for.
@@ -107,21 +95,50 @@ void requireCut(const fem::Mesh& mesh, int parts) {
                      " elements is too large for METIS's 32-bit indices; cut the body as a grid");
 }
 
-void requireWeights(const fem::Mesh& mesh, const std::vector<int>& weights) {
-  if (weights.empty())
-    return;
-  if (static_cast<GlobalOrdinal>(weights.size()) != mesh.numElements())
-    throw InputError("a mesh of " + std::to_string(mesh.numElements()) + " elements got " +
-                     std::to_string(weights.size()) + " weights; give one an element, or none");
-  const auto least = std::min_element(weights.begin(), weights.end());
-  if (*least < 1)
-    throw InputError("element " + std::to_string(least - weights.begin()) + " weighs " +
-                     std::to_string(*least) + "; weights have to be at least 1");
-  const GlobalOrdinal sum = std::accumulate(weights.begin(), weights.end(), GlobalOrdinal{0});
-  if (sum > std::numeric_limits<idx_t>::max())
-    throw InputError(
-        "the elements weigh " + std::to_string(sum) + " in all, more than METIS can count; scale " +
-        "the weights so that their sum is at most " + std::to_string(std::numeric_limits<idx_t>::max()));
+/// The largest piece of every part, the first of equals.
+std::map<int, std::size_t> largestPieces(const std::vector<int>& part,
+                                         const std::vector<std::vector<GlobalOrdinal>>& pieces) {
+  std::map<int, std::size_t> largest;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    std::size_t& best =
+        largest.try_emplace(part[static_cast<std::size_t>(pieces[piece].front())], piece).first->second;
+    if (pieces[piece].size() > pieces[best].size())
+      best = piece;
+  }
+  return largest;
+}
+
+/// Moves the first piece that is not the largest of its part and has neighbours to the part with which it shares most
+/// facets, the lowest of equals. Returns false if there is no such piece.
+bool moveStray(const fem::Mesh& mesh, std::vector<int>& part) {
+  const auto partOf = [&](GlobalOrdinal element) -> int& { return part[static_cast<std::size_t>(element)]; };
+  const auto pieces = fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
+    mesh.elementNeighbours(element, found);
+    std::erase_if(found, [&](GlobalOrdinal other) { return partOf(other) != partOf(element); });
+  });
+  const std::map<int, std::size_t> largest = largestPieces(part, pieces);
+  std::vector<GlobalOrdinal> adjacent;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    const int own = partOf(pieces[piece].front());
+    if (largest.at(own) == piece)
+      continue;
+    std::map<int, int> facets; // shared with each other part
+    for (const GlobalOrdinal element : pieces[piece]) {
+      mesh.elementNeighbours(element, adjacent);
+      for (const GlobalOrdinal other : adjacent)
+        if (partOf(other) != own)
+          ++facets[partOf(other)];
+    }
+    if (facets.empty())
+      continue;
+    const int target = std::max_element(facets.begin(), facets.end(), [](const auto& a, const auto& b) {
+                         return a.second < b.second;
+                       })->first;
+    for (const GlobalOrdinal element : pieces[piece])
+      partOf(element) = target;
+    return true;
+  }
+  return false;
 }
 
 /// Numbers the parts that have elements from 0, in the old order; returns how many there are.
@@ -144,6 +161,12 @@ GlobalOrdinal firstOf(GlobalOrdinal k, int n, int m) {
 }
 
 } // namespace
+
+void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
+  while (moveStray(mesh, part)) {
+    // It is one with a piece of its new part now: there are fewer pieces each time.
+  }
+}
 
 GridPartition::GridPartition(const fem::StructuredMesh& mesh, std::array<int, 3> counts)
     : elements_(mesh.elements()), counts_{counts[0], counts[1], mesh.dimension() == 3 ? counts[2] : 1} {
@@ -185,16 +208,14 @@ std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
   return elements;
 }
 
-GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm,
-                               const std::vector<int>& weights)
+GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm)
     : part_(static_cast<std::size_t>(mesh.numElements()), 0) {
   collectively(comm, [&] {
     requireCut(mesh, parts);
     if (comm.getRank() != 0)
       return;
-    requireWeights(mesh, weights);
     if (parts > 1) {
-      part_ = cutByMetis(mesh, parts, weights);
+      part_ = cutByMetis(mesh, parts);
       makeConnected(mesh, part_);
     }
     numParts_ = renumber(part_);

@@ -43,13 +43,10 @@ private:
 /// replicated.
 class GraphPartition final : public Partition {
 public:
-  /// METIS runs on rank 0, its result is broadcast; the same mesh, count and weights give the same parts on any
+  /// METIS runs on rank 0, its result is broadcast; the same mesh and count give the same parts on any
   /// number of ranks. The number of parts may differ from the one asked for where METIS leaves parts empty.
-  /// Collective. \throws InputError if METIS refuses, or if the weights are not as said.
-  ///
-  /// \param weights  cost of each element, ≥ 1, their sum an int: parts get nearly equal sums of them instead of
-  ///                 equal numbers of elements. Empty if all cost the same. Those of rank 0 count
-  GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm, const std::vector<int>& weights = {});
+  /// Collective. \throws InputError if METIS refuses.
+  GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm);
   [[nodiscard]] int numParts() const override { return numParts_; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override {
     return part_[static_cast<std::size_t>(element)];
@@ -62,5 +59,12 @@ private:
   std::vector<std::size_t> start_; ///< of each part in members_
   std::vector<int> members_;       ///< elements, part by part, ascending in each
 };
+
+/// Makes every part of a mesh connected through facets of elements (edges in 2-D, faces in 3-D): each piece
+/// that is not the largest of its part goes to the neighbouring part with which it shares most facets. Parts
+/// may become empty. Where the mesh itself has pieces, these remain as they are.
+///
+/// \param[in,out] part  of every element, ≥ 0
+void makeConnected(const fem::Mesh& mesh, std::vector<int>& part);
 
 } // namespace epafi::model

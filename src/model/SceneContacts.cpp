@@ -97,11 +97,7 @@ contact::ContactMatrix contactMatrix(const std::vector<BodyLayout>& bodies,
                                      const RCP<const Comm>& comm) {
   contact::NodeUnknowns unknowns;
   unknowns.components = models.front()->components();
-  GlobalOrdinal firstNode = 0;
-  for (const BodyLayout& body : bodies) {
-    unknowns.firstNode.push_back(firstNode);
-    firstNode += body.mesh->numNodes();
-  }
+  unknowns.firstNode = firstNodes(bodies);
   const auto modelOf = [&](int body) -> const fem::BodyModel& {
     return *models[static_cast<std::size_t>(body)];
   };

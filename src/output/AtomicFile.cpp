@@ -53,12 +53,17 @@ void prepareOnThisRank(const fs::path& file) {
                      std::strerror(reason) + ". Name a directory that can be written to.");
 }
 
-void writeOnThisRank(const fs::path& file, const std::string& text) {
+/// The text is on the disk then, not only on its way there. \param called  how errors call the file
+void writeOnThisRank(const fs::path& file, const std::string& text, const fs::path& called) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream)
-    throw Error("File '" + file.string() + "' could not be written: " + std::strerror(errno) +
+  const int descriptor = stream ? ::open(file.c_str(), O_WRONLY | O_CLOEXEC) : -1;
+  const int reason = descriptor >= 0 && ::fsync(descriptor) == 0 ? 0 : errno;
+  if (descriptor >= 0)
+    ::close(descriptor);
+  if (reason != 0)
+    throw Error("File '" + called.string() + "' could not be written: " + std::strerror(reason) +
                 ". Check the free space and the permissions of its directory.");
 }
 
@@ -103,7 +108,7 @@ fs::path temporaryBeside(const fs::path& file, const Comm& comm) {
 void createForAll(const fs::path& temporary, const Comm& comm) {
   collectively(comm, [&] {
     if (comm.getRank() == 0)
-      writeOnThisRank(temporary, "");
+      writeOnThisRank(temporary, "", temporary);
   });
   collectively(comm, [&] {
     std::error_code error;
@@ -144,7 +149,7 @@ void writeTextFile(const fs::path& file, const std::function<std::string()>& tex
     if (comm.getRank() != 0)
       return;
     try {
-      writeOnThisRank(temporary, text());
+      writeOnThisRank(temporary, text(), file);
     } catch (...) {
       std::error_code ignored;
       fs::remove(temporary, ignored);

@@ -35,7 +35,8 @@ void reserveSpace(const std::filesystem::path& temporary, std::uintmax_t bytes,
 /// fails. Collective. \throws Error naming the file.
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& file, const Comm& comm);
 
-/// Writes a text file from rank 0, through prepareTarget, a temporary and publish.
+/// Writes a text file (or any bytes) from rank 0, through prepareTarget, a temporary and publish. It is on the disk then, not
+/// only on its way there.
 ///
 /// \param text  makes the text; called on rank 0 only, must not call anything collective.
 /// Collective.

@@ -3,7 +3,6 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"
-#include "epafi/output/CheckpointHeader.hpp"
 #include "epafi/output/Slab.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
@@ -11,135 +10,159 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
-#include <unistd.h>
-
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <memory>
+#include <fstream>
+#include <span>
+#include <string_view>
+#include <utility>
 
 namespace epafi::output {
 namespace {
 
 namespace fs = std::filesystem;
 
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+/// No header is longer.
+constexpr std::size_t longestHeader = 1024;
+constexpr std::string_view title = "Epafi checkpoint ";
+constexpr std::string_view version = "1";
+constexpr std::string_view order = std::endian::native == std::endian::little ? "little" : "big";
 
-std::size_t sizeOfShare(GlobalOrdinal rows, int rank, const Comm& comm) {
-  return static_cast<std::size_t>(evenShare(rows, rank, comm.getSize()).count);
+/// Counts in the order of the file.
+constexpr std::array<std::pair<std::string_view, GlobalOrdinal Fingerprint::*>, 6> counts{
+    {{"inequalities", &Fingerprint::numInequalities},
+     {"equalities", &Fingerprint::numEqualities},
+     {"primal", &Fingerprint::primalDimension},
+     {"subdomains", &Fingerprint::numSubdomains},
+     {"components", &Fingerprint::components},
+     {"kernel", &Fingerprint::kernelDimension}}};
+
+template <class Number, class... Form>
+std::string textOf(Number value, Form... form) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, form...).ptr};
 }
 
-/// A checkpoint that is being written: remembers the first failure, so that shares can be taken on all the same.
-class Writer {
+/// Line after line of a text.
+class Lines {
 public:
-  explicit Writer(const fs::path& temporary) : file_(std::fopen(temporary.c_str(), "wb"), std::fclose) {
-    note(file_ != nullptr);
+  explicit Lines(std::string_view text) : text_(text) {}
+
+  /// The rest of the next line, which begins with `name` and a blank.
+  std::string_view valueOf(std::string_view name) {
+    const std::string_view line = next();
+    if (!line.starts_with(name) || line.substr(name.size()).substr(0, 1) != " ")
+      refuse(name);
+    return line.substr(name.size() + 1);
   }
-  void add(const void* bytes, std::size_t size) {
-    if (size == 0)
-      return; // `bytes` may be null then
-    checksum_.add(bytes, size);
-    if (error_ == 0)
-      note(std::fwrite(bytes, 1, size, file_.get()) == size);
+  /// The number there, read to its end.
+  template <class Number, class... Form>
+  Number numberOf(std::string_view name, Form... form) {
+    const std::string_view text = valueOf(name);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, form...);
+    if (error != std::errc() || end != text.data() + text.size())
+      refuse(name);
+    return value;
   }
-  /// 0, or the error number of what failed first.
-  int finish() {
-    const std::uint64_t checksum = checksum_.value();
-    add(&checksum, sizeof checksum);
-    if (error_ == 0)
-      note(std::fflush(file_.get()) == 0 && ::fsync(::fileno(file_.get())) == 0);
-    if (file_ != nullptr && std::fclose(file_.release()) != 0)
-      note(false);
-    return error_;
+  std::string_view next() {
+    const auto end = text_.find('\n', place_);
+    if (end == std::string_view::npos)
+      throw InputError("ends within its head");
+    const std::string_view line = text_.substr(place_, end - place_);
+    place_ = end + 1;
+    return line;
+  }
+  [[nodiscard]] std::size_t place() const { return place_; }
+  [[noreturn]] static void refuse(std::string_view name) {
+    throw InputError("does not say '" + std::string(name) + "' where it should in its head");
   }
 
 private:
-  void note(bool succeeded) {
-    if (!succeeded && error_ == 0)
-      error_ = errno != 0 ? errno : EIO;
-  }
-  File file_;
-  Checksum checksum_;
-  int error_ = 0;
+  std::string_view text_;
+  std::size_t place_ = 0;
 };
 
-/// Rank 0 writes the shares as they come. Returns 0 or an error number; 0 on the others. Collective.
-int writeShares(const fs::path& temporary, const Fingerprint& fingerprint, std::span<const double> share,
-                const Comm& comm) {
-  const auto size = static_cast<int>(share.size());
-  if (comm.getRank() > 0) {
-    Teuchos::send(comm, size, share.data(), 0);
-    return 0;
+struct Header {
+  Fingerprint fingerprint;
+  std::size_t length = 0; ///< of the text, the empty line included
+};
+
+/// Takes nothing but what checkpointHeader() writes, with any numbers. \param text  the beginning of a file
+Header parsed(std::string_view text) {
+  text = text.substr(0, longestHeader);
+  if (!text.starts_with(title))
+    throw InputError("is no checkpoint of Epafi");
+  Lines lines(text.substr(title.size()));
+  if (lines.next() != version)
+    throw InputError("was written by another version of Epafi");
+  if (lines.valueOf("order") != order)
+    throw InputError("was written on a machine that stores numbers in another order");
+  Header header;
+  // So many that no sum or product of them overflows.
+  constexpr GlobalOrdinal most = GlobalOrdinal{1} << 50;
+  for (const auto& [name, member] : counts) {
+    const auto value = lines.numberOf<GlobalOrdinal>(name);
+    if (value < 0 || value > most)
+      Lines::refuse(name);
+    header.fingerprint.*member = value;
   }
-  errno = 0;
-  Writer writer(temporary);
-  const std::string header = checkpointHeader(fingerprint);
-  writer.add(header.data(), header.size());
-  writer.add(share.data(), share.size_bytes());
-  std::vector<double> received(share.size()); // rank 0 has the longest
-  for (int rank = 1; rank < comm.getSize(); ++rank) {
-    const std::size_t count = sizeOfShare(fingerprint.numMultipliers(), rank, comm);
-    Teuchos::receive(comm, rank, static_cast<int>(count), received.data());
-    writer.add(received.data(), count * sizeof(double));
-  }
-  return writer.finish();
+  header.fingerprint.rows = lines.numberOf<std::uint64_t>("rows", 16);
+  header.fingerprint.stiffness = lines.numberOf<double>("stiffness");
+  if (!std::isfinite(header.fingerprint.stiffness))
+    Lines::refuse("stiffness");
+  if (!lines.next().empty())
+    throw InputError("has a head that does not end");
+  header.length = title.size() + lines.place();
+  return header;
 }
 
-/// A checkpoint that is being read, on rank 0.
-class Reader {
-public:
-  explicit Reader(const fs::path& path) : file_(nullptr, std::fclose) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status))
-      throw InputError("does not exist");
-    if (!fs::is_regular_file(status))
-      throw InputError("is no regular file");
-    file_.reset(std::fopen(path.c_str(), "rb"));
-    if (!file_)
-      throw InputError(std::string("cannot be opened: ") + std::strerror(errno));
-    readHeader(fs::file_size(path, error));
-  }
-  [[nodiscard]] const Fingerprint& fingerprint() const { return header_.fingerprint; }
-
-  void take(std::span<double> values) {
-    take(values.data(), values.size_bytes());
-    checksum_.add(values.data(), values.size_bytes());
-    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-      throw InputError("holds a number that is not finite");
-  }
-  void finish() {
-    std::uint64_t stored = 0;
-    take(&stored, sizeof stored);
-    if (stored != checksum_.value())
-      throw InputError("is damaged: its checksum is wrong");
-  }
-
-private:
-  void readHeader(std::uintmax_t size) {
-    std::string text(longestCheckpointHeader, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), file_.get()));
-    header_ = parseCheckpointHeader(text);
-    const auto expected = header_.length + sizeof(std::uint64_t) +
-                          sizeof(double) * static_cast<std::uintmax_t>(header_.fingerprint.numMultipliers());
-    if (size != expected)
-      throw InputError("has " + std::to_string(size) + " bytes instead of " + std::to_string(expected) +
-                       (size < expected ? ": it is cut off" : ": something was added to it"));
-    checksum_.add(text.data(), header_.length);
-    if (std::fseek(file_.get(), static_cast<long>(header_.length), SEEK_SET) != 0)
-      throw InputError("cannot be read");
-  }
-  void take(void* bytes, std::size_t size) {
-    if (std::fread(bytes, 1, size, file_.get()) != size)
-      throw InputError("cannot be read to its end");
-  }
-
-  File file_;
-  ParsedHeader header_;
-  Checksum checksum_;
-};
+/// What a file holds. \throws InputError that says what is wrong, without the file's name: "is no checkpoint of Epafi".
+Checkpoint readOnThisRank(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status))
+    throw InputError("does not exist");
+  if (!fs::is_regular_file(status))
+    throw InputError("is no regular file");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw InputError(std::string("cannot be opened: ") + std::strerror(errno));
+  const auto take = [&stream](void* bytes, std::size_t size) {
+    stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size));
+    return static_cast<std::size_t>(stream.gcount());
+  };
+  std::string text(longestHeader, '\0');
+  text.resize(take(text.data(), text.size()));
+  const Header header = parsed(text);
+  std::uint64_t stored = 0;
+  const auto expected = header.length + sizeof stored +
+                        sizeof(double) * static_cast<std::uintmax_t>(header.fingerprint.numMultipliers());
+  if (const std::uintmax_t size = fs::file_size(file, error); size != expected)
+    throw InputError("has " + std::to_string(size) + " bytes instead of " + std::to_string(expected) +
+                     (size < expected ? ": it is cut off" : ": something was added to it"));
+  Checkpoint checkpoint{file, header.fingerprint, {}};
+  std::vector<double>& values = checkpoint.values;
+  values.resize(static_cast<std::size_t>(header.fingerprint.numMultipliers()));
+  stream.clear();
+  stream.seekg(static_cast<std::streamoff>(header.length));
+  const std::size_t bytes = values.size() * sizeof(double);
+  if (take(values.data(), bytes) != bytes || take(&stored, sizeof stored) != sizeof stored)
+    throw InputError("cannot be read to its end");
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+    throw InputError("holds a number that is not finite");
+  Checksum checksum;
+  checksum.add(text.data(), header.length);
+  checksum.add(values.data(), bytes);
+  if (stored != checksum.value())
+    throw InputError("is damaged: its checksum is wrong");
+  return checkpoint;
+}
 
 /// Runs `work`; what it refuses gets the file's name before it and what to do behind it.
 template <class Work>
@@ -152,81 +175,48 @@ void about(const fs::path& file, const Work& work) {
   }
 }
 
-/// Rank 0 passes the shares on, whatever they are worth: the verdict comes at the end. Collective.
-std::string passShares(Reader* reader, const Fingerprint& fingerprint, std::vector<double>& share,
-                       const Comm& comm) {
-  if (comm.getRank() > 0) {
-    Teuchos::receive(comm, 0, static_cast<int>(share.size()), share.data());
-    return {};
-  }
-  std::string verdict;
-  const auto take = [&](std::span<double> values) {
-    try {
-      if (verdict.empty())
-        reader->take(values);
-    } catch (const InputError& error) {
-      verdict = error.what();
-    }
-  };
-  take(share);
-  std::vector<double> next(share.size()); // rank 0 has the longest
-  for (int rank = 1; rank < comm.getSize(); ++rank) {
-    next.resize(sizeOfShare(fingerprint.numMultipliers(), rank, comm));
-    take(next);
-    Teuchos::send(comm, static_cast<int>(next.size()), next.data(), rank);
-  }
-  return verdict;
-}
-
 } // namespace
+
+std::string checkpointHeader(const Fingerprint& fingerprint) {
+  std::string text(title);
+  text.append(version).append("\norder ").append(order).append("\n");
+  for (const auto& [name, member] : counts)
+    text.append(name).append(" ").append(textOf(fingerprint.*member)).append("\n");
+  return text + "rows " + textOf(fingerprint.rows, 16) + "\nstiffness " + textOf(fingerprint.stiffness) +
+         "\n\n";
+}
 
 void writeCheckpoint(const fs::path& file, const Fingerprint& fingerprint, const Vector& lambda) {
   const RCP<const Comm> comm = lambda.getMap()->getComm();
-  prepareTarget(file, *comm);
-  const fs::path temporary = temporaryBeside(file, *comm);
-  const RCP<const Map> shares = slabMap(fingerprint.numMultipliers(), comm);
-  Vector ordered(shares);
-  ordered.doImport(lambda, Import(lambda.getMap(), shares), Tpetra::INSERT);
-  const auto values = ordered.getData();
-  const int error = writeShares(temporary, fingerprint,
-                                {values.getRawPtr(), static_cast<std::size_t>(values.size())}, *comm);
-  collectively(*comm, [&] {
-    if (error == 0)
-      return;
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw Error("File '" + file.string() + "' could not be written: " + std::strerror(error) +
-                ". Check the free space and the permissions of its directory.");
-  });
-  publish(temporary, file, *comm);
+  const RCP<const Map> inOrder = slabMap(fingerprint.numMultipliers(), comm);
+  Vector ordered(inOrder);
+  ordered.doImport(lambda, Import(lambda.getMap(), inOrder), Tpetra::INSERT);
+  const auto mine = ordered.getData();
+  const std::vector<double> values =
+      gatherOnFirst(*comm, std::span<const double>(mine.getRawPtr(), static_cast<std::size_t>(mine.size())));
+  writeTextFile(
+      file,
+      [&] {
+        std::string text = checkpointHeader(fingerprint);
+        text.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+        Checksum checksum;
+        checksum.add(text.data(), text.size());
+        const std::uint64_t seal = checksum.value();
+        return text.append(reinterpret_cast<const char*>(&seal), sizeof seal);
+      },
+      *comm);
 }
 
 Checkpoint readCheckpoint(const fs::path& file, const Comm& comm) {
-  Checkpoint checkpoint;
-  checkpoint.file = file;
-  std::unique_ptr<Reader> reader;
+  Checkpoint checkpoint{file, {}, {}};
   collectively(comm, [&] {
     about(file, [&] {
       if (comm.getRank() == 0)
-        reader = std::make_unique<Reader>(file);
+        checkpoint = readOnThisRank(file);
     });
   });
-  if (reader)
-    checkpoint.fingerprint = reader->fingerprint();
   Teuchos::broadcast(comm, 0, static_cast<int>(sizeof(Fingerprint)),
                      reinterpret_cast<char*>(&checkpoint.fingerprint));
-  collectively(comm, [&] {
-    checkpoint.share.resize(sizeOfShare(checkpoint.fingerprint.numMultipliers(), comm.getRank(), comm));
-  });
-  std::string verdict = passShares(reader.get(), checkpoint.fingerprint, checkpoint.share, comm);
-  collectively(comm, [&] {
-    about(file, [&] {
-      if (!verdict.empty())
-        throw InputError(verdict);
-      if (reader)
-        reader->finish();
-    });
-  });
   return checkpoint;
 }
 
@@ -239,11 +229,12 @@ RCP<Vector> multipliersOf(const Checkpoint& checkpoint, const decomposition::Dec
         throw InputError("belongs to another problem: it " + difference);
     });
   });
-  const RCP<const Map> shares = slabMap(fingerprint.numMultipliers(), problem.comm);
-  Vector ordered(shares);
-  std::copy(checkpoint.share.begin(), checkpoint.share.end(), ordered.getDataNonConst().begin());
+  const RCP<const Map> onFirst = rcp(new Map(static_cast<Tpetra::global_size_t>(fingerprint.numMultipliers()),
+                                             checkpoint.values.size(), 0, problem.comm));
+  Vector whole(onFirst);
+  std::copy(checkpoint.values.begin(), checkpoint.values.end(), whole.getDataNonConst().begin());
   const RCP<Vector> lambda = rcp(new Vector(problem.multiplierMap));
-  lambda->doImport(ordered, Import(shares, problem.multiplierMap), Tpetra::INSERT);
+  lambda->doImport(whole, Import(onFirst, problem.multiplierMap), Tpetra::INSERT);
   return lambda;
 }
 

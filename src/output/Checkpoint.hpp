@@ -2,25 +2,45 @@
 
 /// Multipliers in a file, for a run to go on from.
 ///
-/// The file is a text (CheckpointHeader.hpp), λ in the order of its rows, 8 bytes a number, and a checksum of all that. It does
+/// The file is a text (checkpointHeader()), λ in the order of its rows, 8 bytes a number, and a checksum of all that. It does
 /// not depend on the number of ranks. That it is no HDF5 has a reason: damaged files must end with a sentence, and what HDF5
 /// does with them is not in our hands.
 
 #include "epafi/output/Fingerprint.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace epafi::output {
 
 struct Checkpoint {
   std::filesystem::path file;
-  Fingerprint fingerprint;   ///< of the problem that λ belongs to
-  std::vector<double> share; ///< this rank's even share of λ (evenShare in Slab.hpp), finite
+  Fingerprint fingerprint;    ///< of the problem that λ belongs to
+  std::vector<double> values; ///< λ on rank 0, finite; nothing on the others
+};
+
+/// The text that a file begins with: begins "Epafi checkpoint 1" and ends with an empty line.
+std::string checkpointHeader(const Fingerprint& fingerprint);
+
+/// Fowler, Noll, Vo: FNV-1a, 64 bits, over pieces one after the other.
+class Checksum {
+public:
+  /// The next piece.
+  void add(const void* bytes, std::size_t size) {
+    const auto* next = static_cast<const unsigned char*>(bytes);
+    for (std::size_t i = 0; i < size; ++i)
+      value_ = (value_ ^ next[i]) * 0x100000001b3ULL;
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; } ///< of all pieces so far
+
+private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
 /// Writes λ; the file appears complete or not at all, and is on the disk then, not only on its way there. Creates its
-/// directory. Rank 0 writes, the others send it their shares one after the other.
+/// directory. Rank 0 writes; it holds λ whole while it does.
 /// \param lambda  on the problem's multiplierMap
 /// Collective. \throws InputError if the directory cannot be made or written to, Error if writing fails; an older file is
 /// untouched then.

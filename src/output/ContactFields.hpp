@@ -2,9 +2,12 @@
 
 /// The fields of one contact, each rank holding a contiguous slab of its rows.
 
+#include "epafi/fem/Cell.hpp"
 #include "epafi/output/Slab.hpp"
 #include "epafi/output/SolvedScene.hpp"
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,11 +29,21 @@ struct ContactFields {
 
   GlobalOrdinal numFacets =
       0; ///< m, of the first body's surface between nodes that all have a row; perhaps none
-  int nodesPerFacet =
-      1;           ///< 1 where each row is a facet of its own: edges of membranes, or no facet is complete
-  RowRange facets; ///< this rank's facets
-  std::vector<long long> corners; ///< m × nodesPerFacet, rows, the normal outwards
+  /// Nothing where each row is a facet of its own: edges of membranes, or no facet is complete.
+  std::optional<fem::CellType> facetType;
+  RowRange facets;                ///< this rank's facets
+  std::vector<long long> corners; ///< m × nodesPerFacet(), rows, the normal outwards
+
+  [[nodiscard]] int nodesPerFacet() const { return facetType ? fem::numNodesOf(*facetType) : 1; }
 };
+
+/// Each row's share of the area of contact `contact`: λ divided by it is the contact pressure. Of plane bodies the share of
+/// the length times the thickness of the elements there, of membranes the length alone. In the order of the contact's rows,
+/// whole on every rank. Not collective.
+std::vector<double> pressureAreas(const SolvedScene& solved, int contact);
+
+/// Direction from the first body to the other side at a row; deflections of membranes are along z.
+std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::size_t row);
 
 /// Brings the rows of contact `contact` from multiplierMap to the slabs.
 /// \param areas  of all its rows (pressureAreas)

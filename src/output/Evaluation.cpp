@@ -1,36 +1,66 @@
 #include "epafi/output/Evaluation.hpp"
 
+#include "epafi/accuracy/RecoveredFlux.hpp"
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/output/CellErrors.hpp"
-#include "epafi/output/ContactGeometry.hpp"
-#include "epafi/output/NodalStress.hpp"
+#include "epafi/base/Maps.hpp"
+#include "epafi/fem/HookesLaw.hpp"
+#include "epafi/output/ContactFields.hpp"
 
 #include <Teuchos_Array.hpp>
+#include <Tpetra_Export.hpp>
 #include <Tpetra_Map.hpp>
-#include <Tpetra_Vector.hpp>
+#include <Tpetra_MultiVector.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 namespace epafi::output {
 namespace {
 
 using contact::ContactLayout;
+using decomposition::Subdomain;
 
-/// Sums over the rows of one contact, in this order in what is sent.
+constexpr std::size_t numStresses = 6;
+
+/// Nodes of this rank's subdomains of a body, each once. Collective.
+RCP<const Map> nodesOfBody(const decomposition::DecomposedProblem& problem, int body) {
+  std::vector<GlobalOrdinal> nodes;
+  for (const Subdomain& subdomain : problem.subdomains)
+    if (subdomain.body == body)
+      nodes.insert(nodes.end(), subdomain.nodes.begin(), subdomain.nodes.end());
+  return makeMap(std::move(nodes), problem.comm);
+}
+
+/// Adds up over all materials around a node.
+void addSubdomain(const accuracy::SubdomainFlux& flux, const Subdomain& subdomain, MultiVector& sums) {
+  for (std::size_t k = 0; k <= numStresses; ++k) {
+    const auto column = sums.getDataNonConst(k);
+    for (Eigen::Index slot = 0; slot < flux.values.cols(); ++slot) {
+      const GlobalOrdinal node = subdomain.nodes[flux.nodeOf(static_cast<std::size_t>(slot))];
+      column[sums.getMap()->getLocalElement(node)] += flux.values(static_cast<Eigen::Index>(k), slot);
+    }
+  }
+}
+
+/// Sums over the rows of one contact, one after the other.
+enum Term : std::size_t { active, force, area, resultant, numTerms = resultant + 3 };
+
 struct ContactSums {
-  AccurateSum active, force, area;
-  std::array<AccurateSum, 3> resultant;
-  double largestPressure = 0;
+  std::vector<AccurateSum> terms;      ///< numTerms of each contact
+  std::vector<double> largestPressure; ///< of each contact
 };
 
-std::vector<ContactSums> sumOwnRows(const SolvedScene& solved, const Evaluation& evaluation) {
+/// Collective.
+ContactSums sumContacts(const SolvedScene& solved, const Evaluation& evaluation) {
   const std::vector<ContactLayout>& contacts = solved.decomposition.contacts;
   const Map& map = *solved.decomposition.problem.multiplierMap;
   const auto multiplier = solved.solution.multiplier->getData();
-  const auto active = solved.solution.active->getData();
-  std::vector<ContactSums> sums(contacts.size());
+  const auto isActive = solved.solution.active->getData();
+  ContactSums sums{std::vector<AccurateSum>(contacts.size() * numTerms),
+                   std::vector<double>(contacts.size(), 0)};
   for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
     const decomposition::MultiplierNumber index = map.getGlobalElement(static_cast<LocalOrdinal>(i));
     if (solved.decomposition.problem.kindOf(index) != decomposition::RowKind::contact)
@@ -40,37 +70,22 @@ std::vector<ContactSums> sumOwnRows(const SolvedScene& solved, const Evaluation&
     });
     const auto place = static_cast<std::size_t>(contact - contacts.begin());
     const auto row = static_cast<std::size_t>(index - contact->firstRow);
-    const double force = multiplier[i], area = evaluation.areas[place][row];
+    const double rowForce = multiplier[i], rowArea = evaluation.areas[place][row];
     const std::array<double, 3> direction = directionOf(*contact, row);
-    ContactSums& sum = sums[place];
-    sum.force.add(force);
+    AccurateSum* const terms = &sums.terms[place * numTerms];
+    terms[force].add(rowForce);
     for (std::size_t d = 0; d < 3; ++d)
-      sum.resultant[d].add(-force * direction[d]);
-    sum.largestPressure = std::max(sum.largestPressure, force / area);
-    if (active[i] > 0.5) {
-      sum.active.add(1);
-      sum.area.add(area);
+      terms[resultant + d].add(-rowForce * direction[d]);
+    sums.largestPressure[place] = std::max(sums.largestPressure[place], rowForce / rowArea);
+    if (isActive[i] > 0.5) {
+      terms[active].add(1);
+      terms[area].add(rowArea);
     }
   }
+  sumOverRanks(solved.comm(), sums.terms);
+  for (double& largest : sums.largestPressure)
+    largest = maxOverRanks(solved.comm(), largest);
   return sums;
-}
-
-/// Collective.
-void sumContacts(const Comm& comm, std::vector<ContactSums>& sums) {
-  std::vector<AccurateSum> terms;
-  for (const ContactSums& sum : sums)
-    terms.insert(terms.end(),
-                 {sum.active, sum.force, sum.area, sum.resultant[0], sum.resultant[1], sum.resultant[2]});
-  sumOverRanks(comm, terms);
-  const AccurateSum* next = terms.data();
-  for (ContactSums& sum : sums) {
-    sum.active = *next++;
-    sum.force = *next++;
-    sum.area = *next++;
-    for (AccurateSum& component : sum.resultant)
-      component = *next++;
-    sum.largestPressure = maxOverRanks(comm, sum.largestPressure);
-  }
 }
 
 /// Collective.
@@ -88,6 +103,57 @@ double largestDisplacement(const SolvedScene& solved, int body) {
 }
 
 } // namespace
+
+std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body) {
+  const auto place = static_cast<std::size_t>(body);
+  const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
+  const model::BodyLayout& layout = solved.decomposition.bodies[place];
+  MultiVector sums(nodesOfBody(problem, body), numStresses + 1);
+  collectively(*problem.comm, [&] {
+    accuracy::BodyElements elements(solved.scene.bodies[place], layout);
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+      if (problem.subdomains[s].body == body)
+        addSubdomain(sumFlux(elements, problem.subdomains[s], solved.solution.displacement[s]),
+                     problem.subdomains[s], sums);
+  });
+  MultiVector slab(slabMap(layout.mesh->numNodes(), problem.comm), numStresses + 1);
+  slab.doExport(sums, Export(sums.getMap(), slab.getMap()), Tpetra::ADD);
+
+  std::vector<Teuchos::ArrayRCP<const double>> columns;
+  for (std::size_t k = 0; k <= numStresses; ++k)
+    columns.push_back(slab.getData(k));
+  std::vector<double> result;
+  result.reserve(slab.getLocalLength());
+  for (Teuchos::Ordinal row = 0; row < columns[0].size(); ++row) {
+    fem::SymmetricTensor stress{};
+    for (std::size_t k = 0; k < stress.size(); ++k)
+      stress[k] = columns[k][row] / columns[numStresses][row];
+    result.push_back(fem::vonMisesOf(stress));
+  }
+  return result;
+}
+
+std::vector<double> cellErrors(const SolvedScene& solved, const accuracy::ErrorEstimate& estimate, int body) {
+  const auto& problem = solved.decomposition.problem;
+  const auto& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
+  std::vector<GlobalOrdinal> cells;
+  std::vector<double> errors;
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    if (problem.subdomains[s].body != body)
+      continue;
+    const auto here = layout.partition->elementsOf(problem.subdomains[s].number - layout.firstSubdomain);
+    cells.insert(cells.end(), here.begin(), here.end());
+    for (const double squared : estimate.elements[s])
+      errors.push_back(std::sqrt(squared));
+  }
+  const auto source = mapInOrder(cells, problem.comm);
+  const auto target = slabMap(layout.mesh->numElements(), problem.comm);
+  const Vector mine(source, Teuchos::arrayViewFromVector(errors));
+  Vector slab(target);
+  slab.doImport(mine, Import(source, target), Tpetra::INSERT);
+  const auto values = slab.getData();
+  return {values.begin(), values.end()};
+}
 
 Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* estimate) {
   Evaluation result;
@@ -107,20 +173,18 @@ Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* es
 
 void addResults(const SolvedScene& solved, const Evaluation& evaluation, Teuchos::ParameterList& report) {
   const std::vector<ContactLayout>& contacts = solved.decomposition.contacts;
-  std::vector<ContactSums> sums = sumOwnRows(solved, evaluation);
-  sumContacts(solved.comm(), sums);
+  const ContactSums sums = sumContacts(solved, evaluation);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    Teuchos::Array<double> resultant;
-    for (const AccurateSum& component : sums[c].resultant)
-      resultant.push_back(component.value());
+    const auto sumOf = [&](std::size_t term) { return sums.terms[c * numTerms + term].value(); };
     report.sublist("Contact")
         .sublist(contacts[c].name)
         .set("Candidates", contacts[c].numRows())
-        .set("Active Nodes", static_cast<GlobalOrdinal>(sums[c].active.value()))
-        .set("Force", sums[c].force.value())
-        .set("Resultant", resultant)
-        .set("Largest Pressure", sums[c].largestPressure)
-        .set("Contact Area", sums[c].area.value());
+        .set("Active Nodes", static_cast<GlobalOrdinal>(sumOf(active)))
+        .set("Force", sumOf(force))
+        .set("Resultant", Teuchos::Array<double>(
+                              Teuchos::tuple(sumOf(resultant), sumOf(resultant + 1), sumOf(resultant + 2))))
+        .set("Largest Pressure", sums.largestPressure[c])
+        .set("Contact Area", sumOf(area));
   }
   for (std::size_t b = 0; b < solved.scene.bodies.size(); ++b) {
     if (solved.elasticBody(static_cast<int>(b)) == nullptr)

@@ -11,6 +11,17 @@
 
 namespace epafi::output {
 
+/// Von Mises stress at the nodes of body `body`, of this rank's slab (evenShare of the nodes). Linear elements have their
+/// stress at their centres; a node has the mean of the elements around it, weighted by their areas or volumes, of every
+/// component of the tensor, and von Mises' norm of that: exact where the stress is constant, O(h²) inside uniform meshes, and
+/// the same for every cut and number of ranks but for round-off. Between two materials it is the mean of both sides.
+/// Each rank looks at the elements of its own subdomains. Precondition: the body is elastic. Collective.
+std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body);
+
+/// η_T, the error in the energy norm of each cell of a body, of this rank's slab (evenShare of the cells). The root of the
+/// sum of their squares over all bodies is the estimate. Collective.
+std::vector<double> cellErrors(const SolvedScene& solved, const accuracy::ErrorEstimate& estimate, int body);
+
 struct Evaluation {
   /// Of each body: von Mises stress at this rank's slab of nodes (vonMisesAtNodes); of membranes empty.
   std::vector<std::vector<double>> vonMises;

@@ -5,10 +5,10 @@
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/ContactFields.hpp"
 #include "epafi/output/Hdf5File.hpp"
-#include "epafi/output/Names.hpp"
 #include "epafi/output/Xdmf.hpp"
 
-#include <array>
+#include <algorithm>
+#include <set>
 
 namespace epafi::output {
 namespace {
@@ -25,29 +25,6 @@ XdmfData put(Hdf5File& file, const std::string& dataset, GlobalOrdinal rows, int
                     : sizeof(T) == 4          ? Type::integer4
                                               : Type::integer8;
   return {dataset, rows, columns, type};
-}
-
-XdmfTopology topologyOf(fem::CellType type) {
-  switch (type) {
-  case fem::CellType::line:
-    return XdmfTopology::lines;
-  case fem::CellType::triangle:
-    return XdmfTopology::triangles;
-  case fem::CellType::quadrilateral:
-    return XdmfTopology::quadrilaterals;
-  case fem::CellType::tetrahedron:
-    return XdmfTopology::tetrahedra;
-  case fem::CellType::hexahedron:
-    return XdmfTopology::hexahedra;
-  }
-  return XdmfTopology::points;
-}
-
-/// Of a facet with 1 to 4 corners.
-XdmfTopology topologyOfFacet(int corners) {
-  constexpr std::array topologies{XdmfTopology::points, XdmfTopology::lines, XdmfTopology::triangles,
-                                  XdmfTopology::quadrilaterals};
-  return topologies.at(static_cast<std::size_t>(corners - 1));
 }
 
 /// Rows of two numbers become rows of three, the last one 0.
@@ -84,7 +61,7 @@ XdmfGrid putBody(Hdf5File& file, const std::string& group, const SolvedScene& so
   XdmfGrid grid;
   grid.name = name;
   grid.points = put(file, group + "/points", n, 3, fields.nodes, fields.points);
-  grid.topology = topologyOf(fields.cellType);
+  grid.cellType = fields.cellType;
   grid.cells = put(file, group + "/cells", cells, numNodesOf(fields.cellType), fields.cells, fields.corners);
   const XdmfData u =
       put(file, group + "/u", n, solved.decomposition.problem.components, fields.nodes, fields.u);
@@ -111,9 +88,9 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   XdmfGrid grid;
   grid.name = name;
   grid.points = put(file, group + "/points", n, 3, fields.rows, fields.points);
-  grid.topology = topologyOfFacet(fields.nodesPerFacet);
+  grid.cellType = fields.facetType;
   grid.cells =
-      put(file, group + "/cells", fields.numFacets, fields.nodesPerFacet, fields.facets, fields.corners);
+      put(file, group + "/cells", fields.numFacets, fields.nodesPerFacet(), fields.facets, fields.corners);
   grid.attributes.push_back(
       {"normal", Center::node, put(file, group + "/normal", n, 3, fields.rows, fields.normals)});
   const auto column = [&](const std::string& field, const auto& values) {
@@ -134,7 +111,7 @@ void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
   using Record = qp::StepRecord;
   file.createGroup("/history");
   const auto rows = static_cast<GlobalOrdinal>(history.size());
-  const RowRange range = onFirstRank(rows, comm);
+  const RowRange range{0, comm.getRank() == 0 ? rows : 0};
   const auto column = [&]<class T>(const std::string& name, T, auto member) { // T: what is written
     std::vector<T> values;
     for (GlobalOrdinal k = 0; k < range.count; ++k)
@@ -168,7 +145,29 @@ std::vector<std::string> groupNames(const Layouts& layouts) {
   return safeNames(names);
 }
 
+bool isSafe(char letter) {
+  const auto code = static_cast<unsigned char>(letter);
+  return (code >= '0' && code <= '9') || (code >= 'A' && code <= 'Z') || (code >= 'a' && code <= 'z') ||
+         letter == '_' || letter == '-' || letter == '.' || code >= 0x80;
+}
+
 } // namespace
+
+std::vector<std::string> safeNames(const std::vector<std::string>& names) {
+  std::vector<std::string> result;
+  std::set<std::string> taken;
+  for (std::string name : names) {
+    std::replace_if(
+        name.begin(), name.end(), [](char letter) { return !isSafe(letter); }, '_');
+    if (name.find_first_not_of('.') == std::string::npos)
+      name = "unnamed";
+    std::string candidate = name;
+    for (int number = 2; !taken.insert(candidate).second; ++number)
+      candidate = name + "_" + std::to_string(number);
+    result.push_back(candidate);
+  }
+  return result;
+}
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history) {

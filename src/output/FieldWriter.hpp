@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace epafi::output {
 
@@ -22,7 +23,7 @@ struct FieldFiles {
 ///  - `/bodies/<body>/points` n×3, `cells` n_e×corners (int64, node numbers in the order of fem/Cell.hpp, which is VTK's),
 ///    `u` n×components, `subdomain` n_e (int32, numbered over all bodies), `crosspoints` m×3 (where they lie, supported
 ///    ones too in the plane);
-///    of elastic bodies `von_mises` n (NodalStress.hpp), and of plane ones `displacement` n×3: u with a third column of
+///    of elastic bodies `von_mises` n (vonMisesAtNodes), and of plane ones `displacement` n×3: u with a third column of
 ///    zeros, which viewers take as a vector (in space that is u itself);
 ///    attributes `name`, `cell_type` (as fem::toString says) and `physics` (as scene::toString says);
 ///  - `/contact/<pair>/points` n×3 (nodes of the first body's surface), `cells` m×2, 3 or 4 (that surface's edges or faces,
@@ -33,7 +34,7 @@ struct FieldFiles {
 ///    attribute `first_body` names, is −λ_I `normal`;
 ///  - `/history/iteration`, `outer`, `step` (int8, the code of the letter s, c, e or p), `projected_gradient`,
 ///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a step.
-/// Groups of bodies and pairs are named as safeNames says (Names.hpp); their attribute `name` is the scene's
+/// Groups of bodies and pairs are named as safeNames says; their attribute `name` is the scene's
 /// name. The file itself has attributes `program`, `format` (1), `components`, `energy` and `contact_force`.
 ///
 /// Every rank writes a contiguous slab of each table; nothing of global size lies on one rank. `history` must
@@ -43,5 +44,10 @@ struct FieldFiles {
 ///             Error if writing fails; then no incomplete file is left.
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history);
+
+/// Names that are safe in HDF5 and XDMF paths, one for each name, all different: letters, digits, '_', '-',
+/// '.' and anything beyond ASCII stay, every other character ('/', ':', blanks, quotes, …) becomes '_'. A
+/// name of dots alone or an empty one becomes "unnamed". Names that would coincide get "_2", "_3", …
+std::vector<std::string> safeNames(const std::vector<std::string>& names);
 
 } // namespace epafi::output

@@ -1,8 +1,9 @@
 #pragma once
 
-/// The report of a run as a file.
+/// The report of a run, and the history of its iteration, as files that appear complete or not at all.
 
 #include "epafi/base/Types.hpp"
+#include "epafi/qp/SolveReport.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 
@@ -10,8 +11,13 @@
 
 namespace epafi::output {
 
-/// Writes rank 0's list as Teuchos XML; the file appears complete or not at all, its directory is created.
+/// Writes rank 0's list as Teuchos XML; its directory is created.
 /// Collective. \throws InputError if the directory cannot be made or written to, Error if writing fails.
 void writeReport(const Teuchos::ParameterList& report, const std::filesystem::path& file, const Comm& comm);
+
+/// Writes rank 0's history as comma-separated text with the columns iteration, outer, step (s, c, e or p), projected_gradient,
+/// constraint_residual, objective, active_bounds, hessian_multiplications; numbers in the shortest form that
+/// reads back exactly. Directory, collectivity and errors as above.
+void writeHistory(const qp::History& history, const std::filesystem::path& file, const Comm& comm);
 
 } // namespace epafi::output

@@ -37,9 +37,4 @@ inline RCP<const Map> slabMap(GlobalOrdinal rows, const RCP<const Comm>& comm) {
                      static_cast<std::size_t>(evenShare(rows, *comm).count), 0, comm));
 }
 
-/// All rows on rank 0, none elsewhere; for short tables that every rank holds whole. Not collective.
-inline RowRange onFirstRank(GlobalOrdinal rows, const Comm& comm) {
-  return {0, comm.getRank() == 0 ? rows : 0};
-}
-
 } // namespace epafi::output

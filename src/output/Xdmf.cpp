@@ -20,14 +20,10 @@ std::string escaped(const std::string& text) {
 }
 
 /// Value of TopologyType, and the attribute that goes with it where cells are of any length.
-const char* nameOf(XdmfTopology topology) {
-  constexpr std::array names{"Polyvertex\" NodesPerElement=\"1",
-                             "Polyline\" NodesPerElement=\"2",
-                             "Triangle",
-                             "Quadrilateral",
-                             "Tetrahedron",
-                             "Hexahedron"};
-  return names.at(static_cast<std::size_t>(topology));
+const char* nameOf(std::optional<fem::CellType> type) {
+  constexpr std::array names{"Triangle", "Quadrilateral", "Tetrahedron", "Hexahedron",
+                             "Polyline\" NodesPerElement=\"2"}; // in the order of CellType
+  return type ? names.at(static_cast<std::size_t>(*type)) : "Polyvertex\" NodesPerElement=\"1";
 }
 
 /// Writes the document's elements with the name of the HDF5 file at hand.
@@ -37,7 +33,7 @@ public:
 
   void grid(const XdmfGrid& grid) {
     text_ << "      <Grid Name=\"" << escaped(grid.name) << "\" GridType=\"Uniform\">\n";
-    text_ << "        <Topology TopologyType=\"" << nameOf(grid.topology) << "\" NumberOfElements=\""
+    text_ << "        <Topology TopologyType=\"" << nameOf(grid.cellType) << "\" NumberOfElements=\""
           << grid.cells.rows << "\">\n";
     item(grid.cells);
     text_ << "        </Topology>\n";

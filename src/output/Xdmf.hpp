@@ -4,7 +4,9 @@
 /// their readers for Xdmf2 and Xdmf3 both open).
 
 #include "epafi/base/Types.hpp"
+#include "epafi/fem/Cell.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,15 +27,12 @@ struct XdmfAttribute {
   XdmfData data; ///< one column (or one dimension): scalar, three: vector, else matrix
 };
 
-/// What cells are; corners in the order of VTK, which is that of fem::CellType.
-enum class XdmfTopology { points, lines, triangles, quadrilaterals, tetrahedra, hexahedra };
-
 /// A mesh of cells of one kind.
 struct XdmfGrid {
   std::string name;
-  XdmfData points; ///< n × 3
-  XdmfTopology topology = XdmfTopology::points;
-  XdmfData cells; ///< n_e × corners of a cell; points: n × 1
+  XdmfData points;                       ///< n × 3
+  std::optional<fem::CellType> cellType; ///< nothing: points
+  XdmfData cells; ///< n_e × corners of a cell, in the order of VTK, which is that of CellType; points: n × 1
   std::vector<XdmfAttribute> attributes;
 };
 

@@ -4,35 +4,33 @@
 
 namespace epafi::scene {
 
+namespace {
+
+struct Entry {
+  const char* name;
+  int components, dimension;
+};
+
+const Entry& entryOf(Physics physics) {
+  static constexpr std::array<Entry, 4> entries{{{"membrane", 1, 2}, // in the order of Physics
+                                                 {"plane strain", 2, 2},
+                                                 {"plane stress", 2, 2},
+                                                 {"elasticity 3-D", 3, 3}}};
+  return entries[static_cast<std::size_t>(physics)];
+}
+
+} // namespace
+
 std::string toString(Physics physics) {
-  switch (physics) {
-  case Physics::membrane:
-    return "membrane";
-  case Physics::planeStrain:
-    return "plane strain";
-  case Physics::planeStress:
-    return "plane stress";
-  case Physics::elasticity3d:
-    return "elasticity 3-D";
-  }
-  return "";
+  return entryOf(physics).name;
 }
 
 int componentsOf(Physics physics) {
-  switch (physics) {
-  case Physics::membrane:
-    return 1;
-  case Physics::planeStrain:
-  case Physics::planeStress:
-    return 2;
-  case Physics::elasticity3d:
-    return 3;
-  }
-  return 0;
+  return entryOf(physics).components;
 }
 
 int dimensionOf(Physics physics) {
-  return physics == Physics::elasticity3d ? 3 : 2;
+  return entryOf(physics).dimension;
 }
 
 bool isMembraneOnRectangle(const Body& body) {

@@ -4,9 +4,52 @@
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace epafi::scene {
 namespace {
+
+struct NamedObstacle {
+  std::string name;
+  int dimension = 3; ///< of the bodies that it can meet
+  Obstacle obstacle;
+};
+
+/// The vector, divided by its length.
+Vector3 direction(const ListReader& list, const std::string& name, int dimension) {
+  Vector3 vector = list.vector(name, dimension);
+  const double length = std::hypot(vector[0], vector[1], vector[2]);
+  if (length == 0)
+    list.refuseValue(name, "must have a direction");
+  for (double& component : vector)
+    component /= length;
+  return vector;
+}
+
+/// One of the list `Obstacles`.
+NamedObstacle readObstacle(const std::string& name, const ListReader& list) {
+  NamedObstacle result;
+  result.name = name;
+  const std::string& kind = list.word("Kind");
+  const std::string useless = "an obstacle of the kind \"" + kind + "\" has no use for it";
+  result.dimension = kind == "plane" ? std::clamp(list.length("Point"), 2, 3) : kind == "circle" ? 2 : 3;
+  if (kind == "sphere" && list.length("Point") == 2)
+    list.refuseValue("Kind", "a centre of two coordinates is that of a \"circle\"");
+  result.obstacle.point = list.vector("Point", result.dimension);
+  if (kind == "plane") {
+    list.refuseGiven({"Radius"}, useless);
+    list.require("Normal", " of a plane");
+    result.obstacle.kind = Obstacle::Kind::plane;
+    result.obstacle.normal = direction(list, "Normal", result.dimension);
+  } else {
+    list.refuseGiven({"Normal"}, useless);
+    list.require("Radius", " of a " + kind);
+    result.obstacle.kind = Obstacle::Kind::sphere;
+    result.obstacle.radius = list.positive("Radius");
+  }
+  return result;
+}
 
 /// Index of the one that a parameter names among bodies or obstacles.
 template <class Named>
@@ -32,8 +75,7 @@ int bodyIndex(const ListReader& pair, const std::string& parameter, const std::v
 }
 
 /// The obstacle that the pair names.
-Obstacle readObstacle(const ListReader& entry, const Body& body,
-                      const std::vector<NamedObstacle>& obstacles) {
+Obstacle obstacleOf(const ListReader& entry, const Body& body, const std::vector<NamedObstacle>& obstacles) {
   const auto& [name, dimension, obstacle] =
       obstacles[static_cast<std::size_t>(indexOf(entry, "Obstacle", obstacles, "obstacle", "obstacles"))];
   const std::string who = "body \"" + body.name + "\" ";
@@ -65,7 +107,7 @@ void readSurfaces(const ListReader& entry, const std::vector<Body>& bodies,
   pair.firstSurface = entry.word("First Surface");
   if (pair.second < 0) {
     entry.refuseGiven({"Second Surface"}, "an obstacle is its own surface");
-    pair.obstacle = readObstacle(entry, bodies[static_cast<std::size_t>(pair.first)], obstacles);
+    pair.obstacle = obstacleOf(entry, bodies[static_cast<std::size_t>(pair.first)], obstacles);
   } else {
     entry.require("Second Surface");
     pair.secondSurface = entry.word("Second Surface");
@@ -96,7 +138,10 @@ void requireUse(const ListReader& contacts, const std::vector<NamedObstacle>& ob
 
 } // namespace
 
-void readContacts(const ListReader& list, const std::vector<NamedObstacle>& obstacles, Scene& scene) {
+void readContacts(const ListReader& list, const ListReader& rigid, Scene& scene) {
+  std::vector<NamedObstacle> obstacles;
+  for (const std::string& name : rigid.names())
+    obstacles.push_back(readObstacle(name, rigid.inside(name)));
   for (const std::string& name : list.names()) {
     const ListReader entry = list.inside(name);
     SurfaceContact pair;

@@ -1,21 +1,20 @@
 #pragma once
 
-/// The contact pairs out of a scene's list `Contact`.
+/// The contact pairs and rigid obstacles out of a scene's lists `Contact` and `Obstacles`.
 
 #include "epafi/scene/ListReader.hpp"
-#include "epafi/scene/ObstacleReader.hpp"
 #include "epafi/scene/Scene.hpp"
-
-#include <vector>
 
 namespace epafi::scene {
 
 /// Fills the contacts of a scene whose bodies are there: pairs of membranes on rectangles meet along edges, all others on
 /// surfaces.
-/// \throws InputError if a body or obstacle is unknown (the nearest name is suggested), a body in contact with itself, or an
+/// \param list  `Contact` \param rigid  `Obstacles`
+/// \throws InputError if what an obstacle's kind needs is missing or what it has no use for is given, if vectors are not
+///         of one length, or a normal is 0; if a body or obstacle is unknown (the nearest name is suggested), a body in contact with itself, or an
 ///         obstacle in no contact; of membranes on rectangles, if an edge is supported or in another pair, or the two edges
 ///         do not coincide or have different numbers of elements; of all others, if surfaces are not named. Whether the
 ///         surfaces are in the meshes is not looked at here.
-void readContacts(const ListReader& list, const std::vector<NamedObstacle>& obstacles, Scene& scene);
+void readContacts(const ListReader& list, const ListReader& rigid, Scene& scene);
 
 } // namespace epafi::scene

@@ -105,10 +105,8 @@ std::string listed(std::vector<std::string> names) {
 std::string placeOf(const Scene& scene, int node) {
   const Box& box = scene.bodies[static_cast<std::size_t>(node / 4)].mesh.box;
   const int corner = node % 4;
-  std::ostringstream text;
-  text << '(' << valueText((corner % 2 == 0 ? box.lower : box.upper)[0]) << ", "
-       << valueText((corner < 2 ? box.lower : box.upper)[1]) << ')';
-  return text.str();
+  return '(' + valueText((corner % 2 == 0 ? box.lower : box.upper)[0]) + ", " +
+         valueText((corner < 2 ? box.lower : box.upper)[1]) + ')';
 }
 
 } // namespace

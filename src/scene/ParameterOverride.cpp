@@ -76,10 +76,15 @@ void checkNewLists(const ParameterList& list, const ParameterList& schema,
   }
 }
 
-void setAt(ParameterList& list, const std::vector<std::string>& path, const ParameterEntry& value) {
+/// \throws InputError, and leaves the list as it was, if what should be a list is a parameter.
+void setAt(ParameterList& list, const std::vector<std::string>& path, const ParameterEntry& value,
+           const std::string& where) {
   ParameterList* inner = &list;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (inner->isParameter(path[i]) && !inner->isSublist(path[i]))
+      throw InputError(where + ": \"" + path[i] + "\" is a parameter in the file, but must be a list.");
     inner = &inner->sublist(path[i]);
+  }
   inner->setEntry(path.back(), value);
 }
 
@@ -111,18 +116,10 @@ void applyOverride(ParameterList& list, const ParameterList& schema, const std::
   }
   // Alone in a list, the override meets all checks, and messages speak of it rather than of the file.
   ParameterList alone;
-  setAt(alone, path, value);
+  setAt(alone, path, value, where);
   validated(alone, schema, where, Completeness::part);
   checkNewLists(list, schema, path, where);
-
-  const ParameterList* inner = &list;
-  for (std::size_t i = 0; i + 1 < path.size() && inner != nullptr; ++i) {
-    const ParameterEntry* entry = inner->getEntryPtr(path[i]);
-    if (entry != nullptr && !entry->isList())
-      throw InputError(where + ": \"" + path[i] + "\" is a parameter in the file, but must be a list.");
-    inner = entry == nullptr ? nullptr : &Teuchos::getValue<ParameterList>(*entry);
-  }
-  setAt(list, path, value);
+  setAt(list, path, value, where);
 }
 
 } // namespace epafi::scene

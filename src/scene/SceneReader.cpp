@@ -4,7 +4,6 @@
 #include "epafi/scene/BodyReader.hpp"
 #include "epafi/scene/ContactReader.hpp"
 #include "epafi/scene/GapConsistency.hpp"
-#include "epafi/scene/ObstacleReader.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 namespace epafi::scene {
@@ -38,7 +37,7 @@ Scene readScene(const ParameterList& list, const std::string& where) {
   if (scene.bodies.empty())
     bodies.refuseList("has no bodies, but a scene needs at least one");
   readContacts(ListReader(complete.sublist("Contact"), where, "Contact"),
-               readObstacles(ListReader(complete.sublist("Obstacles"), where, "Obstacles")), scene);
+               ListReader(complete.sublist("Obstacles"), where, "Obstacles"), scene);
   requireConsistentGaps(scene);
   return scene;
 }

@@ -138,7 +138,7 @@ TEST(ContactSearchTest, SaysWhyNothingMeets) {
   says(contact, "the node at (0, 1, 0) lies in the centre of the obstacle");
 }
 
-/// An even pressure loads them so, see FacetLoads.hpp.
+/// An even pressure loads them so, see tractionLoad().
 TEST(ContactSearchTest, NodesHaveTheShareOfTheirShapeFunctions) {
   fem::MeshArrays arrays; // one hexahedron, its top a trapezium
   arrays.cellType = fem::CellType::hexahedron;

@@ -4,7 +4,6 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
-#include "epafi/model/ConnectedParts.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
@@ -160,15 +159,13 @@ TEST(PartitionTest, GraphPartsAreTheSameOnEveryRank) {
   }
 }
 
-/// The largest cost of a part over the mean; every element costs the same if there are no weights.
-double imbalanceOf(const Partition& partition, const std::vector<int>& weights = {}) {
+/// The largest number of elements of a part over the mean.
+double imbalanceOf(const Partition& partition) {
   double largest = 0, sum = 0;
   for (int part = 0; part < partition.numParts(); ++part) {
-    double cost = 0;
-    for (const GlobalOrdinal element : partition.elementsOf(part))
-      cost += weights.empty() ? 1 : weights[static_cast<std::size_t>(element)];
-    largest = std::max(largest, cost);
-    sum += cost;
+    const auto size = static_cast<double>(partition.elementsOf(part).size());
+    largest = std::max(largest, size);
+    sum += size;
   }
   return largest * partition.numParts() / sum;
 }
@@ -198,47 +195,7 @@ TEST(PartitionTest, GraphPartsOfBoxesAreConnectedAndBalanced) {
 TEST(PartitionTest, GraphPartsDoNotDependOnTheNumberOfRanks) {
   const Teuchos::MpiComm<int> alone(MPI_COMM_SELF);
   const fem::StructuredMesh mesh = boxMesh(9, 8, 7);
-  std::vector<int> weights(static_cast<std::size_t>(mesh.numElements()));
-  std::iota(weights.begin(), weights.end(), 1);
   EXPECT_EQ(partsOf(GraphPartition(mesh, 6, *world()), mesh), partsOf(GraphPartition(mesh, 6, alone), mesh));
-  // The weights of rank 0 count.
-  const std::vector<int> mine = world()->getRank() == 0 ? weights : std::vector<int>{};
-  EXPECT_EQ(partsOf(GraphPartition(mesh, 6, *world(), mine), mesh),
-            partsOf(GraphPartition(mesh, 6, alone, weights), mesh));
-}
-
-TEST(PartitionTest, WeightsBalanceTheCostOfTheParts) {
-  const fem::StructuredMesh box = boxMesh(12, 10, 8);
-  const fem::StructuredMesh rectangle(scene::rectangle(0, 1, 0, 1), {40, 24, 0});
-  const std::array<const fem::Mesh*, 2> meshes{&box, &rectangle};
-  for (const fem::Mesh* mesh : meshes) {
-    const auto size = static_cast<std::size_t>(mesh->numElements());
-    const std::vector<int> alike(size, 1);
-    EXPECT_EQ(partsOf(GraphPartition(*mesh, 6, *world(), alike), *mesh),
-              partsOf(GraphPartition(*mesh, 6, *world()), *mesh));
-
-    std::vector<int> costly = alike; // one corner of four costs five times as much
-    std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh->nodesPerElement()));
-    for (std::size_t element = 0; element < size; ++element) {
-      mesh->elementNodes(static_cast<GlobalOrdinal>(element), nodes);
-      const fem::Point point = mesh->point(nodes[0]);
-      if (point[0] < 0.5 && point[1] < 0.5)
-        costly[element] = 5;
-    }
-    const GraphPartition byCost(*mesh, 6, *world(), costly), byNumber(*mesh, 6, *world());
-    expectSound(byCost, *mesh);
-    EXPECT_LE(imbalanceOf(byCost, costly), 1.1);
-    EXPECT_GT(imbalanceOf(byNumber, costly), 1.3); // what the weights are for
-  }
-}
-
-TEST(PartitionTest, ImpossibleWeightsAreRefused) {
-  const fem::StructuredMesh mesh = boxMesh(2, 2, 1);
-  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, 1, 1}), InputError);
-  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, 1, 0, 1}), InputError);
-  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {1, -3, 1, 1}), InputError);
-  EXPECT_THROW(GraphPartition(mesh, 2, *world(), {std::numeric_limits<int>::max(), 1, 1, 1}), InputError);
-  EXPECT_NO_THROW(GraphPartition(mesh, 2, *world(), {1, 2, 3, 4}));
 }
 
 /// Number of parts that have elements; each of them connected.

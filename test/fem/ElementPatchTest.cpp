@@ -1,7 +1,6 @@
 /// Elements in a state of constant stress: what the stiffness, the stresses and the loads on facets say must agree.
 
 #include "epafi/fem/ElementIntegrals.hpp"
-#include "epafi/fem/FacetLoads.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 
 #include "epafi/fem/ElementGeometry.hpp"

@@ -1,4 +1,4 @@
-#include "epafi/fem/ElementShape.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 
 #include "SampleCells.hpp"
 

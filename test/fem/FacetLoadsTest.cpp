@@ -1,4 +1,4 @@
-#include "epafi/fem/FacetLoads.hpp"
+#include "epafi/fem/ElementIntegrals.hpp"
 
 #include "epafi/fem/ElementGeometry.hpp"
 

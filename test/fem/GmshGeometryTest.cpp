@@ -1,5 +1,7 @@
 #include "GmshPlate.hpp"
 
+#include "epafi/fem/GmshReader.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -176,7 +178,7 @@ Physical Surface("sides") = {out(2), out(3), out(4), out(5)};
 TEST_F(GmshGeometryTest, RefinesMeshesByHalvingAllEdges) {
   const std::string plate = folder.write("plate.msh", test::plate41);
   const UnstructuredMesh coarse = GmshFile(plate).body(""),
-                         fine = GmshFile(readGmshFile(plate, 1, 2)).body("");
+                         fine = GmshFile(readMsh(plate, textOfMeshFile(plate, 1, 2))).body("");
   EXPECT_EQ(fine.numElements(), 16 * coarse.numElements());
   EXPECT_NEAR(measureOf(fine), measureOf(coarse), 1e-14);
   EXPECT_EQ(fine.group("right").size(), 16 * coarse.group("right").size());
@@ -195,7 +197,7 @@ Mesh.CharacteristicLengthMax = 1;
 Physical Surface("disk") = {1};
 Physical Curve("rim") = {1};
 )");
-  const UnstructuredMesh round = GmshFile(readGmshFile(disk, 1, 1)).body("disk");
+  const UnstructuredMesh round = GmshFile(readMsh(disk, textOfMeshFile(disk, 1, 1))).body("disk");
   const Surface rim = round.surface("rim");
   for (const GlobalOrdinal node : rim.facetNodes)
     EXPECT_NEAR(vectorOf(round.point(node)).norm(), 2, 1e-9); // new nodes lie on the circle

@@ -2,7 +2,7 @@
 
 #include "MeshFiles.hpp"
 
-#include "epafi/fem/ElementShape.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/GmshFile.hpp"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,6 @@
 #include "Refusals.hpp"
 
 #include "epafi/output/Checkpoint.hpp"
-#include "epafi/output/CheckpointHeader.hpp"
 
 #include <Teuchos_DefaultSerialComm.hpp>
 #include <unistd.h>
@@ -42,11 +41,11 @@ private:
 /// What is read is a whole checkpoint.
 void requireSound(const output::Checkpoint& checkpoint) {
   bool isSound =
-      static_cast<GlobalOrdinal>(checkpoint.share.size()) == checkpoint.fingerprint.numMultipliers();
-  for (const double value : checkpoint.share)
+      static_cast<GlobalOrdinal>(checkpoint.values.size()) == checkpoint.fingerprint.numMultipliers();
+  for (const double value : checkpoint.values)
     isSound = isSound && std::isfinite(value);
   if (!isSound) {
-    std::cerr << "The checkpoint holds " << checkpoint.share.size() << " values, not all of them right.\n";
+    std::cerr << "The checkpoint holds " << checkpoint.values.size() << " values, not all of them right.\n";
     std::abort();
   }
 }

@@ -7,7 +7,6 @@
 #include "../system/OneRank.hpp"
 
 #include "epafi/output/Checkpoint.hpp"
-#include "epafi/output/CheckpointHeader.hpp"
 #include "epafi/output/Slab.hpp"
 
 #include <Tpetra_Map.hpp>

@@ -5,10 +5,8 @@
 #include "epafi/ContactSolver.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/fem/HookesLaw.hpp"
-#include "epafi/output/CellErrors.hpp"
 #include "epafi/output/ContactFields.hpp"
 #include "epafi/output/Evaluation.hpp"
-#include "epafi/output/NodalStress.hpp"
 #include "epafi/output/Slab.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -190,7 +188,7 @@ TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheReport) {
       EXPECT_NEAR(value, pressure, 1e-8);
     for (std::size_t k = 0; k < fields.normals.size(); ++k)
       EXPECT_NEAR(fields.normals[k], k % 3 == (isPlane ? 1 : 2) ? 1 : 0, 1e-14);
-    EXPECT_EQ(fields.nodesPerFacet, fem::nodesPerFacet(kind.cell));
+    EXPECT_EQ(fields.nodesPerFacet(), fem::nodesPerFacet(kind.cell));
     EXPECT_EQ(fields.numFacets, isPlane ? 4 : kind.cell == fem::CellType::tetrahedron ? 32 : 16);
 
     Teuchos::ParameterList report;

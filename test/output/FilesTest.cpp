@@ -4,8 +4,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"
-#include "epafi/output/HistoryTable.hpp"
-#include "epafi/output/Names.hpp"
+#include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/Report.hpp"
 #include "epafi/output/Slab.hpp"
 

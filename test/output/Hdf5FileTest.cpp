@@ -16,6 +16,11 @@
 namespace epafi::output {
 namespace {
 
+/// All rows on rank 0.
+RowRange onFirstRank(GlobalOrdinal rows, const Comm& comm) {
+  return {0, comm.getRank() == 0 ? rows : 0};
+}
+
 using Names = std::set<std::string>;
 
 struct Hdf5FileTest : testing::Test {

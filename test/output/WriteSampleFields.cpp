@@ -6,7 +6,7 @@
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/output/FieldWriter.hpp"
-#include "epafi/output/HistoryTable.hpp"
+#include "epafi/output/Report.hpp"
 
 #include <Tpetra_Core.hpp>
 

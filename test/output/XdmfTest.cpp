@@ -7,6 +7,7 @@
 namespace epafi::output {
 namespace {
 
+using fem::CellType;
 using Type = XdmfData::Type;
 using Center = XdmfAttribute::Center;
 
@@ -17,7 +18,7 @@ bool contains(const std::string& text, const std::string& part) {
 TEST(XdmfTest, MeshGridNamesItsDatasetsWithTheirDimensionsAndTypes) {
   const XdmfGrid grid{"left",
                       {"/bodies/left/points", 9, 3},
-                      XdmfTopology::quadrilaterals,
+                      CellType::quadrilateral,
                       {"/bodies/left/cells", 4, 4, Type::integer8},
                       {{"u", Center::node, {"/bodies/left/u", 9, 1}},
                        {"subdomain", Center::cell, {"/bodies/left/subdomain", 4, 0, Type::integer4}}}};
@@ -36,7 +37,7 @@ TEST(XdmfTest, MeshGridNamesItsDatasetsWithTheirDimensionsAndTypes) {
 TEST(XdmfTest, CellsOfOnePointAreACloudOfPoints) {
   const std::string text = xdmfDocument("run.h5", {{"pair",
                                                     {"/contact/pair/points", 5, 3},
-                                                    XdmfTopology::points,
+                                                    std::nullopt,
                                                     {"/contact/pair/cells", 5, 1, Type::integer8},
                                                     {}}});
   EXPECT_TRUE(contains(text, "TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"5\">"));
@@ -44,20 +45,20 @@ TEST(XdmfTest, CellsOfOnePointAreACloudOfPoints) {
       contains(text, "Dimensions=\"5 1\" NumberType=\"Int\" Precision=\"8\">run.h5:/contact/pair/cells<"));
 }
 
-TEST(XdmfTest, EveryTopologyHasItsName) {
-  const auto text = [](XdmfTopology topology, int corners) {
-    return xdmfDocument("run.h5", {{"a", {"/p", 9, 3}, topology, {"/c", 2, corners, Type::integer8}, {}}});
+TEST(XdmfTest, EveryTypeOfCellHasItsName) {
+  const auto text = [](CellType type, int corners) {
+    return xdmfDocument("run.h5", {{"a", {"/p", 9, 3}, type, {"/c", 2, corners, Type::integer8}, {}}});
   };
-  EXPECT_TRUE(contains(text(XdmfTopology::lines, 2), "TopologyType=\"Polyline\" NodesPerElement=\"2\""));
-  EXPECT_TRUE(contains(text(XdmfTopology::triangles, 3), "TopologyType=\"Triangle\""));
-  EXPECT_TRUE(contains(text(XdmfTopology::tetrahedra, 4), "TopologyType=\"Tetrahedron\""));
-  EXPECT_TRUE(contains(text(XdmfTopology::hexahedra, 8), "TopologyType=\"Hexahedron\""));
+  EXPECT_TRUE(contains(text(CellType::line, 2), "TopologyType=\"Polyline\" NodesPerElement=\"2\""));
+  EXPECT_TRUE(contains(text(CellType::triangle, 3), "TopologyType=\"Triangle\""));
+  EXPECT_TRUE(contains(text(CellType::tetrahedron, 4), "TopologyType=\"Tetrahedron\""));
+  EXPECT_TRUE(contains(text(CellType::hexahedron, 8), "TopologyType=\"Hexahedron\""));
 }
 
 TEST(XdmfTest, KindOfAttributeFollowsTheNumberOfColumns) {
   const auto kind = [](int columns) {
-    return xdmfDocument(
-        "run.h5", {{"a", {"/p", 5, 3}, XdmfTopology::points, {}, {{"u", Center::node, {"/u", 5, columns}}}}});
+    return xdmfDocument("run.h5",
+                        {{"a", {"/p", 5, 3}, std::nullopt, {}, {{"u", Center::node, {"/u", 5, columns}}}}});
   };
   EXPECT_TRUE(contains(kind(1), "AttributeType=\"Scalar\""));
   EXPECT_TRUE(contains(kind(2), "AttributeType=\"Matrix\""));
@@ -65,7 +66,7 @@ TEST(XdmfTest, KindOfAttributeFollowsTheNumberOfColumns) {
 }
 
 TEST(XdmfTest, NamesAreEscaped) {
-  const std::string text = xdmfDocument("a&b.h5", {{"<\"x\">", {"/p", 1, 3}, XdmfTopology::points, {}, {}}});
+  const std::string text = xdmfDocument("a&b.h5", {{"<\"x\">", {"/p", 1, 3}, std::nullopt, {}, {}}});
   EXPECT_TRUE(contains(text, "Name=\"&lt;&quot;x&quot;&gt;\""));
   EXPECT_TRUE(contains(text, ">a&amp;b.h5:/p<"));
 }

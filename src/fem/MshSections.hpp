@@ -4,7 +4,7 @@
 /// and ends before its last one. They throw InputError at what does not fit the format, and allocate in proportion to
 /// the file's size, whatever it promises.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/fem/MshReader.hpp"
 #include "epafi/fem/MshScanner.hpp"
 
 #include <array>
@@ -15,12 +15,10 @@
 
 namespace epafi::fem {
 
-/// Elements of one linear kind on one entity.
+/// A block whose nodes are known by their tags alone.
 struct MshBlock {
-  int entity = 0;
-  int type = 0;
-  std::vector<GlobalOrdinal> tags;
-  std::vector<GlobalOrdinal> nodes; ///< by their tags
+  GmshBlock block;
+  std::vector<GlobalOrdinal> nodes;
 };
 
 struct MshRecords {
@@ -35,7 +33,7 @@ struct MshRecords {
 /// In both formats: numbers and names of physical groups.
 void readPhysicalNames(MshScanner& file, MshRecords& records);
 
-/// Format 2.2. It has no entities; elements that share group and entity's number make up one here, numbered anew.
+/// Format 2.2. It has no entities: here the elements of one kind and group are one, with a number of its own.
 /// \param isParametric  whether the section is $ParametricNodes
 void readNodes2(MshScanner& file, MshRecords& records, bool isParametric);
 void readElements2(MshScanner& file, MshRecords& records);
@@ -44,12 +42,5 @@ void readElements2(MshScanner& file, MshRecords& records);
 void readEntities4(MshScanner& file, MshRecords& records, bool isPartitioned);
 void readNodes4(MshScanner& file, MshRecords& records);
 void readElements4(MshScanner& file, MshRecords& records);
-
-/// Nodes of an element of that kind. Throws if it is not a linear one.
-int numNodesOfMsh(const MshScanner& file, int type, GlobalOrdinal element);
-/// A node's tag. Throws if it is negative.
-GlobalOrdinal checkedTag(const MshScanner& file, GlobalOrdinal tag);
-/// Number of the physical group that a tag names; a negative one means that group, too, seen from the other side.
-int groupOfTag(const MshScanner& file, int tag);
 
 } // namespace epafi::fem
