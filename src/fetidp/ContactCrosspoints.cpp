@@ -88,6 +88,14 @@ int ContactCrosspoints::indexOf(GlobalOrdinal coarseUnknown) const {
   return positionIn(touched_, coarseUnknown);
 }
 
+int ContactCrosspoints::indexOf(const decomposition::Subdomain& subdomain, int unknown) const {
+  const auto& all = subdomain.crosspointUnknowns; // ascending
+  const auto found = std::lower_bound(all.begin(), all.end(), unknown);
+  if (found == all.end() || *found != unknown)
+    return -1;
+  return indexOf(subdomain.crosspointIndices[static_cast<std::size_t>(found - all.begin())]);
+}
+
 int ContactCrosspoints::nearIndexOf(GlobalOrdinal coarseUnknown) const {
   return positionIn(near_, coarseUnknown);
 }
