@@ -4,7 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
-#include "epafi/fetidp/FiniteData.hpp"
+#include "epafi/fetidp/ProblemChecks.hpp"
 #include "epafi/fetidp/Recovery.hpp"
 
 #include <Teuchos_Time.hpp>
@@ -30,18 +30,15 @@ double longest(const Comm& comm, double since) {
 Teuchos::ParameterList ContactSolver::validParameters() {
   const fetidp::DualParameters dual;
   Teuchos::ParameterList list("Solver");
-  addRealOrWord(
-      list, "Tolerance", dual.tolerance, {"balanced"},
-      "The iteration stops when the projected gradient is this small relative to the right-hand side of "
-      "the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies. 'balanced': when the "
-      "error that is left of the iteration is the Algebraic Fraction of what the mesh allows, both estimated "
-      "in "
-      "the energy norm; no digit more than the mesh can use.",
-      0.0, 1.0);
+  addRealOrWord(list, "Tolerance", dual.tolerance, {"balanced"},
+                "The iteration stops when the projected gradient is this small relative to the right-hand "
+                "side of the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies. "
+                "'balanced': when the error that is left of the iteration is the Algebraic Fraction of what "
+                "the mesh allows, both estimated in the energy norm; no digit more than the mesh can use.",
+                0.0, 1.0);
   addReal(list, "Algebraic Fraction", fetidp::ErrorBalance().fraction,
           "With Tolerance 'balanced': algebraic error as a fraction of the discretisation error. With 0.1 "
-          "the two "
-          "together are half a per cent more than the discretisation error alone.",
+          "the two together are half a per cent more than the discretisation error alone.",
           0.0, 1.0, true);
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
           "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes.",
@@ -71,28 +68,25 @@ ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters) {
       dualParameters_.preconditioner.type == fetidp::PreconditionerParameters::Type::none)
     throw InputError(
         "parameter \"Tolerance\" in list \"Solver\" is \"balanced\", which measures the algebraic error by "
-        "the "
-        "preconditioner, but the parameter \"Type\" in list \"Solver/Preconditioner\" is \"none\"; choose "
-        "\"dirichlet\" or \"lumped\", or a tolerance that is a number.");
+        "the preconditioner, but the parameter \"Type\" in list \"Solver/Preconditioner\" is \"none\"; "
+        "choose \"dirichlet\" or \"lumped\", or a tolerance that is a number.");
 }
 
 void ContactSolver::setup(const decomposition::DecomposedProblem& problem) {
-  const double start = Teuchos::Time::wallTime();
-  dual_.reset(); // should this setup fail, there is none
   problem_ = &problem;
-  fetidp::requireFiniteMatrices(problem);
-  inverse_ = std::make_shared<fetidp::GeneralizedInverse>(problem, directSolvers_);
-  dual_ = std::make_unique<fetidp::DualProblem>(problem, inverse_, dualParameters_);
-  times_ = {};
-  times_.setup = longest(*problem.comm, start);
+  factorise(nullptr);
 }
 
 void ContactSolver::update() {
   if (!inverse_)
     throw Error("ContactSolver::update was called before ContactSolver::setup; call setup first");
+  factorise(std::move(inverse_)); // none is left should this fail
+}
+
+/// What follows from the matrices. \param earlier  of the same problem, or null
+void ContactSolver::factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier) {
   const double start = Teuchos::Time::wallTime();
-  dual_.reset();
-  auto earlier = std::move(inverse_); // none is left should this fail
+  dual_.reset(); // should this fail, there is none
   fetidp::requireFiniteMatrices(*problem_);
   inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, directSolvers_, std::move(earlier));
   dual_ = std::make_unique<fetidp::DualProblem>(*problem_, inverse_, dualParameters_);
@@ -160,14 +154,12 @@ void append(const qp::SolveReport& further, qp::SolveReport& report) {
     record.hessianMultiplications += counts.hessianMultiplications;
     report.history.push_back(record);
   }
-  counts.outer += further.counts.outer;
-  counts.conjugateGradient += further.counts.conjugateGradient;
-  counts.expansion += further.counts.expansion;
-  counts.proportioning += further.counts.proportioning;
-  counts.hessianMultiplications += further.counts.hessianMultiplications;
-  counts.preconditionerApplications += further.counts.preconditionerApplications;
-  counts.safeguards += further.counts.safeguards;
-  counts.normCorrections += further.counts.normCorrections;
+  using Counts = qp::StepCounts;
+  for (int Counts::*const count :
+       {&Counts::outer, &Counts::conjugateGradient, &Counts::expansion, &Counts::proportioning,
+        &Counts::hessianMultiplications, &Counts::preconditionerApplications, &Counts::safeguards,
+        &Counts::normCorrections})
+    counts.*count += further.counts.*count;
 }
 
 } // namespace
@@ -208,10 +200,9 @@ void ContactSolver::confirm(const fetidp::ContactSolution& solution, double erro
   else
     return;
   report_.status = qp::Status::stagnated;
-  report_.reason =
-      "the iteration met the tolerance, but " + reason.str() +
-      ": round-off in the subdomain solves allows no better; avoid very flat elements and very large "
-      "jumps of conductivity, or raise the tolerance";
+  report_.reason = "the iteration met the tolerance, but " + reason.str() +
+                   ": round-off in the subdomain solves allows no better; avoid very flat elements and very "
+                   "large jumps of conductivity, or raise the tolerance";
 }
 
 } // namespace epafi

@@ -83,6 +83,7 @@ public:
   [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
 
 private:
+  void factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier);
   void confirm(const fetidp::ContactSolution& solution, double errorTarget);
   [[nodiscard]] double algebraicErrorOf(const fetidp::ContactSolution& solution) const;
   void tighten(fetidp::DualSolution dual, qp::Observer* observer, fetidp::ContactSolution& solution);

@@ -2,7 +2,7 @@
 
 /// Stratimikos with Epafi's strategies and those of its peers. Needs no more than C++17.
 
-#include "epafi/adapters/Strategies.hpp"
+#include "epafi/adapters/Stratimikos.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 

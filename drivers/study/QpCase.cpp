@@ -4,10 +4,7 @@
 #include "Multigrid.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/benchmarks/Interpolation.hpp"
-#include "epafi/benchmarks/JournalBearing.hpp"
-#include "epafi/benchmarks/Obstacle.hpp"
-#include "epafi/benchmarks/Torsion.hpp"
+#include "epafi/benchmarks/PublishedProblems.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <Tpetra_CrsMatrix.hpp>

@@ -7,7 +7,9 @@
 #include <Tpetra_Vector.hpp>
 #include <mpi.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace epafi {
@@ -83,8 +85,13 @@ void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums) {
                   mpiObjects().add, rawCommunicator(comm));
 }
 
+void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums, double* values) {
+  sumOverRanks(comm, sums);
+  std::transform(sums.begin(), sums.end(), values, [](const AccurateSum& sum) { return sum.value(); });
+}
+
 /// A message of `length` sums is one element of this type: MPI must not cut off the minimum.
-struct SumsAndMinimum::Type {
+struct FusedReduction::Type {
   explicit Type(int length) {
     MPI_Type_contiguous(length, mpiObjects().sum, &value);
     MPI_Type_commit(&value);
@@ -100,17 +107,21 @@ struct SumsAndMinimum::Type {
   MPI_Datatype value = MPI_DATATYPE_NULL;
 };
 
-SumsAndMinimum::SumsAndMinimum(RCP<const Comm> comm, std::size_t length) : comm_(std::move(comm)) {
-  if (comm_->getSize() > 1 && length > 0)
-    type_ = std::make_unique<Type>(static_cast<int>(length));
+FusedReduction::FusedReduction(RCP<const Comm> comm, int numSums)
+    : comm_(std::move(comm)), values_(static_cast<std::size_t>(numSums) + 1) {
+  clear();
+  if (comm_->getSize() > 1)
+    type_ = std::make_shared<const Type>(numSums + 1);
 }
-SumsAndMinimum::SumsAndMinimum(SumsAndMinimum&&) noexcept = default;
-SumsAndMinimum& SumsAndMinimum::operator=(SumsAndMinimum&&) noexcept = default;
-SumsAndMinimum::~SumsAndMinimum() = default;
 
-void SumsAndMinimum::reduce(std::span<AccurateSum> sumsAndMinimum) const {
+void FusedReduction::clear() {
+  std::fill(values_.begin(), values_.end(), AccurateSum());
+  setMinimum(std::numeric_limits<double>::infinity());
+}
+
+void FusedReduction::reduce() {
   if (type_)
-    MPI_Allreduce(MPI_IN_PLACE, sumsAndMinimum.data(), 1, type_->value, mpiObjects().addTakeMinimum,
+    MPI_Allreduce(MPI_IN_PLACE, values_.data(), 1, type_->value, mpiObjects().addTakeMinimum,
                   rawCommunicator(*comm_));
 }
 

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace epafi {
 
@@ -36,25 +37,33 @@ private:
 
 /// Sums over the ranks, in place; one message. Collective.
 void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums);
+/// Likewise, and rounds them into as many `values`.
+void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums, double* values);
 
-/// The same for all values but the last one, of which the smallest is taken. The object keeps what MPI needs for
-/// messages of its length, so that `reduce` allocates nothing.
-class SumsAndMinimum {
+/// Several sums and one minimum over all ranks in a single message: a CG step of MPRGP needs its dot products and the
+/// longest feasible step together. Keeps what MPI needs for its messages, so that `reduce` allocates nothing.
+class FusedReduction {
 public:
-  /// \param length  number of values, the minimum included. Not collective.
-  SumsAndMinimum(RCP<const Comm> comm, std::size_t length);
-  SumsAndMinimum(SumsAndMinimum&& other) noexcept;
-  SumsAndMinimum& operator=(SumsAndMinimum&& other) noexcept;
-  SumsAndMinimum(const SumsAndMinimum&) = delete;
-  SumsAndMinimum& operator=(const SumsAndMinimum&) = delete;
-  ~SumsAndMinimum();
-  /// In place; one message. Collective.
-  void reduce(std::span<AccurateSum> sumsAndMinimum) const;
+  /// \param numSums  number of sums. Not collective.
+  FusedReduction(RCP<const Comm> comm, int numSums);
+
+  /// The rank's own contributions to the sums before `reduce`, the sums over all ranks after it.
+  [[nodiscard]] std::span<AccurateSum> sums() { return {values_.data(), values_.size() - 1}; }
+  [[nodiscard]] double sum(int index) const { return values_[static_cast<std::size_t>(index)].value(); }
+  /// The rank's own candidate for the minimum before `reduce`; the minimum after it.
+  void setMinimum(double candidate) { values_.back() = AccurateSum(candidate); }
+  [[nodiscard]] double minimum() const { return values_.back().value(); }
+
+  /// Sets the sums to zero and the minimum to infinity.
+  void clear();
+  /// One message of 2(numSums + 1) numbers. Collective.
+  void reduce();
 
 private:
   struct Type;
   RCP<const Comm> comm_;
-  std::unique_ptr<Type> type_; ///< null on a single rank
+  std::vector<AccurateSum> values_;  ///< the sums, then the minimum
+  std::shared_ptr<const Type> type_; ///< null on a single rank
 };
 
 /// xᵀy and ‖x‖. Collective.

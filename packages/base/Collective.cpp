@@ -3,11 +3,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/RawCommunicator.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
-
 #include <cstring>
-#include <numeric>
-#include <string>
 
 namespace epafi {
 namespace {
@@ -28,13 +24,6 @@ enum class Failure : int { none = 0, other = 1, input = 2, noSolution = 3, notUn
 }
 
 template <class T>
-T reduced(const Comm& comm, Teuchos::EReductionType type, T value) {
-  T result{};
-  Teuchos::reduceAll(comm, type, 1, &value, &result);
-  return result;
-}
-
-template <class T>
 void sumInPlace(const Comm& comm, std::span<T> values) {
   if (values.empty() || comm.getSize() == 1)
     return;
@@ -44,7 +33,7 @@ void sumInPlace(const Comm& comm, std::span<T> values) {
 
 /// The lowest rank where `holds`; the number of ranks if it holds nowhere.
 int lowestRank(const Comm& comm, bool holds) {
-  return reduced(comm, Teuchos::REDUCE_MIN, holds ? comm.getRank() : comm.getSize());
+  return minOverRanks(comm, holds ? comm.getRank() : comm.getSize());
 }
 
 /// The text of rank `root` on every rank.
@@ -99,36 +88,6 @@ void sumOverRanks(const Comm& comm, std::span<GlobalOrdinal> values) {
 }
 void sumOverRanks(const Comm& comm, std::span<int> values) {
   sumInPlace(comm, values);
-}
-
-double sumOverRanks(const Comm& comm, double value) {
-  return reduced(comm, Teuchos::REDUCE_SUM, value);
-}
-GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value) {
-  return reduced(comm, Teuchos::REDUCE_SUM, value);
-}
-int sumOverRanks(const Comm& comm, int value) {
-  return reduced(comm, Teuchos::REDUCE_SUM, value);
-}
-
-double maxOverRanks(const Comm& comm, double value) {
-  return reduced(comm, Teuchos::REDUCE_MAX, value);
-}
-GlobalOrdinal maxOverRanks(const Comm& comm, GlobalOrdinal value) {
-  return reduced(comm, Teuchos::REDUCE_MAX, value);
-}
-int maxOverRanks(const Comm& comm, int value) {
-  return reduced(comm, Teuchos::REDUCE_MAX, value);
-}
-
-double minOverRanks(const Comm& comm, double value) {
-  return reduced(comm, Teuchos::REDUCE_MIN, value);
-}
-GlobalOrdinal minOverRanks(const Comm& comm, GlobalOrdinal value) {
-  return reduced(comm, Teuchos::REDUCE_MIN, value);
-}
-int minOverRanks(const Comm& comm, int value) {
-  return reduced(comm, Teuchos::REDUCE_MIN, value);
 }
 
 bool holdsAnywhere(const Comm& comm, bool here) {

@@ -5,7 +5,7 @@
 
 #include "epafi/base/Types.hpp"
 
-#include <Teuchos_Comm.hpp>
+#include <Teuchos_CommHelpers.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -34,30 +34,35 @@ void sumOverRanks(const Comm& comm, std::span<double> values);
 void sumOverRanks(const Comm& comm, std::span<GlobalOrdinal> values); ///< likewise
 void sumOverRanks(const Comm& comm, std::span<int> values);           ///< likewise
 
-/// Sum, maximum or minimum of one value over the ranks. Collective.
-double sumOverRanks(const Comm& comm, double value);
-GlobalOrdinal sumOverRanks(const Comm& comm, GlobalOrdinal value); ///< likewise
-int sumOverRanks(const Comm& comm, int value);                     ///< likewise
-double maxOverRanks(const Comm& comm, double value);               ///< likewise
-GlobalOrdinal maxOverRanks(const Comm& comm, GlobalOrdinal value); ///< likewise
-int maxOverRanks(const Comm& comm, int value);                     ///< likewise
-double minOverRanks(const Comm& comm, double value);               ///< likewise
-GlobalOrdinal minOverRanks(const Comm& comm, GlobalOrdinal value); ///< likewise
-int minOverRanks(const Comm& comm, int value);                     ///< likewise
+namespace detail {
+
+template <class Number>
+Number reduced(const Comm& comm, Teuchos::EReductionType type, Number value) {
+  Number result{};
+  Teuchos::reduceAll(comm, type, 1, &value, &result);
+  return result;
+}
+
+} // namespace detail
+
+/// Sum, maximum or minimum of one number over the ranks. Collective.
+template <class Number>
+requires std::is_arithmetic_v<Number> Number sumOverRanks(const Comm& comm, Number value) {
+  return detail::reduced(comm, Teuchos::REDUCE_SUM, value);
+}
+/// Likewise.
+template <class Number>
+Number maxOverRanks(const Comm& comm, Number value) {
+  return detail::reduced(comm, Teuchos::REDUCE_MAX, value);
+}
+/// Likewise.
+template <class Number>
+Number minOverRanks(const Comm& comm, Number value) {
+  return detail::reduced(comm, Teuchos::REDUCE_MIN, value);
+}
 
 /// Whether it holds on one rank or more. Collective.
 bool holdsAnywhere(const Comm& comm, bool here);
-
-/// The values of all ranks, rank after rank, on every rank. For data of the coarse problem's size only.
-///
-/// \param values  a vector, span or array of what may be copied byte by byte: numbers, or structs of them. Any number of
-/// them, also none. Collective.
-template <class Values>
-auto gatherOnAll(const Comm& comm, const Values& values);
-
-/// The same on rank 0 alone; empty on the others. Collective.
-template <class Values>
-auto gatherOnFirst(const Comm& comm, const Values& values);
 
 namespace detail {
 
@@ -83,11 +88,16 @@ auto gathered(const Comm& comm, const Values& values, bool isForAll) {
 
 } // namespace detail
 
+/// The values of all ranks, rank after rank, on every rank. For data of the coarse problem's size only.
+///
+/// \param values  a vector, span or array of what may be copied byte by byte: numbers, or structs of them. Any number of
+/// them, also none. Collective.
 template <class Values>
 auto gatherOnAll(const Comm& comm, const Values& values) {
   return detail::gathered(comm, values, true);
 }
 
+/// The same on rank 0 alone; empty on the others. Collective.
 template <class Values>
 auto gatherOnFirst(const Comm& comm, const Values& values) {
   return detail::gathered(comm, values, false);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <new>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -54,14 +55,10 @@ std::string sentenceOf(const std::exception& error, int rank) {
     return text + " has no memory left; spread the run over more machines, or make the mesh or the "
                   "subdomains smaller";
   }
-  std::string text;
-  for (const char letter : std::string(error.what()))
-    if (std::isspace(static_cast<unsigned char>(letter)) == 0)
-      text += letter;
-    else if (!text.empty() && text.back() != ' ')
-      text += ' ';
-  while (text.ends_with(' '))
-    text.pop_back();
+  std::istringstream words(error.what());
+  std::string text, word;
+  while (words >> word)
+    text += (text.empty() ? "" : " ") + word;
   return text;
 }
 

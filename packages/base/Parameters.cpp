@@ -83,9 +83,9 @@ ParameterEntry converted(const ParameterEntry& given, const ParameterEntry& vali
     const auto& whole = Teuchos::getValue<Array<int>>(given);
     return ParameterEntry(Array<double>(whole.begin(), whole.end()), given.isDefault());
   }
-  if (given.isType<std::string>() && dynamic_cast<const Share*>(valid.validator().get()) != nullptr &&
-      Share().admits(given))
-    return ParameterEntry(*Share::parsed(Teuchos::getValue<std::string>(given)), given.isDefault());
+  if (const AllowedValues* allowed = allowedValues(valid);
+      allowed != nullptr && allowed->isShare && given.isType<std::string>() && allowed->admits(given))
+    return ParameterEntry(*shareFrom(Teuchos::getValue<std::string>(given)), given.isDefault());
   return bare(given, given.isDefault());
 }
 
@@ -100,8 +100,13 @@ bool isFinite(const ParameterEntry& entry) {
 }
 
 std::string allowedText(const ParameterEntry& schemaEntry) {
-  const auto* allowed = dynamic_cast<const AllowedValues*>(schemaEntry.validator().get());
-  return allowed != nullptr ? allowed->allowed() : "";
+  const AllowedValues* allowed = allowedValues(schemaEntry);
+  return allowed != nullptr ? allowed->text : "";
+}
+
+bool isRequired(const ParameterEntry& schemaEntry) {
+  const AllowedValues* allowed = allowedValues(schemaEntry);
+  return allowed != nullptr && allowed->isRequired;
 }
 
 /// The schema's own default is always allowed, also where it stands for "not given" (an empty word).
@@ -226,61 +231,6 @@ void describeList(std::ostream& out, const ParameterList& schema, const std::str
 ParameterList validated(const ParameterList& given, const ParameterList& schema, const std::string& where,
                         Completeness completeness) {
   return checkedList(given, schema, {where, ""}, completeness);
-}
-
-void addReal(ParameterList& schema, const std::string& name, double defaultValue, const std::string& doc,
-             double minimum, double maximum, bool openBelow, bool openAbove) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Range(minimum, maximum, openBelow, openAbove)));
-}
-
-void addRealOrWord(ParameterList& schema, const std::string& name, double defaultValue,
-                   const std::vector<std::string>& words, const std::string& doc, double minimum,
-                   double maximum) {
-  schema.set(name, defaultValue, doc,
-             Teuchos::rcp(new RealOrWord(Range(minimum, maximum, true, false), words)));
-}
-
-bool takesWords(const ParameterEntry& schemaEntry) {
-  const auto* validator = schemaEntry.validator().get();
-  return dynamic_cast<const RealOrWord*>(validator) != nullptr ||
-         dynamic_cast<const Share*>(validator) != nullptr;
-}
-
-void addShare(ParameterList& schema, const std::string& name, double defaultValue, const std::string& doc) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Share));
-}
-
-void addInteger(ParameterList& schema, const std::string& name, int defaultValue, const std::string& doc,
-                int minimum, int maximum) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Range(minimum, maximum, false, false)));
-}
-
-void addChoice(ParameterList& schema, const std::string& name, const std::string& defaultValue,
-               const std::string& doc, const std::vector<std::string>& choices) {
-  // Unlike ParameterList::set, this lets an empty default pass the validator.
-  schema.setEntry(name, ParameterEntry(defaultValue, false, false, doc, Teuchos::rcp(new Choice(choices))));
-}
-
-void addArray(ParameterList& schema, const std::string& name, const Array<double>& defaultValue,
-              const std::string& doc, const std::string& allowed) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Remark(allowed)));
-}
-
-void addArray(ParameterList& schema, const std::string& name, const Array<int>& defaultValue,
-              const std::string& doc, const std::string& allowed) {
-  schema.set(name, defaultValue, doc, Teuchos::rcp(new Remark(allowed)));
-}
-
-void setRequired(ParameterList& schema, std::initializer_list<const char*> names) {
-  for (const char* const name : names) {
-    ParameterEntry& entry = schema.getEntry(name);
-    const auto inner = Teuchos::rcp_dynamic_cast<const AllowedValues>(entry.validator());
-    entry.setValidator(Teuchos::rcp(new Required(inner)));
-  }
-}
-
-bool isRequired(const ParameterEntry& schemaEntry) {
-  return dynamic_cast<const Required*>(schemaEntry.validator().get()) != nullptr;
 }
 
 std::string describeParameters(const ParameterList& schema, const std::string& introduction) {

@@ -10,6 +10,7 @@
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 
+#include <algorithm>
 #include <initializer_list>
 #include <limits>
 #include <string>
@@ -62,6 +63,14 @@ void addInteger(Teuchos::ParameterList& schema, const std::string& name, int def
 void addChoice(Teuchos::ParameterList& schema, const std::string& name, const std::string& defaultValue,
                const std::string& doc, const std::vector<std::string>& choices);
 
+/// The enumerator that a validated list's word stands for: that of the word's place among `choices`.
+template <class Enum>
+Enum enumeratorFrom(const Teuchos::ParameterList& list, const std::string& name,
+                    const std::vector<std::string>& choices) {
+  const auto found = std::find(choices.begin(), choices.end(), list.get<std::string>(name));
+  return static_cast<Enum>(found - choices.begin());
+}
+
 /// Schema entry of an array. `allowed` says for people what its entries may be; the check is left to the
 /// reader.
 void addArray(Teuchos::ParameterList& schema, const std::string& name,
@@ -73,9 +82,6 @@ void addArray(Teuchos::ParameterList& schema, const std::string& name,
 /// Marks parameters of the schema as required: validated() refuses a list without them, and their defaults
 /// mean nothing. Precondition: they are in the schema, with validators of this file if any.
 void setRequired(Teuchos::ParameterList& schema, std::initializer_list<const char*> names);
-/// Whether a parameter of the schema was marked so.
-bool isRequired(const Teuchos::ParameterEntry& schemaEntry);
-
 /// The whole schema as a page for people, in Markdown: a title, the introduction, and a table a list with
 /// type, default, range and meaning of every parameter. Ends with one newline.
 std::string describeParameters(const Teuchos::ParameterList& schema, const std::string& introduction);

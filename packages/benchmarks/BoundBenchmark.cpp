@@ -15,11 +15,4 @@ qp::QuadraticProgram BoundBenchmark::program() const {
   return problem;
 }
 
-RCP<Vector> BoundBenchmark::error(const Vector& u) const {
-  const RCP<Vector> result =
-      grid.vector(u.getMap(), [&](int i, int j) { return exactSolution(grid.x(i), grid.y(j)); });
-  result->update(1.0, u, -1.0);
-  return result;
-}
-
 } // namespace epafi::benchmarks

@@ -5,7 +5,6 @@
 #include "epafi/benchmarks/Grid.hpp"
 #include "epafi/qp/QpSolver.hpp"
 
-#include <functional>
 #include <string>
 
 namespace epafi::benchmarks {
@@ -18,13 +17,9 @@ struct BoundBenchmark {
   RCP<CrsMatrix> hessian;         ///< A, n × n with n = grid.size(), symmetric positive definite
   RCP<Vector> linearTerm;         ///< b
   RCP<const Vector> lower, upper; ///< −∞ and +∞ for "no bound"; null where no unknown has one
-  /// The solution of the continuous problem at a point; empty where no closed form is known.
-  std::function<double(double x, double y)> exactSolution;
 
   /// Shares the data. Not collective.
   [[nodiscard]] qp::QuadraticProgram program() const;
-  /// Entry i is u_i − u(x_i, y_i). Precondition: there is a closed form. Not collective.
-  [[nodiscard]] RCP<Vector> error(const Vector& u) const;
 };
 
 } // namespace epafi::benchmarks

@@ -22,15 +22,6 @@ DenseProgram DenseProgram::unconstrained(const Eigen::MatrixXd& hessian, const E
           Eigen::VectorXd(0)};
 }
 
-double DenseProgram::largestBound() const {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < size(); ++i)
-    for (const double bound : {lower[i], upper[i]})
-      if (std::isfinite(bound))
-        largest = std::max(largest, std::abs(bound));
-  return largest;
-}
-
 Real DenseProgram::objective(const RealVector& x) const {
   const RealVector ax = hessian.cast<Real>() * x;
   return x.dot(ax) / 2 - linear.cast<Real>().dot(x);

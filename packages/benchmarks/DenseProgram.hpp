@@ -24,8 +24,6 @@ struct DenseProgram {
 
   [[nodiscard]] Eigen::Index size() const { return linear.size(); }
   [[nodiscard]] Eigen::Index numRows() const { return values.size(); }
-  /// The largest absolute value of a bound; 0 without bounds.
-  [[nodiscard]] double largestBound() const;
   [[nodiscard]] Real objective(const RealVector& x) const;
   /// Ax − b + Bᵀμ.
   [[nodiscard]] RealVector gradient(const RealVector& x, const RealVector& multiplier) const;

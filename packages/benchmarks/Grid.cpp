@@ -7,27 +7,16 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace epafi::benchmarks {
-namespace {
 
-void requireUnknowns(int n) {
+Grid Grid::square(int n, double left, double right, double bottom, double top) {
   if (n < 1)
     throw InputError("a grid with " + std::to_string(n) +
                      " unknowns a side is asked for; it needs at least 1");
-}
-
-} // namespace
-
-Grid Grid::square(int n, double left, double right, double bottom, double top) {
-  requireUnknowns(n);
   return {n, n, left, bottom, (right - left) / (n + 1), (top - bottom) / (n + 1)};
-}
-
-Grid Grid::line(int n, double left, double right) {
-  requireUnknowns(n);
-  return {n, 1, left, 0, (right - left) / (n + 1), 0};
 }
 
 RCP<const Map> Grid::map(const RCP<const Comm>& comm) const {
@@ -46,8 +35,7 @@ RCP<Vector> Grid::vector(const RCP<const Map>& map, const std::function<double(i
 
 FivePointSystem assembleFivePoint(const Grid& grid, const RCP<const Comm>& comm,
                                   const std::function<Stencil(int, int)>& stencil,
-                                  const std::function<double(int, int)>& load,
-                                  const std::function<double(double, double)>& border) {
+                                  const std::function<double(int, int)>& load) {
   const RCP<const Map> map = grid.map(comm);
   const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(map, 5));
   const RCP<Vector> rightHandSide = grid.vector(map, load);
@@ -58,13 +46,8 @@ FivePointSystem assembleFivePoint(const Grid& grid, const RCP<const Comm>& comm,
     std::array<double, 5> values{s.centre};
     int count = 1;
     const auto addNeighbour = [&](int column, int line, double weight) {
-      if (weight == 0)
+      if (weight == 0 || column < 0 || column >= grid.nx || line < 0 || line >= grid.ny)
         return;
-      if (column < 0 || column >= grid.nx || line < 0 || line >= grid.ny) {
-        if (border)
-          rightHandSide->sumIntoGlobalValue(row, -weight * border(grid.x(column), grid.y(line)));
-        return;
-      }
       columns.at(static_cast<std::size_t>(count)) = column + static_cast<GlobalOrdinal>(grid.nx) * line;
       values.at(static_cast<std::size_t>(count)) = weight;
       ++count;
@@ -92,6 +75,31 @@ Stencil laplaceStencil(const Grid& grid, int i, int j, double borderWeight) {
     s.north *= borderWeight;
   s.centre = -(s.west + s.east + s.south + s.north);
   return s;
+}
+
+RCP<CrsMatrix> bilinearInterpolation(const Grid& coarse, const RCP<const Map>& coarseMap, const Grid& fine,
+                                     const RCP<const Map>& fineMap) {
+  const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(fineMap, 4));
+  for (const GlobalOrdinal row : localIndices(*fineMap)) {
+    const auto [i, j] = fine.place(row);
+    // Where the point stands in coarse mesh widths; the border is at −1 and n.
+    const double x = (fine.x(i) - coarse.left) / coarse.hx - 1,
+                 y = (fine.y(j) - coarse.bottom) / coarse.hy - 1;
+    const int column = static_cast<int>(std::floor(x)), line = static_cast<int>(std::floor(y));
+    const double alongX = x - column, alongY = y - line;
+    const auto add = [&](int ci, int cj, double weight) {
+      if (weight == 0 || ci < 0 || ci >= coarse.nx || cj < 0 || cj >= coarse.ny)
+        return;
+      const GlobalOrdinal index = ci + static_cast<GlobalOrdinal>(coarse.nx) * cj;
+      matrix->insertGlobalValues(row, 1, &weight, &index);
+    };
+    add(column, line, (1 - alongX) * (1 - alongY));
+    add(column + 1, line, alongX * (1 - alongY));
+    add(column, line + 1, (1 - alongX) * alongY);
+    add(column + 1, line + 1, alongX * alongY);
+  }
+  matrix->fillComplete(coarseMap, fineMap);
+  return matrix;
 }
 
 } // namespace epafi::benchmarks

@@ -21,10 +21,6 @@ struct Grid {
   /// n × n unknowns in (left, right) × (bottom, top).
   /// \throws InputError if n < 1. Not collective.
   static Grid square(int n, double left, double right, double bottom, double top);
-  /// n unknowns in (left, right).
-  /// \throws InputError if n < 1. Not collective.
-  static Grid line(int n, double left, double right);
-
   [[nodiscard]] double x(int i) const { return left + (i + 1) * hx; }
   [[nodiscard]] double y(int j) const { return bottom + (j + 1) * hy; }
   [[nodiscard]] GlobalOrdinal size() const { return static_cast<GlobalOrdinal>(nx) * ny; }
@@ -53,16 +49,23 @@ struct FivePointSystem {
 
 /// Each rank fills its own rows.
 /// \param stencil  row (i, j); the matrix is symmetric if east(i, j) = west(i+1, j) and north(i, j) = south(i, j+1)
-/// \param load     right-hand side at (i, j)
-/// \param border   u on the border, multiplied by its weights and brought to the right-hand side; empty for 0
+/// \param load     right-hand side at (i, j), where u is not 0 on the border with what its weights there bring
 /// Collective.
 FivePointSystem assembleFivePoint(const Grid& grid, const RCP<const Comm>& comm,
                                   const std::function<Stencil(int i, int j)>& stencil,
-                                  const std::function<double(int i, int j)>& load,
-                                  const std::function<double(double x, double y)>& border = {});
+                                  const std::function<double(int i, int j)>& load);
 
 /// The stencil of −Δ times hx hy at (i, j): linear elements on triangles.
-/// \param borderWeight  factor of the edges that end on the border: 1, or ½ as in CUTEst (see Obstacle.hpp)
+/// \param borderWeight  factor of the edges that end on the border: 1, or ½ as in CUTEst (see PublishedProblems.hpp)
 Stencil laplaceStencil(const Grid& grid, int i, int j, double borderWeight = 1);
+
+/// The bilinear interpolation from one grid to another of the same rectangle, 0 on the border: (fine size) × (coarse
+/// size), not more than four entries a row. The grids need not be nested. Each rank fills the rows of its fine
+/// unknowns.
+/// \param coarse, fine        with ny > 1
+/// \param coarseMap, fineMap  of the unknowns
+/// Collective.
+RCP<CrsMatrix> bilinearInterpolation(const Grid& coarse, const RCP<const Map>& coarseMap, const Grid& fine,
+                                     const RCP<const Map>& fineMap);
 
 } // namespace epafi::benchmarks

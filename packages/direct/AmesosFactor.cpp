@@ -76,9 +76,7 @@ public:
       for (Eigen::Index j = 0; j < columns; ++j)
         unit(kept_[static_cast<std::size_t>(first + j)], j) = 1;
       solve(unit, image);
-      for (Eigen::Index j = 0; j < columns; ++j)
-        for (Eigen::Index i = 0; i < k; ++i)
-          result(i, first + j) = image(kept_[static_cast<std::size_t>(i)], j);
+      result.middleCols(first, columns) = image(kept_, Eigen::all);
     }
     return (0.5 * (result + result.transpose())).eval();
   }

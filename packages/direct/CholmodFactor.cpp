@@ -23,8 +23,6 @@ public:
   OneThread() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
   OneThread(const OneThread&) = delete;
   OneThread& operator=(const OneThread&) = delete;
-  OneThread(OneThread&&) = delete;
-  OneThread& operator=(OneThread&&) = delete;
   ~OneThread() { omp_set_max_active_levels(levels_); }
 
 private:
@@ -43,8 +41,6 @@ public:
   }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
-  Workspace(Workspace&&) = delete;
-  Workspace& operator=(Workspace&&) = delete;
   ~Workspace() {
     for (cholmod_dense** dense : {&solution, &work, &moreWork})
       cholmod_free_dense(dense, &common_);
@@ -173,12 +169,6 @@ public:
     if (factor_->minor < factor_->n)
       throw Error("the matrix is not positive definite");
   }
-  CholmodFactor(const CholmodFactor&) = delete;
-  CholmodFactor& operator=(const CholmodFactor&) = delete;
-  CholmodFactor(CholmodFactor&&) = delete;
-  CholmodFactor& operator=(CholmodFactor&&) = delete;
-  ~CholmodFactor() override = default;
-
   [[nodiscard]] int size() const override { return static_cast<int>(factor_->n); }
 
   void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) override {
@@ -195,10 +185,7 @@ public:
 
   [[nodiscard]] const std::shared_ptr<const CholmodPattern>& pattern() const { return pattern_; }
 
-  Eigen::MatrixXd schurComplement() override {
-    const Eigen::MatrixXd lower = lastBlock();
-    return inGivenOrder(productOfFactor(lower));
-  }
+  Eigen::MatrixXd schurComplement() override { return inGivenOrder(productOfFactor(lastBlock())); }
   Eigen::MatrixXd inverseOfKept() override { return inGivenOrder(inverseFromFactor(lastBlock())); }
 
   [[nodiscard]] std::size_t bytes() const override {
@@ -240,12 +227,7 @@ private:
   }
 
   [[nodiscard]] Eigen::MatrixXd inGivenOrder(const Eigen::MatrixXd& block) const {
-    const std::vector<int>& place = pattern_->place();
-    Eigen::MatrixXd result(block.rows(), block.cols());
-    for (std::size_t j = 0; j < place.size(); ++j)
-      for (std::size_t i = 0; i < place.size(); ++i)
-        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = block(place[i], place[j]);
-    return result;
+    return block(pattern_->place(), pattern_->place());
   }
 
   std::shared_ptr<const CholmodPattern> pattern_;

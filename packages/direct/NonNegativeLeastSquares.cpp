@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace epafi::direct {
@@ -13,11 +12,8 @@ namespace {
 Eigen::VectorXd solveOn(const std::vector<Eigen::Index>& passive, const Eigen::MatrixXd& a,
                         const Eigen::VectorXd& b) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
-  if (passive.empty())
-    return x;
-  const Eigen::VectorXd values = a(Eigen::all, passive).colPivHouseholderQr().solve(b);
-  for (std::size_t k = 0; k < passive.size(); ++k)
-    x[passive[k]] = values[static_cast<Eigen::Index>(k)];
+  if (!passive.empty())
+    x(passive) = a(Eigen::all, passive).colPivHouseholderQr().solve(b);
   return x;
 }
 

@@ -2,10 +2,14 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/AmesosFactor.hpp"
-#include "epafi/direct/BlasMemory.hpp"
 #include "epafi/direct/CholmodFactor.hpp"
 
+#include <Teuchos_LAPACK.hpp>
+
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <new>
 #include <utility>
 
 namespace epafi::direct {
@@ -34,21 +38,30 @@ void requireKnown(const std::string& solver) {
   throw InputError("the direct solver '" + solver + "' is not known to this build; use one of: " + known);
 }
 
+/// Makes the BLAS take its work space now. OpenBLAS does so at its first product, 128 MiB of addresses, keeps it, and if there is
+/// no such memory, asks for it for ever: a rank short of memory would hang there. So it is asked for here first.
+/// \throws std::bad_alloc if it is not to be had. Not collective.
+void takeBlasMemory() {
+  static const bool isTaken = [] {
+    constexpr std::size_t needed = std::size_t{132} << 20U; // 128 MiB and what surrounds them
+    void* volatile probe = std::malloc(needed);             // volatile: a compiler may leave the pair out
+    if (probe == nullptr)
+      throw std::bad_alloc();
+    std::free(probe);
+    std::array<double, 4> matrix{2, 1, 1, 2};
+    int info = 0;
+    Teuchos::LAPACK<int, double>().POTRF('L', 2, matrix.data(), 2, &info);
+    return info == 0;
+  }();
+  static_cast<void>(isTaken);
+}
+
 } // namespace
 
-/// The last patterns met, the latest first: subdomains of one kind follow each other.
-struct Factorizer::Patterns {
-  std::vector<std::shared_ptr<const CholmodPattern>> known;
-};
-
-Factorizer::Factorizer(std::string solver)
-    : solver_(std::move(solver)), patterns_(std::make_unique<Patterns>()) {
+Factorizer::Factorizer(std::string solver) : solver_(std::move(solver)) {
   requireKnown(solver_);
   takeBlasMemory();
 }
-Factorizer::Factorizer(Factorizer&&) noexcept = default;
-Factorizer& Factorizer::operator=(Factorizer&&) noexcept = default;
-Factorizer::~Factorizer() = default;
 
 std::unique_ptr<SpdFactor> Factorizer::factorize(const SparseMatrix& matrix, const std::vector<int>& kept,
                                                  const std::string& what, const SpdFactor* like) {
@@ -64,7 +77,7 @@ std::unique_ptr<SpdFactor> Factorizer::factorize(const SparseMatrix& matrix, con
     }
   }
   constexpr std::size_t numRemembered = 32;
-  auto& known = patterns_->known;
+  auto& known = patterns_;
   const auto earlier = like != nullptr ? patternOf(*like) : nullptr;
   if (earlier && std::find(known.begin(), known.end(), earlier) == known.end())
     known.insert(known.begin(), earlier);

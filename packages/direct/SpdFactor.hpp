@@ -21,11 +21,10 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 /// used by one rank alone, nothing here is collective.
 class SpdFactor {
 public:
-  virtual ~SpdFactor() = default;
+  SpdFactor() = default;
   SpdFactor(const SpdFactor&) = delete;
   SpdFactor& operator=(const SpdFactor&) = delete;
-  SpdFactor(SpdFactor&&) = delete;
-  SpdFactor& operator=(SpdFactor&&) = delete;
+  virtual ~SpdFactor() = default;
 
   [[nodiscard]] virtual int size() const = 0; ///< n
   /// X = A⁻¹ B; both n × m, column by column, m ≥ 0. X may not overlap B.
@@ -38,22 +37,18 @@ public:
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Entries of the factor: a solve reads each of them twice.
   [[nodiscard]] virtual std::size_t numEntries() const = 0;
-
-protected:
-  SpdFactor() = default;
 };
+
+/// Ordering and elimination tree of a pattern (CholmodFactor.hpp).
+class CholmodPattern;
 
 /// Factorises matrices by one direct solver, and remembers what depends on their pattern alone (ordering, elimination
 /// tree) for the next one with the same pattern and the same unknowns kept.
 class Factorizer {
 public:
-  /// \param solver  one of `availableSolvers()`. \throws InputError for another name (lists the known ones), std::bad_alloc (see BlasMemory.hpp).
+  /// \param solver  one of `availableSolvers()`. \throws InputError for another name (lists the known ones),
+  ///        std::bad_alloc if the BLAS cannot have the memory that it takes for itself.
   explicit Factorizer(std::string solver);
-  Factorizer(const Factorizer&) = delete;
-  Factorizer& operator=(const Factorizer&) = delete;
-  Factorizer(Factorizer&&) noexcept;
-  Factorizer& operator=(Factorizer&&) noexcept;
-  ~Factorizer();
 
   /// Precondition: A square, SPD, both triangles stored; `kept` distinct and within it. n = 0 is allowed.
   /// \param like  an earlier factor, of any Factorizer: what depends on its pattern alone is used again if it is the same
@@ -67,9 +62,9 @@ public:
   [[nodiscard]] int numSymbolic() const { return numSymbolic_; }
 
 private:
-  struct Patterns;
   std::string solver_;
-  std::unique_ptr<Patterns> patterns_;
+  /// The last ones met, the latest first: subdomains of one kind follow each other.
+  std::vector<std::shared_ptr<const CholmodPattern>> patterns_;
   int numSymbolic_ = 0;
 };
 

@@ -31,9 +31,8 @@ std::string Box::emptiness(const Map& map) const {
   collectively(*map.getComm(), [&] {
     for (const RCP<const Vector>& bound : {lower_, upper_})
       if (!bound.is_null() && !bound->getMap()->isCompatible(map))
-        throw InputError(
-            "the bounds are not on the map of the unknowns; give them as vectors on the domain map of the "
-            "Hessian");
+        throw InputError("the bounds are not on the map of the unknowns; give them as vectors on the domain "
+                         "map of the Hessian");
   });
   collectively(*map.getComm(), [&] {
     const Local bounds = local();

@@ -48,9 +48,7 @@ bool ColumnSpace::factorize() {
       for (std::size_t i = 0; i < k; ++i)
         for (const Entry& entry : column(i))
           sums_[(j - first) * k + i].add(entry.value * image(j)[entry.row]);
-    sumOverRanks(*map_->getComm(), sums_);
-    for (std::size_t i = 0; i < sums_.size(); ++i)
-      factor_[first * k + i] = sums_[i].value();
+    sumOverRanks(*map_->getComm(), sums_, factor_.data() + first * k);
   }
   scale_.resize(k);
   for (std::size_t i = 0; i < k; ++i) {

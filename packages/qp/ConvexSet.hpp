@@ -32,11 +32,6 @@ struct GradientSums {
 
 class ConvexSet {
 public:
-  ConvexSet() = default;
-  ConvexSet(const ConvexSet&) = default;
-  ConvexSet& operator=(const ConvexSet&) = default;
-  ConvexSet(ConvexSet&&) = default;
-  ConvexSet& operator=(ConvexSet&&) = default;
   virtual ~ConvexSet() = default;
 
   /// Says why the set is empty, with the entry that shows it; an empty text if it is not.

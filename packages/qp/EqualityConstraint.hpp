@@ -13,11 +13,6 @@ namespace epafi::qp {
 
 class EqualityConstraint {
 public:
-  EqualityConstraint() = default;
-  EqualityConstraint(const EqualityConstraint&) = default;
-  EqualityConstraint& operator=(const EqualityConstraint&) = default;
-  EqualityConstraint(EqualityConstraint&&) = default;
-  EqualityConstraint& operator=(EqualityConstraint&&) = default;
   virtual ~EqualityConstraint() = default;
 
   /// Entries of r and μ that this rank keeps.

@@ -3,8 +3,8 @@
 /// Preconditioning in face: z = Mr for the part r of the gradient that an iteration follows, z restricted to entries that
 /// may move.
 
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/qp/ConvexSet.hpp"
-#include "epafi/qp/FusedReduction.hpp"
 #include "epafi/qp/SolveReport.hpp"
 
 #include <Tpetra_Operator.hpp>

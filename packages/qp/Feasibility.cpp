@@ -5,7 +5,6 @@
 
 #include <Tpetra_Map.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace epafi::qp {

@@ -2,85 +2,48 @@
 
 #include "epafi/base/Parameters.hpp"
 
-#include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace epafi::qp {
 namespace {
 
-constexpr std::array<std::pair<const char*, Expansion>, 4> expansions{{
-    {"auto", Expansion::automatic},
-    {"projected CG", Expansion::projectedCg},
-    {"fixed step", Expansion::fixedStep},
-    {"active set", Expansion::activeSet},
-}};
-
-constexpr std::array<std::pair<const char*, Release>, 2> releases{{
-    {"projected gradient", Release::projectedGradient},
-    {"chopped gradient", Release::choppedGradient},
-}};
-
-template <class Choices>
-std::vector<std::string> namesOf(const Choices& choices) {
-  std::vector<std::string> names;
-  for (const auto& choice : choices)
-    names.emplace_back(choice.first);
-  return names;
-}
-
-/// The value that goes with a name; the list was validated, so there is one.
-template <class Choices>
-auto valueOf(const Choices& choices, const std::string& name) {
-  for (const auto& choice : choices)
-    if (name == choice.first)
-      return choice.second;
-  return choices.front().second;
-}
+const std::vector<std::string> expansions = {"auto", "projected CG", "fixed step", "active set"};
+const std::vector<std::string> releases = {"projected gradient", "chopped gradient"};
 
 } // namespace
 
 Teuchos::ParameterList MprgpParameters::validParameters() {
   const MprgpParameters defaults;
   Teuchos::ParameterList list("MPRGP");
-  addReal(
-      list, "Proportioning Constant", defaults.proportioningConstant,
-      "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
-      "longer than "
-      "Γ times the free one. 0: 0.1 for FETI-DP with a preconditioner and floating bodies or averages along "
-      "edges, else 1.",
-      0.0, 1e6);
-  addChoice(
-      list, "Expansion", expansions.front().first,
-      "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
-      "step ('projected CG'); from the boundary along the free gradient with a fixed step length; or "
-      "where CG in the face and projections lead in turns ('active set'). One that raises the objective is "
-      "repeated with the fixed step. 'auto': projected CG and, "
-      "with a "
-      "preconditioner, once one of its steps has raised the objective by more than a little, active set.",
-      namesOf(expansions));
-  addReal(
-      list, "Sufficient Share", defaults.sufficientShare,
-      "A CG step that would leave the feasible set, but of which at least this share fits, ends at the "
-      "boundary "
-      "and saves the product of an expansion. 1: every such step is followed by an expansion; 0: 0.25 for "
-      "FETI-DP with a "
-      "preconditioner, else 1.",
-      0.0, 1.0);
+  addReal(list, "Proportioning Constant", defaults.proportioningConstant,
+          "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
+          "longer than Γ times the free one. 0: 0.1 for FETI-DP with a preconditioner and floating bodies or "
+          "averages along edges, else 1.",
+          0.0, 1e6);
+  addChoice(list, "Expansion", expansions.front(),
+            "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "
+            "step ('projected CG'); from the boundary along the free gradient with a fixed step length; or "
+            "where CG in the face and projections lead in turns ('active set'). One that raises the "
+            "objective is repeated with the fixed step. 'auto': projected CG and, with a preconditioner, "
+            "once one of its steps has raised the objective by more than a little, active set.",
+            expansions);
+  addReal(list, "Sufficient Share", defaults.sufficientShare,
+          "A CG step that would leave the feasible set, but of which at least this share fits, ends at the "
+          "boundary and saves the product of an expansion. 1: every such step is followed by an expansion; "
+          "0: 0.25 for FETI-DP with a preconditioner, else 1.",
+          0.0, 1.0);
   addReal(list, "Expansion Step", defaults.expansionStep,
           "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
           true, true);
-  addChoice(list, "Release", releases.front().first,
+  addChoice(list, "Release", releases.front(),
             "Direction that leaves a face which is no longer proportional: the projected gradient "
-            "(preconditioned if "
-            "there is a preconditioner), or the chopped gradient alone.",
-            namesOf(releases));
-  addInteger(
-      list, "Maximum Multiplications", defaults.maxMultiplications,
-      "Products with the operator at most, over all outer iterations together; limits CG too. Looked at "
-      "before each step, which takes one to three.",
-      1);
+            "(preconditioned if there is a preconditioner), or the chopped gradient alone.",
+            releases);
+  addInteger(list, "Maximum Multiplications", defaults.maxMultiplications,
+             "Products with the operator at most, over all outer iterations together; limits CG too. Looked "
+             "at before each step, which takes one to three.",
+             1);
   addReal(list, "Time Limit", defaults.timeLimit,
           "Seconds after which the iteration stops with the iterate it has; 0 for no limit.", 0.0, 1e9);
   return list;
@@ -89,10 +52,10 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
 MprgpParameters MprgpParameters::from(const Teuchos::ParameterList& list) {
   MprgpParameters parameters;
   parameters.proportioningConstant = list.get<double>("Proportioning Constant");
-  parameters.expansion = valueOf(expansions, list.get<std::string>("Expansion"));
+  parameters.expansion = enumeratorFrom<Expansion>(list, "Expansion", expansions);
   parameters.sufficientShare = list.get<double>("Sufficient Share");
   parameters.expansionStep = list.get<double>("Expansion Step");
-  parameters.release = valueOf(releases, list.get<std::string>("Release"));
+  parameters.release = enumeratorFrom<Release>(list, "Release", releases);
   parameters.maxMultiplications = list.get<int>("Maximum Multiplications");
   parameters.timeLimit = list.get<double>("Time Limit");
   return parameters;

@@ -9,15 +9,15 @@ namespace epafi::qp {
 /// Where a conjugate gradient step that would leave the set goes from its feasible half step x^½ = x − α_f p.
 enum class Expansion {
   automatic, ///< projectedCg; with a preconditioner, once one of its steps raised the objective by much, activeSet
-  fixedStep,   ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
   projectedCg, ///< P(x − α_cg p) (MPPCG; Kružík, Horák, Čermák, Pospíšil, Pecha 2020)
+  fixedStep,   ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
   activeSet ///< where a primal–dual active set method leads (Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003))
 };
 
 /// The direction that leaves a face which is no longer proportional.
 enum class Release {
-  choppedGradient,  ///< β alone (Dostál, Schöberl 2005)
-  projectedGradient ///< the projected gradient φ + β, preconditioned if there is a preconditioner
+  projectedGradient, ///< the projected gradient φ + β, preconditioned if there is a preconditioner
+  choppedGradient    ///< β alone (Dostál, Schöberl 2005)
 };
 
 struct MprgpParameters {

@@ -17,11 +17,10 @@ Teuchos::ParameterList NormEstimateParameters::validParameters() {
   addInteger(list, "Maximum Iterations", defaults.maxIterations, "Products with the operator at most.", 1);
   addReal(list, "Accuracy", defaults.accuracy, "Relative distance of the bound at which the estimate stops.",
           0.0, 1.0, true);
-  addReal(
-      list, "Safety", defaults.safety,
-      "The estimate is at least this factor times the largest Rayleigh quotient seen, which approaches the "
-      "norm from below.",
-      1.0, 100.0);
+  addReal(list, "Safety", defaults.safety,
+          "The estimate is at least this factor times the largest Rayleigh quotient seen, which approaches "
+          "the norm from below.",
+          1.0, 100.0);
   return list;
 }
 

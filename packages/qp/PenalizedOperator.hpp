@@ -2,9 +2,11 @@
 
 /// A + ρBᵀB, the Hessian of the augmented Lagrangian; with A absent, BᵀB alone.
 
+#include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace epafi::qp {
@@ -16,12 +18,23 @@ public:
   /// \param map      the map of x
   /// \param penalty  ρ ≥ 0
   PenalizedOperator(RCP<const Operator> a, RCP<const Map> map, RCP<const EqualityConstraint> b,
-                    double penalty);
+                    double penalty)
+      : SymmetricOperator(std::move(map)), a_(std::move(a)), b_(std::move(b)), penalty_(penalty),
+        bx_(b_->numEntries()) {}
 
   void setPenalty(double penalty) { penalty_ = penalty; }
 
 private:
-  void multiply(const MultiVector& x, MultiVector& y) const override;
+  void multiply(const MultiVector& x, MultiVector& y) const override {
+    if (a_.is_null())
+      y.putScalar(0.0);
+    else
+      a_->apply(x, y);
+    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+      b_->product(in, bx_);
+      b_->addTransposedProduct(bx_, penalty_, out);
+    });
+  }
 
   RCP<const Operator> a_;
   RCP<const EqualityConstraint> b_;

@@ -141,9 +141,8 @@ void QpSolver::Run::deflate() {
   ColumnSpace space(given.hessian->getDomainMap());
   space.add(*given.hessian, *given.coarseSpace);
   if (!space.factorize())
-    throw InputError(
-        "the coarse space is not independent: UᵀAU is not positive definite; leave out columns that others "
-        "combine, or that A maps to zero");
+    throw InputError("the coarse space is not independent: UᵀAU is not positive definite; leave out columns "
+                     "that others combine, or that A maps to zero");
   const RCP<Vector> projected = rcp(new Vector(*given.linearTerm, Teuchos::Copy));
   space.projectTransposed(*projected);
   linearTerm = projected;

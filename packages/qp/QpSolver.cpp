@@ -14,17 +14,15 @@ Teuchos::ParameterList QpSolver::validParameters() {
   addReal(list, "Tolerance", 1e-6, "Stop at ‖gᴾ‖ ≤ Tolerance · Reference.", 0.0, 1.0);
   addReal(list, "Absolute Tolerance", 0.0, "Stop at ‖gᴾ‖ ≤ this as well; 0 leaves the relative test alone.",
           0.0);
-  addReal(
-      list, "Reference", 0.0,
-      "What ‖gᴾ‖ is relative to; 0 stands for ‖b‖ (or, where b is round-off beside ‖A‖‖y‖ for the feasible "
-      "point y nearest to 0, for ‖Ay‖).",
-      0.0);
+  addReal(list, "Reference", 0.0,
+          "What ‖gᴾ‖ is relative to; 0 stands for ‖b‖ (or, where b is round-off beside ‖A‖‖y‖ for the "
+          "feasible point y nearest to 0, for ‖Ay‖).",
+          0.0);
   addReal(list, "Constraint Tolerance", 1e-6,
           "Stop only if ‖Bx − c‖ ≤ this times ‖c‖ (or, if c = 0, ‖B‖‖b‖/‖A‖) as well.", 0.0, 1.0, true);
   addInteger(list, "Maximum Dense Rows", 300,
              "Up to so many rows of B are made orthonormal, and redundant ones found, with a dense matrix of "
-             "that size on "
-             "every rank; beyond, B is only scaled.",
+             "that size on every rank; beyond, B is only scaled.",
              0);
   addReal(list, "Operator Norm", 0.0,
           "An over-estimate of ‖A‖ if one is known; 0 for an estimate by 'Norm Estimate'.", 0.0);

@@ -3,7 +3,7 @@
 /// f(x) = ½xᵀAx − bᵀx + constant as MPRGP works with it: divided by ‖A‖, as estimated at the start, so that gradients have
 /// the units of x and no threshold has any. The gradient is g = (Ax − b)/‖A‖.
 
-#include "epafi/qp/FusedReduction.hpp"
+#include "epafi/base/AccurateSum.hpp"
 #include "epafi/qp/SolveReport.hpp"
 
 #include <Tpetra_Operator.hpp>

@@ -280,9 +280,8 @@ SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vecto
   x.assign(solver.solution());
   describeEnd(solver, report);
   if (report.status == Status::maxIterations && report.counts.outer >= parameters.maxOuterIterations)
-    report.reason =
-        "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer Iterations' or "
-        "the tolerance";
+    report.reason = "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer "
+                    "Iterations' or the tolerance";
   report.relativeProjectedGradient = relativeTo(tolerances.gradientReference, solver.projectedGradient());
   for (std::size_t i = 0; i < multiplier.size();
        ++i) // the gradient is that of L: μ + ρ(Bx − c) is what it belongs to

@@ -2,17 +2,23 @@
 #include "epafi/qp/Smalbe.hpp"
 
 #include <string>
+#include <vector>
 
 namespace epafi::qp {
+namespace {
+
+const std::vector<std::string> updates = {"both", "balance", "penalty"};
+
+} // namespace
 
 Teuchos::ParameterList SmalbeParameters::validParameters() {
   const SmalbeParameters defaults;
   Teuchos::ParameterList list("SMALBE");
-  addChoice(list, "Update", "both",
-            "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M "
-            "(SMALBE-M) or the "
-            "penalty ρ (SMALBE-ρ). 'both' is 'balance', and ρ grows where ‖Bx − c‖ falls slowly.",
-            {"both", "balance", "penalty"});
+  addChoice(
+      list, "Update", "both",
+      "What changes when the augmented Lagrangian grew by less than ρ/2‖Bx − c‖²: the balance M (SMALBE-M) "
+      "or the penalty ρ (SMALBE-ρ). 'both' is 'balance', and ρ grows where ‖Bx − c‖ falls slowly.",
+      updates);
   addReal(list, "Penalty", defaults.penalty, "ρ‖B‖² as a multiple of ‖A‖ (in FETI-DP: ρ of ‖PFP‖).", 0.0,
           1e12, true);
   addReal(list, "Balance", defaults.balance,
@@ -29,10 +35,7 @@ Teuchos::ParameterList SmalbeParameters::validParameters() {
 
 SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   SmalbeParameters parameters;
-  const auto& update = list.get<std::string>("Update");
-  parameters.update = update == "both"      ? Update::both
-                      : update == "penalty" ? Update::penalty
-                                            : Update::balance;
+  parameters.update = enumeratorFrom<Update>(list, "Update", updates);
   parameters.penalty = list.get<double>("Penalty");
   parameters.balance = list.get<double>("Balance");
   parameters.balanceReduction = list.get<double>("Balance Reduction");

@@ -1,6 +1,5 @@
 #include "epafi/adapters/BddcFactory.hpp"
 
-#include "epafi/adapters/ForwardOperator.hpp"
 #include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
@@ -55,10 +54,9 @@ void BddcFactory::initializePrec(const RCP<const Thyra::LinearOpSourceBase<doubl
   double factor = 1;
   const RCP<const linear::UnassembledOperator> k = decompositionOf(*source, factor);
   if (k.is_null() || factor == 0)
-    throw InputError(
-        "BDDC knows no decomposition of the operator " + source->getOp()->description() +
-        "; it must be epafi::adapters::asThyra of an epafi::linear::UnassembledOperator, or the factory "
-        "must have one on the same map");
+    throw InputError("BDDC knows no decomposition of the operator " + source->getOp()->description() +
+                     "; it must be epafi::adapters::asThyra of an epafi::linear::UnassembledOperator, or the "
+                     "factory must have one on the same map");
   const RCP<const Operator> bddc = rcp(new linear::BddcPreconditioner(k, parameters()));
   const auto op = asThyra(bddc);
   ours(preconditioner).initializeUnspecified(factor == 1 ? op : Thyra::scale(1 / factor, op));

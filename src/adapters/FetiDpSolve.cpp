@@ -103,10 +103,9 @@ FetiDpSolve::solveImpl(Thyra::EOpTransp transposition, const Thyra::MultiVectorB
   if (!solveSupportsNewImpl(transposition, criteria)) {
     std::ostringstream measure;
     measure << criteria->solveMeasureType;
-    throw InputError(
-        "FETI-DP cannot stop by the measure " + measure.str() +
-        "; ask for the norm of the residual relative to that of the right-hand side or of the start "
-        "residual, without reduction functionals");
+    throw InputError("FETI-DP cannot stop by the measure " + measure.str() +
+                     "; ask for the norm of the residual relative to that of the right-hand side or of the "
+                     "start residual, without reduction functionals");
   }
   const bool hasTolerance =
       !criteria.is_null() && criteria->requestedTol != Thyra::SolveCriteria<double>::unspecifiedTolerance();

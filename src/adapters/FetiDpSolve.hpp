@@ -2,7 +2,7 @@
 
 /// K and its solution by FETI-DP as Thyra sees them. Made by FetiDpFactory.
 
-#include "epafi/adapters/ForwardOperator.hpp"
+#include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/linear/FetiDpSolver.hpp"
 
 #include <Thyra_LinearOpWithSolveBase_decl.hpp>

@@ -1,4 +1,4 @@
-#include "epafi/adapters/Strategies.hpp"
+#include "epafi/adapters/Stratimikos.hpp"
 
 #include "epafi/adapters/BddcFactory.hpp"
 #include "epafi/adapters/FetiDpFactory.hpp"

@@ -4,9 +4,12 @@
 /// C++17: g++ up to 13 does not take the header of DefaultLinearSolverBuilder in Trilinos 13.2 as C++20. A file in C++20 takes
 /// linearSolveStrategy.
 
-#include "epafi/adapters/Strategies.hpp"
+#include "epafi/base/Types.hpp"
 
+#include <Teuchos_AbstractFactory.hpp>
 #include <Teuchos_ParameterList.hpp>
+#include <Thyra_LinearOpWithSolveFactoryBase_decl.hpp>
+#include <Thyra_PreconditionerFactoryBase_decl.hpp>
 
 #include <string>
 
@@ -14,7 +17,21 @@ namespace Stratimikos { // NOLINT(readability-identifier-naming): it is theirs
 class DefaultLinearSolverBuilder;
 } // namespace Stratimikos
 
+namespace epafi::linear {
+class UnassembledOperator;
+} // namespace epafi::linear
+
 namespace epafi::adapters {
+
+using LinearSolveStrategy = Thyra::LinearOpWithSolveFactoryBase<double>;
+using PreconditioningStrategy = Thyra::PreconditionerFactoryBase<double>;
+
+/// Makes FetiDpFactory.
+RCP<const Teuchos::AbstractFactory<LinearSolveStrategy>> fetiDpStrategy();
+
+/// Makes BddcFactory(k). \param k  may be null
+RCP<const Teuchos::AbstractFactory<PreconditioningStrategy>>
+bddcStrategy(const RCP<const linear::UnassembledOperator>& k);
 
 /// From now on "Linear Solver Type" = `name` is FetiDpFactory, with its parameters in the list "Linear Solver Types/`name`".
 /// Precondition: the builder has no parameters yet. Not collective.

@@ -2,28 +2,10 @@
 
 #include "epafi/base/Collective.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace epafi::fetidp {
 namespace {
-
-/// K_ΔΔ.
-Eigen::MatrixXd boundaryBlock(const decomposition::Subdomain& subdomain,
-                              const CondensedSubdomain& condensed) {
-  const Eigen::Index size = condensed.numBoundary();
-  const std::vector<int>& positionOf = condensed.interface().positionOf;
-  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index column = 0; column < subdomain.stiffness->cols(); ++column) {
-    const int j = positionOf[static_cast<std::size_t>(column)];
-    if (j < 0 || j >= size)
-      continue;
-    for (decomposition::SparseMatrix::InnerIterator entry(*subdomain.stiffness, column); entry; ++entry)
-      if (const int i = positionOf[static_cast<std::size_t>(entry.row())]; i >= 0 && i < size)
-        block(i, j) = entry.value();
-  }
-  return block;
-}
 
 std::shared_ptr<const direct::SymmetricBlock> stiffnessOf(const decomposition::DecomposedProblem& problem,
                                                           const SubdomainGroup& group,
@@ -32,8 +14,10 @@ std::shared_ptr<const direct::SymmetricBlock> stiffnessOf(const decomposition::D
   const auto precision = parameters.isSingle ? Precision::single : Precision::full;
   if (parameters.type == PreconditionerParameters::Type::dirichlet)
     return group.boundaryStiffness(precision);
-  return std::make_shared<const direct::SymmetricBlock>(
-      boundaryBlock(problem.subdomains[group.members().front()], group.condensed()), group.use(), precision);
+  const std::vector<int>& unknowns = group.condensed().interface().boundaryUnknowns;
+  const Eigen::MatrixXd k(
+      block(*problem.subdomains[group.members().front()].stiffness, unknowns, unknowns)); // K_ΔΔ
+  return std::make_shared<const direct::SymmetricBlock>(k, group.use(), precision);
 }
 
 /// B's entries in a group's boundaries with the weights of B_D for coefficients.
@@ -85,19 +69,14 @@ void BoundaryPreconditioner::apply(const MultiVector& x, MultiVector& y) const {
   output_.sumToOwners(y);
 }
 
-void BoundaryPreconditioner::applyTo(const decomposition::DecomposedProblem& problem,
-                                     const SubdomainVectors& u, Vector& y) const {
+void BoundaryPreconditioner::applyTo(const SubdomainVectors& u, Vector& y) const {
   const std::span<double> result = output_.zeros(1);
   for (std::size_t g = 0; g < blocks_.size(); ++g) {
     const SubdomainGroup& group = inverse_->groups()[g];
-    const std::vector<int>& remainders = problem.subdomains[group.members().front()].remainderUnknowns;
     Work& work = prepared(g, 1);
-    for (std::size_t m = 0; m < group.members().size(); ++m) {
-      auto values = work.displacement.col(static_cast<Eigen::Index>(m));
-      Eigen::Index i = 0;
-      for (const int position : group.condensed().interface().boundary)
-        values[i++] = u[group.members()[m]](remainders[static_cast<std::size_t>(position)], 0);
-    }
+    for (std::size_t m = 0; m < group.members().size(); ++m)
+      work.displacement.col(static_cast<Eigen::Index>(m)) =
+          u[group.members()[m]].col(0)(group.condensed().interface().boundaryUnknowns);
     blocks_[g].stiffness->apply(work.displacement, work.forces);
     addProduct(blocks_[g].scaled, work.forces, 1, result);
   }

@@ -26,7 +26,7 @@ public:
   /// Collective.
   void apply(const MultiVector& x, MultiVector& y) const;
   /// y = Σ B_D S_Δ u_Δ, u of n_s × 1. Collective.
-  void applyTo(const decomposition::DecomposedProblem& problem, const SubdomainVectors& u, Vector& y) const;
+  void applyTo(const SubdomainVectors& u, Vector& y) const;
   /// Bytes of this rank's blocks; what an application reads.
   [[nodiscard]] std::size_t bytes() const;
 

@@ -77,10 +77,8 @@ std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, cons
   for (std::size_t i = 0; i < kernel.body.size(); ++i)
     if (kernel.body[i] == index)
       candidates.push_back(static_cast<int>(i));
-  Eigen::MatrixXd transposed(body.kernelDimension, static_cast<Eigen::Index>(candidates.size()));
-  for (std::size_t j = 0; j < candidates.size(); ++j)
-    transposed.col(static_cast<Eigen::Index>(j)) =
-        kernel.modes.row(candidates[j]).segment(body.kernelOffset, body.kernelDimension).transpose();
+  const Eigen::MatrixXd transposed =
+      kernel.modes(candidates, Eigen::seqN(body.kernelOffset, body.kernelDimension)).transpose();
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
   if (qr.rank() < body.kernelDimension)
     throw Error("the crosspoints of the floating body '" + body.name + "' do not hold its " +
@@ -89,23 +87,6 @@ std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, cons
   for (int k = 0; k < body.kernelDimension; ++k)
     fixed.push_back(candidates[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
   return fixed;
-}
-
-/// Diagonal of K̄_cc, before anything is eliminated: the yardstick for round-off in S_cc, which vanishes where
-/// a lone subdomain floats.
-Eigen::VectorXd crosspointStiffness(const DecomposedProblem& problem, int size) {
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(size));
-  for (const auto& subdomain : problem.subdomains)
-    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i) {
-      const int unknown = subdomain.crosspointUnknowns[i];
-      sums[static_cast<std::size_t>(subdomain.crosspointIndices[i])].add(
-          subdomain.stiffness->coeff(unknown, unknown));
-    }
-  sumOverRanks(*problem.comm, sums);
-  Eigen::VectorXd diagonal(size);
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    diagonal[static_cast<Eigen::Index>(i)] = sums[i].value();
-  return diagonal;
 }
 
 /// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness at the crosspoints of the same body:
@@ -121,13 +102,26 @@ void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const
   for (std::size_t i = 0; i < kernel.body.size(); ++i) {
     const double force = forces.row(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>();
     if (!(force <= 1e-8 * stiffnessOf[kernel.body[i]] * largestMode)) // also NaN
-      throw Error(
-          "the rigid modes of the floating bodies are no kernel of the coarse problem; check stiffness "
-          "and kernel");
+      throw Error("the rigid modes of the floating bodies are no kernel of the coarse problem; check "
+                  "stiffness and kernel");
   }
 }
 
 } // namespace
+
+Eigen::VectorXd crosspointDiagonal(const DecomposedProblem& problem, Eigen::Index size,
+                                   const std::function<int(GlobalOrdinal)>& placeOf) {
+  std::vector<AccurateSum> sums(static_cast<std::size_t>(size));
+  for (const auto& subdomain : problem.subdomains)
+    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
+      if (const int place = placeOf(subdomain.crosspointIndices[i]); place >= 0) {
+        const int unknown = subdomain.crosspointUnknowns[i];
+        sums[static_cast<std::size_t>(place)].add(subdomain.stiffness->coeff(unknown, unknown));
+      }
+  Eigen::VectorXd diagonal(size);
+  sumOverRanks(*problem.comm, sums, diagonal.data());
+  return diagonal;
+}
 
 CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
                              std::span<const decomposition::CoarseNumber> crosspoints,
@@ -141,7 +135,8 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   Eigen::VectorXd stiffness;
   if (problem.kernelDimension > 0) {
     kernel = gatherKernel(problem, size_);
-    stiffness = crosspointStiffness(problem, size_);
+    stiffness =
+        crosspointDiagonal(problem, size_, [](GlobalOrdinal unknown) { return static_cast<int>(unknown); });
   }
   collectively(*comm_, [&] {
     if (!isMine)
@@ -186,9 +181,7 @@ void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::Matri
   for (Eigen::Index j = 0, k = 0; j < x.cols(); ++j)
     for (const decomposition::CoarseNumber crosspoint : crosspoints_)
       sums_[static_cast<std::size_t>(j * size_ + crosspoint)] = z[static_cast<std::size_t>(k++)];
-  sumOverRanks(*comm_, sums_);
-  for (std::size_t i = 0; i < sums_.size(); ++i)
-    rhs_.data()[i] = sums_[i].value();
+  sumOverRanks(*comm_, sums_, rhs_.data());
   factor_->solve(rhs_, solution_);
   for (Eigen::Index j = 0; j < x.cols(); ++j)
     for (Eigen::Index i = 0; i < x.rows(); ++i)

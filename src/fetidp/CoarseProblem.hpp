@@ -19,6 +19,7 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -55,5 +56,12 @@ private:
   RCP<const Import> import_;                  ///< from rank 0 to the ranks' crosspoints, unless replicated
   mutable RCP<MultiVector> first_, mine_;     ///< likewise
 };
+
+/// Diagonal of K̄ at some crosspoint values, before anything is eliminated: the yardstick for round-off in S_cc, which vanishes
+/// where a lone subdomain floats.
+/// \param placeOf  of a coarse unknown among them, or −1
+/// Collective.
+Eigen::VectorXd crosspointDiagonal(const decomposition::DecomposedProblem& problem, Eigen::Index size,
+                                   const std::function<int(GlobalOrdinal)>& placeOf);
 
 } // namespace epafi::fetidp

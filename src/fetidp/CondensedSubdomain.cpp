@@ -3,11 +3,9 @@
 #include <utility>
 
 namespace epafi::fetidp {
-namespace {
 
 using decomposition::SparseMatrix;
 
-/// The block of a sparse matrix with the given rows and columns; both lists ascending.
 SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
                    const std::vector<int>& columns) {
   std::vector<int> position(static_cast<std::size_t>(matrix.rows()), -1);
@@ -29,8 +27,6 @@ SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
   result.finalize();
   return result;
 }
-
-} // namespace
 
 CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain,
                                        SubdomainInterface interface, direct::Factorizer& factorizer,

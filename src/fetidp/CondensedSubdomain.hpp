@@ -13,8 +13,13 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <vector>
 
 namespace epafi::fetidp {
+
+/// The block of a sparse matrix with the given rows and columns; both lists ascending.
+decomposition::SparseMatrix block(const decomposition::SparseMatrix& matrix, const std::vector<int>& rows,
+                                  const std::vector<int>& columns);
 
 /// Shared by all subdomains that are identical. n_r remainders, n_Δ of them in the boundary, n_c crosspoint values.
 class CondensedSubdomain {

@@ -88,6 +88,15 @@ int ContactCrosspoints::indexOf(decomposition::CoarseNumber coarseUnknown) const
   return positionIn(touched_, coarseUnknown);
 }
 
+int ContactCrosspoints::indexOf(const decomposition::Subdomain& subdomain,
+                                decomposition::Unknown unknown) const {
+  const auto& all = subdomain.crosspointUnknowns; // ascending
+  const auto found = std::lower_bound(all.begin(), all.end(), unknown);
+  if (found == all.end() || *found != unknown)
+    return -1;
+  return indexOf(subdomain.crosspointIndices[static_cast<std::size_t>(found - all.begin())]);
+}
+
 int ContactCrosspoints::nearIndexOf(decomposition::CoarseNumber coarseUnknown) const {
   return positionIn(near_, coarseUnknown);
 }

@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <span>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -25,6 +24,8 @@ public:
   [[nodiscard]] Eigen::Index size() const { return stiffness_.rows(); }
   /// Index of a coarse unknown among them, or −1.
   [[nodiscard]] int indexOf(decomposition::CoarseNumber coarseUnknown) const;
+  /// Likewise of an unknown of a subdomain; −1 if it is a remainder.
+  [[nodiscard]] int indexOf(const decomposition::Subdomain& subdomain, decomposition::Unknown unknown) const;
   /// Index of a coarse unknown among the n_N *near* ones, all those of bodies with touched ones, or −1.
   [[nodiscard]] int nearIndexOf(decomposition::CoarseNumber coarseUnknown) const;
   /// How the near ones follow, X: n_N × n_C, on every rank.

@@ -10,10 +10,13 @@
 /// preconditioner, restricted to the free set; that is no longer the correction of the restricted M, but it serves
 /// (docs/theory.md, "Jumps of the stiffness", has figures).
 
+#include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/qp/ColumnSpace.hpp"
 
 #include <Tpetra_Vector.hpp>
+
+#include <utility>
 
 namespace epafi::fetidp {
 
@@ -21,13 +24,24 @@ namespace epafi::fetidp {
 class CorrectedPreconditioner final : public SymmetricOperator {
 public:
   /// \param space  V beside H, factorized
-  CorrectedPreconditioner(RCP<const Operator> m, qp::ColumnSpace space);
+  CorrectedPreconditioner(RCP<const Operator> m, qp::ColumnSpace space)
+      : SymmetricOperator(m->getDomainMap()), m_(std::move(m)), space_(std::move(space)),
+        residual_(getDomainMap()) {}
 
   [[nodiscard]] const qp::ColumnSpace& space() const { return space_; } ///< V, with HV and VᵀHV
 
 private:
   /// One application of M, two messages of n_V numbers, 3 n_λ n_V multiplications.
-  void multiply(const MultiVector& x, MultiVector& y) const override;
+  void multiply(const MultiVector& x, MultiVector& y) const override {
+    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+      space_.coefficients(in, coefficients_); // c = (VᵀHV)⁻¹Vᵀx
+      residual_.assign(in);
+      space_.subtractImage(coefficients_, residual_); // Pᵀx = x − HVc
+      m_->apply(residual_, out);
+      space_.project(out);                   // P M Pᵀx
+      space_.addColumns(coefficients_, out); // + Vc
+    });
+  }
 
   RCP<const Operator> m_;
   qp::ColumnSpace space_;

@@ -6,16 +6,6 @@
 #include <utility>
 
 namespace epafi::fetidp {
-namespace {
-
-/// Sums over the ranks, as a matrix. Collective.
-void sumInto(const Comm& comm, std::vector<AccurateSum>& sums, Eigen::MatrixXd& values) {
-  sumOverRanks(comm, sums);
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    values.data()[i] = sums[i].value();
-}
-
-} // namespace
 
 CrosspointMotion::CrosspointMotion(const decomposition::DecomposedProblem& problem,
                                    std::shared_ptr<const GeneralizedInverse> inverse,
@@ -90,16 +80,10 @@ void CrosspointMotion::constrain(const decomposition::DecomposedProblem& problem
   jumps.scale(-1.0); // J
   const std::span<double> entries = work_.output.zeros(size);
   for (const auto& subdomain : problem.subdomains)
-    for (const auto& entry : subdomain.constraint) {
-      const auto& all = subdomain.crosspointUnknowns; // ascending
-      const auto found = std::lower_bound(all.begin(), all.end(), entry.unknown);
-      if (found == all.end() || *found != entry.unknown)
-        continue;
-      const auto coarse = subdomain.crosspointIndices[static_cast<std::size_t>(found - all.begin())];
-      entries[static_cast<std::size_t>(entry.multiplier) +
-              static_cast<std::size_t>(crosspoints_.indexOf(coarse)) * entries.size() / size] +=
-          entry.coefficient;
-    }
+    for (const auto& entry : subdomain.constraint)
+      if (const int touched = crosspoints_.indexOf(subdomain, entry.unknown); touched >= 0)
+        entries[static_cast<std::size_t>(entry.multiplier) +
+                static_cast<std::size_t>(touched) * entries.size() / size] += entry.coefficient;
   work_.output.sumToOwners(atCrosspoints); // B_C
   constrained_.emplace(deflated.space(), jumps, atCrosspoints, crosspoints_.stiffness());
 }
@@ -130,7 +114,7 @@ void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, Mult
       work_.touchedSums[static_cast<std::size_t>(entry.touched + j * u.rows())].add(entry.weight *
                                                                                     values[entry.multiplier]);
   }
-  sumInto(*lambda.getMap()->getComm(), work_.touchedSums, u);
+  sumOverRanks(*lambda.getMap()->getComm(), work_.touchedSums, u.data());
   if (constrained_) {
     constrained_->negativeJumps(u, rest);
   } else {
@@ -222,7 +206,7 @@ void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const 
       work_.forces.data()[i] += work_.touchedSums[i].value();
   } else {
     addForcesOfJumps();
-    sumInto(comm, work_.nearSums, work_.nearForces);
+    sumOverRanks(comm, work_.nearSums, work_.nearForces.data());
     work_.forces.noalias() = crosspoints_.stiffness() * u;
     work_.forces.noalias() += crosspoints_.extension().transpose() * work_.nearForces;
   }

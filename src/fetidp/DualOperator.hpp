@@ -8,6 +8,7 @@
 #include "epafi/fetidp/MultiplierExchange.hpp"
 
 #include <memory>
+#include <utility>
 
 namespace epafi::fetidp {
 
@@ -17,13 +18,20 @@ namespace epafi::fetidp {
 class DualOperator final : public SymmetricOperator {
 public:
   /// Shares the inverse. Collective.
-  explicit DualOperator(std::shared_ptr<const GeneralizedInverse> inverse);
+  explicit DualOperator(std::shared_ptr<const GeneralizedInverse> inverse)
+      : SymmetricOperator(inverse->multiplierPlan()->getSourceMap()), inverse_(std::move(inverse)),
+        input_(inverse_->multiplierPlan()), output_(inverse_->multiplierPlan()) {}
 
   /// K̄⁺, of which F is made.
   [[nodiscard]] const GeneralizedInverse& inverse() const { return *inverse_; }
 
 private:
-  void multiply(const MultiVector& x, MultiVector& y) const override;
+  void multiply(const MultiVector& x, MultiVector& y) const override {
+    const std::span<const double> lambda = input_.toSubdomains(x);
+    inverse_->applyDual(lambda, output_.values(x.getNumVectors()), static_cast<int>(x.getNumVectors()),
+                        work_);
+    output_.sumToOwners(y);
+  }
 
   std::shared_ptr<const GeneralizedInverse> inverse_;
   mutable MultiplierExchange input_, output_;

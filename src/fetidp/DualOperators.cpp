@@ -88,6 +88,27 @@ qp::MprgpParameters preconditionedMprgp(const DecomposedProblem& problem, Algori
 
 } // namespace
 
+std::string toString(Algorithm algorithm) {
+  constexpr const char* names[] = {"Direct", "CG", "MPRGP", "SMALBE-M"};
+  return names[static_cast<int>(algorithm)];
+}
+
+AlgorithmChoice leastAlgorithm(const DecomposedProblem& problem) {
+  if (problem.dualDimension() == 0)
+    return {Algorithm::direct, "one piece without contact: one factorisation solves it, nothing to iterate"};
+  if (problem.numInequalities == 0)
+    return {Algorithm::conjugateGradient,
+            "no contact: the multipliers only glue subdomains, a linear problem"};
+  if (problem.kernelDimension == 0)
+    return {Algorithm::mprgp, "contact, and every body is held by supports: bound constraints only"};
+  std::string names;
+  for (const auto& body : problem.bodies)
+    if (body.kernelDimension > 0)
+      names += (names.empty() ? "" : ", ") + body.name;
+  return {Algorithm::smalbe,
+          "contact with floating bodies (" + names + "): bounds and equilibrium constraints"};
+}
+
 RCP<const Operator> DualOperators::flexibility() const {
   if (deflated.is_null())
     return f;

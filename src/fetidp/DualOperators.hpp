@@ -1,10 +1,9 @@
 #pragma once
 
-/// What the iteration in the multipliers works on, made of the matrices alone: F, deflated by adaptive constraints, between
-/// projectors where bodies float, its norm, and its preconditioner.
+/// Which algorithm solves the problem in the multipliers, and what its iteration works on, made of the matrices alone: F,
+/// deflated by adaptive constraints, between projectors where bodies float, its norm, and its preconditioner.
 
 #include "epafi/fetidp/CorrectedPreconditioner.hpp"
-#include "epafi/fetidp/DualAlgorithm.hpp"
 #include "epafi/fetidp/DualOperator.hpp"
 #include "epafi/fetidp/DualPreconditioner.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"
@@ -15,9 +14,28 @@
 #include "epafi/qp/Smalbe.hpp"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace epafi::fetidp {
+
+/// From the least to what bounds and floating bodies together need:
+///   no multiplier at all   direct solve, nothing to iterate
+///   no contact             conjugate gradients on F (Belos)
+///   contact, all supported MPRGP
+///   floating bodies        SMALBE with MPRGP inside, on PFP after the shift by λ̃
+enum class Algorithm { direct, conjugateGradient, mprgp, smalbe };
+
+/// "Direct", "CG", "MPRGP", "SMALBE-M".
+std::string toString(Algorithm algorithm);
+
+struct AlgorithmChoice {
+  Algorithm algorithm = Algorithm::direct;
+  std::string reason; ///< one sentence
+};
+
+/// The least that solves the problem in the multipliers. Not collective; the same on all ranks.
+AlgorithmChoice leastAlgorithm(const decomposition::DecomposedProblem& problem);
 
 /// How the dual problem is solved, and how accurately.
 struct DualParameters {

@@ -1,10 +1,11 @@
 #pragma once
 
 /// The problem in the multipliers, min ½λᵀFλ − λᵀd̃ with λ_I ≥ 0 (and Gλ = e where bodies float): the least algorithm that
-/// solves it (DualAlgorithm.hpp), what it works on (DualOperators.hpp), and its solves (DualSolve.hpp).
+/// solves it and what it works on (DualOperators.hpp), and its solves.
 
 #include "epafi/fetidp/DualOperators.hpp"
-#include "epafi/fetidp/DualSolve.hpp"
+#include "epafi/fetidp/ErrorBalance.hpp"
+#include "epafi/qp/SolveReport.hpp"
 
 #include <memory>
 #include <span>
@@ -12,6 +13,23 @@
 #include <vector>
 
 namespace epafi::fetidp {
+
+/// What a solve stops at.
+struct DualGoal {
+  const ErrorBalance* balance = nullptr; ///< if the parameters ask for balance
+  double tightening = 1;                 ///< factor on the tolerance, ≤ 1
+};
+
+/// λ and how it came about.
+struct DualSolution {
+  RCP<Vector> lambda; ///< on multiplierMap, λ_I ≥ 0
+  /// ‖d̃‖ or ‖Pd‖, with Pᵀd̃ for d̃ where jumps are deflated: what residuals are relative to; the size of its terms if it
+  /// vanishes.
+  double reference = 0;
+  double errorTarget = 0; ///< with an ErrorBalance: the algebraic error that was small enough; else 0
+  double equilibrium = 0; ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes
+  qp::SolveReport report;
+};
 
 class DualProblem {
 public:
@@ -31,9 +49,7 @@ public:
   /// \throws SolvabilityError (see Solvability.hpp; also if the iteration proves that contact rows contradict each other),
   ///         or InputError if a load or gap is not finite.
   /// Collective.
-  DualSolution solve(const Vector* start, qp::Observer* observer, const DualGoal& goal = {}) const {
-    return solveDual(*this, start, observer, goal);
-  }
+  DualSolution solve(const Vector* start, qp::Observer* observer, const DualGoal& goal = {}) const;
 
   /// λ of a guess of the displacements, to start from: Eᵀ(f − Ku), forces of contact that pull left out. Null without a
   /// preconditioner of type dirichlet, which it takes.

@@ -1,11 +1,10 @@
-#include "epafi/fetidp/DualSolve.hpp"
+// One solve of the dual problem, for the loads and gaps that the problem holds.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fetidp/Contradiction.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
-#include "epafi/fetidp/FiniteData.hpp"
+#include "epafi/fetidp/ProblemChecks.hpp"
 #include "epafi/fetidp/Recovery.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/BoundProblem.hpp"
@@ -22,14 +21,6 @@
 #include <vector>
 
 namespace epafi::fetidp {
-
-SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem) {
-  SubdomainVectors loads;
-  loads.reserve(problem.subdomains.size());
-  for (const auto& subdomain : problem.subdomains)
-    loads.emplace_back(subdomain.load);
-  return loads;
-}
 
 namespace {
 
@@ -200,8 +191,7 @@ void IterativeSolve::iterateInBounds() {
 
 /// e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd asks for.
 double IterativeSolve::equilibriumReference(const Eigen::VectorXd& e) const {
-  const double largest =
-      dual_.coarseSpace()->normalized(kernelLoadMagnitude(problem_, loadsOf(problem_))).norm();
+  const double largest = dual_.coarseSpace()->normalized(kernelLoadMagnitude(problem_)).norm();
   if (e.norm() > resultantTolerance * largest)
     return e.norm();
   return dual_.norm().norm > 0 ? solution_.reference / dual_.norm().norm : 0.0;
@@ -263,24 +253,22 @@ DualSolution solvedDirectly(const DecomposedProblem& problem) {
 
 } // namespace
 
-DualSolution solveDual(const DualProblem& dual, const Vector* start, qp::Observer* observer,
-                       const DualGoal& goal) {
-  const DecomposedProblem& problem = dual.problem();
-  const ErrorBalance* balance = dual.parameters().isBalanced ? goal.balance : nullptr;
-  if (dual.parameters().isBalanced && balance == nullptr)
+DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer, const DualGoal& goal) const {
+  const ErrorBalance* balance = parameters_.isBalanced ? goal.balance : nullptr;
+  if (parameters_.isBalanced && balance == nullptr)
     throw InputError("the tolerance 'balanced' needs an estimate of the discretisation error, and none was "
                      "given; hand one over to solve(), or ask for a number");
-  requireFiniteData(problem);
-  const Eigen::VectorXd resultants = kernelLoad(problem, loadsOf(problem));
-  requireFeasibleGaps(problem);
-  requireUniqueSolution(problem, dual.kernelEntries());
-  if (dual.algorithm() == Algorithm::direct)
-    return solvedDirectly(problem);
-  IterativeSolve solve(dual, start, observer, balance, goal.tightening * dual.parameters().tolerance);
+  requireFiniteData(problem_);
+  const Eigen::VectorXd resultants = kernelLoad(problem_);
+  requireFeasibleGaps(problem_);
+  requireUniqueSolution(problem_, kernelEntries_);
+  if (algorithm() == Algorithm::direct)
+    return solvedDirectly(problem_);
+  IterativeSolve solve(*this, start, observer, balance, goal.tightening * parameters_.tolerance);
   DualSolution solution =
-      dual.algorithm() == Algorithm::smalbe ? solve.semicoercive(resultants) : solve.coercive();
+      algorithm() == Algorithm::smalbe ? solve.semicoercive(resultants) : solve.coercive();
   if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null())
-    refuseContradiction(problem, *solution.report.certificate);
+    refuseContradiction(problem_, *solution.report.certificate);
   return solution;
 }
 

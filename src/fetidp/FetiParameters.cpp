@@ -8,7 +8,11 @@
 namespace epafi::fetidp {
 namespace {
 
+// In the order of the enumerators.
+const std::vector<std::string> modes = {"auto", "implicit", "explicit"};
 const std::vector<std::string> types = {"none", "lumped", "dirichlet"};
+const std::vector<std::string> scalings = {"multiplicity", "stiffness"};
+const std::vector<std::string> uses = {"auto", "yes", "no"};
 
 std::vector<std::string> solverNames() {
   std::vector<std::string> names = direct::availableSolvers();
@@ -24,25 +28,20 @@ void addAdaptiveConstraintParameters(Teuchos::ParameterList& list) {
   const AdaptiveConstraintParameters defaults;
   addChoice(list, "Use", "auto",
             "Whether jumps between subdomains that the preconditioner overrates are looked for along "
-            "interfaces, by "
-            "eigenproblems, and taken out of the iteration: along all ('yes'), or with a preconditioner "
-            "along those "
-            "where the stiffness jumps ('auto').",
-            {"auto", "yes", "no"});
-  addReal(
-      list, "Threshold", defaults.threshold,
-      "Jumps are constrained whose energy the preconditioner overrates by more than this factor. Lower: more "
-      "constraints, fewer products.",
-      1.0);
+            "interfaces, by eigenproblems, and taken out of the iteration: along all ('yes'), or with a "
+            "preconditioner along those where the stiffness jumps ('auto').",
+            uses);
+  addReal(list, "Threshold", defaults.threshold,
+          "Jumps are constrained whose energy the preconditioner overrates by more than this factor. Lower: "
+          "more constraints, fewer products.",
+          1.0);
   addReal(list, "Stiffness Ratio", defaults.stiffnessRatio,
           "Largest over smallest stiffness, from which on 'auto' looks at an interface: along it within one "
-          "subdomain, at "
-          "contacts also between subdomains of an elastic body.",
+          "subdomain, at contacts also between subdomains of an elastic body.",
           1.0);
   addInteger(list, "Maximum Number", defaults.maxNumber,
              "Constraints at most, the worst jumps first. Each takes a product with F in the setup, and "
-             "memory for one "
-             "number a multiplier.",
+             "memory for one number a multiplier.",
              1);
 }
 
@@ -76,27 +75,23 @@ void addFetiParameters(Teuchos::ParameterList& list) {
       {"yes", "no"});
   addInteger(solvers, "Maximum Replicated Size", DirectSolvers().maxReplicated,
              "Coarse unknowns up to which every rank holds and solves the coarse problem, which takes one "
-             "message and "
-             "gives the same digits on any number of ranks; beyond, rank 0 alone does.");
+             "message and gives the same digits on any number of ranks; beyond, rank 0 alone does.");
   Teuchos::ParameterList& dual = list.sublist("Dual Operator");
-  addChoice(
-      dual, "Mode", "auto",
-      "How F is multiplied with: 'implicit' by two sparse triangular solves a subdomain, 'explicit' by a "
-      "dense block each, 'auto' by what is less work for the expected products.",
-      {"auto", "implicit", "explicit"});
+  addChoice(dual, "Mode", "auto",
+            "How F is multiplied with: 'implicit' by two sparse triangular solves a subdomain, 'explicit' by "
+            "a dense block each, 'auto' by what is less work for the expected products.",
+            modes);
   addInteger(dual, "Expected Products", operatorDefaults.expectedProducts,
              "Products with F in which explicit blocks must pay off, for 'auto'.", 1);
   Teuchos::ParameterList& preconditioner = list.sublist("Preconditioner");
-  addChoice(
-      preconditioner, "Type", toString(preconditionerDefaults.type),
-      "Preconditioner of F: each subdomain's stiffness condensed to its interface ('dirichlet'), or that "
-      "stiffness alone ('lumped').",
-      types);
-  addChoice(
-      preconditioner, "Scaling", "stiffness",
-      "How an interface's forces are shared by the subdomains that meet there: by the diagonal of their "
-      "stiffness, or equally.",
-      {"multiplicity", "stiffness"});
+  addChoice(preconditioner, "Type", toString(preconditionerDefaults.type),
+            "Preconditioner of F: each subdomain's stiffness condensed to its interface ('dirichlet'), or "
+            "that stiffness alone ('lumped').",
+            types);
+  addChoice(preconditioner, "Scaling", "stiffness",
+            "How an interface's forces are shared by the subdomains that meet there: by the diagonal of "
+            "their stiffness, or equally.",
+            scalings);
   addChoice(preconditioner, "Precision", preconditionerDefaults.isSingle ? "single" : "double",
             "Of the preconditioner's blocks; the solution is as accurate with either.", {"single", "double"});
   addAdaptiveConstraintParameters(list.sublist("Adaptive Constraints"));
@@ -109,33 +104,22 @@ DirectSolvers directSolversFrom(const Teuchos::ParameterList& list) {
 }
 
 DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list) {
-  using Mode = DualOperatorParameters::Mode;
-  const auto& mode = list.get<std::string>("Mode");
-  return {mode == "auto"       ? Mode::automatic
-          : mode == "implicit" ? Mode::implicitSolves
-                               : Mode::explicitBlocks,
+  return {enumeratorFrom<DualOperatorParameters::Mode>(list, "Mode", modes),
           list.get<int>("Expected Products")};
 }
 
+PreconditionerParameters::Scaling scalingFrom(const Teuchos::ParameterList& list) {
+  return enumeratorFrom<PreconditionerParameters::Scaling>(list, "Scaling", scalings);
+}
+
 PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list) {
-  using Type = PreconditionerParameters::Type;
-  using Scaling = PreconditionerParameters::Scaling;
-  const auto& type = list.get<std::string>("Type");
-  return {type == "none"     ? Type::none
-          : type == "lumped" ? Type::lumped
-                             : Type::dirichlet,
-          list.get<std::string>("Scaling") == "stiffness" ? Scaling::stiffness : Scaling::multiplicity,
+  return {enumeratorFrom<PreconditionerParameters::Type>(list, "Type", types), scalingFrom(list),
           list.get<std::string>("Precision") == "single"};
 }
 
 AdaptiveConstraintParameters adaptiveConstraintsFrom(const Teuchos::ParameterList& list) {
-  using Use = AdaptiveConstraintParameters::Use;
-  const auto& use = list.get<std::string>("Use");
-  return {use == "auto"  ? Use::automatic
-          : use == "yes" ? Use::yes
-                         : Use::no,
-          list.get<double>("Threshold"), list.get<double>("Stiffness Ratio"),
-          list.get<int>("Maximum Number")};
+  return {enumeratorFrom<AdaptiveConstraintParameters::Use>(list, "Use", uses), list.get<double>("Threshold"),
+          list.get<double>("Stiffness Ratio"), list.get<int>("Maximum Number")};
 }
 
 } // namespace epafi::fetidp

@@ -41,8 +41,8 @@ struct PreconditionerParameters {
 
 /// Where jumps are looked for that the preconditioner overrates, and which of them are taken out.
 struct AdaptiveConstraintParameters {
-  /// Nowhere; along interfaces with jumps of the stiffness, where there is a preconditioner; along all.
-  enum class Use { automatic, no, yes };
+  /// Along interfaces with jumps of the stiffness, where there is a preconditioner; along all; nowhere.
+  enum class Use { automatic, yes, no };
   Use use = Use::automatic;
   double threshold = 10; ///< τ: jumps that M overrates by more are constrained
   /// Largest over smallest stiffness along an interface, from which on `automatic` looks at it.
@@ -62,6 +62,7 @@ void addFetiParameters(Teuchos::ParameterList& list);
 DirectSolvers directSolversFrom(const Teuchos::ParameterList& list);
 DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list);              ///< likewise
 PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list);          ///< likewise
+PreconditionerParameters::Scaling scalingFrom(const Teuchos::ParameterList& list);        ///< likewise
 AdaptiveConstraintParameters adaptiveConstraintsFrom(const Teuchos::ParameterList& list); ///< likewise
 
 } // namespace epafi::fetidp

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -15,16 +16,20 @@ namespace {
 
 /// This rank's coarse unknowns, ascending.
 std::vector<decomposition::CoarseNumber> crosspointsOf(const decomposition::DecomposedProblem& problem) {
-  std::vector<decomposition::CoarseNumber> crosspoints;
+  std::set<decomposition::CoarseNumber> crosspoints;
   for (const auto& subdomain : problem.subdomains)
-    crosspoints.insert(crosspoints.end(), subdomain.crosspointIndices.begin(),
-                       subdomain.crosspointIndices.end());
-  std::sort(crosspoints.begin(), crosspoints.end());
-  crosspoints.erase(std::unique(crosspoints.begin(), crosspoints.end()), crosspoints.end());
-  return crosspoints;
+    crosspoints.insert(subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
+  return {crosspoints.begin(), crosspoints.end()};
 }
 
 } // namespace
+
+SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem) {
+  SubdomainVectors loads;
+  for (const auto& subdomain : problem.subdomains)
+    loads.emplace_back(subdomain.load);
+  return loads;
+}
 
 GeneralizedInverse::GeneralizedInverse(const decomposition::DecomposedProblem& problem,
                                        const DirectSolvers& solvers,

@@ -17,6 +17,9 @@ namespace epafi::fetidp {
 /// Values of this rank's subdomains, n_s × k each: k ≥ 1 vectors at once, as many in every subdomain.
 using SubdomainVectors = std::vector<Eigen::MatrixXd>;
 
+/// The loads that the problem holds, f^s for each of this rank's subdomains.
+SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem);
+
 /// Products leave it as it is; work space belongs to whoever multiplies.
 class GeneralizedInverse {
 public:
@@ -28,7 +31,7 @@ public:
   };
 
   /// Factorises the subdomains and the coarse problem. Keeps a reference to `problem`. Collective; throws
-  /// alike on all ranks: Error if a factorisation fails. Precondition: all entries of K and B are finite (FiniteData.hpp).
+  /// alike on all ranks: Error if a factorisation fails. Precondition: all entries of K and B are finite (ProblemChecks.hpp).
   /// \param earlier  of the same problem and solvers, before K^s or B changed, or null. What still holds is taken over,
   ///                 subdomain by subdomain: the factor and the dense block where K^s is the same object and B touches the
   ///                 same unknowns as before; the symbolic part of the factorisation where the pattern is the same; the

@@ -80,13 +80,9 @@ Eigen::MatrixXd crosspointFlexibility(const std::vector<JointPart>& parts) {
     std::vector<Eigen::Index> places;
     for (const decomposition::CoarseNumber crosspoint : part.crosspoints)
       places.push_back(placeOf[crosspoint]);
-    for (std::size_t j = 0; j < places.size(); ++j) {
-      const auto column = static_cast<Eigen::Index>(j);
-      response.col(places[j]) += part.response.col(column);
-      for (std::size_t i = 0; i < places.size(); ++i)
-        stiffness(places[i], places[j]) += part.crosspointStiffness(static_cast<Eigen::Index>(i), column);
-      diagonal[places[j]] += part.crosspointDiagonal[column];
-    }
+    response(Eigen::all, places) += part.response;
+    stiffness(places, places) += part.crosspointStiffness;
+    diagonal(places) += part.crosspointDiagonal;
   }
   if (size == 0)
     return Eigen::MatrixXd::Zero(response.rows(), response.rows());

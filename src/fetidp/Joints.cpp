@@ -8,9 +8,9 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -93,8 +93,7 @@ Eigen::VectorXd nodalDiagonal(const Subdomain& subdomain) {
 /// The carrier of the average that each unknown deviates from, or the unknown itself, n_s.
 std::vector<Unknown> carriersOf(const Subdomain& subdomain) {
   std::vector<Unknown> carriers(static_cast<std::size_t>(subdomain.stiffness->rows()));
-  for (std::size_t unknown = 0; unknown < carriers.size(); ++unknown)
-    carriers[unknown] = static_cast<int>(unknown);
+  std::iota(carriers.begin(), carriers.end(), 0);
   for (const decomposition::Average& average : subdomain.averages)
     for (const int other : average.others)
       carriers[static_cast<std::size_t>(other)] = average.carrier;

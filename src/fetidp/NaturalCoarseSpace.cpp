@@ -47,34 +47,29 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
 namespace {
 
 /// Σ Rᵀ f over all subdomains, or Σ |R|ᵀ|f|.
-Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load,
-                           bool magnitudes) {
+Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, bool magnitudes) {
   std::vector<AccurateSum> sums(static_cast<std::size_t>(problem.kernelDimension));
-  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
-    const auto& subdomain = problem.subdomains[s];
+  for (const auto& subdomain : problem.subdomains) {
     const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
     for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
       const auto r = subdomain.kernel.col(mode);
       sums[static_cast<std::size_t>(offset + mode)].add(
-          magnitudes ? r.cwiseAbs().dot(load[s].col(0).cwiseAbs()) : r.dot(load[s].col(0)));
+          magnitudes ? r.cwiseAbs().dot(subdomain.load.cwiseAbs()) : r.dot(subdomain.load));
     }
   }
-  sumOverRanks(*problem.comm, sums);
   Eigen::VectorXd result(problem.kernelDimension);
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    result[static_cast<Eigen::Index>(k)] = sums[k].value();
+  sumOverRanks(*problem.comm, sums, result.data());
   return result;
 }
 
 } // namespace
 
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load) {
-  return resultants(problem, load, false);
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
+  return resultants(problem, false);
 }
 
-Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem,
-                                    const SubdomainVectors& load) {
-  return resultants(problem, load, true);
+Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem) {
+  return resultants(problem, true);
 }
 
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,
@@ -94,10 +89,8 @@ NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& p
       for (const KernelEntry& b : row)
         sums[static_cast<std::size_t>(a.mode) + numModes * static_cast<std::size_t>(b.mode)].add(a.value *
                                                                                                  b.value);
-  sumOverRanks(*comm_, sums);
   Eigen::MatrixXd gram(problem.kernelDimension, problem.kernelDimension);
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    gram.data()[k] = sums[k].value();
+  sumOverRanks(*comm_, sums, gram.data());
   const Eigen::LLT<Eigen::MatrixXd> factor(gram);
   if (factor.info() != Eigen::Success)
     throw Error(

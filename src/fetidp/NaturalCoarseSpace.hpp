@@ -29,12 +29,11 @@ struct KernelEntry {
 /// G̃ᵀ by rows, this rank's. Collective.
 std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem& problem);
 
-/// ẽ = Rᵀ f̄ for the given loads, on every rank. Collective.
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& load);
+/// ẽ = Rᵀ f̄ for the loads that the problem holds, on every rank. Collective.
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem);
 
 /// |R|ᵀ|f̄|: what ẽ would be if nothing in it cancelled, its yardstick. On every rank. Collective.
-Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem,
-                                    const SubdomainVectors& load);
+Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem);
 
 class NaturalCoarseSpace final : public qp::ReplicatedEquality {
 public:

@@ -41,8 +41,7 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
 Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, Eigen::MatrixXd& u) {
   Eigen::VectorXd all = subdomain.prescribed;
   decomposition::toNodalValues(subdomain, u.col(0));
-  for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
-    all[subdomain.unknownPosition[i]] = u(static_cast<Eigen::Index>(i));
+  all(subdomain.unknownPosition) = u.col(0);
   decomposition::toSpace(subdomain, all);
   return all;
 }
@@ -120,7 +119,7 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
   if (problem.kernelDimension > 0) {
     const Eigen::VectorXd alpha = rigidMotion(problem, dual.kernelEntries(), *found.lambda, *solution.slack,
                                               found.report.status == qp::Status::converged);
-    solution.energy -= kernelLoad(problem, loadsOf(problem)).dot(alpha);
+    solution.energy -= kernelLoad(problem).dot(alpha);
     for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
       const auto& subdomain = problem.subdomains[s];
       const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;

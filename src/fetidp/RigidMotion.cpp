@@ -10,10 +10,8 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
-#include <algorithm>
 #include <map>
 #include <optional>
-#include <string>
 
 namespace epafi::fetidp {
 namespace {
@@ -35,9 +33,7 @@ Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& ro
       for (Eigen::Index i = 0; i < k; ++i)
         for (Eigen::Index j = 0; j <= k; ++j)
           sums[static_cast<std::size_t>(i + k * j)].add(vector[i] * (j < k ? vector[j] : gap[row]));
-  sumOverRanks(*problem.comm, sums);
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    normal.data()[i] = sums[i].value();
+  sumOverRanks(*problem.comm, sums, normal.data());
   return normal;
 }
 

@@ -4,8 +4,8 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
-#include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -14,17 +14,14 @@ std::vector<LocalOrdinal> sharedContactRows(const decomposition::DecomposedProbl
   Tpetra::Vector<int> touched(problem.multiplierGhostMap), owned(problem.multiplierMap);
   const auto isShared = touched.getDataNonConst();
   for (const decomposition::Subdomain& subdomain : problem.subdomains) {
-    std::map<int, std::vector<int>> rowsOf; // of an unknown
+    std::map<int, std::set<int>> rowsOf; // of an unknown
     for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
       if (entry.coefficient != 0 && problem.kindOf(entry.multiplier) == decomposition::RowKind::contact)
-        rowsOf[entry.unknown].push_back(entry.multiplier);
-    for (auto& [unknown, rows] : rowsOf) {
-      std::sort(rows.begin(), rows.end());
-      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        rowsOf[entry.unknown].insert(entry.multiplier);
+    for (const auto& [unknown, rows] : rowsOf)
       for (const int row : rows)
         if (rows.size() > 1)
           isShared[row] = 1;
-    }
   }
   owned.doExport(touched, Import(problem.multiplierMap, problem.multiplierGhostMap), Tpetra::ADD);
   std::vector<LocalOrdinal> result;

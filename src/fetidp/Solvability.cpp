@@ -4,7 +4,6 @@
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 #include "epafi/fetidp/ContactDirections.hpp"
-#include "epafi/fetidp/DualProblem.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 
 #include <algorithm>
@@ -44,8 +43,8 @@ struct RigidBalance {
   /// Collective.
   RigidBalance(const DecomposedProblem& given, const std::vector<KernelEntry>& entries)
       : problem(given), lengths(modeLengths(given)), directions(contactDirections(given, entries, lengths)),
-        load(kernelLoad(given, loadsOf(given)).cwiseQuotient(lengths)),
-        magnitudes(kernelLoadMagnitude(given, loadsOf(given)).cwiseQuotient(lengths)) {}
+        load(kernelLoad(given).cwiseQuotient(lengths)),
+        magnitudes(kernelLoadMagnitude(given).cwiseQuotient(lengths)) {}
 
   /// Of a motion that is measured as the others are.
   [[nodiscard]] MotionWords words(const Eigen::VectorXd& motion) const {

@@ -12,20 +12,16 @@ namespace {
 
 using decomposition::Subdomain;
 
-/// The unknowns that B touches, ascending.
-std::vector<int> touchedUnknowns(const Subdomain& subdomain) {
+/// Whether B touches each unknown.
+std::vector<char> touchedBy(const Subdomain& subdomain) {
   std::vector<char> isTouched(static_cast<std::size_t>(subdomain.stiffness->rows()), 0);
   for (const auto& entry : subdomain.constraint)
     isTouched[static_cast<std::size_t>(entry.unknown)] = 1;
-  std::vector<int> touched;
-  for (std::size_t unknown = 0; unknown < isTouched.size(); ++unknown)
-    if (isTouched[unknown] != 0)
-      touched.push_back(static_cast<int>(unknown));
-  return touched;
+  return isTouched;
 }
 
 /// Equal for identical subdomains, and rarely for others.
-std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<int>& touched) {
+std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<char>& isTouched) {
   std::uint64_t hash = decomposition::fingerprint(*subdomain.stiffness);
   const auto mix = [&hash](std::uint64_t value) {
     hash = (hash ^ value) * 0x100000001b3ULL;
@@ -33,8 +29,9 @@ std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<int>& to
   };
   for (const int unknown : subdomain.crosspointUnknowns)
     mix(static_cast<std::uint64_t>(unknown));
-  for (const int unknown : touched)
-    mix(static_cast<std::uint64_t>(unknown));
+  for (std::size_t unknown = 0; unknown < isTouched.size(); ++unknown)
+    if (isTouched[unknown] != 0)
+      mix(unknown);
   return hash;
 }
 
@@ -42,11 +39,8 @@ std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<int>& to
 
 SubdomainInterface interfaceOf(const Subdomain& subdomain) {
   SubdomainInterface interface;
-  const auto numUnknowns = static_cast<std::size_t>(subdomain.stiffness->rows());
-  std::vector<char> isTouched(numUnknowns, 0);
-  for (const int unknown : touchedUnknowns(subdomain))
-    isTouched[static_cast<std::size_t>(unknown)] = 1;
-  interface.positionOf.assign(numUnknowns, -1);
+  const std::vector<char> isTouched = touchedBy(subdomain);
+  interface.positionOf.assign(isTouched.size(), -1);
   int next = 0;
   const auto collect = [&](const std::vector<int>& unknowns, std::vector<int>& positions) {
     for (std::size_t i = 0; i < unknowns.size(); ++i)
@@ -56,6 +50,8 @@ SubdomainInterface interfaceOf(const Subdomain& subdomain) {
       }
   };
   collect(subdomain.remainderUnknowns, interface.boundary);
+  for (const int position : interface.boundary)
+    interface.boundaryUnknowns.push_back(subdomain.remainderUnknowns[static_cast<std::size_t>(position)]);
   collect(subdomain.crosspointUnknowns, interface.crosspoints);
   return interface;
 }
@@ -72,11 +68,11 @@ std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedP
     std::uint64_t hash;
     int number;
   };
-  std::vector<std::vector<int>> touchedOf; // of each group
-  std::vector<std::uint64_t> hashOf;       // likewise
+  std::vector<std::vector<char>> touchedOf; // of each group
+  std::vector<std::uint64_t> hashOf;        // likewise
   std::unordered_multimap<std::uint64_t, std::size_t> candidates;
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    std::vector<int> touched = touchedUnknowns(subdomains[s]);
+    std::vector<char> touched = touchedBy(subdomains[s]);
     const std::uint64_t hash = fingerprint(subdomains[s], touched);
     const auto [first, last] = candidates.equal_range(hash);
     const auto same = std::find_if(first, last, [&](const auto& candidate) {

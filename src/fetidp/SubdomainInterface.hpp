@@ -11,9 +11,10 @@ namespace epafi::fetidp {
 
 /// The unknowns of a subdomain that B touches: Δ among the remainders, C among the crosspoint values.
 struct SubdomainInterface {
-  std::vector<int> boundary;    ///< Δ: positions in Subdomain::remainderUnknowns, ascending
-  std::vector<int> crosspoints; ///< C: positions in Subdomain::crosspointUnknowns, ascending
-  std::vector<int> positionOf;  ///< of each unknown among (Δ, C), or −1
+  std::vector<int> boundary;         ///< Δ: positions in Subdomain::remainderUnknowns, ascending
+  std::vector<int> boundaryUnknowns; ///< Δ: the unknowns there
+  std::vector<int> crosspoints;      ///< C: positions in Subdomain::crosspointUnknowns, ascending
+  std::vector<int> positionOf;       ///< of each unknown among (Δ, C), or −1
 
   [[nodiscard]] std::size_t size() const { return boundary.size() + crosspoints.size(); }
   bool operator==(const SubdomainInterface& other) const = default;

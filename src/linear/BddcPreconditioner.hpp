@@ -9,14 +9,36 @@
 /// Dohrmann, Tezaur, *Appl. Numer. Math.* 54 (2005)).
 
 #include "epafi/base/SymmetricOperator.hpp"
-#include "epafi/linear/BoundaryStiffness.hpp"
-#include "epafi/linear/CopyShares.hpp"
+#include "epafi/direct/SymmetricBlock.hpp"
 #include "epafi/linear/LinearParameters.hpp"
 #include "epafi/linear/UnassembledOperator.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace epafi::linear {
+
+/// S_ΔΔ, the stiffness of each subdomain condensed to its boundary Δ while its crosspoints are held
+/// (fetidp/CondensedSubdomain.hpp).
+/// A dense block for each group of identical subdomains; nothing is collective.
+class BoundaryStiffness {
+public:
+  /// Shares `inverse`. \throws std::bad_alloc
+  BoundaryStiffness(const decomposition::DecomposedProblem& problem,
+                    std::shared_ptr<const fetidp::GeneralizedInverse> inverse);
+
+  /// forces_Δ = S_ΔΔ u_Δ in all columns of all subdomains; the other entries become 0.
+  void apply(const SubdomainVectors& u, SubdomainVectors& forces) const;
+  /// Unknowns of the boundary of this rank's subdomain s, in the order of the blocks.
+  [[nodiscard]] const std::vector<int>& boundary(std::size_t s) const { return boundary_[s]; }
+  [[nodiscard]] std::size_t bytes() const;
+
+private:
+  std::shared_ptr<const fetidp::GeneralizedInverse> inverse_;
+  std::vector<std::shared_ptr<const direct::SymmetricBlock>> blocks_; ///< of each group
+  std::vector<std::vector<int>> boundary_;                            ///< of each subdomain
+  mutable Eigen::MatrixXd input_, output_;                            ///< work, n_Δ × mk
+};
 
 /// n × n, symmetric positive definite, on the map of `k`; the identity where K is. A product takes all columns in one
 /// pass: three sparse solves and two dense products a subdomain and column, six messages to each neighbour, one of the coarse

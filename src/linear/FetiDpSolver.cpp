@@ -70,8 +70,7 @@ std::string reasonOf(const LinearReport& report, DualOutcome::Status status) {
            " iterations; allow more by \"Maximum Iterations\", or raise the tolerance";
   if (status == DualOutcome::Status::indefinite)
     return "a direction without energy was met: K of a subdomain that is held at the crosspoints is not "
-           "positive "
-           "definite, or round-off is all that is left";
+           "positive definite, or round-off is all that is left";
   return "round-off allows no smaller residual; raise the tolerance";
 }
 

@@ -4,7 +4,6 @@
 /// contact is for ContactSolver.
 
 #include "epafi/fetidp/DualProblem.hpp"
-#include "epafi/linear/CopyShares.hpp"
 #include "epafi/linear/DualIteration.hpp"
 #include "epafi/linear/LinearParameters.hpp"
 

@@ -9,8 +9,7 @@ Teuchos::ParameterList FetiDpParameters::validParameters() {
   Teuchos::ParameterList list("Epafi FETI-DP");
   addReal(list, "Tolerance", defaults.tolerance,
           "The iteration stops when the residual ‖b − Ku‖ of the solution is this small relative to ‖b‖, "
-          "unless the "
-          "caller asks for another tolerance.",
+          "unless the caller asks for another tolerance.",
           0.0, 1.0, true);
   addInteger(list, "Maximum Iterations", defaults.maxIterations, "Conjugate gradient steps at most.", 1);
   fetidp::addFetiParameters(list);
@@ -35,9 +34,7 @@ Teuchos::ParameterList BddcParameters::validParameters() {
 }
 
 BddcParameters BddcParameters::from(const Teuchos::ParameterList& list) {
-  using Scaling = fetidp::PreconditionerParameters::Scaling;
-  return {fetidp::directSolversFrom(list.sublist("Direct Solvers")),
-          list.get<std::string>("Scaling") == "stiffness" ? Scaling::stiffness : Scaling::multiplicity};
+  return {fetidp::directSolversFrom(list.sublist("Direct Solvers")), fetidp::scalingFrom(list)};
 }
 
 } // namespace epafi::linear

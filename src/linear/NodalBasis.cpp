@@ -6,16 +6,13 @@ using decomposition::Average;
 using decomposition::Subdomain;
 
 void toUnknowns(const Subdomain& subdomain, Eigen::MatrixXd& u) {
-  for (const Average& average : subdomain.averages)
-    for (Eigen::Index j = 0; j < u.cols(); ++j) {
-      double mean = u(average.carrier, j);
-      for (const int other : average.others)
-        mean += u(other, j);
-      mean /= static_cast<double>(average.others.size() + 1);
-      u(average.carrier, j) = mean; // a
-      for (const int other : average.others)
-        u(other, j) -= mean; // ũ_i = u_i − a
-    }
+  for (const Average& average : subdomain.averages) {
+    for (const int other : average.others)
+      u.row(average.carrier) += u.row(other);
+    u.row(average.carrier) /= static_cast<double>(average.others.size() + 1); // a
+    for (const int other : average.others)
+      u.row(other) -= u.row(average.carrier); // ũ_i = u_i − a
+  }
 }
 
 void toValues(const Subdomain& subdomain, Eigen::MatrixXd& u) {
@@ -37,16 +34,13 @@ void toForcesOfUnknowns(const Subdomain& subdomain, Eigen::MatrixXd& f) {
 }
 
 void toForcesOfValues(const Subdomain& subdomain, Eigen::MatrixXd& f) {
-  for (const Average& average : subdomain.averages)
-    for (Eigen::Index j = 0; j < f.cols(); ++j) {
-      double atCarrier = f(average.carrier, j);
-      for (const int other : average.others)
-        atCarrier -= f(other, j);
-      atCarrier /= static_cast<double>(average.others.size() + 1);
-      f(average.carrier, j) = atCarrier;
-      for (const int other : average.others)
-        f(other, j) += atCarrier;
-    }
+  for (const Average& average : subdomain.averages) {
+    for (const int other : average.others)
+      f.row(average.carrier) -= f.row(other);
+    f.row(average.carrier) /= static_cast<double>(average.others.size() + 1);
+    for (const int other : average.others)
+      f.row(other) += f.row(average.carrier);
+  }
 }
 
 } // namespace epafi::linear

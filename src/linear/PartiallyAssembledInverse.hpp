@@ -3,7 +3,7 @@
 /// K̄⁺ as an operator: on the partially assembled functions, which agree at crosspoints and may jump elsewhere.
 
 #include "epafi/base/SymmetricOperator.hpp"
-#include "epafi/linear/CopyShares.hpp"
+#include "epafi/linear/UnknownExchange.hpp"
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 #include "epafi/linear/UnassembledOperator.hpp"
 
-#include "epafi/linear/JoinedCopies.hpp"
+#include "epafi/linear/LinearProblemChecks.hpp"
 #include "epafi/linear/NodalBasis.hpp"
 
 #include <Tpetra_Map.hpp>

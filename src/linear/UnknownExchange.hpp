@@ -2,6 +2,7 @@
 
 /// Between vectors of the whole problem and this rank's subdomains: the restrictions R^s and their transposes. Built once.
 
+#include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/linear/GlobalUnknowns.hpp"
 
@@ -33,6 +34,24 @@ private:
   RCP<const Import> import_;             ///< from map_ to the numbers that this rank's subdomains have
   std::vector<std::vector<int>> places_; ///< of each subdomain's unknowns among those numbers
   mutable RCP<MultiVector> touched_;     ///< work
+};
+
+/// A partition of unity on the copies of unknowns: Σ R^sᵀ D^s R^s = I. It shares a force out among the subdomains that meet at an
+/// unknown, and makes one value of its copies, their mean Σ R^sᵀ D^s u^s.
+class CopyShares {
+public:
+  /// Shares proportional to the diagonals of K^s (stiffness) or equal (multiplicity). \param exchange  of the problem's unknowns
+  /// Collective.
+  CopyShares(const decomposition::DecomposedProblem& problem, const UnknownExchange& exchange,
+             fetidp::PreconditionerParameters::Scaling scaling);
+
+  /// D^s u^s in all columns of all subdomains, in place. Not collective.
+  void scale(SubdomainVectors& u) const;
+  /// Diagonal of D^s of this rank's subdomain s.
+  [[nodiscard]] const Eigen::VectorXd& of(std::size_t s) const { return shares_[s]; }
+
+private:
+  std::vector<Eigen::VectorXd> shares_;
 };
 
 } // namespace epafi::linear

@@ -2,7 +2,7 @@
 
 /// An application's own Stratimikos builder, which only C++17 takes with Trilinos 13.2.
 
-#include "epafi/adapters/Strategies.hpp"
+#include "epafi/adapters/Stratimikos.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 

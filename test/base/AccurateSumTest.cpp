@@ -79,16 +79,6 @@ TEST(AccurateSumTest, OverRanksIsTheSumOfOneRank) {
   EXPECT_EQ(sums[2].value(), comm->getSize());
 }
 
-TEST(AccurateSumTest, TakesTheMinimumOfTheLastValueOnly) {
-  const auto comm = Tpetra::getDefaultComm();
-  std::vector<AccurateSum> values{AccurateSum(1.0), AccurateSum(5.0 - comm->getRank())};
-
-  SumsAndMinimum(comm, values.size()).reduce(values);
-
-  EXPECT_EQ(values[0].value(), comm->getSize());
-  EXPECT_EQ(values[1].value(), 5.0 - (comm->getSize() - 1));
-}
-
 TEST(AccurateSumTest, DotProductsAreTheSameHoweverTheVectorIsDistributed) {
   const auto comm = Tpetra::getDefaultComm();
   const std::vector<double> values = terms(500);

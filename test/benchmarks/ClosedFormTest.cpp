@@ -1,6 +1,5 @@
+#include "ClosedForms.hpp"
 #include "Solving.hpp"
-
-#include "epafi/benchmarks/ClosedForms.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,30 +9,31 @@
 namespace {
 
 using namespace epafi;
-using namespace epafi::benchmarks;
-using test::allRanks;
+using namespace epafi::test;
 
 struct Errors {
   double largest = 0, rootMeanSquare = 0;
 };
 
-Errors errorsOf(const BoundBenchmark& benchmark) {
-  const auto [x, report] = test::solve(benchmark, 1e-7);
-  EXPECT_EQ(report.status, qp::Status::converged) << benchmark.name << ": " << report.reason;
+Errors errorsOf(const KnownBenchmark& benchmark) {
+  const benchmarks::BoundBenchmark& problem = benchmark.problem;
+  const auto [x, report] = test::solve(problem, 1e-7);
+  EXPECT_EQ(report.status, qp::Status::converged) << problem.name << ": " << report.reason;
   const RCP<Vector> error = benchmark.error(*x);
-  return {error->normInf(), error->norm2() / std::sqrt(static_cast<double>(benchmark.grid.size()))};
+  return {error->normInf(), error->norm2() / std::sqrt(static_cast<double>(problem.grid.size()))};
 }
 
 /// The orders in h of both errors, from meshes of about n and 4n unknowns a side. The error of one mesh depends on
 /// where in its element the contact ends (it may all but vanish), so error/h² is averaged over six meshes.
-Errors observedOrders(const std::function<BoundBenchmark(int)>& make, int n) {
+Errors observedOrders(const std::function<KnownBenchmark(int)>& make, int n) {
   const auto average = [&](int first) {
     Errors sum;
     for (int k = first; k < first + 6; ++k) {
-      const BoundBenchmark benchmark = make(k);
+      const KnownBenchmark benchmark = make(k);
       const Errors errors = errorsOf(benchmark);
-      sum.largest += errors.largest / (benchmark.grid.hx * benchmark.grid.hx);
-      sum.rootMeanSquare += errors.rootMeanSquare / (benchmark.grid.hx * benchmark.grid.hx);
+      const double squared = benchmark.problem.grid.hx * benchmark.problem.grid.hx;
+      sum.largest += errors.largest / squared;
+      sum.rootMeanSquare += errors.rootMeanSquare / squared;
     }
     return sum;
   };
@@ -46,9 +46,10 @@ TEST(ClosedFormTest, StringIsAsFarOffAsTheEndOfItsContactIsFromAMeshPoint) {
   // Linear elements are exact at the mesh points but for the contact's end, which falls at a fraction θ of an element:
   // the error is at most fh² θ(1−θ)/2 ≤ fh²/8.
   for (const int n : {9, 24, 39, 80, 127}) {
-    const BoundBenchmark benchmark = stringOverObstacle(n, allRanks());
+    const KnownBenchmark benchmark = stringOverObstacle(n, allRanks());
+    const double h = benchmark.problem.grid.hx;
 
-    EXPECT_LE(errorsOf(benchmark).largest, 10 * benchmark.grid.hx * benchmark.grid.hx / 8 + 1e-7) << n;
+    EXPECT_LE(errorsOf(benchmark).largest, 10 * h * h / 8 + 1e-7) << n;
   }
 }
 

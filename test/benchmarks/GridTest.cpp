@@ -1,10 +1,8 @@
+#include "ClosedForms.hpp"
 #include "Solving.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/benchmarks/ClosedForms.hpp"
-#include "epafi/benchmarks/JournalBearing.hpp"
-#include "epafi/benchmarks/Obstacle.hpp"
-#include "epafi/benchmarks/Torsion.hpp"
+#include "epafi/benchmarks/PublishedProblems.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,9 +18,13 @@ using test::dense;
 using test::gather;
 
 std::vector<BoundBenchmark> allBenchmarks(int n, const RCP<const Comm>& comm) {
-  return {journalBearing(n, comm),  obstacle(n, comm),     obstacle(n, comm, Obstacles::bothSides, 0.5),
-          torsion(n, comm),         ballObstacle(n, comm), stringOverObstacle(n, comm),
-          diskOverObstacle(n, comm)};
+  return {journalBearing(n, comm),
+          obstacle(n, comm),
+          obstacle(n, comm, Obstacles::bothSides, 0.5),
+          torsion(n, comm),
+          test::ballObstacle(n, comm).problem,
+          test::stringOverObstacle(n, comm).problem,
+          test::diskOverObstacle(n, comm).problem};
 }
 
 TEST(GridTest, HasTheCoordinatesOfItsUnknowns) {
@@ -38,13 +40,13 @@ TEST(GridTest, RefusesToBeEmpty) {
   EXPECT_THROW(Grid::square(0, 0, 1, 0, 1), InputError);
 }
 
-TEST(GridTest, BringsTheValuesOfTheBorderToTheRightHandSide) {
+TEST(GridTest, HasLinearFunctionsForSolutionsWithTheirValuesOnTheBorder) {
   // −Δu = 0 with u = x + 10y on the border: linear elements have this u as their solution.
   const Grid grid = Grid::square(3, 0, 1, 0, 2);
   const auto linear = [](double x, double y) { return x + 10 * y; };
   const FivePointSystem system = assembleFivePoint(
       grid, allRanks(), [&](int i, int j) { return laplaceStencil(grid, i, j); },
-      [](int, int) { return 0.0; }, linear);
+      [&](int i, int j) { return test::fromBorder(grid, i, j, linear); });
 
   const RCP<Vector> u =
       grid.vector(system.rightHandSide->getMap(), [&](int i, int j) { return linear(grid.x(i), grid.y(j)); });
@@ -75,7 +77,7 @@ TEST(BenchmarkMatrixTest, IsSymmetricPositiveDefiniteInEveryBenchmark) {
 TEST(BenchmarkMatrixTest, RowsSumToZeroAwayFromTheBorderAndToTheLostWeightsBesideIt) {
   const int n = 5;
   for (const BoundBenchmark& benchmark :
-       {journalBearing(n, allRanks()), torsion(n, allRanks()), ballObstacle(n, allRanks())}) {
+       {journalBearing(n, allRanks()), torsion(n, allRanks()), test::ballObstacle(n, allRanks()).problem}) {
     const Eigen::MatrixXd a = dense(*benchmark.hessian);
     const Eigen::VectorXd sums = a.rowwise().sum();
     for (int row = 0; row < n * n; ++row) {

@@ -1,6 +1,6 @@
 #include "Solving.hpp"
 
-#include "epafi/benchmarks/Interpolation.hpp"
+#include "epafi/benchmarks/Grid.hpp"
 
 #include <gtest/gtest.h>
 

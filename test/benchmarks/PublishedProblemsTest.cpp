@@ -1,8 +1,6 @@
 #include "Solving.hpp"
 
-#include "epafi/benchmarks/JournalBearing.hpp"
-#include "epafi/benchmarks/Obstacle.hpp"
-#include "epafi/benchmarks/Torsion.hpp"
+#include "epafi/benchmarks/PublishedProblems.hpp"
 
 #include <gtest/gtest.h>
 

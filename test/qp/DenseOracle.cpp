@@ -170,7 +170,7 @@ OracleAnswer solveByDualActiveSet(const DenseProgram& program) {
 OracleAnswer solveByProximalSteps(const DenseProgram& program) {
   const System exact(program, program.hessian.cast<Real>(), program.linear.cast<Real>());
   const Real size = exact.hessian.norm();
-  const Real length = std::max(static_cast<Real>(program.largestBound()), exact.values.norm());
+  const Real length = std::max(static_cast<Real>(largestBound(program)), exact.values.norm());
   const Real delta = size > 0                                ? 1e-8L * size
                      : length > 0 && exact.linear.norm() > 0 ? exact.linear.norm() / length
                                                              : 1.0L;

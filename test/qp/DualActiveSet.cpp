@@ -33,7 +33,7 @@ DualActiveSet::DualActiveSet(const DenseProgram& program, const RealMatrix& hess
     }
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> share(1, 2);
-  const Real length = program.largestBound();
+  const Real length = largestBound(program);
   for (Eigen::Index i = 0; i < n; ++i)
     if (lower_[i] < upper_[i]) {
       lower_[i] -= perturbation * share(random) * length;

@@ -2,7 +2,7 @@
 
 #include "Multigrid.hpp"
 
-#include "epafi/benchmarks/JournalBearing.hpp"
+#include "epafi/benchmarks/PublishedProblems.hpp"
 #include "epafi/qp/Box.hpp"
 
 #include <gtest/gtest.h>

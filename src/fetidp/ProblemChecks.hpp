@@ -1,10 +1,18 @@
 #pragma once
 
-/// Do rows of contact contradict each other, or the supports?
+/// What is refused before anything is computed with it, or when the iteration has proved it: numbers that are none, and rows of
+/// contact that contradict each other, or the supports.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
 namespace epafi::fetidp {
+
+/// \throws InputError on all ranks that names body and subdomain if an entry of a stiffness matrix is NaN or infinite, or
+/// one of a row of B. An infinite entry on the diagonal would pass for a support. Collective.
+void requireFiniteMatrices(const decomposition::DecomposedProblem& problem);
+
+/// The same for loads and gaps. Collective.
+void requireFiniteData(const decomposition::DecomposedProblem& problem);
 
 /// Throws SolvabilityError if a contact row that no free unknown can influence is violated: supports and gap
 /// contradict each other. Collective.

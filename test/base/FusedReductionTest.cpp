@@ -1,4 +1,4 @@
-#include "epafi/qp/FusedReduction.hpp"
+#include "epafi/base/AccurateSum.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>
@@ -13,7 +13,7 @@ using namespace epafi;
 TEST(FusedReductionTest, AddsTheSumsAndTakesTheMinimum) {
   const auto comm = Tpetra::getDefaultComm();
   const int rank = comm->getRank(), size = comm->getSize();
-  qp::FusedReduction reduction(comm, 3);
+  FusedReduction reduction(comm, 3);
 
   for (int repeat = 0; repeat < 3; ++repeat) {
     reduction.clear();
@@ -32,7 +32,7 @@ TEST(FusedReductionTest, AddsTheSumsAndTakesTheMinimum) {
 }
 
 TEST(FusedReductionTest, StartsAtZeroAndInfinity) {
-  qp::FusedReduction reduction(Tpetra::getDefaultComm(), 1);
+  FusedReduction reduction(Tpetra::getDefaultComm(), 1);
 
   reduction.reduce();
 
