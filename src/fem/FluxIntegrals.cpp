@@ -62,7 +62,8 @@ template <class Shape, class Law>
 typename Law::Gradient gradientAt(const ElementMap<Shape>& map, const ShapeSample<Shape>& sample,
                                   std::span<const double> displacements) {
   const Eigen::Map<const Eigen::Matrix<double, Law::components, Shape::numNodes>> nodal(displacements.data());
-  return nodal * map.gradients(sample).transpose();
+  const typename Law::Gradient inReference = nodal * sample.gradients.transpose();
+  return inReference * map.jacobian().inverse();
 }
 
 /// The flux is constant, so that w = q* − q_h is linear: ∫ w:C⁻¹:w = |T|/((d+1)(d+2)) (Σ Q(w_a) + Q(Σ w_a)).
