@@ -24,7 +24,11 @@ BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& lay
     : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
       shape_(fem::congruentCorners(*layout.mesh)),
       model_(materials_.size() > 1 ? model::makeModel(body, *layout.mesh) : nullptr),
-      numberings_(maxNumberings, maxNumbers) {}
+      numberings_(maxNumberings, maxNumbers) {
+  if (!shape_.empty())
+    for (const scene::Material& material : materials_)
+      congruent_.emplace_back(cellType(), shape_, physics_, material);
+}
 
 SubdomainElements BodyElements::elementsOf(const decomposition::Subdomain& subdomain) {
   SubdomainElements result;
@@ -41,6 +45,29 @@ SubdomainElements BodyElements::elementsOf(const decomposition::Subdomain& subdo
     model_->regions(result.elements, result.regions);
   }
   return result;
+}
+
+std::vector<std::size_t> BodyElements::inRegion(const SubdomainElements& elements, GlobalOrdinal region) {
+  std::vector<std::size_t> which;
+  for (std::size_t e = 0; e < elements.elements.size(); ++e)
+    if (elements.regionOf(e) == region)
+      which.push_back(e);
+  return which;
+}
+
+Eigen::MatrixXd BodyElements::gather(const SubdomainElements& elements, std::span<const std::size_t> which,
+                                     const Eigen::VectorXd& displacement) const {
+  const auto components = static_cast<Eigen::Index>(scene::componentsOf(physics_));
+  const auto perElement = static_cast<Eigen::Index>(elements.numbering->nodesPerElement());
+  Eigen::MatrixXd gathered(perElement * components, static_cast<Eigen::Index>(which.size()));
+  double* value = gathered.data();
+  for (const std::size_t element : which)
+    for (const int node : elements.numbering->elementNodes(element)) {
+      const double* first = displacement.data() + node * components;
+      for (Eigen::Index c = 0; c < components; ++c)
+        *value++ = first[c];
+    }
+  return gathered;
 }
 
 std::vector<BodyElements> elementsOfBodies(const scene::Scene& scene,

@@ -4,6 +4,8 @@
 /// that integrates over a solution walks along.
 
 #include "epafi/fem/BodyModel.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/fem/RecentlyUsed.hpp"
 #include "epafi/model/Decompose.hpp"
@@ -50,13 +52,28 @@ public:
 
   [[nodiscard]] scene::Physics physics() const { return physics_; }
   [[nodiscard]] fem::CellType cellType() const { return layout_.mesh->cellType(); }
+  [[nodiscard]] const fem::Mesh& mesh() const { return *layout_.mesh; }
   /// What a region is made of.
   [[nodiscard]] const scene::Material& materialOf(GlobalOrdinal region) const {
     return materials_[static_cast<std::size_t>(region)];
   }
+  [[nodiscard]] GlobalOrdinal numRegions() const { return static_cast<GlobalOrdinal>(materials_.size()); }
 
   /// Precondition: the subdomain is one of this body's.
   [[nodiscard]] SubdomainElements elementsOf(const decomposition::Subdomain& subdomain);
+
+  /// Elements of a structured mesh, region by region; null of another.
+  [[nodiscard]] const fem::CongruentFluxes* congruentFluxes(GlobalOrdinal region) const {
+    return congruent_.empty() ? nullptr : &congruent_[static_cast<std::size_t>(region)];
+  }
+  /// Area or volume of each element of a structured mesh.
+  [[nodiscard]] double measure() const { return fem::measureOf(cellType(), shape_); }
+  /// Places of the elements of a region among the subdomain's.
+  [[nodiscard]] static std::vector<std::size_t> inRegion(const SubdomainElements& elements,
+                                                         GlobalOrdinal region);
+  /// Displacements of some elements, a column each.
+  [[nodiscard]] Eigen::MatrixXd gather(const SubdomainElements& elements, std::span<const std::size_t> which,
+                                       const Eigen::VectorXd& displacement) const;
 
   /// action(ElementView) for each element. \param displacement  at all positions of the subdomain
   template <class Action>
@@ -87,7 +104,8 @@ private:
   std::vector<scene::Material> materials_; ///< of each region
   std::vector<fem::Point>
       shape_; ///< corners of every element from the origin on, where all are congruent; else empty
-  std::unique_ptr<fem::BodyModel> model_; ///< tells regions apart; null where there is but one
+  std::vector<fem::CongruentFluxes> congruent_; ///< of each region; empty of other meshes
+  std::unique_ptr<fem::BodyModel> model_;       ///< tells regions apart; null where there is but one
   fem::RecentlyUsed<fem::LocalNumbering> numberings_;
 };
 

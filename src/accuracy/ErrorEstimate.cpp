@@ -3,6 +3,7 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -41,6 +42,31 @@ double estimateElements(const BodyElements& body, const decomposition::Subdomain
   return energy;
 }
 
+/// The same on a structured mesh.
+double estimateCongruentElements(const BodyElements& body, const SubdomainFlux& flux,
+                                 const Eigen::VectorXd& displacement, std::vector<double>& estimates) {
+  const std::span<const int> slots = flux.cornerSlots();
+  const Eigen::Index numFluxes = flux.values.rows() - 1;
+  const auto perElement = static_cast<Eigen::Index>(flux.elements.numbering->nodesPerElement());
+  double energy = 0;
+  for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
+    const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
+    Eigen::MatrixXd nodal(numFluxes * perElement, static_cast<Eigen::Index>(which.size()));
+    double* place = nodal.data();
+    for (const std::size_t element : which)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(perElement); ++i, place += numFluxes) {
+        const int slot = slots[element * static_cast<std::size_t>(perElement) + i];
+        std::copy_n(flux.values.data() + slot * flux.values.rows(), numFluxes, place);
+      }
+    const Eigen::MatrixXd u = body.gather(flux.elements, which, displacement);
+    const Eigen::VectorXd differences = body.congruentFluxes(region)->differences(u, nodal);
+    for (std::size_t k = 0; k < which.size(); ++k)
+      estimates[which[k]] = differences[static_cast<Eigen::Index>(k)];
+    energy += body.congruentFluxes(region)->energy(u);
+  }
+  return energy;
+}
+
 } // namespace
 
 ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displacement) {
@@ -52,7 +78,9 @@ ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displa
     const SubdomainFlux& flux = fluxes[s];
     const BodyElements& body = bodies_[static_cast<std::size_t>(problem.subdomains[s].body)];
     std::vector<double> estimates(flux.elements.elements.size());
-    sums[1].add(estimateElements(body, problem.subdomains[s], flux, displacement[s], estimates));
+    sums[1].add(body.congruentFluxes(0) != nullptr
+                    ? estimateCongruentElements(body, flux, displacement[s], estimates)
+                    : estimateElements(body, problem.subdomains[s], flux, displacement[s], estimates));
     sums[0].add(std::accumulate(estimates.begin(), estimates.end(), 0.0));
     estimate.elements.push_back(std::move(estimates));
   }

@@ -59,6 +59,26 @@ void addElements(const BodyElements& body, const Subdomain& subdomain, const Eig
   });
 }
 
+/// The same on a structured mesh.
+void addCongruentElements(const BodyElements& body, const Eigen::VectorXd& displacement,
+                          SubdomainFlux& flux) {
+  const int numFluxes = fem::numFluxes(body.physics());
+  const double measure = body.measure();
+  const std::span<const int> slots = flux.cornerSlots();
+  const std::size_t perElement = flux.elements.numbering->nodesPerElement();
+  for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
+    const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
+    Eigen::MatrixXd weighted(numFluxes + 1, static_cast<Eigen::Index>(which.size()));
+    weighted.topRows(numFluxes) =
+        body.congruentFluxes(region)->atCentre(body.gather(flux.elements, which, displacement));
+    weighted.row(numFluxes).setOnes();
+    weighted *= measure;
+    for (std::size_t k = 0; k < which.size(); ++k)
+      for (std::size_t i = 0; i < perElement; ++i)
+        flux.values.col(slots[which[k] * perElement + i]) += weighted.col(static_cast<Eigen::Index>(k));
+  }
+}
+
 /// A slot at a node that other subdomains of the body touch too.
 struct SharedSlot {
   GlobalOrdinal key; ///< a number of its own in the whole problem
@@ -130,7 +150,10 @@ SubdomainFlux sumFlux(BodyElements& body, const Subdomain& subdomain, const Eige
   SubdomainFlux flux;
   flux.elements = body.elementsOf(subdomain);
   flux.values.setZero(fem::numFluxes(body.physics()) + 1, findSlots(subdomain, flux));
-  addElements(body, subdomain, displacement, flux);
+  if (body.congruentFluxes(0) != nullptr)
+    addCongruentElements(body, displacement, flux);
+  else
+    addElements(body, subdomain, displacement, flux);
   return flux;
 }
 

@@ -1,11 +1,15 @@
 #include "epafi/fem/FluxIntegrals.hpp"
 
+#include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
+#include <Eigen/Cholesky>
+
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <type_traits>
 
 namespace epafi::fem {
@@ -99,6 +103,29 @@ FluxEnergies brickEnergies(const Law& law, std::span<const Point> points,
     energies.flux += weight * law.density(flux);
   }
   return energies;
+}
+
+/// The columns that a linear map takes unit vectors to. \param apply  from a vector to a vector
+template <class Apply>
+Eigen::MatrixXd columnsOf(Eigen::Index rows, Eigen::Index columns, const Apply& apply) {
+  Eigen::MatrixXd matrix(rows, columns);
+  for (Eigen::Index j = 0; j < columns; ++j)
+    matrix.col(j) = apply(Eigen::VectorXd(Eigen::VectorXd::Unit(columns, j)));
+  return matrix;
+}
+
+/// D with density(q) = ‖Dq‖². The stress across the plane, which the others determine or which is 0, makes the form
+/// singular in no direction.
+template <class Law>
+Eigen::MatrixXd rootOfDensity(const Law& law) {
+  constexpr int n = Law::numFluxes;
+  Eigen::Matrix<double, n, n> form;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      form(i, j) = (law.density(Law::Flux::Unit(i) + Law::Flux::Unit(j)) -
+                    law.density(Law::Flux::Unit(i) - Law::Flux::Unit(j))) /
+                   4;
+  return form.llt().matrixU();
 }
 
 /// Gauss points of [0, 1] and their weights: exact for degree 5.
@@ -211,6 +238,44 @@ FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, Physics 
     else
       return brickEnergies<Shape>(law, points, displacements, fluxes);
   });
+}
+
+CongruentFluxes::CongruentFluxes(CellType type, std::span<const Point> points, Physics physics,
+                                 const scene::Material& material) {
+  elementStiffness(type, points, physics, material, stiffness_);
+  const Eigen::Index unknowns = stiffness_.rows();
+  withLaw(type, physics, material, [&](auto shape, const auto& law) {
+    using Shape = decltype(shape);
+    using Law = std::decay_t<decltype(law)>;
+    const auto corners = relativeCorners<Shape>(points);
+    const Eigen::MatrixXd root = rootOfDensity(law);
+    const auto fluxAt = [&](const ShapeSample<Shape>& sample, const Eigen::VectorXd& u) {
+      return law.flux(gradientAt<Shape, Law>(ElementMap<Shape>(corners, sample), sample,
+                                             {u.data(), static_cast<std::size_t>(u.size())}));
+    };
+    centre_ = columnsOf(Law::numFluxes, unknowns,
+                        [&](const Eigen::VectorXd& u) { return fluxAt(centreSample<Shape>(), u); });
+    const auto add = [&](const ShapeSample<Shape>& sample, double weight) {
+      const Eigen::Index row = ofFluxes_.rows();
+      ofFluxes_.conservativeResize(row + Law::numFluxes, Law::numFluxes * Shape::numNodes);
+      ofDisplacement_.conservativeResize(row + Law::numFluxes, unknowns);
+      for (int a = 0; a < Shape::numNodes; ++a)
+        ofFluxes_.block(row, a * Law::numFluxes, Law::numFluxes, Law::numFluxes) =
+            std::sqrt(weight) * sample.values[a] * root;
+      ofDisplacement_.bottomRows(Law::numFluxes) =
+          std::sqrt(weight) * root *
+          columnsOf(Law::numFluxes, unknowns, [&](const Eigen::VectorXd& u) { return fluxAt(sample, u); });
+    };
+    for (const auto& sample : gaussSamples<Shape>())
+      add(sample, Shape::gaussWeight * ElementMap<Shape>(corners, sample).determinant());
+  });
+}
+
+Eigen::VectorXd CongruentFluxes::differences(const Eigen::MatrixXd& displacements,
+                                             const Eigen::MatrixXd& nodalFluxes) const {
+  Eigen::MatrixXd weighted = ofFluxes_ * nodalFluxes;
+  weighted.noalias() -= ofDisplacement_ * displacements;
+  return weighted.colwise().squaredNorm().transpose();
 }
 
 DisplacementNorms differenceNorms(CellType type, std::span<const Point> points, Physics physics,

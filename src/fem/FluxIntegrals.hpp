@@ -35,6 +35,33 @@ FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, scene::P
                           const scene::Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes);
 
+/// fluxAtCentre and fluxEnergies of many congruent elements of one material at once, as products of matrices; a column an
+/// element.
+class CongruentFluxes {
+public:
+  /// \param points  corners of one of them. Precondition: it is a quadrilateral or hexahedron whose
+  /// Jacobian is constant.
+  CongruentFluxes(CellType type, std::span<const Point> points, scene::Physics physics,
+                  const scene::Material& material);
+
+  /// numFluxes × elements. \param displacements  components · nodes × elements
+  [[nodiscard]] Eigen::MatrixXd atCentre(const Eigen::MatrixXd& displacements) const {
+    return centre_ * displacements;
+  }
+  /// Of q* − q_h, of each element. \param nodalFluxes  numFluxes · nodes × elements, node by node
+  [[nodiscard]] Eigen::VectorXd differences(const Eigen::MatrixXd& displacements,
+                                            const Eigen::MatrixXd& nodalFluxes) const;
+  /// Of q_h, of all elements together.
+  [[nodiscard]] double energy(const Eigen::MatrixXd& displacements) const {
+    return displacements.cwiseProduct(stiffness_ * displacements).sum();
+  }
+
+private:
+  Eigen::MatrixXd centre_;                    ///< q_h at the centre of u
+  Eigen::MatrixXd ofFluxes_, ofDisplacement_; ///< W with ‖W_q q* − W_u u‖² = ∫ (q* − q_h):C⁻¹:(q* − q_h)
+  Eigen::MatrixXd stiffness_;
+};
+
 /// Energy norm squared and L2 norm squared of a displacement, or of its difference to a given field.
 struct DisplacementNorms {
   double energy = 0; ///< ∫ ε:C:ε, of a membrane ∫ κ|∇u|²
