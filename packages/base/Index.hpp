@@ -12,8 +12,8 @@ template <class Space, std::integral Integer = int>
 class Index {
 public:
   constexpr Index() noexcept = default;
-  constexpr Index(Integer number) noexcept
-      : number_(number) {} // NOLINT(google-explicit-constructor): see above
+  constexpr Index(Integer number) noexcept // NOLINT(google-explicit-constructor)
+      : number_(number) {}
   template <class Other, class OtherInteger>
   Index(Index<Other, OtherInteger>) = delete;
   constexpr operator Integer() const noexcept { return number_; } // NOLINT(google-explicit-constructor)
