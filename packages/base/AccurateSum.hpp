@@ -49,10 +49,10 @@ public:
 
   /// The rank's own contributions to the sums before `reduce`, the sums over all ranks after it.
   [[nodiscard]] std::span<AccurateSum> sums() { return {values_.data(), values_.size() - 1}; }
-  [[nodiscard]] double sum(int index) const { return values_[static_cast<std::size_t>(index)].value(); }
-  /// The rank's own candidate for the minimum before `reduce`; the minimum after it.
-  void setMinimum(double candidate) { values_.back() = AccurateSum(candidate); }
-  [[nodiscard]] double minimum() const { return values_.back().value(); }
+  /// The sums after `reduce`, rounded.
+  [[nodiscard]] double sum(int i) const { return values_[static_cast<std::size_t>(i)].value(); }
+  void setMinimum(double candidate) { values_.back() = AccurateSum(candidate); } ///< this rank's
+  [[nodiscard]] double minimum() const { return values_.back().value(); }        ///< of all ranks
 
   /// Sets the sums to zero and the minimum to infinity.
   void clear();

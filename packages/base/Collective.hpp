@@ -35,7 +35,7 @@ void sumOverRanks(const Comm& comm, std::span<GlobalOrdinal> values); ///< likew
 void sumOverRanks(const Comm& comm, std::span<int> values);           ///< likewise
 
 namespace detail {
-
+/// Of one number of each rank, by `type`. Collective.
 template <class Number>
 Number reduced(const Comm& comm, Teuchos::EReductionType type, Number value) {
   Number result{};

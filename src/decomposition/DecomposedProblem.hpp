@@ -129,10 +129,10 @@ struct DecomposedProblem {
   [[nodiscard]] RowKind kindOf(OwnedMultiplier row) const { return kindOf(numberOf(row)); }
   /// The same where this rank's subdomains touch it.
   [[nodiscard]] RowKind kindOf(TouchedMultiplier row) const { return kindOf(numberOf(row)); }
-  [[nodiscard]] MultiplierNumber numberOf(OwnedMultiplier row) const {
+  [[nodiscard]] MultiplierNumber numberOf(OwnedMultiplier row) const { ///< in the whole problem
     return multiplierMap->getGlobalElement(row);
   }
-  [[nodiscard]] MultiplierNumber numberOf(TouchedMultiplier row) const {
+  [[nodiscard]] MultiplierNumber numberOf(TouchedMultiplier row) const { ///< likewise
     return multiplierGhostMap->getGlobalElement(row);
   }
   /// n_λ
