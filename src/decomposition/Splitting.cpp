@@ -27,7 +27,7 @@ Splitting splitUnknowns(const Substructures& all, const SharedNodes& shared, con
           continue;
         }
         split.crosspointUnknowns.push_back(unknown);
-        split.crosspointIndices.push_back(index);
+        split.crosspointIndices.emplace_back(index);
         if (owned)
           splitting.ownedCrosspoints.push_back(index);
         ++index;
