@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
@@ -41,22 +42,20 @@ Eigen::MatrixXd inverseFromFactor(Eigen::MatrixXd lower) {
 }
 
 Eigen::MatrixXd inverseOfSpd(Eigen::MatrixXd matrix) {
-  const Eigen::Index k = matrix.rows();
-  std::optional<Eigen::MatrixXd> factor = choleskyFactor(std::move(matrix));
-  if (!factor)
-    throw Error("a condensed matrix of " + std::to_string(k) + " unknowns is not positive definite");
-  return inverseFromFactor(std::move(*factor));
-}
-
-std::optional<Eigen::MatrixXd> choleskyFactor(Eigen::MatrixXd matrix) {
   const int k = static_cast<int>(matrix.rows());
   int info = 0;
   if (k > 0)
     Teuchos::LAPACK<int, double>().POTRF('L', k, matrix.data(), k, &info);
   if (info != 0)
+    throw Error("a condensed matrix of " + std::to_string(k) + " unknowns is not positive definite");
+  return inverseFromFactor(std::move(matrix));
+}
+
+std::optional<Eigen::MatrixXd> choleskyFactor(const Eigen::MatrixXd& matrix) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
+  if (factor.info() != Eigen::Success)
     return std::nullopt;
-  matrix.triangularView<Eigen::StrictlyUpper>().setZero();
-  return matrix;
+  return Eigen::MatrixXd(factor.matrixL());
 }
 
 SymmetricEigen eigenOf(const Eigen::MatrixXd& matrix) {

@@ -15,7 +15,7 @@ Eigen::MatrixXd inverseFromFactor(Eigen::MatrixXd lower);
 /// A⁻¹ of a symmetric positive definite A, of which the lower triangle is read. \throws Error if A is not.
 Eigen::MatrixXd inverseOfSpd(Eigen::MatrixXd matrix);
 /// The lower triangular C of A = CCᵀ, likewise; nothing if A is not positive definite.
-std::optional<Eigen::MatrixXd> choleskyFactor(Eigen::MatrixXd matrix);
+std::optional<Eigen::MatrixXd> choleskyFactor(const Eigen::MatrixXd& matrix);
 
 /// Eigenvalues and eigenvectors.
 struct SymmetricEigen {
