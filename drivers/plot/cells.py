@@ -10,6 +10,41 @@ FACETS = {
 }
 
 
+HEX_LATTICE = numpy.array([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2),
+                           (1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2),
+                           (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1), (0, 1, 1), (2, 1, 1), (1, 0, 1), (1, 2, 1),
+                           (1, 1, 0), (1, 1, 2), (1, 1, 1)])
+
+
+def octants():
+    """The eight hexahedra between the 27 nodes of a quadratic one."""
+    number = {tuple(place): node for node, place in enumerate(HEX_LATTICE)}
+    return [tuple(number[tuple(first + corner // 2)] for corner in HEX_LATTICE[:8])
+            for first in numpy.ndindex(2, 2, 2)]
+
+
+# Linear cells between the nodes of quadratic ones.
+PIECES = {
+    "line": [(0, 2), (2, 1)],
+    "triangle": [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)],
+    "quadrilateral": [(0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)],
+    "tetrahedron": [(0, 4, 6, 7), (4, 1, 5, 8), (6, 5, 2, 9), (7, 8, 9, 3), (6, 8, 4, 5), (6, 8, 5, 9), (6, 8, 9, 7),
+                    (6, 8, 7, 4)],
+    "hexahedron": octants(),
+}
+
+
+def linear(cell_type, cells):
+    """Linear cells that draw quadratic ones, by ascending first nodes, each with its cell; linear ones are left alone."""
+    shape = cell_type.removeprefix("quadratic ")
+    if shape == cell_type:
+        return cell_type, cells, numpy.arange(len(cells))
+    pieces = PIECES[shape]
+    parts = cells[:, numpy.array(pieces)].reshape(-1, len(pieces[0]))
+    order = numpy.argsort(parts[:, 0], kind="stable")
+    return shape, parts[order], numpy.repeat(numpy.arange(len(cells)), len(pieces))[order]
+
+
 def is_plane(cell_type):
     return cell_type in ("triangle", "quadrilateral")
 

@@ -5,7 +5,7 @@ import dataclasses
 import h5py
 import numpy
 
-from .cells import chain, is_plane
+from .cells import chain, is_plane, linear
 from .errors import PlotError
 
 
@@ -125,18 +125,23 @@ def read_body(name, group):
         raise ValueError(f"the datasets of body {name} do not fit each other")
     crosspoints = group["crosspoints"][:] if "crosspoints" in group else numpy.zeros((0, 3))
     cell_type = text(group.attrs.get("cell_type", "quadrilateral"))
-    corners = {"triangle": 3, "quadrilateral": 4, "tetrahedron": 4, "hexahedron": 8}
+    corners = {"triangle": 3, "quadrilateral": 4, "tetrahedron": 4, "hexahedron": 8, "quadratic triangle": 6,
+               "quadratic quadrilateral": 9, "quadratic tetrahedron": 10, "quadratic hexahedron": 27}
     if cells.ndim != 2 or cells.shape[1] != corners[cell_type]:
         raise ValueError(f"the cells of body {name} are no {cell_type}s")
     von_mises = group["von_mises"][:] if "von_mises" in group else None
     if von_mises is not None and len(von_mises) != len(points):
         raise ValueError(f"the datasets of body {name} do not fit each other")
-    return Body(title(name, group), points, cells, u.reshape(len(points), -1), subdomain, crosspoints, cell_type, von_mises, name)
+    cell_type, cells, whole = linear(cell_type, cells)
+    return Body(title(name, group), points, cells, u.reshape(len(points), -1), subdomain[whole], crosspoints, cell_type,
+                von_mises, name)
 
 
 def read_contact(name, group):
     initial = group["initial_gap"][:] if "initial_gap" in group else None
     later = {key: group[key][:] if key in group else None for key in ("pressure", "normal", "cells")}
+    if later["cells"] is not None:
+        later["cells"] = linear(text(group.attrs.get("cell_type", "")), later["cells"])[1]
     return Contact(title(name, group), name, group["points"][:], group["gap"][:], group["multiplier"][:],
                    group["active"][:] > 0.5, initial, **later, first_body=text(group.attrs.get("first_body", "")))
 

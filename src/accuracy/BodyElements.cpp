@@ -22,7 +22,7 @@ std::vector<scene::Material> materialsOf(const scene::Body& body) {
 
 BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& layout)
     : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
-      shape_(fem::congruentCorners(*layout.mesh)),
+      shape_(fem::congruentShape(*layout.mesh)),
       model_(materials_.size() > 1 ? model::makeModel(body, *layout.mesh) : nullptr),
       numberings_(maxNumberings, maxNumbers) {
   if (!shape_.empty())

@@ -17,15 +17,15 @@ using fem::Mesh;
 using fem::Point;
 
 /// Moves reference coordinates into the reference element; returns how far they were outside.
-template <int dim>
-double pullIn(fem::Brick<dim> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
+template <int dim, int order>
+double pullIn(fem::Brick<dim, order> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
   const double outside = std::max(0.0, xi.cwiseAbs().maxCoeff() - 1);
   xi = xi.cwiseMin(1.0).cwiseMax(-1.0);
   return outside;
 }
 
-template <int dim>
-double pullIn(fem::Simplex<dim> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
+template <int dim, int order>
+double pullIn(fem::Simplex<dim, order> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
   const double outside = std::max({0.0, -xi.minCoeff(), xi.sum() - 1});
   xi = xi.cwiseMax(0.0);
   if (xi.sum() > 1)

@@ -11,10 +11,10 @@
 
 namespace epafi::accuracy {
 
-/// A point as the sum of an element's corners times weights, their shape functions there.
+/// A point as the sum of an element's nodes times weights, their shape functions there.
 struct Location {
   GlobalOrdinal element = 0;
-  std::array<double, 8> weights{}; ///< nodesPerElement of them count; each ≥ 0, their sum 1
+  std::array<double, fem::mostNodes> weights{}; ///< nodesPerElement of them count; their sum is 1
 };
 
 class PointLocation {

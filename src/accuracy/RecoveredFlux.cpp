@@ -46,16 +46,18 @@ void addElements(const BodyElements& body, const Subdomain& subdomain, const Eig
                  SubdomainFlux& flux) {
   const int numFluxes = fem::numFluxes(body.physics());
   const std::span<const int> slots = flux.cornerSlots();
-  Eigen::VectorXd weighted(numFluxes + 1);
+  Eigen::MatrixXd sampled;
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
-    fem::fluxAtCentre(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
-                      element.displacements, {weighted.data(), static_cast<std::size_t>(numFluxes)});
+    fem::sampledFluxes(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
+                       element.displacements, sampled);
     const double measure = fem::measureOf(body.cellType(), element.points);
-    weighted[numFluxes] = 1;
-    weighted *= measure;
-    const std::size_t corners = element.nodes.size();
-    for (std::size_t i = 0; i < corners; ++i)
-      flux.values.col(slots[element.number * corners + i]) += weighted;
+    sampled *= measure;
+    const std::size_t nodes = element.nodes.size();
+    for (std::size_t i = 0; i < nodes; ++i) {
+      auto sum = flux.values.col(slots[element.number * nodes + i]);
+      sum.head(numFluxes) += sampled.col(sampled.cols() == 1 ? 0 : static_cast<Eigen::Index>(i));
+      sum[numFluxes] += measure;
+    }
   });
 }
 
@@ -68,14 +70,16 @@ void addCongruentElements(const BodyElements& body, const Eigen::VectorXd& displ
   const std::size_t perElement = flux.elements.numbering->nodesPerElement();
   for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
     const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
-    Eigen::MatrixXd weighted(numFluxes + 1, static_cast<Eigen::Index>(which.size()));
-    weighted.topRows(numFluxes) =
-        body.congruentFluxes(region)->atCentre(body.gather(flux.elements, which, displacement));
-    weighted.row(numFluxes).setOnes();
-    weighted *= measure;
+    const Eigen::MatrixXd sampled =
+        measure * body.congruentFluxes(region)->sampled(body.gather(flux.elements, which, displacement));
+    const Eigen::Index step = sampled.rows() == numFluxes ? 0 : numFluxes;
     for (std::size_t k = 0; k < which.size(); ++k)
-      for (std::size_t i = 0; i < perElement; ++i)
-        flux.values.col(slots[which[k] * perElement + i]) += weighted.col(static_cast<Eigen::Index>(k));
+      for (std::size_t i = 0; i < perElement; ++i) {
+        auto sum = flux.values.col(slots[which[k] * perElement + i]);
+        sum.head(numFluxes) +=
+            sampled.col(static_cast<Eigen::Index>(k)).segment(static_cast<Eigen::Index>(i) * step, numFluxes);
+        sum[numFluxes] += measure;
+      }
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// A flux (κ∇u or stress) that is continuous inside of each material: at a node the mean of the elements around it that
-/// are of the node's material there, weighted by their measures (Zienkiewicz, Zhu 1987). The flux itself jumps between
+/// are of the node's material there, weighted by their measures (Zienkiewicz, Zhu 1987); of order 2 at the nodes on edges and inside likewise. The flux itself jumps between
 /// elements; from its distance to the recovered one follows how much a finer mesh would change it.
 
 #include "epafi/accuracy/BodyElements.hpp"

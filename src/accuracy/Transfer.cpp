@@ -22,9 +22,10 @@ using model::Decomposition;
 
 /// Where a node of the fine mesh lies in the coarse one.
 struct Guess {
-  std::size_t subdomain, node;            ///< among this rank's subdomains, and their nodes
-  std::array<GlobalOrdinal, 8> sources{}; ///< corners of the coarse element, by numbers of the whole problem
-  std::array<double, 8> weights{};
+  std::size_t subdomain, node; ///< among this rank's subdomains, and their nodes
+  std::array<GlobalOrdinal, fem::mostNodes>
+      sources{}; ///< nodes of the coarse element, by numbers of the whole problem
+  std::array<double, fem::mostNodes> weights{};
   std::size_t numSources = 0;
 };
 

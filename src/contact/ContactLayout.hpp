@@ -9,7 +9,7 @@
 
 namespace epafi::contact {
 
-/// A contact: one inequality for each of some nodes of the first body's surface,
+/// A contact: one inequality, a *row*, for each of some nodes of the first body's surface,
 ///   dᵀ(u_first − u_second) ≤ gap,
 /// d the direction in which the second body, or an obstacle, lies (1 for membranes). It is whole on every rank: of the size
 /// of the surfaces that may touch.
@@ -22,10 +22,26 @@ struct ContactLayout {
   std::vector<GlobalOrdinal> secondNodes; ///< of the same rows; empty for an obstacle
   std::vector<double> directions;         ///< d, `components` numbers a row
   std::vector<double> gaps;               ///< before supports are taken into account
-  std::vector<double> areas; ///< share of the first surface (in the plane: of its length) that a node has
+  std::vector<double>
+      areas; ///< share of the first surface (in the plane: of its length) on which a row's force acts
+  /// Rows that are combinations of those of several nodes, Σ weight · (dᵀ(u_first − u_second) ≤ gap)_node, by places of rows;
+  /// empty: each row is that of its own node. See BasisChange.hpp.
+  struct Share {
+    std::size_t node;
+    double weight;
+  };
+  std::vector<std::vector<Share>> combinations;
 
   /// Number of inequalities.
   [[nodiscard]] GlobalOrdinal numRows() const { return static_cast<GlobalOrdinal>(firstNodes.size()); }
+  /// action(place of a node, weight) for all nodes of a row.
+  template <class Action>
+  void forEachShare(std::size_t row, const Action& action) const {
+    if (combinations.empty())
+      return action(row, 1.0);
+    for (const Share& share : combinations[row])
+      action(share.node, share.weight);
+  }
 };
 
 } // namespace epafi::contact

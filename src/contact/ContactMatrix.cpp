@@ -38,9 +38,9 @@ Eigen::Vector3d directionAt(const ContactLayout& contact, std::size_t place, con
   return direction;
 }
 
-/// Enters one side of a row.
+/// Enters one side of a node's row, times a factor.
 void enter(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns, int body,
-           GlobalOrdinal node, double sign, Row& row) {
+           GlobalOrdinal node, double factor, Row& row) {
   const Eigen::Vector3d direction = directionAt(contact, place, unknowns, body, node);
   double free = 0;
   for (int c = 0; c < unknowns.components; ++c)
@@ -50,7 +50,7 @@ void enter(const ContactLayout& contact, std::size_t place, const NodeUnknowns& 
     if (std::abs(direction[c]) > roundOff && (free > heldDirection || unknowns.isHeld(body, node, c))) {
       row.unknowns.push_back(
           (unknowns.firstNode[static_cast<std::size_t>(body)] + node) * unknowns.components + c);
-      row.coefficients.push_back(sign * direction[c]);
+      row.coefficients.push_back(factor * direction[c]);
     }
 }
 
@@ -61,11 +61,13 @@ std::vector<Row> ownRows(const std::vector<ContactLayout>& contacts, const NodeU
     for (std::size_t place = 0; place < contact.firstNodes.size(); ++place) {
       if (!unknowns.isMine(contact.firstBody, contact.firstNodes[place]))
         continue;
-      Row& row = rows.emplace_back(
-          Row{contact.firstRow + static_cast<GlobalOrdinal>(place), contact.gaps[place], {}, {}});
-      enter(contact, place, unknowns, contact.firstBody, contact.firstNodes[place], 1.0, row);
-      if (contact.secondBody >= 0)
-        enter(contact, place, unknowns, contact.secondBody, contact.secondNodes[place], -1.0, row);
+      Row& row = rows.emplace_back(Row{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
+      contact.forEachShare(place, [&](std::size_t node, double weight) {
+        row.gap += weight * contact.gaps[node];
+        enter(contact, node, unknowns, contact.firstBody, contact.firstNodes[node], weight, row);
+        if (contact.secondBody >= 0)
+          enter(contact, node, unknowns, contact.secondBody, contact.secondNodes[node], -weight, row);
+      });
     }
   return rows;
 }

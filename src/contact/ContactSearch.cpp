@@ -44,15 +44,10 @@ void addRow(const Vector3d& direction, double gap, double area, int components, 
   layout.areas.push_back(area);
 }
 
-/// Spacing of the nodes around one of them.
-double spacing(const SurfaceNodes& surface, std::size_t place, int dimension) {
-  return dimension == 2 ? surface.areas[place] : std::sqrt(surface.areas[place]);
-}
-
 /// For each node of a surface the node of the other that it faces, or none. Nodes are sorted along one axis: those
 /// farther away along it than the distance are not looked at; without a distance all are.
-std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNodes& second, double distance,
-                                      int dimension) {
+std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNodes& second,
+                                      double distance) {
   std::vector<std::size_t> order(second.nodes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   Vector3d lower = first.points.front(), upper = lower;
@@ -67,7 +62,7 @@ std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNo
 
   std::vector<std::size_t> partner(first.nodes.size(), none);
   for (std::size_t i = 0; i < first.nodes.size(); ++i) {
-    const double tolerance = matchTolerance * spacing(first, i, dimension);
+    const double tolerance = matchTolerance * first.spacings[i];
     double nearest = std::numeric_limits<double>::infinity();
     const double reach = distance + tolerance, from = first.points[i][axis] - reach;
     auto next = std::lower_bound(order.begin(), order.end(), from,
@@ -89,13 +84,13 @@ std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNo
 
 /// Throws if both surfaces have nodes left over that are near the other one.
 void requireMatch(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
-                  const std::vector<std::size_t>& partner, int dimension) {
+                  const std::vector<std::size_t>& partner) {
   std::vector<char> isUsed(second.nodes.size(), 0);
   for (const std::size_t j : partner)
     if (j != none)
       isUsed[j] = 1;
   const auto isNear = [&](const SurfaceNodes& surface, std::size_t place, const SurfaceNodes& other) {
-    const double reach = std::min(contact.distance, 2 * spacing(surface, place, dimension));
+    const double reach = std::min(contact.distance, 2 * surface.spacings[place]);
     return std::any_of(other.points.begin(), other.points.end(), [&](const Vector3d& point) {
       return (point - surface.points[place]).norm() <= reach;
     });
@@ -157,8 +152,8 @@ ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first
   std::vector<std::size_t> partner(first.nodes.size());
   std::iota(partner.begin(), partner.end(), std::size_t{0});
   if (!contact.coincide) {
-    partner = findPartners(first, second, contact.distance, contact.dimension);
-    requireMatch(contact, first, second, partner, contact.dimension);
+    partner = findPartners(first, second, contact.distance);
+    requireMatch(contact, first, second, partner);
   }
   for (std::size_t i = 0; i < partner.size(); ++i) {
     if (partner[i] == none)

@@ -87,7 +87,7 @@ RigidModes rigidModesOf(const SolidBody& body) {
 } // namespace
 
 BodyModel::BodyModel(const scene::Body& body, const Mesh& mesh)
-    : body_(checked({body, mesh})), unknowns_(mesh, 1, body_.components()), regions_(body_),
+    : body_(checked({body, mesh})), unknowns_(mesh, body_.components()), regions_(body_),
       loads_(body_, regions_), supports_(body_), rigidModes_(rigidModesOf(body_)) {
   integrateRegions();
   findFramedElements();
@@ -98,7 +98,7 @@ void BodyModel::integrateRegions() {
   for (std::size_t region = 0; body_.isCongruent() && region < regions_.number(); ++region) {
     const scene::Material& material = materialIn(body_.body, region);
     Eigen::MatrixXd& stiffness = stiffnesses_.emplace_back();
-    if (components() == 1)
+    if (body_.mesh.cellType() == CellType::quadrilateral && components() == 1)
       stiffness = material.conductivity * rectangleStiffness(body_.mesh.structured()->elementSize()[0],
                                                              body_.mesh.structured()->elementSize()[1]);
     else

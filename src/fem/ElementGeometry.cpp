@@ -1,6 +1,7 @@
 #include "epafi/fem/ElementGeometry.hpp"
 
 #include "epafi/fem/ElementMap.hpp"
+#include "epafi/fem/JacobianBound.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
 #include <algorithm>
@@ -17,22 +18,23 @@ void noteJacobian(ElementShape& shape, double value, int corner) {
   }
 }
 
-/// Of a simplex the determinant is the same everywhere; of a quadrilateral it is linear, so that its least value lies at a
-/// corner.
+/// Of a simplex of order 1 the determinant is the same everywhere; of a quadrilateral it is linear, so that its least value
+/// lies at a corner. Of order 2 samples come first: most elements that are not sound fail there.
 template <class Shape>
-void measure(std::span<const Point> points, ElementShape& shape) {
-  constexpr double reference = Shape::numGaussPoints * Shape::gaussWeight; // measure of the reference element
+void measure([[maybe_unused]] CellType type, std::span<const Point> points, ElementShape& shape) {
   const auto corners = relativeCorners<Shape>(points);
   if constexpr (Shape::numGaussPoints > 1) {
-    int corner = 0;
-    for (const auto& sample : cornerSamples<Shape>())
-      noteJacobian(shape, reference * ElementMap<Shape>(corners, sample).determinant(), corner++);
+    int node = 0;
+    for (const auto& sample : nodeSamples<Shape>())
+      noteJacobian(shape, Shape::measure * ElementMap<Shape>(corners, sample).determinant(), node++);
   }
-  for (const auto& sample : gaussSamples<Shape>()) {
+  for (const auto& sample : fineSamples<Shape>()) {
     const double inside = ElementMap<Shape>(corners, sample).determinant();
-    shape.measure += Shape::gaussWeight * inside; // exact, see Brick
-    noteJacobian(shape, reference * inside, -1);
+    shape.measure += sample.weight * inside; // exact
+    noteJacobian(shape, Shape::measure * inside, -1);
   }
+  if constexpr (Shape::order > 1)
+    noteJacobian(shape, Shape::measure * leastDeterminant(type, points), -1);
 }
 
 } // namespace
@@ -77,8 +79,8 @@ double measureOf(CellType type, std::span<const Point> points) {
     using Shape = decltype(shape);
     const auto corners = relativeCorners<Shape>(points);
     double measure = 0;
-    for (const auto& sample : gaussSamples<Shape>())
-      measure += Shape::gaussWeight * ElementMap<Shape>(corners, sample).determinant();
+    for (const auto& sample : fineSamples<Shape>())
+      measure += sample.weight * ElementMap<Shape>(corners, sample).determinant();
     return measure;
   });
 }
@@ -89,8 +91,8 @@ void nodalShares(CellType facet, std::span<const Point> points, std::span<double
     const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
     Eigen::Map<typename Shape::Values> sums(shares.data());
     sums.setZero();
-    for (const auto& sample : gaussSamples<Shape>())
-      sums += (Shape::gaussWeight * facetNormal<Shape>(corners, sample).norm()) * sample.values;
+    for (const auto& sample : fineSamples<Shape>())
+      sums += (sample.weight * facetNormal<Shape>(corners, sample).norm()) * sample.values;
   });
 }
 
@@ -99,9 +101,26 @@ Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points) {
     using Shape = decltype(shape);
     const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
     Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-    for (const auto& sample : gaussSamples<Shape>())
-      vector.head<Shape::dimension + 1>() += Shape::gaussWeight * facetNormal<Shape>(corners, sample);
+    for (const auto& sample : fineSamples<Shape>())
+      vector.head<Shape::dimension + 1>() += sample.weight * facetNormal<Shape>(corners, sample);
     return vector;
+  });
+}
+
+void nodalNormals(CellType facet, std::span<const Point> points, std::vector<Eigen::Vector3d>& normals) {
+  const Eigen::Vector3d area = areaVector(facet, points);
+  normals.assign(points.size(), area);
+  withFacetShape(facet, [&](auto shape) {
+    using Shape = decltype(shape);
+    if constexpr (Shape::order > 1) {
+      const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
+      for (std::size_t a = 0; a < normals.size(); ++a) {
+        normals[a].setZero();
+        normals[a].template head<Shape::dimension + 1>() =
+            facetNormal<Shape>(corners, nodeSamples<Shape>()[a]);
+        normals[a] *= area.norm() / normals[a].norm();
+      }
+    }
   });
 }
 
@@ -109,7 +128,7 @@ ElementShape shapeOf(CellType type, std::span<const Point> corners) {
   ElementShape shape;
   shape.diameter = diameterOf(corners);
   shape.leastJacobian = std::numeric_limits<double>::infinity();
-  withShape(type, [&](auto reference) { measure<decltype(reference)>(corners, shape); });
+  withShape(type, [&](auto reference) { measure<decltype(reference)>(type, corners, shape); });
   return shape;
 }
 

@@ -48,7 +48,7 @@ GradientProducts<Shape> gradientProducts(std::span<const Point> points) {
     const ElementMap<Shape> map(corners, sample);
     const typename Shape::Gradients gradients = map.gradients(sample);
     const Eigen::Map<const Eigen::Matrix<double, numGradients<Shape>, 1>> g(gradients.data());
-    const double weight = Shape::gaussWeight * map.determinant();
+    const double weight = sample.weight * map.determinant();
     for (int column = 0; column < numGradients<Shape>; ++column)
       products.col(column) += (weight * g[column]) * g;
   }
@@ -120,8 +120,8 @@ void bodyForceLoad(CellType type, std::span<const Point> points, Physics physics
     using Shape = decltype(shape);
     const auto corners = relativeCorners<Shape>(points);
     typename Shape::Values integrals = Shape::Values::Zero(); // ∫N_a
-    for (const auto& sample : gaussSamples<Shape>())
-      integrals += (Shape::gaussWeight * ElementMap<Shape>(corners, sample).determinant()) * sample.values;
+    for (const auto& sample : fineSamples<Shape>())
+      integrals += (sample.weight * ElementMap<Shape>(corners, sample).determinant()) * sample.values;
     shareOut({integrals.data(), Shape::numNodes}, physics, material, force, load);
   });
 }
@@ -144,9 +144,9 @@ void pressureLoad(CellType facet, std::span<const Point> points, Physics physics
     const auto corners = relativeCorners<Shape, components>(points);
     Eigen::Matrix<double, components, Shape::numNodes> forces;
     forces.setZero();
-    const double factor = -pressure * thicknessOf(physics, material) * Shape::gaussWeight;
-    for (const auto& sample : gaussSamples<Shape>())
-      forces += (factor * facetNormal<Shape>(corners, sample)) * sample.values.transpose();
+    const double factor = -pressure * thicknessOf(physics, material);
+    for (const auto& sample : fineSamples<Shape>())
+      forces += (factor * sample.weight * facetNormal<Shape>(corners, sample)) * sample.values.transpose();
     load = forces.reshaped();
   });
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Stiffness and loads of one linear element of a body, and loads on its facets. Rows are node by node: node ×
+/// Stiffness and loads of one element of a body, and loads on its facets. Rows are node by node: node ×
 /// components + component, with one component for membranes and as many as the element has dimensions otherwise.
-/// Preconditions of those of elements: points are the element's corners in the order of Cell.hpp; plane elements go with membranes, plane
+/// Preconditions of those of elements: points are the element's nodes in the order of Cell.hpp; plane elements go with membranes, plane
 /// strain and plane stress, solid ones with elasticity in space; their leastJacobian (ElementGeometry.hpp) is positive. Nothing is allocated if
 /// the result has its size already; calls from several threads do not disturb each other.
 

@@ -77,7 +77,7 @@ FluxEnergies simplexEnergies(const Law& law, std::span<const Point> points,
   const auto& sample = centreSample<Shape>();
   const ElementMap<Shape> map(relativeCorners<Shape>(points), sample);
   const typename Law::Flux flux = law.flux(gradientAt<Shape, Law>(map, sample, displacements));
-  const double measure = Shape::gaussWeight * map.determinant();
+  const double measure = sample.weight * map.determinant();
   double sum = 0;
   typename Law::Flux total = Law::Flux::Zero();
   for (int a = 0; a < Shape::numNodes; ++a) {
@@ -89,20 +89,51 @@ FluxEnergies simplexEnergies(const Law& law, std::span<const Point> points,
           measure * law.density(flux)};
 }
 
-/// Two Gauss points along each axis: w is linear in each coordinate, but where the element map is not affine.
+/// By the fine rule: w is of the shape functions' kind, but where the element map is not affine.
 template <class Shape, class Law, class Nodal>
-FluxEnergies brickEnergies(const Law& law, std::span<const Point> points,
-                           std::span<const double> displacements, const Nodal& nodalFluxes) {
+FluxEnergies energiesByRule(const Law& law, std::span<const Point> points,
+                            std::span<const double> displacements, const Nodal& nodalFluxes) {
   const auto corners = relativeCorners<Shape>(points);
   FluxEnergies energies;
-  for (const auto& sample : gaussSamples<Shape>()) {
+  for (const auto& sample : fineSamples<Shape>()) {
     const ElementMap<Shape> map(corners, sample);
     const typename Law::Flux flux = law.flux(gradientAt<Shape, Law>(map, sample, displacements));
-    const double weight = Shape::gaussWeight * map.determinant();
+    const double weight = sample.weight * map.determinant();
     energies.difference += weight * law.density(nodalFluxes * sample.values - flux);
     energies.flux += weight * law.density(flux);
   }
   return energies;
+}
+
+/// The flux as a function of one order less than the displacements: its values at the points where it is most accurate
+/// (Barlow, *Int. J. Numer. Meth. Engng* 10 (1976)), carried on to the nodes. Order 1: a constant, one column. Of simplices of
+/// order 2 with straight edges the flux is such a function itself.
+template <class Shape, class Law, class Fluxes>
+void sampleFlux(const Law& law, std::span<const Point> points, std::span<const double> displacements,
+                Fluxes& fluxes) {
+  const auto corners = relativeCorners<Shape>(points);
+  const auto at = [&](const ShapeSample<Shape>& sample) -> typename Law::Flux {
+    return law.flux(gradientAt<Shape, Law>(ElementMap<Shape>(corners, sample), sample, displacements));
+  };
+  if constexpr (Shape::order == 1) {
+    fluxes = at(centreSample<Shape>());
+  } else if constexpr (Shape::isSimplex) {
+    for (Eigen::Index a = 0; a < Shape::numNodes; ++a)
+      fluxes.col(a) = at(nodeSamples<Shape>()[static_cast<std::size_t>(a)]);
+  } else {
+    using Linear = Brick<Shape::dimension>;
+    static const auto samples = [] {
+      std::array<ShapeSample<Shape>, static_cast<std::size_t>(Linear::numNodes)> all;
+      for (std::size_t g = 0; g < all.size(); ++g)
+        all[g] = sampleAt<Shape>(Linear::gaussPoints()[g].xi);
+      return all;
+    }();
+    Eigen::Matrix<double, Law::numFluxes, Linear::numNodes> sampled;
+    for (std::size_t g = 0; g < samples.size(); ++g)
+      sampled.col(static_cast<Eigen::Index>(g)) = at(samples[g]);
+    for (int a = 0; a < Shape::numNodes; ++a)
+      fluxes.col(a) = sampled * Linear::values(std::sqrt(3.0) * Shape::node(a));
+  }
 }
 
 /// The columns that a linear map takes unit vectors to. \param apply  from a vector to a vector
@@ -136,15 +167,15 @@ template <int dim>
 using Place = Eigen::Matrix<double, dim, 1>;
 
 /// A point of the unit square or cube in the reference element; returns the factor of the weight.
-template <int dim>
-double carry(Brick<dim> /*shape*/, Place<dim>& place) {
+template <int dim, int order>
+double carry(Brick<dim, order> /*shape*/, Place<dim>& place) {
   place = 2 * place - Place<dim>::Ones();
   return 1 << dim;
 }
 
 /// The cube's top shrinks to a point (Duffy).
-template <int dim>
-double carry(Simplex<dim> /*shape*/, Place<dim>& place) {
+template <int dim, int order>
+double carry(Simplex<dim, order> /*shape*/, Place<dim>& place) {
   double rest = 1, factor = 1;
   for (int i = 0; i < dim; ++i) {
     place[i] *= rest;
@@ -211,16 +242,16 @@ int numFluxes(Physics physics) {
   return physics == Physics::membrane ? numMembraneFluxes : numStresses;
 }
 
-void fluxAtCentre(CellType type, std::span<const Point> points, Physics physics,
-                  const scene::Material& material, std::span<const double> displacements,
-                  std::span<double> flux) {
+int numSampledFluxes(CellType type) {
+  return orderOf(type) == 1 ? 1 : numNodesOf(type);
+}
+
+void sampledFluxes(CellType type, std::span<const Point> points, Physics physics,
+                   const scene::Material& material, std::span<const double> displacements,
+                   Eigen::MatrixXd& fluxes) {
+  fluxes.resize(numFluxes(physics), numSampledFluxes(type));
   withLaw(type, physics, material, [&](auto shape, const auto& law) {
-    using Shape = decltype(shape);
-    using Law = std::decay_t<decltype(law)>;
-    const auto& sample = centreSample<Shape>();
-    const ElementMap<Shape> map(relativeCorners<Shape>(points), sample);
-    Eigen::Map<typename Law::Flux>(flux.data()) =
-        law.flux(gradientAt<Shape, Law>(map, sample, displacements));
+    sampleFlux<decltype(shape)>(law, points, displacements, fluxes);
   });
 }
 
@@ -233,10 +264,10 @@ FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, Physics 
     assert(nodalFluxes.rows() == Law::numFluxes && nodalFluxes.cols() == Shape::numNodes);
     const Eigen::Map<const Eigen::Matrix<double, Law::numFluxes, Shape::numNodes>, 0, Eigen::OuterStride<>>
         fluxes(nodalFluxes.data(), Eigen::OuterStride<>(nodalFluxes.outerStride()));
-    if constexpr (Shape::numNodes == Shape::dimension + 1)
+    if constexpr (Shape::isSimplex && Shape::order == 1)
       return simplexEnergies<Shape>(law, points, displacements, fluxes);
     else
-      return brickEnergies<Shape>(law, points, displacements, fluxes);
+      return energiesByRule<Shape>(law, points, displacements, fluxes);
   });
 }
 
@@ -253,8 +284,12 @@ CongruentFluxes::CongruentFluxes(CellType type, std::span<const Point> points, P
       return law.flux(gradientAt<Shape, Law>(ElementMap<Shape>(corners, sample), sample,
                                              {u.data(), static_cast<std::size_t>(u.size())}));
     };
-    centre_ = columnsOf(Law::numFluxes, unknowns,
-                        [&](const Eigen::VectorXd& u) { return fluxAt(centreSample<Shape>(), u); });
+    const Eigen::Index numSampled = numSampledFluxes(type);
+    sampled_ = columnsOf(Law::numFluxes * numSampled, unknowns, [&](const Eigen::VectorXd& u) {
+      Eigen::MatrixXd fluxes(Law::numFluxes, numSampled);
+      sampleFlux<Shape>(law, points, {u.data(), static_cast<std::size_t>(u.size())}, fluxes);
+      return Eigen::VectorXd(fluxes.reshaped());
+    });
     const auto add = [&](const ShapeSample<Shape>& sample, double weight) {
       const Eigen::Index row = ofFluxes_.rows();
       ofFluxes_.conservativeResize(row + Law::numFluxes, Law::numFluxes * Shape::numNodes);
@@ -266,8 +301,8 @@ CongruentFluxes::CongruentFluxes(CellType type, std::span<const Point> points, P
           std::sqrt(weight) * root *
           columnsOf(Law::numFluxes, unknowns, [&](const Eigen::VectorXd& u) { return fluxAt(sample, u); });
     };
-    for (const auto& sample : gaussSamples<Shape>())
-      add(sample, Shape::gaussWeight * ElementMap<Shape>(corners, sample).determinant());
+    for (const auto& sample : fineSamples<Shape>())
+      add(sample, sample.weight * ElementMap<Shape>(corners, sample).determinant());
   });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Fluxes (κ∇u of a membrane, the stress of an elastic body) inside one linear element, and how far they are from a
+/// Fluxes (κ∇u of a membrane, the stress of an elastic body) inside one element, and how far they are from a
 /// recovered flux that is continuous: what an estimate of the discretisation error is made of (Zienkiewicz, Zhu,
 /// *Int. J. Numer. Meth. Engng* 24 (1987)). Preconditions are those of ElementIntegrals.hpp.
 
@@ -19,10 +19,15 @@ namespace epafi::fem {
 /// Components of a flux: 2 of a membrane (x, y), 6 of a stress (xx, yy, zz, xy, yz, zx; 0 what the plane has not).
 int numFluxes(scene::Physics physics);
 
-/// Flux at the centre from the displacements at the nodes, node by node. \param flux  numFluxes values, overwritten
-void fluxAtCentre(CellType type, std::span<const Point> points, scene::Physics physics,
-                  const scene::Material& material, std::span<const double> displacements,
-                  std::span<double> flux);
+/// How many columns sampledFluxes() gives: 1 of order 1, else as many as nodes.
+int numSampledFluxes(CellType type);
+
+/// The flux as far as it is accurate, from the displacements at the nodes, node by node: of order 1 that at the centre, taken as
+/// constant; of order 2 values at the nodes, of bricks carried on from the points where the flux is most accurate.
+/// \param fluxes  numFluxes × numSampledFluxes, overwritten, and resized if need be
+void sampledFluxes(CellType type, std::span<const Point> points, scene::Physics physics,
+                   const scene::Material& material, std::span<const double> displacements,
+                   Eigen::MatrixXd& fluxes);
 
 /// ∫ q:C⁻¹:q, the energy norm squared of the displacement that has the flux q; for membranes ∫ |q|²/κ.
 struct FluxEnergies {
@@ -30,23 +35,23 @@ struct FluxEnergies {
   double flux = 0;       ///< of q_h
 };
 
-/// Exact on simplices and parallelepipeds. \param nodalFluxes  q* at the nodes, numFluxes × nodes
+/// Exact on elements with straight edges (bricks: parallelepipeds). \param nodalFluxes  q* at the nodes, numFluxes × nodes
 FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, scene::Physics physics,
                           const scene::Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes);
 
-/// fluxAtCentre and fluxEnergies of many congruent elements of one material at once, as products of matrices; a column an
+/// sampledFluxes and fluxEnergies of many congruent elements of one material at once, as products of matrices; a column an
 /// element.
 class CongruentFluxes {
 public:
-  /// \param points  corners of one of them. Precondition: it is a quadrilateral or hexahedron whose
+  /// \param points  nodes of one of them. Precondition: it is a quadrilateral or hexahedron whose
   /// Jacobian is constant.
   CongruentFluxes(CellType type, std::span<const Point> points, scene::Physics physics,
                   const scene::Material& material);
 
-  /// numFluxes × elements. \param displacements  components · nodes × elements
-  [[nodiscard]] Eigen::MatrixXd atCentre(const Eigen::MatrixXd& displacements) const {
-    return centre_ * displacements;
+  /// numFluxes · numSampledFluxes × elements. \param displacements  components · nodes × elements
+  [[nodiscard]] Eigen::MatrixXd sampled(const Eigen::MatrixXd& displacements) const {
+    return sampled_ * displacements;
   }
   /// Of q* − q_h, of each element. \param nodalFluxes  numFluxes · nodes × elements, node by node
   [[nodiscard]] Eigen::VectorXd differences(const Eigen::MatrixXd& displacements,
@@ -57,7 +62,7 @@ public:
   }
 
 private:
-  Eigen::MatrixXd centre_;                    ///< q_h at the centre of u
+  Eigen::MatrixXd sampled_;                   ///< q_h, sampled, of u
   Eigen::MatrixXd ofFluxes_, ofDisplacement_; ///< W with ‖W_q q* − W_u u‖² = ∫ (q* − q_h):C⁻¹:(q* − q_h)
   Eigen::MatrixXd stiffness_;
 };
@@ -71,7 +76,7 @@ struct DisplacementNorms {
 /// A displacement and its flux at a point.
 struct FieldValue {
   std::array<double, 3> displacement{}; ///< as many components as the physics has
-  std::array<double, 6> flux{};         ///< as fluxAtCentre
+  std::array<double, 6> flux{};         ///< numFluxes(physics) of them
 };
 
 /// Norms of u_h − u, u given at points; by a rule that is exact for polynomials of degree 5 (of degree 3 on tetrahedra) of

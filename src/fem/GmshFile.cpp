@@ -3,9 +3,11 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/GmshReader.hpp"
+#include "epafi/fem/MeshOrder.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
@@ -41,7 +43,12 @@ std::vector<std::string> namesOf(const std::vector<GmshGroup>& groups) {
   return names;
 }
 
-/// Which facets of the file, in its order, have all their nodes in one of the elements.
+/// Corners of elements of a kind.
+std::size_t numCornersOfGmsh(int type) {
+  return index(numNodesOfGmsh(linearKindOfGmsh(type)));
+}
+
+/// Which facets of the file, in its order, have all their corners in one of the elements.
 std::vector<bool> facetsIn(const GmshContents& file, const Blocks& elements) {
   using Nodes = std::span<const LocalOrdinal>;
   std::vector<std::vector<std::pair<std::size_t, Nodes>>> at(file.points.size()); // by their first nodes
@@ -49,13 +56,14 @@ std::vector<bool> facetsIn(const GmshContents& file, const Blocks& elements) {
   for (const GmshBlock& block : file.facets) {
     const auto count = index(numNodesOfGmsh(block.type));
     for (std::size_t i = 0; i < block.nodes.size(); i += count)
-      at[index(block.nodes[i])].emplace_back(numFacets++, Nodes(block.nodes).subspan(i, count));
+      at[index(block.nodes[i])].emplace_back(numFacets++,
+                                             Nodes(block.nodes).subspan(i, numCornersOfGmsh(block.type)));
   }
   std::vector<bool> isIn(numFacets, false);
   for (const GmshBlock* block : elements) {
     const auto count = index(numNodesOfGmsh(block->type));
     for (std::size_t i = 0; i < block->nodes.size(); i += count) {
-      const Nodes element = Nodes(block->nodes).subspan(i, count);
+      const Nodes element = Nodes(block->nodes).subspan(i, numCornersOfGmsh(block->type));
       for (const LocalOrdinal node : element)
         for (const auto& [facet, nodes] : at[index(node)])
           if (std::all_of(nodes.begin(), nodes.end(), [&](LocalOrdinal other) {
@@ -140,7 +148,8 @@ MeshArrays BodyMaker::make() {
   addCells();
   addGroups();
   addSurfaces();
-  return std::move(arrays_);
+  const int given = numNodesOfGmsh(blocks_.front()->type);
+  return given < numNodesOf(arrays_.cellType) ? completed(std::move(arrays_), true) : std::move(arrays_);
 }
 
 void BodyMaker::chooseBlocks() {
@@ -183,19 +192,41 @@ void BodyMaker::chooseCellType() {
   const std::string allowed =
       file_.dimension == 2 ? "a body in the plane is made of triangles alone or of quadrilaterals alone"
                            : "a solid body is made of tetrahedra alone or of hexahedra alone";
-  std::set<int> kinds;
-  for (const GmshBlock* block : blocks_)
+  std::set<int> shapes, kinds;
+  for (const GmshBlock* block : blocks_) {
     kinds.insert(block->type);
-  if (kinds.size() > 1) {
+    shapes.insert(linearKindOfGmsh(block->type));
+  }
+  if (shapes.size() > 1) {
     std::vector<std::string> found;
-    for (const int kind : kinds)
-      found.push_back(names[static_cast<std::size_t>(kind)]);
+    for (const int shape : shapes)
+      found.push_back(names[static_cast<std::size_t>(shape)]);
     throw InputError(arrays_.name + " mixes " + listed(found, false) + "; " + allowed);
   }
-  const int kind = *kinds.begin();
+  if (kinds.size() > 1)
+    throw InputError(arrays_.name +
+                     " mixes elements of one shape with different numbers of nodes; mesh all of it "
+                     "in one order");
+  const int kind = *shapes.begin();
   if (kind > 5)
     throw InputError(arrays_.name + " is made of " + names[static_cast<std::size_t>(kind)] + "; " + allowed);
   arrays_.cellType = types[static_cast<std::size_t>(kind - 2)];
+  if (kind != *kinds.begin())
+    arrays_.cellType = withOrder(arrays_.cellType, 2);
+}
+
+/// Places of a cell's nodes among those of Gmsh's element; of bricks without nodes inside as far as they have them.
+std::vector<std::size_t> placesInGmsh(CellType type, std::size_t count) {
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (type == CellType::tetrahedron10)
+    std::swap(places[8], places[9]);
+  constexpr std::array<std::size_t, 18> hexahedron{11, 13, 9,  16, 18, 19, 17, 10, 12,
+                                                   14, 15, 22, 23, 21, 24, 20, 25, 26};
+  if (type == CellType::hexahedron27)
+    std::copy(hexahedron.begin(), hexahedron.begin() + static_cast<std::ptrdiff_t>(count - 9),
+              places.begin() + 9);
+  return places;
 }
 
 /// Nodes that the file lists inside the body count even if no element has them: the checks refuse them.
@@ -224,12 +255,13 @@ void BodyMaker::addCells() {
     for (std::size_t e = 0; e < blocks_[b]->tags.size(); ++e)
       order.push_back({blocks_[b]->tags[e], static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(e)});
   std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.tag < b.tag; });
-  const auto count = index(numNodesOf(arrays_.cellType));
+  const auto count = index(numNodesOfGmsh(blocks_.front()->type));
+  const std::vector<std::size_t> places = placesInGmsh(arrays_.cellType, count);
   arrays_.cells.reserve(order.size() * count);
   for (const Place& place : order) {
     const GmshBlock& block = *blocks_[place.block];
-    for (const LocalOrdinal node : std::span(block.nodes).subspan(place.element * count, count))
-      arrays_.cells.push_back(newNumber_[index(node)]);
+    for (const std::size_t i : places)
+      arrays_.cells.push_back(newNumber_[index(block.nodes[place.element * count + i])]);
     arrays_.elementTags.push_back(place.tag);
     entities_.push_back(block.entity);
   }
@@ -249,7 +281,7 @@ void BodyMaker::addGroups() {
 }
 
 void BodyMaker::addSurfaces() {
-  const auto perFacet = index(nodesPerFacet(arrays_.cellType));
+  const auto perFacet = index(numCornersOf(facetTypeOf(arrays_.cellType)));
   const std::vector<bool> isIn = facetsIn(file_, blocks_);
   for (const GmshGroup& surface : file_.surfaces) {
     NamedFacets part{surface.name, {}};
@@ -259,12 +291,12 @@ void BodyMaker::addSurfaces() {
       for (std::size_t i = 0; i < block.tags.size(); ++i) {
         if (!isIn[facet++] || !holds(surface, block.entity))
           continue;
-        if (count != perFacet)
+        if (numCornersOfGmsh(block.type) != perFacet)
           throw InputError(arrays_.name + ": the surface " + inQuotes(surface.name) + " has a facet of " +
                            std::to_string(count) + " nodes (element " + std::to_string(block.tags[i]) +
                            "), but those of the body's elements have " + std::to_string(perFacet) +
-                           "; mesh surface and body together");
-        for (const LocalOrdinal node : std::span(block.nodes).subspan(i * count, count))
+                           " corners; mesh surface and body together");
+        for (const LocalOrdinal node : std::span(block.nodes).subspan(i * count, perFacet))
           part.nodes.push_back(newNumber_[index(node)]);
       }
     }
@@ -285,8 +317,14 @@ std::vector<std::string> GmshFile::groupNames() const {
   return namesOf(contents_.groups);
 }
 
-UnstructuredMesh GmshFile::body(const std::string& group) const {
-  return UnstructuredMesh(BodyMaker(contents_, group).make());
+UnstructuredMesh GmshFile::body(const std::string& group, int order) const {
+  MeshArrays arrays = BodyMaker(contents_, group).make();
+  if (order == 0 || order == orderOf(arrays.cellType))
+    return UnstructuredMesh(std::move(arrays));
+  if (order == 1)
+    return UnstructuredMesh(linearised(std::move(arrays)));
+  const UnstructuredMesh sound(arrays); // what is wrong with it is said in terms of the file
+  return UnstructuredMesh(completed(std::move(arrays), false));
 }
 
 } // namespace epafi::fem

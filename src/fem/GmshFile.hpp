@@ -18,7 +18,7 @@ namespace epafi::fem {
 class GmshFile {
 public:
   /// Reads the file, once for all its bodies. Throws InputError that names the file if it is not there, is damaged, Gmsh refuses
-  /// it, its elements are not linear, or a facet or node of a named surface belongs to no element; Error if the Gmsh library cannot
+  /// it, its elements are of order 3 or more, or a facet or node of a named surface belongs to no element; Error if the Gmsh library cannot
   /// be loaded.
   explicit GmshFile(const std::string& file);
   explicit GmshFile(GmshContents contents);
@@ -32,7 +32,9 @@ public:
   /// The mesh of a group, or of all elements of the highest dimension if `group` is empty. Nodes and elements are numbered in
   /// the order of their numbers in the file. Throws InputError if there is no such group, it mixes shapes of elements, or
   /// UnstructuredMesh refuses it.
-  [[nodiscard]] UnstructuredMesh body(const std::string& group) const;
+  /// \param order  of the mesh, 1 or 2, whatever the file has (MeshOrder.hpp); 0: as the file has it. Elements of 8 and 20 nodes
+  ///               become those of 9 and 27
+  [[nodiscard]] UnstructuredMesh body(const std::string& group, int order = 0) const;
 
 private:
   GmshContents contents_;

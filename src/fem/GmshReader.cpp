@@ -60,6 +60,7 @@ struct Gmsh {
   decltype(&gmshModelGetDimension) dimension = Symbol{library, "gmshModelGetDimension"};
   decltype(&gmshModelMeshGenerate) generate = Symbol{library, "gmshModelMeshGenerate"};
   decltype(&gmshModelMeshRefine) refine = Symbol{library, "gmshModelMeshRefine"};
+  decltype(&gmshModelMeshSetOrder) setOrder = Symbol{library, "gmshModelMeshSetOrder"};
   decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
   decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
 
@@ -119,10 +120,10 @@ public:
     call(gmsh_.setNumber, "Mesh.MeshSizeFactor", meshSizeFactor);
     call(gmsh_.open, file_.c_str());
   }
-  /// Elements that the file does not make itself, split so many times.
-  void mesh(int refinements) const;
-  /// Throws InputError if elements of the highest dimension are not linear.
-  void requireLinear() const;
+  /// Elements that the file does not make itself, split so many times, of an order unless it is 0.
+  void mesh(int refinements, int order) const;
+  /// Throws InputError if elements of the highest dimension are of a kind that is not known.
+  void requireKnown() const;
   /// Saves all there is, whatever the file says of how and what to save.
   void save(const std::string& file) const;
 
@@ -152,16 +153,18 @@ std::vector<int> Session::elementTypes(int dimension) const {
   return {types.data, types.data + types.size};
 }
 
-void Session::mesh(int refinements) const {
+void Session::mesh(int refinements, int order) const {
   int error = 0;
   const int dimension = gmsh_.dimension(&error);
   if (dimension > 0 && elementTypes(dimension).empty())
     call(gmsh_.generate, dimension);
   for (int i = 0; i < refinements; ++i)
     call(gmsh_.refine);
+  if (order > 0)
+    call(gmsh_.setOrder, order);
 }
 
-void Session::requireLinear() const {
+void Session::requireKnown() const {
   const std::vector<int> solid = elementTypes(3);
   for (const int type : solid.empty() ? elementTypes(2) : solid) {
     if (numNodesOfGmsh(type) > 0)
@@ -170,7 +173,7 @@ void Session::requireLinear() const {
     constexpr std::size_t task = 0, numTasks = 1;
     call(gmsh_.elements, type, &tags.data, &tags.size, &nodes.data, &nodes.size, anyEntity, task, numTasks);
     throw InputError("The mesh file " + inQuotes(file_) + ": " +
-                     notLinear(type, static_cast<GlobalOrdinal>(*tags.data)));
+                     unknownKind(type, static_cast<GlobalOrdinal>(*tags.data)));
   }
 }
 
@@ -233,27 +236,27 @@ std::string textOf(const std::string& path, const std::string& file) {
   return text;
 }
 
-std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refinements) {
+std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refinements, int order) {
   const TemporaryFolder folder;
   const Session session(file);
   session.open(meshSizeFactor);
-  session.mesh(refinements);
-  session.requireLinear();
+  session.mesh(refinements, order);
+  session.requireKnown();
   session.save(folder.file());
   return textOf(folder.file(), file);
 }
 
 } // namespace
 
-std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements) {
+std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements, int order) {
   checkFile(file);
   if (file.ends_with(".geo"))
-    return textOfGmsh(file, meshSizeFactor, refinements);
+    return textOfGmsh(file, meshSizeFactor, refinements, order);
   std::string text = textOf(file, file);
   if (refinements == 0)
     return text;
   (void)readMsh(file, std::move(text)); // a file that is known to be sound can be handed to Gmsh
-  return textOfGmsh(file, meshSizeFactor, refinements);
+  return textOfGmsh(file, meshSizeFactor, refinements, order);
 }
 
 } // namespace epafi::fem

@@ -10,13 +10,16 @@
 namespace epafi::fem {
 
 /// Text that readMsh() takes. A .geo is meshed unless it makes elements itself. Throws InputError if there is no such file, it
-/// cannot be read, Gmsh refuses it or makes elements of it that are not linear; Error if Gmsh is needed and cannot be loaded, or
+/// cannot be read, Gmsh refuses it or makes elements of it that are of order 3 or more; Error if Gmsh is needed and cannot be loaded, or
 /// the folder cannot be made.
 ///
 /// \param meshSizeFactor  of a .geo that is meshed: by which all its mesh sizes are multiplied (Gmsh's option
 ///        Mesh.MeshSizeFactor, which the geometry itself can read, for what it does not apply to)
 /// \param refinements  how many times every element is split then, into 4 in the plane and 8 in space; new nodes on curved
 ///        borders lie on the geometry if the file has one
-std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0);
+/// \param order  of the elements that Gmsh makes, 1 or 2: those of order 2 are curved where the geometry is; 0: as the file has
+///        it. A .msh that need not be refined is not changed
+std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0,
+                           int order = 0);
 
 } // namespace epafi::fem

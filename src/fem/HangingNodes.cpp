@@ -24,7 +24,7 @@ Vector3 vectorOf(const Point& point) {
 /// Coordinates moved to where the reference facet is.
 template <class Shape>
 typename Shape::Coordinates clamped(typename Shape::Coordinates xi) {
-  if constexpr (Shape::numNodes > Shape::dimension + 1)
+  if constexpr (!Shape::isSimplex)
     return xi.cwiseMax(-1).cwiseMin(1);
   if (xi.sum() > 1)
     xi.array() -= (xi.sum() - 1) / Shape::dimension;

@@ -46,7 +46,7 @@ public:
   /// Nodes an element (the same for all elements of a mesh).
   [[nodiscard]] int nodesPerElement() const { return numNodesOf(cellType()); }
   [[nodiscard]] virtual Point point(GlobalOrdinal node) const = 0; ///< where a node lies
-  /// Nodes of an element in the order of its shape functions (counter-clockwise in 2-D).
+  /// Nodes of an element in the order of its shape functions (Cell.hpp).
   virtual void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const = 0;
   /// The same for many elements, one after the other; quickest where the elements ascend.
   virtual void elementNodes(std::span<const GlobalOrdinal> elements,
@@ -71,7 +71,7 @@ public:
 
   /// Where some nodes lie; `points` is overwritten.
   void pointsAt(std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) const;
-  /// Corners of an element in the order of its nodes; `points` is overwritten.
+  /// Where the nodes of an element lie; `points` is overwritten.
   void elementPoints(GlobalOrdinal element, std::vector<Point>& points) const;
 };
 

@@ -12,7 +12,7 @@
 
 namespace epafi::fem {
 
-/// A named part of the boundary: facets as nodes, nodesPerFacet() each, in any order round the facet.
+/// A named part of the boundary: facets by their corners, as many each as facets of the cells have, in any order round the facet.
 struct NamedFacets {
   std::string name;
   std::vector<LocalOrdinal> nodes;
@@ -30,7 +30,7 @@ struct MeshArrays {
   std::vector<LocalOrdinal> cells; ///< nodes of the elements, numNodesOf(cellType) each
   std::vector<NamedFacets> surfaces;
   std::vector<NamedElements> groups;
-  /// Numbers that nodes and elements have in the file, for errors.
+  /// Numbers that nodes and elements have in the file, for errors; −1: the file does not have the node.
   std::vector<GlobalOrdinal> nodeTags, elementTags;
 
   [[nodiscard]] LocalOrdinal numElements() const {

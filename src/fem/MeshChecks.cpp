@@ -41,7 +41,8 @@ private:
     return std::string("element ") + std::to_string(mesh_.elementTags[index(number)]);
   }
   [[nodiscard]] std::string node(LocalOrdinal number) const {
-    return std::string("node ") + std::to_string(mesh_.nodeTags[index(number)]);
+    const GlobalOrdinal tag = mesh_.nodeTags[index(number)];
+    return tag < 0 ? "an added node" : "node " + std::to_string(tag);
   }
   /// "(0.5, 1)"
   [[nodiscard]] std::string place(LocalOrdinal number) const;
@@ -199,6 +200,20 @@ void Checker::checkSharing() const {
         refuse(element(e) + " and " + element(other) + " share more than one " + facet_ +
                ", so that they overlap; mesh anew");
       }
+  if (orderOf(mesh_.cellType) == 1)
+    return;
+  for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e)
+    for (std::size_t f = 0; f < perElement; ++f) {
+      const LocalOrdinal other = topology_.across(e, f);
+      if (other < 0)
+        continue;
+      const auto own = nodes(e), others = nodes(other);
+      for (const int place : facetsOf(mesh_.cellType)[f])
+        if (const LocalOrdinal shared = own[index(place)];
+            std::find(others.begin(), others.end(), shared) == others.end())
+          refuse(element(e) + " and " + element(other) + " share the corners of one " + facet_ +
+                 ", but not " + node(shared) + " between them, so that the body is cut there; mesh anew");
+    }
 }
 
 void Checker::checkHangingNodes(const PointTree& tree) const {

@@ -7,20 +7,20 @@
 namespace epafi::fem {
 namespace {
 
-/// A facet in the bucket of its lowest node: its other nodes, ascending (those that it lacks: −1), and its place among
+/// A facet in the bucket of its lowest corner: its other corners, ascending (those that it lacks: −1), and its place among
 /// the facets of all elements.
 struct BucketEntry {
-  std::array<LocalOrdinal, mostFacetNodes - 1> others;
+  std::array<LocalOrdinal, mostFacetCorners - 1> others;
   std::uint32_t place;
 };
 
-/// Calls `visit(place, nodes)` for every facet of every element; the nodes ascend.
+/// Calls `visit(place, corners)` for every facet of every element; the corners ascend.
 template <class Visit>
 void forEachFacet(CellType type, std::span<const LocalOrdinal> cells, const Visit& visit) {
   const auto perElement = static_cast<std::size_t>(numNodesOf(type));
-  const auto perFacet = static_cast<std::size_t>(nodesPerFacet(type));
+  const auto perFacet = static_cast<std::size_t>(numCornersOf(facetTypeOf(type)));
   const auto facets = facetsOf(type);
-  std::array<LocalOrdinal, mostFacetNodes> nodes{};
+  std::array<LocalOrdinal, mostFacetCorners> nodes{};
   std::uint32_t number = 0;
   for (std::size_t first = 0; first < cells.size(); first += perElement)
     for (const Facet& facet : facets) {
@@ -108,11 +108,13 @@ void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdina
 
 void MeshTopology::markBoundary(std::span<const LocalOrdinal> cells) {
   isOnBoundary_.assign(firstElement_.size() - 1, 0);
-  forEachFacet(type_, cells, [&](std::uint32_t place, std::span<const LocalOrdinal> nodes) {
+  const auto perElement = static_cast<std::size_t>(numNodesOf(type_));
+  const auto facets = facetsOf(type_);
+  for (std::size_t place = 0; place < across_.size(); ++place)
     if (across_[place] < 0)
-      for (const LocalOrdinal node : nodes)
-        isOnBoundary_[static_cast<std::size_t>(node)] = 1;
-  });
+      for (const int node : facets[place % facetsPerElement_])
+        isOnBoundary_[static_cast<std::size_t>(
+            cells[place / facetsPerElement_ * perElement + static_cast<std::size_t>(node)])] = 1;
 }
 
 } // namespace epafi::fem

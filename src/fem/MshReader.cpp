@@ -14,6 +14,16 @@ namespace {
 
 constexpr int pointType = 15; ///< Gmsh's number
 
+/// A kind of elements, by Gmsh's number: nodes, and the number of the kind of order 1.
+struct Kind {
+  int numNodes, linear;
+};
+/// 1: line, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid; 8: the same of order 2; 15: point; then
+/// quadrilateral, hexahedron, prism, pyramid of order 2 without nodes inside.
+constexpr std::array<Kind, 20> kinds{{{0, 0},  {2, 1},  {3, 2}, {4, 3},  {4, 4},  {8, 5},  {6, 6},
+                                      {5, 7},  {3, 1},  {6, 2}, {9, 3},  {10, 4}, {27, 5}, {18, 6},
+                                      {14, 7}, {1, 15}, {8, 3}, {20, 5}, {15, 6}, {13, 7}}};
+
 /// Reads the sections of a file in their order.
 class Reader {
 public:
@@ -210,21 +220,23 @@ std::vector<GmshBlock> Contents::blocksOf(int dimension) {
 } // namespace
 
 int numNodesOfGmsh(int type) {
-  // line 1, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid 7
-  constexpr std::array<int, 8> counts{0, 2, 3, 4, 4, 8, 6, 5};
-  if (type == pointType)
-    return 1;
-  return type > 0 && type < 8 ? counts[static_cast<std::size_t>(type)] : 0;
+  return type > 0 && type < static_cast<int>(kinds.size()) ? kinds[static_cast<std::size_t>(type)].numNodes
+                                                           : 0;
+}
+
+int linearKindOfGmsh(int type) {
+  return kinds[static_cast<std::size_t>(type)].linear;
 }
 
 int dimensionOfGmsh(int type) {
-  return type == pointType ? 0 : type == 1 ? 1 : type < 4 ? 2 : 3;
+  const int linear = linearKindOfGmsh(type);
+  return linear == pointType ? 0 : linear == 1 ? 1 : linear < 4 ? 2 : 3;
 }
 
-std::string notLinear(int type, GlobalOrdinal element) {
+std::string unknownKind(int type, GlobalOrdinal element) {
   return "element " + std::to_string(element) + " is of Gmsh's kind " + std::to_string(type) +
-         ", of second or higher order or unknown; only linear elements are allowed, so mesh with "
-         "Mesh.ElementOrder = 1";
+         ", of third or higher order or unknown; only elements of order 1 and 2 are allowed, so mesh with "
+         "Mesh.ElementOrder = 2";
 }
 
 GmshContents readMsh(const std::string& name, std::string text) {

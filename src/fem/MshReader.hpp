@@ -14,7 +14,7 @@ namespace epafi::fem {
 /// Elements of one kind on one geometric entity of the file.
 struct GmshBlock {
   int entity = 0; ///< its number
-  int type = 0;   ///< Gmsh's number of the kind, a linear one
+  int type = 0;   ///< Gmsh's number of the kind
   std::vector<GlobalOrdinal> tags;
   std::vector<LocalOrdinal> nodes; ///< indices into GmshContents::points, numNodesOfGmsh(type) each
 };
@@ -45,15 +45,17 @@ struct GmshContents {
 ///
 /// \param name  the file's name, for errors
 /// \throws InputError that names file and line (or byte) if the text is not in one of these formats, promises more than it
-///         holds, has sections twice or too few, an element that is not linear or whose nodes are not there, or none of
+///         holds, has sections twice or too few, an element of order 3 or more or whose nodes are not there, or none of
 ///         dimension 2 or 3
 GmshContents readMsh(const std::string& name, std::string text);
 
-/// Nodes of a linear element by Gmsh's number of its kind; 0 if it is not linear or unknown.
+/// Nodes of an element of order 1 or 2 by Gmsh's number of its kind; 0 if it is of higher order or unknown.
 int numNodesOfGmsh(int type);
+/// The kind of order 1 with the same corners, by Gmsh's number. Precondition: numNodesOfGmsh(type) > 0.
+int linearKindOfGmsh(int type);
 /// 0 to 3. Precondition: numNodesOfGmsh(type) > 0.
 int dimensionOfGmsh(int type);
 /// What is wrong with a kind of which numNodesOfGmsh() knows nothing, in words that follow the file's name.
-std::string notLinear(int type, GlobalOrdinal element);
+std::string unknownKind(int type, GlobalOrdinal element);
 
 } // namespace epafi::fem

@@ -37,11 +37,11 @@ void addPoint(MshScanner& file, MshRecords& records) {
     coordinate = file.real();
 }
 
-/// Nodes of an element of that kind. Throws if it is not a linear one.
+/// Nodes of an element of that kind. Throws if it is of a kind that is not known.
 int numNodesOf(const MshScanner& file, int type, GlobalOrdinal element) {
   const int number = numNodesOfGmsh(type);
   if (number == 0)
-    file.refuse(notLinear(type, element));
+    file.refuse(unknownKind(type, element));
   return number;
 }
 

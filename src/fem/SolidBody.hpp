@@ -19,7 +19,7 @@ struct SolidBody {
   std::vector<Point> shape;
 
   SolidBody(const scene::Body& ofScene, const Mesh& itsMesh)
-      : body(ofScene), mesh(itsMesh), shape(congruentCorners(itsMesh)) {}
+      : body(ofScene), mesh(itsMesh), shape(congruentShape(itsMesh)) {}
   [[nodiscard]] bool isCongruent() const { return !shape.empty(); }
   [[nodiscard]] int components() const { return componentsOf(body.physics); }
 

@@ -61,7 +61,9 @@ bool SolidDomain::contains(const SolidBody& body, GlobalOrdinal element) const {
     return std::binary_search(elements_.begin(), elements_.end(), element);
   std::vector<Point> points;
   body.mesh.elementPoints(element, points);
-  return liesIn(centreOf(points), box_, dimensionOf(body.mesh.cellType()));
+  const CellType type = body.mesh.cellType();
+  const auto corners = std::span(points).first(static_cast<std::size_t>(numCornersOf(type)));
+  return liesIn(centreOf(corners), box_, dimensionOf(type));
 }
 
 SolidRegions::SolidRegions(const SolidBody& body) {

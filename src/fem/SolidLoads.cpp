@@ -13,14 +13,16 @@
 namespace epafi::fem {
 namespace {
 
-/// ∫N over the part of the segment [a, b] that lies in [low, high], for the two linear functions N of the segment.
-std::array<double, 2> segmentLoad(double a, double b, double low, double high) {
+/// ∫N over the part of the segment [a, b] that lies in [low, high], for the functions N of the segment of an order.
+std::array<double, 3> segmentLoad(double a, double b, double low, double high, int order) {
   const double from = std::max(a, low), to = std::min(b, high);
   if (to <= from)
-    return {0, 0};
-  const double s =
-      (0.5 * (from + to) - a) / (b - a); // a linear function's value in the middle times the length
-  return {(to - from) * (1 - s), (to - from) * s};
+    return {0, 0, 0};
+  const double s = (0.5 * (from + to) - a) / (b - a), length = to - from;
+  if (order == 1) // a linear function's value in the middle times the length
+    return {length * (1 - s), length * s, 0};
+  const double half = 0.5 * length / (b - a), square = s * s + half * half / 3; // mean of s²
+  return {length * (1 - 3 * s + 2 * square), length * 4 * (s - square), length * (2 * square - s)};
 }
 
 /// The node that lies at the point of a load.
@@ -75,14 +77,14 @@ void SolidLoads::addGridForce(const SolidBody& body, const scene::SolidLoad& loa
   const StructuredMesh& mesh = *body.mesh.structured();
   GridForce force{load.value, {}};
   for (std::size_t d = 0; d < 3; ++d)
-    force.shares[d].assign(static_cast<std::size_t>(mesh.elements()[d]), {0, 0});
+    force.shares[d].assign(static_cast<std::size_t>(mesh.elements()[d]), {0, 0, 0});
   for (std::size_t d = 0; d < 3; ++d)
     for (std::size_t k = 0; k < force.shares[d].size(); ++k)
       force.shares[d][k] = segmentLoad(mesh.coordinate(d, static_cast<GlobalOrdinal>(k)),
                                        mesh.coordinate(d, static_cast<GlobalOrdinal>(k) + 1),
-                                       load.box.lower[d], load.box.upper[d]);
+                                       load.box.lower[d], load.box.upper[d], orderOf(mesh.cellType()));
   if (mesh.dimension() == 2)
-    force.shares[2].front() = {1, 0};
+    force.shares[2].front() = {1, 0, 0};
   gridForces_.push_back(std::move(force));
 }
 
@@ -148,15 +150,17 @@ void SolidLoads::addGridForces(const SolidBody& body, const SolidRegions& region
       walk.to(elements[e]);
       const auto share = [&](std::size_t d) { return force.shares[d][static_cast<std::size_t>(walk[d])]; };
       const auto x = share(0), y = share(1), z = share(2);
-      if ((x[0] == 0 && x[1] == 0) || (y[0] == 0 && y[1] == 0) || (z[0] == 0 && z[1] == 0))
-        continue; // beside the box
+      const auto isBeside = [](const auto& part) { return part[0] == 0 && part[1] == 0 && part[2] == 0; };
+      if (isBeside(x) || isBeside(y) || isBeside(z))
+        continue;
       const double factor = thickness.empty() ? 1 : thickness[e];
       double* next = load;
-      for (int layer = 0; layer < mesh.dimension() - 1; ++layer)
-        for (const double inPlane : {x[0] * y[0], x[1] * y[0], x[1] * y[1], x[0] * y[1]})
-          for (int c = 0; c < components; ++c)
-            *next++ += factor * force.value[static_cast<std::size_t>(c)] *
-                       (inPlane * z[static_cast<std::size_t>(layer)]);
+      for (const auto& place : mesh.places()) {
+        const double product = x[static_cast<std::size_t>(place[0])] * y[static_cast<std::size_t>(place[1])] *
+                               z[static_cast<std::size_t>(place[2])];
+        for (int c = 0; c < components; ++c)
+          *next++ += factor * force.value[static_cast<std::size_t>(c)] * product;
+      }
     }
   }
 }

@@ -32,11 +32,11 @@ private:
     SolidDomain domain;
     scene::Vector3 value;
   };
-  /// The same on what of a structured mesh lies in a box: ∫N over the loaded part of each column, row and layer, for the two linear functions N
+  /// The same on what of a structured mesh lies in a box: ∫N over the loaded part of each column, row and layer, for the functions N of one coordinate
   /// there. Products of the three are the integrals of the elements' shape functions.
   struct GridForce {
     scene::Vector3 value;
-    std::array<std::vector<std::array<double, 2>>, 3> shares;
+    std::array<std::vector<std::array<double, 3>>, 3> shares;
   };
 
   void addGridForce(const SolidBody& body, const scene::SolidLoad& load);

@@ -1,5 +1,7 @@
 #include "epafi/fem/StructuredMesh.hpp"
 
+#include "epafi/fem/ShapeFunctions.hpp"
+
 #include <algorithm>
 #include <string_view>
 
@@ -29,9 +31,19 @@ std::span<const Side> sidesOf(int dimension) {
   return dimension == 2 ? std::span<const Side>(sidesOfRectangle) : std::span<const Side>(sidesOfBox);
 }
 
-/// (i,j,k) of the corners of an element; the first four are those of a quadrilateral.
-constexpr std::array<std::array<int, 3>, 8> corners{
-    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+/// (i,j,k) of the nodes of an element in the order of Cell.hpp.
+template <class Shape>
+std::span<const std::array<int, 3>> placesOf() {
+  static const auto places = [] {
+    std::array<std::array<int, 3>, static_cast<std::size_t>(Shape::numNodes)> all{};
+    for (int node = 0; node < Shape::numNodes; ++node)
+      for (int d = 0; d < Shape::dimension; ++d)
+        all[static_cast<std::size_t>(node)][static_cast<std::size_t>(d)] =
+            static_cast<int>(Shape::node(node)[d] + 1) * Shape::order / 2;
+    return all;
+  }();
+  return places;
+}
 
 /// (i,j,k) of a number.
 Place placeOf(GlobalOrdinal number, const std::array<int, 3>& size) {
@@ -40,9 +52,11 @@ Place placeOf(GlobalOrdinal number, const std::array<int, 3>& size) {
   return walk.place();
 }
 
-/// Of the n elements in a row, how many touch its node i.
-int numTouching(GlobalOrdinal i, int n) {
-  return 2 - static_cast<int>(i == 0) - static_cast<int>(i == n);
+/// Of the n elements of an order in a row, how many touch its node i.
+int numTouching(GlobalOrdinal i, int n, int order) {
+  return order == 2 && i % 2 != 0
+             ? 1
+             : 2 - static_cast<int>(i == 0) - static_cast<int>(i == GlobalOrdinal{n} * order);
 }
 
 /// Appends the elements from (i,j,k) = first to end, the latter excluded, ascending.
@@ -56,10 +70,10 @@ void appendElements(const Place& first, const Place& end, const std::array<int, 
 
 } // namespace
 
-StructuredMesh::StructuredMesh(const scene::Box& box, const std::array<int, 3>& elements)
-    : box_(box),
-      dimension_(elements[2] > 0 ? 3 : 2), elements_{elements[0], elements[1], std::max(elements[2], 1)},
-      nodes_{elements[0] + 1, elements[1] + 1, elements[2] + 1} {
+StructuredMesh::StructuredMesh(const scene::Box& box, const std::array<int, 3>& elements, int order)
+    : box_(box), dimension_(elements[2] > 0 ? 3 : 2),
+      order_(order), elements_{elements[0], elements[1], std::max(elements[2], 1)},
+      nodes_{order * elements[0] + 1, order * elements[1] + 1, order * elements[2] + 1} {
   if (dimension_ == 2)
     box_.lower[2] = box_.upper[2] = 0;
   for (std::size_t d = 0; d < 3; ++d)
@@ -74,31 +88,31 @@ GlobalOrdinal StructuredMesh::numElements() const {
   return static_cast<GlobalOrdinal>(elements_[0]) * elements_[1] * elements_[2];
 }
 
-double StructuredMesh::coordinate(std::size_t axis, GlobalOrdinal k) const {
+double StructuredMesh::nodeCoordinate(std::size_t axis, GlobalOrdinal k) const {
   // Interpolated from both ends, so that the last node lies on the far side to the last digit.
-  const double t = static_cast<double>(k) / elements_[axis];
+  const double t = static_cast<double>(k) / (order_ * elements_[axis]);
   return (1 - t) * box_.lower[axis] + t * box_.upper[axis];
 }
 
 Point StructuredMesh::point(GlobalOrdinal node) const {
   const Place place = placeOf(node, nodes_);
-  return {coordinate(0, place[0]), coordinate(1, place[1]), coordinate(2, place[2])};
+  return {nodeCoordinate(0, place[0]), nodeCoordinate(1, place[1]), nodeCoordinate(2, place[2])};
 }
 
 void StructuredMesh::elementNodes(std::span<const GlobalOrdinal> elements,
                                   std::span<GlobalOrdinal> nodes) const {
   const GlobalOrdinal row = nodes_[0], layer = row * nodes_[1];
-  const std::array<GlobalOrdinal, 8> offsets{0,     1,         row + 1,         row,
-                                             layer, layer + 1, layer + row + 1, layer + row};
+  std::array<GlobalOrdinal, mostNodes> offsets{};
+  const std::size_t perElement = places().size();
+  for (std::size_t i = 0; i < perElement; ++i)
+    offsets[i] = places()[i][0] + places()[i][1] * row + places()[i][2] * layer;
   GridWalk walk = elementWalk();
   GlobalOrdinal* next = nodes.data();
   for (const GlobalOrdinal element : elements) {
     walk.to(element);
-    const GlobalOrdinal lowest = walk[0] + walk[1] * row + walk[2] * layer;
-    for (std::size_t corner = 0; corner < 4; ++corner)
-      *next++ = lowest + offsets[corner];
-    for (std::size_t corner = 4; dimension_ == 3 && corner < 8; ++corner)
-      *next++ = lowest + offsets[corner];
+    const GlobalOrdinal lowest = order_ * (walk[0] + walk[1] * row + walk[2] * layer);
+    for (std::size_t i = 0; i < perElement; ++i)
+      *next++ = lowest + offsets[i];
   }
 }
 
@@ -107,8 +121,8 @@ void StructuredMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>
   const Place place = placeOf(node, nodes_);
   Place first{}, end{};
   for (std::size_t d = 0; d < 3; ++d) {
-    first[d] = std::max<GlobalOrdinal>(place[d] - 1, 0);
-    end[d] = std::min<GlobalOrdinal>(place[d] + 1, elements_[d]);
+    first[d] = std::max<GlobalOrdinal>((place[d] + order_ - 1) / order_ - 1, 0);
+    end[d] = std::min<GlobalOrdinal>(place[d] / order_ + 1, elements_[d]);
   }
   appendElements(first, end, elements_, elements);
 }
@@ -118,9 +132,9 @@ void StructuredMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::
   for (std::size_t k = 0; k < nodes.size();) { // row by row
     walk.to(nodes[k]);
     const GlobalOrdinal first = nodes[k] - walk[0];
-    const int ofRow = numTouching(walk[1], elements_[1]) * numTouching(walk[2], elements_[2]);
+    const int ofRow = numTouching(walk[1], elements_[1], order_) * numTouching(walk[2], elements_[2], order_);
     for (; k < nodes.size() && nodes[k] < first + nodes_[0]; ++k)
-      numbers[k] = ofRow * numTouching(nodes[k] - first, elements_[0]);
+      numbers[k] = ofRow * numTouching(nodes[k] - first, elements_[0], order_);
   }
 }
 
@@ -139,7 +153,7 @@ void StructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<Global
 bool StructuredMesh::isBoundaryNode(GlobalOrdinal node) const {
   const Place place = placeOf(node, nodes_);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d)
-    if (place[d] == 0 || place[d] == elements_[d])
+    if (place[d] == 0 || place[d] == nodes_[d] - 1)
       return true;
   return false;
 }
@@ -171,17 +185,22 @@ Surface StructuredMesh::surface(const std::string& name) const {
   return surface;
 }
 
-std::vector<Point> StructuredMesh::elementCorners() const {
+std::vector<Point> StructuredMesh::elementShape() const {
   std::vector<Point> points;
-  for (int corner = 0; corner < nodesPerElement(); ++corner) {
-    const auto& [i, j, k] = corners[static_cast<std::size_t>(corner)];
-    points.push_back({i * elementSize_[0], j * elementSize_[1], k * elementSize_[2]});
-  }
+  for (const auto& [i, j, k] : places())
+    points.push_back(
+        {i * elementSize_[0] / order_, j * elementSize_[1] / order_, k * elementSize_[2] / order_});
   return points;
 }
 
-std::vector<Point> congruentCorners(const Mesh& mesh) {
-  return mesh.structured() != nullptr ? mesh.structured()->elementCorners() : std::vector<Point>();
+std::span<const std::array<int, 3>> StructuredMesh::places() const {
+  if (order_ == 1)
+    return dimension_ == 2 ? placesOf<Brick<2>>() : placesOf<Brick<3>>();
+  return dimension_ == 2 ? placesOf<Brick<2, 2>>() : placesOf<Brick<3, 2>>();
+}
+
+std::vector<Point> congruentShape(const Mesh& mesh) {
+  return mesh.structured() != nullptr ? mesh.structured()->elementShape() : std::vector<Point>();
 }
 
 } // namespace epafi::fem

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Structured mesh of quadrilaterals on a rectangle, or of hexahedra on an axis-parallel box. Nodes are numbered row by row
-/// and layer by layer from the lowest corner, x fastest, then y, then z: node (i,j,k) is i + (n_x + 1)(j + (n_y + 1)k); element
-/// (i,j,k) is i + n_x(j + n_y k). Nothing of the mesh's size is stored.
+/// Structured mesh of quadrilaterals on a rectangle, or of hexahedra on an axis-parallel box, of order p. Nodes are numbered row
+/// by row and layer by layer from the lowest corner, x fastest, then y, then z: node (i,j,k) is
+/// i + (p n_x + 1)(j + (p n_y + 1)k); element (i,j,k) is i + n_x(j + n_y k). Nothing of the mesh's size is stored.
 
 #include "epafi/fem/Mesh.hpp"
 #include "epafi/scene/Body.hpp"
@@ -46,14 +46,15 @@ private:
 class StructuredMesh final : public Mesh {
 public:
   /// \param elements  in x, y and z; z: 0 in the plane, where the box's third coordinates do not matter
+  /// \param order  1 or 2
   /// Precondition: elements ≥ 1 in all directions, box of positive and finite size (the scene's validation sees to both).
-  StructuredMesh(const scene::Box& box, const std::array<int, 3>& elements);
+  StructuredMesh(const scene::Box& box, const std::array<int, 3>& elements, int order = 1);
 
   [[nodiscard]] const StructuredMesh* structured() const override { return this; }
   [[nodiscard]] GlobalOrdinal numNodes() const override;
   [[nodiscard]] GlobalOrdinal numElements() const override;
   [[nodiscard]] CellType cellType() const override {
-    return dimension_ == 2 ? CellType::quadrilateral : CellType::hexahedron;
+    return withOrder(dimension_ == 2 ? CellType::quadrilateral : CellType::hexahedron, order_);
   }
   [[nodiscard]] Point point(GlobalOrdinal node) const override;
   void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const override {
@@ -81,22 +82,29 @@ public:
   /// Lengths of the sides of an element, 0 in z in the plane. All elements are congruent: what depends on size and shape
   /// alone, such as a stiffness, is the same for all; the coordinates of point() differ from this by round-off only.
   [[nodiscard]] const scene::Vector3& elementSize() const { return elementSize_; }
-  /// Corners of every element, from its lowest one on.
-  [[nodiscard]] std::vector<Point> elementCorners() const;
-  /// Coordinate of the k-th plane (in the plane: line) of nodes across an axis.
-  [[nodiscard]] double coordinate(std::size_t axis, GlobalOrdinal k) const;
+  /// Nodes of every element, from its lowest corner on.
+  [[nodiscard]] std::vector<Point> elementShape() const;
+  /// (i,j,k) of each node of an element among its (p + 1)³ or (p + 1)² nodes, x fastest.
+  [[nodiscard]] std::span<const std::array<int, 3>> places() const;
+  /// Coordinate of the k-th plane (in the plane: line) between elements across an axis.
+  [[nodiscard]] double coordinate(std::size_t axis, GlobalOrdinal k) const {
+    return nodeCoordinate(axis, order_ * k);
+  }
   /// From element to element.
   [[nodiscard]] GridWalk elementWalk() const { return {elements_[0], elements_[1]}; }
 
 private:
+  /// Of the k-th plane of nodes.
+  [[nodiscard]] double nodeCoordinate(std::size_t axis, GlobalOrdinal k) const;
+
   scene::Box box_;
-  int dimension_;
+  int dimension_, order_;
   std::array<int, 3> elements_; ///< layers in z: 1 in the plane
   std::array<int, 3> nodes_;    ///< along each axis; in z: 1 in the plane
   scene::Vector3 elementSize_{0, 0, 0};
 };
 
-/// Corners of every element, from the origin on, where the mesh is structured and all are congruent; else empty.
-std::vector<Point> congruentCorners(const Mesh& mesh);
+/// Nodes of every element, from the origin on, where the mesh is structured and all are congruent; else empty.
+std::vector<Point> congruentShape(const Mesh& mesh);
 
 } // namespace epafi::fem

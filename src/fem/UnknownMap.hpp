@@ -1,11 +1,11 @@
 #pragma once
 
 /// Where a body's unknowns are. They belong to entities of its mesh; a *node* here is a point that carries unknowns, `components`
-/// of them. Of order 1 the nodes are the mesh's vertices, and nothing is stored or looked up beyond the mesh.
+/// of them. Shape functions are of the mesh's order, so that the nodes are those of the mesh, and nothing is stored or looked
+/// up beyond it.
 
 #include "epafi/fem/Mesh.hpp"
 
-#include <cassert>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,18 +15,14 @@ namespace epafi::fem {
 /// Keeps a reference to the mesh, which must outlive it. Every query is local and as cheap as the mesh's own.
 class UnknownMap {
 public:
-  /// \param order  of the shape functions; 1. \param components  unknowns a node: 1, 2 or 3
-  UnknownMap(const Mesh& mesh, int order, int components)
-      : mesh_(&mesh), order_(order), components_(components) {
-    assert(order == 1);
-  }
+  /// \param components  unknowns a node: 1, 2 or 3
+  UnknownMap(const Mesh& mesh, int components) : mesh_(&mesh), components_(components) {}
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
-  [[nodiscard]] int order() const { return order_; }
   [[nodiscard]] int components() const { return components_; }
   /// Of the whole body.
   [[nodiscard]] GlobalOrdinal numNodes() const { return mesh_->numNodes(); }
-  [[nodiscard]] int nodesPerElement() const { return numNodesOf(mesh_->cellType(), order_); }
+  [[nodiscard]] int nodesPerElement() const { return numNodesOf(mesh_->cellType()); }
   /// Unknowns an element: size of its stiffness.
   [[nodiscard]] int unknownsPerElement() const { return nodesPerElement() * components_; }
   /// Nodes of elements, one element after the other, in the order of the shape functions; quickest where the elements ascend.
@@ -49,7 +45,7 @@ public:
 
 private:
   const Mesh* mesh_;
-  int order_, components_;
+  int components_;
 };
 
 } // namespace epafi::fem

@@ -47,7 +47,7 @@ UnstructuredMesh::UnstructuredMesh(MeshArrays arrays)
 }
 
 void UnstructuredMesh::findFacets(const NamedFacets& surface) {
-  const auto perFacet = static_cast<std::size_t>(nodesPerFacet(arrays_.cellType));
+  const auto perFacet = index(numCornersOf(facetTypeOf(arrays_.cellType)));
   std::vector<FacetPlace> facets;
   facets.reserve(surface.nodes.size() / perFacet);
   for (std::size_t i = 0; i < surface.nodes.size(); i += perFacet)
@@ -65,7 +65,7 @@ void UnstructuredMesh::findFacets(const NamedFacets& surface) {
 
 UnstructuredMesh::FacetPlace UnstructuredMesh::findFacet(const std::string& surface,
                                                          std::span<const LocalOrdinal> nodes) const {
-  const auto facets = facetsOf(arrays_.cellType);
+  const auto facets = facetsOf(withOrder(arrays_.cellType, 1));
   LocalOrdinal inside = -1;
   for (const LocalOrdinal element : topology_.elementsOf(nodes[0])) {
     const auto own = nodesOf(arrays_.cellType, arrays_.cells, element);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Mesh of any linear elements of one shape, held as arrays: about 140 bytes a hexahedron or 70 a tetrahedron, all told.
+/// Mesh of any elements of one shape and order, held as arrays: about 140 bytes a hexahedron or 70 a tetrahedron, all told.
 
 #include "epafi/fem/MeshArrays.hpp"
 #include "epafi/fem/MeshTopology.hpp"

@@ -16,11 +16,11 @@
 namespace epafi::model {
 namespace {
 
-/// Meshes from files by file, factor of mesh sizes, and refinements.
-using MeshFiles = std::map<std::tuple<std::string, double, int>, fem::GmshFile>;
+/// Meshes from files by file, factor of mesh sizes, refinements, and the order that Gmsh is to give them.
+using MeshFiles = std::map<std::tuple<std::string, double, int, int>, fem::GmshFile>;
 
 MeshFiles::key_type keyOf(const scene::MeshSource& source) {
-  return {source.file, source.sizeFactor, source.refinements};
+  return {source.file, source.sizeFactor, source.refinements, source.order};
 }
 
 /// Rank 0's text on all ranks, in messages whose length an int counts. Collective.
@@ -44,7 +44,7 @@ MeshFiles readMeshFiles(const scene::Scene& scene, const Comm& comm) {
     std::string text;
     collectively(comm, [&] {
       if (comm.getRank() == 0)
-        text = fem::textOfMeshFile(source.file, source.sizeFactor, source.refinements);
+        text = fem::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order);
     });
     broadcastText(comm, text);
     collectively(comm, [&] { files.emplace(keyOf(source), fem::readMsh(source.file, std::move(text))); });
@@ -82,8 +82,9 @@ void requireCut(const scene::Body& body, const fem::Mesh& mesh) {
 std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, const MeshFiles& files) {
   const scene::MeshSource& source = body.mesh;
   if (!source.file.empty())
-    return std::make_unique<const fem::UnstructuredMesh>(files.at(keyOf(source)).body(source.group));
-  return std::make_unique<const fem::StructuredMesh>(source.box, source.elements);
+    return std::make_unique<const fem::UnstructuredMesh>(
+        files.at(keyOf(source)).body(source.group, source.order));
+  return std::make_unique<const fem::StructuredMesh>(source.box, source.elements, source.order);
 }
 
 /// Whether two bodies are meshed and cut alike: their partitions are the same.

@@ -1,6 +1,7 @@
 #include "epafi/model/SceneContacts.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/contact/BasisChange.hpp"
 #include "epafi/contact/ContactSearch.hpp"
 #include "epafi/contact/KnownRows.hpp"
 #include "epafi/scene/EdgeContact.hpp"
@@ -81,7 +82,10 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
     requireSound(scene, number);
     const scene::SurfaceContact& terms = scene.contacts[number];
     const int components = componentsOf(scene.bodies[static_cast<std::size_t>(terms.first)].physics);
-    known.dropFrom(contacts.emplace_back(layoutContact(terms, bodies, components)));
+    ContactLayout& contact = contacts.emplace_back(layoutContact(terms, bodies, components));
+    known.dropFrom(contact);
+    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(terms.first)].mesh;
+    contact::changeBasis(mesh, mesh.surface(terms.firstSurface), contact);
   }
   GlobalOrdinal firstRow = 0;
   for (ContactLayout& contact : contacts) {

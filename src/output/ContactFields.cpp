@@ -105,11 +105,11 @@ std::vector<double> pressureAreas(const SolvedScene& solved, int contact) {
 
 std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::size_t row) {
   const std::size_t components = contact.directions.size() / contact.firstNodes.size();
-  if (components == 1)
-    return {0, 0, contact.directions[row]};
   std::array<double, 3> direction{};
-  std::copy_n(contact.directions.begin() + static_cast<std::ptrdiff_t>(row * components), components,
-              direction.begin());
+  contact.forEachShare(row, [&](std::size_t node, double weight) {
+    for (std::size_t c = 0; c < components; ++c) // of membranes along z
+      direction[components == 1 ? 2 : c] += weight * contact.directions[node * components + c];
+  });
   return direction;
 }
 

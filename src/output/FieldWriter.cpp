@@ -84,6 +84,8 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   file.createGroup(group);
   file.attribute(group, "name", name);
   file.attribute(group, "first_body", firstBody);
+  if (fields.facetType)
+    file.attribute(group, "cell_type", std::string(fem::toString(*fields.facetType)));
   const GlobalOrdinal n = fields.numRows;
   XdmfGrid grid;
   grid.name = name;

@@ -21,8 +21,16 @@ std::string escaped(const std::string& text) {
 
 /// Value of TopologyType, and the attribute that goes with it where cells are of any length.
 const char* nameOf(std::optional<fem::CellType> type) {
-  constexpr std::array names{"Triangle", "Quadrilateral", "Tetrahedron", "Hexahedron",
-                             "Polyline\" NodesPerElement=\"2"}; // in the order of CellType
+  constexpr std::array names{"Triangle",
+                             "Quadrilateral",
+                             "Tetrahedron",
+                             "Hexahedron",
+                             "Polyline\" NodesPerElement=\"2", // in the order of CellType
+                             "Triangle_6",
+                             "Quadrilateral_9",
+                             "Tetrahedron_10",
+                             "Hexahedron_27",
+                             "Edge_3"};
   return type ? names.at(static_cast<std::size_t>(*type)) : "Polyvertex\" NodesPerElement=\"1";
 }
 

@@ -32,7 +32,7 @@ struct XdmfGrid {
   std::string name;
   XdmfData points;                       ///< n × 3
   std::optional<fem::CellType> cellType; ///< nothing: points
-  XdmfData cells; ///< n_e × corners of a cell, in the order of VTK, which is that of CellType; points: n × 1
+  XdmfData cells; ///< n_e × nodes of a cell, in the order of VTK, which is that of CellType; points: n × 1
   std::vector<XdmfAttribute> attributes;
 };
 

@@ -89,6 +89,7 @@ struct MeshSource {
   std::string file;                     ///< if not empty, a file that Gmsh reads
   double sizeFactor = 1;                ///< by which all element sizes of a geometry (.geo) are multiplied
   int refinements = 0;                  ///< how often every element of the file is split
+  int order = 1;                        ///< of the elements, 1 or 2; 0: as the mesh file has it
   std::string group; ///< the physical group in it that is this body; empty: all its elements
 };
 

@@ -36,7 +36,7 @@ void requireTellableNodes(const ListReader& list, const std::string& extent, con
   constexpr double mostNodes = std::numeric_limits<int>::max();
   double numNodes = 1;
   for (std::size_t d = 0; d < dimension; ++d)
-    numNodes *= mesh.elements[d] + 1.0;
+    numNodes *= 1.0 * mesh.order * mesh.elements[d] + 1;
   if (numNodes > mostNodes)
     list.refuseValue("Elements", "that makes " + valueText(numNodes) + " nodes and a body may have at most " +
                                      valueText(mostNodes));
@@ -59,6 +59,7 @@ MeshSource readMesh(const ListReader& list, int dimension) {
       list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
     source.refinements = list.integer("Mesh Refinements");
     source.group = list.word("Group");
+    source.order = list.has("Order") ? list.integer("Order") : 0;
     return source;
   }
   list.refuseGiven({"Group", "Mesh Size Factor", "Mesh Refinements"},
@@ -71,6 +72,7 @@ MeshSource readMesh(const ListReader& list, int dimension) {
     list.require(name, " unless it has a mesh file");
   source.box = list.box(extent, dimension);
   source.elements = list.counts("Elements", dimension);
+  source.order = list.integer("Order");
   if (dimension == 2)
     source.elements[2] = 0;
   requireTellableNodes(list, extent, source, static_cast<std::size_t>(dimension));

@@ -44,7 +44,12 @@ void describeMesh(ParameterList& list) {
       counts);
   list.set("Mesh", "",
            "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
-           "directory. Linear triangles, quadrilaterals, tetrahedra or hexahedra.");
+           "directory. Triangles, quadrilaterals, tetrahedra or hexahedra, linear or quadratic.");
+  addInteger(
+      list, "Order", MeshSource().order,
+      "Order of the elements: linear or quadratic. Of a mesh file its own order counts if none is given; "
+      "quadratic elements of a geometry (.geo) are curved where it is.",
+      1, 2);
   addReal(list, "Mesh Size Factor", MeshSource().sizeFactor,
           "With a .geo file: by which all its mesh sizes are multiplied; 0.5 halves the elements.", 0.0,
           infinity, true);

@@ -155,7 +155,7 @@ TEST(BoxMeshTest, ElementsFillTheBox) {
     const StructuredMesh mesh = meshOf(size);
     const auto [a, b, c] = mesh.elementSize();
     EXPECT_NEAR(a * b * c * static_cast<double>(mesh.numElements()), 1.5, 1e-14);
-    const std::vector<Point> corners = mesh.elementCorners();
+    const std::vector<Point> corners = mesh.elementShape();
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
       const Corners nodes = cornersOf(mesh, element);
       for (std::size_t corner = 0; corner < 8; ++corner)

@@ -14,6 +14,7 @@ TEST(CellTest, FacetsLookOutwards) {
     for (const Point& point : unitCell(type))
       points.push_back(vectorOf(point));
     ASSERT_EQ(points.size(), static_cast<std::size_t>(numNodesOf(type)));
+    points.resize(static_cast<std::size_t>(numCornersOf(type)));
     Eigen::Vector3d centre(0, 0, 0);
     for (const auto& point : points)
       centre += point / static_cast<double>(points.size());
@@ -34,7 +35,7 @@ TEST(CellTest, FacetsCloseTheBoundary) {
     const auto n = static_cast<std::size_t>(numNodesOf(type));
     std::vector<int> balance(n * n, 0);
     for (const auto& facet : facetsOf(type)) {
-      const int corners = nodesPerFacet(type);
+      const int corners = numCornersOf(facetTypeOf(type));
       if (dimensionOf(type) == 2) {
         balance[static_cast<std::size_t>(facet[0])] += 1; // ends of edges
         balance[static_cast<std::size_t>(facet[1])] -= 1;
@@ -49,6 +50,36 @@ TEST(CellTest, FacetsCloseTheBoundary) {
     }
     for (const int value : balance)
       EXPECT_EQ(value, 0);
+  }
+}
+
+/// The nodes between corners lie in the middle of the unit cell's edges and faces, in the facets as in the cell.
+TEST(CellTest, NodesOfOrderTwoLieBetweenTheCorners) {
+  for (const CellType linear : linearCellTypes) {
+    const CellType type = withOrder(linear, 2);
+    SCOPED_TRACE(toString(type));
+    EXPECT_EQ(withOrder(type, 1), linear);
+    EXPECT_EQ(orderOf(type), 2);
+    EXPECT_EQ(numCornersOf(type), numNodesOf(linear));
+    const std::vector<Point> points = unitCell(type);
+    const auto at = [&](int node) { return vectorOf(points[static_cast<std::size_t>(node)]); };
+    const auto edges = edgesOf(type);
+    for (std::size_t e = 0; 2 * e < edges.size(); ++e)
+      EXPECT_EQ(at(numCornersOf(type) + static_cast<int>(e)),
+                0.5 * (at(edges[2 * e]) + at(edges[2 * e + 1])));
+    for (std::size_t f = 0; f < facetsOf(type).size(); ++f) {
+      const Facet& facet = facetsOf(type)[f];
+      const auto corners = static_cast<std::size_t>(numCornersOf(facet.type));
+      for (std::size_t i = 0; i < corners; ++i)
+        EXPECT_EQ(facet[i], facetsOf(linear)[f][i]);
+      const auto between = edgesOf(facet.type);
+      for (std::size_t e = 0; 2 * e < between.size(); ++e)
+        EXPECT_EQ(at(facet[corners + e]), 0.5 * (at(facet[static_cast<std::size_t>(between[2 * e])]) +
+                                                 at(facet[static_cast<std::size_t>(between[2 * e + 1])])));
+      if (facet.type == CellType::quadrilateral9) {
+        EXPECT_EQ(at(facet[8]), 0.25 * (at(facet[0]) + at(facet[1]) + at(facet[2]) + at(facet[3])));
+      }
+    }
   }
 }
 

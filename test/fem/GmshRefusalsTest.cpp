@@ -45,9 +45,9 @@ TEST_F(GmshRefusalsTest, RefusesMixedAndCurvedElements) {
   EXPECT_EQ(right.cellType(), CellType::triangle);
   expectRefused(R"(SetFactory("OpenCASCADE");
 Rectangle(1) = {0, 0, 0, 1, 1};
-Mesh.ElementOrder = 2;
+Mesh.ElementOrder = 3;
 )",
-                {"curved.geo", "second or higher order", "Mesh.ElementOrder = 1"}, "", "curved.geo");
+                {"curved.geo", "third or higher order", "Mesh.ElementOrder = 2"}, "", "curved.geo");
   expectRefused(R"($MeshFormat
 2.2 0 8
 $EndMeshFormat

@@ -173,8 +173,8 @@ TEST_F(MshReaderTest, RefusesElementsThatCannotBe) {
   expectMshRefused(replaced(plate22, "3 3 2 3 2 2 3 6 5", "3 3 2 3 2 2 3 6 8"), {"node 8, but no such node"});
   expectMshRefused(replaced(plate22, "3 3 2 3 2 2 3 6 5", "3 3 2 3 2 2 3 6 -5"), {"the number -5"});
   expectMshRefused(replaced(plate22, "6 2 1 0\n9 5 5 0", "6 2 1 0\n6 5 5 0"), {"node 6 twice"});
-  expectMshRefused(replaced(plate22, "3 3 2 3 2 2", "3 16 2 3 2 2"),
-                   {"element 3", "kind 16", "higher order"});
+  expectMshRefused(replaced(plate22, "3 3 2 3 2 2", "3 21 2 3 2 2"),
+                   {"element 3", "kind 21", "higher order"});
   expectMshRefused(replaced(plate22, "3 3 2 3 2 2", "3 -3 2 3 2 2"), {"element 3", "kind -3"});
   expectMshRefused(replaced(plate22, "3 3 2 3 2 2", "3 3 -2 3 2 2"), {"-2 tags"});
   expectMshRefused(replaced(plate22, "3 3 2 3 2 2", "3 3 2 -2147483648 2 2"), {"group", "-2147483648"});

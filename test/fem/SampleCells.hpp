@@ -4,6 +4,7 @@
 
 #include "epafi/fem/Cell.hpp"
 #include "epafi/fem/Mesh.hpp"
+#include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
@@ -15,12 +16,17 @@
 #include <cstdint>
 #include <random>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace epafi::fem {
 
-constexpr std::array allCellTypes{CellType::triangle, CellType::quadrilateral, CellType::tetrahedron,
-                                  CellType::hexahedron};
+inline constexpr std::array linearCellTypes{CellType::triangle, CellType::quadrilateral,
+                                            CellType::tetrahedron, CellType::hexahedron};
+inline constexpr std::array allCellTypes{
+    CellType::triangle,  CellType::quadrilateral,  CellType::tetrahedron,   CellType::hexahedron,
+    CellType::triangle6, CellType::quadrilateral9, CellType::tetrahedron10, CellType::hexahedron27};
 
 /// Physics that go with a type of cell, membranes apart.
 inline std::vector<scene::Physics> elasticPhysics(CellType type) {
@@ -44,8 +50,27 @@ inline Point pointOf(const Eigen::Vector3d& vector) {
   return {vector[0], vector[1], vector[2]};
 }
 
+/// The nodes of a cell whose shape functions of order 1 these corners have.
+inline std::vector<Point> withAllNodes(CellType type, const std::vector<Point>& corners) {
+  return withShape(type, [&](auto shape) {
+    using Shape = decltype(shape);
+    using Linear = std::conditional_t<Shape::isSimplex, Simplex<Shape::dimension>, Brick<Shape::dimension>>;
+    std::vector<Point> points;
+    for (int node = 0; node < Shape::numNodes; ++node) {
+      const typename Linear::Values values = Linear::values(Shape::node(node));
+      Point& point = points.emplace_back();
+      for (std::size_t a = 0; a < corners.size(); ++a)
+        for (std::size_t d = 0; d < 3; ++d)
+          point[d] += values[static_cast<Eigen::Index>(a)] * corners[a][d];
+    }
+    return points;
+  });
+}
+
 /// The cell of side 1 at the origin.
 inline std::vector<Point> unitCell(CellType type) {
+  if (orderOf(type) == 2)
+    return withAllNodes(type, unitCell(withOrder(type, 1)));
   switch (type) {
   case CellType::triangle:
     return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -81,11 +106,15 @@ private:
   std::mt19937 engine_;
 };
 
-/// The unit cell with each corner moved by up to 0.15 along each axis: faces of hexahedra are warped.
+/// The unit cell with each corner moved by up to 0.15 along each axis: faces of hexahedra are warped. Of order 2 the nodes follow,
+/// and are moved by up to 0.02 themselves: edges are curved.
 inline std::vector<Point> distortedCell(CellType type, std::uint32_t seed) {
   RandomNumbers random(seed);
-  return mapped(unitCell(type), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
-    Eigen::Vector3d moved = x + 0.15 * random.vector();
+  const double most = orderOf(type) == 1 ? 0.15 : 0.02;
+  const std::vector<Point> points =
+      orderOf(type) == 1 ? unitCell(type) : withAllNodes(type, distortedCell(withOrder(type, 1), seed + 1));
+  return mapped(points, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    Eigen::Vector3d moved = x + most * random.vector();
     if (dimensionOf(type) == 2)
       moved[2] = 0;
     return moved;
@@ -104,8 +133,12 @@ inline std::vector<Point> planeFacedCell(CellType type) {
   });
 }
 
-/// The cell inside out: two neighbouring nodes exchanged, or below and above.
+/// The cell inside out: two neighbouring corners exchanged, or below and above. Of order 2 the edges become straight.
 inline std::vector<Point> inverted(CellType type, std::vector<Point> points) {
+  if (orderOf(type) == 2) {
+    points.resize(static_cast<std::size_t>(numCornersOf(type)));
+    return withAllNodes(type, inverted(withOrder(type, 1), std::move(points)));
+  }
   if (type == CellType::hexahedron)
     std::swap_ranges(points.begin(), points.begin() + 4, points.begin() + 4);
   else if (type == CellType::quadrilateral)

@@ -41,6 +41,42 @@ TEST(RectangleTest, NodesKnowExactlyTheElementsThatKnowThem) {
   }
 }
 
+/// In the plane and in space, for all sizes that are special: what elements, nodes, sides and points say of each other.
+TEST(StructuredMeshTest, OfOrderTwoEverythingFitsTogether) {
+  for (const std::array<int, 3>& size : {std::array{3, 2, 0}, {1, 1, 0}, {1, 4, 0}, {2, 3, 2}, {1, 1, 1}}) {
+    SCOPED_TRACE(testing::Message() << size[0] << size[1] << size[2]);
+    const StructuredMesh quadratic({{-1, 0.5, 2}, {2, 1.5, 3}}, size, 2);
+    std::vector<GlobalOrdinal> elements, nodes(static_cast<std::size_t>(quadratic.nodesPerElement())), all;
+    std::vector<std::set<GlobalOrdinal>> at(static_cast<std::size_t>(quadratic.numNodes()));
+    const std::vector<Point> shape = quadratic.elementShape();
+    for (GlobalOrdinal e = 0; e < quadratic.numElements(); ++e) {
+      quadratic.elementNodes(e, nodes);
+      const Point corner = quadratic.point(nodes[0]);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        at[static_cast<std::size_t>(nodes[i])].insert(e);
+        for (std::size_t d = 0; d < 3; ++d)
+          EXPECT_NEAR(quadratic.point(nodes[i])[d], corner[d] + shape[i][d], 1e-15);
+      }
+    }
+    std::vector<int> numbers(at.size());
+    for (GlobalOrdinal node = 0; node < quadratic.numNodes(); ++node)
+      all.push_back(node);
+    quadratic.numNodeElements(all, numbers);
+    std::set<GlobalOrdinal> onSides;
+    for (const std::string& name : quadratic.surfaceNames()) {
+      const Surface side = quadratic.surface(name);
+      onSides.insert(side.facetNodes.begin(), side.facetNodes.end());
+    }
+    for (const GlobalOrdinal node : all) {
+      const auto& touching = at[static_cast<std::size_t>(node)];
+      quadratic.nodeElements(node, elements);
+      EXPECT_EQ(elements, std::vector<GlobalOrdinal>(touching.begin(), touching.end())) << node;
+      EXPECT_EQ(numbers[static_cast<std::size_t>(node)], static_cast<int>(touching.size())) << node;
+      EXPECT_EQ(quadratic.isBoundaryNode(node), onSides.count(node) > 0) << node;
+    }
+  }
+}
+
 TEST(RectangleTest, ManyAtOnceAreTheSameAsOneByOne) {
   const std::vector<GlobalOrdinal> elements{1, 2, 3, 5, 0, 4}; // runs, a gap, a step back
   std::vector<GlobalOrdinal> all(4 * elements.size());
@@ -103,7 +139,7 @@ TEST(RectangleTest, EndPointsAreExactWhateverTheSpacing) {
 TEST(RectangleTest, ElementsFillTheRectangle) {
   EXPECT_EQ(mesh.elements(), (std::array<int, 3>{3, 2, 1}));
   EXPECT_EQ(mesh.elementSize(), (scene::Vector3{1, 0.5, 0}));
-  EXPECT_EQ(mesh.elementCorners(), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {0, 0.5, 0}}));
+  EXPECT_EQ(mesh.elementShape(), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {0, 0.5, 0}}));
 }
 
 TEST(RectangleTest, SurfacesRunAroundTheBodyWithItOnTheirLeft) {

@@ -10,9 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace epafi::fem::test {
@@ -104,16 +106,31 @@ inline MeshArrays arraysOf(const Mesh& mesh, const Placement& placement, bool si
   return arrays;
 }
 
+/// By dimension and nodes.
 inline int gmshTypeOf(std::size_t numNodes, int dimension) {
-  if (dimension == 1)
-    return 1;
-  if (dimension == 2)
-    return numNodes == 3 ? 2 : 3;
-  return numNodes == 4 ? 4 : 5;
+  static const std::map<std::pair<int, std::size_t>, int> types{
+      {{1, 2}, 1},  {{2, 3}, 2},   {{2, 4}, 3},   {{3, 4}, 4},  {{3, 8}, 5},  {{2, 6}, 9},
+      {{2, 9}, 10}, {{3, 10}, 11}, {{3, 27}, 12}, {{2, 8}, 16}, {{3, 20}, 17}};
+  return types.at({dimension, numNodes});
+}
+
+/// Nodes of an element in Gmsh's order, by their places in ours; of Serendipity elements the first ones.
+inline std::vector<std::size_t> gmshOrder(std::size_t numNodes, int dimension) {
+  std::vector<std::size_t> order(numNodes);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (dimension == 3 && numNodes == 10)
+    std::swap(order[8], order[9]);
+  if (dimension == 3 && numNodes >= 20) { // edges 01 03 04 12 15 23 26 37 45 47 56 67, faces z y x X Y Z
+    const std::array<std::size_t, 19> behindCorners{8,  11, 16, 9,  17, 10, 18, 19, 12, 15,
+                                                    13, 14, 24, 22, 20, 21, 23, 25, 26};
+    std::copy_n(behindCorners.begin(), numNodes - 8, order.begin() + 8);
+  }
+  return order;
 }
 
 /// A file of format 2.2 with one group for the body and one for each surface.
-inline std::string fileOf(const MeshArrays& arrays) {
+/// \param perElement  nodes of the cells; 0: as their type has
+inline std::string fileOf(const MeshArrays& arrays, std::size_t perElement = 0) {
   const int dimension = dimensionOf(arrays.cellType);
   std::ostringstream file;
   file.precision(17);
@@ -127,19 +144,20 @@ inline std::string fileOf(const MeshArrays& arrays) {
          << '\n';
   std::ostringstream elements;
   std::size_t count = 0;
-  const auto write = [&](const std::vector<LocalOrdinal>& nodes, std::size_t perElement, int d,
+  const auto write = [&](const std::vector<LocalOrdinal>& nodes, std::size_t number, int d,
                          std::size_t group) {
-    for (std::size_t first = 0; first < nodes.size(); first += perElement) {
-      elements << ++count << ' ' << gmshTypeOf(perElement, d) << " 2 " << group << ' ' << group;
-      for (std::size_t i = 0; i < perElement; ++i)
-        elements << ' ' << nodes[first + i] + 1;
+    for (std::size_t first = 0; first < nodes.size(); first += number) {
+      elements << ++count << ' ' << gmshTypeOf(number, d) << " 2 " << group << ' ' << group;
+      for (const std::size_t place : gmshOrder(number, d))
+        elements << ' ' << nodes[first + place] + 1;
       elements << '\n';
     }
   };
-  const auto perFacet = static_cast<std::size_t>(nodesPerFacet(arrays.cellType));
+  const auto perFacet = static_cast<std::size_t>(numCornersOf(facetTypeOf(arrays.cellType)));
   for (std::size_t s = 0; s < arrays.surfaces.size(); ++s)
     write(arrays.surfaces[s].nodes, perFacet, dimension - 1, s + 2);
-  write(arrays.cells, static_cast<std::size_t>(numNodesOf(arrays.cellType)), dimension, 1);
+  write(arrays.cells, perElement > 0 ? perElement : static_cast<std::size_t>(numNodesOf(arrays.cellType)),
+        dimension, 1);
   file << "$EndNodes\n$Elements\n" << count << '\n' << elements.str() << "$EndElements\n";
   return file.str();
 }

@@ -7,15 +7,20 @@
 namespace epafi::fem {
 namespace {
 
-TEST(UnknownMapTest, OfOrderOneTheNodesAreTheVertices) {
-  const StructuredMesh mesh(scene::rectangle(0, 3, 0, 2), {3, 2, 0});
-  const UnknownMap unknowns(mesh, 1, 2);
-  EXPECT_EQ(unknowns.numNodes(), mesh.numNodes());
-  EXPECT_EQ(unknowns.nodesPerElement(), 4);
-  EXPECT_EQ(unknowns.unknownsPerElement(), 8);
+TEST(UnknownMapTest, TheNodesAreThoseOfTheMesh) {
+  const StructuredMesh linear(scene::rectangle(0, 3, 0, 2), {3, 2, 0});
   std::vector<GlobalOrdinal> nodes(8), elements, around;
-  unknowns.elementNodes(std::vector<GlobalOrdinal>{0, 5}, nodes);
+  UnknownMap(linear, 2).elementNodes(std::vector<GlobalOrdinal>{0, 5}, nodes);
   EXPECT_EQ(nodes, (std::vector<GlobalOrdinal>{0, 1, 5, 4, 6, 7, 11, 10}));
+
+  const StructuredMesh mesh(scene::rectangle(0, 3, 0, 2), {3, 2, 0}, 2);
+  const UnknownMap unknowns(mesh, 2);
+  EXPECT_EQ(unknowns.numNodes(), 7 * 5);
+  EXPECT_EQ(unknowns.nodesPerElement(), 9);
+  EXPECT_EQ(unknowns.unknownsPerElement(), 18);
+  nodes.resize(9);
+  unknowns.elementNodes(std::vector<GlobalOrdinal>{4}, nodes);
+  EXPECT_EQ(nodes, (std::vector<GlobalOrdinal>{16, 18, 32, 30, 17, 25, 31, 23, 24}));
   std::vector<int> numbers(static_cast<std::size_t>(mesh.numNodes()));
   std::vector<GlobalOrdinal> all;
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)

@@ -249,6 +249,21 @@ TEST(SolidReaderTest, RefusesAMeshSizeForAMeshThatIsThere) {
   expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh Size Factor\"", ".geo"});
 }
 
+TEST(SolidReaderTest, ElementsAreOfOrderOneOrTwo) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 1);
+  cube.set("Order", 2);
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 2);
+  cube.set("Order", 3);
+  expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Order\"", "2"});
+  cube.remove("Box");
+  cube.remove("Elements");
+  cube.remove("Order");
+  cube.set("Mesh", "cube.msh");
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 0); // the file's own
+}
+
 TEST(SolidReaderTest, RefusesSupportsThatHoldNothingOrTooMuch) {
   expectSays(entryRefusal("Supports", [](ParameterList& s) { s.set("X", 0.0); }),
              {"\"Bodies/cube/Supports/new\"", "\"Surface\"", "must be given"});

@@ -46,6 +46,26 @@ TEST_P(MembraneTest, AgreesWithTheUndecomposedReference) {
   EXPECT_NEAR(right.maxCoeff(), number(row, "right_max"), 1e-8);
 }
 
+/// Energies of quadratic elements against the limits of meshes of any size (Richardson).
+TEST(QuadraticMembraneTest, EnergiesAreNearTheLimit) {
+  struct Mesh {
+    bool isCoercive;
+    int elements;
+    double energy, error;
+  };
+  for (const auto& [isCoercive, elements, energy, error] :
+       {Mesh{true, 16, -0.119219355, 4e-7}, {true, 64, -0.119219355, 3e-9}, {false, 32, -0.54382078, 1e-7}})
+    for (const Cut cut : {Cut{true, 4}, Cut{false, 7}}) {
+      scene::Scene scene = scene::modelProblem(isCoercive, 1, elements);
+      for (scene::Body& body : scene.bodies)
+        body.mesh.order = 2;
+      const drivers::SceneRun run = test::solve(
+          cut.isGrid ? test::cutInGrid(scene, cut.number) : test::cutByMetis(scene, cut.number), 1e-10);
+      EXPECT_EQ(run.solver->report().status, qp::Status::converged);
+      EXPECT_NEAR(run.solution.energy, energy, error) << elements;
+    }
+}
+
 std::string nameOf(const testing::TestParamInfo<MembraneTest::ParamType>& info) {
   const auto& [row, cut] = info.param;
   return row.at("problem") + "_" + row.at("elements_per_unit_side") + (cut.isGrid ? "_grid" : "_metis") +
