@@ -66,6 +66,11 @@ ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vecto
     layout = meetObstacle(asked, first, obstacleOf(terms.obstacle));
   } else {
     const BodyLayout& secondBody = bodies[static_cast<std::size_t>(terms.second)];
+    if (orderOf(firstBody.mesh->cellType()) != orderOf(secondBody.mesh->cellType()))
+      throw InputError("contact '" + terms.name + "': the elements of '" + firstBody.name + "' are " +
+                       toString(firstBody.mesh->cellType()) + "s, those of '" + secondBody.name + "' " +
+                       toString(secondBody.mesh->cellType()) +
+                       "s; bodies that touch need elements of the same \"Order\"");
     asked.coincide = components == 1 && firstBody.mesh->structured() != nullptr &&
                      secondBody.mesh->structured() != nullptr;
     layout = meetSurface(asked, first, nodesOf(terms, secondBody, terms.secondSurface));

@@ -124,6 +124,15 @@ TEST(ContactTest, NonMatchingNodesAreRefusedWithBothNumbers) {
   EXPECT_TRUE(mentions(refusal(scene), {"interface", "left", "right", "4", "6"})) << refusal(scene);
 }
 
+TEST(ContactTest, BodiesThatTouchHaveElementsOfOneOrder) {
+  scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
+  scene.bodies[0].mesh.order = 2;
+  EXPECT_TRUE(mentions(refusal(scene), {"interface", "different orders", "2 on body", "1 on body"}))
+      << refusal(scene);
+  scene.bodies[1].mesh.order = 2;
+  EXPECT_EQ(refusal(scene), "");
+}
+
 TEST(ContactTest, EdgesThatDoNotCoincideAreRefusedWithBothPlaces) {
   scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
   scene.bodies[1].mesh.box = scene::rectangle(1, 2, 0, 1.5);
