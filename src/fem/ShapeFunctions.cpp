@@ -108,7 +108,7 @@ Eigen::Matrix<double, dim, 1> brickMiddle(int number) {
   using Coordinates = typename Brick<dim>::Coordinates;
   const auto ends = edgesOf(dim == 2 ? CellType::quadrilateral : CellType::hexahedron);
   if (const int edge = number - corners; edge < edges) {
-    const auto first = static_cast<std::size_t>(2 * edge);
+    const std::size_t first = 2 * static_cast<std::size_t>(edge);
     return 0.5 * (Brick<dim>::node(ends[first]) + Brick<dim>::node(ends[first + 1]));
   }
   Coordinates middle = Coordinates::Zero();
@@ -121,10 +121,10 @@ Eigen::Matrix<double, dim, 1> brickMiddle(int number) {
 
 template <int dim, int order>
 typename Simplex<dim, order>::Values Simplex<dim, order>::values(const Coordinates& xi) {
-  const auto all = barycentric<dim>(xi);
   if constexpr (order == 1) {
-    return all;
+    return barycentric<dim>(xi);
   } else {
+    const auto all = barycentric<dim>(xi);
     Values values;
     values.template head<dim + 1>() = (all.array() * (2 * all.array() - 1)).matrix();
     const auto ends = edgesOf(simplexOf(dim));
@@ -137,10 +137,10 @@ typename Simplex<dim, order>::Values Simplex<dim, order>::values(const Coordinat
 template <int dim, int order>
 typename Simplex<dim, order>::Gradients
 Simplex<dim, order>::gradients([[maybe_unused]] const Coordinates& xi) {
-  const auto ofAll = barycentricGradients<dim>();
   if constexpr (order == 1) {
-    return ofAll;
+    return barycentricGradients<dim>();
   } else {
+    const auto ofAll = barycentricGradients<dim>();
     const auto all = barycentric<dim>(xi);
     Gradients gradients;
     for (int a = 0; a <= dim; ++a)
@@ -158,7 +158,7 @@ template <int dim, int order>
 typename Simplex<dim, order>::Coordinates Simplex<dim, order>::node(int number) {
   if (number > dim) {
     const auto ends = edgesOf(simplexOf(dim));
-    const auto first = static_cast<std::size_t>(2 * (number - dim - 1));
+    const std::size_t first = 2 * static_cast<std::size_t>(number - dim - 1);
     return 0.5 * (node(ends[first]) + node(ends[first + 1]));
   }
   return number == 0 ? Coordinates(Coordinates::Zero()) : Coordinates(Coordinates::Unit(number - 1));
