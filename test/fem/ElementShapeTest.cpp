@@ -9,8 +9,6 @@
 #include <cmath>
 #include <limits>
 
-#include <cmath>
-
 namespace epafi::fem {
 namespace {
 
