@@ -161,6 +161,8 @@ void describeResults(std::ostream& text, const SceneRun& run) {
       text << count(contact, "Active Nodes") << " of " << counted(contact, "Candidates", "node")
            << " closed, area " << rounded(contact, "Contact Area") << ", force " << rounded(contact, "Force")
            << ", largest pressure " << rounded(contact, "Largest Pressure");
+      if (contact.isParameter("Largest Penetration"))
+        text << ", penetration " << rounded(contact, "Largest Penetration");
     });
 }
 

@@ -50,7 +50,7 @@ def measure(in_space, points, force, area, pressure, active, cells):
     r2 = (points[:, :2 if in_space else 1]**2).sum(axis=1)
     moment = float((r2 * force).sum() / force.sum())
     closed_area = float(area[active].sum())
-    corners = cells.shape[1]
+    corners = {6: 3, 9: 4}.get(cells.shape[1], cells.shape[1]) if in_space else 2  # of order 2 they come first
     ends = numpy.concatenate([cells[:, [k, (k + 1) % corners]] for k in range(corners if in_space else 1)])
     return Found(force=float(force.sum()),
                  radius=math.sqrt(moment * (5 / 2 if in_space else 4)),
@@ -64,6 +64,6 @@ def read(file, in_space, thickness=1.0):
     """What the run in `file` has found; its only contact counts. \\raises OSError, KeyError if it holds no such thing"""
     with h5py.File(file, "r") as run:
         group = next(iter(run["contact"].values()))
-        values = {name: group[name][:] for name in ("points", "multiplier", "area", "pressure", "active", "cells")}
-    return measure(in_space, values["points"], values["multiplier"] / thickness, values["area"] / thickness,
+        values = {name: group[name][:] for name in ("points", "force", "area", "pressure", "active", "cells")}
+    return measure(in_space, values["points"], values["force"] / thickness, values["area"] / thickness,
                    values["pressure"], values["active"] > 0, values["cells"])

@@ -3,12 +3,21 @@
 #include "epafi/base/Errors.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
+
+/// LAPACK's eigenvalues by relatively robust representations, which Teuchos does not wrap; the last three are lengths of texts.
+extern "C" void dsyevr_(const char* jobz, const char* range, const char* uplo, const int* n, double* a,
+                        const int* lda, const double* vl, const double* vu, const int* il, const int* iu,
+                        const double* abstol, int* m, double* w, double* z, const int* ldz, int* isuppz,
+                        double* work, const int* lwork, int* iwork, const int* liwork, int* info, std::size_t,
+                        std::size_t, std::size_t);
 
 namespace epafi::direct {
 namespace {
@@ -58,13 +67,36 @@ std::optional<Eigen::MatrixXd> choleskyFactor(const Eigen::MatrixXd& matrix) {
   return Eigen::MatrixXd(factor.matrixL());
 }
 
-SymmetricEigen eigenOf(const Eigen::MatrixXd& matrix) {
-  if (matrix.rows() == 0)
+SymmetricEigen eigenOf(Eigen::MatrixXd matrix, double above) {
+  const int n = static_cast<int>(matrix.rows());
+  if (n == 0)
     return {Eigen::VectorXd(0), matrix};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
-  if (solver.info() != Eigen::Success)
-    throw Error("the eigenvalues of a matrix of " + std::to_string(matrix.rows()) + " rows were not found");
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  if (!matrix.triangularView<Eigen::Lower>().toDenseMatrix().allFinite())
+    throw Error("the eigenvalues of a matrix of " + std::to_string(n) + " rows were not found");
+  const char range = std::isinf(above) ? 'A' : 'V';
+  const double most = std::numeric_limits<double>::max(), exact = 0;
+  int found = 0, info = 0, unused = 0;
+  SymmetricEigen eigen{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
+  std::vector<int> support(2 * static_cast<std::size_t>(n));
+  std::vector<double> work(1);
+  std::vector<int> integers(1);
+  int numWork = -1, numIntegers = -1; // asks how many there are to be
+  for (int pass = 0; pass < 2; ++pass) {
+    dsyevr_("V", &range, "L", &n, matrix.data(), &n, &above, &most, &unused, &unused, &exact, &found,
+            eigen.values.data(), eigen.vectors.data(), &n, support.data(), work.data(), &numWork,
+            integers.data(), &numIntegers, &info, 1, 1, 1);
+    if (info != 0)
+      throw Error("the eigenvalues of a matrix of " + std::to_string(n) + " rows were not found");
+    if (pass == 0) {
+      numWork = static_cast<int>(work[0]);
+      numIntegers = integers[0];
+      work.resize(static_cast<std::size_t>(numWork));
+      integers.resize(static_cast<std::size_t>(numIntegers));
+    }
+  }
+  eigen.values.conservativeResize(found);
+  eigen.vectors.conservativeResize(Eigen::NoChange, found);
+  return eigen;
 }
 
 } // namespace epafi::direct

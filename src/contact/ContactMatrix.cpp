@@ -66,7 +66,8 @@ std::vector<Row> ownRows(const std::vector<ContactLayout>& contacts, const NodeU
         row.gap += weight * contact.gaps[node];
         enter(contact, node, unknowns, contact.firstBody, contact.firstNodes[node], weight, row);
         if (contact.secondBody >= 0)
-          enter(contact, node, unknowns, contact.secondBody, contact.secondNodes[node], -weight, row);
+          for (const NodeShare& share : contact.secondNodes[node])
+            enter(contact, node, unknowns, contact.secondBody, share.node, -weight * share.weight, row);
       });
     }
   return rows;

@@ -161,13 +161,13 @@ ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first
     const std::size_t j = partner[i];
     const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
     layout.firstNodes.push_back(first.nodes[i]);
-    layout.secondNodes.push_back(second.nodes[j]);
+    layout.secondNodes.push_back(second.shares[j]);
     const double gap = contact.components == 1 ? 0.0 : normal.dot(second.points[j] - first.points[i]);
     addRow(normal, gap + contact.gap, first.areas[i], contact.components, layout);
   }
-  std::vector<GlobalOrdinal> used = layout.secondNodes;
-  std::sort(used.begin(), used.end());
-  if (std::adjacent_find(used.begin(), used.end()) != used.end())
+  std::erase(partner, none);
+  std::sort(partner.begin(), partner.end());
+  if (std::adjacent_find(partner.begin(), partner.end()) != partner.end())
     throw refusal(contact, "two nodes of the first surface face the same one of the second; mesh them alike");
   requireRows(contact, layout);
   return layout;

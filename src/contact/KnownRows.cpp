@@ -39,7 +39,7 @@ ContactLayout selected(const ContactLayout& contact, const std::vector<std::size
 KnownRows::Entry KnownRows::entryOf(const ContactLayout& contact, std::size_t place) {
   const std::size_t components = contact.directions.size() / contact.firstNodes.size();
   Place from{contact.firstBody, contact.firstNodes[place]},
-      to{contact.secondBody, contact.secondBody < 0 ? 0 : contact.secondNodes[place]};
+      to{contact.secondBody, contact.secondBody < 0 ? 0 : contact.secondNodes[place].front().node};
   Row row{contact.name, {0, 0, 0}, contact.gaps[place], contact.areas[place]};
   for (std::size_t c = 0; c < components; ++c)
     row.direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];

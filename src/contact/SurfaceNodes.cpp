@@ -3,45 +3,121 @@
 #include "epafi/fem/ElementGeometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace epafi::contact {
 
-SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface) {
-  SurfaceNodes result;
-  result.nodes = surface.facetNodes;
-  std::sort(result.nodes.begin(), result.nodes.end());
-  result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());
-  for (const GlobalOrdinal node : result.nodes) {
-    const fem::Point point = mesh.point(node);
-    result.points.emplace_back(point[0], point[1], point[2]);
+namespace {
+
+/// Facets of order 1 as those of order 2, with the points between their corners numbered on from the mesh's nodes.
+class Completion {
+public:
+  Completion(const fem::Mesh& mesh, const fem::Surface& surface)
+      : mesh_(mesh), surface_(surface), next_(mesh.numNodes()) {}
+
+  /// Nodes and points of facet f. \param shares  what each stands for
+  void facet(std::size_t f, std::vector<GlobalOrdinal>& nodes, std::vector<fem::Point>& points,
+             std::vector<std::vector<NodeShare>>& shares) {
+    const auto corners = surface_.facet(f);
+    mesh_.pointsAt(corners, points);
+    nodes.assign(corners.begin(), corners.end());
+    shares.clear();
+    for (const GlobalOrdinal node : corners)
+      shares.push_back({{node, 1.0}});
+    const std::span<const int> edges = edgesOf(surface_.facetType);
+    for (std::size_t e = 0; e < edges.size(); e += 2)
+      add(std::array{corners[static_cast<std::size_t>(edges[e])],
+                     corners[static_cast<std::size_t>(edges[e + 1])]},
+          nodes, points, shares);
+    if (surface_.facetType == fem::CellType::quadrilateral)
+      add(corners, nodes, points, shares);
   }
+
+private:
+  void add(std::span<const GlobalOrdinal> between, std::vector<GlobalOrdinal>& nodes,
+           std::vector<fem::Point>& points, std::vector<std::vector<NodeShare>>& shares) {
+    std::vector<GlobalOrdinal> key(between.begin(), between.end());
+    std::sort(key.begin(), key.end());
+    std::vector<NodeShare> share;
+    for (const GlobalOrdinal node : key)
+      share.push_back({node, 1.0 / static_cast<double>(key.size())});
+    const auto [place, isNew] = number_.try_emplace(std::move(key), next_);
+    next_ += isNew ? 1 : 0;
+    nodes.push_back(place->second);
+    std::vector<fem::Point> around;
+    mesh_.pointsAt(between, around);
+    points.push_back(fem::centreOf(around));
+    shares.push_back(std::move(share));
+  }
+
+  const fem::Mesh& mesh_;
+  const fem::Surface& surface_;
+  std::map<std::vector<GlobalOrdinal>, GlobalOrdinal> number_;
+  GlobalOrdinal next_;
+};
+
+/// action(nodes, points, shares) for all facets.
+template <class Action>
+void forEachFacet(const fem::Mesh& mesh, const fem::Surface& surface, bool complete, const Action& action) {
+  Completion completion(mesh, surface);
+  std::vector<GlobalOrdinal> nodes;
+  std::vector<fem::Point> points;
+  std::vector<std::vector<NodeShare>> shares;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    if (complete) {
+      completion.facet(f, nodes, points, shares);
+    } else {
+      nodes.assign(surface.facet(f).begin(), surface.facet(f).end());
+      mesh.pointsAt(nodes, points);
+    }
+    action(nodes, points, shares);
+  }
+}
+
+} // namespace
+
+SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface, int order) {
+  const bool complete = order > orderOf(surface.facetType);
+  const fem::CellType facetType = complete ? withOrder(surface.facetType, order) : surface.facetType;
+  std::map<GlobalOrdinal, std::size_t> placeOf;
+  forEachFacet(mesh, surface, complete, [&](const auto& nodes, const auto&, const auto&) {
+    for (const GlobalOrdinal node : nodes)
+      placeOf.emplace(node, 0);
+  });
+  SurfaceNodes result;
+  for (auto& [node, place] : placeOf) {
+    place = result.nodes.size();
+    result.nodes.push_back(node);
+    result.shares.push_back({{node, 1.0}});
+  }
+  result.points.resize(result.nodes.size());
   result.normals.assign(result.nodes.size(), Eigen::Vector3d::Zero());
   result.areas.assign(result.nodes.size(), 0.0);
   result.spacings.assign(result.nodes.size(), 0.0);
-  std::vector<fem::Point> corners;
   std::vector<Eigen::Vector3d> normals;
-  std::vector<double> shares(static_cast<std::size_t>(surface.nodesPerFacet()));
-  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-    const auto nodes = surface.facet(f);
-    mesh.pointsAt(nodes, corners);
-    fem::nodalNormals(surface.facetType, corners, normals);
-    fem::nodalShares(surface.facetType, corners, shares);
-    const double even =
-        std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
+  std::vector<double> areas(static_cast<std::size_t>(numNodesOf(facetType)));
+  forEachFacet(mesh, surface, complete, [&](const auto& nodes, const auto& points, const auto& shares) {
+    fem::nodalNormals(facetType, points, normals);
+    fem::nodalShares(facetType, points, areas);
+    const double even = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
     for (std::size_t a = 0; a < nodes.size(); ++a) {
-      const auto place = static_cast<std::size_t>(
-          std::lower_bound(result.nodes.begin(), result.nodes.end(), nodes[a]) - result.nodes.begin());
+      const std::size_t place = placeOf.at(nodes[a]);
+      if (complete)
+        result.shares[place] = shares[a];
+      result.points[place] = Eigen::Vector3d(points[a][0], points[a][1], points[a][2]);
       result.normals[place] += normals[a];
-      result.areas[place] += shares[a];
+      result.areas[place] += areas[a];
       result.spacings[place] += even;
     }
-  }
+  });
   for (Eigen::Vector3d& normal : result.normals)
     normal.normalize();
-  if (dimensionOf(surface.facetType) == 2)
+  if (dimensionOf(facetType) == 2)
     for (double& spacing : result.spacings)
       spacing = std::sqrt(spacing);
   return result;

@@ -2,6 +2,7 @@
 
 /// The nodes of a surface with their normals and shares of its area.
 
+#include "epafi/contact/ContactLayout.hpp"
 #include "epafi/fem/Mesh.hpp"
 
 #include <Eigen/Core>
@@ -12,6 +13,8 @@ namespace epafi::contact {
 
 struct SurfaceNodes {
   std::vector<GlobalOrdinal> nodes; ///< ascending
+  /// What moves with them: each itself; those that only a finer surface would have, the nodes around.
+  std::vector<std::vector<NodeShare>> shares;
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d>
       normals; ///< outwards, of length 1: the mean of the facets' normals there by area
@@ -20,6 +23,8 @@ struct SurfaceNodes {
   std::vector<double> spacings; ///< of the nodes around each
 };
 
-SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface);
+/// \param order  2: of facets of order 1 also the points where those of order 2 would have nodes, between the corners, with
+///               numbers beyond those of the mesh; else that of the surface
+SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface, int order);
 
 } // namespace epafi::contact

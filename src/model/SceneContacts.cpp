@@ -1,9 +1,9 @@
 #include "epafi/model/SceneContacts.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/contact/BasisChange.hpp"
 #include "epafi/contact/ContactSearch.hpp"
 #include "epafi/contact/KnownRows.hpp"
+#include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
@@ -14,8 +14,15 @@ namespace {
 
 using contact::ContactLayout;
 
+/// A side of a contact.
+struct Side {
+  int body;
+  std::string surface;
+};
+
+/// The nodes of a side. \param order  of the facets between them, at least
 contact::SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLayout& body,
-                              const std::string& surface) {
+                              const std::string& surface, int order) {
   const std::vector<std::string> names = body.mesh->surfaceNames();
   if (std::find(names.begin(), names.end(), surface) == names.end()) {
     std::string known;
@@ -24,7 +31,7 @@ contact::SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLa
     throw InputError("contact '" + contact.name + "': body '" + body.name + "' has no surface '" + surface +
                      "'; " + (known.empty() ? "its mesh names none" : "there are " + known));
   }
-  return contact::surfaceNodes(*body.mesh, body.mesh->surface(surface));
+  return contact::surfaceNodes(*body.mesh, body.mesh->surface(surface), order);
 }
 
 contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
@@ -57,26 +64,29 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
 
 ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
                             int components) {
-  const BodyLayout& firstBody = bodies[static_cast<std::size_t>(terms.first)];
-  const contact::SurfaceNodes first = nodesOf(terms, firstBody, terms.firstSurface);
-  contact::ContactTerms asked{terms.name, terms.firstSurface, dimensionOf(firstBody.mesh->cellType()),
-                              components, terms.gap,          terms.distance};
+  const auto layoutOf = [&](const Side& side) -> const BodyLayout& {
+    return bodies[static_cast<std::size_t>(side.body)];
+  };
+  const auto orderOf = [&](const Side& side) { return fem::orderOf(layoutOf(side).mesh->cellType()); };
+  Side first{terms.first, terms.firstSurface}, second{terms.second, terms.secondSurface};
+  if (second.body >= 0 && orderOf(first) < orderOf(second)) // the side with more nodes has the rows
+    std::swap(first, second);
+  const int order = orderOf(first);
+  const contact::SurfaceNodes nodes = nodesOf(terms, layoutOf(first), first.surface, order);
+  contact::ContactTerms asked{terms.name, first.surface, dimensionOf(layoutOf(first).mesh->cellType()),
+                              components, terms.gap,     terms.distance};
   ContactLayout layout;
-  if (terms.second < 0) {
-    layout = meetObstacle(asked, first, obstacleOf(terms.obstacle));
+  if (second.body < 0) {
+    layout = meetObstacle(asked, nodes, obstacleOf(terms.obstacle));
   } else {
-    const BodyLayout& secondBody = bodies[static_cast<std::size_t>(terms.second)];
-    if (orderOf(firstBody.mesh->cellType()) != orderOf(secondBody.mesh->cellType()))
-      throw InputError("contact '" + terms.name + "': the elements of '" + firstBody.name + "' are " +
-                       toString(firstBody.mesh->cellType()) + "s, those of '" + secondBody.name + "' " +
-                       toString(secondBody.mesh->cellType()) +
-                       "s; bodies that touch need elements of the same \"Order\"");
-    asked.coincide = components == 1 && firstBody.mesh->structured() != nullptr &&
-                     secondBody.mesh->structured() != nullptr;
-    layout = meetSurface(asked, first, nodesOf(terms, secondBody, terms.secondSurface));
+    asked.coincide = components == 1 && order == orderOf(second) &&
+                     layoutOf(first).mesh->structured() != nullptr &&
+                     layoutOf(second).mesh->structured() != nullptr;
+    layout = meetSurface(asked, nodes, nodesOf(terms, layoutOf(second), second.surface, order));
   }
-  layout.firstBody = terms.first;
-  layout.secondBody = terms.second;
+  layout.firstBody = first.body;
+  layout.firstSurface = first.surface;
+  layout.secondBody = second.body;
   return layout;
 }
 
@@ -89,8 +99,8 @@ std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::
     const int components = componentsOf(scene.bodies[static_cast<std::size_t>(terms.first)].physics);
     ContactLayout& contact = contacts.emplace_back(layoutContact(terms, bodies, components));
     known.dropFrom(contact);
-    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(terms.first)].mesh;
-    contact::changeBasis(mesh, mesh.surface(terms.firstSurface), contact);
+    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
+    contact::adaptRows(mesh.surface(contact.firstSurface), contact);
   }
   GlobalOrdinal firstRow = 0;
   for (ContactLayout& contact : contacts) {

@@ -3,12 +3,12 @@
 /// The fields of one contact, each rank holding a contiguous slab of its rows.
 
 #include "epafi/fem/Cell.hpp"
+#include "epafi/output/ContactState.hpp"
 #include "epafi/output/Slab.hpp"
 #include "epafi/output/SolvedScene.hpp"
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace epafi::output {
@@ -22,9 +22,10 @@ struct ContactFields {
       normals; ///< n × 3, direction of the other side; of membranes along z, as their deflection
   std::vector<double> areas;      ///< n, on which the multipliers act
   std::vector<double> initialGap; ///< c
-  std::vector<double> gap;        ///< c − Bu, what remains open
+  std::vector<double> gap;        ///< what remains open (ContactState)
   std::vector<double> multiplier; ///< λ_I, force that pushes the bodies apart
-  std::vector<double> pressure;   ///< λ_I / area
+  std::vector<double> force;      ///< on the node (ContactState)
+  std::vector<double> pressure;   ///< around the node (ContactState)
   std::vector<int> active;        ///< 1 where contact is closed
 
   GlobalOrdinal numFacets =
@@ -37,17 +38,12 @@ struct ContactFields {
   [[nodiscard]] int nodesPerFacet() const { return facetType ? fem::numNodesOf(*facetType) : 1; }
 };
 
-/// Each row's share of the area of contact `contact`: λ divided by it is the contact pressure. Of plane bodies the share of
-/// the length times the thickness of the elements there, of membranes the length alone. In the order of the contact's rows,
-/// whole on every rank. Not collective.
-std::vector<double> pressureAreas(const SolvedScene& solved, int contact);
-
 /// Direction from the first body to the other side at a row; deflections of membranes are along z.
 std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::size_t row);
 
 /// Brings the rows of contact `contact` from multiplierMap to the slabs.
-/// \param areas  of all its rows (pressureAreas)
+/// \param state  of that contact
 /// Collective. Precondition: the solution's vectors lie on the problem's multiplierMap.
-ContactFields gatherContactFields(const SolvedScene& solved, int contact, std::span<const double> areas);
+ContactFields gatherContactFields(const SolvedScene& solved, int contact, const ContactState& state);
 
 } // namespace epafi::output

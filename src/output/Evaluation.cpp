@@ -49,19 +49,13 @@ void addSubdomain(const accuracy::SubdomainFlux& flux, const Subdomain& subdomai
 /// Sums over the rows of one contact, one after the other.
 enum Term : std::size_t { active, force, area, resultant, numTerms = resultant + 3 };
 
-struct ContactSums {
-  std::vector<AccurateSum> terms;      ///< numTerms of each contact
-  std::vector<double> largestPressure; ///< of each contact
-};
-
-/// Collective.
-ContactSums sumContacts(const SolvedScene& solved, const Evaluation& evaluation) {
+/// numTerms of each contact. Collective.
+std::vector<AccurateSum> sumContacts(const SolvedScene& solved, const Evaluation& evaluation) {
   const std::vector<ContactLayout>& contacts = solved.decomposition.contacts;
   const Map& map = *solved.decomposition.problem.multiplierMap;
   const auto multiplier = solved.solution.multiplier->getData();
   const auto isActive = solved.solution.active->getData();
-  ContactSums sums{std::vector<AccurateSum>(contacts.size() * numTerms),
-                   std::vector<double>(contacts.size(), 0)};
+  std::vector<AccurateSum> sums(contacts.size() * numTerms);
   for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
     const decomposition::MultiplierNumber index = map.getGlobalElement(static_cast<LocalOrdinal>(i));
     if (solved.decomposition.problem.kindOf(index) != decomposition::RowKind::contact)
@@ -71,21 +65,19 @@ ContactSums sumContacts(const SolvedScene& solved, const Evaluation& evaluation)
     });
     const auto place = static_cast<std::size_t>(contact - contacts.begin());
     const auto row = static_cast<std::size_t>(index - contact->firstRow);
-    const double rowForce = multiplier[i], rowArea = evaluation.areas[place][row];
+    const double rowForce = multiplier[i];
     const std::array<double, 3> direction = directionOf(*contact, row);
-    AccurateSum* const terms = &sums.terms[place * numTerms];
+    AccurateSum* const terms = &sums[place * numTerms];
     terms[force].add(rowForce);
+    const bool areSwapped = contact->firstBody != solved.scene.contacts[place].first;
     for (std::size_t d = 0; d < 3; ++d)
-      terms[resultant + d].add(-rowForce * direction[d]);
-    sums.largestPressure[place] = std::max(sums.largestPressure[place], rowForce / rowArea);
+      terms[resultant + d].add(areSwapped ? rowForce * direction[d] : -rowForce * direction[d]);
     if (isActive[i] > 0.5) {
       terms[active].add(1);
-      terms[area].add(rowArea);
+      terms[area].add(evaluation.contacts[place].areas[row]);
     }
   }
-  sumOverRanks(solved.comm(), sums.terms);
-  for (double& largest : sums.largestPressure)
-    largest = maxOverRanks(solved.comm(), largest);
+  sumOverRanks(solved.comm(), sums);
   return sums;
 }
 
@@ -168,15 +160,15 @@ Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* es
       result.errors.back() = cellErrors(solved, *estimate, static_cast<int>(body));
   }
   for (std::size_t contact = 0; contact < solved.decomposition.contacts.size(); ++contact)
-    result.areas.push_back(pressureAreas(solved, static_cast<int>(contact)));
+    result.contacts.push_back(contactState(solved, static_cast<int>(contact)));
   return result;
 }
 
 void addResults(const SolvedScene& solved, const Evaluation& evaluation, Teuchos::ParameterList& report) {
   const std::vector<ContactLayout>& contacts = solved.decomposition.contacts;
-  const ContactSums sums = sumContacts(solved, evaluation);
+  std::vector<AccurateSum> sums = sumContacts(solved, evaluation);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto sumOf = [&](std::size_t term) { return sums.terms[c * numTerms + term].value(); };
+    const auto sumOf = [&](std::size_t term) { return sums[c * numTerms + term].value(); };
     report.sublist("Contact")
         .sublist(contacts[c].name)
         .set("Candidates", contacts[c].numRows())
@@ -184,8 +176,12 @@ void addResults(const SolvedScene& solved, const Evaluation& evaluation, Teuchos
         .set("Force", sumOf(force))
         .set("Resultant", Teuchos::Array<double>(
                               Teuchos::tuple(sumOf(resultant), sumOf(resultant + 1), sumOf(resultant + 2))))
-        .set("Largest Pressure", sums.largestPressure[c])
+        .set("Largest Pressure", evaluation.contacts[c].largestPressure)
         .set("Contact Area", sumOf(area));
+    if (!contacts[c].smoothed.empty())
+      report.sublist("Contact")
+          .sublist(contacts[c].name)
+          .set("Largest Penetration", evaluation.contacts[c].penetration);
   }
   for (std::size_t b = 0; b < solved.scene.bodies.size(); ++b) {
     if (solved.elasticBody(static_cast<int>(b)) == nullptr)

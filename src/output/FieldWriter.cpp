@@ -103,6 +103,7 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   column("initial_gap", fields.initialGap);
   column("gap", fields.gap);
   column("multiplier", fields.multiplier);
+  column("force", fields.force);
   column("pressure", fields.pressure);
   column("active", fields.active);
   return grid;
@@ -191,7 +192,7 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
   for (std::size_t c = 0; c < contactGroups.size(); ++c)
     grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
                                bodyGroups[static_cast<std::size_t>(decomposition.contacts[c].firstBody)],
-                               gatherContactFields(solved, static_cast<int>(c), evaluation.areas[c])));
+                               gatherContactFields(solved, static_cast<int>(c), evaluation.contacts[c])));
   putHistory(file, history, *problem.comm);
   file.close();
   writeTextFile(

@@ -22,11 +22,9 @@ struct SolvedScene {
     const scene::Body& candidate = scene.bodies[static_cast<std::size_t>(body)];
     return candidate.physics != scene::Physics::membrane ? &candidate : nullptr;
   }
-  /// The scene's contact of surfaces that became decomposition.contacts[contact]; null if that is a pair of membranes'
-  /// edges.
-  [[nodiscard]] const scene::SurfaceContact* surfaceContact(int contact) const {
-    const scene::SurfaceContact& candidate = scene.contacts[static_cast<std::size_t>(contact)];
-    return isAlongEdges(scene, candidate) ? nullptr : &candidate;
+  /// Whether a contact is that of membranes' edges.
+  [[nodiscard]] bool isAlongEdges(int contact) const {
+    return scene::isAlongEdges(scene, scene.contacts[static_cast<std::size_t>(contact)]);
   }
 };
 

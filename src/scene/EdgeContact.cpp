@@ -76,10 +76,6 @@ std::optional<EdgeFault> faultOf(const Scene& scene, std::size_t contact) {
     return EdgeFault{-1, "joins edges with different numbers of elements: " + std::to_string(m) +
                              " on body \"" + first.name + "\", but " + std::to_string(n) + " on body \"" +
                              second.name + '"'};
-  if (first.mesh.order != second.mesh.order)
-    return EdgeFault{-1, "joins edges of different orders: " + std::to_string(first.mesh.order) +
-                             " on body \"" + first.name + "\", but " + std::to_string(second.mesh.order) +
-                             " on body \"" + second.name + '"'};
   return std::nullopt;
 }
 

@@ -50,7 +50,7 @@ TEST(ContactSearchTest, FindsTheNodesThatFaceEachOther) {
     EXPECT_NEAR(sum(contact.areas), 2.0, 1e-13);
     for (std::size_t row = 0; row < 20; ++row) {
       const fem::Point a = bodies[0].mesh->point(contact.firstNodes[row]),
-                       b = bodies[1].mesh->point(contact.secondNodes[row]);
+                       b = bodies[1].mesh->point(contact.secondNodes[row].front().node);
       EXPECT_NEAR(a[0], b[0], 1e-13);
       EXPECT_NEAR(a[1], b[1], 1e-13);
       EXPECT_NEAR(contact.gaps[row], gap, 1e-13);

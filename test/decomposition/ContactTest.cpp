@@ -124,13 +124,28 @@ TEST(ContactTest, NonMatchingNodesAreRefusedWithBothNumbers) {
   EXPECT_TRUE(mentions(refusal(scene), {"interface", "left", "right", "4", "6"})) << refusal(scene);
 }
 
-TEST(ContactTest, BodiesThatTouchHaveElementsOfOneOrder) {
-  scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
-  scene.bodies[0].mesh.order = 2;
-  EXPECT_TRUE(mentions(refusal(scene), {"interface", "different orders", "2 on body", "1 on body"}))
-      << refusal(scene);
-  scene.bodies[1].mesh.order = 2;
-  EXPECT_EQ(refusal(scene), "");
+/// Whichever body has them, the nodes of order 2 have the rows; those between corners meet the middle of two nodes.
+TEST(ContactTest, BodiesOfOrderOneAndTwoMeetAtTheNodesOfOrderTwo) {
+  for (const std::size_t quadratic : {0U, 1U}) {
+    scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
+    scene.bodies[quadratic].mesh.order = 2;
+    const auto result = decompose(scene, world());
+    const contact::ContactLayout& contact = result.contacts[0];
+    EXPECT_EQ(contact.firstBody, static_cast<int>(quadratic));
+    EXPECT_EQ(contact.firstSurface, quadratic == 0 ? "right" : "left");
+    ASSERT_EQ(contact.numRows(), 9);
+    for (std::size_t row = 0; row < 9; ++row) {
+      const fem::Point own = result.bodies[quadratic].mesh->point(contact.firstNodes[row]);
+      double height = 0, weight = 0;
+      for (const contact::NodeShare& share : contact.secondNodes[row]) {
+        height += share.weight * result.bodies[1 - quadratic].mesh->point(share.node)[1];
+        weight += share.weight;
+      }
+      EXPECT_EQ(contact.secondNodes[row].size(), row % 2 + 1);
+      EXPECT_NEAR(height, own[1], 1e-15);
+      EXPECT_NEAR(weight, 1, 1e-15);
+    }
+  }
 }
 
 TEST(ContactTest, EdgesThatDoNotCoincideAreRefusedWithBothPlaces) {

@@ -124,7 +124,7 @@ ContactMatrix contactOf(const scene::Scene& scene, const Decomposition& decompos
       };
       enter(contact.firstBody, contact.firstNodes[k], 1);
       if (contact.secondBody >= 0)
-        enter(contact.secondBody, contact.secondNodes[k], -1);
+        enter(contact.secondBody, contact.secondNodes[k].front().node, -1);
       gaps->replaceGlobalValue(row, gap);
     }
   matrix->fillComplete(unknowns, rows);

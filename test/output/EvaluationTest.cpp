@@ -183,7 +183,7 @@ TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheReport) {
     const Evaluation evaluation = evaluate(solved);
 
     const double area = isPlane ? 0.5 : 1; // the thickness is 0.5
-    const ContactFields fields = gatherContactFields(solved, 0, evaluation.areas[0]);
+    const ContactFields fields = gatherContactFields(solved, 0, evaluation.contacts[0]);
     for (const double value : fields.pressure)
       EXPECT_NEAR(value, pressure, 1e-8);
     for (std::size_t k = 0; k < fields.normals.size(); ++k)
@@ -236,10 +236,10 @@ TEST_F(EvaluationTest, ReportCountsActiveRowsAndSumsAllForces) {
   const SolvedScene solved{scene, decomposition, solution};
   const Evaluation evaluation = evaluate(solved);
   // Quarters of the length: 0.5 thick left of the middle, 2 thick right of it.
-  EXPECT_EQ(evaluation.areas[0].size(), 5U);
+  EXPECT_EQ(evaluation.contacts[0].areas.size(), 5U);
   const std::vector<double> areas{0.0625, 0.125, 0.3125, 0.5, 0.25};
   for (std::size_t k = 0; k < 5; ++k)
-    EXPECT_NEAR(evaluation.areas[0][k], areas[k], 1e-14);
+    EXPECT_NEAR(evaluation.contacts[0].areas[k], areas[k], 1e-14);
 
   Teuchos::ParameterList report;
   addResults(solved, evaluation, report);

@@ -78,7 +78,7 @@ class Files(unittest.TestCase):
                 self.assertEqual(rows, points if attribute.get("Center") == "Node" else cells)
         fields = [[attribute.get("Name") for attribute in grid.findall("Attribute")] for grid in grids]
         self.assertEqual(fields[0], ["u", "subdomain"])
-        self.assertEqual(fields[2], ["normal", "area", "initial_gap", "gap", "multiplier", "pressure", "active"])
+        self.assertEqual(fields[2], ["normal", "area", "initial_gap", "gap", "multiplier", "force", "pressure", "active"])
 
     def test_cells_are_counter_clockwise_and_name_existing_nodes(self):
         content = datasets(self.runs[4] / "run.h5")

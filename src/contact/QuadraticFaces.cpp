@@ -1,0 +1,113 @@
+#include "epafi/contact/QuadraticFaces.hpp"
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace epafi::contact {
+namespace {
+
+using Weights = std::map<std::pair<std::size_t, std::size_t>, double>; ///< W_kb
+using Shares = std::vector<std::vector<ContactLayout::Share>>;
+
+double alphaOf(fem::CellType facet) {
+  return facet == fem::CellType::triangle6 ? 1.0 / 6 : 0.15;
+}
+
+/// W of one facet's nodes that have rows.
+class FacetWeights {
+public:
+  FacetWeights(fem::CellType facet, Weights& weights)
+      : facet_(facet), alpha_(alphaOf(facet)), weights_(weights) {}
+
+  /// \param rows  of the facet's nodes, −1: none
+  void add(std::span<const std::ptrdiff_t> rows) {
+    const auto numCorners = static_cast<std::size_t>(numCornersOf(facet_));
+    const std::span<const int> ends = edgesOf(facet_);
+    bool isComplete = true;
+    for (std::size_t c = 0; c < numCorners; ++c) {
+      set(rows[c], rows[c], 1);
+      isComplete = isComplete && rows[c] >= 0;
+    }
+    for (std::size_t edge = 0; 2 * edge < ends.size(); ++edge) {
+      const std::ptrdiff_t middle = rows[numCorners + edge];
+      const std::ptrdiff_t first = rows[static_cast<std::size_t>(ends[2 * edge])],
+                           second = rows[static_cast<std::size_t>(ends[2 * edge + 1])];
+      isComplete = isComplete && middle >= 0;
+      const bool isWhole = first >= 0 && second >= 0;
+      set(middle, middle, isWhole ? 1 - 2 * alpha_ : 1);
+      if (isWhole) {
+        set(first, middle, alpha_);
+        set(second, middle, alpha_);
+      }
+    }
+    if (facet_ == fem::CellType::quadrilateral9)
+      addCentre(rows, isComplete);
+  }
+
+private:
+  void addCentre(std::span<const std::ptrdiff_t> rows, bool isComplete) {
+    const std::ptrdiff_t centre = rows.back();
+    set(centre, centre, isComplete ? (1 - 2 * alpha_) * (1 - 2 * alpha_) : 1);
+    if (!isComplete)
+      return;
+    for (std::size_t node = 0; node < 4; ++node) {
+      set(rows[node], centre, alpha_ * alpha_);
+      set(rows[4 + node], centre, alpha_ * (1 - 2 * alpha_));
+    }
+  }
+
+  void set(std::ptrdiff_t function, std::ptrdiff_t node, double weight) {
+    if (function >= 0 && node >= 0)
+      weights_[{static_cast<std::size_t>(function), static_cast<std::size_t>(node)}] = weight;
+  }
+
+  fem::CellType facet_;
+  double alpha_;
+  Weights& weights_;
+};
+
+/// The inverse of Wᵀ, whose rows W has left for corners as they are.
+Shares dualCombinations(const Weights& weights, double alpha, std::size_t numRows) {
+  Shares combinations(numRows);
+  for (std::size_t row = 0; row < numRows; ++row)
+    combinations[row] = {{row, 1 / weights.at({row, row})}};
+  for (const auto& [place, weight] : weights)
+    if (place.first != place.second)
+      combinations[place.second].push_back({place.first, -alpha / (1 - 2 * alpha)});
+  return combinations;
+}
+
+} // namespace
+
+void adaptRows(const fem::Surface& surface, ContactLayout& contact) {
+  if (orderOf(surface.facetType) < 2)
+    return;
+  std::map<GlobalOrdinal, std::ptrdiff_t> rowOf;
+  for (std::size_t row = 0; row < contact.firstNodes.size(); ++row)
+    rowOf.emplace(contact.firstNodes[row], static_cast<std::ptrdiff_t>(row));
+  Weights weights;
+  FacetWeights facets(surface.facetType, weights);
+  std::vector<std::ptrdiff_t> rows;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    rows.clear();
+    for (const GlobalOrdinal node : surface.facet(f)) {
+      const auto row = rowOf.find(node);
+      rows.push_back(row == rowOf.end() ? -1 : row->second);
+    }
+    facets.add(rows);
+  }
+  contact.smoothed.assign(contact.firstNodes.size(), {});
+  for (const auto& [place, weight] : weights)
+    contact.smoothed[place.first].push_back({place.second, weight});
+  if (surface.facetType != fem::CellType::triangle6)
+    return;
+  contact.combinations = dualCombinations(weights, alphaOf(surface.facetType), contact.firstNodes.size());
+  std::vector<double> areas(contact.areas.size(), 0.0);
+  for (const auto& [place, weight] : weights)
+    areas[place.first] += weight * contact.areas[place.second];
+  contact.areas = std::move(areas);
+}
+
+} // namespace epafi::contact
