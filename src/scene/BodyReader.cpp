@@ -59,7 +59,7 @@ MeshSource readMesh(const ListReader& list, int dimension) {
       list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
     source.refinements = list.integer("Mesh Refinements");
     source.group = list.word("Group");
-    source.order = list.has("Order") ? list.integer("Order") : 0;
+    source.order = list.has("Order") || source.file.ends_with(".geo") ? list.integer("Order") : 0;
     return source;
   }
   list.refuseGiven({"Group", "Mesh Size Factor", "Mesh Refinements"},

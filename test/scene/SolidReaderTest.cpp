@@ -252,9 +252,9 @@ TEST(SolidReaderTest, RefusesAMeshSizeForAMeshThatIsThere) {
 TEST(SolidReaderTest, ElementsAreOfOrderOneOrTwo) {
   ParameterList list = cubeOnFloor();
   ParameterList& cube = bodyOf(list, "cube");
-  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 1);
-  cube.set("Order", 2);
   EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 2);
+  cube.set("Order", 1);
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 1);
   cube.set("Order", 3);
   expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Order\"", "2"});
   cube.remove("Box");
@@ -262,6 +262,8 @@ TEST(SolidReaderTest, ElementsAreOfOrderOneOrTwo) {
   cube.remove("Order");
   cube.set("Mesh", "cube.msh");
   EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 0); // the file's own
+  cube.set("Mesh", "cube.geo");
+  EXPECT_EQ(scene::readScene(list, "a.xml").bodies[0].mesh.order, 2); // Gmsh makes what is asked for
 }
 
 TEST(SolidReaderTest, RefusesSupportsThatHoldNothingOrTooMuch) {

@@ -29,11 +29,11 @@ scene::Scene coarsened(scene::Scene scene) {
   for (scene::Body& body : scene.bodies) {
     scene::MeshSource& mesh = body.mesh;
     if (!mesh.file.empty()) {
-      mesh.sizeFactor = componentsOf(body.physics) == 3 ? 4 : 2;
+      mesh.sizeFactor = componentsOf(body.physics) == 3 ? 8 : 4;
       body.decomposition.parts = 4;
     } else if (mesh.elements[2] > 0) {
       for (int& count : mesh.elements)
-        count /= 3;
+        count = 4;
     }
   }
   return scene;

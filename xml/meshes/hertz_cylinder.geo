@@ -1,33 +1,31 @@
-// Half of a block under a cylinder, x >= 0 (mm): even triangles where it touches, larger and larger ones away from it.
-// Mesh.MeshSizeFactor 1 gives sides of 0.025 mm there, a twentieth of the half-width of the contact.
+// Half of a block under a cylinder, x >= 0 (mm): small triangles where the contact ends and the pressure has a vertical
+// tangent, larger and larger ones away from there. Mesh.MeshSizeFactor 1 gives sides of 0.01 mm there, of a fifth of the
+// radius in the middle of the contact.
 zone = 1;                                      // twice the half-width of the contact
 size = 10;                                     // of the half block
-n = 4 * Round(10 / Mesh.MeshSizeFactor);       // sides along the zone; half as many down
 
 Point(1) = {0, 0, 0};
-Point(2) = {zone, 0, 0, 0.025};
-Point(3) = {zone, -zone / 2, 0, 0.025};
-Point(4) = {0, -zone / 2, 0, 0.025};
-Point(5) = {size, 0, 0, 1};
-Point(6) = {size, -size, 0, 1};
-Point(7) = {0, -size, 0, 1};
+Point(2) = {zone / 2, 0, 0};
+Point(3) = {zone, 0, 0};
+Point(4) = {size, 0, 0};
+Point(5) = {size, -size, 0};
+Point(6) = {0, -size, 0};
 Line(1) = {2, 1};
-Line(2) = {1, 4};
+Line(2) = {3, 2};
 Line(3) = {4, 3};
-Line(4) = {3, 2};
-Line(5) = {5, 2};
-Line(6) = {4, 7};
-Line(7) = {7, 6};
-Line(8) = {6, 5};
-Transfinite Curve {1, 3} = n + 1;
-Transfinite Curve {2, 4} = n / 2 + 1;
-Curve Loop(1) = {1, 2, 3, 4};
+Line(4) = {1, 6};
+Line(5) = {6, 5};
+Line(6) = {5, 4};
+Curve Loop(1) = {3, 2, 1, 4, 5, 6};
 Plane Surface(1) = {1};
-Transfinite Surface {1};
-Curve Loop(2) = {5, -4, -3, 6, 7, 8};
-Plane Surface(2) = {2};
 
-Physical Surface("block") = {1, 2};
-Physical Curve("top") = {1};                   // the zone; what lies beyond does not touch
-Physical Curve("middle") = {2, 6};
-Physical Curve("bottom") = {7};
+Field[1] = MathEval;
+Field[1].F = "0.01 + 0.25 * ((x - 0.5)^2 + y^2)^0.5";
+Background Field = 1;
+Mesh.MeshSizeExtendFromBoundary = 0;
+Mesh.MeshSizeFromPoints = 0;
+
+Physical Surface("block") = {1};
+Physical Curve("top") = {1, 2};                // the zone; what lies beyond does not touch
+Physical Curve("middle") = {4};
+Physical Curve("bottom") = {5};
