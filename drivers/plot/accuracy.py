@@ -9,9 +9,9 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLoca
 from . import style, table
 from .errors import PlotError
 
-COLUMNS = ["problem", "variant", "elements", "tolerance", "unknowns", "seconds", "hessian_multiplications", "energy_error",
+COLUMNS = ["problem", "variant", "order", "elements", "tolerance", "unknowns", "seconds", "hessian_multiplications", "energy_error",
            "algebraic_error", "estimated_error", "on_pareto_front", "discretisation_error"]
-NUMBERS = COLUMNS[4:]
+NUMBERS = COLUMNS[5:]
 TITLES = {"strings": "strings (closed form)", "coercive": "coercive membranes", "semicoercive": "semicoercive membranes",
           "blocks_plane": "elastic blocks, plane", "blocks_space": "elastic blocks, space"}
 # Of the variants, those that a picture can show: label, colour, marker. The default is drawn last.
@@ -27,6 +27,7 @@ VARIANTS = {
     "nested": ("nested, balanced", style.GREEN, "P"),
     "balanced": ("balanced", style.VERMILLION, "s"),
     "default": ("default (1e-6)", style.BLACK, "o"),
+    "quadratic": ("order 2 (1e-6)", style.BLUE, "D"),
 }
 LADDERS = {
     "ladder_plain": ("no preconditioner", style.GREY, "v"),

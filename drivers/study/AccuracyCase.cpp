@@ -83,6 +83,7 @@ Row errorsOf(const TimedRun& timed, const AccuracyReference& reference, const Ti
   const ContactResult contact = contactOf(run);
   const double iteration = algebraic.energy / norms.energy, mesh = tight.error.energy / norms.energy;
   return {{"status", qp::toString(run.solver->report().status)},
+          {"order", run.scene.bodies.front().mesh.order},
           {"elements", elementsOfSide(run.scene)},
           {"unknowns", static_cast<double>(run.decomposition->problem.primalDimension)},
           {"hessian_multiplications", run.solver->report().counts.hessianMultiplications},

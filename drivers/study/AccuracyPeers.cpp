@@ -23,6 +23,8 @@ std::vector<std::filesystem::path> tablesIn(const std::filesystem::path& directo
 std::vector<Row> peerRows(const std::filesystem::path& directory, const AccuracyProblem& problem,
                           const AccuracyReference& reference) {
   std::vector<Row> rows;
+  if (problem.order() != 1)
+    return rows;
   for (const std::filesystem::path& file : tablesIn(directory))
     for (const Row& peer :
          readCsv(file, {"problem", "unknowns", "solver", "total_seconds", "energy_error", "size", "status"},
@@ -39,6 +41,7 @@ std::vector<Row> peerRows(const std::filesystem::path& directory, const Accuracy
         const double mesh = tight.error.energy / reference.norms().energy;
         rows.push_back({{"problem", problem.name},
                         {"variant", peer.text("solver")},
+                        {"order", 1},
                         {"elements", number("size")},
                         {"tolerance", peer.text("tolerance")},
                         {"status", "Converged"},

@@ -10,7 +10,7 @@
 
 namespace epafi::drivers {
 
-/// The contact solvers of DIR/peers.csv and DIR/peers/*/peers.csv that ran on a mesh of the problem's ladder; none where there
+/// Of problems of order 1 the contact solvers of DIR/peers.csv and DIR/peers/*/peers.csv that ran on a mesh of the problem's ladder; none where there
 /// is no such file. They solve the same discrete problem, so that their discretisation error is that of the mesh; the
 /// algebraic one follows from the energy, ½‖u − u_h‖² ≤ E(u) − E(u_h) for feasible u, and E(u_h) = −½‖u_h‖² without gaps.
 /// Their times leave out the assembly.

@@ -16,6 +16,8 @@ struct AccuracyProblem {
   int meshes = 1;             ///< of the ladder; each has half the mesh size of the one before
   accuracy::ExactField exact; ///< empty where no closed form is known
 
+  /// Of the elements.
+  [[nodiscard]] int order() const { return coarsest.bodies.front().mesh.order; }
   /// The scene on a mesh of the ladder, 0 the coarsest, or beyond it, there in larger subdomains: a smaller coarse problem.
   [[nodiscard]] scene::Scene onMesh(int level) const;
 };

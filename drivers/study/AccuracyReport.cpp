@@ -29,9 +29,14 @@ std::vector<Row> series(const Table& table, const std::string& variant) {
   return all;
 }
 
+/// Of the same problem, on elements of the same order.
+bool areComparable(const Row& row, const Row& other) {
+  return other.text("problem") == row.text("problem") && other.number("order") == row.number("order");
+}
+
 bool isFinest(const Row& row, const Table& table) {
   return std::none_of(table.rows.begin(), table.rows.end(), [&](const Row& other) {
-    return other.text("problem") == row.text("problem") && other.number("elements") > row.number("elements");
+    return areComparable(row, other) && other.number("elements") > row.number("elements");
   });
 }
 
@@ -55,7 +60,7 @@ std::string saved(const Row& row, const Row& other, const std::string& column) {
 /// Of errors on two meshes; a dash for errors that are none, nothing for the first mesh.
 std::string order(const Row* coarse, const Row& fine, const std::string& column) {
   constexpr double noError = 1e-9;
-  if (coarse == nullptr || coarse->text("problem") != fine.text("problem"))
+  if (coarse == nullptr || !areComparable(*coarse, fine))
     return "";
   const double before = coarse->number(column), after = fine.number(column);
   return before > noError && after > noError ? inDigits(std::log2(before / after)) : "–";
@@ -67,7 +72,8 @@ std::string report(const std::string& title, const std::string& names, const std
   std::string text = title + ":\n\n" + markdownHeading("problem | elements a side | " + names);
   for (const Row& row : rows)
     if (Entries entries = entriesOf(row); !entries.empty()) {
-      entries.insert(entries.begin(), {row.text("problem"), count(row.number("elements"))});
+      entries.insert(entries.begin(), {row.text("problem") + (row.number("order") > 1 ? ", order 2" : ""),
+                                       count(row.number("elements"))});
       text += markdownLine(entries);
     }
   return text + "\n";
@@ -84,11 +90,37 @@ std::string frontReport(const Table& table) {
                 });
 }
 
+/// Times at the same error.
+std::string orderReport(const Table& table) {
+  return report("Order 2 beside order 1",
+                "unknowns | energy error | ms | order 2: elements a side | unknowns | energy error | ms | "
+                "time of order 1 by that of 2",
+                series(table, "default"), [&](const Row& row) -> Entries {
+                  const std::vector<Row> quadratic = series(table, "quadratic");
+                  const Row* best = nullptr;
+                  for (const Row& other : quadratic)
+                    if (other.text("problem") == row.text("problem") &&
+                        other.number("energy_error") <= row.number("energy_error") &&
+                        (best == nullptr || other.number("seconds") < best->number("seconds")))
+                      best = &other;
+                  if (best == nullptr)
+                    return {};
+                  return {count(row.number("unknowns")),
+                          digits(row, "energy_error"),
+                          milliseconds(row),
+                          count(best->number("elements")),
+                          count(best->number("unknowns")),
+                          digits(*best, "energy_error"),
+                          milliseconds(*best),
+                          inDigits(row.number("seconds") / best->number("seconds"))};
+                });
+}
+
 /// The row of another variant on the same mesh, or null.
 const Row* beside(const Row& row, const char* variant, const Table& table) {
   Row like = row;
   like["variant"] = variant;
-  return table.find(like, {"problem", "variant", "elements"});
+  return table.find(like, {"problem", "order", "variant", "elements"});
 }
 
 std::string balanceReport(const Table& table) {
@@ -131,7 +163,9 @@ std::string nestedReport(const Table& table) {
 
 std::string convergenceReport(const Table& table) {
   const Row* before = nullptr;
-  const std::vector<Row> rows = series(table, "tolerance_1e-10");
+  std::vector<Row> rows = series(table, "tolerance_1e-10");
+  for (const Row& row : series(table, "quadratic_1e-10"))
+    rows.push_back(row);
   return report(
       "Errors of the meshes, the iteration's at 1e-10",
       "unknowns | energy error | order | L2 error | order | contact zone | contact force | estimated | "
@@ -173,8 +207,8 @@ std::string variantsReport(const Table& table) {
 } // namespace
 
 std::string accuracyReport(const Table& table) {
-  return frontReport(table) + balanceReport(table) + nestedReport(table) + convergenceReport(table) +
-         variantsReport(table);
+  return frontReport(table) + orderReport(table) + balanceReport(table) + nestedReport(table) +
+         convergenceReport(table) + variantsReport(table);
 }
 
 std::string digitsReport(const Table& table) {

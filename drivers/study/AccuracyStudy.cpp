@@ -19,16 +19,19 @@ void append(const std::vector<Row>& rows, Table& table) {
 
 void measureProblem(const AccuracyProblem& problem, const std::filesystem::path& directory, bool quick,
                     const RCP<const Comm>& comm, Table& table) {
-  tell(*comm, problem.name + ": reference");
+  const std::string name = problem.name + (problem.order() > 1 ? ", order 2" : "");
+  tell(*comm, name + ": reference");
   const AccuracyReference reference(problem, comm);
   const double budget = quick ? 0.5 : 10; // seconds a mesh
   const std::string& text = caseText("accuracy");
   for (int level = 0; level < problem.meshes; ++level) {
-    tell(*comm,
-         problem.name + ": mesh " + std::to_string(level + 1) + " of " + std::to_string(problem.meshes));
-    append(measureVariants(problem, level, reference, expandCases(text, "variants", quick), budget, comm),
+    tell(*comm, name + ": mesh " + std::to_string(level + 1) + " of " + std::to_string(problem.meshes));
+    const std::string variants = problem.order() > 1 ? "quadratic" : "variants";
+    append(measureVariants(problem, level, reference, expandCases(text, variants, quick), budget, comm),
            table);
   }
+  if (problem.order() > 1)
+    return;
   std::vector<Row> ladders =
       measureVariants(problem, problem.meshes - 1, reference, expandCases(text, "ladders", quick), 0, comm);
   for (Row& row : ladders) { // one round: counts and errors

@@ -7,7 +7,7 @@ namespace epafi::drivers {
 
 Table accuracyTable() {
   return Table(
-      "problem,variant,elements,tolerance,unknowns,seconds,hessian_multiplications,energy_error,"
+      "problem,variant,order,elements,tolerance,unknowns,seconds,hessian_multiplications,energy_error,"
       "algebraic_error,estimated_error,on_pareto_front,discretisation_error,l2_error,contact_zone_error,"
       "force_error,estimated_discretisation_error,estimated_algebraic_error,effectivity,all_multiplications,"
       "finest_seconds,solve_seconds,digits_of_accuracy,digits_of_efficacy,digits_of_size,"
@@ -42,7 +42,7 @@ const Row& fastestLike(const Row& row, const Table& table) {
   constexpr double equalErrors = 1.02; // errors this much apart are taken as equal
   const Row* fastest = &row;
   for (const Row& other : table.rows)
-    if (other.text("problem") == row.text("problem") &&
+    if (other.text("problem") == row.text("problem") && other.number("order") == row.number("order") &&
         other.number("energy_error") <= equalErrors * row.number("energy_error") &&
         other.number("seconds") < fastest->number("seconds"))
       fastest = &other;

@@ -67,22 +67,20 @@ std::optional<Eigen::MatrixXd> choleskyFactor(const Eigen::MatrixXd& matrix) {
   return Eigen::MatrixXd(factor.matrixL());
 }
 
-SymmetricEigen eigenOf(Eigen::MatrixXd matrix, double above) {
+SymmetricEigen eigenOf(Eigen::MatrixXd matrix) {
   const int n = static_cast<int>(matrix.rows());
   if (n == 0)
     return {Eigen::VectorXd(0), matrix};
   if (!matrix.triangularView<Eigen::Lower>().toDenseMatrix().allFinite())
     throw Error("the eigenvalues of a matrix of " + std::to_string(n) + " rows were not found");
-  const char range = std::isinf(above) ? 'A' : 'V';
-  const double most = std::numeric_limits<double>::max(), exact = 0;
-  int found = 0, info = 0, unused = 0;
+  const double unused = 0, exact = 0;
+  int found = 0, info = 0, first = 0;
   SymmetricEigen eigen{Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
-  std::vector<int> support(2 * static_cast<std::size_t>(n));
+  std::vector<int> support(2 * static_cast<std::size_t>(n)), integers(1);
   std::vector<double> work(1);
-  std::vector<int> integers(1);
   int numWork = -1, numIntegers = -1; // asks how many there are to be
   for (int pass = 0; pass < 2; ++pass) {
-    dsyevr_("V", &range, "L", &n, matrix.data(), &n, &above, &most, &unused, &unused, &exact, &found,
+    dsyevr_("V", "A", "L", &n, matrix.data(), &n, &unused, &unused, &first, &first, &exact, &found,
             eigen.values.data(), eigen.vectors.data(), &n, support.data(), work.data(), &numWork,
             integers.data(), &numIntegers, &info, 1, 1, 1);
     if (info != 0)
@@ -94,8 +92,6 @@ SymmetricEigen eigenOf(Eigen::MatrixXd matrix, double above) {
       integers.resize(static_cast<std::size_t>(numIntegers));
     }
   }
-  eigen.values.conservativeResize(found);
-  eigen.vectors.conservativeResize(Eigen::NoChange, found);
   return eigen;
 }
 

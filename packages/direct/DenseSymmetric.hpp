@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <optional>
 
 namespace epafi::direct {
@@ -27,9 +26,7 @@ struct SymmetricEigen {
   [[nodiscard]] Eigen::Index numUpTo(double threshold) const { return (values.array() <= threshold).count(); }
 };
 
-/// Of a symmetric matrix, of which the lower triangle is read.
-/// \param above  eigenvalues up to it are left out, with their vectors, and cost little
-/// \throws Error if the iteration fails.
-SymmetricEigen eigenOf(Eigen::MatrixXd matrix, double above = -std::numeric_limits<double>::infinity());
+/// Of a symmetric matrix, of which the lower triangle is read. \throws Error if the iteration fails.
+SymmetricEigen eigenOf(Eigen::MatrixXd matrix);
 
 } // namespace epafi::direct

@@ -163,9 +163,11 @@ OverratedJumps overratedJumps(const JointStiffness& joint, double threshold) {
   const Eigen::Index size = symmetric.rows();
   if (direct::choleskyFactor(threshold * Eigen::MatrixXd::Identity(size, size) - symmetric))
     return {Eigen::VectorXd(0), Eigen::MatrixXd(size, 0), Eigen::MatrixXd(size, 0)}; // all ω are below it
-  const direct::SymmetricEigen eigen = direct::eigenOf(symmetric, threshold);
-  const Eigen::MatrixXd x = eigen.vectors.rowwise().reverse();
-  return {eigen.values.reverse(), lower->transpose().triangularView<Eigen::Upper>().solve(x), *lower * x};
+  const direct::SymmetricEigen eigen = direct::eigenOf(symmetric);
+  const Eigen::Index number = size - eigen.numUpTo(threshold);
+  const Eigen::MatrixXd x = eigen.vectors.rightCols(number).rowwise().reverse();
+  return {eigen.values.tail(number).reverse(), lower->transpose().triangularView<Eigen::Upper>().solve(x),
+          *lower * x};
 }
 
 } // namespace epafi::fetidp

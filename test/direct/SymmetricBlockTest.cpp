@@ -77,26 +77,15 @@ TEST(DenseSymmetricTest, RefusesWhatIsNotPositiveDefinite) {
   EXPECT_THROW(direct::inverseFromFactor(Eigen::Matrix2d{{1, 0}, {2, 0}}), Error);
 }
 
-TEST(SymmetricEigenTest, VectorsDiagonaliseAndAThresholdLeavesTheLargeOnes) {
+TEST(SymmetricEigenTest, VectorsDiagonalise) {
   for (const int k : {0, 1, 2, 40, 150}) {
     const Eigen::MatrixXd a = symmetric(k);
-    const direct::SymmetricEigen all = direct::eigenOf(a);
-    ASSERT_EQ(all.values.size(), k);
-    const double accuracy = 1e-12 * (1 + a.norm());
-    EXPECT_LE((all.vectors.transpose() * all.vectors - Eigen::MatrixXd::Identity(k, k)).norm(),
+    const direct::SymmetricEigen eigen = direct::eigenOf(a);
+    ASSERT_EQ(eigen.values.size(), k);
+    EXPECT_LE((eigen.vectors.transpose() * eigen.vectors - Eigen::MatrixXd::Identity(k, k)).norm(),
               1e-12 * (1 + k));
-    EXPECT_LE((a * all.vectors - all.vectors * all.values.asDiagonal()).norm(), accuracy);
-    EXPECT_TRUE(std::is_sorted(all.values.begin(), all.values.end()));
-    if (k < 2)
-      continue;
-    const Eigen::Index rest = k / 2;
-    const double threshold = 0.5 * (all.values[rest - 1] + all.values[rest]);
-    const direct::SymmetricEigen large = direct::eigenOf(a, threshold);
-    ASSERT_EQ(large.values.size(), k - rest);
-    ASSERT_EQ(large.vectors.cols(), k - rest);
-    EXPECT_LE((large.values - all.values.tail(k - rest)).norm(), accuracy);
-    EXPECT_LE((a * large.vectors - large.vectors * large.values.asDiagonal()).norm(), accuracy);
-    EXPECT_EQ(direct::eigenOf(a, 2 * all.values[k - 1]).values.size(), 0);
+    EXPECT_LE((a * eigen.vectors - eigen.vectors * eigen.values.asDiagonal()).norm(), 1e-12 * (1 + a.norm()));
+    EXPECT_TRUE(std::is_sorted(eigen.values.begin(), eigen.values.end()));
   }
   EXPECT_THROW(direct::eigenOf(Eigen::MatrixXd::Constant(3, 3, std::nan(""))), Error);
 }

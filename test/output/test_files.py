@@ -42,7 +42,7 @@ class Files(unittest.TestCase):
 
     def test_content_does_not_depend_on_the_number_of_ranks(self):
         one = datasets(self.runs[1] / "run.h5")
-        self.assertEqual(len(one), 2 * 5 + 9 + 8)
+        self.assertEqual(len(one), 2 * 5 + 10 + 8)
         for ranks in (2, 3, 4):
             other = datasets(self.runs[ranks] / "run.h5")
             self.assertEqual(one.keys(), other.keys())
@@ -56,7 +56,7 @@ class Files(unittest.TestCase):
         directory = self.runs[2]
         tree = xml.etree.ElementTree.parse(directory / "run.xdmf")
         items = tree.findall(".//DataItem")
-        self.assertEqual(len(items), 2 * 4 + 9)
+        self.assertEqual(len(items), 2 * 4 + 10)
         for item in items:
             file, dataset = item.text.strip().split(":")
             with h5py.File(directory / file, "r") as content:

@@ -63,9 +63,9 @@ cubes in space,columns,grid,1,auto,0,24,22.5,1
 cubes in space,columns,grid,1e+06,no,0,1132,4e5,1
 cubes in space,columns,grid,1e+06,auto,36,83,8.3,1
 """
-ACCURACY = ("problem,variant,elements,tolerance,unknowns,seconds,hessian_multiplications,energy_error,algebraic_error,"
+ACCURACY = ("problem,variant,order,elements,tolerance,unknowns,seconds,hessian_multiplications,energy_error,algebraic_error,"
             "estimated_error,on_pareto_front,discretisation_error\n") + "".join(
-    f"coercive,{variant},{elements},{tolerance},{elements**2},{elements / 1000},20,{1 / elements},1e-5,{1 / elements},1,"
+    f"coercive,{variant},1,{elements},{tolerance},{elements**2},{elements / 1000},20,{1 / elements},1e-5,{1 / elements},1,"
     f"{1 / elements}\n" for variant, tolerance in (("default", "1e-6"), ("balanced", "balanced"), ("tolerance_1e-10", "1e-10"),
                                                    ("ladder_plain", "1e-4"), ("ladder_plain", "1e-7"))
     for elements in (16, 32))

@@ -4,6 +4,8 @@
 #include "../fem/TurnedMesh.hpp"
 #include "SolidScenes.hpp"
 
+#include "epafi/fem/MeshOrder.hpp"
+
 #include <cmath>
 
 namespace epafi {
@@ -17,6 +19,7 @@ struct Case {
   int dimension;
   bool simplices, coercive;
   int parts;
+  int order = 1;
 };
 
 /// Two blocks in files, one on the other, all supports along normals; a load that is not symmetric.
@@ -28,10 +31,17 @@ scene::Scene stack(const Case& c, const Placement& placement, const MeshFolder& 
     const fem::StructuredMesh mesh(isSpace ? scene::Box{{0, 0, low}, {1, 1.5, high}}
                                            : scene::rectangle(0, 1.5, low, high),
                                    isSpace ? std::array{3, 3, 2} : std::array{6, 4, 0});
+    fem::MeshArrays arrays = arraysOf(mesh, placement, c.simplices);
+    if (c.order == 2) {
+      arrays = completed(std::move(arrays), false);
+      for (std::size_t node = 0; node < arrays.nodeTags.size(); ++node)
+        arrays.nodeTags[node] = static_cast<GlobalOrdinal>(node) + 1;
+    }
     const std::string name = level == 0 ? "lower" : "upper";
     scene::Body body = block(name, {}, {0, 0, isSpace ? 1 : 0}, cutByMetis(c.parts));
     body.mesh = {};
-    body.mesh.file = folder.write(name + ".msh", fem::test::fileOf(arraysOf(mesh, placement, c.simplices)));
+    body.mesh.file = folder.write(name + ".msh", fem::test::fileOf(arrays));
+    body.mesh.order = 0;
     body.mesh.group = "body";
     body.supports = {slide("left")};
     if (isSpace)
@@ -83,11 +93,14 @@ TEST_P(TurnedSolidTest, TurnsItsSolution) {
 INSTANTIATE_TEST_SUITE_P(Stacks, TurnedSolidTest,
                          testing::Values(Case{2, false, true, 3}, Case{2, true, true, 5},
                                          Case{2, true, false, 3}, Case{2, false, false, 5},
-                                         Case{3, false, true, 3}, Case{3, true, false, 4}),
+                                         Case{3, false, true, 3}, Case{3, true, false, 4},
+                                         Case{2, true, false, 3, 2}, Case{2, false, true, 3, 2},
+                                         Case{3, false, false, 3, 2}, Case{3, true, false, 4, 2}),
                          [](const auto& instance) {
                            const Case& c = instance.param;
                            return std::string(c.dimension == 2 ? "Plane" : "Space") +
-                                  (c.simplices ? "Simplices" : "Cubes") + (c.coercive ? "Held" : "Floating");
+                                  (c.simplices ? "Simplices" : "Cubes") + (c.coercive ? "Held" : "Floating") +
+                                  std::to_string(c.order);
                          });
 
 TEST(TurnedContactTest, TheCutOfATurnedSceneDoesNotMatter) {
