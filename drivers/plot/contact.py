@@ -37,7 +37,7 @@ def pieces(pair):
 
 
 def figure(run, pair):
-    """Gap and multiplier; of elastic bodies the pressure, that is the multiplier by area."""
+    """Gap and multiplier; of elastic bodies the pressure."""
     curves = pieces(pair)
     closed = [span for s, curve in curves if len(s) > 1 for span in spans(s, curve.active)]
     dots = dict(marker="o", markersize=3.6) if len(pair.points) <= 130 else {}
@@ -64,7 +64,7 @@ def figure(run, pair):
         multiplier.plot(s, curve.pressure if run.is_elastic() else curve.multiplier, color=style.VERMILLION, linewidth=1.6,
                         clip_on=False, **dots)
         active.step(s, curve.active.astype(float), where="mid", color=style.BLACK, linewidth=1.4)
-    multiplier.set_ylabel("pressure λ / area\n[force per area]" if run.is_elastic() else "multiplier λ [force a node]")
+    multiplier.set_ylabel("contact pressure\n[force per area]" if run.is_elastic() else "multiplier λ [force a node]")
 
     active.set_yticks([0, 1], ["open", "closed"])
     active.set_ylim(-0.25, 1.25)

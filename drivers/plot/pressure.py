@@ -79,7 +79,7 @@ def figure(run, pair):
     axes.set_xlabel(labels[0])
     axes.set_ylabel(labels[1])
     bar = picture.colorbar(shown, ax=axes, shrink=0.85, pad=0.03, aspect=26)
-    bar.set_label("contact pressure λ / area [force per area]")
+    bar.set_label("contact pressure [force per area]")
     bar.outline.set_visible(False)
     axes.set_title(f"Contact {pair.name}: {int(pair.active.sum())} of {len(pair.points)} nodes closed, "
                    f"force {pair.multiplier.sum():.4g}, largest pressure {pair.pressure.max():.4g} — {run.title}", fontsize=12)
