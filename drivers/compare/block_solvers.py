@@ -5,11 +5,14 @@ solvers.py. What is counted:
                           the factors of subdomains that are alike
   snesvi_*                from the making of the SNES to its solution; assembly, reading the file and the change of variables
                           are left out; iterations are Newton steps
+  calculix                the whole program, with elements of its own (calculix.py)
 """
 
 import pathlib
+import shutil
 import tempfile
 
+import calculix
 import solvers
 from solvers import Trouble
 
@@ -18,7 +21,8 @@ LARGEST_RANKS = 64
 DEFAULT_SIZE = 37
 SIZES = "within 4 ... 128"
 NOTE = "Times: epafi from assembly to u; its peers without their assembly and without changing variables."
-NAMES = ("epafi", "epafi_separate", "snesvi_cholmod", "snesvi_hypre", "snesvi_gamg")
+NAMES = ("epafi", "epafi_separate", "snesvi_cholmod", "snesvi_hypre", "snesvi_gamg", "calculix")
+LARGEST_ORDER = 2
 EPAFI_TOLERANCE = 0.1  # of the peers': see Case
 
 
@@ -28,7 +32,7 @@ def is_size(size):
 
 def programs(names):
     """What has to be built for these solvers."""
-    return {"epafi" if name.startswith("epafi") else "epafi-export" for name in names}
+    return {"epafi" if name.startswith("epafi") else "epafi-export" for name in names if name != "calculix"}
 
 
 class Case:
@@ -40,7 +44,7 @@ class Case:
     def __init__(self, options, folder_of_programs, _, folder):
         self.problem, self.size, self.ranks, self.time_limit = options.problem, options.size, options.ranks, options.time_limit
         self.tolerance, self.epafi_options, self.programs = options.tolerance, options.epafi_options, folder_of_programs
-        self.grid = max(2, round(options.size / 4.5))
+        self.order, self.grid = options.order, max(2, round(options.size * options.order / 4.5))
         self.scene, self.file = solvers.COMPARE / f"{options.problem}.xml", pathlib.Path(folder) / "system.petsc"
 
     def learn(self, name, run):
@@ -48,12 +52,14 @@ class Case:
 
     def unknowns(self):
         """Free displacements of the undecomposed meshes."""
-        held, plane = 3 * self.size * (self.size + 1)**2, (self.size + 1)**2
+        n = self.size * self.order
+        held, plane = 3 * n * (n + 1)**2, (n + 1)**2
         return 2 * held + (plane if self.problem == "floating_blocks" else 0)
 
     def elements(self):
         """--set options of the mesh."""
-        return [f"--set=Bodies/{body}/Elements={{{self.size},{self.size},{self.size}}}" for body in ("lower", "upper")]
+        return [f"--set=Bodies/{body}/{change}" for body in ("lower", "upper")
+                for change in (f"Elements={{{self.size},{self.size},{self.size}}}", f"Order={self.order}")]
 
     def launcher(self, ranks):
         """What stands before a program that runs on so many ranks."""
@@ -88,8 +94,20 @@ def run_snesvi(solver, case):
         threads))
 
 
+def run_calculix(case):
+    program = shutil.which("ccx")
+    if program is None:
+        raise Trouble("missing", "install the package calculix-ccx, or all of the peers by ./setup packages peers")
+    try:
+        return calculix.solve(program, case.problem, case.size, case.order, case.ranks, case.time_limit)
+    except calculix.Failed as error:
+        raise Trouble("failed", str(error)) from None
+
+
 def run(name, case):
     """\\raises Trouble, UsageError"""
+    if name == "calculix":
+        return run_calculix(case)
     if name == "epafi":
         return run_epafi(case, [])
     if name == "epafi_separate":

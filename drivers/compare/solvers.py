@@ -20,6 +20,7 @@ from reference import ROOT
 # What peers and table.py ask of a family of problems, with programs, Case and run below: this one, or block_solvers.py.
 TITLE = "membranes, 1/h"
 LARGEST_RANKS = 1
+LARGEST_ORDER = 1
 DEFAULT_SIZE = 512
 SIZES = "a multiple of 4 within 8 ... 4096"
 NOTE = ("Times: epafi from assembly to u; its peers without their assembly, and linear_* is one linear solve with the contact "

@@ -13,11 +13,11 @@
 #include <vector>
 
 /// LAPACK's eigenvalues by relatively robust representations, which Teuchos does not wrap; the last three are lengths of texts.
-extern "C" void dsyevr_(const char* jobz, const char* range, const char* uplo, const int* n, double* a,
-                        const int* lda, const double* vl, const double* vu, const int* il, const int* iu,
-                        const double* abstol, int* m, double* w, double* z, const int* ldz, int* isuppz,
-                        double* work, const int* lwork, int* iwork, const int* liwork, int* info, std::size_t,
-                        std::size_t, std::size_t);
+extern "C" void dsyevr_( // NOLINT(readability-identifier-naming): LAPACK's name
+    const char* jobz, const char* range, const char* uplo, const int* n, double* a, const int* lda,
+    const double* vl, const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w,
+    double* z, const int* ldz, int* isuppz, double* work, const int* lwork, int* iwork, const int* liwork,
+    int* info, std::size_t, std::size_t, std::size_t);
 
 namespace epafi::direct {
 namespace {

@@ -19,11 +19,12 @@ COMPLETE, FAILED, WRONG_USAGE = range(3)
 LIMIT = 120  # seconds
 COLUMNS = ["problem", "unknowns", "solver", "total_seconds", "iterations", "energy", "peak_bytes"]
 OURS = "epafi,linear_cholmod,linear_muelu"
-BLOCKS = "epafi,epafi_separate,snesvi_cholmod,snesvi_hypre,snesvi_gamg"
+BLOCKS = "epafi,epafi_separate,snesvi_cholmod,snesvi_hypre,snesvi_gamg,calculix"
 HAS_PETSC = (glob.glob("/usr/lib/petscdir/petsc*/*-real/lib/python3/dist-packages/petsc4py") and
              importlib.util.find_spec("mpi4py") is not None)
 
 sys.path.insert(0, str(SOURCE / "drivers/compare"))
+import calculix  # noqa: E402
 import contact_bounds  # noqa: E402
 
 
@@ -190,17 +191,31 @@ class Peers(unittest.TestCase):
 
     @unittest.skipUnless(HAS_PETSC, "PETSc for Python is not installed: ./setup packages peers")
     def test_all_solvers_find_the_same_energy_of_blocks(self):
-        for problem in ("held_blocks", "floating_blocks"):
-            run = self.peers("--problem", problem, "--size", 6, "--repeats", 1)
+        for problem, size, order in (("held_blocks", 6, 1), ("floating_blocks", 4, 2)):
+            run = self.peers("--problem", problem, "--size", size, "--order", order, "--repeats", 1)
             self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""), run.stdout)
             rows = self.table()
             self.assertEqual(",".join(rows), BLOCKS)
+            calculix = rows.pop("calculix")  # other elements: another energy, no less near the limit
+            if calculix["status"] != "missing":
+                self.assertEqual(calculix["status"], "ok", calculix["reason"])
+                self.assertLess(float(calculix["energy_error"]), 0.03)
             for name, row in rows.items():
-                self.assertEqual((row["problem"], row["status"]), (problem, "ok"), row["reason"])
+                self.assertEqual((row["problem"], row["order"], row["status"]), (problem, str(order), "ok"), row["reason"])
                 self.assertLessEqual(float(row["energy_error"]), 1e-6, name)
                 self.assertEqual(row["closed_nodes"], rows["epafi"]["closed_nodes"], name)
                 self.assertEqual(row["unknowns"], rows["epafi"]["unknowns"], name)
                 self.assertIn(f"{float(row['ratio']):.2f}", run.stdout)
+
+    def test_the_deck_of_calculix_has_all_nodes_once_and_the_weight_of_the_loads(self):
+        for order, nodes in ((1, 125), (2, 729 - 64 - 3 * 4 * 4 * 5)):  # of 9^3 places none in faces or inside of elements
+            text, forces = calculix.deck("held_blocks", 4, order)
+            self.assertEqual(len(forces), nodes)
+            self.assertAlmostEqual(sum(force for force in forces.values() if force), 0.0, places=9)  # as much up as down
+            listed = text.split("*ELEMENT")[0].splitlines()[1:]
+            places = {tuple(map(float, line.split(",")[1:])) for line in listed}
+            self.assertEqual(len(places), 2 * nodes - (25 if order == 1 else 81 - 16))  # those of the joint are at one place
+        self.assertIn("C3D20", text)
 
     def test_blocks_name_a_missing_package_on_two_ranks(self):
         (self.place / "petsc4py.py").write_text("raise ImportError('not here')\n", encoding="utf-8")
@@ -224,6 +239,7 @@ class Peers(unittest.TestCase):
                                 ("--repeats", ["--repeats", "0"]), ("--tolerance", ["--tolerance", "0"]),
                                 ("Grd", ["--size", "8", "--solvers", "epafi", "--epafi-options", "Decomposition/Grd={2,2}"]),
                                 ("membranes: 1", ["--ranks", "2"]), ("--ranks", ["--problem", "held_blocks", "--ranks", "0"]),
+                                ("--order", ["--order", "2"]), ("--order", ["--problem", "held_blocks", "--order", "3"]),
                                 ("within 4 ... 128", ["--problem", "held_blocks", "--size", "512"]),
                                 ("snesvi_gamg", ["--problem", "held_blocks", "--solvers", "linear_muelu"]),
                                 ("setup build", ["--programs", str(self.place)])):
