@@ -33,7 +33,8 @@ double pullIn(fem::Simplex<dim, order> /*shape*/, Eigen::Matrix<double, dim, 1>&
   return outside;
 }
 
-/// Newton's method for x(ξ) = point, exact at once where the map is affine.
+/// Newton's method for x(ξ) = point, exact at once where the map is affine; not finite where it does not settle, as far outside of
+/// curved elements.
 template <class Shape>
 typename Shape::Coordinates coordinatesOf(std::span<const Point> corners, const Point& point) {
   constexpr int dim = Shape::dimension;
@@ -50,9 +51,9 @@ typename Shape::Coordinates coordinatesOf(std::span<const Point> corners, const 
         map.jacobian().partialPivLu().solve(wanted - relative * sample.values);
     xi += step.cwiseMin(2.0).cwiseMax(-2.0);
     if (!(step.norm() > 1e-12))
-      break;
+      return xi;
   }
-  return xi;
+  return Shape::Coordinates::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// \param[out] outside  how far the point is outside of the element, in reference coordinates
@@ -121,14 +122,16 @@ Location PointLocation::find(const Point& point) {
     return locateIn(mesh_, cell[0] + grid->elements()[0] * (cell[1] + grid->elements()[1] * cell[2]), point,
                     outside);
   }
-  constexpr double roundOff = 1e-9, near = 0.5;
+  // The element that a point lies in may be much larger than most, its centre far away: one that the point is clearly outside of
+  // does for points beyond a curved border alone, after a look further off.
+  constexpr double roundOff = 1e-9, near = 0.1;
   for (double reach = reach_;; reach *= 2) {
     const auto [lower, upper] = fem::boxOf(std::span(&point, 1), reach);
     centres_->inBox(lower, upper, found_);
     if (found_.empty())
       continue;
     const Location location = best(point, found_, outside);
-    if (outside <= roundOff || (outside <= near && reach > 2 * reach_) || reach > 2 * extent_)
+    if (outside <= roundOff || (outside <= near && reach > 4 * reach_) || reach > 2 * extent_)
       return location;
   }
 }

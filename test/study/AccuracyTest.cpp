@@ -187,4 +187,12 @@ TEST(EffectivityTest, OfAModelProblemIsNearOne) {
   EXPECT_THROW(measureEffectivity("no such scene", 2, 1, scenes, comm), InputError);
 }
 
+/// Curved elements, whose maps do not settle for points far outside of them.
+TEST(EffectivityTest, OfCurvedMeshesIsNearOne) {
+  const std::vector<Row> rows = measureEffectivity("pressed_ring", 1, 1, scenes, Tpetra::getDefaultComm());
+  ASSERT_EQ(rows.size(), 1);
+  EXPECT_GT(rows[0].number("effectivity"), 0.6);
+  EXPECT_LT(rows[0].number("effectivity"), 1.5);
+}
+
 } // namespace
