@@ -1,6 +1,7 @@
 #include "JointEnd.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/HeldSignal.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Teuchos_Time.hpp>
@@ -101,7 +102,10 @@ int endTogether(const Comm& comm, const std::function<int()>& work, double patie
 int runMain(int argc, char** argv, const std::string& program,
             const std::function<int(const RCP<const Comm>&)>& work) {
   int programNameOnly = std::min(argc, 1); // Kokkos would answer --help itself
-  const Tpetra::ScopeGuard scope(&programNameOnly, &argv);
+  const Tpetra::ScopeGuard scope = [&] {
+    const HeldSignal held(SIGTERM); // from the threads that MPI starts: METIS must be able to hold it
+    return Tpetra::ScopeGuard(&programNameOnly, &argv);
+  }();
   const RCP<const Comm> comm = Tpetra::getDefaultComm();
   return endTogether(
       *comm, [&] { return work(comm); }, 3.0, program);

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/HeldSignal.hpp"
 #include "epafi/fem/ConnectedElements.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
@@ -64,18 +65,11 @@ std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
   auto numVertices = static_cast<idx_t>(mesh.numElements());
   idx_t numConstraints = 1, numParts = parts, cut = 0;
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
-  const auto partition = [&] {
-    return METIS_PartGraphKway(&numVertices, &numConstraints, graph.start.data(), graph.neighbours.data(),
-                               nullptr, nullptr, nullptr, &numParts, nullptr, nullptr, options, &cut,
-                               part.data());
-  };
-  int status = partition();
-  // METIS takes a SIGTERM from outside for a failure of its own: such a one is passed on to whom it was meant for.
-  if (status == METIS_ERROR) {
-    status = partition();
-    if (status == METIS_OK)
-      std::raise(SIGTERM);
-  }
+  // METIS takes a SIGTERM from outside for a failure of its own, and jumps out of whatever it interrupts.
+  const HeldSignal held(SIGTERM);
+  const int status =
+      METIS_PartGraphKway(&numVertices, &numConstraints, graph.start.data(), graph.neighbours.data(), nullptr,
+                          nullptr, nullptr, &numParts, nullptr, nullptr, options, &cut, part.data());
   if (status == METIS_ERROR_MEMORY)
     throw std::bad_alloc();
   if (status != METIS_OK)
