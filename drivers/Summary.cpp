@@ -61,7 +61,11 @@ void describeProblem(std::ostream& text, const SceneRun& run) {
        << counted(problem, "Subdomains", "subdomain") << " on " << counted(problem, "Ranks", "rank") << ", "
        << counted(problem, "Crosspoints", "crosspoint") << "\n              "
        << counted(problem, "Dual Dimension", "multiplier") << ": " << count(problem, "Inequality Multipliers")
-       << " of contact, " << count(problem, "Equality Multipliers") << " of gluing\n";
+       << " of contact, ";
+  const GlobalOrdinal ties = run.decomposition->problem.numTies;
+  if (ties > 0)
+    text << ties << " of tied joints, ";
+  text << count(problem, "Equality Multipliers") - ties << " of gluing\n";
   for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {
     const scene::Decomposition& asked = run.scene.bodies[b].decomposition;
     const int parts = run.decomposition->bodies[b].partition->numParts();
@@ -163,6 +167,15 @@ void describeResults(std::ostream& text, const SceneRun& run) {
            << ", largest pressure " << rounded(contact, "Largest Pressure");
       if (contact.isParameter("Largest Penetration"))
         text << ", penetration " << rounded(contact, "Largest Penetration");
+      if (contact.isParameter("Coupling"))
+        text << "; " << contact.get<std::string>("Coupling");
+    });
+  if (run.report.isSublist("Tied"))
+    describeEach(text, run.report.sublist("Tied"), "tied", [&](const ParameterList& tie) {
+      const auto& force = tie.get<Teuchos::Array<double>>("Resultant");
+      text << counted(tie, "Nodes", "node") << ", force " << std::setprecision(5)
+           << std::hypot(force[0], force[1], force[2]) << ", largest traction "
+           << rounded(tie, "Largest Traction") << "; " << tie.get<std::string>("Coupling");
     });
 }
 

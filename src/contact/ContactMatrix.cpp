@@ -64,7 +64,9 @@ std::vector<Row> ownRows(const std::vector<ContactLayout>& contacts, const NodeU
       Row& row = rows.emplace_back(Row{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
       contact.forEachShare(place, [&](std::size_t node, double weight) {
         row.gap += weight * contact.gaps[node];
-        enter(contact, node, unknowns, contact.firstBody, contact.firstNodes[node], weight, row);
+        contact.forEachFirst(node, [&](const NodeShare& share) {
+          enter(contact, node, unknowns, contact.firstBody, share.node, weight * share.weight, row);
+        });
         if (contact.secondBody >= 0)
           for (const NodeShare& share : contact.secondNodes[node])
             enter(contact, node, unknowns, contact.secondBody, share.node, -weight * share.weight, row);

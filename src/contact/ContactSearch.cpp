@@ -2,11 +2,16 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/contact/FacetTree.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace epafi::contact {
 namespace {
@@ -15,8 +20,6 @@ using Eigen::Vector3d;
 
 /// Nodes face each other if what lies between them is normal to the surfaces up to this share of their spacing.
 constexpr double matchTolerance = 1e-2;
-
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 InputError refusal(const ContactTerms& contact, const std::string& what) {
   return InputError("contact '" + contact.name + "': " + what);
@@ -39,74 +42,91 @@ Approach approachTo(const Obstacle& obstacle, const Vector3d& point, int dimensi
 
 void addRow(const Vector3d& direction, double gap, double area, int components, ContactLayout& layout) {
   for (int c = 0; c < components; ++c)
-    layout.directions.push_back(components == 1 ? 1.0 : direction[c]);
+    layout.directions.push_back(direction[c]);
   layout.gaps.push_back(gap);
   layout.areas.push_back(area);
 }
 
-/// For each node of a surface the node of the other that it faces, or none. Nodes are sorted along one axis: those
-/// farther away along it than the distance are not looked at; without a distance all are.
-std::vector<std::size_t> findPartners(const SurfaceNodes& first, const SurfaceNodes& second,
-                                      double distance) {
-  std::vector<std::size_t> order(second.nodes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  Vector3d lower = first.points.front(), upper = lower;
-  for (const Vector3d& point : first.points) {
-    lower = lower.cwiseMin(point);
-    upper = upper.cwiseMax(point);
-  }
-  int axis = 0;
-  (upper - lower).maxCoeff(&axis);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return second.points[a][axis] < second.points[b][axis]; });
+/// Boxes of no extent around points.
+std::vector<FacetTree::Box> boxesOf(const std::vector<Vector3d>& points) {
+  std::vector<FacetTree::Box> boxes;
+  for (const Vector3d& x : points)
+    boxes.push_back({fem::Point{x[0], x[1], x[2]}, fem::Point{x[0], x[1], x[2]}});
+  return boxes;
+}
 
-  std::vector<std::size_t> partner(first.nodes.size(), none);
-  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
-    const double tolerance = matchTolerance * first.spacings[i];
-    double nearest = std::numeric_limits<double>::infinity();
-    const double reach = distance + tolerance, from = first.points[i][axis] - reach;
-    auto next = std::lower_bound(order.begin(), order.end(), from,
-                                 [&](std::size_t j, double x) { return second.points[j][axis] < x; });
-    for (; next != order.end() && second.points[*next][axis] <= first.points[i][axis] + reach; ++next) {
-      const std::size_t j = *next;
-      const Vector3d between = second.points[j] - first.points[i];
-      const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
-      const double along = normal.dot(between);
-      if (std::abs(along) <= distance && (between - along * normal).norm() <= tolerance &&
-          std::abs(along) < nearest && first.normals[i].dot(second.normals[j]) < 0) {
-        nearest = std::abs(along);
-        partner[i] = j;
-      }
-    }
+/// The box around two points, with a margin.
+FacetTree::Box boxAround(const Vector3d& a, const Vector3d& b, double margin) {
+  return fem::boxOf(std::array{fem::Point{a[0], a[1], a[2]}, fem::Point{b[0], b[1], b[2]}}, margin);
+}
+
+/// The first node that has no partner and is near to the other surface, or `alone`.
+std::size_t lonelyNode(const ContactTerms& contact, const SurfaceNodes& surface, const SurfaceNodes& other,
+                       const std::vector<char>& isPaired) {
+  const FacetTree tree(boxesOf(other.points));
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < isPaired.size(); ++i) {
+    if (isPaired[i] != 0)
+      continue;
+    const double reach = std::min(contact.distance, 2 * surface.spacings[i]);
+    tree.meeting(boxAround(surface.points[i], surface.points[i], reach), found);
+    if (std::any_of(found.begin(), found.end(),
+                    [&](std::size_t j) { return (other.points[j] - surface.points[i]).norm() <= reach; }))
+      return i;
   }
-  return partner;
+  return FacingNodes::alone;
+}
+
+/// Nodes of both surfaces, near the other one, that have no partner.
+struct LonelyNodes {
+  std::size_t first, second;
+};
+
+LonelyNodes lonelyNodes(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+                        const FacingNodes& pairs) {
+  std::vector<char> isPaired(first.nodes.size(), 0), isUsed(second.nodes.size(), 0);
+  for (std::size_t i = 0; i < isPaired.size(); ++i)
+    if (const std::size_t j = pairs.partner[i]; j != FacingNodes::alone)
+      isPaired[i] = isUsed[j] = 1;
+  return {lonelyNode(contact, first, second, isPaired), lonelyNode(contact, second, first, isUsed)};
+}
+
+bool isUsedTwice(const FacingNodes& pairs) {
+  std::vector<std::size_t> used;
+  std::copy_if(pairs.partner.begin(), pairs.partner.end(), std::back_inserter(used),
+               [](std::size_t j) { return j != FacingNodes::alone; });
+  std::sort(used.begin(), used.end());
+  return std::adjacent_find(used.begin(), used.end()) != used.end();
+}
+
+/// Corners of the facets whose corners all have a place after renumbering, each sorted, all sorted.
+std::vector<std::vector<std::size_t>> facetsAs(const SurfaceNodes& surface,
+                                               const std::vector<std::size_t>& number) {
+  std::vector<std::vector<std::size_t>> facets;
+  for (std::vector<std::size_t> corners : surface.facets) {
+    for (std::size_t& corner : corners)
+      corner = number[corner];
+    std::sort(corners.begin(), corners.end());
+    if (corners.back() != FacingNodes::alone)
+      facets.push_back(std::move(corners));
+  }
+  std::sort(facets.begin(), facets.end());
+  return facets;
 }
 
 /// Throws if both surfaces have nodes left over that are near the other one.
 void requireMatch(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
-                  const std::vector<std::size_t>& partner) {
-  std::vector<char> isUsed(second.nodes.size(), 0);
-  for (const std::size_t j : partner)
-    if (j != none)
-      isUsed[j] = 1;
-  const auto isNear = [&](const SurfaceNodes& surface, std::size_t place, const SurfaceNodes& other) {
-    const double reach = std::min(contact.distance, 2 * surface.spacings[place]);
-    return std::any_of(other.points.begin(), other.points.end(), [&](const Vector3d& point) {
-      return (point - surface.points[place]).norm() <= reach;
-    });
-  };
-  std::size_t lonelyFirst = none, lonelySecond = none;
-  for (std::size_t i = 0; i < partner.size() && lonelyFirst == none; ++i)
-    if (partner[i] == none && isNear(first, i, second))
-      lonelyFirst = i;
-  for (std::size_t j = 0; j < isUsed.size() && lonelySecond == none; ++j)
-    if (isUsed[j] == 0 && isNear(second, j, first))
-      lonelySecond = j;
-  if (lonelyFirst != none && lonelySecond != none)
-    throw refusal(contact, "the surfaces do not match: neither the node at " +
-                               text(first.points[lonelyFirst]) + " of the first nor that at " +
-                               text(second.points[lonelySecond]) +
-                               " of the second faces a node of the other; mesh them alike");
+                  const FacingNodes& pairs) {
+  const auto [lonelyFirst, lonelySecond] = lonelyNodes(contact, first, second, pairs);
+  if (lonelyFirst != FacingNodes::alone && lonelySecond != FacingNodes::alone)
+    throw refusal(contact,
+                  "the surfaces do not match: neither the node at " + text(first.points[lonelyFirst]) +
+                      " of the first nor that at " + text(second.points[lonelySecond]) +
+                      " of the second faces a node of the other; mesh them alike, or couple them by mortars");
+  if (isUsedTwice(pairs))
+    throw refusal(contact,
+                  "two nodes of the first surface face the same one of the second; mesh them alike, or "
+                  "couple them by mortars");
 }
 
 void requireRows(const ContactTerms& contact, const ContactLayout& layout) {
@@ -145,30 +165,93 @@ ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& firs
   return layout;
 }
 
-ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first,
-                          const SurfaceNodes& second) {
+FacingNodes facingNodes(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second) {
+  FacingNodes pairs{std::vector<std::size_t>(first.nodes.size())};
+  std::iota(pairs.partner.begin(), pairs.partner.end(), std::size_t{0});
+  if (contact.coincide)
+    return pairs;
+  const std::vector<FacetTree::Box> boxes = boxesOf(second.points);
+  const FacetTree tree(boxes);
+  double size = 0; // of both surfaces: nothing is farther away
+  for (const auto* points : {&first.points, &second.points})
+    for (const Vector3d& point : *points)
+      size = std::max(size, (point - first.points.front()).norm());
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < first.nodes.size(); ++i) {
+    const double tolerance = matchTolerance * first.spacings[i], reach = std::min(contact.distance, 2 * size);
+    double nearest = std::numeric_limits<double>::infinity();
+    pairs.partner[i] = FacingNodes::alone;
+    // The normal is that of both surfaces' mean: on curved ones not quite the line that the box is around.
+    const double around = tolerance + std::min(reach, first.spacings[i]);
+    tree.meeting(boxAround(first.points[i] - reach * first.normals[i],
+                           first.points[i] + reach * first.normals[i], around),
+                 found);
+    for (const std::size_t j : found) {
+      const Vector3d between = second.points[j] - first.points[i];
+      const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
+      const double along = normal.dot(between);
+      if (std::abs(along) <= contact.distance && (between - along * normal).norm() <= tolerance &&
+          std::abs(along) < nearest && first.normals[i].dot(second.normals[j]) < 0) {
+        nearest = std::abs(along);
+        pairs.partner[i] = j;
+      }
+    }
+  }
+  return pairs;
+}
+
+bool areAlike(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+              const FacingNodes& pairs) {
+  if (contact.coincide)
+    return true;
+  if (isUsedTwice(pairs))
+    return false;
+  const LonelyNodes lonely = lonelyNodes(contact, first, second, pairs);
+  if (lonely.first != FacingNodes::alone && lonely.second != FacingNodes::alone)
+    return false;
+  std::vector<std::size_t> itself(second.nodes.size(), FacingNodes::alone);
+  for (const std::size_t j : pairs.partner)
+    if (j != FacingNodes::alone)
+      itself[j] = j;
+  return facetsAs(first, pairs.partner) == facetsAs(second, itself);
+}
+
+ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+                          const FacingNodes& pairs) {
+  if (!contact.coincide)
+    requireMatch(contact, first, second, pairs);
   ContactLayout layout;
   layout.name = contact.name;
-  std::vector<std::size_t> partner(first.nodes.size());
-  std::iota(partner.begin(), partner.end(), std::size_t{0});
-  if (!contact.coincide) {
-    partner = findPartners(first, second, contact.distance);
-    requireMatch(contact, first, second, partner);
-  }
-  for (std::size_t i = 0; i < partner.size(); ++i) {
-    if (partner[i] == none)
+  for (std::size_t i = 0; i < pairs.partner.size(); ++i) {
+    const std::size_t j = pairs.partner[i];
+    if (j == FacingNodes::alone)
       continue;
-    const std::size_t j = partner[i];
-    const Vector3d normal = (first.normals[i] - second.normals[j]).normalized();
+    const Vector3d normal = contact.components == 1 ? Vector3d(contact.sense, 0, 0)
+                                                    : (first.normals[i] - second.normals[j]).normalized();
     layout.firstNodes.push_back(first.nodes[i]);
     layout.secondNodes.push_back(second.shares[j]);
     const double gap = contact.components == 1 ? 0.0 : normal.dot(second.points[j] - first.points[i]);
     addRow(normal, gap + contact.gap, first.areas[i], contact.components, layout);
   }
-  std::erase(partner, none);
-  std::sort(partner.begin(), partner.end());
-  if (std::adjacent_find(partner.begin(), partner.end()) != partner.end())
-    throw refusal(contact, "two nodes of the first surface face the same one of the second; mesh them alike");
+  requireRows(contact, layout);
+  return layout;
+}
+
+ContactLayout tieSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+                         const FacingNodes& pairs, const Eigen::Matrix3d& axes) {
+  if (!contact.coincide)
+    requireMatch(contact, first, second, pairs);
+  ContactLayout layout;
+  layout.name = contact.name;
+  for (int c = 0; c < contact.components; ++c)
+    for (std::size_t i = 0; i < pairs.partner.size(); ++i) {
+      const std::size_t j = pairs.partner[i];
+      if (j == FacingNodes::alone)
+        continue;
+      layout.firstNodes.push_back(first.nodes[i]);
+      layout.secondNodes.push_back(second.shares[j]);
+      addRow(axes.col(c), 0.0, first.areas[i], contact.components, layout);
+    }
   requireRows(contact, layout);
   return layout;
 }

@@ -3,9 +3,10 @@
 /// Which nodes of two surfaces, or of a surface and an obstacle, may meet, in which direction, and how far they are apart.
 ///
 /// An obstacle's gap is the distance of a node from it, along its own normal, negative inside; nodes whose surface
-/// faces away from it get none. Two surfaces must match: every
+/// faces away from it get none. Two surfaces match if every
 /// node of one faces a node of the other along the normal, the mean of both surfaces' normals there; nodes that have no
-/// counterpart are left out as long as the other surface is used up, such as beside a punch. Nodes farther from the other
+/// counterpart are left out as long as the other surface is used up, such as beside a punch. Those that do not match meet by
+/// mortars (MortarRows.hpp). Nodes farther from the other
 /// side than the contact's `distance` get no row, and cost nothing.
 
 #include "epafi/contact/ContactLayout.hpp"
@@ -15,6 +16,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace epafi::contact {
 
@@ -37,14 +39,33 @@ struct ContactTerms {
   double gap = 0;     ///< added to that of geometry
   double distance = std::numeric_limits<double>::infinity(); ///< nodes farther from the other side get no row
   bool coincide = false; ///< the surfaces do, and their nodes meet in order
+  double sense = 1;      ///< of a deflection: −1 if it is the second body that must stay below
 };
 
 /// The rows of nodes that an obstacle may stop; bodies and `firstRow` are left to the caller. \throws InputError if no node is
 /// near enough, or the surface faces away. Not collective.
 ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& first, const Obstacle& obstacle);
 
-/// The rows of nodes that face each other; likewise. \throws InputError if no node is near enough, or the surfaces do not
-/// match. Not collective.
-ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second);
+/// For each node of a surface the place of the node of the other that it faces, or `alone`.
+struct FacingNodes {
+  static constexpr std::size_t alone = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> partner;
+};
+
+/// Pairs of nodes, 𝒪(n log n). Not collective.
+FacingNodes facingNodes(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second);
+
+/// Whether pairs of nodes say all that is to be said: where the surfaces meet, nodes and facets face each other one by one.
+bool areAlike(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+              const FacingNodes& pairs);
+
+/// The rows of nodes that face each other; bodies and `firstRow` are left to the caller. \throws InputError if no node is near
+/// enough, or the surfaces do not match. Not collective.
+ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+                          const FacingNodes& pairs);
+
+/// Those that tie them, `components` for each pair, along axes (columns); likewise.
+ContactLayout tieSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
+                         const FacingNodes& pairs, const Eigen::Matrix3d& axes);
 
 } // namespace epafi::contact

@@ -18,12 +18,15 @@ ContactLayout selected(const ContactLayout& contact, const std::vector<std::size
   const std::size_t components = contact.directions.size() / contact.firstNodes.size();
   ContactLayout result = contact;
   result.firstNodes.clear();
+  result.firstShares.clear();
   result.secondNodes.clear();
   result.directions.clear();
   result.gaps.clear();
   result.areas.clear();
   for (const std::size_t place : places) {
     result.firstNodes.push_back(contact.firstNodes[place]);
+    if (!contact.firstShares.empty())
+      result.firstShares.push_back(contact.firstShares[place]);
     if (!contact.secondNodes.empty())
       result.secondNodes.push_back(contact.secondNodes[place]);
     for (std::size_t c = 0; c < components; ++c)

@@ -79,11 +79,8 @@ Shares dualCombinations(const Weights& weights, double alpha, std::size_t numRow
   return combinations;
 }
 
-} // namespace
-
-void adaptRows(const fem::Surface& surface, ContactLayout& contact) {
-  if (orderOf(surface.facetType) < 2)
-    return;
+/// W, 0 entries left out.
+Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
   std::map<GlobalOrdinal, std::ptrdiff_t> rowOf;
   for (std::size_t row = 0; row < contact.firstNodes.size(); ++row)
     rowOf.emplace(contact.firstNodes[row], static_cast<std::ptrdiff_t>(row));
@@ -98,11 +95,44 @@ void adaptRows(const fem::Surface& surface, ContactLayout& contact) {
     }
     facets.add(rows);
   }
+  return weights;
+}
+
+void setSmoothed(const Weights& weights, ContactLayout& contact) {
   contact.smoothed.assign(contact.firstNodes.size(), {});
   for (const auto& [place, weight] : weights)
     contact.smoothed[place.first].push_back({place.second, weight});
+}
+
+} // namespace
+
+Eigen::MatrixXd dualBasis(fem::CellType facet) {
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(numNodesOf(facet), numNodesOf(facet));
+  if (facet != fem::CellType::triangle6)
+    return basis;
+  const double alpha = alphaOf(facet);
+  const std::span<const int> ends = edgesOf(facet);
+  for (std::size_t end = 0; end < ends.size(); ++end) {
+    const Eigen::Index middle = numCornersOf(facet) + static_cast<Eigen::Index>(end / 2);
+    basis(ends[end], middle) = alpha;
+    basis(middle, middle) = 1 - 2 * alpha;
+  }
+  return basis;
+}
+
+void smoothRows(const fem::Surface& surface, ContactLayout& contact) {
+  if (orderOf(surface.facetType) == 2)
+    setSmoothed(weightsOf(surface, contact), contact);
+}
+
+void adaptRows(const fem::Surface& surface, ContactLayout& contact) {
+  if (orderOf(surface.facetType) < 2)
+    return;
+  const Weights weights = weightsOf(surface, contact);
+  setSmoothed(weights, contact);
   if (surface.facetType != fem::CellType::triangle6)
     return;
+  contact.isDual = true;
   contact.combinations = dualCombinations(weights, alphaOf(surface.facetType), contact.firstNodes.size());
   std::vector<double> areas(contact.areas.size(), 0.0);
   for (const auto& [place, weight] : weights)

@@ -14,17 +14,25 @@ namespace epafi::contact {
 
 namespace {
 
-/// Facets of order 1 as those of order 2, with the points between their corners numbered on from the mesh's nodes.
+void pointsAt(const NodePoints& pointAt, std::span<const GlobalOrdinal> nodes,
+              std::vector<fem::Point>& points) {
+  points.clear();
+  for (const GlobalOrdinal node : nodes)
+    points.push_back(pointAt(node));
+}
+
+/// Facets of order 1 as those of order 2, with the points between their corners numbered on from the surface's nodes.
 class Completion {
 public:
-  Completion(const fem::Mesh& mesh, const fem::Surface& surface)
-      : mesh_(mesh), surface_(surface), next_(mesh.numNodes()) {}
+  Completion(const NodePoints& pointAt, const fem::Surface& surface)
+      : pointAt_(pointAt), surface_(surface),
+        next_(1 + *std::max_element(surface.facetNodes.begin(), surface.facetNodes.end())) {}
 
   /// Nodes and points of facet f. \param shares  what each stands for
   void facet(std::size_t f, std::vector<GlobalOrdinal>& nodes, std::vector<fem::Point>& points,
              std::vector<std::vector<NodeShare>>& shares) {
     const auto corners = surface_.facet(f);
-    mesh_.pointsAt(corners, points);
+    pointsAt(pointAt_, corners, points);
     nodes.assign(corners.begin(), corners.end());
     shares.clear();
     for (const GlobalOrdinal node : corners)
@@ -50,12 +58,12 @@ private:
     next_ += isNew ? 1 : 0;
     nodes.push_back(place->second);
     std::vector<fem::Point> around;
-    mesh_.pointsAt(between, around);
+    pointsAt(pointAt_, between, around);
     points.push_back(fem::centreOf(around));
     shares.push_back(std::move(share));
   }
 
-  const fem::Mesh& mesh_;
+  const NodePoints& pointAt_;
   const fem::Surface& surface_;
   std::map<std::vector<GlobalOrdinal>, GlobalOrdinal> number_;
   GlobalOrdinal next_;
@@ -63,8 +71,9 @@ private:
 
 /// action(nodes, points, shares) for all facets.
 template <class Action>
-void forEachFacet(const fem::Mesh& mesh, const fem::Surface& surface, bool complete, const Action& action) {
-  Completion completion(mesh, surface);
+void forEachFacet(const NodePoints& pointAt, const fem::Surface& surface, bool complete,
+                  const Action& action) {
+  Completion completion(pointAt, surface);
   std::vector<GlobalOrdinal> nodes;
   std::vector<fem::Point> points;
   std::vector<std::vector<NodeShare>> shares;
@@ -73,7 +82,7 @@ void forEachFacet(const fem::Mesh& mesh, const fem::Surface& surface, bool compl
       completion.facet(f, nodes, points, shares);
     } else {
       nodes.assign(surface.facet(f).begin(), surface.facet(f).end());
-      mesh.pointsAt(nodes, points);
+      pointsAt(pointAt, nodes, points);
     }
     action(nodes, points, shares);
   }
@@ -81,11 +90,11 @@ void forEachFacet(const fem::Mesh& mesh, const fem::Surface& surface, bool compl
 
 } // namespace
 
-SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface, int order) {
+SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface, int order) {
   const bool complete = order > orderOf(surface.facetType);
   const fem::CellType facetType = complete ? withOrder(surface.facetType, order) : surface.facetType;
   std::map<GlobalOrdinal, std::size_t> placeOf;
-  forEachFacet(mesh, surface, complete, [&](const auto& nodes, const auto&, const auto&) {
+  forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto&, const auto&) {
     for (const GlobalOrdinal node : nodes)
       placeOf.emplace(node, 0);
   });
@@ -101,9 +110,12 @@ SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface, in
   result.spacings.assign(result.nodes.size(), 0.0);
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> areas(static_cast<std::size_t>(numNodesOf(facetType)));
-  forEachFacet(mesh, surface, complete, [&](const auto& nodes, const auto& points, const auto& shares) {
+  forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto& points, const auto& shares) {
     fem::nodalNormals(facetType, points, normals);
     fem::nodalShares(facetType, points, areas);
+    auto& corners = result.facets.emplace_back();
+    for (int c = 0; c < numCornersOf(facetType); ++c)
+      corners.push_back(placeOf.at(nodes[static_cast<std::size_t>(c)]));
     const double even = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const std::size_t place = placeOf.at(nodes[a]);

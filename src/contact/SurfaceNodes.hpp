@@ -7,9 +7,13 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace epafi::contact {
+
+/// Where nodes lie, by their numbers.
+using NodePoints = std::function<fem::Point(GlobalOrdinal)>;
 
 struct SurfaceNodes {
   std::vector<GlobalOrdinal> nodes; ///< ascending
@@ -20,11 +24,12 @@ struct SurfaceNodes {
       normals; ///< outwards, of length 1: the mean of the facets' normals there by area
   std::vector<double>
       areas; ///< ∫N_a: what of the area (in the plane: length) a node has, so that an even pressure p gives forces p · area
-  std::vector<double> spacings; ///< of the nodes around each
+  std::vector<double> spacings;                 ///< of the nodes around each
+  std::vector<std::vector<std::size_t>> facets; ///< places of the corners of each
 };
 
 /// \param order  2: of facets of order 1 also the points where those of order 2 would have nodes, between the corners, with
-///               numbers beyond those of the mesh; else that of the surface
-SurfaceNodes surfaceNodes(const fem::Mesh& mesh, const fem::Surface& surface, int order);
+///               numbers beyond those of the surface; 0: that of the surface
+SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface, int order = 0);
 
 } // namespace epafi::contact

@@ -28,8 +28,8 @@ namespace epafi::decomposition {
 /// Sparse symmetric matrix of one subdomain, both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// What a row of B asks for: that bodies do not penetrate, or that copies of a value agree.
-enum class RowKind { contact, gluing };
+/// What a row of B asks for: that bodies do not penetrate, that they stay together, or that copies of a value agree.
+enum class RowKind { contact, tied, gluing };
 
 /// One entry of B in a subdomain: row, column, value.
 struct ConstraintEntry {
@@ -110,7 +110,8 @@ struct DecomposedProblem {
 
   RCP<const Map> remainderMap;  ///< all v_r, each owned by its subdomain's rank
   RCP<const Map> crosspointMap; ///< all v_c^g, each owned by one rank
-  RCP<const Map> multiplierMap; ///< λ = (λ_I, λ_E): indices 0 … n_I − 1 are non-penetration, the rest gluing
+  RCP<const Map>
+      multiplierMap; ///< λ = (λ_I, λ_E): indices 0 … n_I − 1 are non-penetration, then come ties, then gluing
   RCP<const Map> multiplierGhostMap; ///< multipliers that touch this rank's subdomains
   RCP<Vector> gap;                   ///< c on multiplierMap (0 in the gluing rows)
 
@@ -118,12 +119,15 @@ struct DecomposedProblem {
   int numSubdomains = 0;
   int kernelDimension = 0;           ///< columns of R
   GlobalOrdinal numInequalities = 0; ///< n_I
+  GlobalOrdinal numTies = 0;         ///< the first n_T of the equalities: joints of bodies
   GlobalOrdinal numEqualities = 0;   ///< n_E
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
   GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
   /// Of a row of B.
   [[nodiscard]] RowKind kindOf(MultiplierNumber row) const {
-    return row < numInequalities ? RowKind::contact : RowKind::gluing;
+    return row < numInequalities             ? RowKind::contact
+           : row < numInequalities + numTies ? RowKind::tied
+                                             : RowKind::gluing;
   }
   /// The same where this rank owns it.
   [[nodiscard]] RowKind kindOf(OwnedMultiplier row) const { return kindOf(numberOf(row)); }

@@ -32,6 +32,14 @@ bool hasSamePattern(const SparseMatrix& a, const SparseMatrix& b) {
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
 }
 
+/// c less what prescribed values contribute, as gaps of rows from the first one on.
+void enterGap(const Vector& given, const Vector& held, GlobalOrdinal firstRow, Vector& gap) {
+  const auto values = given.getData(), contributed = held.getData();
+  for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
+    gap.replaceGlobalValue(firstRow + held.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)),
+                           values[i] - contributed[i]);
+}
+
 } // namespace
 
 UnassembledProblem::UnassembledProblem(RCP<const Comm> comm, int dimension, int components,
@@ -109,8 +117,9 @@ void UnassembledProblem::complete() {
   if (!areKernelsKnown) {
     takeAdded(first);
     mapUnknowns();
-    if (contact_)
-      requireSound(*contact_, unknownMap_);
+    for (const auto* matrix : {&contact_, &ties_})
+      if (*matrix)
+        requireSound(**matrix, unknownMap_);
   }
   for (std::size_t s = 0; s < nodal_.size(); ++s)
     problem_.subdomains[s].number = first + static_cast<int>(s);
@@ -224,27 +233,42 @@ void UnassembledProblem::split() {
 // ---------------------------------------------------------------------------------------------------------------------
 // B, and what may change.
 
-/// Contact and gluing rows, B and the gaps. Collective.
+/// Appends rows of contact or ties to those of B. Returns what prescribed values contribute. Collective.
+RCP<const Vector> UnassembledProblem::enter(const ContactMatrix& matrix, GlobalOrdinal firstRow,
+                                            std::vector<GlobalOrdinal>& owned,
+                                            std::vector<std::vector<RowEntry>>& rows) const {
+  for (const GlobalOrdinal row : matrix.rows->getRowMap()->getNodeElementList())
+    owned.push_back(firstRow + row);
+  ContactRows made = contactRows(view(), shared_, *crosspoints_, matrix);
+  for (std::size_t s = 0; s < rows.size(); ++s)
+    for (RowEntry entry : inBasisOf(problem_.subdomains[s].averages, std::move(made.rows[s]))) {
+      entry.row += firstRow;
+      rows[s].push_back(entry);
+    }
+  return made.held;
+}
+
+/// Rows of contact, ties and gluing, B and the gaps. Collective.
 void UnassembledProblem::attach() {
-  problem_.numInequalities = 0;
+  const auto numRows = [](const std::optional<ContactMatrix>& matrix) {
+    return matrix ? static_cast<GlobalOrdinal>(matrix->rows->getGlobalNumRows()) : 0;
+  };
+  problem_.numInequalities = numRows(contact_);
+  problem_.numTies = numRows(ties_);
   std::vector<GlobalOrdinal> ownContact;
   std::vector<std::vector<RowEntry>> rows(nodal_.size());
-  if (contact_) {
-    const Map& map = *contact_->rows->getRowMap();
-    problem_.numInequalities = static_cast<GlobalOrdinal>(map.getGlobalNumElements());
-    for (const GlobalOrdinal row : map.getNodeElementList())
-      ownContact.push_back(row);
-    ContactRows contact = contactRows(view(), shared_, *crosspoints_, *contact_);
-    for (std::size_t s = 0; s < rows.size(); ++s)
-      rows[s] = inBasisOf(problem_.subdomains[s].averages, std::move(contact.rows[s]));
-    held_ = contact.held;
-  }
+  RCP<const Vector> heldTies;
+  if (contact_)
+    held_ = enter(*contact_, 0, ownContact, rows);
+  if (ties_)
+    heldTies = enter(*ties_, problem_.numInequalities, ownContact, rows);
   std::vector<std::shared_ptr<const SparseMatrix>> stiffness;
   for (const Subdomain& subdomain : problem_.subdomains)
     stiffness.push_back(subdomain.stiffness);
-  const GluingRows gluing = gluingRows(view(), shared_, *crosspoints_, stiffness, problem_.numInequalities);
+  const GluingRows gluing =
+      gluingRows(view(), shared_, *crosspoints_, stiffness, problem_.numInequalities + problem_.numTies);
   Constraints constraints = joinRows(rows, ownContact, gluing, comm_);
-  problem_.numEqualities = gluing.numRows;
+  problem_.numEqualities = problem_.numTies + gluing.numRows;
   problem_.multiplierMap = constraints.multiplierMap;
   problem_.multiplierGhostMap = constraints.ghostMap;
   for (std::size_t s = 0; s < nodal_.size(); ++s)
@@ -252,6 +276,16 @@ void UnassembledProblem::attach() {
   problem_.gap = rcp(new Vector(problem_.multiplierMap));
   if (contact_)
     setGap(*contact_->gap);
+  if (ties_)
+    enterGap(*ties_->gap, *heldTies, problem_.numInequalities, *problem_.gap);
+}
+
+void UnassembledProblem::setTies(const ContactMatrix& ties) {
+  if (crosspoints_)
+    requireSound(ties, unknownMap_);
+  ties_ = ties;
+  if (crosspoints_)
+    attach();
 }
 
 void UnassembledProblem::setContact(const ContactMatrix& contact) {
@@ -269,10 +303,7 @@ void UnassembledProblem::setGap(const Vector& gap) {
   requireComplete();
   if (!contact_ || !gap.getMap()->locallySameAs(*held_->getMap()))
     throw InputError("the gaps must lie on the row map of the contact matrix.");
-  const auto given = gap.getData(), held = held_->getData();
-  for (Teuchos_Ordinal i = 0; i < given.size(); ++i)
-    problem_.gap->replaceGlobalValue(held_->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)),
-                                     given[i] - held[i]);
+  enterGap(gap, *held_, 0, *problem_.gap);
 }
 
 void UnassembledProblem::setLoad(std::size_t subdomain, const Eigen::VectorXd& load) {

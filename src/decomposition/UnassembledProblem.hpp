@@ -70,6 +70,10 @@ public:
   /// Collective then. \throws InputError (see requireSound), the same on all ranks.
   void setContact(const ContactMatrix& contact);
 
+  /// Takes B_T and c of tied joints, B_T u = c, both shared; rows as those of contact. Collective after `complete`, and
+  /// \throws InputError likewise.
+  void setTies(const ContactMatrix& ties);
+
   /// Finds shared nodes, motions that supports leave free, and crosspoints, and makes the rows of B. Collective.
   /// \throws InputError, the same on all ranks: what requireSound says of a subdomain or of contact, bodies that are not in
   /// one piece each, or subdomains that disagree about the unknowns of a node.
@@ -115,13 +119,15 @@ private:
   void findBodies();
   void split();
   void attach();
+  RCP<const Vector> enter(const ContactMatrix& matrix, GlobalOrdinal firstRow,
+                          std::vector<GlobalOrdinal>& owned, std::vector<std::vector<RowEntry>>& rows) const;
   void refreshLoad(std::size_t subdomain);
   void requireComplete() const;
 
   RCP<const Comm> comm_;
   NodePlaces places_;
   std::vector<SubdomainMatrix> added_; ///< until complete
-  std::optional<ContactMatrix> contact_;
+  std::optional<ContactMatrix> contact_, ties_;
   std::vector<OwnSubdomain> own_; ///< of those that were not node-ordered
   std::vector<NodalSubdomain> nodal_;
   SharedNodes shared_;

@@ -15,6 +15,10 @@ constexpr double resolution = 1e-9;
 
 } // namespace
 
+bool isTied(const decomposition::DecomposedProblem& problem, int row) {
+  return problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::tied;
+}
+
 Eigen::VectorXd modeLengths(const decomposition::DecomposedProblem& problem) {
   Eigen::VectorXd lengths = Eigen::VectorXd::Zero(problem.kernelDimension);
   for (const auto& subdomain : problem.subdomains) {
@@ -83,8 +87,11 @@ std::map<int, Eigen::VectorXd> contactRows(const std::vector<KernelEntry>& entri
 Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,
                                   const std::vector<KernelEntry>& entries, const Eigen::VectorXd& lengths) {
   DistinctDirections directions(problem.kernelDimension);
-  for (const auto& [row, vector] : contactRows(entries, lengths))
+  for (const auto& [row, vector] : contactRows(entries, lengths)) {
     directions.add(vector, 0.0);
+    if (isTied(problem, row))
+      directions.add(-vector, 0.0);
+  }
   directions.gather(*problem.comm);
   return directions.matrix();
 }

@@ -56,7 +56,7 @@ void addPreconditioner(const DecomposedProblem& problem,
       rcp(new DualPreconditioner(problem, inverse, parameters.preconditioner, operators.deflated));
   operators.preconditioner = operators.dualPreconditioner;
   const double norm = operators.norm.norm > 0 ? operators.norm.norm : 1.0;
-  std::vector<LocalOrdinal> shared = sharedContactRows(problem);
+  std::vector<LocalOrdinal> shared = ownEntries(problem, *inverse->multiplierPlan()).dependent;
   if (holdsAnywhere(*problem.comm, !shared.empty()))
     operators.preconditioner =
         rcp(new ShiftedPreconditioner(operators.preconditioner, std::move(shared), 1 / norm));
@@ -98,7 +98,9 @@ AlgorithmChoice leastAlgorithm(const DecomposedProblem& problem) {
     return {Algorithm::direct, "one piece without contact: one factorisation solves it, nothing to iterate"};
   if (problem.numInequalities == 0)
     return {Algorithm::conjugateGradient,
-            "no contact: the multipliers only glue subdomains, a linear problem"};
+            problem.numTies == 0
+                ? "no contact: the multipliers only glue subdomains, a linear problem"
+                : "no contact: the multipliers only glue subdomains and tie bodies, a linear problem"};
   if (problem.kernelDimension == 0)
     return {Algorithm::mprgp, "contact, and every body is held by supports: bound constraints only"};
   std::string names;
@@ -132,7 +134,7 @@ DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algo
   operators.f = rcp(new DualOperator(inverse));
   operators.deflated = deflatedOperator(problem, operators.f, parameters);
   operators.hessian = operators.flexibility();
-  if (algorithm == Algorithm::smalbe) {
+  if (problem.kernelDimension > 0) {
     requireContactForEveryMotion(problem, kernelEntries);
     operators.coarseSpace = rcp(new NaturalCoarseSpace(problem, kernelEntries));
     operators.hessian = rcp(new ProjectedOperator(operators.flexibility(), operators.coarseSpace));

@@ -96,12 +96,12 @@ RightHandSide rightHandSide(const DualProblem& dual) {
   return rhs;
 }
 
-/// λ ≥ 0 for contact, no bound for gluing.
+/// λ ≥ 0 for contact, no bound for ties and gluing.
 RCP<Vector> lowerBounds(const DecomposedProblem& problem) {
   const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
   const auto values = lower->getDataNonConst();
   for (LocalOrdinal row = 0; row < values.size(); ++row)
-    if (problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::gluing)
+    if (problem.kindOf(decomposition::OwnedMultiplier(row)) != decomposition::RowKind::contact)
       values[row] = -std::numeric_limits<double>::infinity();
   return lower;
 }
@@ -227,12 +227,22 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
   std::optional<ShiftedObserver> shifted;
   if (observer_ != nullptr)
     shifted.emplace(*observer_, feasible);
-  std::vector<double> multiplier;
-  solution_.report =
-      qp::solveEqualityBoundProblem({dual_.hessian(), rhs_, rcp(new qp::Box(lower)), dual_.coarseSpace(),
-                                     dual_.preconditioner(), dual_.norm().norm},
-                                    mu, multiplier, tolerances, dual_.parameters().smalbe,
-                                    dual_.operators().mprgp, shifted ? &*shifted : nullptr);
+  qp::Observer* const observer = shifted ? &*shifted : nullptr;
+  if (dual_.algorithm() == Algorithm::conjugateGradient &&
+      balance_ == nullptr) { // in Ker G, which P does not leave
+    space.project(mu);
+    const RCP<Vector> start = rcp(new Vector(mu, Teuchos::Copy));
+    solution_.report =
+        qp::solveUnconstrained(dual_.hessian(), rhs_, start, tolerance_,
+                               dual_.parameters().mprgp.maxMultiplications, observer, dual_.preconditioner());
+    mu.assign(*start);
+  } else {
+    std::vector<double> multiplier;
+    solution_.report = qp::solveEqualityBoundProblem(
+        {dual_.hessian(), rhs_, rcp(new qp::Box(lower)), dual_.coarseSpace(), dual_.preconditioner(),
+         dual_.norm().norm},
+        mu, multiplier, tolerances, dual_.parameters().smalbe, dual_.operators().mprgp, observer);
+  }
   if (target)
     solution_.errorTarget = target->last();
   solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
@@ -265,8 +275,7 @@ DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer, con
   if (algorithm() == Algorithm::direct)
     return solvedDirectly(problem_);
   IterativeSolve solve(*this, start, observer, balance, goal.tightening * parameters_.tolerance);
-  DualSolution solution =
-      algorithm() == Algorithm::smalbe ? solve.semicoercive(resultants) : solve.coercive();
+  DualSolution solution = coarseSpace().is_null() ? solve.coercive() : solve.semicoercive(resultants);
   if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null())
     refuseContradiction(problem_, *solution.report.certificate);
   return solution;

@@ -35,9 +35,9 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
     const auto column = owned.getData(mode);
     for (LocalOrdinal row = 0; row < column.size(); ++row) {
       // Gluing rows cancel: both copies of a node have the same value of R.
-      const bool isContact =
-          problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact;
-      if (isContact && column[row] != 0)
+      const bool isGluing =
+          problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::gluing;
+      if (!isGluing && column[row] != 0)
         entries.push_back({static_cast<int>(row), static_cast<int>(mode), column[row]});
     }
   }

@@ -35,8 +35,8 @@ void requireFiniteStiffness(const DecomposedProblem& problem, const Subdomain& s
 void requireFiniteRows(const DecomposedProblem& problem, const Subdomain& subdomain) {
   for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
     if (!std::isfinite(entry.coefficient)) {
-      const bool isContact = problem.kindOf(entry.multiplier) == decomposition::RowKind::contact;
-      throw InputError(std::string(isContact ? "contact" : "gluing") + " row " +
+      constexpr const char* names[] = {"contact", "tied", "gluing"};
+      throw InputError(std::string(names[static_cast<int>(problem.kindOf(entry.multiplier))]) + " row " +
                        std::to_string(problem.numberOf(entry.multiplier)) +
                        " has a coefficient in subdomain " + std::to_string(subdomain.number) + " of " +
                        bodyOf(problem, subdomain) +
@@ -92,12 +92,15 @@ void requireFeasibleGaps(const DecomposedProblem& problem) {
     const auto sums = rowSum.getData();
     const auto gaps = problem.gap->getData();
     for (Teuchos_Ordinal i = 0; i < sums.size(); ++i)
-      if (sums[i] == 0 && gaps[i] < -roundOff)
+      if (const bool isContact = problem.kindOf(decomposition::OwnedMultiplier(
+                                     static_cast<LocalOrdinal>(i))) == decomposition::RowKind::contact;
+          sums[i] == 0 && (isContact ? -gaps[i] : std::abs(gaps[i])) > roundOff)
         throw SolvabilityError(
             SolvabilityError::Kind::noSolution,
             "no solution: contact row " +
                 std::to_string(problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i))) +
-                " lies where supports hold both sides, and they overlap by " + text(-gaps[i]) +
+                " lies where supports hold both sides, and they " +
+                (isContact ? "overlap by " + text(-gaps[i]) : "are apart by " + text(std::abs(gaps[i]))) +
                 "; change a gap, an obstacle or a support");
   });
 }

@@ -29,7 +29,7 @@ Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& ro
   Eigen::MatrixXd normal(k, k + 1);
   std::vector<AccurateSum> sums(static_cast<std::size_t>(normal.size()));
   for (const auto& [row, vector] : rows)
-    if (force[row] > 0)
+    if (force[row] > 0 || isTied(problem, row))
       for (Eigen::Index i = 0; i < k; ++i)
         for (Eigen::Index j = 0; j <= k; ++j)
           sums[static_cast<std::size_t>(i + k * j)].add(vector[i] * (j < k ? vector[j] : gap[row]));
@@ -108,8 +108,12 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<
 
   const auto gap = slack.getData();
   DistinctDirections contacts(k);
-  for (const auto& [row, vector] : rows)
-    contacts.add(vector, (gap[row] - vector.dot(alpha)) / length);
+  for (const auto& [row, vector] : rows) {
+    const double room = (gap[row] - vector.dot(alpha)) / length;
+    contacts.add(vector, room);
+    if (isTied(problem, row))
+      contacts.add(-vector, -room);
+  }
   contacts.gather(*problem.comm);
   const Eigen::MatrixXd directions = contacts.matrix();
   const Eigen::VectorXd room = contacts.values();

@@ -1,6 +1,7 @@
 #include "epafi/fetidp/ScaledConstraint.hpp"
 
 #include "epafi/fetidp/CoarseProblem.hpp"
+#include "epafi/fetidp/SharedRows.hpp"
 
 #include <algorithm>
 
@@ -20,12 +21,14 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
     const int touched = crosspoints.indexOf(subdomain, unknown);
     return touched >= 0 ? atCrosspoints[touched] : subdomain.stiffness->coeff(unknown, unknown);
   };
+  const std::vector<std::vector<char>> counts = ownEntries(problem, *plan).counts;
   MultiplierExchange exchange(plan);
   const std::span<double> sums = exchange.zeros();
-  for (const Subdomain& subdomain : problem.subdomains)
-    for (const auto& entry : subdomain.constraint)
-      sums[static_cast<std::size_t>(entry.multiplier)] +=
-          entry.coefficient * entry.coefficient / weightOf(subdomain, entry.unknown);
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+    for (std::size_t e = 0; e < counts[s].size(); ++e)
+      if (const auto& entry = problem.subdomains[s].constraint[e]; counts[s][e] != 0)
+        sums[static_cast<std::size_t>(entry.multiplier)] +=
+            entry.coefficient * entry.coefficient / weightOf(problem.subdomains[s], entry.unknown);
   MultiVector total(problem.multiplierMap, 1); // Σ_k b_k²/δ_k
   exchange.sumToOwners(total);
 
@@ -38,9 +41,13 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
   result.boundaryShares.assign(totals.size(), 0.0);
   result.boundary.resize(problem.subdomains.size());
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
-    for (const auto& entry : problem.subdomains[s].constraint) {
+    for (std::size_t e = 0; e < counts[s].size(); ++e) {
+      const auto& entry = problem.subdomains[s].constraint[e];
       const auto row = static_cast<std::size_t>(entry.multiplier);
-      const double weight = entry.coefficient / weightOf(problem.subdomains[s], entry.unknown) / totals[row];
+      const double weight =
+          counts[s][e] == 0
+              ? 0.0
+              : entry.coefficient / weightOf(problem.subdomains[s], entry.unknown) / totals[row];
       if (const int touched = crosspoints.indexOf(problem.subdomains[s], entry.unknown); touched >= 0) {
         result.atCrosspoints.push_back({entry.multiplier, touched, weight});
         continue;

@@ -2,6 +2,8 @@
 
 /// B_D, the matrix B with its entries scaled row by row,
 ///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
+/// k over all entries of the row, or, where rows share unknowns, over those that are its own (SharedRows.hpp): then
+/// B B_Dᵀ = I there too;
 /// δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at crosspoints, of K̄) for stiffness (ρ) scaling: what takes
 /// multipliers to displacements in preconditioners of F (Klawonn, Widlund, *Comm. Pure Appl. Math.* 54 (2001)).
 

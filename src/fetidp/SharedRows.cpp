@@ -2,33 +2,54 @@
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
-#include <Tpetra_Vector.hpp>
+#include <Tpetra_MultiVector.hpp>
 
-#include <map>
-#include <set>
+#include <cstddef>
 #include <utility>
 
 namespace epafi::fetidp {
 
-std::vector<LocalOrdinal> sharedContactRows(const decomposition::DecomposedProblem& problem) {
-  Tpetra::Vector<int> touched(problem.multiplierGhostMap), owned(problem.multiplierMap);
-  const auto isShared = touched.getDataNonConst();
-  for (const decomposition::Subdomain& subdomain : problem.subdomains) {
-    std::map<int, std::set<int>> rowsOf; // of an unknown
-    for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
-      if (entry.coefficient != 0 && problem.kindOf(entry.multiplier) == decomposition::RowKind::contact)
-        rowsOf[entry.unknown].insert(entry.multiplier);
-    for (const auto& [unknown, rows] : rowsOf)
-      for (const int row : rows)
-        if (rows.size() > 1)
-          isShared[row] = 1;
+namespace {
+
+/// Entries of its own must make up this share of a row, Σb² over them beside Σb²: less is another row but for round-off.
+constexpr double leastOwnShare = 0.1;
+
+} // namespace
+
+OwnEntries ownEntries(const decomposition::DecomposedProblem& problem, const Import& plan) {
+  OwnEntries result;
+  MultiVector touched(problem.multiplierGhostMap, 2),
+      owned(problem.multiplierMap, 2); // Σb² of own entries, of all
+  {
+    const auto own = touched.getDataNonConst(0), all = touched.getDataNonConst(1);
+    for (const decomposition::Subdomain& subdomain : problem.subdomains) {
+      const auto isGluing = [&](const decomposition::ConstraintEntry& entry) {
+        return problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing;
+      };
+      std::vector<int> numRows(static_cast<std::size_t>(subdomain.stiffness->rows()), 0); // of an unknown
+      for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
+        numRows[static_cast<std::size_t>(entry.unknown)] += entry.coefficient == 0 || isGluing(entry) ? 0 : 1;
+      std::vector<char>& counts = result.counts.emplace_back();
+      for (const decomposition::ConstraintEntry& entry : subdomain.constraint) {
+        const double square = entry.coefficient * entry.coefficient;
+        counts.push_back(isGluing(entry) || numRows[static_cast<std::size_t>(entry.unknown)] == 1 ? 1 : 0);
+        all[entry.multiplier] += square;
+        own[entry.multiplier] += counts.back() != 0 ? square : 0.0;
+      }
+    }
   }
-  owned.doExport(touched, Import(problem.multiplierMap, problem.multiplierGhostMap), Tpetra::ADD);
-  std::vector<LocalOrdinal> result;
-  const auto values = owned.getData();
-  for (Teuchos_Ordinal row = 0; row < values.size(); ++row)
-    if (values[row] > 0)
-      result.push_back(static_cast<LocalOrdinal>(row));
+  owned.doExport(touched, plan, Tpetra::ADD);
+  touched.doImport(owned, plan, Tpetra::INSERT);
+  const auto isDependent = [](double own, double all) { return own < leastOwnShare * all; };
+  const auto own = touched.getData(0), all = touched.getData(1);
+  for (std::size_t s = 0; s < result.counts.size(); ++s)
+    for (std::size_t e = 0; e < result.counts[s].size(); ++e)
+      if (const int row = problem.subdomains[s].constraint[e].multiplier; isDependent(own[row], all[row]))
+        result.counts[s][e] = 1;
+  const auto ownHere = owned.getData(0), allHere = owned.getData(1);
+  for (Teuchos_Ordinal row = 0; row < ownHere.size(); ++row)
+    if (isDependent(ownHere[row], allHere[row]))
+      result.dependent.push_back(static_cast<LocalOrdinal>(row));
   return result;
 }
 

@@ -120,9 +120,11 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   result.bodies = std::move(bodies);
   Models models;
   collectively(*comm, [&] {
-    result.contacts = layoutContacts(scene, result.bodies);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       models.push_back(makeModel(scene.bodies[b], *result.bodies[b].mesh));
+    SceneContacts all = layoutContacts(scene, result.bodies, supportedNodes(models));
+    result.contacts = std::move(all.contacts);
+    result.ties = std::move(all.ties);
   });
   decomposition::UnassembledProblem problem(comm, models.front()->components(),
                                             describeBodies(result.bodies, models), placesOf(models));
@@ -130,6 +132,8 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
   if (!result.contacts.empty())
     problem.setContact(contactMatrix(result.bodies, result.contacts, models, comm));
+  if (!result.ties.empty())
+    problem.setTies(contactMatrix(result.bodies, result.ties, models, comm));
   problem.complete();
   result.problem = problem.take();
   return result;

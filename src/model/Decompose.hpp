@@ -17,6 +17,7 @@ namespace epafi::model {
 struct Decomposition {
   std::vector<BodyLayout> bodies;
   std::vector<contact::ContactLayout> contacts;
+  std::vector<contact::ContactLayout> ties;
   decomposition::DecomposedProblem problem;
 };
 

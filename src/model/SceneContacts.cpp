@@ -3,11 +3,16 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/ContactSearch.hpp"
 #include "epafi/contact/KnownRows.hpp"
+#include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
 
 namespace epafi::model {
 namespace {
@@ -20,9 +25,8 @@ struct Side {
   std::string surface;
 };
 
-/// The nodes of a side. \param order  of the facets between them, at least
-contact::SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLayout& body,
-                              const std::string& surface, int order) {
+fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
+                       const std::string& surface) {
   const std::vector<std::string> names = body.mesh->surfaceNames();
   if (std::find(names.begin(), names.end(), surface) == names.end()) {
     std::string known;
@@ -31,7 +35,77 @@ contact::SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLa
     throw InputError("contact '" + contact.name + "': body '" + body.name + "' has no surface '" + surface +
                      "'; " + (known.empty() ? "its mesh names none" : "there are " + known));
   }
-  return contact::surfaceNodes(*body.mesh, body.mesh->surface(surface), order);
+  return body.mesh->surface(surface);
+}
+
+contact::NodePoints pointsOf(const BodyLayout& body) {
+  return [mesh = body.mesh.get()](GlobalOrdinal node) { return mesh->point(node); };
+}
+
+/// The nodes of a side. \param order  of the facets between them, at least
+contact::SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLayout& body,
+                              const std::string& surface, int order) {
+  return contact::surfaceNodes(pointsOf(body), surfaceOf(contact, body, surface), order);
+}
+
+/// Whether nodes along two edges of structured meshes meet in order.
+bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies) {
+  const auto numElements = [&](int body, const std::string& edge) {
+    const fem::StructuredMesh* mesh = bodies[static_cast<std::size_t>(body)].mesh->structured();
+    return mesh == nullptr ? 0 : mesh->elements()[edge == "left" || edge == "right" ? 1 : 0];
+  };
+  const auto number = numElements(terms.first, terms.firstSurface);
+  return number > 0 && number == numElements(terms.second, terms.secondSurface);
+}
+
+/// Mean distance of nodes on a surface.
+double spacingOn(const fem::Mesh& mesh, const fem::Surface& surface) {
+  double area = 0;
+  std::vector<fem::Point> points;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    mesh.pointsAt(surface.facet(f), points);
+    area += fem::areaVector(surface.facetType, points).norm();
+  }
+  return std::pow(area / static_cast<double>(surface.numFacets()), 1.0 / dimensionOf(surface.facetType)) /
+         orderOf(surface.facetType);
+}
+
+/// Decides which surface is to carry multipliers, and says why.
+std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
+                       scene::SurfaceContact& terms) {
+  const auto others = [&](int body, const std::string& surface) {
+    std::ptrdiff_t count = -1; // itself
+    for (const scene::SurfaceContact& other : scene.contacts)
+      count += (other.first == body && other.firstSurface == surface) ||
+                       (other.second == body && other.secondSurface == surface)
+                   ? 1
+                   : 0;
+    return static_cast<double>(count);
+  };
+  const auto spacing = [&](int body, const std::string& surface) {
+    const BodyLayout& layout = bodies[static_cast<std::size_t>(body)];
+    return spacingOn(*layout.mesh, surfaceOf(terms, layout, surface));
+  };
+  const auto stiffness = [&](int body, const std::string&) {
+    const scene::Body& owner = scene.bodies[static_cast<std::size_t>(body)];
+    return owner.physics == scene::Physics::membrane ? owner.material.conductivity
+                                                     : owner.material.youngsModulus;
+  };
+  const auto decides = [&](const auto& measure, double margin) {
+    const double first = measure(terms.first, terms.firstSurface),
+                 second = measure(terms.second, terms.secondSurface);
+    terms.multipliers =
+        second < first ? scene::SurfaceContact::Side::second : scene::SurfaceContact::Side::first;
+    return std::max(first, second) > margin * std::min(first, second);
+  };
+  if (decides(others, 1))
+    return ", which has no other contact there";
+  if (decides(spacing, 1.01))
+    return ", the finer one";
+  if (decides(stiffness, 1.01))
+    return ", the softer one";
+  terms.multipliers = scene::SurfaceContact::Side::first;
+  return ", the first one";
 }
 
 contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
@@ -63,51 +137,134 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
 } // namespace
 
 ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
-                            int components) {
+                            int components, const SupportedNodes& supported) {
+  using Coupling = scene::SurfaceContact::Coupling;
   const auto layoutOf = [&](const Side& side) -> const BodyLayout& {
     return bodies[static_cast<std::size_t>(side.body)];
   };
   const auto orderOf = [&](const Side& side) { return fem::orderOf(layoutOf(side).mesh->cellType()); };
+  const auto finish = [&](ContactLayout layout, const Side& first, const Side& second, std::string means) {
+    layout.firstBody = first.body;
+    layout.firstSurface = first.surface;
+    layout.secondBody = second.body;
+    layout.means = std::move(means);
+    return layout;
+  };
+  const auto axesOf = [&](const Side& side) -> Eigen::Matrix3d {
+    if (!supported.axes)
+      return Eigen::Matrix3d::Identity();
+    return supported.axes(side.body, surfaceOf(terms, layoutOf(side), side.surface));
+  };
+  const bool isTied = terms.kind == scene::SurfaceContact::Kind::tied;
   Side first{terms.first, terms.firstSurface}, second{terms.second, terms.secondSurface};
-  if (second.body >= 0 && orderOf(first) < orderOf(second)) // the side with more nodes has the rows
-    std::swap(first, second);
-  const int order = orderOf(first);
-  const contact::SurfaceNodes nodes = nodesOf(terms, layoutOf(first), first.surface, order);
   contact::ContactTerms asked{terms.name, first.surface, dimensionOf(layoutOf(first).mesh->cellType()),
                               components, terms.gap,     terms.distance};
-  ContactLayout layout;
-  if (second.body < 0) {
-    layout = meetObstacle(asked, nodes, obstacleOf(terms.obstacle));
-  } else {
-    asked.coincide = components == 1 && order == orderOf(second) &&
-                     layoutOf(first).mesh->structured() != nullptr &&
-                     layoutOf(second).mesh->structured() != nullptr;
-    layout = meetSurface(asked, nodes, nodesOf(terms, layoutOf(second), second.surface, order));
+  if (second.body < 0)
+    return finish(
+        meetObstacle(asked, nodesOf(terms, layoutOf(first), first.surface, 0), obstacleOf(terms.obstacle)),
+        first, second, "nodes of '" + layoutOf(first).name + "'");
+  if (terms.coupling != Coupling::mortar) {
+    Side finer = first, other = second;
+    if (orderOf(first) < orderOf(second)) // the side with more nodes has the rows
+      std::swap(finer, other);
+    const int order = orderOf(finer);
+    asked.firstSurface = finer.surface;
+    asked.sense = finer.body == first.body ? 1 : -1;
+    asked.coincide = components == 1 && order == orderOf(other) && haveEqualEdges(terms, bodies);
+    const contact::SurfaceNodes nodes = nodesOf(terms, layoutOf(finer), finer.surface, order),
+                                facing = nodesOf(terms, layoutOf(other), other.surface, order);
+    const contact::FacingNodes pairs = facingNodes(asked, nodes, facing);
+    if (terms.coupling == Coupling::nodes || areAlike(asked, nodes, facing, pairs))
+      return finish(isTied ? tieSurface(asked, nodes, facing, pairs, axesOf(finer))
+                           : meetSurface(asked, nodes, facing, pairs),
+                    finer, other, "pairs of nodes");
   }
-  layout.firstBody = first.body;
-  layout.firstSurface = first.surface;
-  layout.secondBody = second.body;
-  return layout;
+  asked.sense = terms.multipliers == scene::SurfaceContact::Side::second ? -1 : 1;
+  if (asked.sense < 0)
+    std::swap(first, second);
+  asked.firstSurface = first.surface;
+  const fem::Surface carrier = surfaceOf(terms, layoutOf(first), first.surface),
+                     facing = surfaceOf(terms, layoutOf(second), second.surface);
+  const contact::NodePoints ownPoints = pointsOf(layoutOf(first)), otherPoints = pointsOf(layoutOf(second));
+  const contact::PlacedSurface own{carrier, ownPoints}, other{facing, otherPoints};
+  const auto held = [&](GlobalOrdinal node, const Eigen::Vector3d& direction) {
+    return supported.isHeld && supported.isHeld(first.body, node, direction);
+  };
+  return finish(isTied ? tieByMortar(asked, own, other, held, axesOf(first))
+                       : meetByMortar(asked, own, other, held),
+                first, second, "mortars on '" + layoutOf(first).name + "'");
 }
 
-std::vector<ContactLayout> layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
-  std::vector<ContactLayout> contacts;
+SupportedNodes supportedNodes(const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
+  const auto modelOf = [&models](int body) -> const fem::BodyModel& {
+    return *models[static_cast<std::size_t>(body)];
+  };
+  SupportedNodes result;
+  result.isHeld = [modelOf](int body, GlobalOrdinal node, const Eigen::Vector3d& direction) {
+    constexpr double held = 1e-6; // of a direction, what is free beside it is round-off
+    const fem::BodyModel& model = modelOf(body);
+    const Eigen::Matrix3d* frame = model.frame(node);
+    const Eigen::Vector3d along =
+        frame != nullptr ? Eigen::Vector3d(frame->transpose() * direction) : direction;
+    double free = 0;
+    for (int c = 0; c < model.components(); ++c)
+      if (!model.prescribed(node, c))
+        free = std::hypot(free, along[c]);
+    return free <= held;
+  };
+  result.axes = [modelOf](int body, const fem::Surface& surface) {
+    const fem::BodyModel& model = modelOf(body);
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    int most = 0;
+    for (const GlobalOrdinal node : surface.facetNodes) {
+      const Eigen::Matrix3d* frame = model.frame(node);
+      int held = 0;
+      for (int c = 0; c < model.components(); ++c)
+        held += model.prescribed(node, c) ? 1 : 0;
+      if (frame != nullptr && held > most) {
+        most = held;
+        axes = *frame;
+      }
+    }
+    return axes;
+  };
+  return result;
+}
+
+SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
+                             const SupportedNodes& supported) {
+  SceneContacts all;
   contact::KnownRows known;
   for (std::size_t number = 0; number < scene.contacts.size(); ++number) {
     requireSound(scene, number);
-    const scene::SurfaceContact& terms = scene.contacts[number];
+    scene::SurfaceContact terms = scene.contacts[number];
     const int components = componentsOf(scene.bodies[static_cast<std::size_t>(terms.first)].physics);
-    ContactLayout& contact = contacts.emplace_back(layoutContact(terms, bodies, components));
+    std::string why = ", as asked";
+    if (terms.second >= 0 && terms.multipliers == scene::SurfaceContact::Side::automatic)
+      why = chooseSide(scene, bodies, terms);
+    ContactLayout contact = layoutContact(terms, bodies, components, supported);
+    contact.number = static_cast<int>(number);
+    const bool hasMortars = !contact.firstShares.empty();
+    if (hasMortars)
+      contact.means += why;
+    if (terms.kind == scene::SurfaceContact::Kind::tied) {
+      all.ties.push_back(std::move(contact));
+      continue;
+    }
     known.dropFrom(contact);
-    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
-    contact::adaptRows(mesh.surface(contact.firstSurface), contact);
+    const fem::Surface surface =
+        bodies[static_cast<std::size_t>(contact.firstBody)].mesh->surface(contact.firstSurface);
+    hasMortars ? contact::smoothRows(surface, contact) : contact::adaptRows(surface, contact);
+    all.contacts.push_back(std::move(contact));
   }
-  GlobalOrdinal firstRow = 0;
-  for (ContactLayout& contact : contacts) {
-    contact.firstRow = firstRow;
-    firstRow += contact.numRows();
+  for (auto* layouts : {&all.contacts, &all.ties}) {
+    GlobalOrdinal firstRow = 0;
+    for (ContactLayout& contact : *layouts) {
+      contact.firstRow = firstRow;
+      firstRow += contact.numRows();
+    }
   }
-  return contacts;
+  return all;
 }
 
 contact::ContactMatrix contactMatrix(const std::vector<BodyLayout>& bodies,

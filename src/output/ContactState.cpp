@@ -103,6 +103,21 @@ Shares transposed(const Shares& shares) {
   return result;
 }
 
+/// What rows contribute to the forces on the nodes that have one; empty: each row is that of its own node.
+Shares forceShares(const ContactLayout& layout) {
+  if (layout.firstShares.empty())
+    return transposed(layout.combinations);
+  std::unordered_map<GlobalOrdinal, std::size_t> rowOf;
+  for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
+    rowOf.emplace(layout.firstNodes[row], row);
+  Shares result(layout.firstNodes.size());
+  for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
+    for (const contact::NodeShare& share : layout.firstShares[row])
+      if (const auto place = rowOf.find(share.node); place != rowOf.end())
+        result[place->second].push_back({row, share.weight});
+  return result;
+}
+
 /// Values of a facet's shape functions at a lattice of points.
 std::vector<Eigen::VectorXd> latticeOn(fem::CellType facet) {
   return withFacetShape(facet, [](auto shape) {
@@ -145,8 +160,7 @@ double penetrationOn(const fem::Surface& surface, const ContactLayout& layout, c
 
 } // namespace
 
-std::vector<double> pressureAreas(const SolvedScene& solved, int contact) {
-  const auto& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+std::vector<double> pressureAreas(const SolvedScene& solved, const ContactLayout& layout) {
   const scene::Body* solid = solved.elasticBody(layout.firstBody);
   if (solid == nullptr || solid->physics == scene::Physics::elasticity3d)
     return layout.areas;
@@ -175,20 +189,19 @@ std::vector<long long> completeFacets(const ContactLayout& layout, const fem::Su
 ContactState contactState(const SolvedScene& solved, int contact) {
   const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
   const Vector &slack = *solved.solution.slack, &multiplier = *solved.solution.multiplier;
-  const bool isDual = !layout.combinations.empty();
-  const Shares none, toNodes = isDual ? transposed(layout.smoothed) : none;
-  const Shares& around = isDual ? none : layout.smoothed;
+  const Shares none, toNodes = layout.isDual ? transposed(layout.smoothed) : none;
+  const Shares& around = layout.isDual ? none : layout.smoothed;
 
   const RowRange slab = evenShare(layout.numRows(), solved.comm());
   std::vector<std::size_t> rows;
   for (GlobalOrdinal k = slab.first; k < slab.first + slab.count; ++k)
     rows.push_back(static_cast<std::size_t>(k));
-  const Shares onNodes = transposed(layout.combinations);
+  const Shares onNodes = forceShares(layout);
   const RowValues forces(multiplier, layout, rows, onNodes), pushes(multiplier, layout, rows, around),
       gaps(slack, layout, rows, toNodes);
 
   ContactState state;
-  state.areas = pressureAreas(solved, contact);
+  state.areas = pressureAreas(solved, layout);
   for (const std::size_t row : rows) {
     double area = 0;
     if (around.empty())

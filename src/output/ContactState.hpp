@@ -9,10 +9,10 @@
 
 namespace epafi::output {
 
-/// Each row's share of the area of contact `contact`: on which its multiplier acts. Of plane bodies the share of
+/// Each row's share of the area of a contact or tied joint: on which its multiplier acts. Of plane bodies the share of
 /// the length times the thickness of the elements there, of membranes the length alone. In the order of the contact's rows,
 /// whole on every rank. Not collective.
-std::vector<double> pressureAreas(const SolvedScene& solved, int contact);
+std::vector<double> pressureAreas(const SolvedScene& solved, const contact::ContactLayout& layout);
 
 /// What a contact has come to. Force, pressure and gap are those of nodes, of this rank's slab of rows (evenShare).
 struct ContactState {

@@ -1,4 +1,5 @@
 #include "epafi/output/Evaluation.hpp"
+#include "epafi/output/JointResults.hpp"
 
 #include "epafi/accuracy/RecoveredFlux.hpp"
 #include "epafi/base/AccurateSum.hpp"
@@ -69,7 +70,8 @@ std::vector<AccurateSum> sumContacts(const SolvedScene& solved, const Evaluation
     const std::array<double, 3> direction = directionOf(*contact, row);
     AccurateSum* const terms = &sums[place * numTerms];
     terms[force].add(rowForce);
-    const bool areSwapped = contact->firstBody != solved.scene.contacts[place].first;
+    const bool areSwapped =
+        contact->firstBody != solved.scene.contacts[static_cast<std::size_t>(contact->number)].first;
     for (std::size_t d = 0; d < 3; ++d)
       terms[resultant + d].add(areSwapped ? rowForce * direction[d] : -rowForce * direction[d]);
     if (isActive[i] > 0.5) {
@@ -183,6 +185,7 @@ void addResults(const SolvedScene& solved, const Evaluation& evaluation, Teuchos
           .sublist(contacts[c].name)
           .set("Largest Penetration", evaluation.contacts[c].penetration);
   }
+  addJoints(solved, report);
   for (std::size_t b = 0; b < solved.scene.bodies.size(); ++b) {
     if (solved.elasticBody(static_cast<int>(b)) == nullptr)
       continue;

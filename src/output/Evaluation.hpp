@@ -40,6 +40,7 @@ Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* es
 ///   Contact/NAME    Candidates (rows), Active Nodes, Force Σλ, Resultant −Σλd (x, y, z; the force on the first body; of
 ///                   membranes, whose deflection is along z, in z), Largest Pressure, of order 2 Largest Penetration (ContactState),
 ///                   Contact Area (that of the active rows)
+///   Tied/NAME, and more of Contact/NAME: see JointResults.hpp
 ///   Body/NAME       of elastic bodies: Largest Displacement (the length of the vector), Largest von Mises Stress
 /// Sums are the same to the last digit on any number of ranks. Nothing but the numbers in the lists is ever whole on one rank.
 /// Collective.

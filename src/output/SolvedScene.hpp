@@ -24,7 +24,8 @@ struct SolvedScene {
   }
   /// Whether a contact is that of membranes' edges.
   [[nodiscard]] bool isAlongEdges(int contact) const {
-    return scene::isAlongEdges(scene, scene.contacts[static_cast<std::size_t>(contact)]);
+    const int number = decomposition.contacts[static_cast<std::size_t>(contact)].number;
+    return scene::isAlongEdges(scene, scene.contacts[static_cast<std::size_t>(number)]);
   }
 };
 

@@ -116,6 +116,27 @@ void readSurfaces(const ListReader& entry, const std::vector<Body>& bodies,
     pair.distance = distance;
 }
 
+/// How the sides are joined.
+void readCoupling(const ListReader& entry, SurfaceContact& pair) {
+  using Coupling = SurfaceContact::Coupling;
+  using Side = SurfaceContact::Side;
+  pair.kind = entry.word("Kind") == "tied" ? SurfaceContact::Kind::tied : SurfaceContact::Kind::contact;
+  if (pair.second < 0) {
+    if (pair.kind == SurfaceContact::Kind::tied)
+      entry.refuseValue("Kind", "nothing is tied to an obstacle; hold the surface by a support");
+    entry.refuseGiven({"Coupling", "Multipliers"}, "an obstacle has no mesh");
+  }
+  if (pair.kind == SurfaceContact::Kind::tied)
+    entry.refuseGiven({"Gap"}, "a tied joint keeps the gap that there is");
+  const std::string &coupling = entry.word("Coupling"), &side = entry.word("Multipliers");
+  pair.coupling = coupling == "nodes"    ? Coupling::nodes
+                  : coupling == "mortar" ? Coupling::mortar
+                                         : Coupling::automatic;
+  if (pair.coupling == Coupling::nodes)
+    entry.refuseGiven({"Multipliers"}, "pairs of nodes have one each");
+  pair.multipliers = side == "first" ? Side::first : side == "second" ? Side::second : Side::automatic;
+}
+
 void requireSoundEdges(const ListReader& entry, const Scene& scene) {
   const std::optional<EdgeFault> fault = faultOf(scene, scene.contacts.size() - 1);
   if (!fault)
@@ -160,6 +181,7 @@ void readContacts(const ListReader& list, const ListReader& rigid, Scene& scene)
       readEdges(entry, pair);
     else
       readSurfaces(entry, scene.bodies, obstacles, pair);
+    readCoupling(entry, pair);
     pair.gap = entry.real("Gap");
     scene.contacts.push_back(pair);
     if (alongEdges)

@@ -72,10 +72,10 @@ std::optional<EdgeFault> faultOf(const Scene& scene, std::size_t contact) {
                              first.name + "\" is " + toString(a) + ", but \"" + pair.secondSurface +
                              "\" of body \"" + second.name + "\" is " + toString(b)};
   const int m = first.mesh.elements[a.isVertical ? 1 : 0], n = second.mesh.elements[b.isVertical ? 1 : 0];
-  if (m != n)
+  if (m != n && pair.coupling == SurfaceContact::Coupling::nodes)
     return EdgeFault{-1, "joins edges with different numbers of elements: " + std::to_string(m) +
                              " on body \"" + first.name + "\", but " + std::to_string(n) + " on body \"" +
-                             second.name + '"'};
+                             second.name + "\"; leave the coupling to mortars"};
   return std::nullopt;
 }
 

@@ -21,8 +21,14 @@ struct Obstacle {
   double radius = 1;       ///< of the sphere
 };
 
-/// Frictionless contact of a body's surface with another body's, whose nodes face its own, or with an obstacle.
+/// Frictionless contact of a body's surface with another body's or with an obstacle, or a joint of two bodies.
 struct SurfaceContact {
+  /// Contact: bodies do not penetrate. Tied: they are bonded, whatever lies between them.
+  enum class Kind { contact, tied };
+  /// How two surfaces are coupled: by pairs of nodes that face each other, by mortars, or as the meshes ask for.
+  enum class Coupling { automatic, nodes, mortar };
+  /// Which of two surfaces carries the multipliers.
+  enum class Side { automatic, first, second };
   std::string name;
   int first = 0; ///< index into Scene::bodies
   std::string firstSurface;
@@ -32,6 +38,9 @@ struct SurfaceContact {
   double gap = 0; ///< added to the gap that geometry leaves (membranes: all there is); negative: penetration
   /// Nodes farther from the other side than this get no inequality: they cannot meet.
   double distance = std::numeric_limits<double>::infinity();
+  Kind kind = Kind::contact;
+  Coupling coupling = Coupling::automatic;
+  Side multipliers = Side::automatic;
 };
 
 struct Scene {

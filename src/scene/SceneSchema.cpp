@@ -152,9 +152,13 @@ void describeObstacle(ParameterList& obstacles) {
 void describePair(ParameterList& contact) {
   ParameterList& pair =
       contact.sublist("<pair>", false,
-                      "Two edges or surfaces whose nodes face each other, or a surface and an obstacle. "
+                      "Two edges or surfaces, meshed alike or not, or a surface and an obstacle. "
                       "Membranes on rectangles: "
                       "two coinciding edges; the second body must stay above the first one.");
+  addChoice(
+      pair, "Kind", "contact",
+      "Bodies that cannot penetrate each other, or that are tied: bonded as they are, in all directions.",
+      {"contact", "tied"});
   pair.set("First Body", "", "Name of the first (of membranes: the lower) body.");
   setRequired(pair, {"First Body"});
   addChoice(pair, "First Edge", "", "Membranes on rectangles, required: edge of the first body.", edgeNames);
@@ -172,6 +176,16 @@ void describePair(ParameterList& contact) {
           "Nodes that are farther than this from the other side cannot meet it and get no inequality; 0: no "
           "limit. Not of membranes on rectangles.",
           0.0);
+  addChoice(pair, "Coupling", "auto",
+            "How two surfaces are coupled: \"nodes\" that face each other in pairs, where the meshes match; "
+            "\"mortar\", integrals over what the surfaces have in common; \"auto\": pairs where all match, "
+            "else mortars.",
+            {"auto", "nodes", "mortar"});
+  addChoice(pair, "Multipliers", "auto",
+            "With mortars: which surface carries the multipliers. \"auto\": one that no other contact has, "
+            "then the "
+            "finer one, then that of the softer body, then the first.",
+            {"auto", "first", "second"});
 }
 
 } // namespace
@@ -203,7 +217,7 @@ ParameterList sceneSchema() {
                             "between 1e-30 and 1e30 in "
                             "magnitude."));
   describeObstacle(list.sublist("Obstacles", false, "Rigid obstacles that elastic bodies may meet."));
-  describePair(list.sublist("Contact", false, "What cannot penetrate each other."));
+  describePair(list.sublist("Contact", false, "What cannot penetrate each other, or is tied."));
   list.sublist("Decomposition", false, "How each body is cut into subdomains, unless it says so itself.")
       .setParameters(decompositionSchema());
   return list;

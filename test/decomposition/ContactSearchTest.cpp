@@ -83,7 +83,9 @@ TEST(ContactSearchTest, RefusesSurfacesThatDoNotMatch) {
   std::vector<BodyLayout> bodies;
   bodies.push_back(box("lower", scene::rectangle(0, 1, 0, 1), {4, 2, 0}));
   bodies.push_back(box("upper", scene::rectangle(0, 1, 1, 2), {5, 2, 0}));
-  EXPECT_NE(complaint(topOnBottom(), bodies, 2).find("do not match"), std::string::npos);
+  scene::SurfaceContact pairs = topOnBottom();
+  pairs.coupling = scene::SurfaceContact::Coupling::nodes;
+  EXPECT_NE(complaint(pairs, bodies, 2).find("do not match"), std::string::npos);
   scene::SurfaceContact unknown = topOnBottom();
   unknown.secondSurface = "sole";
   for (const char* word : {"'sole'", "'bottom'", "'top'"}) // what is wrong, and what there is

@@ -121,6 +121,7 @@ TEST(ContactTest, TwoPairsOfABodyMayShareACorner) {
 TEST(ContactTest, NonMatchingNodesAreRefusedWithBothNumbers) {
   scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
   scene.bodies[1].mesh.elements = {4, 6, 0};
+  scene.contacts.front().coupling = scene::SurfaceContact::Coupling::nodes;
   EXPECT_TRUE(mentions(refusal(scene), {"interface", "left", "right", "4", "6"})) << refusal(scene);
 }
 

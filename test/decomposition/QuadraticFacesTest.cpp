@@ -26,7 +26,8 @@ struct Side {
       : mesh(completed(arraysOf(fem::StructuredMesh({{0, 0, 0}, {2, 3, 1}}, {2, 3, 1}),
                                 fem::test::placed(3, 0.3, {1, 0, 0}), simplices),
                        false)),
-        surface(mesh.surface("top")), nodes(contact::surfaceNodes(mesh, surface, 2)) {
+        surface(mesh.surface("top")),
+        nodes(contact::surfaceNodes([&](GlobalOrdinal node) { return mesh.point(node); }, surface, 2)) {
     layout.firstNodes = nodes.nodes;
     layout.areas = nodes.areas;
     layout.directions.assign(3 * nodes.nodes.size(), 1.0);
@@ -95,7 +96,8 @@ TEST(QuadraticFacesTest, OtherFunctionsShareTheNodesOut) {
 TEST(QuadraticFacesTest, MeansOfAQuadraticPressureAreOffByTheSameEverywhere) {
   const fem::StructuredMesh mesh({{0, 0, 0}, {4, 4, 1}}, {4, 4, 1}, 2);
   const fem::Surface surface = mesh.surface("top");
-  const contact::SurfaceNodes nodes = contact::surfaceNodes(mesh, surface, 2);
+  const contact::SurfaceNodes nodes =
+      contact::surfaceNodes([&](GlobalOrdinal node) { return mesh.point(node); }, surface, 2);
   contact::ContactLayout layout;
   layout.firstNodes = nodes.nodes;
   layout.areas = nodes.areas;

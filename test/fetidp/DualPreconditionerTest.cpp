@@ -69,7 +69,8 @@ public:
     sum(diagonal_);
     for (const Subdomain& s : problem_.subdomains)
       for (const auto& entry : s.constraint)
-        totals_[row(entry)] += entry.coefficient * entry.coefficient / weight(s, entry.unknown);
+        if (isOwn(s, entry))
+          totals_[row(entry)] += entry.coefficient * entry.coefficient / weight(s, entry.unknown);
     sum(totals_);
     shares_ = Eigen::VectorXd::Zero(totals_.size());
     for (const Subdomain& s : problem_.subdomains)
@@ -154,9 +155,18 @@ private:
         return diagonal_[static_cast<Eigen::Index>(s.crosspointIndices[c])];
     return s.stiffness->coeff(unknown, unknown);
   }
+  /// Whether no other row of contact acts on the unknown.
+  [[nodiscard]] bool isOwn(const Subdomain& s, const decomposition::ConstraintEntry& entry) const {
+    const auto isGluing = [&](const auto& other) {
+      return problem_.kindOf(other.multiplier) == decomposition::RowKind::gluing;
+    };
+    return isGluing(entry) || std::count_if(s.constraint.begin(), s.constraint.end(), [&](const auto& other) {
+                                return !isGluing(other) && other.unknown == entry.unknown;
+                              }) == 1;
+  }
   /// An entry of B_D.
   [[nodiscard]] double scaled(const Subdomain& s, const decomposition::ConstraintEntry& entry) const {
-    return entry.coefficient / weight(s, entry.unknown) / totals_[row(entry)];
+    return isOwn(s, entry) ? entry.coefficient / weight(s, entry.unknown) / totals_[row(entry)] : 0.0;
   }
   template <class Matrix>
   void sum(Matrix& matrix) const {

@@ -4,6 +4,7 @@
 #include "epafi/fetidp/SharedRows.hpp"
 
 #include <Teuchos_Comm.hpp>
+#include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
@@ -36,7 +37,8 @@ void repeatRow(DecomposedProblem& problem, double wider) {
 /// The global indices of the shared rows, on every rank.
 std::vector<GlobalOrdinal> sharedRows(const DecomposedProblem& problem) {
   Vector marks(problem.multiplierMap);
-  for (const LocalOrdinal row : sharedContactRows(problem))
+  const Import plan(problem.multiplierMap, problem.multiplierGhostMap);
+  for (const LocalOrdinal row : ownEntries(problem, plan).dependent)
     marks.replaceLocalValue(row, 1.0);
   std::vector<GlobalOrdinal> rows;
   const Eigen::VectorXd all = gathered(marks);

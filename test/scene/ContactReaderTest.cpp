@@ -69,8 +69,11 @@ TEST(ContactReaderTest, RefusesEdgesThatDoNotCoincide) {
   expectSays(refusalOf("Second Edge", "top"), {"do not coincide", "y = 1, x from 1 to 2"});
 }
 
-TEST(ContactReaderTest, RefusesEdgesWithDifferentNumbersOfElements) {
-  const auto change = [](ParameterList& list) { bodyOf(list, "right").set("Elements", counts({4, 5})); };
+TEST(ContactReaderTest, RefusesPairsOfNodesOnEdgesWithDifferentNumbersOfElements) {
+  const auto change = [](ParameterList& list) {
+    bodyOf(list, "right").set("Elements", counts({4, 5}));
+    list.sublist("Contact").sublist("interface").set("Coupling", "nodes");
+  };
   expectSays(sceneRefusal(change),
              {"a.xml: ", "\"Contact/interface\"", "4 on body \"left\"", "5 on body \"right\""});
 }

@@ -1,0 +1,56 @@
+#pragma once
+
+/// Integrals of products of shape functions over what two surfaces, meshed apart, have in common: what mortars are made of.
+///
+/// Facets of the second surface that may lie across one of the first are found by their bounding boxes in a tree. Both are seen
+/// along the first facet's normal, clipped against each other there (in space convex polygons, in the plane intervals), and what
+/// is left is cut into simplices with a Gauss rule: exact for straight simplices and parallelograms, to round-off for
+/// other straight facets, and with an error that a finer mesh takes away for curved ones (Puso, *Int. J. Numer. Meth. Engng* 59
+/// (2004); Popp, Gitterle, Gee, Wall, *ibid.* 83 (2010)).
+
+#include "epafi/contact/SurfaceNodes.hpp"
+#include "epafi/fem/Mesh.hpp"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace epafi::contact {
+
+/// The integrals over one facet of the first surface, as far as the second covers it; N its shape functions.
+struct MortarFacet {
+  std::size_t facet = 0;  ///< of the first surface
+  double whole = 0;       ///< area of all of it
+  double area = 0;        ///< of what is covered
+  Eigen::VectorXd shares; ///< ∫N
+  Eigen::MatrixXd mass;   ///< ∫NNᵀ
+  /// With a facet of the second surface, N² its shape functions.
+  struct Across {
+    std::size_t facet;
+    Eigen::MatrixXd coupling; ///< ∫N(N²)ᵀ
+  };
+  std::vector<Across> across;
+};
+
+/// A surface and where its nodes lie; keeps references.
+struct PlacedSurface {
+  const fem::Surface& surface;
+  const NodePoints& pointAt;
+};
+
+/// What surfaces are to be integrated over, and the contact's name for messages.
+struct MortarTerms {
+  std::string name;
+  int dimension = 3;   ///< of space
+  double distance = 0; ///< facets farther apart than this do not meet; may be infinite
+};
+
+/// The facets of the first surface that are covered somewhere, ascending. A facet that several layers of the other surface lie
+/// across meets the nearest one. Overlaps deeper than the facets' size are no contact: what lies there is the other's far side.
+/// Not collective. \throws InputError if nothing is covered, with the reason: the surfaces face away from each other, are
+/// farther apart than `distance`, overlap deeper than an element, or miss each other; or if a facet is folded.
+std::vector<MortarFacet> mortarIntegrals(const MortarTerms& terms, const PlacedSurface& first,
+                                         const PlacedSurface& second);
+
+} // namespace epafi::contact

@@ -1,0 +1,299 @@
+#include "epafi/contact/MortarRows.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/contact/MortarIntegrals.hpp"
+#include "epafi/contact/QuadraticFaces.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace epafi::contact {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// A node has a multiplier if its neighbours' N̂ are covered by no more than this many times its own share.
+constexpr double leastCoverage = 0.1;
+/// Facets covered by less than this share of them have constant ψ.
+constexpr double sliverOfFacet = 0.02;
+/// Shares that would be 0 without round-off.
+constexpr double roundOff = 1e-13;
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+/// What a row takes of both sides.
+struct Row {
+  std::size_t place; ///< of its node, in SurfaceNodes
+  double area;
+  std::vector<NodeShare> first, second;
+};
+
+/// The rows of a pair of surfaces, for any set of nodes that may have them.
+class RowMaker {
+public:
+  RowMaker(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second)
+      : first_(first), second_(second), nodes_(surfaceNodes(first.pointAt, first.surface)),
+        basis_(dualBasis(first.surface.facetType)),
+        facets_(mortarIntegrals({terms.name, terms.dimension, terms.distance}, first, second)) {
+    measureCoverage();
+  }
+
+  [[nodiscard]] const SurfaceNodes& nodes() const { return nodes_; }
+  /// \param isHeld  of places of nodes
+  [[nodiscard]] std::vector<Row> rows(const std::function<bool(std::size_t)>& isHeld) const;
+  /// The mean place of one side of a row.
+  [[nodiscard]] static Vector3d placeOf(const NodePoints& pointAt, const std::vector<NodeShare>& shares);
+
+private:
+  using Sums = std::vector<std::map<GlobalOrdinal, double>>;
+
+  void measureCoverage();
+  [[nodiscard]] std::vector<std::size_t> placesOf(std::size_t facet) const;
+  [[nodiscard]] std::vector<std::size_t>
+  representatives(const std::function<bool(std::size_t)>& isHeld) const;
+  void add(const MortarFacet& facet, const std::vector<std::size_t>& representative, VectorXd& areas,
+           Sums& first, Sums& second) const;
+  void balanceMoment(Row& row) const;
+
+  const PlacedSurface &first_, &second_;
+  SurfaceNodes nodes_;
+  MatrixXd basis_; ///< N̂ = T N of a facet
+  std::vector<MortarFacet> facets_;
+  std::vector<double> coverage_; ///< of each node's N̂, the covered share
+};
+
+std::vector<std::size_t> RowMaker::placesOf(std::size_t facet) const {
+  std::vector<std::size_t> places;
+  for (const GlobalOrdinal node : first_.surface.facet(facet))
+    places.push_back(static_cast<std::size_t>(
+        std::lower_bound(nodes_.nodes.begin(), nodes_.nodes.end(), node) - nodes_.nodes.begin()));
+  return places;
+}
+
+void RowMaker::measureCoverage() {
+  std::vector<double> covered(nodes_.nodes.size(), 0.0), whole = covered;
+  std::vector<fem::Point> points;
+  VectorXd shares(basis_.rows());
+  const auto addTo = [&](std::size_t facet, const VectorXd& values, std::vector<double>& sums) {
+    const std::vector<std::size_t> places = placesOf(facet);
+    for (std::size_t a = 0; a < places.size(); ++a)
+      sums[places[a]] += values[static_cast<Eigen::Index>(a)];
+  };
+  for (std::size_t f = 0; f < first_.surface.numFacets(); ++f) {
+    points.clear();
+    for (const GlobalOrdinal node : first_.surface.facet(f))
+      points.push_back(first_.pointAt(node));
+    fem::nodalShares(first_.surface.facetType, points, {shares.data(), points.size()});
+    addTo(f, basis_ * shares, whole);
+  }
+  for (const MortarFacet& facet : facets_)
+    addTo(facet.facet, basis_ * facet.shares, covered);
+  for (std::size_t k = 0; k < covered.size(); ++k)
+    coverage_.push_back(covered[k] / whole[k]);
+}
+
+/// The node whose multiplier each node's N̂ belongs to: itself, or the nearest one in steps from facet to facet.
+std::vector<std::size_t> RowMaker::representatives(const std::function<bool(std::size_t)>& isHeld) const {
+  std::vector<double> most(nodes_.nodes.size(), 0.0); // coverage of nodes around
+  for (const MortarFacet& facet : facets_) {
+    const std::vector<std::size_t> places = placesOf(facet.facet);
+    double best = 0;
+    for (const std::size_t k : places)
+      best = std::max(best, coverage_[k]);
+    for (const std::size_t k : places)
+      most[k] = std::max(most[k], best);
+  }
+  std::vector<std::size_t> representative(nodes_.nodes.size(), none);
+  for (std::size_t k = 0; k < most.size(); ++k)
+    if (most[k] > 0 && coverage_[k] >= leastCoverage * most[k] && !isHeld(k))
+      representative[k] = k;
+  for (bool isAnyNew = true; isAnyNew;) {
+    isAnyNew = false;
+    std::vector<std::size_t> next = representative;
+    std::vector<double> distance(next.size(), std::numeric_limits<double>::infinity());
+    for (const MortarFacet& facet : facets_) {
+      const std::vector<std::size_t> places = placesOf(facet.facet);
+      for (const std::size_t k : places)
+        for (const std::size_t other : places) {
+          if (representative[k] != none || representative[other] == none)
+            continue;
+          const double apart = (nodes_.points[representative[other]] - nodes_.points[k]).norm();
+          if (apart < distance[k]) {
+            distance[k] = apart;
+            next[k] = representative[other];
+            isAnyNew = true;
+          }
+        }
+    }
+    representative.swap(next);
+  }
+  return representative;
+}
+
+/// The parts of the rows of one facet: P = A S T, ψ = P N, with S adding up the N̂ that have one multiplier.
+void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& representative, VectorXd& areas,
+                   Sums& first, Sums& second) const {
+  const std::vector<std::size_t> places = placesOf(facet.facet);
+  std::vector<std::size_t> rows;
+  for (const std::size_t k : places)
+    if (representative[k] != none && std::find(rows.begin(), rows.end(), representative[k]) == rows.end())
+      rows.push_back(representative[k]);
+  if (rows.empty())
+    return;
+  const auto numRows = static_cast<Eigen::Index>(rows.size());
+  MatrixXd sum = MatrixXd::Zero(numRows, basis_.rows());
+  for (std::size_t a = 0; a < places.size(); ++a)
+    for (Eigen::Index r = 0; r < numRows; ++r)
+      if (representative[places[a]] == rows[static_cast<std::size_t>(r)])
+        sum(r, static_cast<Eigen::Index>(a)) = 1;
+  const MatrixXd functions = sum * basis_;
+  const VectorXd integrals = functions * facet.shares;
+  MatrixXd psi;
+  if (facet.area < sliverOfFacet * facet.whole) {
+    psi = integrals / facet.area * (VectorXd::Ones(numRows).transpose() * functions);
+  } else {
+    const MatrixXd mass = functions * facet.mass * functions.transpose();
+    psi = integrals.asDiagonal() * mass.ldlt().solve(functions);
+  }
+  const MatrixXd own = psi * facet.mass;
+  const auto nodes = first_.surface.facet(facet.facet);
+  for (Eigen::Index r = 0; r < numRows; ++r) {
+    const std::size_t row = rows[static_cast<std::size_t>(r)];
+    areas[static_cast<Eigen::Index>(row)] += integrals[r];
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      first[row][nodes[a]] += own(r, static_cast<Eigen::Index>(a));
+  }
+  for (const MortarFacet::Across& across : facet.across) {
+    const MatrixXd theirs = psi * across.coupling;
+    const auto others = second_.surface.facet(across.facet);
+    for (Eigen::Index r = 0; r < numRows; ++r)
+      for (std::size_t a = 0; a < others.size(); ++a)
+        second[rows[static_cast<std::size_t>(r)]][others[a]] += theirs(r, static_cast<Eigen::Index>(a));
+  }
+}
+
+std::vector<Row> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld) const {
+  const std::vector<std::size_t> representative = representatives(isHeld);
+  const std::size_t n = nodes_.nodes.size();
+  VectorXd areas = VectorXd::Zero(static_cast<Eigen::Index>(n));
+  Sums first(n), second(n);
+  for (const MortarFacet& facet : facets_)
+    add(facet, representative, areas, first, second);
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (first[k].empty())
+      continue;
+    Row& row = rows.emplace_back(Row{k, areas[static_cast<Eigen::Index>(k)], {}, {}});
+    for (const auto& [sums, shares] : {std::pair(&first[k], &row.first), std::pair(&second[k], &row.second)})
+      for (const auto& [node, weight] : *sums)
+        if (std::abs(weight) > roundOff * row.area)
+          shares->push_back({node, weight / row.area});
+    balanceMoment(row);
+  }
+  return rows;
+}
+
+Vector3d RowMaker::placeOf(const NodePoints& pointAt, const std::vector<NodeShare>& shares) {
+  Vector3d place(0, 0, 0);
+  for (const NodeShare& share : shares) {
+    const fem::Point x = pointAt(share.node);
+    place += share.weight * Vector3d(x[0], x[1], x[2]);
+  }
+  return place;
+}
+
+/// Adds δ_l = cᵀ(x_l − x̄) to the second side's shares, which changes no force, so that its place lies across the first one's.
+void RowMaker::balanceMoment(Row& row) const {
+  const Vector3d normal = nodes_.normals[row.place];
+  const auto across = [&](const Vector3d& x) -> Vector3d { return x - normal.dot(x) * normal; };
+  const Vector3d off = across(placeOf(second_.pointAt, row.second) - placeOf(first_.pointAt, row.first));
+  std::vector<Vector3d> places;
+  Vector3d mean(0, 0, 0);
+  for (const NodeShare& share : row.second) {
+    const fem::Point x = second_.pointAt(share.node);
+    places.emplace_back(across({x[0], x[1], x[2]}));
+    mean += places.back() / static_cast<double>(row.second.size());
+  }
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (Vector3d& place : places) {
+    place -= mean;
+    moments += place * place.transpose();
+  }
+  const double size = moments.trace();
+  if (off.squaredNorm() <= roundOff * roundOff * size || size == 0)
+    return;
+  moments += size * (normal * normal.transpose() + 1e-14 * Eigen::Matrix3d::Identity());
+  const Vector3d change = moments.ldlt().solve(off);
+  for (std::size_t l = 0; l < places.size(); ++l)
+    row.second[l].weight -= change.dot(places[l]);
+}
+
+void enter(const Row& row, const SurfaceNodes& nodes, const Vector3d& direction, int components, double gap,
+           ContactLayout& layout) {
+  layout.firstNodes.push_back(nodes.nodes[row.place]);
+  layout.firstShares.push_back(row.first);
+  layout.secondNodes.push_back(row.second);
+  for (int c = 0; c < components; ++c)
+    layout.directions.push_back(direction[c]);
+  layout.gaps.push_back(gap);
+  layout.areas.push_back(row.area);
+}
+
+void requireRows(const ContactTerms& terms, const ContactLayout& layout) {
+  if (layout.firstNodes.empty())
+    throw InputError(
+        "contact '" + terms.name + "': supports hold every node of the surface '" + terms.firstSurface +
+        "' that meets the other one, so that none can carry a force; let the other side carry the "
+        "multipliers, or remove the contact");
+}
+
+} // namespace
+
+ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
+                           const HeldNodes& isHeld) {
+  const RowMaker maker(terms, first, second);
+  const SurfaceNodes& nodes = maker.nodes();
+  const auto directionAt = [&](std::size_t place) -> Vector3d {
+    return terms.components == 1 ? Vector3d(terms.sense, 0, 0) : nodes.normals[place];
+  };
+  ContactLayout layout;
+  layout.name = terms.name;
+  layout.isDual = first.surface.facetType == fem::CellType::triangle6;
+  for (const Row& row : maker.rows([&](std::size_t k) { return isHeld(nodes.nodes[k], directionAt(k)); })) {
+    double gap = terms.gap;
+    if (terms.components > 1)
+      gap += nodes.normals[row.place].dot(RowMaker::placeOf(second.pointAt, row.second) -
+                                          RowMaker::placeOf(first.pointAt, row.first));
+    enter(row, nodes, directionAt(row.place), terms.components, gap, layout);
+  }
+  requireRows(terms, layout);
+  smoothRows(first.surface, layout);
+  return layout;
+}
+
+ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
+                          const HeldNodes& isHeld, const Eigen::Matrix3d& axes) {
+  const RowMaker maker(terms, first, second);
+  const SurfaceNodes& nodes = maker.nodes();
+  ContactLayout layout;
+  layout.name = terms.name;
+  for (int c = 0; c < terms.components; ++c) {
+    const Vector3d axis = axes.col(c);
+    for (const Row& row : maker.rows([&](std::size_t k) { return isHeld(nodes.nodes[k], axis); }))
+      enter(row, nodes, axis, terms.components, 0.0, layout);
+  }
+  requireRows(terms, layout);
+  return layout;
+}
+
+} // namespace epafi::contact

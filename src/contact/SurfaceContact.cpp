@@ -1,0 +1,55 @@
+#include "epafi/contact/SurfaceContact.hpp"
+
+#include "epafi/base/Collective.hpp"
+
+#include <Teuchos_Comm.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace epafi::contact {
+namespace {
+
+/// The rows as a matrix, dealt out to the ranks by their nodes.
+CoupledSurfaces asMatrix(const ContactTerms& terms, ContactLayout layout, const RCP<const Comm>& comm) {
+  layout.firstBody = layout.secondBody = 0; // nodes are numbered through all bodies
+  std::vector<GlobalOrdinal> nodes = layout.firstNodes;
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  NodeUnknowns unknowns;
+  unknowns.components = terms.components;
+  unknowns.firstNode = {0};
+  unknowns.frame = [](int, GlobalOrdinal) { return nullptr; };
+  unknowns.isHeld = [](int, GlobalOrdinal, int) { return false; };
+  unknowns.isMine = [&](int, GlobalOrdinal node) {
+    const auto place =
+        static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    return place * static_cast<std::size_t>(comm->getSize()) / nodes.size() ==
+           static_cast<std::size_t>(comm->getRank());
+  };
+  ContactMatrix matrix = contactMatrix({layout}, unknowns, comm);
+  return {std::move(matrix), std::move(layout)};
+}
+
+HeldNodes orNone(const HeldNodes& isHeld) {
+  return isHeld ? isHeld : [](GlobalOrdinal, const Eigen::Vector3d&) { return false; };
+}
+
+} // namespace
+
+CoupledSurfaces contactBetween(const ContactTerms& terms, const PlacedSurface& first,
+                               const PlacedSurface& second, const RCP<const Comm>& comm,
+                               const HeldNodes& isHeld) {
+  ContactLayout layout;
+  collectively(*comm, [&] { layout = meetByMortar(terms, first, second, orNone(isHeld)); });
+  return asMatrix(terms, std::move(layout), comm);
+}
+
+CoupledSurfaces tieBetween(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
+                           const RCP<const Comm>& comm, const HeldNodes& isHeld) {
+  ContactLayout layout;
+  collectively(*comm, [&] { layout = tieByMortar(terms, first, second, orNone(isHeld)); });
+  return asMatrix(terms, std::move(layout), comm);
+}
+
+} // namespace epafi::contact

@@ -1,0 +1,148 @@
+#include "epafi/output/JointResults.hpp"
+
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/output/ContactState.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace epafi::output {
+namespace {
+
+using contact::ContactLayout;
+using Eigen::Vector3d;
+
+Vector3d placeOf(const SolvedScene& solved, int body, GlobalOrdinal node) {
+  const fem::Point x = solved.decomposition.bodies[static_cast<std::size_t>(body)].mesh->point(node);
+  return {x[0], x[1], x[2]};
+}
+
+/// d of a row's own node; of membranes along z.
+Vector3d directionAt(const ContactLayout& layout, std::size_t place) {
+  const std::size_t components = layout.directions.size() / layout.firstNodes.size();
+  if (components == 1)
+    return {0, 0, layout.directions[place]};
+  Vector3d direction(0, 0, 0);
+  for (std::size_t c = 0; c < components; ++c)
+    direction[static_cast<Eigen::Index>(c)] = layout.directions[place * components + c];
+  return direction;
+}
+
+/// Sums over the rows of a layout, those of this rank until they are summed.
+class JointSums {
+public:
+  /// \param origin  to take moments about
+  JointSums(const SolvedScene& solved, const ContactLayout& layout, const Vector3d& origin)
+      : solved_(solved), layout_(layout), origin_(origin) {}
+
+  /// Takes in the force of a row.
+  void add(std::size_t row, double force) {
+    layout_.forEachShare(row, [&](std::size_t place, double weight) {
+      const Vector3d direction = force * weight * directionAt(layout_, place);
+      layout_.forEachFirst(
+          place, [&](const contact::NodeShare& share) { addAt(layout_.firstBody, share, direction, 0); });
+      for (const contact::NodeShare& share : layout_.secondNodes[place])
+        addAt(layout_.secondBody, share, direction, 6);
+    });
+    sums_[sizes].add(std::abs(force));
+  }
+  /// Collective.
+  void finish() {
+    sumOverRanks(solved_.comm(), sums_);
+    size_ = maxOverRanks(solved_.comm(), size_);
+  }
+  /// On the layout's first body, times −1.
+  [[nodiscard]] Vector3d resultant() const { return vector(0); }
+  void addImbalance(Teuchos::ParameterList& list) const {
+    const double force = sums_[sizes].value();
+    const auto relative = [](double value, double reference) {
+      return reference > 0 ? value / reference : 0.0;
+    };
+    list.set("Coupling", layout_.means)
+        .set("Force Imbalance", relative((vector(0) - vector(6)).norm(), force))
+        .set("Moment Imbalance", relative((vector(3) - vector(9)).norm(), force * size_));
+  }
+
+private:
+  static constexpr std::size_t sizes = 12; ///< Σ|λ|
+
+  void addAt(int body, const contact::NodeShare& share, const Vector3d& direction, std::size_t first) {
+    const Vector3d place = placeOf(solved_, body, share.node) - origin_, force = share.weight * direction,
+                   moment = place.cross(force);
+    size_ = std::max(size_, place.norm());
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      sums_[first + static_cast<std::size_t>(d)].add(force[d]);
+      sums_[first + 3 + static_cast<std::size_t>(d)].add(moment[d]);
+    }
+  }
+  [[nodiscard]] Vector3d vector(std::size_t first) const {
+    return {sums_[first].value(), sums_[first + 1].value(), sums_[first + 2].value()};
+  }
+
+  const SolvedScene& solved_;
+  const ContactLayout& layout_;
+  Vector3d origin_;
+  std::array<AccurateSum, sizes + 1> sums_; ///< force and moment of the first side, of the second
+  double size_ = 0;                         ///< of the surface, from the origin
+};
+
+/// Sums of a layout whose rows have global numbers from `offset` + firstRow on; `each` sees a row and its force. Collective.
+template <class Action>
+JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalOrdinal offset,
+                 const Action& each) {
+  const Map& map = *solved.decomposition.problem.multiplierMap;
+  const auto multiplier = solved.solution.multiplier->getData();
+  JointSums sums(solved, layout, placeOf(solved, layout.firstBody, layout.firstNodes.front()));
+  for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
+    const GlobalOrdinal row = map.getGlobalElement(static_cast<LocalOrdinal>(i)) - offset - layout.firstRow;
+    if (row < 0 || row >= layout.numRows())
+      continue;
+    sums.add(static_cast<std::size_t>(row), multiplier[i]);
+    each(static_cast<std::size_t>(row), multiplier[i]);
+  }
+  sums.finish();
+  return sums;
+}
+
+void addTie(const SolvedScene& solved, const ContactLayout& layout, Teuchos::ParameterList& list) {
+  std::map<GlobalOrdinal, Vector3d> traction; // all rows of a node lie on one rank
+  const std::vector<double> areas = pressureAreas(solved, layout);
+  const JointSums sums = sumsOf(
+      solved, layout, solved.decomposition.problem.numInequalities, [&](std::size_t row, double force) {
+        traction.try_emplace(layout.firstNodes[row], Vector3d::Zero()).first->second +=
+            force / areas[row] * directionAt(layout, row);
+      });
+  double largest = 0;
+  for (const auto& [node, value] : traction)
+    largest = std::max(largest, value.norm());
+  const bool areSwapped =
+      layout.firstBody != solved.scene.contacts[static_cast<std::size_t>(layout.number)].first;
+  const Vector3d resultant = (areSwapped ? 1.0 : -1.0) * sums.resultant();
+  list.set("Nodes", sumOverRanks(solved.comm(), static_cast<GlobalOrdinal>(traction.size())))
+      .set("Resultant", Teuchos::Array<double>(Teuchos::tuple(resultant[0], resultant[1], resultant[2])))
+      .set("Largest Traction", maxOverRanks(solved.comm(), largest));
+  sums.addImbalance(list);
+}
+
+} // namespace
+
+void addJoints(const SolvedScene& solved, Teuchos::ParameterList& report) {
+  for (const ContactLayout& layout : solved.decomposition.contacts)
+    if (layout.secondBody >= 0)
+      sumsOf(solved, layout, 0, [](std::size_t, double) {
+      }).addImbalance(report.sublist("Contact").sublist(layout.name));
+  for (const ContactLayout& layout : solved.decomposition.ties)
+    addTie(solved, layout, report.sublist("Tied").sublist(layout.name));
+}
+
+} // namespace epafi::output
