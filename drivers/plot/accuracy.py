@@ -139,7 +139,7 @@ def work(rows, others):
         handles = [Line2D([], [], color=colour, marker=marker, linestyle=line, linewidth=1.1, markersize=5, label=label,
                           markerfacecolor=colour if line == "-" else "none")
                    for label, colour, marker, line in peers.draw(panels[-1], others)]
-        panels[-1].legend(handles=handles, fontsize=7, loc="lower left", ncol=2)
+        panels[-1].legend(handles=handles, fontsize=6.5, loc="lower left", ncol=2)
         label_work(panels[-1])
         low, high = panels[-1].get_ylim()
         panels[-1].set_ylim(low / 6, high)  # room for the legend

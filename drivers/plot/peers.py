@@ -10,7 +10,7 @@ COLUMNS = ["problem", "solver", "order", "size", "energy", "total_seconds", "sta
 # Label, colour, marker.
 SOLVERS = {"epafi": ("Epafi", style.BLUE, "D"), "snesvi_cholmod": ("SNESVI + CHOLMOD", style.BLACK, "X"),
            "snesvi_hypre": ("SNESVI + hypre", style.GREY, "X"), "snesvi_gamg": ("SNESVI + GAMG", style.PURPLE, "X"),
-           "calculix": ("CalculiX", style.VERMILLION, "h")}
+           "calculix": ("CalculiX", style.VERMILLION, "h"), "calculix_tetrahedra": ("CalculiX, tetrahedra", style.ORANGE, "^")}
 
 
 def read(directory):
