@@ -5,7 +5,7 @@ solvers.py. What is counted:
                           the factors of subdomains that are alike
   snesvi_*                from the making of the SNES to its solution; assembly, reading the file and the change of variables
                           are left out; iterations are Newton steps
-  calculix                the whole program, with elements of its own (calculix.py)
+  calculix*               the whole program, with elements of its own: hexahedra, _tetrahedra (calculix.py)
 """
 
 import pathlib
@@ -21,7 +21,7 @@ LARGEST_RANKS = 64
 DEFAULT_SIZE = 37
 SIZES = "within 4 ... 128"
 NOTE = "Times: epafi from assembly to u; its peers without their assembly and without changing variables."
-NAMES = ("epafi", "epafi_separate", "snesvi_cholmod", "snesvi_hypre", "snesvi_gamg", "calculix")
+NAMES = ("epafi", "epafi_separate", "snesvi_cholmod", "snesvi_hypre", "snesvi_gamg", "calculix", "calculix_tetrahedra")
 LARGEST_ORDER = 2
 EPAFI_TOLERANCE = 0.1  # of the peers': see Case
 
@@ -32,7 +32,7 @@ def is_size(size):
 
 def programs(names):
     """What has to be built for these solvers."""
-    return {"epafi" if name.startswith("epafi") else "epafi-export" for name in names if name != "calculix"}
+    return {"epafi" if name.startswith("epafi") else "epafi-export" for name in names if not name.startswith("calculix")}
 
 
 class Case:
@@ -94,20 +94,20 @@ def run_snesvi(solver, case):
         threads))
 
 
-def run_calculix(case):
+def run_calculix(case, shape):
     program = shutil.which("ccx")
     if program is None:
         raise Trouble("missing", "install the package calculix-ccx, or all of the peers by ./setup packages peers")
     try:
-        return calculix.solve(program, case.problem, case.size, case.order, case.ranks, case.time_limit)
+        return calculix.solve(program, case.problem, case.size, case.order, shape, case.ranks, case.time_limit)
     except calculix.Failed as error:
         raise Trouble("failed", str(error)) from None
 
 
 def run(name, case):
     """\\raises Trouble, UsageError"""
-    if name == "calculix":
-        return run_calculix(case)
+    if name.startswith("calculix"):
+        return run_calculix(case, "tetrahedra" if name == "calculix_tetrahedra" else "hexahedra")
     if name == "epafi":
         return run_epafi(case, [])
     if name == "epafi_separate":

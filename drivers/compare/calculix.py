@@ -1,6 +1,8 @@
-"""The two blocks for CalculiX (package calculix-ccx): hexahedra of order 1 (C3D8) or 2 (C3D20), mortar contact without friction,
-the lower block's side with the multipliers. Its elements are not Epafi's: energies agree as meshes become finer, not on one mesh."""
+"""The two blocks for CalculiX (package calculix-ccx): hexahedra of order 1 (C3D8) or 2 (C3D20), or six tetrahedra in the place of each
+(C3D4, C3D10), mortar contact without friction, the lower block's side with the multipliers. Its elements are not Epafi's: energies
+agree as meshes become finer, not on one mesh."""
 
+import itertools
 import os
 import pathlib
 import re
@@ -18,25 +20,54 @@ class Failed(Exception):
     """Why there is no energy."""
 
 
-class Block:
-    """Nodes and elements of a cube of n elements a side whose lower side is at `bottom`."""
+# Corners of a cube's elements on the unit cube, edges between corners, faces of corners; loads: shares of corners and edges at order 2.
+CUBE = [(a, b, c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
 
-    def __init__(self, n, order, bottom, first):
-        self.n, self.order, self.bottom, self.first = n, order, bottom, first
+
+def path(axes):
+    """A tetrahedron from (0, 0, 0) to (1, 1, 1) along three axes, with a positive volume."""
+    corners = [(0, 0, 0)]
+    for axis in axes:
+        corners.append(tuple(x + (k == axis) for k, x in enumerate(corners[-1])))
+    return corners if axes in ((0, 1, 2), (1, 2, 0), (2, 0, 1)) else [corners[k] for k in (0, 2, 1, 3)]
+
+
+class Shape:
+    """Of the elements in a cube: names by order, corners, edges, faces, and the shares of an even load."""
+
+    def __init__(self, names, cells, edges, faces, shares):
+        self.names, self.cells, self.edges, self.faces, self.shares = names, cells, edges, faces, shares
+
+
+SHAPES = {
+    "hexahedra": Shape(("C3D8", "C3D20"), [CUBE],
+                       [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
+                       [(0, 1, 2, 3), (4, 5, 6, 7)],
+                       ([1 / 8] * 8, [-1 / 8] * 8 + [1 / 6] * 12)),
+    "tetrahedra": Shape(("C3D4", "C3D10"), [path(axes) for axes in itertools.permutations(range(3))],
+                        [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+                        [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)],
+                        ([1 / 4] * 4, [-1 / 20] * 4 + [1 / 5] * 6))}
+
+
+class Block:
+    """Nodes and elements of a cube of n cubes a side whose lower side is at `bottom`."""
+
+    def __init__(self, n, order, shape, bottom, first):
+        self.n, self.order, self.shape, self.bottom, self.first = n, order, shape, bottom, first
         self.number = {}
-        self.elements = [self.element(i, j, k) for k in range(n) for j in range(n) for i in range(n)]
+        self.elements = [self.element(cell, i, j, k) for k in range(n) for j in range(n) for i in range(n) for cell in shape.cells]
 
     def node(self, *place):
-        """Of a place on the grid of half elements (of order 1: of elements)."""
+        """Of a place on the grid of half cubes (of order 1: of cubes)."""
         return self.number.setdefault(place, self.first + len(self.number))
 
-    def element(self, i, j, k):
+    def element(self, cell, i, j, k):
         s = self.order
-        corners = [(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        corners = [(i + a, j + b, k + c) for a, b, c in cell]
         nodes = [self.node(*(s * x for x in corner)) for corner in corners]
         if s == 2:
-            edges = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
-            nodes += [self.node(*(p + q for p, q in zip(corners[a], corners[b]))) for a, b in edges]
+            nodes += [self.node(*(p + q for p, q in zip(corners[a], corners[b]))) for a, b in self.shape.edges]
         return nodes
 
     def point(self, place):
@@ -44,9 +75,16 @@ class Block:
         return place[0] * h, place[1] * h, self.bottom + place[2] * h
 
     def chosen(self, inside):
-        """Numbers of the elements whose place fulfils a condition, from 0 in this block."""
-        n = self.n
-        return [i + n * (j + n * k) for k in range(n) for j in range(n) for i in range(n) if inside(i, j, k)]
+        """Numbers of the elements in the cubes whose place fulfils a condition, from 0 in this block."""
+        n, each = self.n, len(self.shape.cells)
+        return [each * (i + n * (j + n * k)) + cell for k in range(n) for j in range(n) for i in range(n) if inside(i, j, k)
+                for cell in range(each)]
+
+    def side(self, height):
+        """Pairs (element, number of its face from 1) at the lower (0) or upper (1) side."""
+        cubes = self.chosen(lambda i, j, k: k == height * (self.n - 1))
+        return [(element, face) for element in cubes for face, corners in enumerate(self.shape.faces, start=1)
+                if all(self.shape.cells[element % len(self.shape.cells)][corner][2] == height for corner in corners)]
 
 
 def listed(numbers, across=12):
@@ -54,15 +92,16 @@ def listed(numbers, across=12):
     return "\n".join(", ".join(numbers[k:k + across]) for k in range(0, len(numbers), across))
 
 
-def deck(problem, n, order):
-    """CalculiX's input file."""
-    lower = Block(n, order, 0.0, 1)
-    upper = Block(n, order, EDGE, 1 + len(lower.number))
-    count = n**3
+def deck(problem, n, order, shape="hexahedra"):
+    """CalculiX's input file, and the forces of its loads."""
+    kind = SHAPES[shape]
+    lower = Block(n, order, kind, 0.0, 1)
+    upper = Block(n, order, kind, EDGE, 1 + len(lower.number))
+    count = len(lower.elements)
     lines = ["*NODE, NSET=NALL"]
     for block in (lower, upper):
         lines += [f"{node}, {x!r}, {y!r}, {z!r}" for place, node in block.number.items() for x, y, z in [block.point(place)]]
-    lines.append(f"*ELEMENT, TYPE={'C3D20' if order == 2 else 'C3D8'}, ELSET=EALL")
+    lines.append(f"*ELEMENT, TYPE={kind.names[order - 1]}, ELSET=EALL")
     for start, block in ((1, lower), (1 + count, upper)):
         for k, nodes in enumerate(block.elements):
             words = [str(start + k), *map(str, nodes)]
@@ -70,11 +109,10 @@ def deck(problem, n, order):
             if len(words) > 11:
                 lines.append(", ".join(words[11:]))
     half = n // 2
-    for name, block, start, inside in (("TOP", lower, 1, lambda i, j, k: k == n - 1), ("BOTTOM", upper, 1 + count, lambda i, j, k: k == 0),
-                                       ("RIGHT", upper, 1 + count, lambda i, j, k: i >= half),
-                                       ("BACK", upper, 1 + count, lambda i, j, k: j >= half)):
-        lines += [f"*ELSET, ELSET={name}", listed(start + e for e in block.chosen(inside))]
-    lines += ["*SURFACE, NAME=SLAVE, TYPE=ELEMENT", "TOP, S2", "*SURFACE, NAME=MASTER, TYPE=ELEMENT", "BOTTOM, S1"]
+    for name, inside in (("RIGHT", lambda i, j, k: i >= half), ("BACK", lambda i, j, k: j >= half)):
+        lines += [f"*ELSET, ELSET={name}", listed(1 + count + e for e in upper.chosen(inside))]
+    for name, block, start, height in (("SLAVE", lower, 1, 1), ("MASTER", upper, 1 + count, 0)):
+        lines += [f"*SURFACE, NAME={name}, TYPE=ELEMENT", *(f"{start + e}, S{face}" for e, face in block.side(height))]
     for name, block, axis in (("FLOOR", lower, 2), ("WALL", upper, 0), ("FRONT", upper, 1)):
         lines += [f"*NSET, NSET={name}", listed(node for place, node in block.number.items() if place[axis] == 0)]
     lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG}, {POISSON}", "*DENSITY", "1.0",
@@ -89,9 +127,9 @@ def deck(problem, n, order):
 
 
 def loads(block, half, lift):
-    """Vertical forces on the nodes, {node: force}: of an element's load corners have 1/8, of order 2 -1/8 and edges 1/6."""
-    volume = (EDGE / block.n)**3
-    shares = [1 / 8] * 8 if block.order == 1 else [-1 / 8] * 8 + [1 / 6] * 12
+    """Vertical forces on the nodes, {node: force}."""
+    volume = (EDGE / block.n)**3 / len(block.shape.cells)
+    shares = block.shape.shares[block.order - 1]
     forces = dict.fromkeys(range(block.first, block.first + len(block.number)), 0.0)
     for density, inside in ((-WEIGHT, lambda i, j, k: i >= half), (lift, lambda i, j, k: j >= half)):
         for element in block.chosen(inside):
@@ -110,10 +148,10 @@ def energy_of(results, forces):
     return -work / 2
 
 
-def solve(program, problem, n, order, threads, time_limit):
+def solve(program, problem, n, order, shape, threads, time_limit):
     """A run as in solvers.py: the whole program counts, input and output included. \\raises Failed"""
     with tempfile.TemporaryDirectory() as place:
-        text, forces = deck(problem, n, order)
+        text, forces = deck(problem, n, order, shape)
         (pathlib.Path(place) / "blocks.inp").write_text(text, encoding="ascii")
         start = time.perf_counter()
         with subprocess.Popen([program, "blocks"], cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

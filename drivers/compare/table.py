@@ -25,7 +25,7 @@ def rows(options, runs, trouble, known):
             row.update(status=trouble[name].status, reason=str(trouble[name]), repeats=len(runs[name]))
         else:
             row.update(summarised(runs[name]))
-            row.update(judged(row["energy"], energy, math.inf if name == "calculix" else ENERGY_TOLERANCE))
+            row.update(judged(row["energy"], energy, math.inf if name.startswith("calculix") else ENERGY_TOLERANCE))
             if epafi and "epafi" not in trouble:
                 row["ratio"] = row["total_seconds"] / epafi["total_seconds"]
         result.append(row)

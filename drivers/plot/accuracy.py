@@ -1,12 +1,13 @@
 """Errors beside what they take, from accuracy.csv: over time, over products with F, over the mesh size, and the digits of the
-Time-Accuracy-Size view; estimated errors beside true ones from accuracy_effectivity.csv, where it stands beside it."""
+Time-Accuracy-Size view; estimated errors beside true ones from accuracy_effectivity.csv, and other programs from peers/*/peers.csv,
+where these stand beside it."""
 
 import matplotlib.pyplot as pyplot
 import numpy
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
-from . import style, table
+from . import peers, style, table
 from .errors import PlotError
 
 COLUMNS = ["problem", "variant", "order", "elements", "tolerance", "unknowns", "seconds", "hessian_multiplications", "energy_error",
@@ -111,10 +112,18 @@ def draw_front(axes, rows, x="seconds"):
                   solid_joinstyle="round", drawstyle="steps-post")
 
 
-def work(rows):
-    """Error over time, a curve a variant, a point a mesh."""
+def label_work(axes):
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    few_decades(axes.xaxis, seconds)
+    few_decades(axes.yaxis, percent)
+    axes.set_xlabel("time from scene to solution")
+
+
+def work(rows, others):
+    """Error over time, a curve a variant, a point a mesh; `others`: a panel of their own for rows of peers.py."""
     names = problems(rows)
-    picture, panels = panels_for(len(names))
+    picture, panels = panels_for(len(names) + (1 if others else 0))
     catalogue = shown(rows, VARIANTS)
     for axes, problem in zip(panels, names):
         draw_front(axes, [row for row in rows if row["problem"] == problem])
@@ -124,12 +133,17 @@ def work(rows):
             axes.plot(column(found, "seconds"), column(found, "energy_error"), color=colour, marker=marker, linewidth=1.1,
                       markersize=6, linestyle=":" if peer else "-", markerfacecolor="none" if variant == "default" else colour,
                       markeredgewidth=1.6 if variant == "default" else 0.5)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        few_decades(axes.xaxis, seconds)
-        few_decades(axes.yaxis, percent)
         axes.set_title(TITLES.get(problem, problem))
-        axes.set_xlabel("time from scene to solution")
+        label_work(axes)
+    if others:
+        handles = [Line2D([], [], color=colour, marker=marker, linestyle=line, linewidth=1.1, markersize=5, label=label,
+                          markerfacecolor=colour if line == "-" else "none")
+                   for label, colour, marker, line in peers.draw(panels[-1], others)]
+        panels[-1].legend(handles=handles, fontsize=6.5, loc="lower left", ncol=2)
+        label_work(panels[-1])
+        low, high = panels[-1].get_ylim()
+        panels[-1].set_ylim(low / 6, high)  # room for the legend
+        few_decades(panels[-1].yaxis, percent)
     for axes in panels[::3]:
         axes.set_ylabel("error in the energy norm, relative")
     legend(picture, [(label, colour, marker, ":" if name.startswith("snesvi") else "-")
@@ -286,7 +300,7 @@ def figures(file, rows):
         raise PlotError(f"'{file}' holds no row of the variant 'default'; run the study anew.")
     scenes = read_effectivity(file.with_name(f"{file.stem}_effectivity.csv"))
     on_meshes = [row for row in rows if row["variant"] not in LADDERS]
-    yield "work", work(on_meshes)
+    yield "work", work(on_meshes, peers.read(file.parent / "peers"))
     if any(row["variant"] in LADDERS for row in rows):
         yield "products", products(rows)
     if any(row["variant"] == "tolerance_1e-10" for row in rows):

@@ -69,6 +69,11 @@ ACCURACY = ("problem,variant,order,elements,tolerance,unknowns,seconds,hessian_m
     f"{1 / elements}\n" for variant, tolerance in (("default", "1e-6"), ("balanced", "balanced"), ("tolerance_1e-10", "1e-10"),
                                                    ("ladder_plain", "1e-4"), ("ladder_plain", "1e-7"))
     for elements in (16, 32))
+PEERS = """problem,solver,order,size,energy,total_seconds,status
+held_blocks,epafi,2,{0},{1},0.1,ok
+held_blocks,snesvi_hypre,2,{0},,,missing
+held_blocks,calculix,2,{0},{1},3,ok
+"""
 EFFECTIVITY = """scene,level,estimated_error,discretisation_error,effectivity
 coercive,0,0.02,0.02,1
 coercive,1,0.01,0.02,0.5
@@ -202,6 +207,20 @@ class Plot(unittest.TestCase):
         self.assertIn("balanced", found[0].read_text())
         self.assertIn("coercive", found[-1].read_text())
         self.assertNotIn("stacked blocks", found[-1].read_text())  # a mesh without error has no effectivity
+        self.assertNotIn("CalculiX", found[0].read_text())
+        for size, energy in ((4, -0.75), (8, -0.9375), (16, -0.984375)):  # their limit is -1: errors of a half, a quarter, an eighth
+            folder = self.directory / "peers" / str(size)
+            folder.mkdir(parents=True)
+            (folder / "peers.csv").write_text(PEERS.format(size, energy))
+        drawn = self.pictures(self.directory, "--format", "svg")[0].read_text()
+        for words in ("CalculiX, order 2", "Epafi, order 2"):
+            self.assertIn(words, drawn)
+        self.assertNotIn("hypre", drawn)
+        (folder / "peers.csv").write_text(PEERS.format(32, -1))
+        self.assertNotIn("CalculiX", self.pictures(self.directory, "--format", "svg")[0].read_text())  # no limit to compare with
+        (folder / "peers.csv").write_text(PEERS.format(16, "low"))
+        self.assertIn("low", self.refused(self.directory))
+        (folder / "peers.csv").unlink()
         (self.directory / "accuracy_effectivity.csv").write_text("scene,level\ncoercive,0\n")
         self.assertIn("effectivity", self.refused(self.directory))
         (self.directory / "accuracy.csv").write_text(ACCURACY.replace("0.03125", "little"))

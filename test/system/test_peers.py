@@ -19,7 +19,7 @@ COMPLETE, FAILED, WRONG_USAGE = range(3)
 LIMIT = 120  # seconds
 COLUMNS = ["problem", "unknowns", "solver", "total_seconds", "iterations", "energy", "peak_bytes"]
 OURS = "epafi,linear_cholmod,linear_muelu"
-BLOCKS = "epafi,epafi_separate,snesvi_cholmod,snesvi_hypre,snesvi_gamg,calculix"
+BLOCKS = "epafi,epafi_separate,snesvi_cholmod,snesvi_hypre,snesvi_gamg,calculix,calculix_tetrahedra"
 HAS_PETSC = (glob.glob("/usr/lib/petscdir/petsc*/*-real/lib/python3/dist-packages/petsc4py") and
              importlib.util.find_spec("mpi4py") is not None)
 
@@ -196,10 +196,11 @@ class Peers(unittest.TestCase):
             self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""), run.stdout)
             rows = self.table()
             self.assertEqual(",".join(rows), BLOCKS)
-            calculix = rows.pop("calculix")  # other elements: another energy, no less near the limit
-            if calculix["status"] != "missing":
-                self.assertEqual(calculix["status"], "ok", calculix["reason"])
-                self.assertLess(float(calculix["energy_error"]), 0.03)
+            for name, off in (("calculix", 0.03), ("calculix_tetrahedra", 0.3 if order == 1 else 0.03)):
+                others = rows.pop(name)  # other elements: another energy
+                if others["status"] != "missing":
+                    self.assertEqual(others["status"], "ok", others["reason"])
+                    self.assertLess(float(others["energy_error"]), off)
             for name, row in rows.items():
                 self.assertEqual((row["problem"], row["order"], row["status"]), (problem, str(order), "ok"), row["reason"])
                 self.assertLessEqual(float(row["energy_error"]), 1e-6, name)
@@ -216,6 +217,17 @@ class Peers(unittest.TestCase):
             places = {tuple(map(float, line.split(",")[1:])) for line in listed}
             self.assertEqual(len(places), 2 * nodes - (25 if order == 1 else 81 - 16))  # those of the joint are at one place
         self.assertIn("C3D20", text)
+
+    def test_tetrahedra_for_calculix_fill_the_blocks(self):
+        for order, nodes in ((1, 125), (2, 729)):
+            text, forces = calculix.deck("held_blocks", 4, order, "tetrahedra")
+            self.assertEqual(len(forces), nodes)
+            self.assertAlmostEqual(sum(force for force in forces.values() if force), 0.0, places=9)
+            self.assertEqual(sum(line.endswith(("S1", "S2", "S3", "S4")) for line in text.splitlines()), 2 * 2 * 16)  # two a cube
+        self.assertIn("C3D10", text)
+        for corners in calculix.SHAPES["tetrahedra"].cells:
+            a, b, c = (numpy.subtract(corner, corners[0]) for corner in corners[1:])
+            self.assertGreater(numpy.dot(numpy.cross(a, b), c), 0)
 
     def test_blocks_name_a_missing_package_on_two_ranks(self):
         (self.place / "petsc4py.py").write_text("raise ImportError('not here')\n", encoding="utf-8")
