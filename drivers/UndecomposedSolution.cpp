@@ -104,16 +104,16 @@ UndecomposedSolution solveUndecomposed(const UndecomposedSystem& system) {
     const Eigen::VectorXd slack = system.gap - system.constraint * solution.unknowns;
     std::vector<bool> next(active.size());
     for (Eigen::Index i = 0; i < m; ++i)
-      next[static_cast<std::size_t>(i)] = solution.multiplier[i] - slack[i] > 0;
+      next[static_cast<std::size_t>(i)] = i >= system.numContacts || solution.multiplier[i] - slack[i] > 0;
     if (next == active)
       break;
     active = next;
   }
   const Eigen::VectorXd& u = solution.unknowns;
-  solution.contactForce = solution.multiplier.sum();
+  solution.contactForce = solution.multiplier.head(system.numContacts).sum();
   solution.energy = 0.5 * u.dot(system.stiffness * u) - system.load.dot(u) + system.energyOffset;
   solution.deflection = system.valuesOf(u);
-  for (Eigen::Index i = 0; i < m; ++i)
+  for (Eigen::Index i = 0; i < system.numContacts; ++i)
     solution.activeContactNodes +=
         active[static_cast<std::size_t>(i)] && !isEmpty(system.constraint, i) ? 1 : 0;
   return solution;
@@ -133,8 +133,13 @@ Optimality optimalityOf(const UndecomposedSystem& system, const Eigen::VectorXd&
     return result;
   const double length =
       std::max({u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0.0, system.gap.lpNorm<Eigen::Infinity>()});
-  result.penetration = ratio(std::max(0.0, -slack.minCoeff()), length);
-  result.tension = ratio(std::max(0.0, -multiplier.minCoeff()), multiplier.lpNorm<Eigen::Infinity>());
+  const auto deepest = [](const auto& values) {
+    return values.size() > 0 ? std::max(0.0, -values.minCoeff()) : 0.0;
+  };
+  const Eigen::Index numTies = slack.size() - system.numContacts;
+  const Eigen::VectorXd apart = -slack.tail(numTies).cwiseAbs();
+  result.penetration = ratio(std::max(deepest(slack.head(system.numContacts)), deepest(apart)), length);
+  result.tension = ratio(deepest(multiplier.head(system.numContacts)), multiplier.lpNorm<Eigen::Infinity>());
   result.complementarity = ratio(multiplier.cwiseAbs().dot(slack.cwiseAbs()),
                                  u.dot(system.stiffness * u) + std::abs(system.load.dot(u)));
   return result;

@@ -15,7 +15,7 @@ namespace epafi::drivers {
 
 struct UndecomposedSolution {
   Eigen::VectorXd unknowns;                ///< u
-  Eigen::VectorXd multiplier;              ///< λ_I
+  Eigen::VectorXd multiplier;              ///< λ of contact and ties
   std::vector<Eigen::VectorXd> deflection; ///< of each body at its nodes
   double energy = 0;
   double contactForce = 0;

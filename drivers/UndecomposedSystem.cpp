@@ -59,7 +59,8 @@ UndecomposedSystem::Matrix contactRows(const DecomposedProblem& problem, const s
     for (const decomposition::ConstraintEntry& entry : problem.subdomains[s].constraint)
       entries.emplace_back(static_cast<int>(problem.numberOf(entry.multiplier)), first[s] + entry.unknown,
                            entry.coefficient);
-  UndecomposedSystem::Matrix result(static_cast<int>(problem.numInequalities), first.back());
+  UndecomposedSystem::Matrix result(static_cast<int>(problem.numInequalities + problem.numTies),
+                                    first.back());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
@@ -117,7 +118,7 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
       model::decompose(inOnePieceEach(scene), rcp(new Teuchos::SerialComm<int>()));
   const DecomposedProblem& problem = decomposition.problem;
   // A body whose mesh is in two pieces stays so: nothing has to be glued.
-  if (problem.numEqualities != 0)
+  if (problem.numEqualities != problem.numTies)
     throw std::logic_error("undecomposedSystem: a body in one piece has rows of gluing");
   const std::vector<int> first = firstUnknowns(problem);
 
@@ -128,6 +129,7 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.mesh->numNodes()) * problem.components));
   system.stiffness = blockDiagonal(problem, first);
   system.constraint = contactRows(problem, first);
+  system.numContacts = problem.numInequalities;
   const auto gap = problem.gap->getData();
   system.gap = Eigen::Map<const Eigen::VectorXd>(gap.getRawPtr(), gap.size());
   system.load.resize(first.back());

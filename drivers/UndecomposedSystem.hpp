@@ -12,15 +12,16 @@
 
 namespace epafi::drivers {
 
-/// n unknowns, free displacements of nodes, body by body and node by node; m contact conditions.
+/// n unknowns, free displacements of nodes, body by body and node by node; m conditions, those of contact first and then those of tied joints.
 struct UndecomposedSystem {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-  Matrix stiffness;        ///< K, n × n, both triangles
-  Eigen::VectorXd load;    ///< f, n; prescribed displacements are in it
-  Matrix constraint;       ///< B, m × n; a row without entries is a contact of supported nodes
-  Eigen::VectorXd gap;     ///< c, m
-  double energyOffset = 0; ///< energy that prescribed displacements alone contribute
+  Matrix stiffness;             ///< K, n × n, both triangles
+  Eigen::VectorXd load;         ///< f, n; prescribed displacements are in it
+  Matrix constraint;            ///< B, m × n; a row without entries is a contact of supported nodes
+  Eigen::VectorXd gap;          ///< c, m
+  Eigen::Index numContacts = 0; ///< rows B u ≤ c; for those behind them B u = c
+  double energyOffset = 0;      ///< energy that prescribed displacements alone contribute
 
   // Where an unknown acts: the rigid motion u(x) = t + ω × x has the value u(place)ᵀdirection. A membrane's
   // unknowns have no direction in space; theirs is (1, 0, 0).

@@ -64,6 +64,9 @@ scene::Scene read(const Request& request) {
   for (const scene::Body& body : scene.bodies) // x and d of FILE mean nothing to them
     if (body.physics == scene::Physics::membrane)
       throw InputError("body '" + body.name + "' is a membrane; only elastic bodies can be exported");
+  for (const scene::SurfaceContact& contact : scene.contacts) // the programs that read FILE know bounds alone
+    if (contact.kind == scene::SurfaceContact::Kind::tied)
+      throw InputError("contact '" + contact.name + "' is a tied joint; only contacts can be exported");
   return scene;
 }
 

@@ -78,13 +78,14 @@ std::vector<Eigen::VectorXd> nodalValues(const model::Decomposition& decompositi
   return sums;
 }
 
-/// λ_I on every rank. Collective.
+/// λ of contact and ties on every rank. Collective.
 Eigen::VectorXd contactForces(const decomposition::DecomposedProblem& problem, const Vector& multiplier) {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.numInequalities));
+  Eigen::VectorXd forces =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.numInequalities + problem.numTies));
   const auto values = multiplier.getData();
   for (Teuchos_Ordinal i = 0; i < values.size(); ++i) {
     const auto row = static_cast<LocalOrdinal>(i);
-    if (problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact)
+    if (problem.kindOf(decomposition::OwnedMultiplier(row)) != decomposition::RowKind::gluing)
       forces[static_cast<Eigen::Index>(problem.multiplierMap->getGlobalElement(row))] = values[i];
   }
   sum(*problem.comm, forces);
