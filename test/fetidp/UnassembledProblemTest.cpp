@@ -5,6 +5,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
+#include "epafi/contact/SurfaceContact.hpp"
 #include "epafi/decomposition/ElementMatrices.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -67,8 +68,14 @@ std::vector<Case> contactCases() {
 /// A scene, solved as it is and as an application's problem.
 struct Twice {
   Twice(const scene::Scene& scene, Supports supports)
+      : Twice(scene, supports, [&](Twice& twice) {
+          twice.handed->setContact(contactOf(scene, twice.direct.decomposition, supports));
+        }) {}
+  /// \param couple  enters what the bodies have to do with each other
+  template <class Couple>
+  Twice(const scene::Scene& scene, Supports supports, const Couple& couple)
       : direct(scene, 1e-12), handed(handOver(scene, matricesOf(scene, supports))) {
-    handed->setContact(contactOf(scene, direct.decomposition, supports));
+    couple(*this);
     handed->complete();
     solver = std::make_unique<ContactSolver>(toleranceOf(1e-12));
     solver->setup(handed->problem());
@@ -117,6 +124,43 @@ TEST(UnassembledProblemTest, AHandedOverSceneHasTheSameAnswer) {
       }
       EXPECT_EQ(twice.solution.activeContactNodes, twice.direct.solution.activeContactNodes);
       EXPECT_EQ(twice.handed->problem().kernelDimension, twice.direct.decomposition.problem.kernelDimension);
+    }
+}
+
+/// As an application would: facets, and where nodes lie, numbered through both bodies.
+TEST(UnassembledProblemTest, SurfacesMeshedApartAreCoupledAsInAScene) {
+  for (const int dimension : {2, 3})
+    for (const auto kind : {scene::SurfaceContact::Kind::contact, scene::SurfaceContact::Kind::tied}) {
+      scene::Scene scene = twoBlocks(dimension, test::cutInGrid({2, 2, dimension == 3 ? 2 : 1}));
+      scene.bodies[1].mesh.elements = {3, 3, dimension == 3 ? 5 : 0};
+      scene.contacts[0].kind = kind;
+      scene.contacts[0].multipliers = scene::SurfaceContact::Side::first;
+      const Twice twice(scene, Supports::prescribed, [&](Twice& both) {
+        const std::vector<model::BodyLayout>& bodies = both.direct.decomposition.bodies;
+        const GlobalOrdinal second = firstNodes(both.direct.decomposition)[1];
+        const contact::NodePoints points = [&](GlobalOrdinal node) {
+          return node < second ? bodies[0].mesh->point(node) : bodies[1].mesh->point(node - second);
+        };
+        const fem::Surface right = bodies[0].mesh->surface("right");
+        fem::Surface left = bodies[1].mesh->surface("left");
+        for (GlobalOrdinal& node : left.facetNodes)
+          node += second;
+        contact::ContactTerms terms{"joint", "right"};
+        terms.dimension = terms.components = dimension;
+        const contact::HeldNodes isHeld = [&](GlobalOrdinal node, const Eigen::Vector3d& direction) {
+          const fem::Point x = points(node); // by the floor and, in space, the front
+          return (x[1] == 0 && std::abs(direction[1]) == 1) ||
+                 (dimension == 3 && x[2] == 0 && std::abs(direction[2]) == 1);
+        };
+        if (kind == scene::SurfaceContact::Kind::tied)
+          both.handed->setTies(tieBetween(terms, {right, points}, {left, points}, world(), isHeld).matrix);
+        else
+          both.handed->setContact(
+              contactBetween(terms, {right, points}, {left, points}, world(), isHeld).matrix);
+      });
+      EXPECT_GT(twice.handed->problem().numTies + twice.handed->problem().numInequalities, dimension);
+      EXPECT_LE(twice.difference(), 1e-10) << dimension;
+      EXPECT_EQ(twice.solution.activeContactNodes, twice.direct.solution.activeContactNodes);
     }
 }
 
