@@ -200,13 +200,15 @@ FacingNodes facingNodes(const ContactTerms& contact, const SurfaceNodes& first, 
   return pairs;
 }
 
-bool areAlike(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
-              const FacingNodes& pairs) {
+bool areAlike(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second) {
   if (contact.coincide)
     return true;
+  ContactTerms anywhere = contact; // with a distance a single pair might be all that is left
+  anywhere.distance = std::numeric_limits<double>::infinity();
+  const FacingNodes pairs = facingNodes(anywhere, first, second);
   if (isUsedTwice(pairs))
     return false;
-  const LonelyNodes lonely = lonelyNodes(contact, first, second, pairs);
+  const LonelyNodes lonely = lonelyNodes(anywhere, first, second, pairs);
   if (lonely.first != FacingNodes::alone && lonely.second != FacingNodes::alone)
     return false;
   std::vector<std::size_t> itself(second.nodes.size(), FacingNodes::alone);

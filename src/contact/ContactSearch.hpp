@@ -55,9 +55,9 @@ struct FacingNodes {
 /// Pairs of nodes, 𝒪(n log n). Not collective.
 FacingNodes facingNodes(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second);
 
-/// Whether pairs of nodes say all that is to be said: where the surfaces meet, nodes and facets face each other one by one.
-bool areAlike(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
-              const FacingNodes& pairs);
+/// Whether pairs of nodes say all that is to be said: where the surfaces face each other, however far they are apart, nodes and
+/// facets do so one by one.
+bool areAlike(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second);
 
 /// The rows of nodes that face each other; bodies and `firstRow` are left to the caller. \throws InputError if no node is near
 /// enough, or the surfaces do not match. Not collective.

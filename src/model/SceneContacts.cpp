@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/ContactSearch.hpp"
+#include "epafi/contact/FacetTree.hpp"
 #include "epafi/contact/KnownRows.hpp"
 #include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
@@ -58,15 +59,36 @@ bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLa
   return number > 0 && number == numElements(terms.second, terms.secondSurface);
 }
 
-/// Mean distance of nodes on a surface.
-double spacingOn(const fem::Mesh& mesh, const fem::Surface& surface) {
-  double area = 0;
+std::vector<contact::FacetTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface& surface,
+                                             double margin) {
+  std::vector<contact::FacetTree::Box> boxes;
   std::vector<fem::Point> points;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     mesh.pointsAt(surface.facet(f), points);
-    area += fem::areaVector(surface.facetType, points).norm();
+    boxes.push_back(fem::boxOf(points, margin));
   }
-  return std::pow(area / static_cast<double>(surface.numFacets()), 1.0 / dimensionOf(surface.facetType)) /
+  return boxes;
+}
+
+/// Mean distance of nodes on that part of a surface that the other one is near to, by the contact's distance.
+double spacingOn(const fem::Mesh& mesh, const fem::Surface& surface, const contact::FacetTree& other,
+                 double distance) {
+  const std::vector<contact::FacetTree::Box> boxes =
+      boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
+  double area = 0;
+  int number = 0;
+  std::vector<fem::Point> points;
+  std::vector<std::size_t> found;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    if (std::isfinite(distance))
+      other.meeting(boxes[f], found);
+    if (std::isfinite(distance) && found.empty())
+      continue;
+    mesh.pointsAt(surface.facet(f), points);
+    area += fem::areaVector(surface.facetType, points).norm();
+    ++number;
+  }
+  return std::pow(area / std::max(number, 1), 1.0 / dimensionOf(surface.facetType)) /
          orderOf(surface.facetType);
 }
 
@@ -83,8 +105,12 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
     return static_cast<double>(count);
   };
   const auto spacing = [&](int body, const std::string& surface) {
-    const BodyLayout& layout = bodies[static_cast<std::size_t>(body)];
-    return spacingOn(*layout.mesh, surfaceOf(terms, layout, surface));
+    const bool isFirst = body == terms.first;
+    const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
+                     &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
+    const fem::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
+    return spacingOn(*own.mesh, surfaceOf(terms, own, surface),
+                     contact::FacetTree(boxesOf(*other.mesh, facing, 0)), terms.distance);
   };
   const auto stiffness = [&](int body, const std::string&) {
     const scene::Body& owner = scene.bodies[static_cast<std::size_t>(body)];
@@ -173,11 +199,12 @@ ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vecto
     asked.coincide = components == 1 && order == orderOf(other) && haveEqualEdges(terms, bodies);
     const contact::SurfaceNodes nodes = nodesOf(terms, layoutOf(finer), finer.surface, order),
                                 facing = nodesOf(terms, layoutOf(other), other.surface, order);
-    const contact::FacingNodes pairs = facingNodes(asked, nodes, facing);
-    if (terms.coupling == Coupling::nodes || areAlike(asked, nodes, facing, pairs))
+    if (terms.coupling == Coupling::nodes || areAlike(asked, nodes, facing)) {
+      const contact::FacingNodes pairs = facingNodes(asked, nodes, facing);
       return finish(isTied ? tieSurface(asked, nodes, facing, pairs, axesOf(finer))
                            : meetSurface(asked, nodes, facing, pairs),
                     finer, other, "pairs of nodes");
+    }
   }
   asked.sense = terms.multipliers == scene::SurfaceContact::Side::second ? -1 : 1;
   if (asked.sense < 0)

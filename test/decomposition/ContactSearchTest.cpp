@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace epafi::model {
@@ -77,6 +78,27 @@ TEST(ContactSearchTest, NodesTooFarFromTheOtherSideGetNoRow) {
   EXPECT_NE(complaint(contact, bodies, 2).find("distance"), std::string::npos);
   contact.distance = 0.6;
   EXPECT_EQ(layoutContact(contact, bodies, 2).numRows(), 5);
+}
+
+/// A distance that leaves one pair of nodes does not make of surfaces that do not match some that do.
+TEST(ContactSearchTest, CouplesByMortarsWhereNodesAndFacetsDoNotFaceEachOtherOneByOne) {
+  const auto meansOf = [](std::array<int, 3> lower, std::array<int, 3> upper, double distance) {
+    std::vector<BodyLayout> bodies;
+    bodies.push_back(box("lower", scene::rectangle(0, 1, 0, 1), lower));
+    bodies.push_back(box("upper", scene::rectangle(0, 1, 1, 2), upper));
+    scene::SurfaceContact contact = topOnBottom();
+    contact.distance = distance;
+    return layoutContact(contact, bodies, 2).means;
+  };
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(meansOf({4, 2, 0}, {4, 3, 0}, anywhere), "pairs of nodes");
+  for (const double distance : {anywhere, 1e-3}) {
+    EXPECT_EQ(meansOf({4, 2, 0}, {8, 2, 0}, distance),
+              "mortars on 'lower'"); // each node of one has a partner
+    EXPECT_EQ(meansOf({8, 2, 0}, {4, 2, 0}, distance), "mortars on 'lower'");
+    EXPECT_EQ(meansOf({1, 2, 0}, {2, 2, 0}, distance), "mortars on 'lower'");
+    EXPECT_EQ(meansOf({5, 2, 0}, {7, 2, 0}, distance), "mortars on 'lower'"); // both ends face each other
+  }
 }
 
 TEST(ContactSearchTest, RefusesSurfacesThatDoNotMatch) {
