@@ -22,7 +22,7 @@ def show_noise_as_zero(axes, pair, run):
     largest = float(numpy.abs(pair.gap).max())
     if largest < least:
         axes.set_ylim(-least, least)
-        axes.text(0.98, 0.92, f"largest |c − Bu| = {largest:.1e}", transform=axes.transAxes, ha="right", va="top",
+        axes.text(0.02, 0.92, f"largest |c − Bu| = {largest:.1e}", transform=axes.transAxes, ha="left", va="top",
                   fontsize=10, color="#555555")
 
 
@@ -34,6 +34,31 @@ def pieces(pair):
         result.append((offset + curve.arclength(), curve))
         offset = result[-1][0][-1] + 0.05 * total
     return result
+
+
+def places_along(curve, points):
+    """Arclengths at which points lie across a curve; those beyond its ends are left out."""
+    s, found = curve.arclength(), []
+    for point in points:
+        from_start, step = point - curve.points[:-1], numpy.diff(curve.points, axis=0)
+        share = numpy.clip((from_start * step).sum(axis=1) / (step * step).sum(axis=1), 0, 1)
+        nearest = int(numpy.argmin(numpy.linalg.norm(from_start - share[:, None] * step, axis=1)))
+        place = s[nearest] + share[nearest] * (s[nearest + 1] - s[nearest])
+        if 0 < place < s[-1]:
+            found.append(place)
+    return numpy.array(found)
+
+
+def draw_meshes(axes, pair, curves):
+    """The nodes of both sides, where these are meshed apart."""
+    for number, (s, curve) in enumerate(curves):
+        if len(s) < 2:
+            continue
+        facing = s[0] + places_along(curve, pair.facing[0])
+        for places, height, color, name in ((s, 0.05, style.BLACK, "nodes of this side"),
+                                            (facing, 0.12, style.GREEN, "corners of the other side")):
+            axes.plot(places, numpy.full(len(places), height), "|", color=color, markersize=7, markeredgewidth=0.8, clip_on=False,
+                      transform=axes.get_xaxis_transform(), label=name if number == 0 else None)
 
 
 def figure(run, pair):
@@ -58,6 +83,9 @@ def figure(run, pair):
         gap.legend(loc="best")
     gap.set_ylabel("gap c − Bu [length]")
     show_noise_as_zero(gap, pair, run)
+    if pair.facing is not None:
+        draw_meshes(gap, pair, curves)
+        gap.legend(loc="best")
 
     multiplier.axhline(0, color=style.GREY, linewidth=0.8)
     for s, curve in curves:

@@ -59,6 +59,10 @@ def draw_facets(axes, place, pair):
     ends, meeting = cells.edges(pair.cells)
     axes.add_collection(LineCollection(place[ends], colors=[(0, 0, 0, 0.18 if len(ends) < 6000 else 0.05)], linewidths=0.3))
     axes.add_collection(LineCollection(place[ends[meeting[:, 1] < 0]], colors=style.BLACK, linewidths=1.0))
+    if pair.facing is not None:
+        points, facets = pair.facing
+        ends, _ = cells.edges(facets)
+        axes.add_collection(LineCollection((points @ frame(pair)[0].T)[ends], colors=style.GREEN, linewidths=0.4, alpha=0.7))
     if pair.active.any() and not pair.active.all():
         axes.tricontour(triangulation, closed, levels=[0.5], colors=[style.BLUE], linewidths=1.8)
     return shown
@@ -81,9 +85,14 @@ def figure(run, pair):
     bar = picture.colorbar(shown, ax=axes, shrink=0.85, pad=0.03, aspect=26)
     bar.set_label("contact pressure [force per area]")
     bar.outline.set_visible(False)
-    axes.set_title(f"Contact {pair.name}: {int(pair.active.sum())} of {len(pair.points)} nodes closed, "
-                   f"force {pair.multiplier.sum():.4g}, largest pressure {pair.pressure.max():.4g} — {run.title}", fontsize=12)
+    axes.set_title(f"{run.title}: contact {pair.name}\n{int(pair.active.sum())} of {len(pair.points)} nodes closed, "
+                   f"force {pair.multiplier.sum():.4g}, largest pressure {pair.pressure.max():.4g}", fontsize=12)
+    handles = []
     if draw is draw_facets and pair.active.any() and not pair.active.all():
-        axes.legend(handles=[Line2D([], [], color=style.BLUE, linewidth=1.8, label="boundary of the active set")],
-                    loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=style.below(picture, axes))
+        handles.append(Line2D([], [], color=style.BLUE, linewidth=1.8, label="boundary of the active set"))
+    if draw is draw_facets and pair.facing is not None:
+        handles.append(Line2D([], [], color=style.GREEN, linewidth=0.8, label="mesh of the other side"))
+    if handles:
+        axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=style.below(picture, axes),
+                    ncols=len(handles))
     return picture

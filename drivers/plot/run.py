@@ -56,6 +56,7 @@ class Contact:
     normal: numpy.ndarray = None  # n x 3
     cells: numpy.ndarray = None  # m x 1, 2, 3 or 4, rows
     first_body: str = ""  # name of its group
+    facing: tuple = None  # points and facets of the other surface, if it is meshed apart
 
     def curves(self):
         """Rows in their order along the contact line, in the plane; several lists if the line has gaps."""
@@ -143,7 +144,8 @@ def read_contact(name, group):
     if later["cells"] is not None:
         later["cells"] = linear(text(group.attrs.get("cell_type", "")), later["cells"])[1]
     return Contact(title(name, group), name, group["points"][:], group["gap"][:], group["multiplier"][:],
-                   group["active"][:] > 0.5, initial, **later, first_body=text(group.attrs.get("first_body", "")))
+                   group["active"][:] > 0.5, initial, **later, first_body=text(group.attrs.get("first_body", "")),
+                   facing=(group["facing/points"][:], group["facing/cells"][:]) if "facing" in group else None)
 
 
 def read_history(group):

@@ -7,6 +7,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <map>
 #include <numeric>
 
 namespace epafi::output {
@@ -52,6 +53,39 @@ std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::si
       direction[components == 1 ? 2 : c] += weight * contact.directions[node * components + c];
   });
   return direction;
+}
+
+FacingSurface facingSurface(const SolvedScene& solved, int contact) {
+  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+  FacingSurface result;
+  if (layout.firstShares.empty())
+    return result;
+  const scene::SurfaceContact& terms = solved.scene.contacts[static_cast<std::size_t>(layout.number)];
+  const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.secondBody)].mesh;
+  const fem::Surface surface =
+      mesh.surface(layout.secondBody == terms.second ? terms.secondSurface : terms.firstSurface);
+  result.cornersPerFacet = numCornersOf(surface.facetType);
+  result.numFacets = static_cast<GlobalOrdinal>(surface.numFacets());
+  std::map<GlobalOrdinal, long long> placeOf;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f)
+    for (const GlobalOrdinal node : surface.facet(f).first(static_cast<std::size_t>(result.cornersPerFacet)))
+      placeOf.emplace(node, 0);
+  result.numPoints = static_cast<GlobalOrdinal>(placeOf.size());
+  result.points = evenShare(result.numPoints, solved.comm());
+  result.facets = evenShare(result.numFacets, solved.comm());
+  GlobalOrdinal next = 0;
+  for (auto& [node, place] : placeOf) {
+    place = next++;
+    if (place < result.points.first || place >= result.points.first + result.points.count)
+      continue;
+    const fem::Point point = mesh.point(node);
+    result.places.insert(result.places.end(), point.begin(), point.end());
+  }
+  for (GlobalOrdinal f = result.facets.first; f < result.facets.first + result.facets.count; ++f)
+    for (const GlobalOrdinal node :
+         surface.facet(static_cast<std::size_t>(f)).first(static_cast<std::size_t>(result.cornersPerFacet)))
+      result.corners.push_back(placeOf.at(node));
+  return result;
 }
 
 ContactFields gatherContactFields(const SolvedScene& solved, int contact, const ContactState& state) {

@@ -41,6 +41,18 @@ struct ContactFields {
 /// Direction from the first body to the other side at a row; deflections of membranes are along z.
 std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::size_t row);
 
+/// The other surface of a contact by mortars, which has a mesh of its own; each rank holds slabs.
+struct FacingSurface {
+  GlobalOrdinal numPoints = 0, numFacets = 0; ///< 0 where pairs of nodes or an obstacle face the rows
+  RowRange points, facets;                    ///< this rank's
+  int cornersPerFacet = 0;
+  std::vector<double> places;     ///< of the points, 3 each
+  std::vector<long long> corners; ///< of the facets, places among the points
+};
+
+/// Not collective.
+FacingSurface facingSurface(const SolvedScene& solved, int contact);
+
 /// Brings the rows of contact `contact` from multiplierMap to the slabs.
 /// \param state  of that contact
 /// Collective. Precondition: the solution's vectors lie on the problem's multiplierMap.

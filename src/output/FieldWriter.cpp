@@ -109,6 +109,15 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   return grid;
 }
 
+/// The mesh on the other side of mortars.
+void putFacing(Hdf5File& file, const std::string& group, const FacingSurface& facing) {
+  if (facing.numFacets == 0)
+    return;
+  file.createGroup(group);
+  put(file, group + "/points", facing.numPoints, 3, facing.points, facing.places);
+  put(file, group + "/cells", facing.numFacets, facing.cornersPerFacet, facing.facets, facing.corners);
+}
+
 /// The history; every rank has it whole, rank 0 writes it.
 void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
   using Record = qp::StepRecord;
@@ -189,10 +198,12 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
   for (std::size_t b = 0; b < bodyGroups.size(); ++b)
     grids.push_back(putBody(file, "/bodies/" + bodyGroups[b], solved, evaluation, static_cast<int>(b)));
   const auto contactGroups = groupNames(decomposition.contacts);
-  for (std::size_t c = 0; c < contactGroups.size(); ++c)
+  for (std::size_t c = 0; c < contactGroups.size(); ++c) {
     grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
                                bodyGroups[static_cast<std::size_t>(decomposition.contacts[c].firstBody)],
                                gatherContactFields(solved, static_cast<int>(c), evaluation.contacts[c])));
+    putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, static_cast<int>(c)));
+  }
   putHistory(file, history, *problem.comm);
   file.close();
   writeTextFile(
