@@ -65,6 +65,26 @@ TEST(PreconditionerConditionTest, NoEigenvalueIsBelowOneWhereAllBodiesAreHeld) {
       }
 }
 
+/// Mortars: each row takes several nodes of the other side, and these are in several rows. 3.7 to 5.3 were measured; pairs of nodes have 4.1,
+/// 5.8 and 6.3.
+TEST(PreconditionerConditionTest, MortarsKeepTheFloorOfTheSpectrumAndHardlyRaiseItsTop) {
+  for (const auto& [cuts, elements] : {std::pair(2, 4), {2, 8}, {4, 4}})
+    for (const int apart : {2, 6}) // elements a subdomain, beside 4 or 8 of the other side
+      for (const auto side : {scene::SurfaceContact::Side::first, scene::SurfaceContact::Side::second})
+        for (const auto kind : {scene::SurfaceContact::Kind::contact, scene::SurfaceContact::Kind::tied}) {
+          scene::Scene scene = twoMembranes(true, cuts * elements, grid(cuts, cuts));
+          scene.bodies[1].mesh.elements = {cuts * apart, cuts * apart, 0};
+          scene.contacts[0].multipliers = side;
+          scene.contacts[0].kind = kind;
+          const Eigen::VectorXd eigenvalues = spectrum(Preconditioned(scene));
+          SCOPED_TRACE(testing::Message() << cuts << ' ' << elements << ' ' << apart << ' '
+                                          << static_cast<int>(side) << ' ' << static_cast<int>(kind) << ": "
+                                          << eigenvalues.minCoeff() << " to " << eigenvalues.maxCoeff());
+          EXPECT_GE(eigenvalues.minCoeff(), 1 - 1e-9);
+          EXPECT_LE(eigenvalues.maxCoeff(), 1.2 * 5.31);
+        }
+}
+
 /// Contact has as many crosspoints as there are subdomains along it; their number must not spoil M.
 TEST(PreconditionerConditionTest, DirichletSettlesWithTheNumberOfSubdomains) {
   for (const bool coercive : {true, false}) {
