@@ -126,10 +126,12 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
   };
   if (decides(others, 1))
     return ", which has no other contact there";
+  if (decides(spacing, 1.5))
+    return ", the finer one";
+  if (decides(stiffness, 1.01)) // of meshes about as fine its pressure is the smoother one
+    return ", the softer one";
   if (decides(spacing, 1.01))
     return ", the finer one";
-  if (decides(stiffness, 1.01))
-    return ", the softer one";
   terms.multipliers = scene::SurfaceContact::Side::first;
   return ", the first one";
 }

@@ -181,11 +181,11 @@ void describePair(ParameterList& contact) {
             "\"mortar\", integrals over what the surfaces have in common; \"auto\": pairs where all match, "
             "else mortars.",
             {"auto", "nodes", "mortar"});
-  addChoice(pair, "Multipliers", "auto",
-            "With mortars: which surface carries the multipliers. \"auto\": one that no other contact has, "
-            "then the "
-            "finer one, then that of the softer body, then the first.",
-            {"auto", "first", "second"});
+  addChoice(
+      pair, "Multipliers", "auto",
+      "With mortars: which surface carries the multipliers. \"auto\": one that no other contact has, "
+      "then the one that is finer by half, then that of the softer body, then the finer, then the first.",
+      {"auto", "first", "second"});
 }
 
 } // namespace
