@@ -91,6 +91,29 @@ TEST(ContactReaderTest, ForgivesEdgesThatDifferByRounding) {
   EXPECT_EQ(scene::readScene(list, "a.xml").contacts.size(), 1u);
 }
 
+TEST(ContactReaderTest, ReadsHowSidesAreCoupled) {
+  ParameterList list = twoBodies();
+  EXPECT_EQ(scene::readScene(list, "a.xml").contacts[0].coupling, scene::SurfaceContact::Coupling::automatic);
+  pairOf(list).set("Kind", "tied").set("Coupling", "mortar").set("Multipliers", "second");
+  bodyOf(list, "right").set("Elements", counts({4, 5})); // meshed apart
+  const scene::SurfaceContact tie = scene::readScene(list, "a.xml").contacts[0];
+  EXPECT_EQ(tie.kind, scene::SurfaceContact::Kind::tied);
+  EXPECT_EQ(tie.coupling, scene::SurfaceContact::Coupling::mortar);
+  EXPECT_EQ(tie.multipliers, scene::SurfaceContact::Side::second);
+}
+
+TEST(ContactReaderTest, RefusesWhatCouplingsHaveNoUseFor) {
+  const auto refused = [](const std::string& name, const auto& value, const std::string& beside,
+                          const auto& other) {
+    return sceneRefusal([&](ParameterList& list) {
+      list.sublist("Contact").sublist("interface").set(name, value).set(beside, other);
+    });
+  };
+  expectSays(refused("Coupling", "nodes", "Multipliers", "first"), {"\"Multipliers\"", "pairs of nodes"});
+  expectSays(refused("Kind", "tied", "Gap", 0.5), {"\"Gap\"", "keeps the gap"});
+  expectSays(refused("Kind", "glued", "Gap", 0.0), {"\"Kind\"", "glued", "tied"});
+}
+
 /// Supports along the top of both bodies, at the heights `lower` and `upper`.
 ParameterList twoRoofs(double lower, double upper, double gap) {
   ParameterList list = twoBodies();

@@ -45,6 +45,15 @@ scene::Body solidOf(const ParameterList& list) {
   return scene::readScene(list, "scenes/a.xml").bodies.at(0);
 }
 
+TEST(SolidReaderTest, RefusesToTieABodyToAnObstacleOrToGiveItAMesh) {
+  const auto refused = [](const std::string& name, const std::string& value) {
+    return refusalOf([&](ParameterList& list) { list.sublist("Contact").sublist("rest").set(name, value); });
+  };
+  expectSays(refused("Kind", "tied"), {"\"Kind\"", "obstacle", "support"});
+  expectSays(refused("Coupling", "mortar"), {"\"Coupling\"", "an obstacle has no mesh"});
+  expectSays(refused("Multipliers", "second"), {"\"Multipliers\"", "an obstacle has no mesh"});
+}
+
 TEST(SolidReaderTest, ReadsMeshAndMaterialOfABodyInSpace) {
   const scene::Body solid = solidOf(cubeOnFloor());
   EXPECT_EQ(solid.physics, scene::Physics::elasticity3d);
