@@ -5,6 +5,7 @@
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/ContactFields.hpp"
 #include "epafi/output/Hdf5File.hpp"
+#include "epafi/output/JointResults.hpp"
 #include "epafi/output/Xdmf.hpp"
 
 #include <algorithm>
@@ -118,6 +119,22 @@ void putFacing(Hdf5File& file, const std::string& group, const FacingSurface& fa
   put(file, group + "/cells", facing.numFacets, facing.cornersPerFacet, facing.facets, facing.corners);
 }
 
+XdmfGrid putTie(Hdf5File& file, const std::string& group, const std::string& name, const TieFields& fields) {
+  file.createGroup(group);
+  file.attribute(group, "name", name);
+  std::vector<long long> cells;
+  for (GlobalOrdinal k = 0; k < fields.nodes.count; ++k)
+    cells.push_back(fields.nodes.first + k);
+  XdmfGrid grid;
+  grid.name = name;
+  grid.points = put(file, group + "/points", fields.numNodes, 3, fields.nodes, fields.points);
+  grid.cells = put(file, group + "/cells", fields.numNodes, 1, fields.nodes, cells);
+  grid.attributes.push_back(
+      {"traction", Center::node,
+       put(file, group + "/traction", fields.numNodes, 3, fields.nodes, fields.traction)});
+  return grid;
+}
+
 /// The history; every rank has it whole, rank 0 writes it.
 void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
   using Record = qp::StepRecord;
@@ -204,6 +221,12 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
                                gatherContactFields(solved, static_cast<int>(c), evaluation.contacts[c])));
     putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, static_cast<int>(c)));
   }
+  const auto tieGroups = groupNames(decomposition.ties);
+  if (!tieGroups.empty())
+    file.createGroup("/tied");
+  for (std::size_t t = 0; t < tieGroups.size(); ++t)
+    grids.push_back(putTie(file, "/tied/" + tieGroups[t], decomposition.ties[t].name,
+                           gatherTieFields(solved, decomposition.ties[t])));
   putHistory(file, history, *problem.comm);
   file.close();
   writeTextFile(

@@ -2,11 +2,14 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Maps.hpp"
 #include "epafi/output/ContactState.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Tpetra_Export.hpp>
 #include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
@@ -114,8 +117,10 @@ JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalO
   return sums;
 }
 
+using Tractions = std::map<GlobalOrdinal, Vector3d>; ///< of nodes; all rows of a node lie on one rank
+
 void addTie(const SolvedScene& solved, const ContactLayout& layout, Teuchos::ParameterList& list) {
-  std::map<GlobalOrdinal, Vector3d> traction; // all rows of a node lie on one rank
+  Tractions traction;
   const std::vector<double> areas = pressureAreas(solved, layout);
   const JointSums sums = sumsOf(
       solved, layout, solved.decomposition.problem.numInequalities, [&](std::size_t row, double force) {
@@ -135,6 +140,40 @@ void addTie(const SolvedScene& solved, const ContactLayout& layout, Teuchos::Par
 }
 
 } // namespace
+
+TieFields gatherTieFields(const SolvedScene& solved, const ContactLayout& tie) {
+  Tractions traction;
+  const std::vector<double> areas = pressureAreas(solved, tie);
+  sumsOf(solved, tie, solved.decomposition.problem.numInequalities, [&](std::size_t row, double force) {
+    traction.try_emplace(tie.firstNodes[row], Vector3d::Zero()).first->second +=
+        force / areas[row] * directionAt(tie, row);
+  });
+  std::vector<GlobalOrdinal> nodes = tie.firstNodes, mine;
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (const auto& [node, value] : traction)
+    mine.push_back(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  const RCP<const Comm>& comm = solved.decomposition.problem.comm;
+  TieFields fields;
+  fields.numNodes = static_cast<GlobalOrdinal>(nodes.size());
+  fields.nodes = evenShare(fields.numNodes, *comm);
+  MultiVector here(mapInOrder(mine, comm), 3), slab(slabMap(fields.numNodes, comm), 3);
+  LocalOrdinal place = 0;
+  for (const auto& [node, value] : traction) {
+    for (std::size_t d = 0; d < 3; ++d)
+      here.replaceLocalValue(place, d, value[static_cast<Eigen::Index>(d)]);
+    ++place;
+  }
+  slab.doExport(here, Export(here.getMap(), slab.getMap()), Tpetra::ADD);
+  for (GlobalOrdinal k = 0; k < fields.nodes.count; ++k) {
+    const Vector3d point =
+        placeOf(solved, tie.firstBody, nodes[static_cast<std::size_t>(fields.nodes.first + k)]);
+    fields.points.insert(fields.points.end(), point.begin(), point.end());
+    for (std::size_t d = 0; d < 3; ++d)
+      fields.traction.push_back(slab.getData(d)[k]);
+  }
+  return fields;
+}
 
 void addJoints(const SolvedScene& solved, Teuchos::ParameterList& report) {
   for (const ContactLayout& layout : solved.decomposition.contacts)

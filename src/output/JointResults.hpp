@@ -2,11 +2,25 @@
 
 /// What the forces between bodies come to: balance of the two sides of contacts, and the forces in tied joints.
 
+#include "epafi/output/Slab.hpp"
 #include "epafi/output/SolvedScene.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 
+#include <vector>
+
 namespace epafi::output {
+
+/// The fields of a tied joint, each rank holding a contiguous slab of its nodes, those of the side that has the multipliers.
+struct TieFields {
+  GlobalOrdinal numNodes = 0;
+  RowRange nodes;               ///< this rank's
+  std::vector<double> points;   ///< 3 a node
+  std::vector<double> traction; ///< force per area on the joint's other side, 3 a node
+};
+
+/// Collective. Precondition: the solution's vectors lie on the problem's multiplierMap.
+TieFields gatherTieFields(const SolvedScene& solved, const contact::ContactLayout& tie);
 
 /// Adds to a report:
 ///   Contact/NAME  of contacts between bodies: Coupling (in words), Force Imbalance and Moment Imbalance of the two sides, beside
