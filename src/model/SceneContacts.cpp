@@ -2,16 +2,14 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/ContactSearch.hpp"
-#include "epafi/contact/FacetTree.hpp"
 #include "epafi/contact/KnownRows.hpp"
 #include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/model/ContactSurfaces.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -25,19 +23,6 @@ struct Side {
   int body;
   std::string surface;
 };
-
-fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
-                       const std::string& surface) {
-  const std::vector<std::string> names = body.mesh->surfaceNames();
-  if (std::find(names.begin(), names.end(), surface) == names.end()) {
-    std::string known;
-    for (const std::string& name : names)
-      known += (known.empty() ? "'" : ", '") + name + "'";
-    throw InputError("contact '" + contact.name + "': body '" + body.name + "' has no surface '" + surface +
-                     "'; " + (known.empty() ? "its mesh names none" : "there are " + known));
-  }
-  return body.mesh->surface(surface);
-}
 
 contact::NodePoints pointsOf(const BodyLayout& body) {
   return [mesh = body.mesh.get()](GlobalOrdinal node) { return mesh->point(node); };
@@ -57,83 +42,6 @@ bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLa
   };
   const auto number = numElements(terms.first, terms.firstSurface);
   return number > 0 && number == numElements(terms.second, terms.secondSurface);
-}
-
-std::vector<contact::FacetTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface& surface,
-                                             double margin) {
-  std::vector<contact::FacetTree::Box> boxes;
-  std::vector<fem::Point> points;
-  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-    mesh.pointsAt(surface.facet(f), points);
-    boxes.push_back(fem::boxOf(points, margin));
-  }
-  return boxes;
-}
-
-/// Mean distance of nodes on that part of a surface that the other one is near to, by the contact's distance.
-double spacingOn(const fem::Mesh& mesh, const fem::Surface& surface, const contact::FacetTree& other,
-                 double distance) {
-  const std::vector<contact::FacetTree::Box> boxes =
-      boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
-  double area = 0;
-  int number = 0;
-  std::vector<fem::Point> points;
-  std::vector<std::size_t> found;
-  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-    if (std::isfinite(distance))
-      other.meeting(boxes[f], found);
-    if (std::isfinite(distance) && found.empty())
-      continue;
-    mesh.pointsAt(surface.facet(f), points);
-    area += fem::areaVector(surface.facetType, points).norm();
-    ++number;
-  }
-  return std::pow(area / std::max(number, 1), 1.0 / dimensionOf(surface.facetType)) /
-         orderOf(surface.facetType);
-}
-
-/// Decides which surface is to carry multipliers, and says why.
-std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
-                       scene::SurfaceContact& terms) {
-  const auto others = [&](int body, const std::string& surface) {
-    std::ptrdiff_t count = -1; // itself
-    for (const scene::SurfaceContact& other : scene.contacts)
-      count += (other.first == body && other.firstSurface == surface) ||
-                       (other.second == body && other.secondSurface == surface)
-                   ? 1
-                   : 0;
-    return static_cast<double>(count);
-  };
-  const auto spacing = [&](int body, const std::string& surface) {
-    const bool isFirst = body == terms.first;
-    const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
-                     &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
-    const fem::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
-    return spacingOn(*own.mesh, surfaceOf(terms, own, surface),
-                     contact::FacetTree(boxesOf(*other.mesh, facing, 0)), terms.distance);
-  };
-  const auto stiffness = [&](int body, const std::string&) {
-    const scene::Body& owner = scene.bodies[static_cast<std::size_t>(body)];
-    return owner.physics == scene::Physics::membrane ? owner.material.conductivity
-                                                     : owner.material.youngsModulus;
-  };
-  const auto decides = [&](const auto& measure, double margin) {
-    const double first = measure(terms.first, terms.firstSurface),
-                 second = measure(terms.second, terms.secondSurface);
-    terms.multipliers =
-        second < first ? scene::SurfaceContact::Side::second : scene::SurfaceContact::Side::first;
-    return std::max(first, second) > margin * std::min(first, second);
-  };
-  if (decides(others, 1))
-    return ", which has no other contact there";
-  if (decides(spacing, 1.5))
-    return ", the finer one";
-  if (decides(stiffness, 1.01)) // of meshes about as fine its pressure is the smoother one
-    return ", the softer one";
-  if (decides(spacing, 1.01))
-    return ", the finer one";
-  terms.multipliers = scene::SurfaceContact::Side::first;
-  return ", the first one";
 }
 
 contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
