@@ -215,7 +215,8 @@ bool areAlike(const ContactTerms& contact, const SurfaceNodes& first, const Surf
   for (const std::size_t j : pairs.partner)
     if (j != FacingNodes::alone)
       itself[j] = j;
-  return facetsAs(first, pairs.partner) == facetsAs(second, itself);
+  const std::vector<std::vector<std::size_t>> facets = facetsAs(first, pairs.partner);
+  return !facets.empty() && facets == facetsAs(second, itself); // a few nodes may face each other by chance
 }
 
 ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,

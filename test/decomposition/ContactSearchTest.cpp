@@ -82,12 +82,13 @@ TEST(ContactSearchTest, NodesTooFarFromTheOtherSideGetNoRow) {
 
 /// A distance that leaves one pair of nodes does not make of surfaces that do not match some that do.
 TEST(ContactSearchTest, CouplesByMortarsWhereNodesAndFacetsDoNotFaceEachOtherOneByOne) {
-  const auto meansOf = [](std::array<int, 3> lower, std::array<int, 3> upper, double distance) {
+  const auto meansOf = [](std::array<int, 3> lower, std::array<int, 3> upper, double distance,
+                          double gap = 0) {
     std::vector<BodyLayout> bodies;
     bodies.push_back(box("lower", scene::rectangle(0, 1, 0, 1), lower));
-    bodies.push_back(box("upper", scene::rectangle(0, 1, 1, 2), upper));
+    bodies.push_back(box("upper", scene::rectangle(0, 1, 1 + gap, 2 + gap), upper));
     scene::SurfaceContact contact = topOnBottom();
-    contact.distance = distance;
+    contact.distance = distance + gap;
     return layoutContact(contact, bodies, 2).means;
   };
   constexpr double anywhere = std::numeric_limits<double>::infinity();
@@ -97,6 +98,8 @@ TEST(ContactSearchTest, CouplesByMortarsWhereNodesAndFacetsDoNotFaceEachOtherOne
               "mortars on 'lower'"); // each node of one has a partner
     EXPECT_EQ(meansOf({8, 2, 0}, {4, 2, 0}, distance), "mortars on 'lower'");
     EXPECT_EQ(meansOf({1, 2, 0}, {2, 2, 0}, distance), "mortars on 'lower'");
+    EXPECT_EQ(meansOf({5, 2, 0}, {7, 2, 0}, distance, 0.9),
+              "mortars on 'lower'");                                          // farther apart than nodes are
     EXPECT_EQ(meansOf({5, 2, 0}, {7, 2, 0}, distance), "mortars on 'lower'"); // both ends face each other
   }
 }
