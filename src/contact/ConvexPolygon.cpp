@@ -74,6 +74,15 @@ void clip(Polygon& polygon, const Polygon& window, Polygon& work) {
   }
 }
 
+bool contains(const Polygon& polygon, const Vector2d& point, double margin) {
+  for (std::size_t e = 0; e < polygon.size(); ++e) {
+    const Vector2d along = polygon[(e + 1) % polygon.size()] - polygon[e];
+    if (cross(along, point - polygon[e]) < -margin * along.norm())
+      return false;
+  }
+  return true;
+}
+
 const std::vector<SimplexPoint>& simplexRule(int dimension, int degree) {
   static std::map<std::pair<int, int>, std::vector<SimplexPoint>> rules;
   auto [place, isNew] = rules.try_emplace({dimension, degree});

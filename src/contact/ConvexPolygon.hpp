@@ -19,6 +19,9 @@ double areaOf(const Polygon& polygon);
 /// \param work  overwritten
 void clip(Polygon& polygon, const Polygon& window, Polygon& work);
 
+/// Whether a point lies in a convex polygon or no farther than `margin` from the lines of its edges.
+bool contains(const Polygon& polygon, const Eigen::Vector2d& point, double margin);
+
 /// A point of a rule on a simplex: barycentric coordinates without that of corner 0, and its share of the simplex.
 struct SimplexPoint {
   Eigen::Vector2d xi;

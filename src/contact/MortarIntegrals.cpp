@@ -19,6 +19,8 @@ using Eigen::Vector3d;
 
 /// Facets face each other if their normals are this far from orthogonal.
 constexpr double facing = -0.2;
+/// Nodes this near to a facet of the other side, beside their own facet's size, lie across it.
+constexpr double onRim = 1e-6;
 /// Pieces of a facet below this share of it are slivers, which round-off makes.
 constexpr double sliver = 1e-12;
 /// Rules are exact to this degree beyond that of straight facets where the integrands are no polynomials.
@@ -69,6 +71,7 @@ private:
   [[nodiscard]] Common commonOf(const FacetView& own, const FacetView& other, const ViewPlane& plane);
   void add(const FacetView& own, const FacetView& other, const ViewPlane& plane, const Common& common,
            MortarFacet& facet, Eigen::MatrixXd& coupling) const;
+  [[nodiscard]] bool reaches(const Common& common, const Vector2d& point, double margin) const;
   [[noreturn]] void refuseFold(const FacetView& view) const;
 
   const MortarTerms& terms_;
@@ -247,6 +250,13 @@ std::vector<Integrator::Pair> Integrator::covering(const FacetView& own, const V
   return kept;
 }
 
+bool Integrator::reaches(const Common& common, const Vector2d& point, double margin) const {
+  return std::any_of(common.pieces.begin(), common.pieces.end(), [&](const Polygon& piece) {
+    return terms_.dimension == 2 ? piece[0][0] - margin <= point[0] && point[0] <= piece[1][0] + margin
+                                 : contains(piece, point, margin);
+  });
+}
+
 /// The integrals over what one facet of the other surface covers.
 void Integrator::add(const FacetView& own, const FacetView& other, const ViewPlane& plane,
                      const Common& common, MortarFacet& facet, Eigen::MatrixXd& coupling) const {
@@ -277,12 +287,21 @@ MortarFacet Integrator::integrateOver(std::size_t f) {
   const FacetView& own = first_[f];
   const Eigen::Index n = own.points().cols();
   const ViewPlane plane = ViewPlane::across(own.centre(), own.normal(), terms_.dimension);
-  MortarFacet facet{f, own.area(), 0, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n), {}};
+  MortarFacet facet{f,
+                    own.area(),
+                    0,
+                    Eigen::VectorXd::Zero(n),
+                    Eigen::MatrixXd::Zero(n, n),
+                    {},
+                    std::vector<char>(static_cast<std::size_t>(n), 0)};
   for (const auto& [g, common] : covering(own, plane)) {
     const FacetView& other = second_[g];
     auto& across =
         facet.across.emplace_back(MortarFacet::Across{g, Eigen::MatrixXd::Zero(n, other.points().cols())});
     add(own, other, plane, common, facet, across.coupling);
+    for (Eigen::Index a = 0; a < n; ++a)
+      if (reaches(common, plane.seen(own.points().col(a)), onRim * own.diameter()))
+        facet.isReached[static_cast<std::size_t>(a)] = 1;
   }
   return facet;
 }

@@ -31,6 +31,8 @@ struct MortarFacet {
     Eigen::MatrixXd coupling; ///< ∫N(N²)ᵀ
   };
   std::vector<Across> across;
+  std::vector<char>
+      isReached; ///< of each node of the facet: whether the other surface lies across it, its rim included
 };
 
 /// A surface and where its nodes lie; keeps references.

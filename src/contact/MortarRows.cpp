@@ -22,8 +22,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A node has a multiplier if its neighbours' N̂ are covered by no more than this many times its own share.
-constexpr double leastCoverage = 0.1;
+/// A node has no multiplier if less than this share of its N̂ is covered.
+constexpr double leastCoverage = 1e-3;
 /// Facets covered by less than this share of them have constant ψ.
 constexpr double sliverOfFacet = 0.02;
 /// Shares that would be 0 without round-off.
@@ -61,6 +61,7 @@ private:
   [[nodiscard]] std::vector<std::size_t> placesOf(std::size_t facet) const;
   [[nodiscard]] std::vector<std::size_t>
   representatives(const std::function<bool(std::size_t)>& isHeld) const;
+  void spread(std::vector<std::size_t>& representative) const;
   void add(const MortarFacet& facet, const std::vector<std::size_t>& representative, VectorXd& areas,
            Sums& first, Sums& second) const;
   void balanceMoment(Row& row) const;
@@ -104,19 +105,31 @@ void RowMaker::measureCoverage() {
 
 /// The node whose multiplier each node's N̂ belongs to: itself, or the nearest one in steps from facet to facet.
 std::vector<std::size_t> RowMaker::representatives(const std::function<bool(std::size_t)>& isHeld) const {
-  std::vector<double> most(nodes_.nodes.size(), 0.0); // coverage of nodes around
+  std::vector<std::size_t> representative(nodes_.nodes.size(), none);
   for (const MortarFacet& facet : facets_) {
     const std::vector<std::size_t> places = placesOf(facet.facet);
-    double best = 0;
-    for (const std::size_t k : places)
-      best = std::max(best, coverage_[k]);
-    for (const std::size_t k : places)
-      most[k] = std::max(most[k], best);
+    for (std::size_t a = 0; a < places.size(); ++a)
+      if (facet.isReached[a] != 0 && coverage_[places[a]] >= leastCoverage && !isHeld(places[a]))
+        representative[places[a]] = places[a];
   }
-  std::vector<std::size_t> representative(nodes_.nodes.size(), none);
-  for (std::size_t k = 0; k < most.size(); ++k)
-    if (most[k] > 0 && coverage_[k] >= leastCoverage * most[k] && !isHeld(k))
-      representative[k] = k;
+  spread(representative);
+  for (const MortarFacet& facet : facets_) { // where less than a facet is covered, no node may be reached
+    const std::vector<std::size_t> places = placesOf(facet.facet);
+    std::size_t best = none;
+    for (const std::size_t k : places)
+      if (!isHeld(k) && (best == none || coverage_[k] > coverage_[best]))
+        best = k;
+    if (best == none ||
+        std::any_of(places.begin(), places.end(), [&](std::size_t k) { return representative[k] != none; }))
+      continue;
+    representative[best] = best;
+    spread(representative);
+  }
+  return representative;
+}
+
+/// Gives nodes without a representative that of the nearest one around, until all that can be reached have one.
+void RowMaker::spread(std::vector<std::size_t>& representative) const {
   for (bool isAnyNew = true; isAnyNew;) {
     isAnyNew = false;
     std::vector<std::size_t> next = representative;
@@ -137,7 +150,6 @@ std::vector<std::size_t> RowMaker::representatives(const std::function<bool(std:
     }
     representative.swap(next);
   }
-  return representative;
 }
 
 /// The parts of the rows of one facet: P = A S T, ψ = P N, with S adding up the N̂ that have one multiplier.

@@ -9,9 +9,9 @@
 /// (QuadraticFaces.hpp). A row is divided by ∫N̂_k, so that its multiplier is a nodal force, and an even pressure p has the
 /// multipliers p∫N̂_k, the right forces on both sides.
 ///
-/// *Rims.* A node of which the other surface covers little, or which supports hold, has no multiplier: dual functions of a
-/// small part of a facet extrapolate. Its N̂ is added to that of a neighbour that has one, so that constants stay among the ψ,
-/// and with them balance of forces. On slivers of facets ψ is constant, with the same integrals.
+/// *Rims.* A node that the other surface does not lie across, beyond its rim, or which supports hold, has no multiplier: dual
+/// functions of a part of a facet extrapolate. Its N̂ is added to that of a neighbour that has one, so that constants stay among
+/// the ψ, and with them balance of forces. On slivers of facets ψ is constant, with the same integrals.
 ///
 /// *Moments.* Forces along d_k balance if what a row takes of either side lies on a line along d_k: the shares of the second
 /// side are changed as little as that takes (a change of the size of the gap times that of a facet's curvature; none on plane

@@ -115,6 +115,8 @@ Shares forceShares(const ContactLayout& layout) {
     for (const contact::NodeShare& share : layout.firstShares[row])
       if (const auto place = rowOf.find(share.node); place != rowOf.end())
         result[place->second].push_back({row, share.weight});
+      else // a node beyond the rim or held, which has no row: its force counts with the row's own node
+        result[row].push_back({row, share.weight});
   return result;
 }
 

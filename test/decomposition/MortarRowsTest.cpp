@@ -135,7 +135,7 @@ TEST(MortarRowsTest, BothSidesOfARowBalanceInForceAndMoment) {
     for (const double shift : {0.0, 0.37}) {
       const Joint joint = jointOf(sides, shift, sides.isPlane ? arch : saddle);
       const ContactLayout layout = joint.meet();
-      ASSERT_GT(layout.numRows(), 3);
+      ASSERT_GT(layout.numRows(), 2);
       for (std::size_t row = 0; row < layout.firstNodes.size(); ++row) {
         const Resultant first = resultantOf(layout.firstShares[row], *joint.lower),
                         second = resultantOf(layout.secondNodes[row], *joint.upper);
