@@ -1,5 +1,5 @@
 // The bracket of bracket.geo and a plate below it (mm), with the holes of the bolts and the rims of their nuts' washers drawn
-// on the underside. Tetrahedra, smaller where bolts press both together. Mesh.MeshSizeFactor 1 gives edges of 0.8 mm there.
+// on the underside. Tetrahedra, smaller where bolts press both together. Mesh.MeshSizeFactor 1 gives edges of 0.65 mm there.
 Include "bracket.geo";
 bracket() = Volume{:};
 foot() = Surface In BoundingBox{-e, -width / 2 - e, -e, length + e, width / 2 + e, e};
@@ -29,8 +29,8 @@ Field[1].YMin = -width / 2;
 Field[1].YMax = width / 2;
 Field[1].ZMin = -deep;
 Field[1].ZMax = thick;
-Field[1].VIn = 0.8;
-Field[1].VOut = 4;
+Field[1].VIn = 0.65;
+Field[1].VOut = 3.25;
 Field[1].Thickness = 30;
 Field[2] = Box;                                // the bracket and what is below it
 Field[2].XMin = 0;
@@ -39,13 +39,13 @@ Field[2].YMin = -width / 2;
 Field[2].YMax = width / 2;
 Field[2].ZMin = 0;
 Field[2].ZMax = height;
-Field[2].VIn = 1.2;
-Field[2].VOut = 4;
+Field[2].VIn = 0.975;
+Field[2].VOut = 3.25;
 Field[2].Thickness = 20;
 Field[3] = Min;
 Field[3].FieldsList = {1, 2};
 Background Field = 3;
-Mesh.MeshSizeMax = 4;
+Mesh.MeshSizeMax = 3.25;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeFromPoints = 0;
 
