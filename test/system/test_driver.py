@@ -82,8 +82,12 @@ class Driver(unittest.TestCase):
 def coarse(file):
     """What makes a scene with mesh files small."""
     bodies = xml.etree.ElementTree.parse(file).getroot().find("ParameterList[@name='Bodies']")
-    names = [body.get("name") for body in bodies if body.find("Parameter[@name='Mesh']") is not None]
-    return [word for name in names for word in ("--set", f"Bodies/{name}/Mesh Size Factor=4")]
+    words = []
+    for body in bodies:
+        if body.find("Parameter[@name='Mesh']") is not None:
+            factor = 8 if body.find("Parameter[@name='Physics']").get("value") == "elasticity 3-D" else 4
+            words += ["--set", f"Bodies/{body.get('name')}/Mesh Size Factor={factor}"]
+    return words
 
 
 class Solves(Driver):
