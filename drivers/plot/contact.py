@@ -27,8 +27,10 @@ def show_noise_as_zero(axes, pair, run):
 
 
 def pieces(pair):
-    """The curves of a contact, one after the other with a space between: list of (arclength, contact of its nodes)."""
-    curves = [pair.along(curve) for curve in pair.curves()]
+    """The curves of a contact, one after the other with a space between: list of (arclength, contact of its nodes). Nodes between
+    facets that are beyond a contact's reach are no curves, if there are any."""
+    curves = pair.curves()
+    curves = [pair.along(curve) for curve in [curve for curve in curves if len(curve) > 1] or curves]
     total, offset, result = sum(curve.arclength()[-1] for curve in curves), 0.0, []
     for curve in curves:
         result.append((offset + curve.arclength(), curve))

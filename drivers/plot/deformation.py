@@ -6,7 +6,7 @@ from . import cells
 
 VISIBLE = 0.02  # displacements of this share of the bodies' size are seen as they are
 WANTED = 0.05  # share that smaller ones are enlarged to
-OVERLAP = 0.01  # share of the size by which enlargement may let closed contacts cross
+OVERLAP = 0.001  # share of the size by which enlargement may let closed contacts cross
 
 
 def scale(run):
