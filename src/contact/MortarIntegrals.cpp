@@ -19,8 +19,9 @@ using Eigen::Vector3d;
 
 /// Facets face each other if their normals are this far from orthogonal.
 constexpr double facing = -0.2;
-/// Nodes this near to a facet of the other side, beside their own facet's size, lie across it.
-constexpr double onRim = 1e-6;
+/// Nodes this near to what the other side covers, beside their own facet's size, are reached: rims of curved surfaces that
+/// meet deviate as seen along facets' normals.
+constexpr double onRim = 0.1;
 /// Pieces of a facet below this share of it are slivers, which round-off makes.
 constexpr double sliver = 1e-12;
 /// Rules are exact to this degree beyond that of straight facets where the integrands are no polynomials.
@@ -31,7 +32,7 @@ struct Common {
   std::vector<Polygon> pieces; ///< in the plane: intervals of two points
   double area = 0;
   double nearest = 0,
-         deepest = 0; ///< least and largest distance at the corners, from the first along its normal
+         deepest = 0; ///< least and largest distance at the pieces' corners, along the first one's normal
 };
 
 /// Why facets that might have met do not.
@@ -149,8 +150,11 @@ Common Integrator::commonOf(const FacetView& own, const FacetView& other, const 
   Common common;
   common.nearest = std::numeric_limits<double>::infinity();
   common.deepest = -common.nearest;
-  const auto note = [&](const Vector3d& x) {
-    const double along = plane.axes.col(2).dot(x - plane.origin);
+  const auto note = [&](const Vector2d& point) {
+    const auto here = own.at(point, plane), there = other.at(point, plane);
+    if (!here || !there)
+      refuseFold(here ? other : own);
+    const double along = plane.axes.col(2).dot(there->place - here->place);
     common.nearest = std::min(common.nearest, along);
     common.deepest = std::max(common.deepest, along);
   };
@@ -180,7 +184,7 @@ Common Integrator::commonOf(const FacetView& own, const FacetView& other, const 
         continue;
       common.pieces.push_back(clipped_);
       common.area += area;
-      for (const Vector3d& corner : theirs)
+      for (const Vector2d& corner : clipped_)
         note(corner);
     }
   return common;

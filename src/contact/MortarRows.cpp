@@ -271,8 +271,8 @@ void requireRows(const ContactTerms& terms, const ContactLayout& layout) {
 
 } // namespace
 
-ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
-                           const HeldNodes& isHeld) {
+ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first,
+                           const PlacedSurface& second) {
   const RowMaker maker(terms, first, second);
   const SurfaceNodes& nodes = maker.nodes();
   const auto directionAt = [&](std::size_t place) -> Vector3d {
@@ -281,7 +281,7 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   ContactLayout layout;
   layout.name = terms.name;
   layout.isDual = first.surface.facetType == fem::CellType::triangle6;
-  for (const Row& row : maker.rows([&](std::size_t k) { return isHeld(nodes.nodes[k], directionAt(k)); })) {
+  for (const Row& row : maker.rows([](std::size_t) { return false; })) {
     double gap = terms.gap;
     if (terms.components > 1)
       gap += nodes.normals[row.place].dot(RowMaker::placeOf(second.pointAt, row.second) -
@@ -301,7 +301,7 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
   layout.name = terms.name;
   for (int c = 0; c < terms.components; ++c) {
     const Vector3d axis = axes.col(c);
-    for (const Row& row : maker.rows([&](std::size_t k) { return isHeld(nodes.nodes[k], axis); }))
+    for (const Row& row : maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); }))
       enter(row, nodes, axis, terms.components, 0.0, layout);
   }
   requireRows(terms, layout);

@@ -9,8 +9,8 @@
 /// (QuadraticFaces.hpp). A row is divided by ∫N̂_k, so that its multiplier is a nodal force, and an even pressure p has the
 /// multipliers p∫N̂_k, the right forces on both sides.
 ///
-/// *Rims.* A node that the other surface does not lie across, beyond its rim, or which supports hold, has no multiplier: dual
-/// functions of a part of a facet extrapolate. Its N̂ is added to that of a neighbour that has one, so that constants stay among
+/// *Rims.* A node that the other surface does not lie across, beyond its rim, or which supports hold where bodies are tied (what
+/// they hold on both sides would be tied once more), has no multiplier: dual functions of a part of a facet extrapolate. Its N̂ is added to that of a neighbour that has one, so that constants stay among
 /// the ψ, and with them balance of forces. On slivers of facets ψ is constant, with the same integrals.
 ///
 /// *Moments.* Forces along d_k balance if what a row takes of either side lies on a line along d_k: the shares of the second
@@ -34,8 +34,8 @@ using HeldNodes = std::function<bool(GlobalOrdinal node, const Eigen::Vector3d& 
 
 /// The rows u¹ − u² along the first surface's normals; bodies and `firstRow` are left to the caller. \throws InputError as
 /// mortarIntegrals() does, or if no node is left to have a row. Not collective.
-ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
-                           const HeldNodes& isHeld);
+ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first,
+                           const PlacedSurface& second);
 
 /// The rows u¹ − u² = 0, `components` for each node, along axes (columns) that are the same for all, best such that supports
 /// hold nodes along them; likewise.

@@ -31,24 +31,19 @@ CoupledSurfaces asMatrix(const ContactTerms& terms, ContactLayout layout, const 
   return {std::move(matrix), std::move(layout)};
 }
 
-HeldNodes orNone(const HeldNodes& isHeld) {
-  return isHeld ? isHeld : [](GlobalOrdinal, const Eigen::Vector3d&) { return false; };
-}
-
 } // namespace
 
 CoupledSurfaces contactBetween(const ContactTerms& terms, const PlacedSurface& first,
-                               const PlacedSurface& second, const RCP<const Comm>& comm,
-                               const HeldNodes& isHeld) {
+                               const PlacedSurface& second, const RCP<const Comm>& comm) {
   ContactLayout layout;
-  collectively(*comm, [&] { layout = meetByMortar(terms, first, second, orNone(isHeld)); });
+  collectively(*comm, [&] { layout = meetByMortar(terms, first, second); });
   return asMatrix(terms, std::move(layout), comm);
 }
 
 CoupledSurfaces tieBetween(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
                            const RCP<const Comm>& comm, const HeldNodes& isHeld) {
   ContactLayout layout;
-  collectively(*comm, [&] { layout = tieByMortar(terms, first, second, orNone(isHeld)); });
+  collectively(*comm, [&] { layout = tieByMortar(terms, first, second, isHeld); });
   return asMatrix(terms, std::move(layout), comm);
 }
 

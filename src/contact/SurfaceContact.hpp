@@ -25,13 +25,12 @@ struct CoupledSurfaces {
 
 /// dᵀ(u_first − u_second) ≤ c by mortars: the first surface, best the finer and softer one, carries the multipliers.
 /// \param first, second  whole and the same on all ranks; facets' nodes in an order that makes the normals point outwards
-/// \param isHeld         which nodes of the first one supports hold; they get no multiplier
 /// Collective. \throws InputError, the same on all ranks, as meetByMortar() does.
 CoupledSurfaces contactBetween(const ContactTerms& terms, const PlacedSurface& first,
-                               const PlacedSurface& second, const RCP<const Comm>& comm,
-                               const HeldNodes& isHeld = {});
+                               const PlacedSurface& second, const RCP<const Comm>& comm);
 
 /// u_first = u_second likewise, for UnassembledProblem::setTies.
+/// \param isHeld  which nodes of the first one supports hold in a direction; they get no multiplier there
 CoupledSurfaces tieBetween(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
                            const RCP<const Comm>& comm, const HeldNodes& isHeld = {});
 

@@ -128,7 +128,7 @@ ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vecto
     return supported.isHeld && supported.isHeld(first.body, node, direction);
   };
   return finish(isTied ? tieByMortar(asked, own, other, held, axesOf(first))
-                       : meetByMortar(asked, own, other, held),
+                       : meetByMortar(asked, own, other),
                 first, second, "mortars on '" + layoutOf(first).name + "'");
 }
 

@@ -53,9 +53,7 @@ struct Joint {
     terms.dimension = terms.components = dimension;
     return terms;
   }
-  [[nodiscard]] ContactLayout meet(const HeldNodes& isHeld = nothingIsHeld) const {
-    return meetByMortar(terms(), first(), second(), isHeld);
-  }
+  [[nodiscard]] ContactLayout meet() const { return meetByMortar(terms(), first(), second()); }
 };
 
 /// Bends and turns points of the joint, z (in the plane y) = 0, and what is above and below.
@@ -178,7 +176,7 @@ TEST(MortarRowsTest, LinearDisplacementsOfBothSidesOpenNothing) {
         return joint.lower->point(node)[0] < shift + 0.1;
       };
       for (const HeldNodes& isHeld : {nothingIsHeld, left}) {
-        const ContactLayout layout = joint.meet(isHeld);
+        const ContactLayout layout = tieByMortar(joint.terms(), joint.first(), joint.second(), isHeld);
         double area = 0;
         for (std::size_t row = 0; row < layout.firstNodes.size(); ++row) {
           double jump = 0;
@@ -189,7 +187,8 @@ TEST(MortarRowsTest, LinearDisplacementsOfBothSidesOpenNothing) {
           EXPECT_NEAR(jump, 0, 1e-11) << row;
           area += layout.areas[row];
         }
-        EXPECT_NEAR(area, (1 - shift) * (sides.isPlane ? 1 : 1 - shift / 2), 1e-12); // no part of it is lost
+        EXPECT_NEAR(area, joint.dimension * (1 - shift) * (sides.isPlane ? 1 : 1 - shift / 2),
+                    1e-12); // no part of it is lost
       }
     }
 }
@@ -200,8 +199,9 @@ TEST(MortarRowsTest, RowsAreDualWhereTheyAreWholeAndHaveNoMultiplierWhereSupport
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     EXPECT_EQ(layout.firstShares[row].size(), 1U); // its own node alone
   const ContactLayout held =
-      joint.meet([&](GlobalOrdinal node, const Vector3d&) { return joint.lower->point(node)[0] == 0; });
-  EXPECT_EQ(layout.numRows() - held.numRows(), 4);
+      tieByMortar(joint.terms(), joint.first(), joint.second(),
+                  [&](GlobalOrdinal node, const Vector3d&) { return joint.lower->point(node)[0] == 0; });
+  EXPECT_EQ(3 * layout.numRows() - held.numRows(), 3 * 4);
   for (const GlobalOrdinal node : held.firstNodes)
     EXPECT_GT(joint.lower->point(node)[0], 0);
   const ContactLayout tied = tieByMortar(joint.terms(), joint.first(), joint.second(), nothingIsHeld);
@@ -211,7 +211,7 @@ TEST(MortarRowsTest, RowsAreDualWhereTheyAreWholeAndHaveNoMultiplierWhereSupport
 TEST(MortarRowsTest, SaysWhySurfacesDoNotMeet) {
   const Sides sides{true, false, false, 1, 1};
   const auto complaint = [](const Joint& joint, ContactTerms terms) {
-    return test::refusal([&] { meetByMortar(terms, joint.first(), joint.second(), nothingIsHeld); });
+    return test::refusal([&] { meetByMortar(terms, joint.first(), joint.second()); });
   };
   const auto moved = [&](double up) {
     return Joint(block(scene::rectangle(0, 1, -1, 0), {4, 2, 0}, false, 1, asItIs),

@@ -155,8 +155,7 @@ TEST(UnassembledProblemTest, SurfacesMeshedApartAreCoupledAsInAScene) {
         if (kind == scene::SurfaceContact::Kind::tied)
           both.handed->setTies(tieBetween(terms, {right, points}, {left, points}, world(), isHeld).matrix);
         else
-          both.handed->setContact(
-              contactBetween(terms, {right, points}, {left, points}, world(), isHeld).matrix);
+          both.handed->setContact(contactBetween(terms, {right, points}, {left, points}, world()).matrix);
       });
       EXPECT_GT(twice.handed->problem().numTies + twice.handed->problem().numInequalities, dimension);
       EXPECT_LE(twice.difference(), 1e-10) << dimension;
