@@ -1,0 +1,2 @@
+R = 40; side = -1; h = 0.01;
+Include "cylinder.geo";
