@@ -22,6 +22,7 @@ DEFAULT_SIZE = 37
 SIZES = "within 4 ... 128"
 NOTE = "Times: epafi from assembly to u; its peers without their assembly and without changing variables."
 NAMES = ("epafi", "epafi_separate", "snesvi_cholmod", "snesvi_hypre", "snesvi_gamg", "calculix", "calculix_tetrahedra")
+MORTARS = ("epafi", "epafi_separate", "calculix", "calculix_tetrahedra")  # take blocks meshed apart
 LARGEST_ORDER = 2
 EPAFI_TOLERANCE = 0.1  # of the peers': see Case
 
@@ -44,7 +45,9 @@ class Case:
     def __init__(self, options, folder_of_programs, _, folder):
         self.problem, self.size, self.ranks, self.time_limit = options.problem, options.size, options.ranks, options.time_limit
         self.tolerance, self.epafi_options, self.programs = options.tolerance, options.epafi_options, folder_of_programs
-        self.order, self.grid = options.order, max(2, round(options.size * options.order / 4.5))
+        self.order, self.multipliers = options.order, options.multipliers
+        self.sizes = {"lower": options.size if options.lower_size is None else options.lower_size, "upper": options.size}
+        self.grids = {body: max(2, round(size * options.order / 4.5)) for body, size in self.sizes.items()}
         self.scene, self.file = solvers.COMPARE / f"{options.problem}.xml", pathlib.Path(folder) / "system.petsc"
 
     def learn(self, name, run):
@@ -52,14 +55,26 @@ class Case:
 
     def unknowns(self):
         """Free displacements of the undecomposed meshes."""
-        n = self.size * self.order
-        held, plane = 3 * n * (n + 1)**2, (n + 1)**2
-        return 2 * held + (plane if self.problem == "floating_blocks" else 0)
+        lower, upper = (self.order * size for size in self.sizes.values())
+        plane = (upper + 1)**2 if self.problem == "floating_blocks" else 0
+        return sum(3 * n * (n + 1)**2 for n in (lower, upper)) + plane
 
     def elements(self):
         """--set options of the mesh."""
-        return [f"--set=Bodies/{body}/{change}" for body in ("lower", "upper")
-                for change in (f"Elements={{{self.size},{self.size},{self.size}}}", f"Order={self.order}")]
+        return [f"--set=Bodies/{body}/{change}" for body, size in self.sizes.items()
+                for change in (f"Elements={{{size},{size},{size}}}", f"Order={self.order}")]
+
+    def cut(self):
+        """Settings of the subdomains: one grid, or, of blocks meshed apart, each block's own."""
+        lists = {"": self.grids["upper"]} if len(set(self.sizes.values())) == 1 else {
+            f"Bodies/{body}/": grid for body, grid in self.grids.items()}
+        return [f"{place}Decomposition/Grid={{{grid},{grid},{grid}}}" for place, grid in lists.items()]
+
+    def coupling(self):
+        """Settings of the contact: blocks alike are coupled by pairs of nodes if nothing else is asked for."""
+        if self.multipliers == "upper":
+            return ["Contact/joint/Coupling=mortar", "Contact/joint/Multipliers=second"]
+        return ["Contact/joint/Multipliers=first"]
 
     def launcher(self, ranks):
         """What stands before a program that runs on so many ranks."""
@@ -75,7 +90,7 @@ def export(case):
 
 
 def run_epafi(case, further):
-    settings = [f"Decomposition/Grid={{{case.grid},{case.grid},{case.grid}}}",
+    settings = [*case.cut(), *case.coupling(),
                 *(f"Solver/{name}Tolerance={EPAFI_TOLERANCE * case.tolerance:g}" for name in ("", "Equilibrium ")),
                 *further, *case.epafi_options]
     with tempfile.TemporaryDirectory() as place:
@@ -99,7 +114,8 @@ def run_calculix(case, shape):
     if program is None:
         raise Trouble("missing", "install the package calculix-ccx, or all of the peers by ./setup packages peers")
     try:
-        return calculix.solve(program, case.problem, case.size, case.order, shape, case.ranks, case.time_limit)
+        return calculix.solve(program, case.problem, case.sizes, case.order, shape, case.multipliers, case.ranks,
+                              case.time_limit)
     except calculix.Failed as error:
         raise Trouble("failed", str(error)) from None
 

@@ -19,6 +19,7 @@ from reference import ROOT
 
 # What peers and table.py ask of a family of problems, with programs, Case and run below: this one, or block_solvers.py.
 TITLE = "membranes, 1/h"
+MORTARS = ()  # solvers that take bodies meshed apart
 LARGEST_RANKS = 1
 LARGEST_ORDER = 1
 DEFAULT_SIZE = 512

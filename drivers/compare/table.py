@@ -8,7 +8,7 @@ import tempfile
 
 COLUMNS = ["problem", "unknowns", "solver", "total_seconds", "iterations", "energy", "peak_bytes", "ratio", "repeats",
            "minimum", "maximum", "assembly_seconds", "setup_seconds", "linear_iterations", "energy_error", "size",
-           "tolerance", "status", "reason", "ranks", "closed_nodes", "order"]
+           "tolerance", "status", "reason", "ranks", "closed_nodes", "order", "lower_size", "multipliers"]
 ENERGY_TOLERANCE = 1e-6  # relative
 
 
@@ -20,7 +20,8 @@ def rows(options, runs, trouble, known):
     for name in options.solvers:
         row = dict.fromkeys(COLUMNS, "")
         row.update(problem=options.problem, solver=name, size=options.size, tolerance=options.tolerance,
-                   ranks=options.ranks, order=options.order)
+                   ranks=options.ranks, order=options.order, lower_size=options.lower_size or options.size,
+                   multipliers=options.multipliers)
         if name in trouble:
             row.update(status=trouble[name].status, reason=str(trouble[name]), repeats=len(runs[name]))
         else:
@@ -74,7 +75,9 @@ def write(file, content):
 
 def text(options, content, known):
     cores = "one rank, one thread" if options.ranks == 1 else f"{options.ranks} ranks (CHOLMOD: threads)"
-    lines = ["", f"{options.problem} {options.family.TITLE} = {options.size}, order {options.order}, tolerance {options.tolerance:g}: medians of "
+    below = f" over {options.lower_size}" if options.lower_size else ""
+    side = ", mortars on the upper" if options.multipliers == "upper" else ""
+    lines = ["", f"{options.problem} {options.family.TITLE} = {options.size}{below}{side}, order {options.order}, tolerance {options.tolerance:g}: medians of "
                  f"{options.repeats}, {cores}", ""]
     cells = [["solver", "seconds", "least", "greatest", "x epafi", "iterations", "memory", "energy", "off by"]]
     cells += [printed(row) for row in content]

@@ -1,6 +1,7 @@
-"""Hertz's contact of a rigid cylinder or sphere with an elastic half-space, and what a run has found in its place.
+"""Hertz's contact of two bodies with the curvatures and stiffnesses of cylinders or spheres, and what a run has found in its place.
 
-Lengths, forces and pressures in the units of the scene. E* = E / (1 - nu^2), because the obstacle is rigid."""
+Lengths, forces and pressures in the units of the scene. Of two elastic bodies 1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2, and
+1 / R = 1 / R_1 + 1 / R_2, with the radius of a hollow negative: `together`. A rigid flat or round body takes no part in the first."""
 
 import dataclasses
 import math
@@ -16,8 +17,13 @@ class Contact:
 
 
 def stiffness(young, poisson):
-    """E*"""
+    """E* of one elastic body"""
     return young / (1 - poisson**2)
+
+
+def together(values):
+    """Of two stiffnesses E* or radii."""
+    return 1 / sum(1 / value for value in values)
 
 
 def cylinder(load, radius, e_star):

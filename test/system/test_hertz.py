@@ -45,6 +45,10 @@ class Hertz(unittest.TestCase):
         self.assertAlmostEqual(2 * line.pressure / (e_star * line.radius), 1 / radius, places=12)  # curvatures
         self.assertAlmostEqual(math.pi * point.pressure / (2 * e_star * point.radius), 1 / radius, places=12)
 
+    def test_two_bodies_are_softer_than_each_and_a_hollow_takes_curvature_away(self):
+        self.assertAlmostEqual(hertz_contact.together([3.0, 6.0]), 2.0, places=12)
+        self.assertAlmostEqual(hertz_contact.together([20.0, -22.0]), 220.0, places=9)
+
     def test_the_radius_of_hertzs_own_pressure_is_hertzs(self):
         for in_space in (False, True):
             a, p0, n = 0.5, 1000.0, 200
@@ -111,10 +115,26 @@ class Hertz(unittest.TestCase):
         self.assertLess(abs(float(row["variation"]) - 1), 0.03)
         self.assertAlmostEqual(float(row["force"]), 192.25, delta=0.2)
 
+    def test_two_elastic_cylinders_meshed_apart_are_hertzs_whichever_has_the_multipliers(self):
+        run = study("--program", EPAFI, "--output", self.place, "--scene", "cylinders", "--factors", "2")
+        self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""))
+        rows = self.table()
+        self.assertEqual([row["scene"] for row in rows], ["cylinders, multipliers first", "cylinders, multipliers second"])
+        for row in rows:
+            for error in ("radius_error", "pressure_error"):
+                self.assertLess(float(row[error]), 0.005, error)
+            self.assertLess(abs(float(row["variation"]) - 1), 0.01)
+            self.assertAlmostEqual(float(row["force"]), 258.0, delta=0.05)
+        self.assertNotEqual(*(row["contact_nodes"] for row in rows))
+        self.assertAlmostEqual(float(rows[0]["radius"]), float(rows[1]["radius"]), delta=1e-3 * 0.5)
+
     def test_failed_runs_and_wrong_usage_are_said(self):
         run = study("--program", "/bin/false", "--output", self.place, "--scene", "hertz_sphere", "--factors", "4")
         self.assertEqual(run.returncode, FAILED)
         self.assertIn("hertz_sphere with mesh size factor 4 ended with code 1", run.stderr)
+        run = study("--program", EPAFI, "--output", self.place, "--scene", "cylinders", "--factors", "4", "--blocks", "2")
+        self.assertEqual(run.returncode, FAILED)
+        self.assertIn("cylinders has no block", run.stderr)
         self.assertFalse((self.place / "hertz.csv").exists())
         for word, arguments in (("--factors", ["--factors", "0"]), ("--blocks", ["--blocks", "1,x"]), ("--scene", ["--scene", "x"]),
                                 ("setup build", ["--program", self.place]), ("--time-limit", ["--time-limit", "0"])):

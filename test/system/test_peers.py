@@ -229,6 +229,26 @@ class Peers(unittest.TestCase):
             a, b, c = (numpy.subtract(corner, corners[0]) for corner in corners[1:])
             self.assertGreater(numpy.dot(numpy.cross(a, b), c), 0)
 
+    def test_blocks_meshed_apart_have_nearly_the_energy_of_those_alike(self):
+        energies = {}
+        for lower in (4, 6):
+            run = self.peers("--problem", "held_blocks", "--size", 6, "--lower-size", lower, "--order", 2, "--repeats", 1, "--solvers",
+                             "epafi,calculix")
+            self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""), run.stdout)
+            rows = self.table()
+            self.assertEqual((int(rows["epafi"]["unknowns"]), rows["epafi"]["lower_size"]),
+                             (sum(3 * 2 * n * (2 * n + 1)**2 for n in (lower, 6)), str(lower)))
+            energies[lower] = {name: float(row["energy"]) for name, row in rows.items() if row["status"] == "ok"}
+        self.assertIn("held_blocks n = 6 over 6", run.stdout)
+        for name, energy in energies[4].items():
+            self.assertLess(abs(energy / energies[6][name] - 1), 0.01, name)
+
+    def test_calculix_has_its_multipliers_on_the_block_that_is_asked_for(self):
+        for upper, lower, slave, first in ((4, 6, "lower", "SLAVE"), (6, 4, "upper", "MASTER")):
+            text, forces = calculix.deck("held_blocks", upper, 1, n_lower=lower, slave=slave)
+            self.assertEqual(len(forces), (upper + 1)**3)
+            self.assertIn(f"*SURFACE, NAME={first}, TYPE=ELEMENT\n{lower**2 * (lower - 1) + 1}, S2", text)
+
     def test_blocks_name_a_missing_package_on_two_ranks(self):
         (self.place / "petsc4py.py").write_text("raise ImportError('not here')\n", encoding="utf-8")
         run = self.peers("--problem", "held_blocks", "--size", 4, "--solvers", "epafi,snesvi_gamg", "--repeats", 1,
@@ -254,6 +274,10 @@ class Peers(unittest.TestCase):
                                 ("--order", ["--order", "2"]), ("--order", ["--problem", "held_blocks", "--order", "3"]),
                                 ("within 4 ... 128", ["--problem", "held_blocks", "--size", "512"]),
                                 ("snesvi_gamg", ["--problem", "held_blocks", "--solvers", "linear_muelu"]),
+                                ("have mortars", ["--problem", "held_blocks", "--lower-size", "5", "--solvers", "snesvi_gamg"]),
+                                ("within 4 ... 128", ["--problem", "held_blocks", "--lower-size", "2"]),
+                                ("have mortars", ["--problem", "held_blocks", "--multipliers", "upper", "--solvers", "snesvi_hypre"]),
+                                ("not for membranes", ["--lower-size", "8"]),
                                 ("setup build", ["--programs", str(self.place)])):
             run = self.peers(*arguments)
             self.assertEqual(run.returncode, WRONG_USAGE, run.stdout + run.stderr)

@@ -1,0 +1,3 @@
+// See cylinder.geo.
+R = 40; side = -1; h = 0.01;
+Include "cylinder.geo";
