@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 constexpr double facing = -0.2;
 /// Nodes this near to what the other side covers, beside their own facet's size, are reached: rims of curved surfaces that
 /// meet deviate as seen along facets' normals.
-constexpr double onRim = 0.1;
+constexpr double onRim = 0.01;
 /// Pieces of a facet below this share of it are slivers, which round-off makes.
 constexpr double sliver = 1e-12;
 /// Rules are exact to this degree beyond that of straight facets where the integrands are no polynomials.
