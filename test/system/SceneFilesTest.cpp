@@ -30,6 +30,8 @@ scene::Scene coarsened(scene::Scene scene) {
     scene::MeshSource& mesh = body.mesh;
     if (!mesh.file.empty()) {
       mesh.sizeFactor = componentsOf(body.physics) == 3 ? 8 : 4;
+      if (componentsOf(body.physics) == 3)
+        mesh.order = 1; // what costs here is the undecomposed reference
       body.decomposition.parts = std::min(body.decomposition.parts, 4);
     } else if (mesh.elements[2] > 0) {
       for (int& count : mesh.elements)
