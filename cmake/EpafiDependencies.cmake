@@ -115,6 +115,16 @@ function(epafi_find_metis missing)
   epafi_imported(metis INCLUDES "${METIS_INCLUDE_DIR}" LIBRARIES "${METIS_LIBRARY}")
 endfunction()
 
+# Headers alone, of Boost.Geometry.
+function(epafi_find_boost missing)
+  find_path(BOOST_GEOMETRY_INCLUDE_DIR boost/geometry/index/rtree.hpp)
+  if(NOT BOOST_GEOMETRY_INCLUDE_DIR)
+    set(${missing} "Boost's headers are not found; name their prefix in CMAKE_PREFIX_PATH (Debian: libboost-dev)" PARENT_SCOPE)
+    return()
+  endif()
+  epafi_imported(boost INCLUDES "${BOOST_GEOMETRY_INCLUDE_DIR}")
+endfunction()
+
 # Fields are written by all ranks at once, which takes the parallel HDF5.
 function(epafi_find_hdf5 missing)
   if(NOT CMAKE_C_COMPILER_LOADED)

@@ -39,7 +39,7 @@ scenes that work, and the documentation.")
 # What the static libraries link, and what headers and CMake's files name.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libepafi-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libhdf5-openmpi-dev, libmetis-dev, libopenmpi-dev, \
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost-dev, libeigen3-dev, libhdf5-openmpi-dev, libmetis-dev, libopenmpi-dev, \
 libptscotch-dev, libscotch-dev, libsuitesparse-dev, trilinos-all-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "cmake, g++, libopenblas-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS epafi)
