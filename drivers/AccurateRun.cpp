@@ -1,11 +1,15 @@
 #include "AccurateRun.hpp"
 
+#include "PeakMemory.hpp"
+
 #include "epafi/accuracy/Refinement.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/model/RefinableMeshes.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -13,54 +17,168 @@
 namespace epafi::drivers {
 namespace {
 
-Level levelOf(const SceneRun& run, double seconds) {
-  Level level;
-  level.unknowns = run.decomposition->problem.primalDimension;
-  level.multiplications = run.solver->report().counts.hessianMultiplications;
-  level.relativeError = run.relativeError();
-  level.discretisationError = run.error->discretisation;
-  level.algebraicError = run.solution.algebraicError;
-  level.seconds = seconds;
-  return level;
+using accuracy::MeshResult;
+using accuracy::RefinementGoal;
+using accuracy::WantedSizes;
+
+/// η² of all elements of all bodies, on every rank. Collective.
+std::vector<double> allErrors(const SceneRun& run) {
+  const model::Decomposition& decomposition = *run.decomposition;
+  std::vector<std::size_t> first(1, 0);
+  for (const model::BodyLayout& body : decomposition.bodies)
+    first.push_back(first.back() + static_cast<std::size_t>(body.mesh->numElements()));
+  std::vector<double> errors(first.back(), 0.0);
+  for (std::size_t s = 0; s < decomposition.problem.subdomains.size(); ++s) {
+    const decomposition::Subdomain& subdomain = decomposition.problem.subdomains[s];
+    const model::BodyLayout& body = decomposition.bodies[static_cast<std::size_t>(subdomain.body)];
+    const auto elements = body.partition->elementsOf(subdomain.number - body.firstSubdomain);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      errors[first[static_cast<std::size_t>(subdomain.body)] + static_cast<std::size_t>(elements[e])] =
+          run.error->elements[s][e];
+  }
+  sumOverRanks(*decomposition.problem.comm, std::span(errors)); // each element is one rank's
+  return errors;
 }
 
-/// Why no finer mesh is made; empty if one is.
-std::string obstacle(const AccurateRun& result, const AccuracyParameters& accuracy) {
-  const SceneRun& run = result.run;
-  std::ostringstream text;
-  if (run.solver->report().status != qp::Status::converged) {
-    text << "the iteration did not reach its tolerance on a mesh: " << run.solver->report().reason;
-  } else if (static_cast<int>(result.levels.size()) >= accuracy.maxLevels) {
-    text << "\"Maximum Levels\" allows no more than " << accuracy.maxLevels << " meshes";
-  } else {
-    const bool isInSpace = run.decomposition->problem.components == 3;
-    const double next = static_cast<double>(result.levels.back().unknowns) * (isInSpace ? 8 : 4);
-    if (next > accuracy.maxUnknowns)
-      text << "the next mesh would have " << next << " unknowns, and \"Maximum Unknowns\" allows "
-           << accuracy.maxUnknowns;
+/// A scene on its meshes.
+class SceneLevels : public accuracy::RefinableProblem {
+public:
+  SceneLevels(Teuchos::ParameterList solverParameters, RCP<const Comm> comm, RunCompanion* companion)
+      : solverParameters_(std::move(solverParameters)), comm_(std::move(comm)), companion_(companion) {
+    if (!solverParameters_.isParameter("Tolerance") || solverParameters_.getEntry("Tolerance").isDefault())
+      solverParameters_.set("Tolerance", std::string("balanced"));
+    restart();
   }
-  return text.str();
-}
+
+  MeshResult solve(int order) final {
+    std::vector<model::BodyLayout> bodies;
+    const scene::Scene scene = prepare(order, bodies);
+    RunOptions options{.estimatesError = true, .coarser = nullptr, .companion = companion_};
+    if (!bodies.empty())
+      options.bodies = &bodies;
+    if (hasRun_)
+      options.coarser = &run_;
+    SceneRun run = solveScene(scene, solverParameters_, comm_, options);
+    run_ = std::move(run); // the coarser one is needed no longer
+    hasRun_ = true;
+    MeshResult result = resultOf(run_);
+    result.seconds = maxOverRanks(*comm_, Teuchos::Time::wallTime() - start_);
+    restart();
+    return result;
+  }
+
+  [[nodiscard]] SceneRun& run() { return run_; }
+
+protected:
+  /// The scene with an order, and its bodies unless it has them itself.
+  virtual scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) = 0;
+  virtual std::vector<double> errorsOf(const SceneRun& run) = 0;
+  [[nodiscard]] const Comm& comm() const { return *comm_; }
+
+private:
+  void restart() { start_ = Teuchos::Time::wallTime(); }
+
+  MeshResult resultOf(const SceneRun& run) {
+    MeshResult result;
+    result.order = 1;
+    for (const model::BodyLayout& body : run.decomposition->bodies)
+      result.order = std::max(result.order, fem::orderOf(body.mesh->cellType()));
+    result.unknowns = run.decomposition->problem.primalDimension;
+    result.multiplications = run.solver->report().counts.hessianMultiplications;
+    result.energyNorm = run.error->energyNorm;
+    result.discretisation = run.error->discretisation;
+    result.algebraic = run.solution.algebraicError;
+    result.bytes = sumOverRanks(*comm_, peakBytes());
+    if (run.solver->report().status != qp::Status::converged)
+      result.failure = run.solver->report().reason;
+    result.squaredErrors = errorsOf(run);
+    return result;
+  }
+
+  Teuchos::ParameterList solverParameters_;
+  RCP<const Comm> comm_;
+  RunCompanion* companion_;
+  SceneRun run_;
+  bool hasRun_ = false;
+  double start_ = 0;
+};
+
+/// Elements halved everywhere, and as many times more subdomains.
+class EvenLevels final : public SceneLevels {
+public:
+  EvenLevels(scene::Scene scene, const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
+             RunCompanion* companion)
+      : SceneLevels(solverParameters, comm, companion), scene_(std::move(scene)) {}
+
+  [[nodiscard]] int dimension() const override { return dimensionOf(scene_.bodies.front().physics); }
+  [[nodiscard]] WantedSizes plan(const MeshResult& /*result*/, const RefinementGoal& goal) const override {
+    return {{}, std::exp2(goal.dimension)};
+  }
+  void refine(const WantedSizes& /*wanted*/) override { scene_ = accuracy::refined(std::move(scene_)); }
+
+protected:
+  scene::Scene prepare(int /*order*/, std::vector<model::BodyLayout>& /*bodies*/) override { return scene_; }
+  std::vector<double> errorsOf(const SceneRun& /*run*/) override { return {}; }
+
+private:
+  scene::Scene scene_;
+};
+
+/// Elements as small as their errors ask for.
+class LocalLevels final : public SceneLevels {
+public:
+  LocalLevels(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
+              const RCP<const Comm>& comm, RunCompanion* companion)
+      : SceneLevels(solverParameters, comm, companion), meshes_(scene, *comm),
+        dimension_(dimensionOf(scene.bodies.front().physics)) {}
+
+  [[nodiscard]] int dimension() const override { return dimension_; }
+  void refine(const WantedSizes& wanted) override {
+    std::vector<std::vector<double>> halvings;
+    auto next = wanted.halvings.begin();
+    for (const model::BodyLayout& body : run().decomposition->bodies) {
+      const auto end = next + static_cast<std::ptrdiff_t>(body.mesh->numElements());
+      halvings.emplace_back(next, end);
+      next = end;
+    }
+    meshes_.refine(halvings, comm());
+  }
+
+protected:
+  scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) override {
+    scene::Scene scene = meshes_.scene(order);
+    bodies = meshes_.layout(scene, comm());
+    return scene;
+  }
+  std::vector<double> errorsOf(const SceneRun& run) override { return allErrors(run); }
+
+private:
+  model::RefinableMeshes meshes_;
+  int dimension_;
+};
 
 void report(AccurateRun& result, double target) {
   Teuchos::ParameterList& list = result.run.report;
-  for (std::size_t i = 0; i < result.levels.size(); ++i) {
-    const Level& level = result.levels[i];
+  for (std::size_t i = 0; i < result.loop.meshes.size(); ++i) {
+    const MeshResult& mesh = result.loop.meshes[i];
     list.sublist("Levels")
         .sublist("level " + std::to_string(i))
-        .set("Primal Dimension", level.unknowns)
-        .set("Hessian Multiplications", level.multiplications)
-        .set("Relative Error", level.relativeError)
-        .set("Discretisation Error", level.discretisationError)
-        .set("Algebraic Error", level.algebraicError)
-        .set("Seconds", level.seconds);
+        .set("Order", mesh.order)
+        .set("Primal Dimension", mesh.unknowns)
+        .set("Hessian Multiplications", mesh.multiplications)
+        .set("Relative Error", mesh.relative())
+        .set("Discretisation Error", mesh.discretisation)
+        .set("Algebraic Error", mesh.algebraic)
+        .set("Seconds", mesh.seconds);
   }
   list.sublist("Accuracy").set("Target", target);
-  if (result.isMet)
+  if (!result.loop.choice.empty())
+    list.sublist("Accuracy").set("Choice of Order", result.loop.choice);
+  if (result.loop.isMet)
     return;
   std::ostringstream reason;
-  reason << "the estimated error is " << 100 * result.levels.back().relativeError << " %, and "
-         << 100 * target << " % was asked for: " << result.reason;
+  reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, and "
+         << 100 * target << " % was asked for: " << result.loop.reason;
   list.sublist("Status")
       .set("Converged", false)
       .set("Status", std::string("TargetMissed"))
@@ -69,29 +187,25 @@ void report(AccurateRun& result, double target) {
 
 } // namespace
 
-AccurateRun solveToTarget(scene::Scene scene, Teuchos::ParameterList solverParameters,
+AccurateRun solveToTarget(const scene::Scene& scene, Teuchos::ParameterList solverParameters,
                           const AccuracyParameters& accuracy, const RCP<const Comm>& comm,
-                          RunCompanion* companion, const std::function<void(const Level&)>& tell) {
-  if (!solverParameters.isParameter("Tolerance") || solverParameters.getEntry("Tolerance").isDefault())
-    solverParameters.set("Tolerance", std::string("balanced"));
+                          RunCompanion* companion, const std::function<void(const MeshResult&)>& tell) {
+  const bool isLocal = accuracy.refinement == AccuracyParameters::Refinement::local;
+  std::unique_ptr<SceneLevels> levels;
+  if (isLocal)
+    levels = std::make_unique<LocalLevels>(scene, solverParameters, comm, companion);
+  else
+    levels = std::make_unique<EvenLevels>(scene, solverParameters, comm, companion);
   AccurateRun result;
-  while (true) {
-    const double start = Teuchos::Time::wallTime();
-    RunOptions options{.estimatesError = true, .coarser = nullptr, .companion = companion};
-    if (!result.levels.empty())
-      options.coarser = &result.run;
-    SceneRun run = solveScene(scene, solverParameters, comm, options);
-    result.run = std::move(run); // the coarser one is needed no longer
-    result.levels.push_back(levelOf(result.run, maxOverRanks(*comm, Teuchos::Time::wallTime() - start)));
-    if (tell)
-      tell(result.levels.back());
-    result.isMet = result.levels.back().relativeError <= accuracy.target;
-    if (!result.isMet)
-      result.reason = obstacle(result, accuracy);
-    if (result.isMet || !result.reason.empty())
-      break;
-    scene = accuracy::refined(std::move(scene));
-  }
+  result.loop = refineToTarget(*levels,
+                               {.target = accuracy.target,
+                                .maxMeshes = accuracy.maxLevels,
+                                .maxUnknowns = accuracy.maxUnknowns,
+                                .maxSeconds = accuracy.maxSeconds,
+                                .maxBytes = minOverRanks(*comm, accuracy.maxBytes),
+                                .order = isLocal ? accuracy.order : 1},
+                               tell);
+  result.run = std::move(levels->run());
   report(result, accuracy.target);
   return result;
 }

@@ -32,7 +32,9 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   run.started = Teuchos::Time::wallTime();
   run.scene = scene;
   run.solver = std::make_unique<ContactSolver>(solverParameters);
-  run.decomposition = std::make_unique<model::Decomposition>(model::decompose(scene, comm));
+  run.decomposition = std::make_unique<model::Decomposition>(
+      options.bodies == nullptr ? model::decompose(scene, comm)
+                                : model::decompose(scene, std::move(*options.bodies), comm));
   const double assembly = maxOverRanks(*comm, Teuchos::Time::wallTime() - run.started);
   RCP<const Vector> start;
   if (options.companion != nullptr)

@@ -58,6 +58,8 @@ struct RunOptions {
   const SceneRun* coarser =
       nullptr; ///< the same scene on a coarser mesh: its solution is where this run starts
   RunCompanion* companion = nullptr;
+  /// Bodies that are meshed and cut already, which the run takes; null: as the scene says.
+  std::vector<model::BodyLayout>* bodies = nullptr;
 };
 
 /// Decomposes, assembles and solves.

@@ -73,9 +73,9 @@ SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& l
     throw InputError("--restart goes on with the iteration on one mesh, and \"Target\" in list \"Accuracy\" "
                      "asks for a series of "
                      "meshes; set it to 0, and refine the scene's mesh to the one of the checkpoint");
-  const auto tell = [speaks](const Level& level) {
+  const auto tell = [speaks](const accuracy::MeshResult& mesh) {
     if (speaks)
-      std::cout << describe(level) << std::flush;
+      std::cout << describe(mesh) << std::flush;
   };
   return std::move(solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
 }

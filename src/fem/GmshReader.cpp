@@ -60,6 +60,16 @@ struct Gmsh {
   decltype(&gmshModelGetDimension) dimension = Symbol{library, "gmshModelGetDimension"};
   decltype(&gmshModelMeshGenerate) generate = Symbol{library, "gmshModelMeshGenerate"};
   decltype(&gmshModelMeshRefine) refine = Symbol{library, "gmshModelMeshRefine"};
+  decltype(&gmshModelGetEntities) entities = Symbol{library, "gmshModelGetEntities"};
+  decltype(&gmshModelMeshRemoveConstraints) removeConstraints =
+      Symbol{library, "gmshModelMeshRemoveConstraints"};
+  decltype(&gmshViewAdd) addView = Symbol{library, "gmshViewAdd"};
+  decltype(&gmshViewAddListData) addListData = Symbol{library, "gmshViewAddListData"};
+  decltype(&gmshViewGetIndex) indexOfView = Symbol{library, "gmshViewGetIndex"};
+  decltype(&gmshModelMeshFieldAdd) addField = Symbol{library, "gmshModelMeshFieldAdd"};
+  decltype(&gmshModelMeshFieldSetNumber) setFieldNumber = Symbol{library, "gmshModelMeshFieldSetNumber"};
+  decltype(&gmshModelMeshFieldSetAsBackgroundMesh) setBackground =
+      Symbol{library, "gmshModelMeshFieldSetAsBackgroundMesh"};
   decltype(&gmshModelMeshSetOrder) setOrder = Symbol{library, "gmshModelMeshSetOrder"};
   decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
   decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
@@ -122,6 +132,8 @@ public:
   }
   /// Elements that the file does not make itself, split so many times, of an order unless it is 0.
   void mesh(int refinements, int order) const;
+  /// In simplices of given sizes and order 2.
+  void meshWith(const MeshSizes& sizes) const;
   /// Throws InputError if elements of the highest dimension are of a kind that is not known.
   void requireKnown() const;
   /// Saves all there is, whatever the file says of how and what to save.
@@ -162,6 +174,42 @@ void Session::mesh(int refinements, int order) const {
     call(gmsh_.refine);
   if (order > 0)
     call(gmsh_.setOrder, order);
+}
+
+void Session::meshWith(const MeshSizes& sizes) const {
+  GmshArray<int> entities;
+  call(gmsh_.entities, &entities.data, &entities.size, anyEntity);
+  call(gmsh_.removeConstraints, entities.data, entities.size);
+  const auto corners = static_cast<std::size_t>(sizes.dimension) + 1;
+  std::vector<double> list; // x of all corners, y, z, sizes; simplex by simplex
+  for (std::size_t i = 0; i < sizes.corners.size(); i += corners) {
+    for (std::size_t d = 0; d < 3; ++d)
+      for (std::size_t k = 0; k < corners; ++k)
+        list.push_back(sizes.corners[i + k][d]);
+    list.insert(list.end(), sizes.sizes.begin() + static_cast<std::ptrdiff_t>(i),
+                sizes.sizes.begin() + static_cast<std::ptrdiff_t>(i + corners));
+  }
+  int error = 0;
+  constexpr int any = -1;
+  const int view = gmsh_.addView("sizes", any, &error);
+  call(gmsh_.addListData, view, sizes.dimension == 2 ? "ST" : "SS",
+       static_cast<int>(sizes.corners.size() / corners), list.data(), list.size());
+  const int field = gmsh_.addField("PostView", any, &error);
+  call(gmsh_.setFieldNumber, field, "ViewIndex", static_cast<double>(gmsh_.indexOfView(view, &error)));
+  call(gmsh_.setBackground, field);
+  constexpr double hxt = 10, frontal = 6;
+  for (const auto& [name, value] : {std::pair{"Mesh.MeshSizeFactor", 1.0},
+                                    {"Mesh.MeshSizeMin", 0.0},
+                                    {"Mesh.MeshSizeMax", 1e22},
+                                    {"Mesh.MeshSizeExtendFromBoundary", 0.0},
+                                    {"Mesh.MeshSizeFromPoints", 0.0},
+                                    {"Mesh.MeshSizeFromCurvature", 0.0},
+                                    {"Mesh.RecombineAll", 0.0},
+                                    {"Mesh.Algorithm", frontal},
+                                    {"Mesh.Algorithm3D", hxt}})
+    call(gmsh_.setNumber, name, value);
+  call(gmsh_.generate, sizes.dimension);
+  call(gmsh_.setOrder, 2);
 }
 
 void Session::requireKnown() const {
@@ -247,6 +295,16 @@ std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refin
 }
 
 } // namespace
+
+std::string textOfGeometry(const std::string& file, double meshSizeFactor, const MeshSizes& sizes) {
+  checkFile(file);
+  const TemporaryFolder folder;
+  const Session session(file);
+  session.open(meshSizeFactor);
+  session.meshWith(sizes);
+  session.save(folder.file());
+  return textOf(folder.file(), file);
+}
 
 std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements, int order) {
   checkFile(file);

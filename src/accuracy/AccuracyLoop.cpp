@@ -1,0 +1,100 @@
+#include "epafi/accuracy/AccuracyLoop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace epafi::accuracy {
+namespace {
+
+/// Of the target: what the mesh may use of it. The rest is the iteration's, and the estimate's own.
+constexpr double meshShare = 0.85;
+
+/// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d).
+double unknownsOfOrderOne(const MeshResult& result, int dimension, double target) {
+  return static_cast<double>(result.unknowns) * std::pow(result.relative() / target, dimension);
+}
+
+/// Unknowns that order 2 has on a mesh of order 1: in the plane three edges, in space seven a corner.
+double unknownsOfOrderTwo(const MeshResult& result, int dimension) {
+  return static_cast<double>(result.unknowns) * (dimension == 2 ? 4 : 8);
+}
+
+/// Why the next mesh is not made; empty if it is.
+std::string obstacle(const std::vector<MeshResult>& meshes, double growth, const LoopGoal& goal) {
+  const MeshResult& last = meshes.back();
+  std::ostringstream text;
+  text.precision(3);
+  const double next = growth * static_cast<double>(last.unknowns);
+  double seconds = 0;
+  for (const MeshResult& mesh : meshes)
+    seconds += mesh.seconds;
+  if (!last.failure.empty())
+    text << "the iteration did not reach its tolerance on a mesh: " << last.failure;
+  else if (static_cast<int>(meshes.size()) >= goal.maxMeshes)
+    text << "no more than " << goal.maxMeshes << " meshes are allowed";
+  else if (next > goal.maxUnknowns)
+    text << "the next mesh would have some " << next << " unknowns, and " << goal.maxUnknowns
+         << " are allowed";
+  else if (seconds + growth * last.seconds > goal.maxSeconds)
+    text << "the next mesh would take some " << growth * last.seconds << " s after the " << seconds
+         << " s that the others took, and " << goal.maxSeconds << " s are allowed";
+  else if (growth * last.bytes > goal.maxBytes)
+    text << "the next mesh would take some " << growth * last.bytes / 1e9 << " GB of memory, and "
+         << goal.maxBytes / 1e9 << " GB are allowed";
+  return text.str();
+}
+
+} // namespace
+
+double MeshResult::relative() const {
+  const double absolute = std::hypot(discretisation, std::isfinite(algebraic) ? algebraic : 0);
+  const double whole = std::hypot(energyNorm, absolute);
+  return whole > 0 ? absolute / whole : 0;
+}
+
+LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
+                          const std::function<void(const MeshResult&)>& tell) {
+  LoopResult result;
+  const int dimension = problem.dimension();
+  const auto solve = [&](int order) -> const MeshResult& {
+    result.meshes.push_back(problem.solve(order));
+    if (tell)
+      tell(result.meshes.back());
+    result.isMet = result.meshes.back().failure.empty() && result.meshes.back().relative() <= goal.target;
+    return result.meshes.back();
+  };
+  int order = goal.order == 0 ? 1 : goal.order;
+  const MeshResult* last = &solve(order);
+  if (goal.order == 0 && last->failure.empty()) {
+    const double one = unknownsOfOrderOne(*last, dimension, goal.target),
+                 two = unknownsOfOrderTwo(*last, dimension);
+    std::ostringstream text;
+    text.precision(2);
+    if (result.isMet)
+      text << "elements of order 1 on the first mesh make no more error than is allowed";
+    else if (one <= two)
+      text << "order 1 needs some " << one << " unknowns for it, order 2 " << two << " on the first mesh";
+    else
+      text << "order 1 would need some " << one << " unknowns";
+    result.choice = text.str();
+    if (!result.isMet && one > two) {
+      order = 2;
+      last = &solve(order);
+    }
+  }
+  while (!result.isMet) {
+    const double norm = std::hypot(last->energyNorm, last->discretisation);
+    const WantedSizes wanted = problem.plan(
+        *last, {.dimension = dimension, .order = last->order, .error = meshShare * goal.target * norm});
+    result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
+    if (!result.reason.empty())
+      break;
+    problem.refine(wanted);
+    result.meshes.back().squaredErrors = {};
+    last = &solve(order);
+  }
+  return result;
+}
+
+} // namespace epafi::accuracy

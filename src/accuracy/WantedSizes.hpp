@@ -1,0 +1,30 @@
+#pragma once
+
+/// How small elements should be, from the error that each makes: the mesh that reaches an error with the fewest elements.
+///
+/// An element with the squared error η², cut into n parts, keeps η² n^(−2p/d): order p, dimension d. Of all meshes with the
+/// same error the one with n ~ (η²)^(d/(d+2p)) has the fewest elements (Lagrange). Elements whose n would be below one stay as
+/// they are: what is marked is the bulk of the error.
+
+#include <span>
+#include <vector>
+
+namespace epafi::accuracy {
+
+struct RefinementGoal {
+  int dimension = 2, order = 2;
+  double error = 0;        ///< discretisation error that is wanted, in the energy norm
+  double growth = 8;       ///< of the number of elements, at most; if the goal is farther, equal factors lead there
+  double coarsening = 0;   ///< halvings that elements may lose, where meshes can get coarser
+  double mostHalvings = 3; ///< that they may gain: an estimate on a coarse mesh sees no farther
+};
+
+struct WantedSizes {
+  std::vector<double> halvings; ///< of each element's edges
+  double growth = 1;            ///< of the number of elements, expected
+};
+
+/// \param squaredErrors  η² of each element, not negative. O(n). Not collective: the same everywhere.
+WantedSizes wantedSizes(std::span<const double> squaredErrors, const RefinementGoal& goal);
+
+} // namespace epafi::accuracy

@@ -1,0 +1,170 @@
+#include "epafi/model/RefinableMeshes.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/fem/GmshReader.hpp"
+#include "epafi/fem/MeshOrder.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/model/FirstGrid.hpp"
+#include "epafi/model/MeshFiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace epafi::model {
+namespace {
+
+using fem::SimplexMesh;
+
+std::size_t index(GlobalOrdinal number) {
+  return static_cast<std::size_t>(number);
+}
+
+/// Unknowns of a subdomain: dense enough for its factor to be fast, few enough for all factors to be cheap.
+constexpr double unknownsPerPart(int dimension) {
+  return dimension == 2 ? 4000 : 6000;
+}
+
+/// Nodes of a mesh of order 2 by its corners, about: with every edge one more.
+double numNodes(const SimplexMesh& mesh, int order) {
+  const auto corners = static_cast<double>(mesh.points.size());
+  if (order == 1)
+    return corners;
+  return mesh.dimension == 2 ? corners + 1.5 * static_cast<double>(mesh.elements.size())
+                             : 2 * corners + static_cast<double>(mesh.elements.size());
+}
+
+/// Mean length of an element's edges.
+double sizeOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
+  double sum = 0;
+  int number = 0;
+  for (int i = 1; i <= mesh.dimension; ++i)
+    for (int j = 0; j < i; ++j, ++number) {
+      const fem::Point &a = mesh.points[index(element.corners[index(i)])],
+                       &b = mesh.points[index(element.corners[index(j)])];
+      sum += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    }
+  return sum / number;
+}
+
+/// Adds the sizes that are wanted in a body: at nodes the (geometric) means of the elements around.
+void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, fem::MeshSizes& sizes) {
+  std::vector<double> sum(mesh.points.size(), 0), number(mesh.points.size(), 0);
+  const auto count = index(mesh.dimension) + 1;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const double wanted = std::log2(sizeOf(mesh, mesh.elements[e])) - halvings[e];
+    for (std::size_t i = 0; i < count; ++i) {
+      sum[index(mesh.elements[e].corners[i])] += wanted;
+      ++number[index(mesh.elements[e].corners[i])];
+    }
+  }
+  constexpr double steps = 16; // a halving: what differs in round-off gives the same mesh
+  for (const SimplexMesh::Element& element : mesh.elements)
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t node = index(element.corners[i]);
+      sizes.corners.push_back(mesh.points[node]);
+      sizes.sizes.push_back(std::exp2(std::round(steps * sum[node] / number[node]) / steps));
+    }
+}
+
+} // namespace
+
+RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : scene_(scene) {
+  const bool hasFiles = std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                                    [](const scene::Body& body) { return !body.mesh.file.empty(); });
+  scene::Scene uncut(scene_);
+  for (scene::Body& body : uncut.bodies) {
+    body.decomposition = {scene::Decomposition::Method::metis, {1, 1, 1}, 1};
+    if (body.mesh.file.ends_with(".geo"))
+      body.mesh.order = 2; // on the geometry; nodes on edges can be left out
+  }
+  std::vector<BodyLayout> bodies;
+  if (hasFiles)
+    bodies = layoutBodies(uncut, comm);
+  collectively(comm, [&] {
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+      meshes_.push_back(scene_.bodies[b].mesh.file.empty() ? firstGrid(scene_, b)
+                                                           : simplicesOf(*bodies[b].mesh));
+  });
+}
+
+bool RefinableMeshes::isGeometry(std::size_t body) const {
+  return scene_.bodies[body].mesh.file.ends_with(".geo");
+}
+
+scene::Scene RefinableMeshes::scene(int order) const {
+  scene::Scene scene(scene_);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    scene::Body& body = scene.bodies[b];
+    const double unknowns = componentsOf(body.physics) * numNodes(meshes_[b], order);
+    body.mesh.order = order;
+    body.decomposition.method = scene::Decomposition::Method::metis;
+    body.decomposition.parts =
+        std::max(1, static_cast<int>(std::ceil(unknowns / unknownsPerPart(dimensionOf(body.physics)))));
+  }
+  return scene;
+}
+
+std::vector<BodyLayout> RefinableMeshes::layout(const scene::Scene& scene, const Comm& comm) const {
+  std::vector<std::unique_ptr<const fem::Mesh>> meshes;
+  collectively(comm, [&] {
+    for (std::size_t b = 0; b < meshes_.size(); ++b)
+      meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(
+          arraysOf(meshes_[b], scene.bodies[b].mesh.order)));
+  });
+  return cutBodies(scene, std::move(meshes), comm);
+}
+
+void RefinableMeshes::refine(std::span<const std::vector<double>> halvings, const Comm& comm) {
+  remesh(halvings, comm);
+  collectively(comm, [&] {
+    for (std::size_t b = 0; b < meshes_.size(); ++b) {
+      if (isGeometry(b))
+        continue;
+      std::vector<int> times;
+      for (const double halving : halvings[b])
+        times.push_back(std::max(0, static_cast<int>(std::lround(meshes_[b].dimension * halving))));
+      bisect(meshes_[b], std::move(times));
+    }
+  });
+}
+
+/// Each geometry once, with the sizes of all its bodies.
+void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings, const Comm& comm) {
+  std::set<std::pair<std::string, double>> geometries;
+  for (std::size_t b = 0; b < meshes_.size(); ++b)
+    if (isGeometry(b))
+      geometries.insert({scene_.bodies[b].mesh.file, scene_.bodies[b].mesh.sizeFactor});
+  for (const auto& [file, factor] : geometries) {
+    std::vector<std::size_t> bodies;
+    fem::MeshSizes sizes;
+    for (std::size_t b = 0; b < meshes_.size(); ++b)
+      if (scene_.bodies[b].mesh.file == file && scene_.bodies[b].mesh.sizeFactor == factor)
+        bodies.push_back(b);
+    collectively(comm, [&] {
+      for (const std::size_t b : bodies) {
+        sizes.dimension = meshes_[b].dimension;
+        addSizes(meshes_[b], halvings[b], sizes);
+      }
+    });
+    const auto makeText = [&, name = file, scale = factor] {
+      return fem::textOfGeometry(name, scale, sizes);
+    };
+    const fem::GmshFile mesh = meshOnAllRanks(file, makeText, comm);
+    collectively(comm, [&] {
+      for (const std::size_t b : bodies)
+        meshes_[b] = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
+    });
+  }
+}
+
+GlobalOrdinal RefinableMeshes::numCorners() const {
+  GlobalOrdinal sum = 0;
+  for (const SimplexMesh& mesh : meshes_)
+    sum += static_cast<GlobalOrdinal>(mesh.points.size());
+  return sum;
+}
+
+} // namespace epafi::model

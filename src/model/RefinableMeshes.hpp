@@ -1,0 +1,46 @@
+#pragma once
+
+/// The meshes of a scene as they are refined where it matters: triangles and tetrahedra on all ranks alike.
+///
+/// What is on a rectangle or box, or comes from a mesh file, is bisected; a geometry (.geo) is meshed anew by Gmsh, with the
+/// sizes that are wanted, so that new nodes lie on it. Surfaces and groups are those of the scene.
+
+#include "epafi/base/Types.hpp"
+#include "epafi/fem/SimplexMesh.hpp"
+#include "epafi/model/BodyLayout.hpp"
+#include "epafi/scene/Scene.hpp"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace epafi::model {
+
+class RefinableMeshes {
+public:
+  /// The first meshes: see firstGrid() for bodies without a mesh file; of the others the scene's own.
+  /// Collective. \throws InputError, the same on all ranks, if a file cannot be read or meshed.
+  RefinableMeshes(const scene::Scene& scene, const Comm& comm);
+
+  /// The scene with bodies that are cut into as many parts as such meshes want, and whose elements have an order.
+  [[nodiscard]] scene::Scene scene(int order) const;
+  /// Its bodies. Elements are numbered as in `halvings` below. Collective. \throws InputError
+  [[nodiscard]] std::vector<BodyLayout> layout(const scene::Scene& scene, const Comm& comm) const;
+
+  /// \param halvings  of each body, of each element: how often its edges should be halved; of geometries also negative, as they
+  ///                  may get coarser; the same on all ranks
+  /// Collective. \throws InputError if Gmsh cannot mesh a geometry that finely.
+  void refine(std::span<const std::vector<double>> halvings, const Comm& comm);
+
+  /// Corners of all elements' edges: nodes of order 1.
+  [[nodiscard]] GlobalOrdinal numCorners() const;
+
+private:
+  [[nodiscard]] bool isGeometry(std::size_t body) const;
+  void remesh(std::span<const std::vector<double>> halvings, const Comm& comm);
+
+  scene::Scene scene_;
+  std::vector<fem::SimplexMesh> meshes_; ///< of each body
+};
+
+} // namespace epafi::model
