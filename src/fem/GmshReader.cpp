@@ -63,13 +63,8 @@ struct Gmsh {
   decltype(&gmshModelGetEntities) entities = Symbol{library, "gmshModelGetEntities"};
   decltype(&gmshModelMeshRemoveConstraints) removeConstraints =
       Symbol{library, "gmshModelMeshRemoveConstraints"};
-  decltype(&gmshViewAdd) addView = Symbol{library, "gmshViewAdd"};
-  decltype(&gmshViewAddListData) addListData = Symbol{library, "gmshViewAddListData"};
-  decltype(&gmshViewGetIndex) indexOfView = Symbol{library, "gmshViewGetIndex"};
-  decltype(&gmshModelMeshFieldAdd) addField = Symbol{library, "gmshModelMeshFieldAdd"};
-  decltype(&gmshModelMeshFieldSetNumber) setFieldNumber = Symbol{library, "gmshModelMeshFieldSetNumber"};
-  decltype(&gmshModelMeshFieldSetAsBackgroundMesh) setBackground =
-      Symbol{library, "gmshModelMeshFieldSetAsBackgroundMesh"};
+  decltype(&gmshModelMeshSetSizeCallback) setSizeCallback =
+      Symbol{library, "gmshModelMeshSetSizeCallback"};
   decltype(&gmshModelMeshSetOrder) setOrder = Symbol{library, "gmshModelMeshSetOrder"};
   decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
   decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
@@ -79,6 +74,20 @@ struct Gmsh {
     return functions;
   }
 };
+
+/// The sizes of a field where Gmsh asks for them. Gmsh 4.9 and later say what they would take themselves.
+template <class SetCallback>
+void setSizes(SetCallback set, const SizeField& sizes, int* error) {
+  void* data = const_cast<SizeField*>(&sizes); // NOLINT: it comes back as what it is
+  if constexpr (std::is_invocable_v<SetCallback, double (*)(int, int, double, double, double, void*), void*, int*>)
+    set([](int, int, double x, double y, double z,
+           void* field) { return static_cast<const SizeField*>(field)->at({x, y, z}); },
+        data, error);
+  else
+    set([](int, int, double x, double y, double z, double,
+           void* field) { return static_cast<const SizeField*>(field)->at({x, y, z}); },
+        data, error);
+}
 
 /// An array that Gmsh allocated, given back at the end.
 template <class T>
@@ -133,7 +142,7 @@ public:
   /// Elements that the file does not make itself, split so many times, of an order unless it is 0.
   void mesh(int refinements, int order) const;
   /// In simplices of given sizes and order 2.
-  void meshWith(const MeshSizes& sizes) const;
+  void meshWith(const SizeField& sizes) const;
   /// Throws InputError if elements of the highest dimension are of a kind that is not known.
   void requireKnown() const;
   /// Saves all there is, whatever the file says of how and what to save.
@@ -176,27 +185,13 @@ void Session::mesh(int refinements, int order) const {
     call(gmsh_.setOrder, order);
 }
 
-void Session::meshWith(const MeshSizes& sizes) const {
+void Session::meshWith(const SizeField& sizes) const {
   GmshArray<int> entities;
   call(gmsh_.entities, &entities.data, &entities.size, anyEntity);
   call(gmsh_.removeConstraints, entities.data, entities.size);
-  const auto corners = static_cast<std::size_t>(sizes.dimension) + 1;
-  std::vector<double> list; // x of all corners, y, z, sizes; simplex by simplex
-  for (std::size_t i = 0; i < sizes.corners.size(); i += corners) {
-    for (std::size_t d = 0; d < 3; ++d)
-      for (std::size_t k = 0; k < corners; ++k)
-        list.push_back(sizes.corners[i + k][d]);
-    list.insert(list.end(), sizes.sizes.begin() + static_cast<std::ptrdiff_t>(i),
-                sizes.sizes.begin() + static_cast<std::ptrdiff_t>(i + corners));
-  }
   int error = 0;
-  constexpr int any = -1;
-  const int view = gmsh_.addView("sizes", any, &error);
-  call(gmsh_.addListData, view, sizes.dimension == 2 ? "ST" : "SS",
-       static_cast<int>(sizes.corners.size() / corners), list.data(), list.size());
-  const int field = gmsh_.addField("PostView", any, &error);
-  call(gmsh_.setFieldNumber, field, "ViewIndex", static_cast<double>(gmsh_.indexOfView(view, &error)));
-  call(gmsh_.setBackground, field);
+  const int dimension = gmsh_.dimension(&error);
+  call([&](auto* failed) { setSizes(gmsh_.setSizeCallback, sizes, failed); });
   constexpr double hxt = 10, frontal = 6;
   for (const auto& [name, value] : {std::pair{"Mesh.MeshSizeFactor", 1.0},
                                     {"Mesh.MeshSizeMin", 0.0},
@@ -208,7 +203,7 @@ void Session::meshWith(const MeshSizes& sizes) const {
                                     {"Mesh.Algorithm", frontal},
                                     {"Mesh.Algorithm3D", hxt}})
     call(gmsh_.setNumber, name, value);
-  call(gmsh_.generate, sizes.dimension);
+  call(gmsh_.generate, dimension);
   call(gmsh_.setOrder, 2);
 }
 
@@ -296,7 +291,7 @@ std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refin
 
 } // namespace
 
-std::string textOfGeometry(const std::string& file, double meshSizeFactor, const MeshSizes& sizes) {
+std::string textOfGeometry(const std::string& file, double meshSizeFactor, const SizeField& sizes) {
   checkFile(file);
   const TemporaryFolder folder;
   const Session session(file);

@@ -5,20 +5,11 @@
 /// Gmsh's library is loaded when first used: it brings some eighty other libraries along, which a program without
 /// geometries need not wait for. It saves into a folder of its own under TMPDIR (else /tmp), which is removed at once.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/fem/SizeField.hpp"
 
-#include <span>
 #include <string>
-#include <vector>
 
 namespace epafi::fem {
-
-/// How long the edges of a mesh are to be, at the corners of some triangles (in the plane) or tetrahedra, linear between them.
-struct MeshSizes {
-  int dimension = 2;
-  std::vector<Point> corners; ///< dimension + 1 of each simplex
-  std::vector<double> sizes;  ///< at each of them
-};
 
 /// Text that readMsh() takes. A .geo is meshed unless it makes elements itself. Throws InputError if there is no such file, it
 /// cannot be read, Gmsh refuses it or makes elements of it that are of order 3 or more; Error if Gmsh is needed and cannot be loaded, or
@@ -35,6 +26,6 @@ std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, i
 
 /// Of a geometry, meshed anew in triangles or tetrahedra of order 2: with these sizes, whatever it says of sizes, layers, rows
 /// and quadrilaterals. The same otherwise. \param meshSizeFactor  that the geometry can read
-std::string textOfGeometry(const std::string& file, double meshSizeFactor, const MeshSizes& sizes);
+std::string textOfGeometry(const std::string& file, double meshSizeFactor, const SizeField& sizes);
 
 } // namespace epafi::fem

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace epafi::model {
@@ -50,11 +49,12 @@ double sizeOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
 }
 
 /// Adds the sizes that are wanted in a body: at nodes the (geometric) means of the elements around.
-void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, fem::MeshSizes& sizes) {
+void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, double stretch,
+              fem::MeshSizes& sizes) {
   std::vector<double> sum(mesh.points.size(), 0), number(mesh.points.size(), 0);
   const auto count = index(mesh.dimension) + 1;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const double wanted = std::log2(sizeOf(mesh, mesh.elements[e])) - halvings[e];
+    const double wanted = std::log2(sizeOf(mesh, mesh.elements[e]) / stretch) - halvings[e];
     for (std::size_t i = 0; i < count; ++i) {
       sum[index(mesh.elements[e].corners[i])] += wanted;
       ++number[index(mesh.elements[e].corners[i])];
@@ -133,30 +133,31 @@ void RefinableMeshes::refine(std::span<const std::vector<double>> halvings, cons
 
 /// Each geometry once, with the sizes of all its bodies.
 void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings, const Comm& comm) {
-  std::set<std::pair<std::string, double>> geometries;
+  std::map<std::pair<std::string, double>, std::vector<std::size_t>> geometries; // and their bodies
   for (std::size_t b = 0; b < meshes_.size(); ++b)
     if (isGeometry(b))
-      geometries.insert({scene_.bodies[b].mesh.file, scene_.bodies[b].mesh.sizeFactor});
-  for (const auto& [file, factor] : geometries) {
-    std::vector<std::size_t> bodies;
-    fem::MeshSizes sizes;
-    for (std::size_t b = 0; b < meshes_.size(); ++b)
-      if (scene_.bodies[b].mesh.file == file && scene_.bodies[b].mesh.sizeFactor == factor)
-        bodies.push_back(b);
+      geometries[{scene_.bodies[b].mesh.file, scene_.bodies[b].mesh.sizeFactor}].push_back(b);
+  for (const auto& [geometry, bodies] : geometries) {
+    const int dimension = meshes_[bodies.front()].dimension;
+    double& stretch = stretch_.try_emplace(geometry, dimension == 2 ? 1.05 : 1.25).first->second;
+    fem::MeshSizes sizes{dimension, {}, {}};
+    double wanted = 0, made = 0; // elements
+    for (const std::size_t b : bodies) {
+      addSizes(meshes_[b], halvings[b], stretch, sizes);
+      for (const double halving : halvings[b])
+        wanted += std::exp2(dimension * halving);
+    }
+    const auto makeText = [&, &name = geometry.first, factor = geometry.second] {
+      return fem::textOfGeometry(name, factor, fem::SizeField(std::move(sizes)));
+    };
+    const fem::GmshFile mesh = meshOnAllRanks(geometry.first, makeText, comm);
     collectively(comm, [&] {
       for (const std::size_t b : bodies) {
-        sizes.dimension = meshes_[b].dimension;
-        addSizes(meshes_[b], halvings[b], sizes);
+        meshes_[b] = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
+        made += static_cast<double>(meshes_[b].elements.size());
       }
     });
-    const auto makeText = [&, name = file, scale = factor] {
-      return fem::textOfGeometry(name, scale, sizes);
-    };
-    const fem::GmshFile mesh = meshOnAllRanks(file, makeText, comm);
-    collectively(comm, [&] {
-      for (const std::size_t b : bodies)
-        meshes_[b] = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
-    });
+    stretch *= std::clamp(std::pow(wanted / made, 1.0 / dimension), 0.7, 1.4);
   }
 }
 

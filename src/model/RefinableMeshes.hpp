@@ -10,8 +10,11 @@
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
 
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace epafi::model {
@@ -41,6 +44,8 @@ private:
 
   scene::Scene scene_;
   std::vector<fem::SimplexMesh> meshes_; ///< of each body
+  /// By geometry: edges that Gmsh makes, on average, in units of the size it is asked for; measured mesh by mesh.
+  std::map<std::pair<std::string, double>, double> stretch_;
 };
 
 } // namespace epafi::model
