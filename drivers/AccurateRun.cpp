@@ -4,7 +4,7 @@
 
 #include "epafi/accuracy/Refinement.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/model/RefinableMeshes.hpp"
+#include "epafi/accuracy/RefinableMeshes.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
@@ -72,7 +72,7 @@ public:
 protected:
   /// The scene with an order, and its bodies unless it has them itself.
   virtual scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) = 0;
-  virtual std::vector<double> errorsOf(const SceneRun& run) = 0;
+  virtual accuracy::ElementErrors elementsOf(const SceneRun& run) = 0;
   [[nodiscard]] const Comm& comm() const { return *comm_; }
 
 private:
@@ -91,7 +91,7 @@ private:
     result.bytes = sumOverRanks(*comm_, peakBytes());
     if (run.solver->report().status != qp::Status::converged)
       result.failure = run.solver->report().reason;
-    result.squaredErrors = errorsOf(run);
+    result.elements = elementsOf(run);
     return result;
   }
 
@@ -114,11 +114,14 @@ public:
   [[nodiscard]] WantedSizes plan(const MeshResult& /*result*/, const RefinementGoal& goal) const override {
     return {{}, std::exp2(goal.dimension)};
   }
-  void refine(const WantedSizes& /*wanted*/) override { scene_ = accuracy::refined(std::move(scene_)); }
+  std::vector<LocalOrdinal> refine(const WantedSizes& /*wanted*/) override {
+    scene_ = accuracy::refined(std::move(scene_));
+    return {};
+  }
 
 protected:
   scene::Scene prepare(int /*order*/, std::vector<model::BodyLayout>& /*bodies*/) override { return scene_; }
-  std::vector<double> errorsOf(const SceneRun& /*run*/) override { return {}; }
+  accuracy::ElementErrors elementsOf(const SceneRun& /*run*/) override { return {}; }
 
 private:
   scene::Scene scene_;
@@ -133,7 +136,7 @@ public:
         dimension_(dimensionOf(scene.bodies.front().physics)) {}
 
   [[nodiscard]] int dimension() const override { return dimension_; }
-  void refine(const WantedSizes& wanted) override {
+  std::vector<LocalOrdinal> refine(const WantedSizes& wanted) override {
     std::vector<std::vector<double>> halvings;
     auto next = wanted.halvings.begin();
     for (const model::BodyLayout& body : run().decomposition->bodies) {
@@ -141,7 +144,15 @@ public:
       halvings.emplace_back(next, end);
       next = end;
     }
-    meshes_.refine(halvings, comm());
+    std::vector<LocalOrdinal> ancestors;
+    LocalOrdinal first = 0;
+    const auto ofBodies = meshes_.refine(halvings, comm());
+    for (std::size_t b = 0; b < ofBodies.size(); ++b) {
+      for (const LocalOrdinal ancestor : ofBodies[b])
+        ancestors.push_back(first + ancestor);
+      first += static_cast<LocalOrdinal>(halvings[b].size());
+    }
+    return ancestors;
   }
 
 protected:
@@ -150,10 +161,15 @@ protected:
     bodies = meshes_.layout(scene, comm());
     return scene;
   }
-  std::vector<double> errorsOf(const SceneRun& run) override { return allErrors(run); }
+  accuracy::ElementErrors elementsOf(const SceneRun& run) override {
+    accuracy::ElementErrors elements{allErrors(run), {}, {}};
+    for (const std::vector<double>& own : meshes_.measures())
+      elements.measures.insert(elements.measures.end(), own.begin(), own.end());
+    return elements;
+  }
 
 private:
-  model::RefinableMeshes meshes_;
+  accuracy::RefinableMeshes meshes_;
   int dimension_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace epafi::accuracy {
 namespace {
@@ -57,8 +58,18 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
                           const std::function<void(const MeshResult&)>& tell) {
   LoopResult result;
   const int dimension = problem.dimension();
+  std::vector<LocalOrdinal> ancestors;
   const auto solve = [&](int order) -> const MeshResult& {
-    result.meshes.push_back(problem.solve(order));
+    MeshResult next = problem.solve(order);
+    ElementErrors& elements = next.elements;
+    if (!ancestors.empty())
+      elements.orders = localOrders(result.meshes.back().elements, ancestors, elements.squared,
+                                    elements.measures, dimension, next.order);
+    else
+      elements.orders.assign(elements.squared.size(), next.order);
+    if (!result.meshes.empty())
+      result.meshes.back().elements = {};
+    result.meshes.push_back(std::move(next));
     if (tell)
       tell(result.meshes.back());
     result.isMet = result.meshes.back().failure.empty() && result.meshes.back().relative() <= goal.target;
@@ -86,12 +97,11 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
   while (!result.isMet) {
     const double norm = std::hypot(last->energyNorm, last->discretisation);
     const WantedSizes wanted = problem.plan(
-        *last, {.dimension = dimension, .order = last->order, .error = meshShare * goal.target * norm});
+        *last, {.dimension = dimension, .error = meshShare * goal.target * norm});
     result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
     if (!result.reason.empty())
       break;
-    problem.refine(wanted);
-    result.meshes.back().squaredErrors = {};
+    ancestors = problem.refine(wanted);
     last = &solve(order);
   }
   return result;

@@ -8,6 +8,7 @@
 ///     if (!result.isMet)
 ///       std::cerr << result.reason;
 
+#include "epafi/accuracy/LocalOrders.hpp"
 #include "epafi/accuracy/WantedSizes.hpp"
 #include "epafi/base/Types.hpp"
 
@@ -29,7 +30,7 @@ struct MeshResult {
   double seconds = 0;           ///< all that this mesh took, its making included
   double bytes = 0;             ///< most that all ranks together held so far; 0: not known
   std::string failure;          ///< why the iteration did not reach its tolerance; empty if it did
-  std::vector<double> squaredErrors; ///< estimated, of every element of all bodies; may be emptied after refine()
+  ElementErrors elements;       ///< of all bodies; the loop finds their orders, and keeps those of the last mesh alone
 
   /// Both errors, relative to the energy norm of the exact solution.
   [[nodiscard]] double relative() const;
@@ -44,10 +45,11 @@ public:
   virtual MeshResult solve(int order) = 0;
   /// What refine() is to do. Not collective.
   [[nodiscard]] virtual WantedSizes plan(const MeshResult& result, const RefinementGoal& goal) const {
-    return wantedSizes(result.squaredErrors, goal);
+    return wantedSizes(result.elements.squared, result.elements.orders, goal);
   }
-  /// Makes the next mesh: elements in the order of squaredErrors, parts of a halving rounded as suits. Collective.
-  virtual void refine(const WantedSizes& wanted) = 0;
+  /// Makes the next mesh: elements in the order of `MeshResult::elements`, parts of a halving rounded as suits. Returns for each
+  /// new element the old one that it, or its centre, lies in; nothing if sizes are the same everywhere. Collective.
+  virtual std::vector<LocalOrdinal> refine(const WantedSizes& wanted) = 0;
 };
 
 /// Where to stop.

@@ -7,60 +7,62 @@
 namespace epafi::accuracy {
 namespace {
 
-/// The family of meshes that are best for some error, from coarse to fine: log₂ of parts an element is clamped `level` + log₂ n.
+/// The family of meshes that are best for some error, from coarse to fine.
 class BestMeshes {
 public:
-  BestMeshes(std::span<const double> squaredErrors, const RefinementGoal& goal)
-      : errors_(squaredErrors), dimension_(goal.dimension), decay_(2.0 * goal.order / goal.dimension),
-        least_(-goal.dimension * goal.coarsening), most_(goal.dimension * goal.mostHalvings) {
-    for (const double error : errors_)
-      parts_.push_back(error > 0 ? std::log2(error) / (1 + decay_) : -1e300);
+  BestMeshes(std::span<const double> squaredErrors, std::span<const double> orders, const RefinementGoal& goal)
+      : errors_(squaredErrors), least_(-goal.dimension * goal.coarsening),
+        most_(goal.dimension * goal.mostHalvings) {
+    for (std::size_t e = 0; e < errors_.size(); ++e) {
+      decay_.push_back(2 * orders[e] / goal.dimension);
+      weight_.push_back(errors_[e] > 0 ? std::log2(decay_[e] * errors_[e]) : -1e300);
+    }
   }
 
+  /// log₂ n of an element; `level` is that of the multiplier.
   [[nodiscard]] double parts(std::size_t element, double level) const {
-    return std::clamp(level + parts_[element], least_, most_);
+    return std::clamp((level + weight_[element]) / (1 + decay_[element]), least_, most_);
   }
   [[nodiscard]] double elements(double level) const {
     double sum = 0;
-    for (std::size_t e = 0; e < parts_.size(); ++e)
+    for (std::size_t e = 0; e < errors_.size(); ++e)
       sum += std::exp2(parts(e, level));
     return sum;
   }
   [[nodiscard]] double squaredError(double level) const {
     double sum = 0;
-    for (std::size_t e = 0; e < parts_.size(); ++e)
-      sum += errors_[e] * std::exp2(-decay_ * parts(e, level));
+    for (std::size_t e = 0; e < errors_.size(); ++e)
+      sum += errors_[e] * std::exp2(-decay_[e] * parts(e, level));
     return sum;
   }
   /// The coarsest level at which something holds that holds at all finer ones.
   template <class Property>
   [[nodiscard]] double first(const Property& holds) const {
-    const double top = *std::max_element(parts_.begin(), parts_.end());
-    double low = -top + least_, high = low + 200;
-    for (int i = 0; i < 50; ++i) {
+    const double top = *std::max_element(weight_.begin(), weight_.end());
+    double low = -top + 10 * least_, high = low + 400;
+    for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
       (holds(middle) ? high : low) = middle;
     }
     return high;
   }
-  [[nodiscard]] int dimension() const { return dimension_; }
 
 private:
   std::span<const double> errors_;
-  int dimension_;
-  double decay_, least_, most_;
-  std::vector<double> parts_; ///< log₂ of a level's parts but for the level
+  double least_, most_;
+  std::vector<double> decay_, weight_; ///< 2q/d, log₂(2q/d η²)
 };
 
 } // namespace
 
-WantedSizes wantedSizes(std::span<const double> squaredErrors, const RefinementGoal& goal) {
+WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const double> orders,
+                        const RefinementGoal& goal) {
   WantedSizes wanted;
   wanted.halvings.assign(squaredErrors.size(), 0);
   const auto number = static_cast<double>(squaredErrors.size());
   if (!(std::accumulate(squaredErrors.begin(), squaredErrors.end(), 0.0) > goal.error * goal.error))
     return wanted;
-  const BestMeshes meshes(squaredErrors, goal);
+  const BestMeshes meshes(squaredErrors, orders, goal);
   double level =
       meshes.first([&](double l) { return meshes.squaredError(l) <= goal.error * goal.error; });
   const double whole = meshes.elements(level) / number;

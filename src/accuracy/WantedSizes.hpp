@@ -2,9 +2,10 @@
 
 /// How small elements should be, from the error that each makes: the mesh that reaches an error with the fewest elements.
 ///
-/// An element with the squared error η², cut into n parts, keeps η² n^(−2p/d): order p, dimension d. Of all meshes with the
-/// same error the one with n ~ (η²)^(d/(d+2p)) has the fewest elements (Lagrange). Elements whose n would be below one stay as
-/// they are: what is marked is the bulk of the error.
+/// An element with the squared error η², cut into n parts, keeps η² n^(−2q/d): dimension d, and q the order at which the error
+/// falls there, that of the elements where the solution is smooth, less near edges and rims (LocalOrders.hpp). Of all meshes with the same
+/// error the one with n ~ (q η²)^(d/(d+2q)) has the fewest elements (Lagrange). Elements whose n would be below one stay as they
+/// are: what is marked is the bulk of the error.
 
 #include <span>
 #include <vector>
@@ -12,7 +13,7 @@
 namespace epafi::accuracy {
 
 struct RefinementGoal {
-  int dimension = 2, order = 2;
+  int dimension = 2;
   double error = 0;        ///< discretisation error that is wanted, in the energy norm
   double growth = 8;       ///< of the number of elements, at most; if the goal is farther, equal factors lead there
   double coarsening = 0;   ///< halvings that elements may lose, where meshes can get coarser
@@ -24,7 +25,9 @@ struct WantedSizes {
   double growth = 1;            ///< of the number of elements, expected
 };
 
-/// \param squaredErrors  η² of each element, not negative. O(n). Not collective: the same everywhere.
-WantedSizes wantedSizes(std::span<const double> squaredErrors, const RefinementGoal& goal);
+/// \param squaredErrors  η² of each element, not negative  \param orders  q of each, > 0
+/// O(n). Not collective: the same everywhere.
+WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const double> orders,
+                        const RefinementGoal& goal);
 
 } // namespace epafi::accuracy

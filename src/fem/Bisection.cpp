@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <numeric>
 #include <utility>
 
 namespace epafi::fem {
@@ -17,7 +18,8 @@ class Bisection {
 public:
   Bisection(SimplexMesh& mesh, std::vector<int> times)
       : mesh_(mesh), numCorners_(index(mesh.dimension) + 1), times_(std::move(times)),
-        elementsAt_(mesh.points.size()) {
+        ancestors_(mesh.elements.size()), elementsAt_(mesh.points.size()) {
+    std::iota(ancestors_.begin(), ancestors_.end(), 0);
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
       for (std::size_t i = 0; i < numCorners_; ++i)
         elementsAt_[index(mesh.elements[e].corners[i])].push_back(static_cast<LocalOrdinal>(e));
@@ -27,13 +29,14 @@ public:
   }
 
   /// A longest edge is cut after all that are longer, wherever they are: the chain of elements that wait for each other ends.
-  void run() {
+  std::vector<LocalOrdinal> run() {
     while (!queue_.empty()) {
       const std::size_t element = queue_.front();
       queue_.pop_front();
       if (times_[element] > 0 || hasCutEdge(element))
         split(element);
     }
+    return std::move(ancestors_);
   }
 
 private:
@@ -136,6 +139,7 @@ private:
     mesh_.elements.push_back(second);
     times_[element] = std::max(0, times_[element] - 1);
     times_.push_back(times_[element]);
+    ancestors_.push_back(ancestors_[element]);
     auto& around = elementsAt_[index(b)];
     *std::find(around.begin(), around.end(), static_cast<LocalOrdinal>(element)) =
         static_cast<LocalOrdinal>(other);
@@ -150,6 +154,7 @@ private:
   SimplexMesh& mesh_;
   std::size_t numCorners_;
   std::vector<int> times_; ///< that are to come
+  std::vector<LocalOrdinal> ancestors_;
   std::vector<std::vector<LocalOrdinal>> elementsAt_; ///< each node
   std::unordered_map<Edge, LocalOrdinal> middles_;    ///< of edges that are cut
   std::deque<std::size_t> queue_;
@@ -157,8 +162,8 @@ private:
 
 } // namespace
 
-void bisect(SimplexMesh& mesh, std::vector<int> times) {
-  Bisection(mesh, std::move(times)).run();
+std::vector<LocalOrdinal> bisect(SimplexMesh& mesh, std::vector<int> times) {
+  return Bisection(mesh, std::move(times)).run();
 }
 
 } // namespace epafi::fem

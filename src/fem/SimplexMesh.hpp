@@ -49,6 +49,7 @@ MeshArrays arraysOf(const SimplexMesh& mesh, int order);
 /// Bisects elements at their longest edges, of equal ones that between the higher nodes, and those around them as far as no
 /// node is to hang (Rivara 1984). Parts take over marks; a new node on a curved edge lies on its arc.
 /// \param times  how often each element is to be split at least: it ends in 2^times parts or more
-void bisect(SimplexMesh& mesh, std::vector<int> times);
+/// Returns for each new element the old one of which it is a part.
+std::vector<LocalOrdinal> bisect(SimplexMesh& mesh, std::vector<int> times);
 
 } // namespace epafi::fem

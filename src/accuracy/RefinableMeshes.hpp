@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace epafi::model {
+namespace epafi::accuracy {
 
 class RefinableMeshes {
 public:
@@ -28,19 +28,21 @@ public:
   /// The scene with bodies that are cut into as many parts as such meshes want, and whose elements have an order.
   [[nodiscard]] scene::Scene scene(int order) const;
   /// Its bodies. Elements are numbered as in `halvings` below. Collective. \throws InputError
-  [[nodiscard]] std::vector<BodyLayout> layout(const scene::Scene& scene, const Comm& comm) const;
+  [[nodiscard]] std::vector<model::BodyLayout> layout(const scene::Scene& scene, const Comm& comm) const;
 
   /// \param halvings  of each body, of each element: how often its edges should be halved; of geometries also negative, as they
   ///                  may get coarser; the same on all ranks
+  /// Returns for each new element of each body the old one that its centre lies in.
   /// Collective. \throws InputError if Gmsh cannot mesh a geometry that finely.
-  void refine(std::span<const std::vector<double>> halvings, const Comm& comm);
+  std::vector<std::vector<LocalOrdinal>> refine(std::span<const std::vector<double>> halvings, const Comm& comm);
 
-  /// Corners of all elements' edges: nodes of order 1.
-  [[nodiscard]] GlobalOrdinal numCorners() const;
+  /// Area or volume of each element of each body, edges taken as straight.
+  [[nodiscard]] std::vector<std::vector<double>> measures() const;
 
 private:
   [[nodiscard]] bool isGeometry(std::size_t body) const;
-  void remesh(std::span<const std::vector<double>> halvings, const Comm& comm);
+  void remesh(std::span<const std::vector<double>> halvings, std::span<std::vector<LocalOrdinal>> ancestors,
+              const Comm& comm);
 
   scene::Scene scene_;
   std::vector<fem::SimplexMesh> meshes_; ///< of each body
@@ -48,4 +50,4 @@ private:
   std::map<std::pair<std::string, double>, double> stretch_;
 };
 
-} // namespace epafi::model
+} // namespace epafi::accuracy

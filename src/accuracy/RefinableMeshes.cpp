@@ -1,10 +1,12 @@
-#include "epafi/model/RefinableMeshes.hpp"
+#include "epafi/accuracy/RefinableMeshes.hpp"
 
+#include "epafi/accuracy/FirstGrid.hpp"
+#include "epafi/accuracy/PointLocation.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/GmshReader.hpp"
 #include "epafi/fem/MeshOrder.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
-#include "epafi/model/FirstGrid.hpp"
 #include "epafi/model/MeshFiles.hpp"
 
 #include <algorithm>
@@ -12,7 +14,7 @@
 #include <map>
 #include <utility>
 
-namespace epafi::model {
+namespace epafi::accuracy {
 namespace {
 
 using fem::SimplexMesh;
@@ -33,6 +35,24 @@ double numNodes(const SimplexMesh& mesh, int order) {
     return corners;
   return mesh.dimension == 2 ? corners + 1.5 * static_cast<double>(mesh.elements.size())
                              : 2 * corners + static_cast<double>(mesh.elements.size());
+}
+
+std::vector<fem::Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
+  std::vector<fem::Point> corners;
+  for (int i = 0; i <= mesh.dimension; ++i)
+    corners.push_back(mesh.points[index(element.corners[index(i)])]);
+  return corners;
+}
+
+/// Of each element the one of another mesh that its centre lies in.
+std::vector<LocalOrdinal> elementsAround(const SimplexMesh& inner, const SimplexMesh& outer) {
+  const fem::UnstructuredMesh mesh(arraysOf(outer, 1));
+  const PointLocation location(mesh);
+  std::vector<LocalOrdinal> around;
+  for (const SimplexMesh::Element& element : inner.elements)
+    around.push_back(
+        static_cast<LocalOrdinal>(location.find(fem::centreOf(cornersOf(inner, element))).element));
+  return around;
 }
 
 /// Mean length of an element's edges.
@@ -80,9 +100,9 @@ RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : 
     if (body.mesh.file.ends_with(".geo"))
       body.mesh.order = 2; // on the geometry; nodes on edges can be left out
   }
-  std::vector<BodyLayout> bodies;
+  std::vector<model::BodyLayout> bodies;
   if (hasFiles)
-    bodies = layoutBodies(uncut, comm);
+    bodies = model::layoutBodies(uncut, comm);
   collectively(comm, [&] {
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
       meshes_.push_back(scene_.bodies[b].mesh.file.empty() ? firstGrid(scene_, b)
@@ -107,18 +127,20 @@ scene::Scene RefinableMeshes::scene(int order) const {
   return scene;
 }
 
-std::vector<BodyLayout> RefinableMeshes::layout(const scene::Scene& scene, const Comm& comm) const {
+std::vector<model::BodyLayout> RefinableMeshes::layout(const scene::Scene& scene, const Comm& comm) const {
   std::vector<std::unique_ptr<const fem::Mesh>> meshes;
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes_.size(); ++b)
       meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(
           arraysOf(meshes_[b], scene.bodies[b].mesh.order)));
   });
-  return cutBodies(scene, std::move(meshes), comm);
+  return model::cutBodies(scene, std::move(meshes), comm);
 }
 
-void RefinableMeshes::refine(std::span<const std::vector<double>> halvings, const Comm& comm) {
-  remesh(halvings, comm);
+std::vector<std::vector<LocalOrdinal>> RefinableMeshes::refine(std::span<const std::vector<double>> halvings,
+                                                               const Comm& comm) {
+  std::vector<std::vector<LocalOrdinal>> ancestors(meshes_.size());
+  remesh(halvings, ancestors, comm);
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes_.size(); ++b) {
       if (isGeometry(b))
@@ -126,13 +148,15 @@ void RefinableMeshes::refine(std::span<const std::vector<double>> halvings, cons
       std::vector<int> times;
       for (const double halving : halvings[b])
         times.push_back(std::max(0, static_cast<int>(std::lround(meshes_[b].dimension * halving))));
-      bisect(meshes_[b], std::move(times));
+      ancestors[b] = bisect(meshes_[b], std::move(times));
     }
   });
+  return ancestors;
 }
 
 /// Each geometry once, with the sizes of all its bodies.
-void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings, const Comm& comm) {
+void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
+                             std::span<std::vector<LocalOrdinal>> ancestors, const Comm& comm) {
   std::map<std::pair<std::string, double>, std::vector<std::size_t>> geometries; // and their bodies
   for (std::size_t b = 0; b < meshes_.size(); ++b)
     if (isGeometry(b))
@@ -150,10 +174,12 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings, cons
     const auto makeText = [&, &name = geometry.first, factor = geometry.second] {
       return fem::textOfGeometry(name, factor, fem::SizeField(std::move(sizes)));
     };
-    const fem::GmshFile mesh = meshOnAllRanks(geometry.first, makeText, comm);
+    const fem::GmshFile mesh = model::meshOnAllRanks(geometry.first, makeText, comm);
     collectively(comm, [&] {
       for (const std::size_t b : bodies) {
-        meshes_[b] = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
+        SimplexMesh finer = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
+        ancestors[b] = elementsAround(finer, meshes_[b]);
+        meshes_[b] = std::move(finer);
         made += static_cast<double>(meshes_[b].elements.size());
       }
     });
@@ -161,11 +187,15 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings, cons
   }
 }
 
-GlobalOrdinal RefinableMeshes::numCorners() const {
-  GlobalOrdinal sum = 0;
-  for (const SimplexMesh& mesh : meshes_)
-    sum += static_cast<GlobalOrdinal>(mesh.points.size());
-  return sum;
+std::vector<std::vector<double>> RefinableMeshes::measures() const {
+  std::vector<std::vector<double>> measures;
+  for (const SimplexMesh& mesh : meshes_) {
+    std::vector<double>& own = measures.emplace_back();
+    const auto type = mesh.dimension == 2 ? fem::CellType::triangle : fem::CellType::tetrahedron;
+    for (const SimplexMesh::Element& element : mesh.elements)
+      own.push_back(fem::measureOf(type, cornersOf(mesh, element)));
+  }
+  return measures;
 }
 
-} // namespace epafi::model
+} // namespace epafi::accuracy

@@ -5,7 +5,7 @@
 #include "epafi/fem/SimplexMesh.hpp"
 #include "epafi/scene/Scene.hpp"
 
-namespace epafi::model {
+namespace epafi::accuracy {
 
 /// Lines (planes) where the scene needs them, at the ends of the body, at the faces of boxes of loads and regions, at point loads
 /// and at all these of the bodies that it touches, so that both can match; between them no more than keeps elements no longer than half
@@ -13,4 +13,4 @@ namespace epafi::model {
 /// Precondition: the body has no mesh file.
 fem::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body);
 
-} // namespace epafi::model
+} // namespace epafi::accuracy

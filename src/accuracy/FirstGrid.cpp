@@ -1,11 +1,11 @@
-#include "epafi/model/FirstGrid.hpp"
+#include "epafi/accuracy/FirstGrid.hpp"
 
 #include "epafi/fem/StructuredMesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace epafi::model {
+namespace epafi::accuracy {
 namespace {
 
 std::size_t index(int number) {
@@ -101,4 +101,4 @@ fem::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body) {
   return mesh;
 }
 
-} // namespace epafi::model
+} // namespace epafi::accuracy
