@@ -18,7 +18,7 @@ std::vector<double> localOrders(const ElementErrors& last, std::span<const Local
     own.measure += measures[e];
     ++own.number;
   }
-  constexpr double leastOrder = 0.4, clear = 0.4; // halvings
+  constexpr double leastOrder = 0.4, clear = 0.4, doubt = 1; // halvings
   std::vector<double> orders(last.orders);
   for (std::size_t t = 0; t < heirs.size(); ++t) {
     const Heirs& own = heirs[t];
@@ -26,9 +26,11 @@ std::vector<double> localOrders(const ElementErrors& last, std::span<const Local
       continue;
     const double halvings = std::log2(last.measures[t] * own.number / own.measure) / dimension;
     const double before = last.squared[t] * own.measure / last.measures[t];
-    if (halvings >= clear && before > 0 && own.squaredError > 0)
-      orders[t] = std::clamp(0.5 * std::log2(before / own.squaredError) / halvings, leastOrder,
-                             static_cast<double>(order));
+    if (!(halvings >= clear && before > 0 && own.squaredError > 0))
+      continue;
+    const double seen = std::clamp(0.5 * std::log2(before / own.squaredError) / halvings, leastOrder,
+                                   static_cast<double>(order));
+    orders[t] += (seen - orders[t]) * halvings / (halvings + doubt);
   }
   std::vector<double> result;
   for (const LocalOrdinal ancestor : ancestors)

@@ -10,7 +10,8 @@ namespace {
 /// The family of meshes that are best for some error, from coarse to fine.
 class BestMeshes {
 public:
-  BestMeshes(std::span<const double> squaredErrors, std::span<const double> orders, const RefinementGoal& goal)
+  BestMeshes(std::span<const double> squaredErrors, std::span<const double> orders,
+             const RefinementGoal& goal)
       : errors_(squaredErrors), least_(-goal.dimension * goal.coarsening),
         most_(goal.dimension * goal.mostHalvings) {
     for (std::size_t e = 0; e < errors_.size(); ++e) {
@@ -29,11 +30,15 @@ public:
       sum += std::exp2(parts(e, level));
     return sum;
   }
-  [[nodiscard]] double squaredError(double level) const {
-    double sum = 0;
-    for (std::size_t e = 0; e < errors_.size(); ++e)
-      sum += errors_[e] * std::exp2(-decay_[e] * parts(e, level));
-    return sum;
+  /// Whether the error is small enough, or most of it is in elements that can get no smaller at once: what the others add is
+  /// no matter then.
+  [[nodiscard]] bool isFineEnough(double level, double squaredGoal) const {
+    double free = 0, stuck = 0;
+    for (std::size_t e = 0; e < errors_.size(); ++e) {
+      const double n = parts(e, level);
+      (n < most_ ? free : stuck) += errors_[e] * std::exp2(-decay_[e] * n);
+    }
+    return free <= std::max(squaredGoal - stuck, stuck);
   }
   /// The coarsest level at which something holds that holds at all finer ones.
   template <class Property>
@@ -63,13 +68,11 @@ WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const d
   if (!(std::accumulate(squaredErrors.begin(), squaredErrors.end(), 0.0) > goal.error * goal.error))
     return wanted;
   const BestMeshes meshes(squaredErrors, orders, goal);
-  double level =
-      meshes.first([&](double l) { return meshes.squaredError(l) <= goal.error * goal.error; });
+  double level = meshes.first([&](double l) { return meshes.isFineEnough(l, goal.error * goal.error); });
   const double whole = meshes.elements(level) / number;
   const double steps = std::max(1.0, std::ceil(std::log(whole) / std::log(goal.growth) - 1e-9));
   if (steps > 1)
-    level = meshes.first(
-        [&](double l) { return meshes.elements(l) >= std::pow(whole, 1 / steps) * number; });
+    level = meshes.first([&](double l) { return meshes.elements(l) >= std::pow(whole, 1 / steps) * number; });
   for (std::size_t e = 0; e < squaredErrors.size(); ++e)
     wanted.halvings[e] = meshes.parts(e, level) / goal.dimension;
   wanted.growth = meshes.elements(level) / number;
