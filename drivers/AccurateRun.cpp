@@ -132,7 +132,7 @@ class LocalLevels final : public SceneLevels {
 public:
   LocalLevels(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
               const RCP<const Comm>& comm, RunCompanion* companion)
-      : SceneLevels(solverParameters, comm, companion), meshes_(scene, *comm),
+      : SceneLevels(parametersFor(scene, solverParameters), comm, companion), meshes_(scene, *comm),
         dimension_(dimensionOf(scene.bodies.front().physics)) {}
 
   [[nodiscard]] int dimension() const override { return dimension_; }
@@ -156,6 +156,16 @@ public:
   }
 
 protected:
+  /// Where bodies are of one material the diagonal varies with the elements' size and nodes' kinds alone, which no preconditioner
+  /// minds: no eigenproblems.
+  static Teuchos::ParameterList parametersFor(const scene::Scene& scene, Teuchos::ParameterList list) {
+    Teuchos::ParameterList& adaptive = list.sublist("Adaptive Constraints");
+    const bool isUniform = std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                                       [](const scene::Body& body) { return body.regions.empty(); });
+    if (isUniform && (!adaptive.isParameter("Use") || adaptive.getEntry("Use").isDefault()))
+      adaptive.set("Use", std::string("no"));
+    return list;
+  }
   scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) override {
     scene::Scene scene = meshes_.scene(order);
     bodies = meshes_.layout(scene, comm());
