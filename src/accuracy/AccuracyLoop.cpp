@@ -11,6 +11,12 @@ namespace {
 /// Of the target: what the mesh may use of it. The rest is the iteration's, and the estimate's own.
 constexpr double meshShare = 0.85;
 
+/// By how much the last mesh missed what was expected of it: the next is asked for as much more.
+double missedBy(const MeshResult& last, double expected) {
+  constexpr double most = 2.5;
+  return expected > 0 ? std::clamp(last.discretisation / expected, 1.0, most) : 1.0;
+}
+
 /// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d).
 double unknownsOfOrderOne(const MeshResult& result, int dimension, double target) {
   return static_cast<double>(result.unknowns) * std::pow(result.relative() / target, dimension);
@@ -94,10 +100,13 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
       last = &solve(order);
     }
   }
+  double expected = 0; // of the discretisation error, on the last mesh
   while (!result.isMet) {
     const double norm = std::hypot(last->energyNorm, last->discretisation);
     const WantedSizes wanted = problem.plan(
-        *last, {.dimension = dimension, .error = meshShare * goal.target * norm});
+        *last, {.dimension = dimension,
+                .error = meshShare * goal.target * norm / missedBy(*last, expected)});
+    expected = wanted.error;
     result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
     if (!result.reason.empty())
       break;

@@ -55,6 +55,11 @@ std::vector<LocalOrdinal> elementsAround(const SimplexMesh& inner, const Simplex
   return around;
 }
 
+bool isOfSimplices(const fem::Mesh& mesh) {
+  const fem::CellType type = withOrder(mesh.cellType(), 1);
+  return type == fem::CellType::triangle || type == fem::CellType::tetrahedron;
+}
+
 /// Mean length of an element's edges.
 double sizeOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
   double sum = 0;
@@ -104,14 +109,12 @@ RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : 
   if (hasFiles)
     bodies = model::layoutBodies(uncut, comm);
   collectively(comm, [&] {
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-      meshes_.push_back(scene_.bodies[b].mesh.file.empty() ? firstGrid(scene_, b)
-                                                           : simplicesOf(*bodies[b].mesh));
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      const std::string& file = scene_.bodies[b].mesh.file;
+      meshes_.push_back(file.empty() ? firstGrid(scene_, b) : simplicesOf(*bodies[b].mesh));
+      isRemeshed_.push_back(file.ends_with(".geo") && isOfSimplices(*bodies[b].mesh));
+    }
   });
-}
-
-bool RefinableMeshes::isGeometry(std::size_t body) const {
-  return scene_.bodies[body].mesh.file.ends_with(".geo");
 }
 
 scene::Scene RefinableMeshes::scene(int order) const {
@@ -143,7 +146,7 @@ std::vector<std::vector<LocalOrdinal>> RefinableMeshes::refine(std::span<const s
   remesh(halvings, ancestors, comm);
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes_.size(); ++b) {
-      if (isGeometry(b))
+      if (!ancestors[b].empty())
         continue;
       std::vector<int> times;
       for (const double halving : halvings[b])
@@ -159,15 +162,16 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
                              std::span<std::vector<LocalOrdinal>> ancestors, const Comm& comm) {
   std::map<std::pair<std::string, double>, std::vector<std::size_t>> geometries; // and their bodies
   for (std::size_t b = 0; b < meshes_.size(); ++b)
-    if (isGeometry(b))
+    if (isRemeshed_[b])
       geometries[{scene_.bodies[b].mesh.file, scene_.bodies[b].mesh.sizeFactor}].push_back(b);
   for (const auto& [geometry, bodies] : geometries) {
     const int dimension = meshes_[bodies.front()].dimension;
     double& stretch = stretch_.try_emplace(geometry, dimension == 2 ? 1.05 : 1.25).first->second;
     fem::MeshSizes sizes{dimension, {}, {}};
-    double wanted = 0, made = 0; // elements
+    double before = 0, wanted = 0, made = 0; // elements
     for (const std::size_t b : bodies) {
       addSizes(meshes_[b], halvings[b], stretch, sizes);
+      before += static_cast<double>(halvings[b].size());
       for (const double halving : halvings[b])
         wanted += std::exp2(dimension * halving);
     }
@@ -183,6 +187,12 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
         made += static_cast<double>(meshes_[b].elements.size());
       }
     });
+    constexpr double clear = 1.5;
+    if (made == before && wanted > clear * before) // it says itself how many elements there are
+      for (const std::size_t b : bodies) {
+        isRemeshed_[b] = false;
+        ancestors[b] = {};
+      }
     stretch *= std::clamp(std::pow(wanted / made, 1.0 / dimension), 0.7, 1.4);
   }
 }

@@ -3,7 +3,8 @@
 /// The meshes of a scene as they are refined where it matters: triangles and tetrahedra on all ranks alike.
 ///
 /// What is on a rectangle or box, or comes from a mesh file, is bisected; a geometry (.geo) is meshed anew by Gmsh, with the
-/// sizes that are wanted, so that new nodes lie on it. Surfaces and groups are those of the scene.
+/// sizes that are wanted, so that new nodes lie on it; unless it says itself how many elements lie along its edges, in rows of
+/// quadrilaterals say: then it is bisected too, on the arcs of its first mesh. Surfaces and groups are those of the scene.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/SimplexMesh.hpp"
@@ -40,12 +41,12 @@ public:
   [[nodiscard]] std::vector<std::vector<double>> measures() const;
 
 private:
-  [[nodiscard]] bool isGeometry(std::size_t body) const;
   void remesh(std::span<const std::vector<double>> halvings, std::span<std::vector<LocalOrdinal>> ancestors,
               const Comm& comm);
 
   scene::Scene scene_;
   std::vector<fem::SimplexMesh> meshes_; ///< of each body
+  std::vector<bool> isRemeshed_;         ///< whether Gmsh makes the next one
   /// By geometry: edges that Gmsh makes, on average, in units of the size it is asked for; measured mesh by mesh.
   std::map<std::pair<std::string, double>, double> stretch_;
 };

@@ -30,6 +30,12 @@ public:
       sum += std::exp2(parts(e, level));
     return sum;
   }
+  [[nodiscard]] double squaredError(double level) const {
+    double sum = 0;
+    for (std::size_t e = 0; e < errors_.size(); ++e)
+      sum += errors_[e] * std::exp2(-decay_[e] * parts(e, level));
+    return sum;
+  }
   /// Whether the error is small enough, or most of it is in elements that can get no smaller at once: what the others add is
   /// no matter then.
   [[nodiscard]] bool isFineEnough(double level, double squaredGoal) const {
@@ -76,6 +82,7 @@ WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const d
   for (std::size_t e = 0; e < squaredErrors.size(); ++e)
     wanted.halvings[e] = meshes.parts(e, level) / goal.dimension;
   wanted.growth = meshes.elements(level) / number;
+  wanted.error = std::sqrt(meshes.squaredError(level));
   return wanted;
 }
 

@@ -23,6 +23,7 @@ struct RefinementGoal {
 struct WantedSizes {
   std::vector<double> halvings; ///< of each element's edges
   double growth = 1;            ///< of the number of elements, expected
+  double error = 0;             ///< discretisation error, expected; 0: not known
 };
 
 /// \param squaredErrors  η² of each element, not negative  \param orders  q of each, > 0
