@@ -1,0 +1,78 @@
+#include "AccuracyTargets.hpp"
+
+#include "AccurateRun.hpp"
+#include "SceneRun.hpp"
+
+#include "epafi/accuracy/ErrorNorms.hpp"
+#include "epafi/base/Parameters.hpp"
+#include "epafi/scene/ParameterFile.hpp"
+#include "epafi/scene/SceneReader.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace epafi::drivers {
+
+std::vector<Row> measureTargets(const std::string& name, int order, const std::vector<double>& targets,
+                                double reference, const std::filesystem::path& scenes,
+                                const RCP<const Comm>& comm) {
+  const std::string file = (scenes / (name + ".xml")).string();
+  const Teuchos::ParameterList given = scene::readParameterFile(file, *comm);
+  const scene::Scene scene = scene::readScene(given, file);
+  const Teuchos::ParameterList solver = validated(given, driverSchema(), file).sublist("Solver");
+  const auto solve = [&](double target, int elements) {
+    AccuracyParameters accuracy;
+    accuracy.target = target;
+    accuracy.order = elements;
+    return solveToTarget(scene, solver, accuracy, comm, nullptr, {});
+  };
+  const AccurateRun best = solve(reference, 2);
+  const double norm = best.run.error->energyNorm;
+  std::vector<Row> rows;
+  for (const double target : targets) {
+    const AccurateRun result = solve(target, order);
+    const std::vector<accuracy::MeshResult>& meshes = result.loop.meshes;
+    const double error =
+        accuracy::errorAgainst(best.run.scene, *best.run.decomposition, best.run.solution.displacement,
+                               *result.run.decomposition, result.run.solution.displacement)
+            .energy /
+        norm;
+    rows.push_back({{"scene", name},
+                    {"order", meshes.back().order},
+                    {"target", target},
+                    {"met", result.loop.isMet ? 1 : 0},
+                    {"meshes", static_cast<int>(meshes.size())},
+                    {"unknowns", meshes.back().unknowns},
+                    {"seconds", std::accumulate(meshes.begin(), meshes.end(), 0.0,
+                                                [](double sum, const accuracy::MeshResult& mesh) {
+                                                  return sum + mesh.seconds;
+                                                })},
+                    {"last_seconds", meshes.back().seconds},
+                    {"estimated_error", meshes.back().relative()},
+                    {"true_error", error},
+                    {"effectivity", meshes.back().relative() / error},
+                    {"reference_unknowns", best.loop.meshes.back().unknowns},
+                    {"reference_error", best.loop.meshes.back().relative()}});
+  }
+  return rows;
+}
+
+Table targetsTable() {
+  return Table("scene,order,target,met,meshes,unknowns,seconds,last_seconds,estimated_error,true_error,"
+               "effectivity,reference_unknowns,reference_error");
+}
+
+std::string targetsReport(const Table& table) {
+  const auto percent = [](double share) { return plain(100 * share, 3) + " %"; };
+  std::string text =
+      markdownHeading("scene | order | target | meshes | unknowns | seconds | of the last mesh | "
+                      "estimated error | error | effectivity");
+  for (const Row& row : table.rows)
+    text += markdownLine({row.text("scene"), row.text("order"), percent(row.number("target")),
+                          row.text("meshes"), count(row.number("unknowns")), plain(row.number("seconds"), 3),
+                          plain(row.number("last_seconds"), 3), percent(row.number("estimated_error")),
+                          percent(row.number("true_error")), plain(row.number("effectivity"), 3)});
+  return text;
+}
+
+} // namespace epafi::drivers
