@@ -21,26 +21,30 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       "Estimate Error", defaults.estimate,
       "Whether the discretisation error is estimated at the end, in the energy norm, by a recovered flux "
       "(Zienkiewicz, Zhu 1987).");
-  addShare(list, "Target", defaults.target,
-           "Relative error in the energy norm that is asked for, such as 0.01 or \"1 %\", also by --accuracy: "
-           "mesh after mesh, each started from the last one's solution, until the estimate is met. The "
-           "tolerance is 'balanced' then, unless the scene gives one. 0: the scene's meshes as they are.");
-  addChoice(list, "Refinement", refinements.front(),
-            "With a target: local: the first mesh is as coarse as the scene allows (of a mesh file: its own), and "
-            "triangles or tetrahedra are refined where the error is; a geometry is meshed anew. even: the scene's "
-            "own mesh, and all its elements are halved.",
-            refinements);
-  addInteger(list, "Order", defaults.order,
-             "With local refinement: order of the elements, whatever the bodies say. 0: 2, or 1 where this takes "
-             "fewer unknowns.",
-             0, 2);
+  addShare(
+      list, "Target", defaults.target,
+      "Relative error in the energy norm that is asked for, such as 0.01 or \"1 %\", also by --accuracy: "
+      "mesh after mesh, each started from the last one's solution, until the estimate is met. The "
+      "tolerance is 'balanced' then, unless the scene gives one. 0: the scene's meshes as they are.");
+  addChoice(
+      list, "Refinement", refinements.front(),
+      "With a target: local: the first mesh is as coarse as the scene allows (of a mesh file: its own), and "
+      "triangles or tetrahedra are refined where the error is; a geometry is meshed anew. even: the scene's "
+      "own mesh, and all its elements are halved.",
+      refinements);
+  addInteger(
+      list, "Order", defaults.order,
+      "With local refinement: order of the elements, whatever the bodies say. 0: 2, or 1 where this takes "
+      "fewer unknowns.",
+      0, 2);
   addInteger(list, "Maximum Levels", defaults.maxLevels, "With a target: meshes at most.", 1);
   addReal(list, "Maximum Unknowns", defaults.maxUnknowns,
           "With a target: no mesh with more unknowns is made.", 1);
   addReal(list, "Maximum Seconds", defaults.maxSeconds,
           "With a target: no mesh is begun that would not be ready by then.", 0);
   addReal(list, "Maximum Memory", 0,
-          "With a target: no mesh is made that would take more, in GB, on all ranks together. 0: four fifths of what "
+          "With a target: no mesh is made that would take more, in GB, on all ranks together. 0: four fifths "
+          "of what "
           "is free on this machine.",
           0);
 }

@@ -17,7 +17,7 @@ struct AccuracyParameters {
   int order = 0;      ///< of the elements with local refinement; 0: chosen
   int maxLevels = 20; ///< meshes at most
   double maxUnknowns = std::numeric_limits<double>::infinity(); ///< no mesh with more is made
-  double maxSeconds = std::numeric_limits<double>::infinity();  ///< no mesh is begun that would be ready later
+  double maxSeconds = std::numeric_limits<double>::infinity(); ///< no mesh is begun that would be ready later
   double maxBytes = std::numeric_limits<double>::infinity(); ///< no mesh is made that would take more memory
 
   /// Adds the list Accuracy to the schema of a scene file.

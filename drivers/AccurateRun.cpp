@@ -2,9 +2,10 @@
 
 #include "PeakMemory.hpp"
 
+#include "epafi/accuracy/ErrorNorms.hpp"
+#include "epafi/accuracy/RefinableMeshes.hpp"
 #include "epafi/accuracy/Refinement.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/accuracy/RefinableMeshes.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
@@ -40,6 +41,13 @@ std::vector<double> allErrors(const SceneRun& run) {
   return errors;
 }
 
+/// In the energy norm, on the mesh of the finer one. Collective.
+double distance(const SceneRun& finer, const SceneRun& coarser) {
+  return accuracy::errorAgainst(finer.scene, *finer.decomposition, finer.solution.displacement,
+                                *coarser.decomposition, coarser.solution.displacement)
+      .energy;
+}
+
 /// A scene on its meshes.
 class SceneLevels : public accuracy::RefinableProblem {
 public:
@@ -59,9 +67,11 @@ public:
     if (hasRun_)
       options.coarser = &run_;
     SceneRun run = solveScene(scene, solverParameters_, comm_, options);
+    const double change = hasRun_ && measuresChange() ? distance(run, run_) : 0;
     run_ = std::move(run); // the coarser one is needed no longer
     hasRun_ = true;
     MeshResult result = resultOf(run_);
+    result.change = change;
     result.seconds = maxOverRanks(*comm_, Teuchos::Time::wallTime() - start_);
     restart();
     return result;
@@ -73,6 +83,8 @@ protected:
   /// The scene with an order, and its bodies unless it has them itself.
   virtual scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) = 0;
   virtual accuracy::ElementErrors elementsOf(const SceneRun& run) = 0;
+  /// Whether estimates are to be measured.
+  [[nodiscard]] virtual bool measuresChange() const = 0;
   [[nodiscard]] const Comm& comm() const { return *comm_; }
 
 private:
@@ -122,6 +134,7 @@ public:
 protected:
   scene::Scene prepare(int /*order*/, std::vector<model::BodyLayout>& /*bodies*/) override { return scene_; }
   accuracy::ElementErrors elementsOf(const SceneRun& /*run*/) override { return {}; }
+  [[nodiscard]] bool measuresChange() const override { return false; }
 
 private:
   scene::Scene scene_;
@@ -136,6 +149,8 @@ public:
         dimension_(dimensionOf(scene.bodies.front().physics)) {}
 
   [[nodiscard]] int dimension() const override { return dimension_; }
+  /// As on the gallery's scenes before meshes measure it.
+  [[nodiscard]] double effectivity(int order) const override { return order == 1 ? 0.9 : 0.75; }
   std::vector<LocalOrdinal> refine(const WantedSizes& wanted) override {
     std::vector<std::vector<double>> halvings;
     auto next = wanted.halvings.begin();
@@ -171,6 +186,7 @@ protected:
     bodies = meshes_.layout(scene, comm());
     return scene;
   }
+  [[nodiscard]] bool measuresChange() const override { return true; }
   accuracy::ElementErrors elementsOf(const SceneRun& run) override {
     accuracy::ElementErrors elements{allErrors(run), {}, {}};
     for (const std::vector<double>& own : meshes_.measures())

@@ -26,7 +26,8 @@ Options parseOptions(int argc, const char* const* argv) {
   Options options;
   CommandLine line("epafi");
   line.value("--set", [&](const std::string& text) { options.overrides.push_back(text); })
-      .value("--accuracy", [&](const std::string& text) { options.overrides.push_back("Accuracy/Target=" + text); })
+      .value("--accuracy",
+             [&](const std::string& text) { options.overrides.push_back("Accuracy/Target=" + text); })
       .value("--output", options.output)
       .value("--report", options.report)
       .value("--restart", options.restart)

@@ -9,12 +9,21 @@ namespace epafi::accuracy {
 namespace {
 
 /// Of the target: what the mesh may use of it. The rest is the iteration's, and the estimate's own.
-constexpr double meshShare = 0.85;
+constexpr double meshShare = 0.9;
+
+/// θ: see refineToTarget(). \param next  its estimate not yet corrected
+double measuredEffectivity(const MeshResult& last, const MeshResult& next, double otherwise) {
+  constexpr double clear = 1.2, least = 0.4, most = 1.1;
+  const double coarse = last.discretisation * last.effectivity, fine = next.discretisation; // η
+  if (last.order != next.order || !(next.change > 0) || coarse < clear * fine)
+    return otherwise;
+  return std::clamp(std::sqrt(coarse * coarse - fine * fine) / next.change, least, most);
+}
 
 /// By how much the last mesh missed what was expected of it: the next is asked for as much more.
 double missedBy(const MeshResult& last, double expected) {
   constexpr double most = 2.5;
-  return expected > 0 ? std::clamp(last.discretisation / expected, 1.0, most) : 1.0;
+  return expected > 0 ? std::clamp(last.discretisation * last.effectivity / expected, 1.0, most) : 1.0;
 }
 
 /// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d).
@@ -73,8 +82,14 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
                                     elements.measures, dimension, next.order);
     else
       elements.orders.assign(elements.squared.size(), next.order);
-    if (!result.meshes.empty())
-      result.meshes.back().elements = {};
+    next.effectivity = problem.effectivity(next.order);
+    if (!result.meshes.empty()) {
+      MeshResult& before = result.meshes.back();
+      next.effectivity = measuredEffectivity(
+          before, next, before.order == next.order ? before.effectivity : next.effectivity);
+      before.elements = {};
+    }
+    next.discretisation /= next.effectivity;
     result.meshes.push_back(std::move(next));
     if (tell)
       tell(result.meshes.back());
@@ -105,7 +120,7 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
     const double norm = std::hypot(last->energyNorm, last->discretisation);
     const WantedSizes wanted = problem.plan(
         *last, {.dimension = dimension,
-                .error = meshShare * goal.target * norm / missedBy(*last, expected)});
+                .error = last->effectivity * meshShare * goal.target * norm / missedBy(*last, expected)});
     expected = wanted.error;
     result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
     if (!result.reason.empty())

@@ -16,7 +16,8 @@ namespace epafi::accuracy {
 struct ElementErrors {
   std::vector<double> squared;  ///< η² of each element
   std::vector<double> measures; ///< area or volume of each
-  std::vector<double> orders;   ///< q of each: that at which η falls with the size; of a first mesh p everywhere
+  std::vector<double>
+      orders; ///< q of each: that at which η falls with the size; of a first mesh p everywhere
 };
 
 /// q on a finer mesh: from an element T of the last mesh with η_T², in which an element K lies, η_K² / (η_T² |K|/|T|) = (h_K/h_T)^2q.

@@ -134,8 +134,8 @@ std::vector<model::BodyLayout> RefinableMeshes::layout(const scene::Scene& scene
   std::vector<std::unique_ptr<const fem::Mesh>> meshes;
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes_.size(); ++b)
-      meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(
-          arraysOf(meshes_[b], scene.bodies[b].mesh.order)));
+      meshes.push_back(
+          std::make_unique<const fem::UnstructuredMesh>(arraysOf(meshes_[b], scene.bodies[b].mesh.order)));
   });
   return model::cutBodies(scene, std::move(meshes), comm);
 }

@@ -35,7 +35,8 @@ public:
   ///                  may get coarser; the same on all ranks
   /// Returns for each new element of each body the old one that its centre lies in.
   /// Collective. \throws InputError if Gmsh cannot mesh a geometry that finely.
-  std::vector<std::vector<LocalOrdinal>> refine(std::span<const std::vector<double>> halvings, const Comm& comm);
+  std::vector<std::vector<LocalOrdinal>> refine(std::span<const std::vector<double>> halvings,
+                                                const Comm& comm);
 
   /// Area or volume of each element of each body, edges taken as straight.
   [[nodiscard]] std::vector<std::vector<double>> measures() const;

@@ -14,8 +14,8 @@ namespace epafi::accuracy {
 
 struct RefinementGoal {
   int dimension = 2;
-  double error = 0;        ///< discretisation error that is wanted, in the energy norm
-  double growth = 8;       ///< of the number of elements, at most; if the goal is farther, equal factors lead there
+  double error = 0;  ///< discretisation error that is wanted, in the energy norm
+  double growth = 8; ///< of the number of elements, at most; if the goal is farther, equal factors lead there
   double coarsening = 0;   ///< halvings that elements may lose, where meshes can get coarser
   double mostHalvings = 5; ///< that they may gain: an estimate on a coarse mesh sees no farther
 };

@@ -63,8 +63,7 @@ struct Gmsh {
   decltype(&gmshModelGetEntities) entities = Symbol{library, "gmshModelGetEntities"};
   decltype(&gmshModelMeshRemoveConstraints) removeConstraints =
       Symbol{library, "gmshModelMeshRemoveConstraints"};
-  decltype(&gmshModelMeshSetSizeCallback) setSizeCallback =
-      Symbol{library, "gmshModelMeshSetSizeCallback"};
+  decltype(&gmshModelMeshSetSizeCallback) setSizeCallback = Symbol{library, "gmshModelMeshSetSizeCallback"};
   decltype(&gmshModelMeshSetOrder) setOrder = Symbol{library, "gmshModelMeshSetOrder"};
   decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
   decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
@@ -79,13 +78,18 @@ struct Gmsh {
 template <class SetCallback>
 void setSizes(SetCallback set, const SizeField& sizes, int* error) {
   void* data = const_cast<SizeField*>(&sizes); // NOLINT: it comes back as what it is
-  if constexpr (std::is_invocable_v<SetCallback, double (*)(int, int, double, double, double, void*), void*, int*>)
-    set([](int, int, double x, double y, double z,
-           void* field) { return static_cast<const SizeField*>(field)->at({x, y, z}); },
+  if constexpr (std::is_invocable_v<SetCallback, double (*)(int, int, double, double, double, void*), void*,
+                                    int*>)
+    set(
+        [](int, int, double x, double y, double z, void* field) {
+          return static_cast<const SizeField*>(field)->at({x, y, z});
+        },
         data, error);
   else
-    set([](int, int, double x, double y, double z, double,
-           void* field) { return static_cast<const SizeField*>(field)->at({x, y, z}); },
+    set(
+        [](int, int, double x, double y, double z, double, void* field) {
+          return static_cast<const SizeField*>(field)->at({x, y, z});
+        },
         data, error);
 }
 

@@ -41,8 +41,7 @@ Pieces cut(CellType type, std::span<const GlobalOrdinal> corners) {
   if (type == CellType::triangle || type == CellType::tetrahedron)
     return {{0, 1, 2, 3}};
   const auto lowest = [&](auto begin, auto end) {
-    return std::min_element(
-        begin, end, [&](int a, int b) { return corners[index(a)] < corners[index(b)]; });
+    return std::min_element(begin, end, [&](int a, int b) { return corners[index(a)] < corners[index(b)]; });
   };
   const auto tip = static_cast<int>(std::min_element(corners.begin(), corners.end()) - corners.begin());
   if (type == CellType::quadrilateral)
@@ -140,7 +139,9 @@ private:
     if (linear_ == CellType::hexahedron)
       for (const Facet& face : facetsOf(mesh_.cellType())) {
         const auto corners = face.nodes.first(4);
-        const auto has = [&](int end) { return std::find(corners.begin(), corners.end(), end) != corners.end(); };
+        const auto has = [&](int end) {
+          return std::find(corners.begin(), corners.end(), end) != corners.end();
+        };
         if (has(ends[0]) && has(ends[1]))
           return face[8];
       }
@@ -149,8 +150,9 @@ private:
 
   /// The pieces of a cell.
   [[nodiscard]] std::span<SimplexMesh::Element> piecesOf(GlobalOrdinal cell) {
-    const std::size_t begin = first_[index(cell)],
-                      end = index(cell) + 1 < first_.size() ? first_[index(cell) + 1] : result_.elements.size();
+    const std::size_t begin = first_[index(cell)], end = index(cell) + 1 < first_.size()
+                                                             ? first_[index(cell) + 1]
+                                                             : result_.elements.size();
     return std::span(result_.elements).subspan(begin, end - begin);
   }
 
