@@ -101,8 +101,11 @@ private:
     result.discretisation = run.error->discretisation;
     result.algebraic = run.solution.algebraicError;
     result.bytes = sumOverRanks(*comm_, peakBytes());
-    if (run.solver->report().status != qp::Status::converged)
-      result.failure = run.solver->report().reason;
+    // Short of its tolerance an iteration may still be good enough for a mesh: its error is known, and counts.
+    const qp::SolveReport& report = run.solver->report();
+    if (report.status == qp::Status::interrupted ||
+        (report.status != qp::Status::converged && !(result.algebraic <= result.discretisation)))
+      result.failure = report.reason;
     result.elements = elementsOf(run);
     return result;
   }
@@ -216,9 +219,17 @@ void report(AccurateRun& result, double target) {
   list.sublist("Accuracy").set("Target", target);
   if (!result.loop.choice.empty())
     list.sublist("Accuracy").set("Choice of Order", result.loop.choice);
-  if (result.loop.isMet)
-    return;
   std::ostringstream reason;
+  reason.precision(3);
+  if (result.loop.isMet) {
+    reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, at most the "
+           << 100 * target << " % that were asked for";
+    list.sublist("Status")
+        .set("Converged", true)
+        .set("Status", std::string("Converged"))
+        .set("Reason", reason.str());
+    return;
+  }
   reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, and "
          << 100 * target << " % was asked for: " << result.loop.reason;
   list.sublist("Status")
@@ -248,6 +259,7 @@ AccurateRun solveToTarget(const scene::Scene& scene, Teuchos::ParameterList solv
                                 .order = isLocal ? accuracy.order : 1},
                                tell);
   result.run = std::move(levels->run());
+  result.run.correctEstimate(result.loop.meshes.back().effectivity);
   report(result, accuracy.target);
   return result;
 }

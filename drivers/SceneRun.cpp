@@ -26,6 +26,17 @@ double SceneRun::relativeError() const {
   return whole > 0 ? absolute / whole : 0;
 }
 
+void SceneRun::correctEstimate(double effectivity) {
+  error->discretisation /= effectivity;
+  for (std::vector<double>& elements : error->elements)
+    for (double& squared : elements)
+      squared /= effectivity * effectivity;
+  report.sublist("Accuracy")
+      .set("Discretisation Error", error->discretisation)
+      .set("Relative Error", relativeError())
+      .set("Effectivity", effectivity);
+}
+
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, const RunOptions& options) {
   SceneRun run;

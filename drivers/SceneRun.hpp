@@ -49,6 +49,8 @@ struct SceneRun {
 
   /// Both errors together relative to the energy norm. Precondition: `error`.
   [[nodiscard]] double relativeError() const;
+  /// Divides the estimated discretisation error by its effectivity, in the report too. Precondition: `error`.
+  void correctEstimate(double effectivity);
   [[nodiscard]] output::SolvedScene solved() const { return {scene, *decomposition, solution}; }
 };
 
