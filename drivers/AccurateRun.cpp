@@ -1,6 +1,7 @@
 #include "AccurateRun.hpp"
 
 #include "PeakMemory.hpp"
+#include "RunWatch.hpp"
 
 #include "epafi/accuracy/ErrorNorms.hpp"
 #include "epafi/accuracy/RefinableMeshes.hpp"
@@ -154,6 +155,12 @@ public:
   [[nodiscard]] int dimension() const override { return dimension_; }
   /// As on the gallery's scenes before meshes measure it.
   [[nodiscard]] double effectivity(int order) const override { return order == 1 ? 0.9 : 0.75; }
+  [[nodiscard]] WantedSizes plan(const MeshResult& result, const RefinementGoal& goal) const override {
+    RefinementGoal own(goal);
+    if (meshes_.areRemeshed()) // what Gmsh does not do as asked is lost in the error's fall then
+      own.leastGrowth = 1.7;
+    return SceneLevels::plan(result, own);
+  }
   std::vector<LocalOrdinal> refine(const WantedSizes& wanted) override {
     std::vector<std::vector<double>> halvings;
     auto next = wanted.halvings.begin();
@@ -214,6 +221,7 @@ void report(AccurateRun& result, double target) {
         .set("Relative Error", mesh.relative())
         .set("Discretisation Error", mesh.discretisation)
         .set("Algebraic Error", mesh.algebraic)
+        .set("Effectivity", mesh.effectivity)
         .set("Seconds", mesh.seconds);
   }
   list.sublist("Accuracy").set("Target", target);
@@ -250,14 +258,28 @@ AccurateRun solveToTarget(const scene::Scene& scene, Teuchos::ParameterList solv
   else
     levels = std::make_unique<EvenLevels>(scene, solverParameters, comm, companion);
   AccurateRun result;
-  result.loop = refineToTarget(*levels,
-                               {.target = accuracy.target,
-                                .maxMeshes = accuracy.maxLevels,
-                                .maxUnknowns = accuracy.maxUnknowns,
-                                .maxSeconds = accuracy.maxSeconds,
-                                .maxBytes = minOverRanks(*comm, accuracy.maxBytes),
-                                .order = isLocal ? accuracy.order : 1},
-                               tell);
+  std::vector<MeshResult> done;
+  const auto note = [&](const MeshResult& mesh) {
+    done.push_back(mesh);
+    done.back().elements = {};
+    if (tell)
+      tell(mesh);
+  };
+  try {
+    result.loop = refineToTarget(*levels,
+                                 {.target = accuracy.target,
+                                  .maxMeshes = accuracy.maxLevels,
+                                  .maxUnknowns = accuracy.maxUnknowns,
+                                  .maxSeconds = accuracy.maxSeconds,
+                                  .maxBytes = minOverRanks(*comm, accuracy.maxBytes),
+                                  .order = isLocal ? accuracy.order : 1},
+                                 note);
+  } catch (const Interrupted& signal) {
+    if (done.empty())
+      throw;
+    result.loop.meshes = std::move(done);
+    result.loop.reason = signal.what();
+  }
   result.run = std::move(levels->run());
   result.run.correctEstimate(result.loop.meshes.back().effectivity);
   report(result, accuracy.target);

@@ -31,6 +31,9 @@ void SceneRun::correctEstimate(double effectivity) {
   for (std::vector<double>& elements : error->elements)
     for (double& squared : elements)
       squared /= effectivity * effectivity;
+  for (std::vector<double>& cells : evaluation.errors)
+    for (double& cell : cells)
+      cell /= effectivity;
   report.sublist("Accuracy")
       .set("Discretisation Error", error->discretisation)
       .set("Relative Error", relativeError())
@@ -61,8 +64,10 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   balance.estimate = [&](std::span<const Eigen::VectorXd> u) { return (*estimator)(u).toBalance(); };
   if (options.coarser != nullptr) {
     const SceneRun& coarser = *options.coarser;
-    start = run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
-                                                        *run.decomposition, accuracy::NodesOf::interfaces));
+    if (start.is_null())
+      start =
+          run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
+                                                      *run.decomposition, accuracy::NodesOf::interfaces));
     if (coarser.error) // of linear elements it is halved at best
       balance.expected = 0.5 * coarser.error->discretisation;
   }

@@ -197,6 +197,10 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
   }
 }
 
+bool RefinableMeshes::areRemeshed() const {
+  return std::find(isRemeshed_.begin(), isRemeshed_.end(), true) != isRemeshed_.end();
+}
+
 std::vector<std::vector<double>> RefinableMeshes::measures() const {
   std::vector<std::vector<double>> measures;
   for (const SimplexMesh& mesh : meshes_) {

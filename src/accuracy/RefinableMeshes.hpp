@@ -38,6 +38,8 @@ public:
   std::vector<std::vector<LocalOrdinal>> refine(std::span<const std::vector<double>> halvings,
                                                 const Comm& comm);
 
+  /// Whether Gmsh makes any of the next meshes: then they differ from the last ones everywhere.
+  [[nodiscard]] bool areRemeshed() const;
   /// Area or volume of each element of each body, edges taken as straight.
   [[nodiscard]] std::vector<std::vector<double>> measures() const;
 

@@ -77,8 +77,9 @@ WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const d
   double level = meshes.first([&](double l) { return meshes.isFineEnough(l, goal.error * goal.error); });
   const double whole = meshes.elements(level) / number;
   const double steps = std::max(1.0, std::ceil(std::log(whole) / std::log(goal.growth) - 1e-9));
-  if (steps > 1)
-    level = meshes.first([&](double l) { return meshes.elements(l) >= std::pow(whole, 1 / steps) * number; });
+  const double growth = std::max(std::pow(whole, 1 / steps), goal.leastGrowth);
+  if (steps > 1 || growth > whole)
+    level = meshes.first([&](double l) { return meshes.elements(l) >= growth * number; });
   for (std::size_t e = 0; e < squaredErrors.size(); ++e)
     wanted.halvings[e] = meshes.parts(e, level) / goal.dimension;
   wanted.growth = meshes.elements(level) / number;

@@ -16,6 +16,7 @@ struct RefinementGoal {
   int dimension = 2;
   double error = 0;  ///< discretisation error that is wanted, in the energy norm
   double growth = 8; ///< of the number of elements, at most; if the goal is farther, equal factors lead there
+  double leastGrowth = 1;  ///< less than that is not worth a mesh of its own
   double coarsening = 0;   ///< halvings that elements may lose, where meshes can get coarser
   double mostHalvings = 5; ///< that they may gain: an estimate on a coarse mesh sees no farther
 };
