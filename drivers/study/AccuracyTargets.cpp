@@ -57,6 +57,19 @@ std::vector<Row> measureTargets(const std::string& name, int order, const std::v
   return rows;
 }
 
+double fittedOrder(const std::vector<Row>& rows) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const Row& row : rows) {
+    const double unknowns = std::log(row.number("unknowns")), error = std::log(row.number("true_error"));
+    n += 1;
+    x += unknowns;
+    y += error;
+    xx += unknowns * unknowns;
+    xy += unknowns * error;
+  }
+  return (x * y - n * xy) / (n * xx - x * x);
+}
+
 Table targetsTable() {
   return Table("scene,order,target,met,meshes,unknowns,seconds,last_seconds,estimated_error,true_error,"
                "effectivity,reference_unknowns,reference_error");
@@ -72,6 +85,16 @@ std::string targetsReport(const Table& table) {
                           row.text("meshes"), count(row.number("unknowns")), plain(row.number("seconds"), 3),
                           plain(row.number("last_seconds"), 3), percent(row.number("estimated_error")),
                           percent(row.number("true_error")), plain(row.number("effectivity"), 3)});
+  text += "\nError ~ N^-s, fitted over the targets:\n\n" + markdownHeading("scene | order | s");
+  for (std::size_t first = 0; first < table.rows.size();) {
+    std::vector<Row> series;
+    while (first < table.rows.size() &&
+           (series.empty() || table.rows[first].isLike(series.front(), {"scene", "order"})))
+      series.push_back(table.rows[first++]);
+    if (series.size() > 2)
+      text += markdownLine(
+          {series.front().text("scene"), series.front().text("order"), plain(fittedOrder(series), 3)});
+  }
   return text;
 }
 

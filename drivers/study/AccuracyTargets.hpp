@@ -16,6 +16,9 @@ std::vector<Row> measureTargets(const std::string& name, int order, const std::v
                                 double reference, const std::filesystem::path& scenes,
                                 const RCP<const Comm>& comm);
 
+/// s of true_error ~ unknowns^-s, by least squares. Precondition: two rows at least that differ in unknowns.
+double fittedOrder(const std::vector<Row>& rows);
+
 /// To read.
 std::string targetsReport(const Table& table);
 

@@ -6,7 +6,6 @@
 #include "epafi/base/Collective.hpp"
 
 #include <algorithm>
-#include <string>
 
 namespace epafi::drivers {
 
@@ -15,12 +14,12 @@ bool studyTargets(const std::filesystem::path& directory, bool quick, const RCP<
   for (const Case& one : expandCases(caseText("accuracy"), "targets", quick)) {
     tell(*comm, "targets: " + one.name);
     std::vector<double> targets;
-    const double least = std::stod(one.parameter);
-    for (const double target : {0.05, 0.02, 0.01, 0.005, 0.002, 0.001})
-      if (target >= least)
-        targets.push_back(target);
+    for (double target = one.list.get("Largest", 0.05); target >= 0.99 * one.list.get<double>("Least");
+         target *= 0.5)
+      targets.push_back(target);
     const std::vector<Row> rows =
-        measureTargets(one.name, 0, targets, one.list.get<double>("Reference"), sceneDirectory(), comm);
+        measureTargets(one.name, static_cast<int>(one.list.get("Order", 0.0)), targets,
+                       one.list.get<double>("Reference"), sceneDirectory(), comm);
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
     const std::string report = targetsReport(table);
     tell(*comm, "\n" + report);

@@ -22,7 +22,7 @@ double measuredEffectivity(const MeshResult& last, const MeshResult& next, doubl
 
 /// By how much the last mesh missed what was expected of it: the next is asked for as much more.
 double missedBy(const MeshResult& last, double expected) {
-  constexpr double most = 1.4;
+  constexpr double most = 1.15;
   return expected > 0 ? std::clamp(last.discretisation * last.effectivity / expected, 1.0, most) : 1.0;
 }
 
