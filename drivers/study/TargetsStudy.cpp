@@ -11,7 +11,7 @@ namespace epafi::drivers {
 
 bool studyTargets(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm) {
   Table table = targetsTable();
-  for (const Case& one : expandCases(caseText("accuracy"), "targets", quick)) {
+  for (Case& one : expandCases(caseText("accuracy"), "targets", quick)) {
     tell(*comm, "targets: " + one.name);
     std::vector<double> targets;
     for (double target = one.list.get("Largest", 0.05); target >= 0.99 * one.list.get<double>("Least");
