@@ -52,8 +52,8 @@ double distance(const SceneRun& finer, const SceneRun& coarser) {
 /// A scene on its meshes.
 class SceneLevels : public accuracy::RefinableProblem {
 public:
-  SceneLevels(Teuchos::ParameterList solverParameters, RCP<const Comm> comm, RunCompanion* companion)
-      : solverParameters_(std::move(solverParameters)), comm_(std::move(comm)), companion_(companion) {
+  SceneLevels(const Teuchos::ParameterList& solverParameters, RCP<const Comm> comm, RunCompanion* companion)
+      : solverParameters_(solverParameters), comm_(std::move(comm)), companion_(companion) {
     if (!solverParameters_.isParameter("Tolerance") || solverParameters_.getEntry("Tolerance").isDefault())
       solverParameters_.set("Tolerance", std::string("balanced"));
     restart();
@@ -248,7 +248,7 @@ void report(AccurateRun& result, double target) {
 
 } // namespace
 
-AccurateRun solveToTarget(const scene::Scene& scene, Teuchos::ParameterList solverParameters,
+AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                           const AccuracyParameters& accuracy, const RCP<const Comm>& comm,
                           RunCompanion* companion, const std::function<void(const MeshResult&)>& tell) {
   const bool isLocal = accuracy.refinement == AccuracyParameters::Refinement::local;

@@ -23,7 +23,7 @@ struct AccurateRun {
 /// \param solverParameters  the list Solver; its tolerance is 'balanced' unless it gives one
 /// \param tell              is told of every mesh; may be empty
 /// Precondition: accuracy.target > 0. Collective. \throws as solveScene.
-AccurateRun solveToTarget(const scene::Scene& scene, Teuchos::ParameterList solverParameters,
+AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                           const AccuracyParameters& accuracy, const RCP<const Comm>& comm,
                           RunCompanion* companion,
                           const std::function<void(const accuracy::MeshResult&)>& tell);
