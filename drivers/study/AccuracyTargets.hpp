@@ -6,7 +6,7 @@
 
 namespace epafi::drivers {
 
-/// accuracy_targets.csv: a scene with a target. Errors in the energy norm, relative; seconds of all meshes, and those of the last.
+/// targets.csv: a scene with a target. Errors in the energy norm, relative; seconds of all meshes, and those of the last.
 Table targetsTable();
 
 /// Of scenes/name.xml, for each target; `reference` is that of the run that these are compared with.

@@ -13,7 +13,7 @@ namespace epafi::drivers {
 /// solvers are added where AccuracyPeers.hpp finds them there. False if a run did not converge.
 bool studyAccuracy(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 
-/// Scenes with a target: true error beside target and estimate, meshes and seconds: accuracy_targets.csv. False if a true error
+/// Scenes with a target: true error beside target and estimate, meshes and seconds: targets.csv. False if a true error
 /// is more than a tenth above its target.
 bool studyTargets(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 

@@ -23,7 +23,7 @@ bool studyTargets(const std::filesystem::path& directory, bool quick, const RCP<
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
     const std::string report = targetsReport(table);
     tell(*comm, "\n" + report);
-    writeFiles(directory, {{"accuracy_targets.csv", table.csv()}, {"accuracy_targets.md", report}}, *comm);
+    writeFiles(directory, {{"targets.csv", table.csv()}, {"targets.md", report}}, *comm);
   }
   constexpr double tenth = 1.1;
   return std::all_of(table.rows.begin(), table.rows.end(), [](const Row& row) {
