@@ -68,6 +68,7 @@ struct LoopGoal {
   int order = 0; ///< of the elements, 1 or 2; 0: whichever reaches the target with fewer unknowns
 };
 
+/// What came of it.
 struct LoopResult {
   std::vector<MeshResult> meshes;
   bool isMet = false;

@@ -12,6 +12,7 @@
 
 namespace epafi::accuracy {
 
+/// The error that is wanted, and how far meshes may go at once.
 struct RefinementGoal {
   int dimension = 2;
   double error = 0;  ///< discretisation error that is wanted, in the energy norm
