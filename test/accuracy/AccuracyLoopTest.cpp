@@ -218,6 +218,24 @@ TEST(AccuracyLoopTest, OrderTwoIsTakenWhereOrderOneWouldNeedMoreUnknownsThanItHa
   }
 }
 
+TEST(AccuracyLoopTest, LimitsHoldForTheFirstMeshWithOrderTwoToo) {
+  Patches few, small;
+  EXPECT_EQ(refineToTarget(few, {.target = 0.001, .maxMeshes = 1}).meshes.size(), 1U);
+  const LoopResult result =
+      refineToTarget(small, {.target = 0.001, .maxUnknowns = 20000}); // 16000, then 64000
+  for (const MeshResult& mesh : result.meshes)
+    EXPECT_LE(mesh.unknowns, 20000);
+}
+
+/// The mesh is fine enough, the iteration is not: the same mesh once more does not help.
+TEST(AccuracyLoopTest, NoMeshIsSolvedOnAgainAndAgain) {
+  Patches problem;
+  problem.algebraic = 0.3;
+  const LoopResult result = refineToTarget(problem, {.target = 0.28, .order = 1});
+  EXPECT_FALSE(result.isMet);
+  EXPECT_LE(result.meshes.size(), 2U);
+}
+
 /// 0.9 of the target is the mesh's; if that was missed by a factor the next is asked for as much more, within reason.
 TEST(AccuracyLoopTest, AimsFurtherAfterAMiss) {
   for (const auto& [surprise, more] : {std::pair{1.0, 1.0}, {1.2, 1.2}, {1.3, 1.3}, {2.0, 1.4}}) {

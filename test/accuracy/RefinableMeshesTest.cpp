@@ -122,6 +122,18 @@ TEST_F(RefinableMeshesTest, PartsMakeUpTheirAncestorsAndSurfacesStay) {
   }
 }
 
+/// 2^(d·halvings) times as many elements, also if each of them wants a part of a bisection.
+TEST_F(RefinableMeshesTest, AGrowthThatIsWantedEverywhereIsMade) {
+  for (const double halving : {0.2, 0.35}) {
+    RefinableMeshes meshes(test::membrane(4, 2), *comm);
+    meshes.refine(halvings(meshes, [](const fem::Point& /*x*/) { return 1.0; }), *comm);
+    const auto before = static_cast<double>(meshes.measures()[0].size());
+    meshes.refine(halvings(meshes, [&](const fem::Point& /*x*/) { return halving; }), *comm);
+    const auto after = static_cast<double>(meshes.measures()[0].size());
+    EXPECT_NEAR(after / before, std::exp2(2 * halving), 0.2);
+  }
+}
+
 TEST_F(RefinableMeshesTest, BodiesAreCutIntoMorePartsAsTheirMeshesGrow) {
   RefinableMeshes meshes(test::membrane(4, 2), *comm);
   const scene::Scene first = meshes.scene(1);

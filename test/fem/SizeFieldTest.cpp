@@ -97,6 +97,25 @@ TEST_F(SizeFieldTest, WhereSimplicesOverlapTheSmallerSizeHolds) {
   }
 }
 
+TEST_F(SizeFieldTest, BeyondTheBodyASmallSimplexCanBeNearerThanALargeOne) {
+  const SizeField field({2,
+                         {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {-2, -1, 0}, {-1, -1, 0}, {-1, 0, 0}},
+                         {0.01, 0.01, 0.01, 1, 1, 1}});
+  EXPECT_NEAR(field.at({-0.05, 0, 0}), 0.01, 1e-14); // 0.05 from the one, 0.95 from the other
+}
+
+/// Two bodies of one geometry that touch, each with its own sizes: a point of both is outside of either by round-off.
+TEST_F(SizeFieldTest, WhereBodiesTouchTheSmallerSizeHolds) {
+  const Point a{0.1, 0.3, 0}, b{0.7, 0.8, 0}, below{0.9, 0.1, 0}, above{0.2, 0.9, 0};
+  const SizeField field({2, {a, below, b, a, b, above}, {1, 1, 1, 0.1, 0.1, 0.1}});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> inside(0, 1);
+  for (int k = 0; k < 100; ++k) {
+    const double t = inside(random);
+    EXPECT_NEAR(field.at({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0}), 0.1, 1e-12);
+  }
+}
+
 /// A square or cube of side 1 that says itself that two elements a side are enough.
 const std::string square = R"(
 lc = 0.5;
@@ -159,6 +178,19 @@ TEST_F(SizeFieldTest, GeometriesAreMeshedWithTheSizesThatAreAskedForAndNotWithTh
   const UnstructuredMesh solid = meshWith(block, sizesOf(3, constant(0.3)));
   EXPECT_EQ(solid.cellType(), CellType::tetrahedron10);
   EXPECT_NEAR(meanEdge(solid, constant(0.3)), 1, closeEnough);
+}
+
+TEST_F(SizeFieldTest, FieldsMeshesAndNumbersOfElementsThatAGeometryGivesDoNotMatter) {
+  const std::string field = "Field[1] = MathEval;\nField[1].F = \"0.05\";\nBackground Field = 1;\n",
+                    meshes = "Mesh 2;\n", rows = "Transfinite Curve {1} = 5;\n";
+  for (const std::string& more : {field, meshes, rows}) {
+    const std::string plate = folder.write("square.geo", square + more);
+    const double size = more == field ? 0.2 : 0.05;
+    const UnstructuredMesh mesh = meshWith(plate, sizesOf(2, constant(size)));
+    EXPECT_NEAR(meanEdge(mesh, constant(size)), 1, closeEnough) << more;
+    EXPECT_NEAR(meanEdge(mesh, constant(size), [](const Point& x) { return x[1] == 0; }), 1, closeEnough)
+        << more;
+  }
 }
 
 TEST_F(SizeFieldTest, GeometriesAreMeshedFinelyWhereThatIsAskedForAlone) {
