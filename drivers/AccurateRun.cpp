@@ -101,7 +101,7 @@ private:
     result.energyNorm = run.error->energyNorm;
     result.discretisation = run.error->discretisation;
     result.algebraic = run.solution.algebraicError;
-    result.bytes = sumOverRanks(*comm_, peakBytes());
+    result.bytes = sumOverRanks(*comm_, peakBytes() - bytesBefore_);
     // Short of its tolerance an iteration may still be good enough for a mesh: its error is known, and counts.
     const qp::SolveReport& report = run.solver->report();
     if (report.status == qp::Status::interrupted ||
@@ -116,7 +116,7 @@ private:
   RunCompanion* companion_;
   SceneRun run_;
   bool hasRun_ = false;
-  double start_ = 0;
+  double start_ = 0, bytesBefore_ = resetPeakBytes();
 };
 
 /// Elements halved everywhere, and as many times more subdomains.
@@ -158,7 +158,7 @@ public:
   [[nodiscard]] WantedSizes plan(const MeshResult& result, const RefinementGoal& goal) const override {
     RefinementGoal own(goal);
     if (meshes_.areRemeshed()) // what Gmsh does not do as asked is lost in the error's fall then
-      own.leastGrowth = 1.7;
+      own.leastGrowth = 2.5;
     return SceneLevels::plan(result, own);
   }
   std::vector<LocalOrdinal> refine(const WantedSizes& wanted) override {
@@ -279,6 +279,11 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
       throw;
     result.loop.meshes = std::move(done);
     result.loop.reason = signal.what();
+  } catch (const Error& error) { // on all ranks; what was reached is not thrown away
+    if (done.empty())
+      throw;
+    result.loop.meshes = std::move(done);
+    result.loop.reason = std::string("the next mesh failed: ") + error.what();
   }
   result.run = std::move(levels->run());
   result.run.correctEstimate(result.loop.meshes.back().effectivity);

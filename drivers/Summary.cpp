@@ -210,13 +210,17 @@ std::string summary(const SceneRun& run) {
 }
 
 std::string describe(const accuracy::MeshResult& mesh) {
-  const double absolute = std::hypot(mesh.discretisation, mesh.algebraic);
+  const double algebraic = std::isfinite(mesh.algebraic) ? mesh.algebraic : 0;
+  const double absolute = std::hypot(mesh.discretisation, algebraic);
   const double scale = absolute > 0 ? mesh.relative() / absolute : 0;
   std::ostringstream text;
   text << "  mesh        order " << mesh.order << ", " << counted(mesh.unknowns, "primal unknown") << ", "
        << counted(mesh.multiplications, "product") << " with F, " << std::setprecision(2) << mesh.seconds
        << " s: estimated error " << percent(mesh.relative()) << " (" << percent(scale * mesh.discretisation)
-       << " of the mesh, " << percent(scale * mesh.algebraic) << " of the iteration)\n";
+       << " of the mesh, "
+       << (std::isfinite(mesh.algebraic) ? percent(scale * algebraic) + " of the iteration"
+                                         : "that of the iteration not measured")
+       << ")\n";
   return text.str();
 }
 

@@ -111,6 +111,9 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
       text << "order 1 would need some " << one << " unknowns";
     result.choice = text.str();
     if (!result.isMet && one > two) {
+      result.reason = obstacle(result.meshes, dimension == 2 ? 4 : 8, goal);
+      if (!result.reason.empty())
+        return result;
       order = 2;
       last = &solve(order);
     }
@@ -123,6 +126,9 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
                 .error = last->effectivity * meshShare * goal.target * norm / missedBy(*last, expected)});
     expected = wanted.error;
     result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
+    constexpr double nothing = 1.001;
+    if (result.reason.empty() && wanted.growth < nothing)
+      result.reason = "the mesh is fine enough, but the iteration is not; ask it for a smaller tolerance";
     if (!result.reason.empty())
       break;
     ancestors = problem.refine(wanted);

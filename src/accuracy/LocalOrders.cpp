@@ -18,7 +18,7 @@ std::vector<double> localOrders(const ElementErrors& last, std::span<const Local
     own.measure += measures[e];
     ++own.number;
   }
-  constexpr double leastOrder = 0.4, clear = 0.4, doubt = 1; // halvings
+  constexpr double leastOrder = 0.4, clear = 0.3, doubt = 1; // halvings
   std::vector<double> orders(last.orders);
   for (std::size_t t = 0; t < heirs.size(); ++t) {
     const Heirs& own = heirs[t];

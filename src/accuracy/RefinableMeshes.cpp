@@ -149,8 +149,12 @@ std::vector<std::vector<LocalOrdinal>> RefinableMeshes::refine(std::span<const s
       if (!ancestors[b].empty())
         continue;
       std::vector<int> times;
-      for (const double halving : halvings[b])
-        times.push_back(std::max(0, static_cast<int>(std::lround(meshes_[b].dimension * halving))));
+      double rest = 0; // of rounding, carried on: all together are split as often as is wanted
+      for (const double halving : halvings[b]) {
+        const double wanted = std::max(0.0, meshes_[b].dimension * halving);
+        times.push_back(wanted > 0 ? std::max(0, static_cast<int>(std::lround(wanted + rest))) : 0);
+        rest += wanted - times.back();
+      }
       ancestors[b] = bisect(meshes_[b], std::move(times));
     }
   });
@@ -187,11 +191,12 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
         made += static_cast<double>(meshes_[b].elements.size());
       }
     });
-    constexpr double clear = 1.5;
-    if (made == before && wanted > clear * before) // it says itself how many elements there are
+    constexpr double clear = 1.5, poor = 0.5; // numbers of elements that a geometry gives stand in the way
+    if (wanted > clear * before && made < poor * wanted)
       for (const std::size_t b : bodies) {
         isRemeshed_[b] = false;
-        ancestors[b] = {};
+        if (made == before) // the mesh is the old one
+          ancestors[b] = {};
       }
     stretch *= std::clamp(std::pow(wanted / made, 1.0 / dimension), 0.7, 1.4);
   }

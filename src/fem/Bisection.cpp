@@ -49,31 +49,27 @@ private:
     return false;
   }
 
-  /// Of the chord; the same from every element.
-  [[nodiscard]] double squaredLength(LocalOrdinal low, LocalOrdinal high) const {
+  /// Of the chord, rounded: the same from every element, and of edges that differ in round-off alone.
+  [[nodiscard]] float squaredLength(LocalOrdinal low, LocalOrdinal high) const {
     const Point &a = mesh_.points[index(low)], &b = mesh_.points[index(high)];
     double sum = 0;
     for (std::size_t d = 0; d < 3; ++d)
       sum += (b[d] - a[d]) * (b[d] - a[d]);
-    return sum;
+    return static_cast<float>(sum);
   }
 
-  /// Places of its ends among the corners. Lengths that differ in round-off alone count as equal.
+  /// Places of its ends among the corners. Edges are in one order, whichever element asks: by length, then by name.
   [[nodiscard]] std::pair<std::size_t, std::size_t> longestEdge(std::size_t element) const {
     const auto& corners = mesh_.elements[element].corners;
     std::pair<std::size_t, std::size_t> longest;
-    double length = 0;
-    Edge edge = 0;
-    constexpr double roundOff = 1e-9;
+    std::pair<float, Edge> key{0.0F, 0};
     for (std::size_t i = 1; i < numCorners_; ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const auto [low, high] = std::minmax(corners[i], corners[j]);
-        const double here = squaredLength(low, high);
-        const Edge name = SimplexMesh::edgeBetween(low, high);
-        if (here > length * (1 + roundOff) || (here > length * (1 - roundOff) && name > edge)) {
+        const std::pair here{squaredLength(low, high), SimplexMesh::edgeBetween(low, high)};
+        if (here > key) {
           longest = {i, j};
-          length = std::max(length, here);
-          edge = name;
+          key = here;
         }
       }
     return longest;

@@ -64,6 +64,9 @@ struct Gmsh {
   decltype(&gmshModelMeshRemoveConstraints) removeConstraints =
       Symbol{library, "gmshModelMeshRemoveConstraints"};
   decltype(&gmshModelMeshSetSizeCallback) setSizeCallback = Symbol{library, "gmshModelMeshSetSizeCallback"};
+  decltype(&gmshModelMeshFieldSetAsBackgroundMesh) setBackground =
+      Symbol{library, "gmshModelMeshFieldSetAsBackgroundMesh"};
+  decltype(&gmshModelMeshClear) clear = Symbol{library, "gmshModelMeshClear"};
   decltype(&gmshModelMeshSetOrder) setOrder = Symbol{library, "gmshModelMeshSetOrder"};
   decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
   decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
@@ -193,6 +196,9 @@ void Session::meshWith(const SizeField& sizes) const {
   GmshArray<int> entities;
   call(gmsh_.entities, &entities.data, &entities.size, anyEntity);
   call(gmsh_.removeConstraints, entities.data, entities.size);
+  constexpr int none = 0;
+  call(gmsh_.setBackground, none);
+  call(gmsh_.clear, static_cast<int*>(nullptr), std::size_t{0}); // of what the file has meshed itself
   int error = 0;
   const int dimension = gmsh_.dimension(&error);
   call([&](auto* failed) { setSizes(gmsh_.setSizeCallback, sizes, failed); });
@@ -204,6 +210,9 @@ void Session::meshWith(const SizeField& sizes) const {
                                     {"Mesh.MeshSizeFromPoints", 0.0},
                                     {"Mesh.MeshSizeFromCurvature", 0.0},
                                     {"Mesh.RecombineAll", 0.0},
+                                    {"Mesh.SubdivisionAlgorithm", 0.0},
+                                    {"General.NumThreads", 1.0}, // several give another mesh each time
+                                    {"Mesh.MaxNumThreads3D", 1.0},
                                     {"Mesh.Algorithm", frontal},
                                     {"Mesh.Algorithm3D", hxt}})
     call(gmsh_.setNumber, name, value);

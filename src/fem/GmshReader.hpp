@@ -24,8 +24,8 @@ namespace epafi::fem {
 std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0,
                            int order = 0);
 
-/// Of a geometry, meshed anew in triangles or tetrahedra of order 2: with these sizes, whatever it says of sizes, layers, rows
-/// and quadrilaterals. The same otherwise. \param meshSizeFactor  that the geometry can read
+/// Of a geometry, meshed anew in triangles or tetrahedra of order 2: with these sizes, whatever it says of sizes. Numbers of
+/// elements that it gives itself stay (Gmsh's own kernel keeps transfinite curves, layers and quadrilaterals). The same otherwise. \param meshSizeFactor  that the geometry can read
 std::string textOfGeometry(const std::string& file, double meshSizeFactor, const SizeField& sizes);
 
 } // namespace epafi::fem

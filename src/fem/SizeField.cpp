@@ -50,6 +50,8 @@ double SizeField::sizeIn(std::size_t simplex, const Point& point, double& outsid
   weights.segment<3>(1) = edges.partialPivLu().solve(place);
   weights[0] = 1 - weights.sum();
   outside = std::max(0.0, -weights.head(n + 1).minCoeff());
+  constexpr double roundOff = 1e-9;
+  outside = outside <= roundOff ? 0 : outside * edges.topLeftCorner(n, n).colwise().norm().maxCoeff();
   weights = weights.cwiseMax(0.0);
   weights /= weights.sum();
   double size = 0;
@@ -72,9 +74,8 @@ double SizeField::at(const Point& point) const {
     }
   };
   look(geometry::index::intersects(place));
-  constexpr double roundOff = 1e-9;
   constexpr unsigned near = 8; // beyond the chords of a curved border
-  if (!(least <= roundOff))
+  if (!(least <= 0))
     look(geometry::index::nearest(place, near));
   return size;
 }

@@ -30,7 +30,7 @@ public:
 
 private:
   struct Boxes;
-  /// \param[out] outside  how far, in barycentric coordinates
+  /// \param[out] outside  how far, about; 0 inside
   [[nodiscard]] double sizeIn(std::size_t simplex, const Point& point, double& outside) const;
 
   MeshSizes sizes_;

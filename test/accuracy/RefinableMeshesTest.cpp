@@ -122,7 +122,7 @@ TEST_F(RefinableMeshesTest, PartsMakeUpTheirAncestorsAndSurfacesStay) {
   }
 }
 
-/// 2^(d·halvings) times as many elements, also if each of them wants a part of a bisection.
+/// 2^(d·halvings) times as many elements at least, also if each of them wants a part of a bisection.
 TEST_F(RefinableMeshesTest, AGrowthThatIsWantedEverywhereIsMade) {
   for (const double halving : {0.2, 0.35}) {
     RefinableMeshes meshes(test::membrane(4, 2), *comm);
@@ -130,7 +130,8 @@ TEST_F(RefinableMeshesTest, AGrowthThatIsWantedEverywhereIsMade) {
     const auto before = static_cast<double>(meshes.measures()[0].size());
     meshes.refine(halvings(meshes, [&](const fem::Point& /*x*/) { return halving; }), *comm);
     const auto after = static_cast<double>(meshes.measures()[0].size());
-    EXPECT_NEAR(after / before, std::exp2(2 * halving), 0.2);
+    EXPECT_GE(after / before, 0.95 * std::exp2(2 * halving));
+    EXPECT_LE(after / before, 1.5 * std::exp2(2 * halving)) << "no more than keeps nodes from hanging";
   }
 }
 
