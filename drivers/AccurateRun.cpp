@@ -231,7 +231,7 @@ void report(AccurateRun& result, double target) {
   reason.precision(3);
   if (result.loop.isMet) {
     reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, at most the "
-           << 100 * target << " % that were asked for";
+           << 100 * target << " % that was asked for";
     list.sublist("Status")
         .set("Converged", true)
         .set("Status", std::string("Converged"))
