@@ -1,8 +1,18 @@
 #include "AccuracyParameters.hpp"
 
+#include "PeakMemory.hpp"
+
 #include "epafi/base/Parameters.hpp"
 
+#include <string>
+#include <vector>
+
 namespace epafi::drivers {
+namespace {
+
+const std::vector<std::string> refinements{"local", "even"};
+
+} // namespace
 
 void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
   const AccuracyParameters defaults;
@@ -11,24 +21,46 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       "Estimate Error", defaults.estimate,
       "Whether the discretisation error is estimated at the end, in the energy norm, by a recovered flux "
       "(Zienkiewicz, Zhu 1987).");
-  addShare(list, "Target", defaults.target,
-           "Relative error in the energy norm that is asked for, such as 0.01 or \"1 %\": all meshes are "
-           "refined, each "
-           "start from the last one's solution, until the estimate is met. The tolerance is 'balanced' then, "
-           "unless the "
-           "scene gives one. 0: the scene's meshes as they are.");
-  addInteger(list, "Maximum Levels", defaults.maxLevels,
-             "With a target: meshes at most, the scene's own the first.", 1);
+  addShare(
+      list, "Target", defaults.target,
+      "Relative error in the energy norm that is asked for, such as 0.01 or \"1 %\", also by --accuracy: "
+      "mesh after mesh, each started from the last one's solution, until the estimate is met. The "
+      "tolerance is 'balanced' then, unless the scene gives one. 0: the scene's meshes as they are.");
+  addChoice(
+      list, "Refinement", refinements.front(),
+      "With a target: local: the first mesh is as coarse as the scene allows (of a mesh file: its own), and "
+      "triangles or tetrahedra are refined where the error is; a geometry is meshed anew. even: the scene's "
+      "own mesh, and all its elements are halved.",
+      refinements);
+  addInteger(
+      list, "Order", defaults.order,
+      "With local refinement: order of the elements, whatever the bodies say. 0: 2, or 1 where this takes "
+      "fewer unknowns.",
+      0, 2);
+  addInteger(list, "Maximum Levels", defaults.maxLevels, "With a target: meshes at most.", 1);
   addReal(list, "Maximum Unknowns", defaults.maxUnknowns,
           "With a target: no mesh with more unknowns is made.", 1);
+  addReal(list, "Maximum Seconds", defaults.maxSeconds,
+          "With a target: no mesh is begun that would not be ready by then.", 0);
+  addReal(list, "Maximum Memory", 0,
+          "With a target: no mesh is made that would take more, in GB, on all ranks together. 0: four fifths "
+          "of what "
+          "is free on this machine.",
+          0);
 }
 
 AccuracyParameters AccuracyParameters::from(const Teuchos::ParameterList& list) {
   AccuracyParameters parameters;
   parameters.estimate = list.get<bool>("Estimate Error");
   parameters.target = list.get<double>("Target");
+  parameters.refinement = enumeratorFrom<Refinement>(list, "Refinement", refinements);
+  parameters.order = list.get<int>("Order");
   parameters.maxLevels = list.get<int>("Maximum Levels");
   parameters.maxUnknowns = list.get<double>("Maximum Unknowns");
+  parameters.maxSeconds = list.get<double>("Maximum Seconds");
+  constexpr double share = 0.8, giga = 1e9;
+  const double memory = giga * list.get<double>("Maximum Memory");
+  parameters.maxBytes = memory > 0 ? memory : share * freeBytes();
   return parameters;
 }
 

@@ -4,13 +4,21 @@
 
 #include <Teuchos_ParameterList.hpp>
 
+#include <limits>
+
 namespace epafi::drivers {
 
 struct AccuracyParameters {
-  bool estimate = true;     ///< whether to estimate the error at the end
-  double target = 0;        ///< of the relative error; 0: as accurate as the scene's mesh
-  int maxLevels = 8;        ///< meshes at most, the scene's own the first
-  double maxUnknowns = 2e6; ///< no mesh with more is made
+  /// How meshes are refined: where the error is, or everywhere.
+  enum class Refinement { local, even };
+  bool estimate = true; ///< whether to estimate the error at the end
+  double target = 0;    ///< of the relative error; 0: as accurate as the scene's mesh
+  Refinement refinement = Refinement::local;
+  int order = 0;      ///< of the elements with local refinement; 0: chosen
+  int maxLevels = 20; ///< meshes at most
+  double maxUnknowns = std::numeric_limits<double>::infinity(); ///< no mesh with more is made
+  double maxSeconds = std::numeric_limits<double>::infinity(); ///< no mesh is begun that would be ready later
+  double maxBytes = std::numeric_limits<double>::infinity(); ///< no mesh is made that would take more memory
 
   /// Adds the list Accuracy to the schema of a scene file.
   static void addTo(Teuchos::ParameterList& schema);

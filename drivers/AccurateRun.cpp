@@ -1,11 +1,17 @@
 #include "AccurateRun.hpp"
 
+#include "PeakMemory.hpp"
+#include "RunWatch.hpp"
+
+#include "epafi/accuracy/ErrorNorms.hpp"
+#include "epafi/accuracy/RefinableMeshes.hpp"
 #include "epafi/accuracy/Refinement.hpp"
 #include "epafi/base/Collective.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -13,54 +19,227 @@
 namespace epafi::drivers {
 namespace {
 
-Level levelOf(const SceneRun& run, double seconds) {
-  Level level;
-  level.unknowns = run.decomposition->problem.primalDimension;
-  level.multiplications = run.solver->report().counts.hessianMultiplications;
-  level.relativeError = run.relativeError();
-  level.discretisationError = run.error->discretisation;
-  level.algebraicError = run.solution.algebraicError;
-  level.seconds = seconds;
-  return level;
+using accuracy::MeshResult;
+using accuracy::RefinementGoal;
+using accuracy::WantedSizes;
+
+/// η² of all elements of all bodies, on every rank. Collective.
+std::vector<double> allErrors(const SceneRun& run) {
+  const model::Decomposition& decomposition = *run.decomposition;
+  std::vector<std::size_t> first(1, 0);
+  for (const model::BodyLayout& body : decomposition.bodies)
+    first.push_back(first.back() + static_cast<std::size_t>(body.mesh->numElements()));
+  std::vector<double> errors(first.back(), 0.0);
+  for (std::size_t s = 0; s < decomposition.problem.subdomains.size(); ++s) {
+    const decomposition::Subdomain& subdomain = decomposition.problem.subdomains[s];
+    const model::BodyLayout& body = decomposition.bodies[static_cast<std::size_t>(subdomain.body)];
+    const auto elements = body.partition->elementsOf(subdomain.number - body.firstSubdomain);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      errors[first[static_cast<std::size_t>(subdomain.body)] + static_cast<std::size_t>(elements[e])] =
+          run.error->elements[s][e];
+  }
+  sumOverRanks(*decomposition.problem.comm, std::span(errors)); // each element is one rank's
+  return errors;
 }
 
-/// Why no finer mesh is made; empty if one is.
-std::string obstacle(const AccurateRun& result, const AccuracyParameters& accuracy) {
-  const SceneRun& run = result.run;
-  std::ostringstream text;
-  if (run.solver->report().status != qp::Status::converged) {
-    text << "the iteration did not reach its tolerance on a mesh: " << run.solver->report().reason;
-  } else if (static_cast<int>(result.levels.size()) >= accuracy.maxLevels) {
-    text << "\"Maximum Levels\" allows no more than " << accuracy.maxLevels << " meshes";
-  } else {
-    const bool isInSpace = run.decomposition->problem.components == 3;
-    const double next = static_cast<double>(result.levels.back().unknowns) * (isInSpace ? 8 : 4);
-    if (next > accuracy.maxUnknowns)
-      text << "the next mesh would have " << next << " unknowns, and \"Maximum Unknowns\" allows "
-           << accuracy.maxUnknowns;
-  }
-  return text.str();
+/// In the energy norm, on the mesh of the finer one. Collective.
+double distance(const SceneRun& finer, const SceneRun& coarser) {
+  return accuracy::errorAgainst(finer.scene, *finer.decomposition, finer.solution.displacement,
+                                *coarser.decomposition, coarser.solution.displacement)
+      .energy;
 }
+
+/// A scene on its meshes.
+class SceneLevels : public accuracy::RefinableProblem {
+public:
+  SceneLevels(const Teuchos::ParameterList& solverParameters, RCP<const Comm> comm, RunCompanion* companion)
+      : solverParameters_(solverParameters), comm_(std::move(comm)), companion_(companion) {
+    if (!solverParameters_.isParameter("Tolerance") || solverParameters_.getEntry("Tolerance").isDefault())
+      solverParameters_.set("Tolerance", std::string("balanced"));
+    restart();
+  }
+
+  MeshResult solve(int order) final {
+    std::vector<model::BodyLayout> bodies;
+    const scene::Scene scene = prepare(order, bodies);
+    RunOptions options{.estimatesError = true, .coarser = nullptr, .companion = companion_};
+    if (!bodies.empty())
+      options.bodies = &bodies;
+    if (hasRun_)
+      options.coarser = &run_;
+    SceneRun run = solveScene(scene, solverParameters_, comm_, options);
+    const double change = hasRun_ && measuresChange() ? distance(run, run_) : 0;
+    run_ = std::move(run); // the coarser one is needed no longer
+    hasRun_ = true;
+    MeshResult result = resultOf(run_);
+    result.change = change;
+    result.seconds = maxOverRanks(*comm_, Teuchos::Time::wallTime() - start_);
+    restart();
+    return result;
+  }
+
+  [[nodiscard]] SceneRun& run() { return run_; }
+
+protected:
+  /// The scene with an order, and its bodies unless it has them itself.
+  virtual scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) = 0;
+  virtual accuracy::ElementErrors elementsOf(const SceneRun& run) = 0;
+  /// Whether estimates are to be measured.
+  [[nodiscard]] virtual bool measuresChange() const = 0;
+  [[nodiscard]] const Comm& comm() const { return *comm_; }
+
+private:
+  void restart() { start_ = Teuchos::Time::wallTime(); }
+
+  MeshResult resultOf(const SceneRun& run) {
+    MeshResult result;
+    result.order = 1;
+    for (const model::BodyLayout& body : run.decomposition->bodies)
+      result.order = std::max(result.order, fem::orderOf(body.mesh->cellType()));
+    result.unknowns = run.decomposition->problem.primalDimension;
+    result.multiplications = run.solver->report().counts.hessianMultiplications;
+    result.energyNorm = run.error->energyNorm;
+    result.discretisation = run.error->discretisation;
+    result.algebraic = run.solution.algebraicError;
+    result.bytes = sumOverRanks(*comm_, peakBytes() - bytesBefore_);
+    // Short of its tolerance an iteration may still be good enough for a mesh: its error is known, and counts.
+    const qp::SolveReport& report = run.solver->report();
+    if (report.status == qp::Status::interrupted ||
+        (report.status != qp::Status::converged && !(result.algebraic <= result.discretisation)))
+      result.failure = report.reason;
+    result.elements = elementsOf(run);
+    return result;
+  }
+
+  Teuchos::ParameterList solverParameters_;
+  RCP<const Comm> comm_;
+  RunCompanion* companion_;
+  SceneRun run_;
+  bool hasRun_ = false;
+  double start_ = 0, bytesBefore_ = resetPeakBytes();
+};
+
+/// Elements halved everywhere, and as many times more subdomains.
+class EvenLevels final : public SceneLevels {
+public:
+  EvenLevels(scene::Scene scene, const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
+             RunCompanion* companion)
+      : SceneLevels(solverParameters, comm, companion), scene_(std::move(scene)) {}
+
+  [[nodiscard]] int dimension() const override { return dimensionOf(scene_.bodies.front().physics); }
+  [[nodiscard]] WantedSizes plan(const MeshResult& /*result*/, const RefinementGoal& goal) const override {
+    return {{}, std::exp2(goal.dimension)};
+  }
+  std::vector<LocalOrdinal> refine(const WantedSizes& /*wanted*/) override {
+    scene_ = accuracy::refined(std::move(scene_));
+    return {};
+  }
+
+protected:
+  scene::Scene prepare(int /*order*/, std::vector<model::BodyLayout>& /*bodies*/) override { return scene_; }
+  accuracy::ElementErrors elementsOf(const SceneRun& /*run*/) override { return {}; }
+  [[nodiscard]] bool measuresChange() const override { return false; }
+
+private:
+  scene::Scene scene_;
+};
+
+/// Elements as small as their errors ask for.
+class LocalLevels final : public SceneLevels {
+public:
+  LocalLevels(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
+              const RCP<const Comm>& comm, RunCompanion* companion)
+      : SceneLevels(parametersFor(scene, solverParameters), comm, companion), meshes_(scene, *comm),
+        dimension_(dimensionOf(scene.bodies.front().physics)) {}
+
+  [[nodiscard]] int dimension() const override { return dimension_; }
+  /// As on the gallery's scenes before meshes measure it.
+  [[nodiscard]] double effectivity(int order) const override { return order == 1 ? 0.9 : 0.75; }
+  [[nodiscard]] WantedSizes plan(const MeshResult& result, const RefinementGoal& goal) const override {
+    RefinementGoal own(goal);
+    if (meshes_.areRemeshed()) // what Gmsh does not do as asked is lost in the error's fall then
+      own.leastGrowth = 2.5;
+    return SceneLevels::plan(result, own);
+  }
+  std::vector<LocalOrdinal> refine(const WantedSizes& wanted) override {
+    std::vector<std::vector<double>> halvings;
+    auto next = wanted.halvings.begin();
+    for (const model::BodyLayout& body : run().decomposition->bodies) {
+      const auto end = next + static_cast<std::ptrdiff_t>(body.mesh->numElements());
+      halvings.emplace_back(next, end);
+      next = end;
+    }
+    std::vector<LocalOrdinal> ancestors;
+    LocalOrdinal first = 0;
+    const auto ofBodies = meshes_.refine(halvings, comm());
+    for (std::size_t b = 0; b < ofBodies.size(); ++b) {
+      for (const LocalOrdinal ancestor : ofBodies[b])
+        ancestors.push_back(first + ancestor);
+      first += static_cast<LocalOrdinal>(halvings[b].size());
+    }
+    return ancestors;
+  }
+
+protected:
+  /// Where bodies are of one material the diagonal varies with the elements' size and nodes' kinds alone, which no preconditioner
+  /// minds: no eigenproblems.
+  static Teuchos::ParameterList parametersFor(const scene::Scene& scene, Teuchos::ParameterList list) {
+    Teuchos::ParameterList& adaptive = list.sublist("Adaptive Constraints");
+    const bool isUniform = std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                                       [](const scene::Body& body) { return body.regions.empty(); });
+    if (isUniform && (!adaptive.isParameter("Use") || adaptive.getEntry("Use").isDefault()))
+      adaptive.set("Use", std::string("no"));
+    return list;
+  }
+  scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) override {
+    scene::Scene scene = meshes_.scene(order);
+    bodies = meshes_.layout(scene, comm());
+    return scene;
+  }
+  [[nodiscard]] bool measuresChange() const override { return true; }
+  accuracy::ElementErrors elementsOf(const SceneRun& run) override {
+    accuracy::ElementErrors elements{allErrors(run), {}, {}};
+    for (const std::vector<double>& own : meshes_.measures())
+      elements.measures.insert(elements.measures.end(), own.begin(), own.end());
+    return elements;
+  }
+
+private:
+  accuracy::RefinableMeshes meshes_;
+  int dimension_;
+};
 
 void report(AccurateRun& result, double target) {
   Teuchos::ParameterList& list = result.run.report;
-  for (std::size_t i = 0; i < result.levels.size(); ++i) {
-    const Level& level = result.levels[i];
+  for (std::size_t i = 0; i < result.loop.meshes.size(); ++i) {
+    const MeshResult& mesh = result.loop.meshes[i];
     list.sublist("Levels")
         .sublist("level " + std::to_string(i))
-        .set("Primal Dimension", level.unknowns)
-        .set("Hessian Multiplications", level.multiplications)
-        .set("Relative Error", level.relativeError)
-        .set("Discretisation Error", level.discretisationError)
-        .set("Algebraic Error", level.algebraicError)
-        .set("Seconds", level.seconds);
+        .set("Order", mesh.order)
+        .set("Primal Dimension", mesh.unknowns)
+        .set("Hessian Multiplications", mesh.multiplications)
+        .set("Relative Error", mesh.relative())
+        .set("Discretisation Error", mesh.discretisation)
+        .set("Algebraic Error", mesh.algebraic)
+        .set("Effectivity", mesh.effectivity)
+        .set("Seconds", mesh.seconds);
   }
   list.sublist("Accuracy").set("Target", target);
-  if (result.isMet)
-    return;
+  if (!result.loop.choice.empty())
+    list.sublist("Accuracy").set("Choice of Order", result.loop.choice);
   std::ostringstream reason;
-  reason << "the estimated error is " << 100 * result.levels.back().relativeError << " %, and "
-         << 100 * target << " % was asked for: " << result.reason;
+  reason.precision(3);
+  if (result.loop.isMet) {
+    reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, at most the "
+           << 100 * target << " % that was asked for";
+    list.sublist("Status")
+        .set("Converged", true)
+        .set("Status", std::string("Converged"))
+        .set("Reason", reason.str());
+    return;
+  }
+  reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, and "
+         << 100 * target << " % was asked for: " << result.loop.reason;
   list.sublist("Status")
       .set("Converged", false)
       .set("Status", std::string("TargetMissed"))
@@ -69,29 +248,45 @@ void report(AccurateRun& result, double target) {
 
 } // namespace
 
-AccurateRun solveToTarget(scene::Scene scene, Teuchos::ParameterList solverParameters,
+AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                           const AccuracyParameters& accuracy, const RCP<const Comm>& comm,
-                          RunCompanion* companion, const std::function<void(const Level&)>& tell) {
-  if (!solverParameters.isParameter("Tolerance") || solverParameters.getEntry("Tolerance").isDefault())
-    solverParameters.set("Tolerance", std::string("balanced"));
+                          RunCompanion* companion, const std::function<void(const MeshResult&)>& tell) {
+  const bool isLocal = accuracy.refinement == AccuracyParameters::Refinement::local;
+  std::unique_ptr<SceneLevels> levels;
+  if (isLocal)
+    levels = std::make_unique<LocalLevels>(scene, solverParameters, comm, companion);
+  else
+    levels = std::make_unique<EvenLevels>(scene, solverParameters, comm, companion);
   AccurateRun result;
-  while (true) {
-    const double start = Teuchos::Time::wallTime();
-    RunOptions options{.estimatesError = true, .coarser = nullptr, .companion = companion};
-    if (!result.levels.empty())
-      options.coarser = &result.run;
-    SceneRun run = solveScene(scene, solverParameters, comm, options);
-    result.run = std::move(run); // the coarser one is needed no longer
-    result.levels.push_back(levelOf(result.run, maxOverRanks(*comm, Teuchos::Time::wallTime() - start)));
+  std::vector<MeshResult> done;
+  const auto note = [&](const MeshResult& mesh) {
+    done.push_back(mesh);
+    done.back().elements = {};
     if (tell)
-      tell(result.levels.back());
-    result.isMet = result.levels.back().relativeError <= accuracy.target;
-    if (!result.isMet)
-      result.reason = obstacle(result, accuracy);
-    if (result.isMet || !result.reason.empty())
-      break;
-    scene = accuracy::refined(std::move(scene));
+      tell(mesh);
+  };
+  try {
+    result.loop = refineToTarget(*levels,
+                                 {.target = accuracy.target,
+                                  .maxMeshes = accuracy.maxLevels,
+                                  .maxUnknowns = accuracy.maxUnknowns,
+                                  .maxSeconds = accuracy.maxSeconds,
+                                  .maxBytes = minOverRanks(*comm, accuracy.maxBytes),
+                                  .order = isLocal ? accuracy.order : 1},
+                                 note);
+  } catch (const Interrupted& signal) {
+    if (done.empty())
+      throw;
+    result.loop.meshes = std::move(done);
+    result.loop.reason = signal.what();
+  } catch (const Error& error) { // on all ranks; what was reached is not thrown away
+    if (done.empty())
+      throw;
+    result.loop.meshes = std::move(done);
+    result.loop.reason = std::string("the next mesh failed: ") + error.what();
   }
+  result.run = std::move(levels->run());
+  result.run.correctEstimate(result.loop.meshes.back().effectivity);
   report(result, accuracy.target);
   return result;
 }

@@ -26,6 +26,13 @@ Options parseOptions(int argc, const char* const* argv) {
   Options options;
   CommandLine line("epafi");
   line.value("--set", [&](const std::string& text) { options.overrides.push_back(text); })
+      .value("--accuracy",
+             [&](const std::string& text) {
+               if (text == "0" || text == "0%" || text == "0 %")
+                 throw InputError("option --accuracy is '" + text +
+                                  "', but no mesh is without error; ask for 1% say");
+               options.overrides.push_back("Accuracy/Target=" + text);
+             })
       .value("--output", options.output)
       .value("--report", options.report)
       .value("--restart", options.restart)
@@ -50,6 +57,7 @@ std::string usage() {
   return "Usage: epafi SCENE.xml [OPTION]...\n"
          "Solves the contact problem of an XML scene by FETI-DP; start it with mpirun for several ranks.\n\n"
          "  --set \"List/Sub list/Parameter=value\"  change one parameter of the scene (repeat for more)\n"
+         "  --accuracy SHARE                       refine until the estimated error is at most 1% say\n"
          "  --output DIR                           write DIR/<scene>.h5, .xdmf, history.csv, report.xml and\n"
          "                                         checkpoint.epafi\n"
          "  --report FILE.xml                      write the report as an XML parameter list\n"

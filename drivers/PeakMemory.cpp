@@ -8,9 +8,9 @@
 namespace epafi::drivers {
 namespace {
 
-/// A line of /proc/self/status, in bytes; 0 without it.
-double statusBytes(const std::string& name) {
-  std::ifstream status("/proc/self/status");
+/// A line of a file of /proc, in bytes; 0 without it.
+double bytesIn(const char* file, const std::string& name) {
+  std::ifstream status(file);
   for (std::string word; status >> word;)
     if (word == name) {
       double kilobytes = 0;
@@ -25,11 +25,15 @@ double statusBytes(const std::string& name) {
 double resetPeakBytes() {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << 5; // the peak becomes what is held now
-  return statusBytes("VmRSS:");
+  return bytesIn("/proc/self/status", "VmRSS:");
 }
 
 double peakBytes() {
-  return statusBytes("VmHWM:");
+  return bytesIn("/proc/self/status", "VmHWM:");
+}
+
+double freeBytes() {
+  return bytesIn("/proc/meminfo", "MemAvailable:");
 }
 
 } // namespace epafi::drivers

@@ -11,4 +11,7 @@ double resetPeakBytes();
 /// Most bytes that this process held in memory since `resetPeakBytes`. Not collective.
 double peakBytes();
 
+/// Bytes of memory that programs can still take on this machine. Not collective.
+double freeBytes();
+
 } // namespace epafi::drivers

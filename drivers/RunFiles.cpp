@@ -2,10 +2,13 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/Report.hpp"
 
 #include <Teuchos_Time.hpp>
+
+#include <sstream>
 
 namespace epafi::drivers {
 
@@ -37,6 +40,25 @@ std::string line(std::string label, const std::string& text) {
   return "  " + label + text + '\n';
 }
 
+/// The list Levels of a report as a table.
+std::string tableOfMeshes(const Teuchos::ParameterList& levels) {
+  std::ostringstream table;
+  table << "mesh,order,unknowns,hessian_multiplications,relative_error,discretisation_error,algebraic_error,"
+           "effectivity,seconds\n";
+  table.precision(6);
+  int number = 0;
+  for (auto entry = levels.begin(); entry != levels.end(); ++entry, ++number) {
+    const auto& mesh = Teuchos::getValue<Teuchos::ParameterList>(levels.entry(entry));
+    table << number << ',' << mesh.get<int>("Order") << ',' << mesh.get<GlobalOrdinal>("Primal Dimension")
+          << ',' << mesh.get<int>("Hessian Multiplications");
+    for (const char* name :
+         {"Relative Error", "Discretisation Error", "Algebraic Error", "Effectivity", "Seconds"})
+      table << ',' << mesh.get<double>(name);
+    table << '\n';
+  }
+  return table.str();
+}
+
 } // namespace
 
 WrittenFiles writeFiles(const Options& options, const RunWatch& watch, SceneRun& run, const Comm& comm) {
@@ -63,6 +85,13 @@ WrittenFiles writeFiles(const Options& options, const RunWatch& watch, SceneRun&
       return line("fields", fields.hdf5.string() + " and " + fields.xdmf.string());
     });
     files.lines += table;
+    if (run.report.isSublist("Levels"))
+      attempt(files, directory / "meshes.csv", [&] {
+        const Teuchos::ParameterList& levels = run.report.sublist("Levels");
+        output::writeTextFile(
+            directory / "meshes.csv", [&] { return tableOfMeshes(levels); }, comm);
+        return line("meshes", (directory / "meshes.csv").string());
+      });
   }
   const double now = Teuchos::Time::wallTime();
   run.report.sublist("Time").set("Output", maxOverRanks(comm, now - start));

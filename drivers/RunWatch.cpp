@@ -30,8 +30,8 @@ std::string RunWatch::signal() const {
 
 void RunWatch::requireNoSignal(const std::string& when) const {
   if (const std::string name = signal(); !name.empty())
-    throw Error("stopped by " + name + ' ' + when +
-                ", before the iteration: there is nothing to keep; start again");
+    throw Interrupted("stopped by " + name + ' ' + when +
+                      ", before the iteration: there is nothing to keep; start again");
 }
 
 RCP<const Vector> RunWatch::begin(const decomposition::DecomposedProblem& problem) {
@@ -40,9 +40,15 @@ RCP<const Vector> RunWatch::begin(const decomposition::DecomposedProblem& proble
     fingerprint_ = output::fingerprintOf(problem);
   if (!restart_)
     return Teuchos::null;
-  const RCP<const Vector> lambda = output::multipliersOf(*restart_, problem, fingerprint_);
-  restart_.reset();
-  return lambda;
+  try {
+    const RCP<const Vector> lambda = output::multipliersOf(*restart_, problem, fingerprint_);
+    restart_.reset();
+    return lambda;
+  } catch (const InputError&) { // on all ranks
+    if (!isSeries_)
+      throw;
+    return Teuchos::null; // of another mesh
+  }
 }
 
 void RunWatch::beforeIteration() {

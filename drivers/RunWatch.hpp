@@ -5,6 +5,7 @@
 #include "Options.hpp"
 #include "SceneRun.hpp"
 
+#include "epafi/base/Errors.hpp"
 #include "epafi/output/Checkpoint.hpp"
 
 #include <filesystem>
@@ -12,15 +13,21 @@
 
 namespace epafi::drivers {
 
+/// A signal came where nothing of the mesh at hand is worth keeping.
+class Interrupted : public Error {
+public:
+  using Error::Error;
+};
+
 class RunWatch final : public RunCompanion {
 public:
   /// Reads the checkpoint of --restart. Precondition: listenToStopSignals() was called. Collective. \throws InputError if it
   /// cannot be read.
   RunWatch(const Options& options, RCP<const Comm> comm);
 
-  /// λ of that checkpoint. \throws InputError if it does not fit the problem, Error if a signal has come.
+  /// λ of that checkpoint. \throws InputError if it does not fit the problem, Interrupted if a signal has come.
   RCP<const Vector> begin(const decomposition::DecomposedProblem& problem) override;
-  /// \throws Error if a signal has come.
+  /// \throws Interrupted if a signal has come.
   void beforeIteration() override;
 
   void step(const qp::StepRecord& record) override;
@@ -29,6 +36,8 @@ public:
   /// Writes a checkpoint; should that fail, rank 0 says so once, and the run goes on.
   void look(const Vector& lambda) override;
 
+  /// From now on there are several meshes, and the checkpoint is of one of them: it waits until that comes.
+  void expectSeries() { isSeries_ = true; }
   /// Whether the run is to start from a checkpoint, and has not yet.
   [[nodiscard]] bool restarts() const { return restart_.has_value(); }
   /// DIR/checkpoint.epafi; empty without --output.
@@ -47,7 +56,7 @@ private:
   std::optional<output::Checkpoint> restart_;
   double interval_, lastCheckpoint_, lastLine_;
   bool tellsProgress_;
-  bool hasComplained_ = false;
+  bool hasComplained_ = false, isSeries_ = false;
   output::Fingerprint fingerprint_;
 };
 

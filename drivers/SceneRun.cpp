@@ -26,13 +26,29 @@ double SceneRun::relativeError() const {
   return whole > 0 ? absolute / whole : 0;
 }
 
+void SceneRun::correctEstimate(double effectivity) {
+  error->discretisation /= effectivity;
+  for (std::vector<double>& elements : error->elements)
+    for (double& squared : elements)
+      squared /= effectivity * effectivity;
+  for (std::vector<double>& cells : evaluation.errors)
+    for (double& cell : cells)
+      cell /= effectivity;
+  report.sublist("Accuracy")
+      .set("Discretisation Error", error->discretisation)
+      .set("Relative Error", relativeError())
+      .set("Effectivity", effectivity);
+}
+
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, const RunOptions& options) {
   SceneRun run;
   run.started = Teuchos::Time::wallTime();
   run.scene = scene;
   run.solver = std::make_unique<ContactSolver>(solverParameters);
-  run.decomposition = std::make_unique<model::Decomposition>(model::decompose(scene, comm));
+  run.decomposition = std::make_unique<model::Decomposition>(
+      options.bodies == nullptr ? model::decompose(scene, comm)
+                                : model::decompose(scene, std::move(*options.bodies), comm));
   const double assembly = maxOverRanks(*comm, Teuchos::Time::wallTime() - run.started);
   RCP<const Vector> start;
   if (options.companion != nullptr)
@@ -48,8 +64,10 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   balance.estimate = [&](std::span<const Eigen::VectorXd> u) { return (*estimator)(u).toBalance(); };
   if (options.coarser != nullptr) {
     const SceneRun& coarser = *options.coarser;
-    start = run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
-                                                        *run.decomposition, accuracy::NodesOf::interfaces));
+    if (start.is_null())
+      start =
+          run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
+                                                      *run.decomposition, accuracy::NodesOf::interfaces));
     if (coarser.error) // of linear elements it is halved at best
       balance.expected = 0.5 * coarser.error->discretisation;
   }

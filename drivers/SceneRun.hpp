@@ -49,6 +49,8 @@ struct SceneRun {
 
   /// Both errors together relative to the energy norm. Precondition: `error`.
   [[nodiscard]] double relativeError() const;
+  /// Divides the estimated discretisation error by its effectivity, in the report too. Precondition: `error`.
+  void correctEstimate(double effectivity);
   [[nodiscard]] output::SolvedScene solved() const { return {scene, *decomposition, solution}; }
 };
 
@@ -58,6 +60,8 @@ struct RunOptions {
   const SceneRun* coarser =
       nullptr; ///< the same scene on a coarser mesh: its solution is where this run starts
   RunCompanion* companion = nullptr;
+  /// Bodies that are meshed and cut already, which the run takes; null: as the scene says.
+  std::vector<model::BodyLayout>* bodies = nullptr;
 };
 
 /// Decomposes, assembles and solves.

@@ -209,15 +209,18 @@ std::string summary(const SceneRun& run) {
   return text.str();
 }
 
-std::string describe(const Level& level) {
-  const double scale = level.discretisationError > 0
-                           ? level.relativeError / std::hypot(level.discretisationError, level.algebraicError)
-                           : 0;
+std::string describe(const accuracy::MeshResult& mesh) {
+  const double algebraic = std::isfinite(mesh.algebraic) ? mesh.algebraic : 0;
+  const double absolute = std::hypot(mesh.discretisation, algebraic);
+  const double scale = absolute > 0 ? mesh.relative() / absolute : 0;
   std::ostringstream text;
-  text << "  mesh        " << counted(level.unknowns, "primal unknown") << ", "
-       << counted(level.multiplications, "product") << " with F: estimated error "
-       << percent(level.relativeError) << " (" << percent(scale * level.discretisationError)
-       << " of the mesh, " << percent(scale * level.algebraicError) << " of the iteration)\n";
+  text << "  mesh        order " << mesh.order << ", " << counted(mesh.unknowns, "primal unknown") << ", "
+       << counted(mesh.multiplications, "product") << " with F, " << std::setprecision(2) << mesh.seconds
+       << " s: estimated error " << percent(mesh.relative()) << " (" << percent(scale * mesh.discretisation)
+       << " of the mesh, "
+       << (std::isfinite(mesh.algebraic) ? percent(scale * algebraic) + " of the iteration"
+                                         : "that of the iteration not measured")
+       << ")\n";
   return text.str();
 }
 

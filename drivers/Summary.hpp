@@ -13,6 +13,6 @@ namespace epafi::drivers {
 std::string summary(const SceneRun& run);
 
 /// One line about a mesh of a run with an accuracy target, ends with a newline.
-std::string describe(const Level& level);
+std::string describe(const accuracy::MeshResult& mesh);
 
 } // namespace epafi::drivers

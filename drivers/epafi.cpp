@@ -69,15 +69,15 @@ SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& l
   const Teuchos::ParameterList& solver = list.sublist("Solver");
   if (accuracy.target == 0)
     return solveScene(scene, solver, comm, {.estimatesError = accuracy.estimate, .companion = &watch});
-  if (watch.restarts())
-    throw InputError("--restart goes on with the iteration on one mesh, and \"Target\" in list \"Accuracy\" "
-                     "asks for a series of "
-                     "meshes; set it to 0, and refine the scene's mesh to the one of the checkpoint");
-  const auto tell = [speaks](const Level& level) {
+  watch.expectSeries();
+  const auto tell = [speaks](const accuracy::MeshResult& mesh) {
     if (speaks)
-      std::cout << describe(level) << std::flush;
+      std::cout << describe(mesh) << std::flush;
   };
-  return std::move(solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
+  SceneRun run = std::move(solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
+  if (watch.restarts() && speaks)
+    std::cout << "  restart     the checkpoint belongs to none of these meshes: all was done anew\n";
+  return run;
 }
 
 int solve(const Options& options, const RCP<const Comm>& comm) {

@@ -1,12 +1,13 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import (accuracy, contact, convergence, hertz, heterogeneity, part, plane, pressure, qp, scaling, space, stability,
-               subdomains, surface, table, tables)
+from . import (accuracy, contact, convergence, hertz, heterogeneity, mesh, part, plane, pressure, qp, scaling, space, stability,
+               subdomains, surface, table, tables, targets)
 from .errors import PlotError
 from .run import read_run
 from .style import Canvas
 
-STUDIES = ("accuracy.csv", "tables.csv", "qp.csv", "scaling.csv", "stability.csv", "heterogeneity.csv", "hertz.csv")
+STUDIES = ("accuracy.csv", "tables.csv", "qp.csv", "scaling.csv", "stability.csv", "heterogeneity.csv", "hertz.csv",
+           "targets.csv", "meshes.csv")
 
 
 def draw(source, output, extension, dpi, box=None):
@@ -45,6 +46,8 @@ def draw_run(file, canvas, box):
     else:
         yield canvas.save(surface.figure(shown), f"{stem}_deflection")
     yield canvas.save(space.decomposition(run) if in_space else subdomains.figure(run), f"{stem}_decomposition")
+    if mesh.can_draw(run):
+        yield canvas.save(mesh.figure(shown), f"{stem}_mesh")
     for pair in run.contacts:
         if len(pair.points) > 0:
             drawn = pressure.figure(run, pair) if in_space else contact.figure(run, pair)
@@ -70,6 +73,10 @@ def draw_table(file, canvas):
         yield canvas.save(heterogeneity.figure(file, rows), file.stem)
     elif table.has(rows, hertz.COLUMNS):
         yield canvas.save(hertz.figure(file, rows), file.stem)
+    elif table.has(rows, targets.COLUMNS):
+        yield canvas.save(targets.figure(file, rows), file.stem)
+    elif table.has(rows, targets.MESHES):
+        yield canvas.save(targets.meshes(file, rows), file.stem)
     elif table.has(rows, convergence.COLUMNS):
         history = convergence.history_of_table(file, rows)
         if not convergence.can_draw(history):
@@ -83,4 +90,6 @@ def draw_table(file, canvas):
                         f"nor those of stability.csv ({', '.join(stability.COLUMNS)}) "
                         f"nor those of heterogeneity.csv ({', '.join(heterogeneity.COLUMNS)}) "
                         f"nor those of hertz.csv ({', '.join(hertz.COLUMNS)}) "
+                        f"nor those of targets.csv ({', '.join(targets.COLUMNS)}) "
+                        f"nor those of meshes.csv ({', '.join(targets.MESHES)}) "
                         f"nor those of history.csv ({', '.join(convergence.COLUMNS)}).")

@@ -39,6 +39,7 @@ def part_of_body(body, low, high):
     nodes, local = numpy.unique(body.cells[kept], return_inverse=True)
     return dataclasses.replace(body, points=body.points[nodes], cells=local.reshape(body.cells[kept].shape), u=body.u[nodes],
                                subdomain=body.subdomain[kept],
+                               error=None if body.error is None else body.error[kept], element=body.element[kept],
                                von_mises=None if body.von_mises is None else body.von_mises[nodes])
 
 

@@ -20,6 +20,8 @@ class Body:
     cell_type: str = "quadrilateral"
     von_mises: numpy.ndarray = None  # n, of elastic bodies
     group: str = ""
+    error: numpy.ndarray = None  # n_e: estimated, of the element that a cell is a part of
+    element: numpy.ndarray = None  # n_e: which one that is
 
     def displacement(self):
         """n x 3; of elastic bodies."""
@@ -133,9 +135,12 @@ def read_body(name, group):
     von_mises = group["von_mises"][:] if "von_mises" in group else None
     if von_mises is not None and len(von_mises) != len(points):
         raise ValueError(f"the datasets of body {name} do not fit each other")
+    error = group["error"][:] if "error" in group else None
+    if error is not None and len(error) != len(cells):
+        raise ValueError(f"the datasets of body {name} do not fit each other")
     cell_type, cells, whole = linear(cell_type, cells)
     return Body(title(name, group), points, cells, u.reshape(len(points), -1), subdomain[whole], crosspoints, cell_type,
-                von_mises, name)
+                von_mises, name, None if error is None else error[whole], whole)
 
 
 def read_contact(name, group):

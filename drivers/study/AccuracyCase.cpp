@@ -47,18 +47,18 @@ TimedRun timedRun(const AccuracyProblem& problem, int level, const Case& variant
   AccuracyParameters accuracy;
   accuracy.target = std::numeric_limits<double>::min(); // never met: all meshes that are allowed
   accuracy.maxLevels = level - coarsest + 1;
-  accuracy.maxUnknowns = std::numeric_limits<double>::max();
+  accuracy.refinement = AccuracyParameters::Refinement::even;
   AccurateRun result =
       solveToTarget(problem.onMesh(coarsest), parametersOf(variant), accuracy, comm, nullptr, {});
   TimedRun timed;
   const double lastEstimate = result.run.report.sublist("Time").get<double>("Error Estimate");
-  for (const Level& one : result.levels) {
+  for (const accuracy::MeshResult& one : result.loop.meshes) {
     timed.seconds += one.seconds;
     timed.allProducts += one.multiplications * static_cast<double>(one.unknowns) /
-                         static_cast<double>(result.levels.back().unknowns);
+                         static_cast<double>(result.loop.meshes.back().unknowns);
   }
   timed.seconds -= lastEstimate;
-  timed.finestSeconds = result.levels.back().seconds - lastEstimate;
+  timed.finestSeconds = result.loop.meshes.back().seconds - lastEstimate;
   timed.run = std::move(result.run);
   return timed;
 }

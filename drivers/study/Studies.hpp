@@ -13,6 +13,10 @@ namespace epafi::drivers {
 /// solvers are added where AccuracyPeers.hpp finds them there. False if a run did not converge.
 bool studyAccuracy(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 
+/// Scenes with a target: true error beside target and estimate, meshes and seconds: targets.csv. False if a true error
+/// is more than a tenth above its target.
+bool studyTargets(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
+
 /// Tables 1 and 2 of the paper, dimensions and iterations of the model problem, ours beside the paper's, in 18 cells (quick: those
 /// with H/h ≤ 8): tables.csv and tables.md. False if a cell did not converge.
 bool studyTables(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);

@@ -5,12 +5,18 @@
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 
+#define BOOST_ALLOW_DEPRECATED_HEADERS // what its own headers include
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace epafi::accuracy {
+namespace geometry = boost::geometry;
 namespace {
 
 using fem::Mesh;
@@ -77,30 +83,40 @@ int cellOf(double x, double low, double size, int number) {
 
 } // namespace
 
+struct PointLocation::Boxes {
+  using Corner = geometry::model::point<double, 3, geometry::cs::cartesian>;
+  using Box = geometry::model::box<Corner>;
+  using Entry = std::pair<Box, GlobalOrdinal>;
+  geometry::index::rtree<Entry, geometry::index::quadratic<16>> tree;
+};
+
 PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.structured() != nullptr)
     return;
-  std::vector<Point> centres, corners;
-  centres.reserve(static_cast<std::size_t>(mesh.numElements()));
+  std::vector<Boxes::Entry> entries;
+  std::vector<Point> nodes;
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
-    mesh.elementPoints(element, corners);
-    centres.push_back(fem::centreOf(corners));
+    mesh.elementPoints(element, nodes);
+    auto [lower, upper] = fem::boxOf(nodes);
+    constexpr double margin = 0.01; // curved edges bulge beyond their nodes
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double more = margin * (upper[d] - lower[d]);
+      lower[d] -= more;
+      upper[d] += more;
+    }
+    entries.emplace_back(Boxes::Box{{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}, element);
   }
-  const auto [lower, upper] = fem::boxOf(centres);
-  centres_ = std::make_unique<fem::PointTree>(centres);
-  for (std::size_t d = 0; d < 3; ++d)
-    extent_ = std::max(extent_, upper[d] - lower[d]);
-  reach_ = extent_ / std::pow(static_cast<double>(mesh.numElements()), 1.0 / dimensionOf(mesh.cellType()));
-  if (!(reach_ > 0)) // a single element
-    reach_ = extent_ = 1;
+  boxes_ = std::make_unique<const Boxes>(Boxes{decltype(Boxes::tree)(entries)});
 }
 
+PointLocation::~PointLocation() = default;
+
 /// The candidate that the point is least outside of.
-Location PointLocation::best(const Point& point, std::span<const LocalOrdinal> candidates,
+Location PointLocation::best(const Point& point, const std::vector<GlobalOrdinal>& candidates,
                              double& outside) const {
   Location result;
   outside = std::numeric_limits<double>::infinity();
-  for (const LocalOrdinal element : candidates) {
+  for (const GlobalOrdinal element : candidates) {
     double here = 0;
     const Location location = locateIn(mesh_, element, point, here);
     if (here < outside) {
@@ -113,7 +129,7 @@ Location PointLocation::best(const Point& point, std::span<const LocalOrdinal> c
   return result;
 }
 
-Location PointLocation::find(const Point& point) {
+Location PointLocation::find(const Point& point) const {
   double outside = 0;
   if (const fem::StructuredMesh* grid = mesh_.structured()) {
     std::array<GlobalOrdinal, 3> cell{};
@@ -122,18 +138,20 @@ Location PointLocation::find(const Point& point) {
     return locateIn(mesh_, cell[0] + grid->elements()[0] * (cell[1] + grid->elements()[1] * cell[2]), point,
                     outside);
   }
-  // The element that a point lies in may be much larger than most, its centre far away: one that the point is clearly outside of
-  // does for points beyond a curved border alone, after a look further off.
-  constexpr double roundOff = 1e-9, near = 0.1;
-  for (double reach = reach_;; reach *= 2) {
-    const auto [lower, upper] = fem::boxOf(std::span(&point, 1), reach);
-    centres_->inBox(lower, upper, found_);
-    if (found_.empty())
-      continue;
-    const Location location = best(point, found_, outside);
-    if (outside <= roundOff || (outside <= near && reach > 4 * reach_) || reach > 2 * extent_)
-      return location;
-  }
+  const Boxes::Corner place(point[0], point[1], point[2]);
+  std::vector<GlobalOrdinal> candidates;
+  const auto collect = [&](const auto& query) {
+    candidates.clear();
+    for (auto entry = boxes_->tree.qbegin(query); entry != boxes_->tree.qend(); ++entry)
+      candidates.push_back(entry->second);
+    return best(point, candidates, outside);
+  };
+  constexpr double roundOff = 1e-9;
+  const Location location = collect(geometry::index::intersects(place));
+  if (outside <= roundOff)
+    return location;
+  constexpr unsigned near = 16; // beyond a curved border
+  return collect(geometry::index::nearest(place, near));
 }
 
 } // namespace epafi::accuracy

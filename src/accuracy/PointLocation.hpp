@@ -3,7 +3,6 @@
 /// Which element of a mesh a point lies in.
 
 #include "epafi/fem/Mesh.hpp"
-#include "epafi/fem/PointTree.hpp"
 
 #include <array>
 #include <memory>
@@ -19,22 +18,21 @@ struct Location {
 
 class PointLocation {
 public:
-  /// Keeps the reference. Of a structured mesh nothing is stored, of another a tree of the elements' centres.
+  /// Keeps the reference. Of a structured mesh nothing is stored, of another a tree of the elements' boxes.
   explicit PointLocation(const fem::Mesh& mesh);
+  ~PointLocation();
 
   /// The element that contains the point; for a point outside of the body, as finer meshes of round bodies have, that of a
   /// near one, and the weights are those of a point of it. Not collective.
-  [[nodiscard]] Location find(const fem::Point& point);
+  [[nodiscard]] Location find(const fem::Point& point) const;
 
 private:
-  [[nodiscard]] Location best(const fem::Point& point, std::span<const LocalOrdinal> candidates,
+  struct Boxes;
+  [[nodiscard]] Location best(const fem::Point& point, const std::vector<GlobalOrdinal>& candidates,
                               double& outside) const;
 
   const fem::Mesh& mesh_;
-  double reach_ = 0; ///< where a search begins
-  double extent_ = 0;
-  std::unique_ptr<fem::PointTree> centres_; ///< null of structured meshes
-  std::vector<LocalOrdinal> found_;
+  std::unique_ptr<const Boxes> boxes_; ///< null of structured meshes
 };
 
 } // namespace epafi::accuracy

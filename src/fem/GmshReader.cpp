@@ -60,6 +60,13 @@ struct Gmsh {
   decltype(&gmshModelGetDimension) dimension = Symbol{library, "gmshModelGetDimension"};
   decltype(&gmshModelMeshGenerate) generate = Symbol{library, "gmshModelMeshGenerate"};
   decltype(&gmshModelMeshRefine) refine = Symbol{library, "gmshModelMeshRefine"};
+  decltype(&gmshModelGetEntities) entities = Symbol{library, "gmshModelGetEntities"};
+  decltype(&gmshModelMeshRemoveConstraints) removeConstraints =
+      Symbol{library, "gmshModelMeshRemoveConstraints"};
+  decltype(&gmshModelMeshSetSizeCallback) setSizeCallback = Symbol{library, "gmshModelMeshSetSizeCallback"};
+  decltype(&gmshModelMeshFieldSetAsBackgroundMesh) setBackground =
+      Symbol{library, "gmshModelMeshFieldSetAsBackgroundMesh"};
+  decltype(&gmshModelMeshClear) clear = Symbol{library, "gmshModelMeshClear"};
   decltype(&gmshModelMeshSetOrder) setOrder = Symbol{library, "gmshModelMeshSetOrder"};
   decltype(&gmshModelMeshGetElementTypes) elementTypes = Symbol{library, "gmshModelMeshGetElementTypes"};
   decltype(&gmshModelMeshGetElementsByType) elements = Symbol{library, "gmshModelMeshGetElementsByType"};
@@ -69,6 +76,25 @@ struct Gmsh {
     return functions;
   }
 };
+
+/// The sizes of a field where Gmsh asks for them. Gmsh 4.9 and later say what they would take themselves.
+template <class SetCallback>
+void setSizes(SetCallback set, const SizeField& sizes, int* error) {
+  void* data = const_cast<SizeField*>(&sizes); // NOLINT: it comes back as what it is
+  if constexpr (std::is_invocable_v<SetCallback, double (*)(int, int, double, double, double, void*), void*,
+                                    int*>)
+    set(
+        [](int, int, double x, double y, double z, void* field) {
+          return static_cast<const SizeField*>(field)->at({x, y, z});
+        },
+        data, error);
+  else
+    set(
+        [](int, int, double x, double y, double z, double, void* field) {
+          return static_cast<const SizeField*>(field)->at({x, y, z});
+        },
+        data, error);
+}
 
 /// An array that Gmsh allocated, given back at the end.
 template <class T>
@@ -122,6 +148,8 @@ public:
   }
   /// Elements that the file does not make itself, split so many times, of an order unless it is 0.
   void mesh(int refinements, int order) const;
+  /// In simplices of given sizes and order 2.
+  void meshWith(const SizeField& sizes) const;
   /// Throws InputError if elements of the highest dimension are of a kind that is not known.
   void requireKnown() const;
   /// Saves all there is, whatever the file says of how and what to save.
@@ -162,6 +190,34 @@ void Session::mesh(int refinements, int order) const {
     call(gmsh_.refine);
   if (order > 0)
     call(gmsh_.setOrder, order);
+}
+
+void Session::meshWith(const SizeField& sizes) const {
+  GmshArray<int> entities;
+  call(gmsh_.entities, &entities.data, &entities.size, anyEntity);
+  call(gmsh_.removeConstraints, entities.data, entities.size);
+  constexpr int none = 0;
+  call(gmsh_.setBackground, none);
+  call(gmsh_.clear, static_cast<int*>(nullptr), std::size_t{0}); // of what the file has meshed itself
+  int error = 0;
+  const int dimension = gmsh_.dimension(&error);
+  call([&](auto* failed) { setSizes(gmsh_.setSizeCallback, sizes, failed); });
+  constexpr double hxt = 10, frontal = 6;
+  for (const auto& [name, value] : {std::pair{"Mesh.MeshSizeFactor", 1.0},
+                                    {"Mesh.MeshSizeMin", 0.0},
+                                    {"Mesh.MeshSizeMax", 1e22},
+                                    {"Mesh.MeshSizeExtendFromBoundary", 0.0},
+                                    {"Mesh.MeshSizeFromPoints", 0.0},
+                                    {"Mesh.MeshSizeFromCurvature", 0.0},
+                                    {"Mesh.RecombineAll", 0.0},
+                                    {"Mesh.SubdivisionAlgorithm", 0.0},
+                                    {"General.NumThreads", 1.0}, // several give another mesh each time
+                                    {"Mesh.MaxNumThreads3D", 1.0},
+                                    {"Mesh.Algorithm", frontal},
+                                    {"Mesh.Algorithm3D", hxt}})
+    call(gmsh_.setNumber, name, value);
+  call(gmsh_.generate, dimension);
+  call(gmsh_.setOrder, 2);
 }
 
 void Session::requireKnown() const {
@@ -247,6 +303,16 @@ std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refin
 }
 
 } // namespace
+
+std::string textOfGeometry(const std::string& file, double meshSizeFactor, const SizeField& sizes) {
+  checkFile(file);
+  const TemporaryFolder folder;
+  const Session session(file);
+  session.open(meshSizeFactor);
+  session.meshWith(sizes);
+  session.save(folder.file());
+  return textOf(folder.file(), file);
+}
 
 std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements, int order) {
   checkFile(file);

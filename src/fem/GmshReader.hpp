@@ -5,6 +5,8 @@
 /// Gmsh's library is loaded when first used: it brings some eighty other libraries along, which a program without
 /// geometries need not wait for. It saves into a folder of its own under TMPDIR (else /tmp), which is removed at once.
 
+#include "epafi/fem/SizeField.hpp"
+
 #include <string>
 
 namespace epafi::fem {
@@ -21,5 +23,9 @@ namespace epafi::fem {
 ///        it. A .msh that need not be refined is not changed
 std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, int refinements = 0,
                            int order = 0);
+
+/// Of a geometry, meshed anew in triangles or tetrahedra of order 2: with these sizes, whatever it says of sizes. Numbers of
+/// elements that it gives itself stay (Gmsh's own kernel keeps transfinite curves, layers and quadrilaterals). The same otherwise. \param meshSizeFactor  that the geometry can read
+std::string textOfGeometry(const std::string& file, double meshSizeFactor, const SizeField& sizes);
 
 } // namespace epafi::fem

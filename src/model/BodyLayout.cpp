@@ -5,8 +5,7 @@
 #include "epafi/fem/GmshFile.hpp"
 #include "epafi/fem/GmshReader.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
-
-#include <Teuchos_CommHelpers.hpp>
+#include "epafi/model/MeshFiles.hpp"
 
 #include <algorithm>
 #include <map>
@@ -23,31 +22,17 @@ MeshFiles::key_type keyOf(const scene::MeshSource& source) {
   return {source.file, source.sizeFactor, source.refinements, source.order};
 }
 
-/// Rank 0's text on all ranks, in messages whose length an int counts. Collective.
-void broadcastText(const Comm& comm, std::string& text) {
-  auto size = static_cast<long long>(text.size());
-  Teuchos::broadcast(comm, 0, 1, &size);
-  collectively(comm, [&] { text.resize(static_cast<std::size_t>(size)); });
-  constexpr long long longest = 1 << 30;
-  for (long long first = 0; first < size; first += longest)
-    Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), text.data() + first);
-}
-
-/// The mesh files of a scene, each read once. Rank 0 reads (and, of a geometry, meshes) each and hands its text to the others:
-/// they all have the same mesh, whatever Gmsh does on their machines. Collective.
+/// The mesh files of a scene, each read once. Collective.
 MeshFiles readMeshFiles(const scene::Scene& scene, const Comm& comm) {
   MeshFiles files;
   for (const scene::Body& body : scene.bodies) {
     const scene::MeshSource& source = body.mesh;
     if (source.file.empty() || files.contains(keyOf(source)))
       continue;
-    std::string text;
-    collectively(comm, [&] {
-      if (comm.getRank() == 0)
-        text = fem::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order);
-    });
-    broadcastText(comm, text);
-    collectively(comm, [&] { files.emplace(keyOf(source), fem::readMsh(source.file, std::move(text))); });
+    const auto makeText = [&] {
+      return fem::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order);
+    };
+    files.emplace(keyOf(source), meshOnAllRanks(source.file, makeText, comm));
   }
   return files;
 }
@@ -132,13 +117,23 @@ void requireSameComponents(const scene::Scene& scene) {
 } // namespace
 
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
-  std::vector<BodyLayout> bodies;
+  std::vector<std::unique_ptr<const fem::Mesh>> meshes;
   collectively(comm, [&] { requireSameComponents(scene); });
   const MeshFiles files = readMeshFiles(scene, comm);
   collectively(comm, [&] {
-    for (const scene::Body& body : scene.bodies) {
-      bodies.push_back({body.name, makeMesh(body, files), nullptr, 0});
-      requireCut(body, *bodies.back().mesh);
+    for (const scene::Body& body : scene.bodies)
+      meshes.push_back(makeMesh(body, files));
+  });
+  return cutBodies(scene, std::move(meshes), comm);
+}
+
+std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
+                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm) {
+  std::vector<BodyLayout> bodies;
+  collectively(comm, [&] {
+    for (std::size_t b = 0; b < meshes.size(); ++b) {
+      bodies.push_back({scene.bodies[b].name, std::move(meshes[b]), nullptr, 0});
+      requireCut(scene.bodies[b], *bodies.back().mesh);
     }
   });
   int firstSubdomain = 0;

@@ -25,6 +25,10 @@ struct BodyLayout {
 /// cut as the scene says, or bodies differ in the unknowns of a node.
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm);
 
+/// Cuts bodies that are meshed already, on all ranks alike. Collective. \throws InputError likewise.
+std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
+                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm);
+
 /// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P).
 struct Share {
   int begin = 0, end = 0; ///< this rank's numbers

@@ -27,6 +27,9 @@ using Models = std::vector<std::unique_ptr<fem::BodyModel>>;
 /// What K R may keep of the sum of its terms' magnitudes: far above round-off, far below a mode that is none.
 constexpr double kernelTolerance = 1e-6;
 
+/// Beside the diagonal: sums of terms that are themselves round-off prove nothing.
+constexpr double leastMagnitude = 1e-8;
+
 std::vector<NodeFrame> framesOf(const fem::BodyModel& model, const std::vector<GlobalOrdinal>& nodes) {
   std::vector<NodeFrame> frames;
   if (!model.hasFrames())
@@ -96,7 +99,7 @@ void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, 
 void requireKernel(const SparseMatrix& k, const Eigen::MatrixXd& r, const std::string& body) {
   for (Eigen::Index mode = 0; mode < r.cols(); ++mode)
     for (Eigen::Index j = 0; j < k.cols(); ++j) {
-      double sum = 0, magnitude = 0;
+      double sum = 0, magnitude = leastMagnitude * k.coeff(j, j) * r.col(mode).lpNorm<Eigen::Infinity>();
       for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry) { // K is symmetric: columns are rows
         const double term = entry.value() * r(entry.row(), mode);
         sum += term;

@@ -4,9 +4,14 @@
 
 #include "Samples.hpp"
 
+#include "../fem/SimplexSamples.hpp"
+
 #include "epafi/accuracy/PointLocation.hpp"
 #include "epafi/accuracy/Refinement.hpp"
 
+#include <algorithm>
+#include <numbers>
+#include <numeric>
 #include <random>
 
 namespace epafi::accuracy {
@@ -16,7 +21,7 @@ using test::Field;
 using TransferTest = test::AccuracyTest;
 
 fem::Point pointAt(const fem::Mesh& mesh, const Location& location) {
-  std::array<GlobalOrdinal, 8> nodes{};
+  std::array<GlobalOrdinal, fem::mostNodes> nodes{};
   const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
   mesh.elementNodes(location.element, std::span(nodes).first(number));
   fem::Point point{};
@@ -47,6 +52,62 @@ TEST_F(TransferTest, EveryPointOfABodyIsFoundWhereItIs) {
         pointAt(mesh, location.find({1.05, 0.5, kind.physics == scene::Physics::elasticity3d ? 0.5 : 0}));
     EXPECT_NEAR(outside[0], 1, 0.2); // near, and in the body
     EXPECT_LE(outside[0], 1 + 1e-12);
+  }
+}
+
+/// Twenty halvings towards a corner: elements of all sizes.
+TEST_F(TransferTest, PointsAreFoundAmongElementsOfAllSizes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> inside(0, 1);
+  for (fem::SimplexMesh& simplices :
+       std::vector{fem::test::unevenGrid({2, 2, 0}), fem::test::unevenGrid({1, 1, 1})}) {
+    const int steps = simplices.dimension == 2 ? 20 : 7;
+    for (int step = 0; step < steps; ++step) {
+      std::vector<int> times;
+      for (const fem::SimplexMesh::Element& element : simplices.elements)
+        times.push_back(std::find(element.corners.begin(), element.corners.begin() + simplices.dimension + 1,
+                                  0) == element.corners.begin() + simplices.dimension + 1
+                            ? 0
+                            : simplices.dimension);
+      bisect(simplices, times);
+    }
+    const fem::UnstructuredMesh mesh(arraysOf(simplices, 1));
+    const PointLocation location(mesh);
+    for (int k = 0; k < 200; ++k) {
+      const double scale = std::exp2(-k % (steps + 1));
+      fem::Point point{scale * inside(random), scale * inside(random), scale * inside(random)};
+      if (simplices.dimension == 2)
+        point[2] = 0;
+      const Location found = location.find(point);
+      const fem::Point place = pointAt(mesh, found);
+      for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_NEAR(place[d], point[d], 1e-12);
+      EXPECT_GE(*std::min_element(found.weights.begin(), found.weights.end()), -1e-9);
+    }
+  }
+}
+
+TEST_F(TransferTest, PointsOfCurvedElementsAreFoundAndNearOnesOfThoseBeyond) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> inside(0, 1);
+  for (const std::array<int, 3>& elements : {std::array{2, 4, 0}, std::array{1, 4, 1}}) {
+    const fem::UnstructuredMesh mesh(
+        arraysOf(simplicesOf(fem::UnstructuredMesh(fem::test::quarterRing(elements))), 2));
+    const PointLocation location(mesh);
+    for (int k = 0; k < 200; ++k) {
+      const double angle = 0.5 * std::numbers::pi * inside(random);
+      const auto at = [&, z = elements[2] == 0 ? 0 : inside(random)](double radius) {
+        return fem::Point{radius * std::cos(angle), radius * std::sin(angle), z};
+      };
+      const fem::Point point = at(1.001 + 0.998 * inside(random));
+      const fem::Point found = pointAt(mesh, location.find(point));
+      for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_NEAR(found[d], point[d], 1e-10);
+      const Location beyond = location.find(at(2.01));
+      EXPECT_NEAR(std::accumulate(beyond.weights.begin(), beyond.weights.end(), 0.0), 1, 1e-12);
+      const fem::Point near = pointAt(mesh, beyond), wanted = at(2);
+      EXPECT_LT(std::hypot(near[0] - wanted[0], near[1] - wanted[1], near[2] - wanted[2]), 0.05);
+    }
   }
 }
 

@@ -15,7 +15,7 @@ PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 PAGE = (SOURCE / "docs" / "tutorial.md").read_text(encoding="utf-8")
 SCENE = SOURCE / "xml" / "board.xml"
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
-RUN_TO_RUN = ("  accuracy", "  time", "  memory")  # round-off, and the machine
+RUN_TO_RUN = ("  accuracy", "  time", "  memory", "  mesh")  # round-off, which marks elements too, and the machine
 
 
 def blocks():

@@ -46,6 +46,16 @@ hertz_cylinder,1,0.05,0.5,0.01,0.1,0.02
 hertz_cylinder,4,0.1,0.5,0.04,0.2,0
 hertz_sphere,1,0.1,0.5,0.04,0.2,0.03
 """
+TARGETS = """scene,order,target,unknowns,seconds,estimated_error,true_error
+punch,2,0.05,1348,0.014,0.044,0.033
+punch,2,0.025,4058,0.036,0.017,0.014
+punch,1,0.05,3000,0.1,0.05,0.045
+three_cubes,2,0.05,3000,0.1,0.05,0.045
+"""
+MESHES = """mesh,order,unknowns,hessian_multiplications,relative_error,discretisation_error,algebraic_error,effectivity,seconds
+0,1,60,3,0.3,1.7,0,0.9,0.003
+1,2,180,4,0.12,0.76,0.02,0.75,0.002
+"""
 STABILITY = """case,parameter,expected,outcome,ok,hessian_multiplications,family,value,variant
 jump between the bodies,1e+0,solved,solved,1,20,jumps,1,default
 jump between the bodies,1e+8,solved,wrong answer,0,90,jumps,1e8,default
@@ -235,6 +245,29 @@ class Plot(unittest.TestCase):
             self.assertIn(words, picture.read_text())
         (self.directory / "hertz.csv").write_text(HERTZ.replace("0.05", "fine"))
         self.assertIn("fine", self.refused(self.directory))
+
+    def test_runs_to_a_target_are_drawn(self):
+        (self.directory / "targets.csv").write_text(TARGETS)
+        (self.directory / "meshes.csv").write_text(MESHES)
+        pictures = self.pictures(self.directory, "--format", "svg")
+        self.assertEqual([picture.name for picture in pictures], ["targets.svg", "meshes.svg"])
+        for picture, words in zip(pictures, (("punch, order 1", "three cubes", "a tenth above"), ("order 1", "order 2", "0.003 s"))):
+            for word in words:
+                self.assertIn(word, picture.read_text())
+        (self.directory / "targets.csv").write_text(TARGETS.replace("0.036", "soon"))
+        self.assertIn("soon", self.refused(self.directory))
+
+    def test_elements_with_errors_give_the_mesh(self):
+        shutil.copy(self.sample, self.directory / "run.h5")
+        with h5py.File(self.directory / "run.h5", "a") as content:
+            for body in content["bodies"].values():
+                body["error"] = numpy.linspace(1e-6, 1, len(body["cells"]))
+        self.assertIn("run_mesh.png", [picture.name for picture in self.pictures(self.directory)])
+        with h5py.File(self.directory / "run.h5", "a") as content:
+            for body in content["bodies"].values():
+                del body["error"]
+                body["error"] = numpy.ones(1)
+        self.assertIn("do not fit", self.refused(self.directory))
 
     def test_a_history_table_alone_gives_the_convergence(self):
         (self.directory / "history.csv").write_text(HISTORY)

@@ -176,30 +176,70 @@ class StopsBeforeTheTolerance(Driver):
 
 
 class SolvesAsAccuratelyAsAsked(Driver):
+    def meshes(self, run):
+        """Order, unknowns and estimated error in % of each mesh, as they are told."""
+        found = re.findall(r"mesh +order (\d), (\d+) primal unknowns, \d+ products? with F, \S+ s: estimated error (\S+) %", run.stdout)
+        return [(int(order), int(unknowns), float(error)) for order, unknowns, error in found]
+
     def test_meshes_are_refined_until_the_target_is_met(self):
         report = self.place / "report.xml"
-        for name in ("coercive", "semicoercive", "hertz_cylinder"):
+        for name, target in (("coercive", "1%"), ("semicoercive", "0.5 %"), ("hertz_cylinder", "0.5%"), ("angle", "2%"), ("three_cubes", "5%")):
+            energies = []
             for ranks in (1, 3):
-                run = epafi(scene(name), "--set", "Accuracy/Target=0.5 %" if name == "hertz_cylinder" else "Accuracy/Target=1 %",
-                            "--report", report, ranks=ranks)
+                run = epafi(scene(name), "--accuracy", target, "--report", report, "--output", self.place, ranks=ranks)
                 self.assertEqual(run.returncode, SOLVED, run.stderr + run.stdout)
-                accuracy = read_report(report)["Accuracy"]
+                content = read_report(report)
+                accuracy = content["Accuracy"]
                 self.assertLessEqual(float(accuracy["Relative Error"]), float(accuracy["Target"]))
-                self.assertLessEqual(float(accuracy["Algebraic Error"]), 0.2 * float(accuracy["Discretisation Error"]))
-                levels = re.findall(r"mesh +(\d+) primal unknowns, (\d+) products .* estimated error (\S+) %", run.stdout)
-                self.assertGreater(len(levels), 1)
-                errors = [float(error) for _, _, error in levels]
-                self.assertEqual(errors, sorted(errors, reverse=True))
+                self.assertLessEqual(float(accuracy["Algebraic Error"]), 0.25 * float(accuracy["Discretisation Error"]))
+                told = self.meshes(run)
+                self.assertGreater(len(told), 1)
+                self.assertEqual(told[-1][2], min(error for _, _, error in told))
+                self.assertEqual((told[0][0], told[-1][0]), (1, 2))
+                self.assertEqual(told[-1][1], int(content["Problem"]["Primal Dimension"]))
+                rows = list(csv.DictReader((self.place / "meshes.csv").open()))
+                self.assertEqual([int(row["unknowns"]) for row in rows], [unknowns for _, unknowns, _ in told])
+                energies.append(float(accuracy["Energy"]))
+            self.assertAlmostEqual(energies[0], energies[1], delta=2 * float(accuracy["Target"]) ** 2 * float(accuracy["Energy Norm"]) ** 2)
+
+    def test_order_1_stays_where_it_is_enough(self):
+        run = epafi(scene("stacked_blocks"), "--accuracy", "5%")
+        self.assertEqual((run.returncode, [order for order, _, _ in self.meshes(run)]), (SOLVED, [1]), run.stdout)
+
+    def test_even_refinement_takes_the_scenes_own_mesh(self):
+        run = epafi(scene("coercive"), "--accuracy", "2%", "--set", "Accuracy/Refinement=even")
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        unknowns = [number for _, number, _ in self.meshes(run)]
+        self.assertEqual(unknowns[1], 4 * unknowns[0])
 
     def test_a_target_out_of_reach_ends_with_the_reason(self):
         report = self.place / "report.xml"
-        for limit, said in (("Maximum Levels=2", "Maximum Levels"), ("Maximum Unknowns=20000", "Maximum Unknowns")):
-            run = epafi(scene("coercive"), "--set", "Accuracy/Target=0.1 %", "--set", f"Accuracy/{limit}", "--report", report)
+        for limit, said in (("Maximum Levels=2", "no more than 2 meshes"), ("Maximum Unknowns=300", "300 are allowed"),
+                            ("Maximum Seconds=0.0001", "s are allowed"), ("Maximum Memory=0.001", "GB are allowed")):
+            run = epafi(scene("coercive"), "--accuracy", "0.1 %", "--set", f"Accuracy/{limit}", "--report", report)
             self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
             status = read_report(report)["Status"]
             self.assertEqual((status["Converged"], status["Status"]), ("false", "TargetMissed"))
             self.assertIn(said, status["Reason"])
             self.assertIn("0.1 %", status["Reason"])
+
+    def test_a_target_that_is_none_is_refused(self):
+        for target in ("abc", "200%", "-1%", "1 percent"):
+            run = epafi(scene("coercive"), "--accuracy", target)
+            self.assertEqual(run.returncode, WRONG_INPUT, run.stdout)
+            self.assertIn("Target", run.stderr)
+
+    def test_a_run_goes_on_from_a_checkpoint_of_its_last_mesh(self):
+        first = epafi(scene("punch"), "--accuracy", "1%", "--output", self.place)
+        self.assertEqual(first.returncode, SOLVED, first.stderr)
+        again = epafi(scene("punch"), "--accuracy", "1%", "--restart", self.place / "checkpoint.epafi")
+        self.assertEqual(again.returncode, SOLVED, again.stderr)
+        self.assertEqual(self.meshes(first)[:-1], self.meshes(again)[:-1])
+        products = [int(re.findall(r"(\d+) products? with F, \S+ s:", run.stdout)[-1]) for run in (first, again)]
+        self.assertLess(products[1], products[0])
+        other = epafi(scene("punch"), "--accuracy", "2%", "--restart", self.place / "checkpoint.epafi")
+        self.assertEqual(other.returncode, SOLVED, other.stderr)
+        self.assertIn("none of these meshes", other.stdout)
 
     def test_a_balanced_tolerance_saves_products_and_hardly_adds_to_the_error(self):
         report = self.place / "report.xml"

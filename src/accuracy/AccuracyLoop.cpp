@@ -1,0 +1,140 @@
+#include "epafi/accuracy/AccuracyLoop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace epafi::accuracy {
+namespace {
+
+/// Of the target: what the mesh may use of it. The rest is the iteration's, and the estimate's own.
+constexpr double meshShare = 0.9;
+
+/// θ: see refineToTarget(). \param next  its estimate not yet corrected
+double measuredEffectivity(const MeshResult& last, const MeshResult& next, double otherwise) {
+  constexpr double clear = 1.2, least = 0.4, most = 1.1;
+  const double coarse = last.discretisation * last.effectivity, fine = next.discretisation; // η
+  if (last.order != next.order || !(next.change > 0) || coarse < clear * fine)
+    return otherwise;
+  return std::clamp(std::sqrt(coarse * coarse - fine * fine) / next.change, least, most);
+}
+
+/// By how much the last mesh missed what was expected of it: the next is asked for as much more.
+double missedBy(const MeshResult& last, double expected) {
+  constexpr double most = 1.15;
+  return expected > 0 ? std::clamp(last.discretisation * last.effectivity / expected, 1.0, most) : 1.0;
+}
+
+/// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d).
+double unknownsOfOrderOne(const MeshResult& result, int dimension, double target) {
+  return static_cast<double>(result.unknowns) * std::pow(result.relative() / target, dimension);
+}
+
+/// Unknowns that order 2 has on a mesh of order 1: in the plane three edges, in space seven a corner.
+double unknownsOfOrderTwo(const MeshResult& result, int dimension) {
+  return static_cast<double>(result.unknowns) * (dimension == 2 ? 4 : 8);
+}
+
+/// Why the next mesh is not made; empty if it is.
+std::string obstacle(const std::vector<MeshResult>& meshes, double growth, const LoopGoal& goal) {
+  const MeshResult& last = meshes.back();
+  std::ostringstream text;
+  text.precision(3);
+  const double next = growth * static_cast<double>(last.unknowns);
+  double seconds = 0;
+  for (const MeshResult& mesh : meshes)
+    seconds += mesh.seconds;
+  if (!last.failure.empty())
+    text << "the iteration did not reach its tolerance on a mesh: " << last.failure;
+  else if (static_cast<int>(meshes.size()) >= goal.maxMeshes)
+    text << "no more than " << goal.maxMeshes << " meshes are allowed";
+  else if (next > goal.maxUnknowns)
+    text << "the next mesh would have some " << next << " unknowns, and " << goal.maxUnknowns
+         << " are allowed";
+  else if (seconds + growth * last.seconds > goal.maxSeconds)
+    text << "the next mesh would take some " << growth * last.seconds << " s after the " << seconds
+         << " s that the others took, and " << goal.maxSeconds << " s are allowed";
+  else if (growth * last.bytes > goal.maxBytes)
+    text << "the next mesh would take some " << growth * last.bytes / 1e9 << " GB of memory, and "
+         << goal.maxBytes / 1e9 << " GB are allowed";
+  return text.str();
+}
+
+} // namespace
+
+double MeshResult::relative() const {
+  const double absolute = std::hypot(discretisation, std::isfinite(algebraic) ? algebraic : 0);
+  const double whole = std::hypot(energyNorm, absolute);
+  return whole > 0 ? absolute / whole : 0;
+}
+
+LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
+                          const std::function<void(const MeshResult&)>& tell) {
+  LoopResult result;
+  const int dimension = problem.dimension();
+  std::vector<LocalOrdinal> ancestors;
+  const auto solve = [&](int order) -> const MeshResult& {
+    MeshResult next = problem.solve(order);
+    ElementErrors& elements = next.elements;
+    if (!ancestors.empty())
+      elements.orders = localOrders(result.meshes.back().elements, ancestors, elements.squared,
+                                    elements.measures, dimension, next.order);
+    else
+      elements.orders.assign(elements.squared.size(), next.order);
+    next.effectivity = problem.effectivity(next.order);
+    if (!result.meshes.empty()) {
+      MeshResult& before = result.meshes.back();
+      next.effectivity = measuredEffectivity(
+          before, next, before.order == next.order ? before.effectivity : next.effectivity);
+      before.elements = {};
+    }
+    next.discretisation /= next.effectivity;
+    result.meshes.push_back(std::move(next));
+    if (tell)
+      tell(result.meshes.back());
+    result.isMet = result.meshes.back().failure.empty() && result.meshes.back().relative() <= goal.target;
+    return result.meshes.back();
+  };
+  int order = goal.order == 0 ? 1 : goal.order;
+  const MeshResult* last = &solve(order);
+  if (goal.order == 0 && last->failure.empty()) {
+    const double one = unknownsOfOrderOne(*last, dimension, goal.target),
+                 two = unknownsOfOrderTwo(*last, dimension);
+    std::ostringstream text;
+    text.precision(2);
+    if (result.isMet)
+      text << "elements of order 1 on the first mesh make no more error than is allowed";
+    else if (one <= two)
+      text << "order 1 needs some " << one << " unknowns for it, order 2 " << two << " on the first mesh";
+    else
+      text << "order 1 would need some " << one << " unknowns";
+    result.choice = text.str();
+    if (!result.isMet && one > two) {
+      result.reason = obstacle(result.meshes, dimension == 2 ? 4 : 8, goal);
+      if (!result.reason.empty())
+        return result;
+      order = 2;
+      last = &solve(order);
+    }
+  }
+  double expected = 0; // of the discretisation error, on the last mesh
+  while (!result.isMet) {
+    const double norm = std::hypot(last->energyNorm, last->discretisation);
+    const WantedSizes wanted = problem.plan(
+        *last, {.dimension = dimension,
+                .error = last->effectivity * meshShare * goal.target * norm / missedBy(*last, expected)});
+    expected = wanted.error;
+    result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
+    constexpr double nothing = 1.001;
+    if (result.reason.empty() && wanted.growth < nothing)
+      result.reason = "the mesh is fine enough, but the iteration is not; ask it for a smaller tolerance";
+    if (!result.reason.empty())
+      break;
+    ancestors = problem.refine(wanted);
+    last = &solve(order);
+  }
+  return result;
+}
+
+} // namespace epafi::accuracy

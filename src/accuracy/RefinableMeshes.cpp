@@ -1,0 +1,220 @@
+#include "epafi/accuracy/RefinableMeshes.hpp"
+
+#include "epafi/accuracy/FirstGrid.hpp"
+#include "epafi/accuracy/PointLocation.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/fem/GmshReader.hpp"
+#include "epafi/fem/MeshOrder.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/model/MeshFiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace epafi::accuracy {
+namespace {
+
+using fem::SimplexMesh;
+
+std::size_t index(GlobalOrdinal number) {
+  return static_cast<std::size_t>(number);
+}
+
+/// Unknowns of a subdomain: factors of many small ones cost less than those of a few large ones, in space above all.
+constexpr double unknownsPerPart(int dimension) {
+  return dimension == 2 ? 4000 : 1000;
+}
+
+/// Nodes of a mesh of order 2 by its corners, about: with every edge one more.
+double numNodes(const SimplexMesh& mesh, int order) {
+  const auto corners = static_cast<double>(mesh.points.size());
+  if (order == 1)
+    return corners;
+  return mesh.dimension == 2 ? corners + 1.5 * static_cast<double>(mesh.elements.size())
+                             : 2 * corners + static_cast<double>(mesh.elements.size());
+}
+
+std::vector<fem::Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
+  std::vector<fem::Point> corners;
+  for (int i = 0; i <= mesh.dimension; ++i)
+    corners.push_back(mesh.points[index(element.corners[index(i)])]);
+  return corners;
+}
+
+/// Of each element the one of another mesh that its centre lies in.
+std::vector<LocalOrdinal> elementsAround(const SimplexMesh& inner, const SimplexMesh& outer) {
+  const fem::UnstructuredMesh mesh(arraysOf(outer, 1));
+  const PointLocation location(mesh);
+  std::vector<LocalOrdinal> around;
+  for (const SimplexMesh::Element& element : inner.elements)
+    around.push_back(
+        static_cast<LocalOrdinal>(location.find(fem::centreOf(cornersOf(inner, element))).element));
+  return around;
+}
+
+bool isOfSimplices(const fem::Mesh& mesh) {
+  const fem::CellType type = withOrder(mesh.cellType(), 1);
+  return type == fem::CellType::triangle || type == fem::CellType::tetrahedron;
+}
+
+/// Mean length of an element's edges.
+double sizeOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
+  double sum = 0;
+  int number = 0;
+  for (int i = 1; i <= mesh.dimension; ++i)
+    for (int j = 0; j < i; ++j, ++number) {
+      const fem::Point &a = mesh.points[index(element.corners[index(i)])],
+                       &b = mesh.points[index(element.corners[index(j)])];
+      sum += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    }
+  return sum / number;
+}
+
+/// Adds the sizes that are wanted in a body: at nodes the (geometric) means of the elements around.
+void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, double stretch,
+              fem::MeshSizes& sizes) {
+  std::vector<double> sum(mesh.points.size(), 0), number(mesh.points.size(), 0);
+  const auto count = index(mesh.dimension) + 1;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const double wanted = std::log2(sizeOf(mesh, mesh.elements[e]) / stretch) - halvings[e];
+    for (std::size_t i = 0; i < count; ++i) {
+      sum[index(mesh.elements[e].corners[i])] += wanted;
+      ++number[index(mesh.elements[e].corners[i])];
+    }
+  }
+  constexpr double steps = 16; // a halving: what differs in round-off gives the same mesh
+  for (const SimplexMesh::Element& element : mesh.elements)
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t node = index(element.corners[i]);
+      sizes.corners.push_back(mesh.points[node]);
+      sizes.sizes.push_back(std::exp2(std::round(steps * sum[node] / number[node]) / steps));
+    }
+}
+
+} // namespace
+
+RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : scene_(scene) {
+  const bool hasFiles = std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                                    [](const scene::Body& body) { return !body.mesh.file.empty(); });
+  scene::Scene uncut(scene_);
+  for (scene::Body& body : uncut.bodies) {
+    body.decomposition = {scene::Decomposition::Method::metis, {1, 1, 1}, 1};
+    if (body.mesh.file.ends_with(".geo"))
+      body.mesh.order = 2; // on the geometry; nodes on edges can be left out
+  }
+  std::vector<model::BodyLayout> bodies;
+  if (hasFiles)
+    bodies = model::layoutBodies(uncut, comm);
+  collectively(comm, [&] {
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      const std::string& file = scene_.bodies[b].mesh.file;
+      meshes_.push_back(file.empty() ? firstGrid(scene_, b) : simplicesOf(*bodies[b].mesh));
+      isRemeshed_.push_back(file.ends_with(".geo") && isOfSimplices(*bodies[b].mesh));
+    }
+  });
+}
+
+scene::Scene RefinableMeshes::scene(int order) const {
+  scene::Scene scene(scene_);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    scene::Body& body = scene.bodies[b];
+    const double unknowns = componentsOf(body.physics) * numNodes(meshes_[b], order);
+    body.mesh.order = order;
+    body.decomposition.method = scene::Decomposition::Method::metis;
+    body.decomposition.parts =
+        std::max(1, static_cast<int>(std::ceil(unknowns / unknownsPerPart(dimensionOf(body.physics)))));
+  }
+  return scene;
+}
+
+std::vector<model::BodyLayout> RefinableMeshes::layout(const scene::Scene& scene, const Comm& comm) const {
+  std::vector<std::unique_ptr<const fem::Mesh>> meshes;
+  collectively(comm, [&] {
+    for (std::size_t b = 0; b < meshes_.size(); ++b)
+      meshes.push_back(
+          std::make_unique<const fem::UnstructuredMesh>(arraysOf(meshes_[b], scene.bodies[b].mesh.order)));
+  });
+  return model::cutBodies(scene, std::move(meshes), comm);
+}
+
+std::vector<std::vector<LocalOrdinal>> RefinableMeshes::refine(std::span<const std::vector<double>> halvings,
+                                                               const Comm& comm) {
+  std::vector<std::vector<LocalOrdinal>> ancestors(meshes_.size());
+  remesh(halvings, ancestors, comm);
+  collectively(comm, [&] {
+    for (std::size_t b = 0; b < meshes_.size(); ++b) {
+      if (!ancestors[b].empty())
+        continue;
+      std::vector<int> times;
+      double rest = 0; // of rounding, carried on: all together are split as often as is wanted
+      for (const double halving : halvings[b]) {
+        const double wanted = std::max(0.0, meshes_[b].dimension * halving);
+        times.push_back(wanted > 0 ? std::max(0, static_cast<int>(std::lround(wanted + rest))) : 0);
+        rest += wanted - times.back();
+      }
+      ancestors[b] = bisect(meshes_[b], std::move(times));
+    }
+  });
+  return ancestors;
+}
+
+/// Each geometry once, with the sizes of all its bodies.
+void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
+                             std::span<std::vector<LocalOrdinal>> ancestors, const Comm& comm) {
+  std::map<std::pair<std::string, double>, std::vector<std::size_t>> geometries; // and their bodies
+  for (std::size_t b = 0; b < meshes_.size(); ++b)
+    if (isRemeshed_[b])
+      geometries[{scene_.bodies[b].mesh.file, scene_.bodies[b].mesh.sizeFactor}].push_back(b);
+  for (const auto& [geometry, bodies] : geometries) {
+    const int dimension = meshes_[bodies.front()].dimension;
+    double& stretch = stretch_.try_emplace(geometry, dimension == 2 ? 1.05 : 1.25).first->second;
+    fem::MeshSizes sizes{dimension, {}, {}};
+    double before = 0, wanted = 0, made = 0; // elements
+    for (const std::size_t b : bodies) {
+      addSizes(meshes_[b], halvings[b], stretch, sizes);
+      before += static_cast<double>(halvings[b].size());
+      for (const double halving : halvings[b])
+        wanted += std::exp2(dimension * halving);
+    }
+    const auto makeText = [&, &name = geometry.first, factor = geometry.second] {
+      return fem::textOfGeometry(name, factor, fem::SizeField(std::move(sizes)));
+    };
+    const fem::GmshFile mesh = model::meshOnAllRanks(geometry.first, makeText, comm);
+    collectively(comm, [&] {
+      for (const std::size_t b : bodies) {
+        SimplexMesh finer = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
+        ancestors[b] = elementsAround(finer, meshes_[b]);
+        meshes_[b] = std::move(finer);
+        made += static_cast<double>(meshes_[b].elements.size());
+      }
+    });
+    constexpr double clear = 1.5, poor = 0.5; // numbers of elements that a geometry gives stand in the way
+    if (wanted > clear * before && made < poor * wanted)
+      for (const std::size_t b : bodies) {
+        isRemeshed_[b] = false;
+        if (made == before) // the mesh is the old one
+          ancestors[b] = {};
+      }
+    stretch *= std::clamp(std::pow(wanted / made, 1.0 / dimension), 0.7, 1.4);
+  }
+}
+
+bool RefinableMeshes::areRemeshed() const {
+  return std::find(isRemeshed_.begin(), isRemeshed_.end(), true) != isRemeshed_.end();
+}
+
+std::vector<std::vector<double>> RefinableMeshes::measures() const {
+  std::vector<std::vector<double>> measures;
+  for (const SimplexMesh& mesh : meshes_) {
+    std::vector<double>& own = measures.emplace_back();
+    const auto type = mesh.dimension == 2 ? fem::CellType::triangle : fem::CellType::tetrahedron;
+    for (const SimplexMesh::Element& element : mesh.elements)
+      own.push_back(fem::measureOf(type, cornersOf(mesh, element)));
+  }
+  return measures;
+}
+
+} // namespace epafi::accuracy

@@ -1,0 +1,39 @@
+#include "epafi/model/MeshFiles.hpp"
+
+#include "epafi/base/Collective.hpp"
+
+#include <Teuchos_CommHelpers.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace epafi::model {
+namespace {
+
+/// Rank 0's text on all ranks, in messages whose length an int counts. Collective.
+void broadcastText(const Comm& comm, std::string& text) {
+  auto size = static_cast<long long>(text.size());
+  Teuchos::broadcast(comm, 0, 1, &size);
+  collectively(comm, [&] { text.resize(static_cast<std::size_t>(size)); });
+  constexpr long long longest = 1 << 30;
+  for (long long first = 0; first < size; first += longest)
+    Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), text.data() + first);
+}
+
+} // namespace
+
+fem::GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
+                             const Comm& comm) {
+  std::string text;
+  collectively(comm, [&] {
+    if (comm.getRank() == 0)
+      text = makeText();
+  });
+  broadcastText(comm, text);
+  std::optional<fem::GmshFile> mesh;
+  collectively(comm, [&] { mesh.emplace(fem::readMsh(file, std::move(text))); });
+  return std::move(*mesh);
+}
+
+} // namespace epafi::model

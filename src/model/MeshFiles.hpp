@@ -1,0 +1,19 @@
+#pragma once
+
+/// Mesh files on all ranks alike.
+
+#include "epafi/base/Types.hpp"
+#include "epafi/fem/GmshFile.hpp"
+
+#include <functional>
+#include <string>
+
+namespace epafi::model {
+
+/// Rank 0 makes the text of a file (of a geometry, by meshing it) and hands it to the others: they all have the same mesh,
+/// whatever Gmsh does on their machines. \param file  its name, for errors. Collective. \throws what `makeText` throws, and
+/// readMsh(), the same on all ranks.
+fem::GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
+                             const Comm& comm);
+
+} // namespace epafi::model
