@@ -202,7 +202,7 @@ void Session::meshWith(const SizeField& sizes) const {
   int error = 0;
   const int dimension = gmsh_.dimension(&error);
   call([&](auto* failed) { setSizes(gmsh_.setSizeCallback, sizes, failed); });
-  constexpr double hxt = 10, frontal = 6;
+  constexpr double delaunay = 1, frontal = 6; // HXT is quicker, and another mesh each time
   for (const auto& [name, value] : {std::pair{"Mesh.MeshSizeFactor", 1.0},
                                     {"Mesh.MeshSizeMin", 0.0},
                                     {"Mesh.MeshSizeMax", 1e22},
@@ -214,7 +214,7 @@ void Session::meshWith(const SizeField& sizes) const {
                                     {"General.NumThreads", 1.0}, // several give another mesh each time
                                     {"Mesh.MaxNumThreads3D", 1.0},
                                     {"Mesh.Algorithm", frontal},
-                                    {"Mesh.Algorithm3D", hxt}})
+                                    {"Mesh.Algorithm3D", delaunay}})
     call(gmsh_.setNumber, name, value);
   call(gmsh_.generate, dimension);
   call(gmsh_.setOrder, 2);
