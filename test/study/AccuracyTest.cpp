@@ -5,6 +5,7 @@
 #include "AccuracyCase.hpp"
 #include "AccuracyPeers.hpp"
 #include "AccuracyReport.hpp"
+#include "AccuracyTargets.hpp"
 #include "Effectivity.hpp"
 
 #include "epafi/base/Errors.hpp"
@@ -193,6 +194,33 @@ TEST(EffectivityTest, OfCurvedMeshesIsNearOne) {
   ASSERT_EQ(rows.size(), 1);
   EXPECT_GT(rows[0].number("effectivity"), 0.6);
   EXPECT_LT(rows[0].number("effectivity"), 1.5);
+}
+
+/// The error falls with the number of unknowns as where nothing is singular, and no claim fails by more than a tenth.
+TEST(AccuracyTargetsTest, ErrorsAreBelowTheirTargetsAndFallAsOnSmoothSolutions) {
+  const RCP<const Comm> comm = Tpetra::getDefaultComm();
+  const auto rowsOf = [&](const std::string& name, int order, const std::vector<double>& targets,
+                          double reference) {
+    std::vector<Row> rows = measureTargets(name, order, targets, reference, scenes, comm);
+    for (const Row& row : rows) {
+      EXPECT_EQ(row.number("met"), 1) << name;
+      EXPECT_LE(row.number("true_error"), 1.1 * row.number("target")) << name;
+      EXPECT_GE(row.number("effectivity"), 0.5) << name;
+      EXPECT_LE(row.number("effectivity"), 2) << name;
+    }
+    return rows;
+  };
+  EXPECT_GE(fittedOrder(rowsOf("coercive", 2, {0.02, 0.005, 0.00125}, 4e-4)), 0.9);
+  EXPECT_GE(fittedOrder(rowsOf("punch", 2, {0.05, 0.0125, 0.0016}, 5e-4)), 0.8);
+  EXPECT_GE(fittedOrder(rowsOf("punch", 1, {0.2, 0.1, 0.05}, 1e-2)), 0.45);
+  EXPECT_GE(fittedOrder(rowsOf("angle", 2, {0.05, 0.02, 0.0075}, 2e-3)), 0.9);
+}
+
+TEST(AccuracyTargetsTest, AFittedOrderIsThatOfAPower) {
+  EXPECT_NEAR(fittedOrder({{{"unknowns", 10}, {"true_error", 0.1}},
+                           {{"unknowns", 1000}, {"true_error", 0.01}},
+                           {{"unknowns", 100000}, {"true_error", 0.001}}}),
+              0.5, 1e-12);
 }
 
 } // namespace
