@@ -158,7 +158,7 @@ public:
   [[nodiscard]] WantedSizes plan(const MeshResult& result, const RefinementGoal& goal) const override {
     RefinementGoal own(goal);
     if (meshes_.areRemeshed()) // what Gmsh does not do as asked is lost in the error's fall then
-      own.leastGrowth = 2.5;
+      own.leastGrowth = dimension_ == 2 ? 1.5 : 2.5;
     return SceneLevels::plan(result, own);
   }
   std::vector<LocalOrdinal> refine(const WantedSizes& wanted) override {

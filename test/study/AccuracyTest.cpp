@@ -211,7 +211,7 @@ TEST(AccuracyTargetsTest, ErrorsAreBelowTheirTargetsAndFallAsOnSmoothSolutions) 
     return rows;
   };
   EXPECT_GE(fittedOrder(rowsOf("coercive", 2, {0.02, 0.005, 0.00125}, 4e-4)), 0.9);
-  EXPECT_GE(fittedOrder(rowsOf("punch", 2, {0.05, 0.0125, 0.0016}, 5e-4)), 0.8);
+  EXPECT_GE(fittedOrder(rowsOf("punch", 2, {0.05, 0.0125, 0.004}, 1.5e-3)), 0.75);
   EXPECT_GE(fittedOrder(rowsOf("punch", 1, {0.2, 0.1, 0.05}, 1e-2)), 0.45);
   EXPECT_GE(fittedOrder(rowsOf("angle", 2, {0.05, 0.02, 0.0075}, 2e-3)), 0.9);
 }
