@@ -5,7 +5,6 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/GmshReader.hpp"
-#include "epafi/fem/MeshOrder.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 #include "epafi/model/MeshFiles.hpp"
 
