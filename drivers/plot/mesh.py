@@ -52,7 +52,7 @@ def figure(run):
     picture, axes = pyplot.subplots(figsize=(9.2, 6.8))
     (draw_plane if run.is_plane() else draw_space)(axes, run, norm)
     bar = picture.colorbar(matplotlib.cm.ScalarMappable(norm, style.STRESS), ax=axes, shrink=0.72, pad=0.02, aspect=24)
-    bar.set_label("estimated error of an element in the energy norm")
+    bar.set_label("estimated error of an element\nin the energy norm")
     bar.outline.set_visible(False)
     elements = sum(len(numpy.unique(body.element)) for body in run.bodies)
     axes.set_title(f"{elements} elements and their errors — {run.title}", pad=10)
