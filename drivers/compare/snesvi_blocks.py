@@ -121,11 +121,14 @@ def measure(options):
 
 def main(arguments):
     options = parse(arguments)
+    first = int(os.environ.get("OMPI_COMM_WORLD_RANK", "0")) == 0
     try:
         measurements = measure(options)
-        if int(os.environ.get("OMPI_COMM_WORLD_RANK", "0")) == 0:
+        if first:
             print(json.dumps(measurements))
     except snesvi.MissingPackage as error:
+        if not first:  # in silence: what two ranks say runs together, and the first that fails ends the others
+            return 0
         print(error, file=sys.stderr)
         return 3
     except snesvi.NotSolved as error:

@@ -145,7 +145,7 @@ def run_snesvi(solver, case):
 def measured_snesvi(process):
     """The run that a script of PETSc's printed. \\raises Trouble"""
     if process.returncode == EXIT_MISSING:
-        package = process.stderr.split()[0]  # each rank says so
+        package = process.stderr.split()[0]
         raise Trouble("missing", f"install the package {package}, or all of the peers by ./setup packages peers")
     return measured(process)
 
