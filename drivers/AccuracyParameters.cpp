@@ -21,11 +21,12 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       "Estimate Error", defaults.estimate,
       "Whether the discretisation error is estimated at the end, in the energy norm, by a recovered flux "
       "(Zienkiewicz, Zhu 1987).");
-  addShare(
-      list, "Target", defaults.target,
-      "Relative error in the energy norm that is asked for, such as 0.01 or \"1 %\", also by --accuracy: "
-      "mesh after mesh, each started from the last one's solution, until the estimate is met. The "
-      "tolerance is 'balanced' then, unless the scene gives one. 0: the scene's meshes as they are.");
+  addShare(list, "Target", defaults.target,
+           "Relative error in the energy norm, or of a Quantity, that is asked for, such as 0.01 or \"1 %\", "
+           "also by --accuracy: "
+           "mesh after mesh, each started from the last one's solution, until the estimate is met. The "
+           "tolerance is 'balanced' then, unless the scene gives one or a Quantity. 0: the scene's meshes as "
+           "they are.");
   addChoice(
       list, "Refinement", refinements.front(),
       "With a target: local: the first mesh is as coarse as the scene allows (of a mesh file: its own), and "
@@ -47,11 +48,13 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
           "of what "
           "is free on this machine.",
           0);
+  QuantityParameters::addTo(list);
 }
 
 AccuracyParameters AccuracyParameters::from(const Teuchos::ParameterList& list) {
   AccuracyParameters parameters;
   parameters.estimate = list.get<bool>("Estimate Error");
+  parameters.quantity = QuantityParameters::from(list.sublist("Quantity"));
   parameters.target = list.get<double>("Target");
   parameters.refinement = enumeratorFrom<Refinement>(list, "Refinement", refinements);
   parameters.order = list.get<int>("Order");

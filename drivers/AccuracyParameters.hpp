@@ -2,6 +2,8 @@
 
 /// How accurate a run is to be, and what it may cost: the list Accuracy of a scene.
 
+#include "Quantity.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 
 #include <limits>
@@ -11,8 +13,9 @@ namespace epafi::drivers {
 struct AccuracyParameters {
   /// How meshes are refined: where the error is, or everywhere.
   enum class Refinement { local, even };
-  bool estimate = true; ///< whether to estimate the error at the end
-  double target = 0;    ///< of the relative error; 0: as accurate as the scene's mesh
+  bool estimate = true;        ///< whether to estimate the error at the end
+  QuantityParameters quantity; ///< in place of the energy norm
+  double target = 0;           ///< of the relative error; 0: as accurate as the scene's mesh
   Refinement refinement = Refinement::local;
   int order = 0;      ///< of the elements with local refinement; 0: chosen
   int maxLevels = 20; ///< meshes at most

@@ -23,20 +23,21 @@ using accuracy::MeshResult;
 using accuracy::RefinementGoal;
 using accuracy::WantedSizes;
 
-/// η² of all elements of all bodies, on every rank. Collective.
+/// η² of all elements of all bodies, or what they add to a quantity's error, on every rank. Collective.
 std::vector<double> allErrors(const SceneRun& run) {
   const model::Decomposition& decomposition = *run.decomposition;
   std::vector<std::size_t> first(1, 0);
   for (const model::BodyLayout& body : decomposition.bodies)
     first.push_back(first.back() + static_cast<std::size_t>(body.mesh->numElements()));
   std::vector<double> errors(first.back(), 0.0);
+  const auto& shares = run.quantity ? run.quantity->elements : run.error->elements;
   for (std::size_t s = 0; s < decomposition.problem.subdomains.size(); ++s) {
     const decomposition::Subdomain& subdomain = decomposition.problem.subdomains[s];
     const model::BodyLayout& body = decomposition.bodies[static_cast<std::size_t>(subdomain.body)];
     const auto elements = body.partition->elementsOf(subdomain.number - body.firstSubdomain);
     for (std::size_t e = 0; e < elements.size(); ++e)
       errors[first[static_cast<std::size_t>(subdomain.body)] + static_cast<std::size_t>(elements[e])] =
-          run.error->elements[s][e];
+          shares[s][e];
   }
   sumOverRanks(*decomposition.problem.comm, std::span(errors)); // each element is one rank's
   return errors;
@@ -52,9 +53,12 @@ double distance(const SceneRun& finer, const SceneRun& coarser) {
 /// A scene on its meshes.
 class SceneLevels : public accuracy::RefinableProblem {
 public:
-  SceneLevels(const Teuchos::ParameterList& solverParameters, RCP<const Comm> comm, RunCompanion* companion)
-      : solverParameters_(solverParameters), comm_(std::move(comm)), companion_(companion) {
-    if (!solverParameters_.isParameter("Tolerance") || solverParameters_.getEntry("Tolerance").isDefault())
+  SceneLevels(const Teuchos::ParameterList& solverParameters, QuantityParameters quantity,
+              RCP<const Comm> comm, RunCompanion* companion)
+      : solverParameters_(solverParameters), quantity_(std::move(quantity)), comm_(std::move(comm)),
+        companion_(companion) {
+    if (quantity_.kind == QuantityParameters::Kind::none &&
+        (!solverParameters_.isParameter("Tolerance") || solverParameters_.getEntry("Tolerance").isDefault()))
       solverParameters_.set("Tolerance", std::string("balanced"));
     restart();
   }
@@ -62,7 +66,8 @@ public:
   MeshResult solve(int order) final {
     std::vector<model::BodyLayout> bodies;
     const scene::Scene scene = prepare(order, bodies);
-    RunOptions options{.estimatesError = true, .coarser = nullptr, .companion = companion_};
+    RunOptions options{
+        .estimatesError = true, .quantity = quantity_, .coarser = nullptr, .companion = companion_};
     if (!bodies.empty())
       options.bodies = &bodies;
     if (hasRun_)
@@ -101,6 +106,8 @@ private:
     result.energyNorm = run.error->energyNorm;
     result.discretisation = run.error->discretisation;
     result.algebraic = run.solution.algebraicError;
+    if (run.quantity)
+      result.quantity = {run.quantity->value, run.quantity->bar, run.quantity->algebraic};
     result.bytes = sumOverRanks(*comm_, peakBytes() - bytesBefore_);
     // Short of its tolerance an iteration may still be good enough for a mesh: its error is known, and counts.
     const qp::SolveReport& report = run.solver->report();
@@ -112,6 +119,7 @@ private:
   }
 
   Teuchos::ParameterList solverParameters_;
+  QuantityParameters quantity_;
   RCP<const Comm> comm_;
   RunCompanion* companion_;
   SceneRun run_;
@@ -122,9 +130,9 @@ private:
 /// Elements halved everywhere, and as many times more subdomains.
 class EvenLevels final : public SceneLevels {
 public:
-  EvenLevels(scene::Scene scene, const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
-             RunCompanion* companion)
-      : SceneLevels(solverParameters, comm, companion), scene_(std::move(scene)) {}
+  EvenLevels(scene::Scene scene, const Teuchos::ParameterList& solverParameters,
+             const QuantityParameters& quantity, const RCP<const Comm>& comm, RunCompanion* companion)
+      : SceneLevels(solverParameters, quantity, comm, companion), scene_(std::move(scene)) {}
 
   [[nodiscard]] int dimension() const override { return dimensionOf(scene_.bodies.front().physics); }
   [[nodiscard]] WantedSizes plan(const MeshResult& /*result*/, const RefinementGoal& goal) const override {
@@ -148,8 +156,8 @@ private:
 class LocalLevels final : public SceneLevels {
 public:
   LocalLevels(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
-              const RCP<const Comm>& comm, RunCompanion* companion)
-      : SceneLevels(parametersFor(scene, solverParameters), comm, companion), meshes_(scene, *comm),
+              const QuantityParameters& quantity, const RCP<const Comm>& comm, RunCompanion* companion)
+      : SceneLevels(parametersFor(scene, solverParameters), quantity, comm, companion), meshes_(scene, *comm),
         dimension_(dimensionOf(scene.bodies.front().physics)) {}
 
   [[nodiscard]] int dimension() const override { return dimension_; }
@@ -213,9 +221,11 @@ void report(AccurateRun& result, double target) {
   Teuchos::ParameterList& list = result.run.report;
   for (std::size_t i = 0; i < result.loop.meshes.size(); ++i) {
     const MeshResult& mesh = result.loop.meshes[i];
-    list.sublist("Levels")
-        .sublist("level " + std::to_string(i))
-        .set("Order", mesh.order)
+    Teuchos::ParameterList& level = list.sublist("Levels").sublist("level " + std::to_string(i));
+    if (mesh.quantity)
+      level.set("Quantity", mesh.quantity->value)
+          .set("Error Bar", mesh.quantity->discretisation + mesh.quantity->algebraic);
+    level.set("Order", mesh.order)
         .set("Primal Dimension", mesh.unknowns)
         .set("Hessian Multiplications", mesh.multiplications)
         .set("Relative Error", mesh.relative())
@@ -227,10 +237,12 @@ void report(AccurateRun& result, double target) {
   list.sublist("Accuracy").set("Target", target);
   if (!result.loop.choice.empty())
     list.sublist("Accuracy").set("Choice of Order", result.loop.choice);
+  const std::string what =
+      result.run.quantity ? "the error bar of the " + result.run.quantity->name : "the estimated error";
   std::ostringstream reason;
   reason.precision(3);
   if (result.loop.isMet) {
-    reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, at most the "
+    reason << what << " is " << 100 * result.loop.meshes.back().relative() << " %, at most the "
            << 100 * target << " % that was asked for";
     list.sublist("Status")
         .set("Converged", true)
@@ -238,8 +250,8 @@ void report(AccurateRun& result, double target) {
         .set("Reason", reason.str());
     return;
   }
-  reason << "the estimated error is " << 100 * result.loop.meshes.back().relative() << " %, and "
-         << 100 * target << " % was asked for: " << result.loop.reason;
+  reason << what << " is " << 100 * result.loop.meshes.back().relative() << " %, and " << 100 * target
+         << " % was asked for: " << result.loop.reason;
   list.sublist("Status")
       .set("Converged", false)
       .set("Status", std::string("TargetMissed"))
@@ -254,9 +266,9 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
   const bool isLocal = accuracy.refinement == AccuracyParameters::Refinement::local;
   std::unique_ptr<SceneLevels> levels;
   if (isLocal)
-    levels = std::make_unique<LocalLevels>(scene, solverParameters, comm, companion);
+    levels = std::make_unique<LocalLevels>(scene, solverParameters, accuracy.quantity, comm, companion);
   else
-    levels = std::make_unique<EvenLevels>(scene, solverParameters, comm, companion);
+    levels = std::make_unique<EvenLevels>(scene, solverParameters, accuracy.quantity, comm, companion);
   AccurateRun result;
   std::vector<MeshResult> done;
   const auto note = [&](const MeshResult& mesh) {
@@ -286,7 +298,10 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
     result.loop.reason = std::string("the next mesh failed: ") + error.what();
   }
   result.run = std::move(levels->run());
-  result.run.correctEstimate(result.loop.meshes.back().effectivity);
+  const MeshResult& last = result.loop.meshes.back();
+  result.run.correctEstimate(last.effectivity);
+  if (last.quantity)
+    result.run.correctQuantity(last.effectivity, last.quantity->discretisation);
   report(result, accuracy.target);
   return result;
 }

@@ -40,6 +40,14 @@ void SceneRun::correctEstimate(double effectivity) {
       .set("Effectivity", effectivity);
 }
 
+void SceneRun::correctQuantity(double effectivity, double bar) {
+  quantity->error /= effectivity * effectivity;
+  quantity->bar = bar;
+  report.sublist("Quantity")
+      .set("Estimated Error", quantity->error)
+      .set("Error Bar", quantity->bar + quantity->algebraic);
+}
+
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, const RunOptions& options) {
   SceneRun run;
@@ -49,6 +57,10 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   run.decomposition = std::make_unique<model::Decomposition>(
       options.bodies == nullptr ? model::decompose(scene, comm)
                                 : model::decompose(scene, std::move(*options.bodies), comm));
+  std::optional<QuantityOfScene> quantity;
+  if (options.quantity.kind != QuantityParameters::Kind::none)
+    quantity.emplace(options.quantity, run.scene, *run.decomposition);
+  const bool estimatesError = options.estimatesError || quantity;
   const double assembly = maxOverRanks(*comm, Teuchos::Time::wallTime() - run.started);
   RCP<const Vector> start;
   if (options.companion != nullptr)
@@ -57,7 +69,7 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   if (options.companion != nullptr)
     options.companion->beforeIteration();
   std::optional<accuracy::ErrorEstimator> estimator;
-  if (options.estimatesError || run.solver->isBalanced())
+  if (estimatesError || run.solver->isBalanced())
     estimator.emplace(run.scene, *run.decomposition);
   fetidp::ErrorBalance balance;
   balance.fraction = run.solver->algebraicFraction();
@@ -74,8 +86,10 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   run.solution =
       run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
   const double solved = Teuchos::Time::wallTime();
-  if (options.estimatesError)
+  if (estimatesError)
     run.error = (*estimator)(run.solution.displacement);
+  if (quantity)
+    run.quantity = (*quantity)(*run.solver, run.solved(), *estimator, run.error->energyNorm);
   const double estimated = Teuchos::Time::wallTime();
   run.evaluation = output::evaluate(run.solved(), run.error ? &*run.error : nullptr);
   run.report = run.solver->reportList(run.solution);
@@ -91,6 +105,13 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
         .set("Discretisation Error", run.error->discretisation)
         .set("Relative Error", run.relativeError());
   }
+  if (run.quantity)
+    run.report.sublist("Quantity")
+        .set("Name", run.quantity->name)
+        .set("Value", run.quantity->value)
+        .set("Error Bar", run.quantity->bar + run.quantity->algebraic)
+        .set("Estimated Error", run.quantity->error)
+        .set("Hessian Multiplications", run.quantity->multiplications);
   run.report.sublist("Problem").set("Title", scene.title);
   return run;
 }

@@ -43,6 +43,7 @@ struct SceneRun {
   std::unique_ptr<ContactSolver> solver;
   fetidp::ContactSolution solution;
   std::optional<accuracy::ErrorEstimate> error; ///< if asked for
+  std::optional<Quantity> quantity;             ///< likewise
   output::Evaluation evaluation;
   Teuchos::ParameterList report; ///< complete but for Time/Output and Time/Total
   double started = 0;            ///< wall time at the start
@@ -51,12 +52,16 @@ struct SceneRun {
   [[nodiscard]] double relativeError() const;
   /// Divides the estimated discretisation error by its effectivity, in the report too. Precondition: `error`.
   void correctEstimate(double effectivity);
+  /// Divides the estimated error of the quantity by the square of the effectivity, and takes its bar from a loop that has seen other
+  /// meshes; in the report too. Precondition: `quantity`.
+  void correctQuantity(double effectivity, double bar);
   [[nodiscard]] output::SolvedScene solved() const { return {scene, *decomposition, solution}; }
 };
 
 /// What a run can start from and what it is to tell.
 struct RunOptions {
   bool estimatesError = false;
+  QuantityParameters quantity{}; ///< needs the estimate, and has it made
   const SceneRun* coarser =
       nullptr; ///< the same scene on a coarser mesh: its solution is where this run starts
   RunCompanion* companion = nullptr;

@@ -100,6 +100,15 @@ std::string percent(double share) {
   return text.str();
 }
 
+/// "1.2345 ± 0.0012 (0.1 %)".
+std::string valueWithBar(double value, double bar) {
+  std::ostringstream text;
+  text << std::setprecision(8) << value << " ± " << std::setprecision(2) << bar;
+  if (value != 0)
+    text << " (" << percent(bar / std::abs(value)) << ')';
+  return text.str();
+}
+
 /// What of the error the mesh and what the iteration is to blame for.
 void describeError(std::ostream& text, const SceneRun& run) {
   const accuracy::ErrorEstimate& error = *run.error;
@@ -126,6 +135,10 @@ void describeAccuracy(std::ostream& text, const SceneRun& run) {
     text << ", equilibrium " << scientific(accuracy, "Equilibrium", 2);
   if (run.error)
     describeError(text, run);
+  if (run.quantity)
+    text << "\n  quantity    " << run.quantity->name << ": "
+         << valueWithBar(run.quantity->value, run.quantity->bar + run.quantity->algebraic)
+         << "; its error is estimated to be " << std::setprecision(2) << run.quantity->error;
   text << "\n  solution    energy " << scientific(accuracy, "Energy", 9);
   if (count(run.report.sublist("Problem"), "Inequality Multipliers") > 0)
     text << ", contact force " << scientific(accuracy, "Contact Force", 9) << " on "
@@ -216,7 +229,13 @@ std::string describe(const accuracy::MeshResult& mesh) {
   std::ostringstream text;
   text << "  mesh        order " << mesh.order << ", " << counted(mesh.unknowns, "primal unknown") << ", "
        << counted(mesh.multiplications, "product") << " with F, " << std::setprecision(2) << mesh.seconds
-       << " s: estimated error " << percent(mesh.relative()) << " (" << percent(scale * mesh.discretisation)
+       << " s: ";
+  if (mesh.quantity) {
+    text << valueWithBar(mesh.quantity->value, mesh.quantity->discretisation + mesh.quantity->algebraic)
+         << '\n';
+    return text.str();
+  }
+  text << "estimated error " << percent(mesh.relative()) << " (" << percent(scale * mesh.discretisation)
        << " of the mesh, "
        << (std::isfinite(mesh.algebraic) ? percent(scale * algebraic) + " of the iteration"
                                          : "that of the iteration not measured")

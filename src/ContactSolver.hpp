@@ -10,6 +10,7 @@
 ///     problem.subdomains[0].stiffness = k;    // new matrices, new rows of B: what still holds is kept
 ///     solver.update();
 
+#include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
 
@@ -64,6 +65,15 @@ public:
   /// where there is nothing to iterate, or no preconditioner of type dirichlet. Precondition: `setup` was called. Collective.
   [[nodiscard]] RCP<Vector> startFrom(std::span<const Eigen::VectorXd> displacement) const {
     return dual_->startFrom(displacement);
+  }
+
+  /// How a solution changes with loads and gaps while its closed contacts stay closed and its open ones open: a linear problem, for
+  /// sensitivities and for the errors of quantities; see fetidp::contactResponse. Precondition: `setup` was called, and `solution`
+  /// is one of its problem. Leaves report() as it is. Collective.
+  [[nodiscard]] fetidp::ContactResponse respond(const fetidp::ContactSolution& solution,
+                                                const fetidp::DataChange& change,
+                                                double tolerance = 1e-6) const {
+    return fetidp::contactResponse(*dual_, *solution.active, change, tolerance);
   }
 
   /// Of the last solve.

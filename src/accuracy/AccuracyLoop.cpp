@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -10,6 +11,8 @@ namespace {
 
 /// Of the target: what the mesh may use of it. The rest is the iteration's, and the estimate's own.
 constexpr double meshShare = 0.9;
+/// Of a quantity's first estimate: what the second mesh is to have at most, its root.
+constexpr double confirming = 0.7;
 
 /// θ: see refineToTarget(). \param next  its estimate not yet corrected
 double measuredEffectivity(const MeshResult& last, const MeshResult& next, double otherwise) {
@@ -20,15 +23,43 @@ double measuredEffectivity(const MeshResult& last, const MeshResult& next, doubl
   return std::clamp(std::sqrt(coarse * coarse - fine * fine) / next.change, least, most);
 }
 
+/// What is left of a quantity's error if it falls from mesh to mesh as its bars do, at least by 0.3: Δ r/(1 − r) of the last
+/// change Δ. Bars of meshes too coarse to see what they miss are smaller.
+double leftOfChange(const MeshResult::Quantity& last, const MeshResult::Quantity& next) {
+  constexpr double most = 0.7;
+  const double ratio =
+      last.discretisation > 0 ? std::min(most, next.discretisation / last.discretisation) : most;
+  return std::abs(next.value - last.value) * ratio / (1 - ratio);
+}
+
+/// What the elements' shares add up to, its root: as estimated, not corrected.
+double estimated(const MeshResult& mesh) {
+  if (!mesh.quantity)
+    return mesh.effectivity * mesh.discretisation;
+  const std::vector<double>& shares = mesh.elements.squared;
+  return std::sqrt(std::accumulate(shares.begin(), shares.end(), 0.0));
+}
+
+/// What it is to be on the next mesh: less by as much as the error is to fall, of a quantity by its root.
+double allowed(const MeshResult& mesh, double target) {
+  const double share = meshShare * target;
+  if (!mesh.quantity)
+    return mesh.effectivity * share * std::hypot(mesh.energyNorm, mesh.discretisation);
+  const double bar = mesh.quantity->discretisation;
+  return bar > 0 ? estimated(mesh) * std::sqrt(share * std::abs(mesh.quantity->value) / bar) : 0;
+}
+
 /// By how much the last mesh missed what was expected of it: the next is asked for as much more.
 double missedBy(const MeshResult& last, double expected) {
   constexpr double most = 1.15;
-  return expected > 0 ? std::clamp(last.discretisation * last.effectivity / expected, 1.0, most) : 1.0;
+  return expected > 0 ? std::clamp(estimated(last) / expected, 1.0, most) : 1.0;
 }
 
-/// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d).
+/// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d), that of a quantity with
+/// its square.
 double unknownsOfOrderOne(const MeshResult& result, int dimension, double target) {
-  return static_cast<double>(result.unknowns) * std::pow(result.relative() / target, dimension);
+  const double power = result.quantity ? 0.5 * dimension : dimension;
+  return static_cast<double>(result.unknowns) * std::pow(result.relative() / target, power);
 }
 
 /// Unknowns that order 2 has on a mesh of order 1: in the plane three edges, in space seven a corner.
@@ -64,6 +95,10 @@ std::string obstacle(const std::vector<MeshResult>& meshes, double growth, const
 } // namespace
 
 double MeshResult::relative() const {
+  if (quantity) {
+    const double bar = quantity->discretisation + quantity->algebraic;
+    return bar > 0 ? bar / std::abs(quantity->value) : 0;
+  }
   const double absolute = std::hypot(discretisation, std::isfinite(algebraic) ? algebraic : 0);
   const double whole = std::hypot(energyNorm, absolute);
   return whole > 0 ? absolute / whole : 0;
@@ -90,11 +125,20 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
       before.elements = {};
     }
     next.discretisation /= next.effectivity;
+    if (next.quantity) {
+      double& bar = next.quantity->discretisation;
+      bar /= next.effectivity * next.effectivity;
+      if (!result.meshes.empty() && result.meshes.back().quantity)
+        bar = std::max(bar, leftOfChange(*result.meshes.back().quantity, *next.quantity));
+    }
     result.meshes.push_back(std::move(next));
     if (tell)
       tell(result.meshes.back());
-    result.isMet = result.meshes.back().failure.empty() && result.meshes.back().relative() <= goal.target;
-    return result.meshes.back();
+    const MeshResult& last = result.meshes.back();
+    const bool isConfirmed =
+        !last.quantity || result.meshes.size() > 1; // a bar is believed beside another mesh
+    result.isMet = last.failure.empty() && last.relative() <= goal.target && isConfirmed;
+    return last;
   };
   int order = goal.order == 0 ? 1 : goal.order;
   const MeshResult* last = &solve(order);
@@ -120,10 +164,10 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
   }
   double expected = 0; // of the discretisation error, on the last mesh
   while (!result.isMet) {
-    const double norm = std::hypot(last->energyNorm, last->discretisation);
-    const WantedSizes wanted = problem.plan(
-        *last, {.dimension = dimension,
-                .error = last->effectivity * meshShare * goal.target * norm / missedBy(*last, expected)});
+    double error = allowed(*last, goal.target) / missedBy(*last, expected);
+    if (last->quantity && result.meshes.size() == 1)
+      error = std::min(error, confirming * estimated(*last));
+    const WantedSizes wanted = problem.plan(*last, {.dimension = dimension, .error = error});
     expected = wanted.error;
     result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
     constexpr double nothing = 1.001;

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,16 +28,22 @@ struct MeshResult {
   double energyNorm = 0;      ///< of the solution
   /// Estimated error in the energy norm, of the mesh. The loop corrects it by the effectivity.
   double discretisation = 0;
-  double algebraic = 0;   ///< and of the iteration
-  double seconds = 0;     ///< all that this mesh took, its making included
-  double bytes = 0;       ///< most that all ranks together held so far; 0: not known
+  double algebraic = 0; ///< and of the iteration
+  double seconds = 0;   ///< all that this mesh took, its making included
+  double bytes = 0;     ///< most that all ranks together held so far; 0: not known
+  /// A number that is asked for in place of the energy norm, and how far it may be off: by the mesh (the loop corrects it by
+  /// the square of the effectivity), and by the iteration.
+  struct Quantity {
+    double value = 0, discretisation = 0, algebraic = 0;
+  };
+  std::optional<Quantity> quantity;
   double change = 0;      ///< ‖u − u of the last mesh‖ in the energy norm; 0: not known
   double effectivity = 1; ///< estimate by error, as the loop takes it to be
   std::string failure;    ///< why the iteration did not reach its tolerance; empty if it did
   ElementErrors
-      elements; ///< of all bodies; the loop finds their orders, and keeps those of the last mesh alone
+      elements; ///< of all bodies, their shares of the quantity's error for η²; the loop finds their orders, and keeps those of the last mesh alone
 
-  /// Both errors, relative to the energy norm of the exact solution.
+  /// Both errors, relative to the energy norm of the exact solution, or to the quantity; infinite if this is 0.
   [[nodiscard]] double relative() const;
 };
 
@@ -60,7 +67,7 @@ public:
 
 /// Where to stop.
 struct LoopGoal {
-  double target = 0.01; ///< relative error in the energy norm, > 0
+  double target = 0.01; ///< relative error in the energy norm, or of the quantity, > 0
   int maxMeshes = 20;
   double maxUnknowns = std::numeric_limits<double>::infinity();
   double maxSeconds = std::numeric_limits<double>::infinity(); ///< no mesh is begun that would be ready later
@@ -78,7 +85,7 @@ struct LoopResult {
 
 /// Solves and refines until the estimate is at most the target, or a limit is in the way. Each mesh tells how good the estimates are: with
 /// errors e_k = η_k/θ and e_{k−1}² = e_k² + ‖u_k − u_{k−1}‖² (what refinement adds is orthogonal to what is left, but for what contact
-/// changes), θ² = (η_{k−1}² − η_k²) / ‖u_k − u_{k−1}‖²; estimates are divided by it. With `order` = 0 the first mesh is
+/// changes), θ² = (η_{k−1}² − η_k²) / ‖u_k − u_{k−1}‖²; estimates are divided by it, those of a quantity by θ², and these are no less than what its last change lets expect, so that it takes two meshes. With `order` = 0 the first mesh is
 /// solved on with elements of order 1: if these meet the target there, or are expected to with no more unknowns than order 2 has on
 /// the same mesh, they stay; else order 2 starts from their solution. Collective.
 /// \param tell  is told of every mesh; may be empty

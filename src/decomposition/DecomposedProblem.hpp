@@ -82,6 +82,9 @@ void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values);
 /// The other way round: unknowns ũ of values at all positions in space; supported values are left out.
 Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values);
 
+/// f^s of forces at all positions in space, such that f^sᵀũ is their work; those at supported values are left out.
+Eigen::VectorXd loadOf(const Subdomain& subdomain, Eigen::VectorXd forces);
+
 /// A body, of which only its rigid motions count.
 struct Body {
   std::string name;

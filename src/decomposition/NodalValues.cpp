@@ -1,4 +1,5 @@
 #include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/EdgeAverages.hpp"
 
 namespace epafi::decomposition {
 
@@ -22,12 +23,26 @@ void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values) {
   }
 }
 
-Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values) {
+namespace {
+
+/// From components in space, in place.
+void toFrames(const Subdomain& subdomain, Eigen::VectorXd& values) {
   const Eigen::Index components = values.size() / static_cast<Eigen::Index>(subdomain.nodes.size());
   for (const NodeFrame& frame : subdomain.frames) {
     auto own = values.segment(frame.node * components, components);
     own = (frame.axes.topLeftCorner(components, components).transpose() * own).eval();
   }
+}
+
+} // namespace
+
+Eigen::VectorXd loadOf(const Subdomain& subdomain, Eigen::VectorXd forces) {
+  toFrames(subdomain, forces);
+  return loadInBasisOf(subdomain.averages, forces(subdomain.unknownPosition));
+}
+
+Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values) {
+  toFrames(subdomain, values);
   Eigen::VectorXd u = values(subdomain.unknownPosition);
   for (const Average& average : subdomain.averages) {
     double mean = u[average.carrier];

@@ -63,6 +63,7 @@ void addPreconditioner(const DecomposedProblem& problem,
   operators.corrected = correctedPreconditioner(problem, operators, parameters);
   if (!operators.corrected.is_null())
     operators.preconditioner = operators.corrected;
+  operators.facePreconditioner = operators.preconditioner;
   if (!operators.coarseSpace.is_null())
     operators.preconditioner = rcp(new ProjectedPreconditioner(
         operators.preconditioner, operators.coarseSpace, parameters.smalbe.penalty * norm));

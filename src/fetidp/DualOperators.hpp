@@ -59,8 +59,9 @@ struct DualOperators {
   qp::NormEstimate norm;                            ///< of the Hessian, where it is needed
   RCP<const DualPreconditioner> dualPreconditioner; ///< M ≈ F⁻¹; null without
   RCP<const CorrectedPreconditioner> corrected;     ///< of M; null where no jump of contact is overrated
-  RCP<const Operator> preconditioner;               ///< of the Hessian, or null
-  qp::MprgpParameters mprgp;                        ///< as given, what was left open decided
+  RCP<const Operator> facePreconditioner; ///< M with all corrections, between no projectors; or null
+  RCP<const Operator> preconditioner;     ///< of the Hessian, or null
+  qp::MprgpParameters mprgp;              ///< as given, what was left open decided
 
   /// F_U, or F without adaptive constraints.
   [[nodiscard]] RCP<const Operator> flexibility() const;

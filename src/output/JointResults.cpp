@@ -2,6 +2,7 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/output/ContactState.hpp"
 
@@ -173,6 +174,25 @@ TieFields gatherTieFields(const SolvedScene& solved, const ContactLayout& tie) {
       fields.traction.push_back(slab.getData(d)[k]);
   }
   return fields;
+}
+
+ContactForce contactForce(const SolvedScene& solved, const ContactLayout& layout) {
+  const Vector3d resultant = sumsOf(solved, layout, 0, [](std::size_t, double) {}).resultant();
+  ContactForce force{resultant.norm(), rcp(new Vector(solved.decomposition.problem.multiplierMap))};
+  if (!(force.value > 0))
+    throw InputError("contact '" + layout.name + "' carries no force, and a quantity is asked of it");
+  const auto weights = force.weights->getDataNonConst();
+  for (LocalOrdinal i = 0; i < weights.size(); ++i) {
+    const GlobalOrdinal row = force.weights->getMap()->getGlobalElement(i) - layout.firstRow;
+    if (row < 0 || row >= layout.numRows())
+      continue;
+    layout.forEachShare(static_cast<std::size_t>(row), [&](std::size_t place, double weight) {
+      layout.forEachFirst(place, [&](const contact::NodeShare& share) {
+        weights[i] += weight * share.weight * directionAt(layout, place).dot(resultant) / force.value;
+      });
+    });
+  }
+  return force;
 }
 
 void addJoints(const SolvedScene& solved, Teuchos::ParameterList& report) {

@@ -22,6 +22,15 @@ struct TieFields {
 /// Collective. Precondition: the solution's vectors lie on the problem's multiplierMap.
 TieFields gatherTieFields(const SolvedScene& solved, const contact::ContactLayout& tie);
 
+/// The size of a contact's resultant, and how it depends on the forces of the rows: value = Σ gᵀλ, g what a motion of the first body
+/// along the resultant takes of the rows' gaps. On multiplierMap.
+struct ContactForce {
+  double value = 0;
+  RCP<Vector> weights; ///< g
+};
+/// Collective. \throws InputError if the contact carries no force.
+ContactForce contactForce(const SolvedScene& solved, const contact::ContactLayout& layout);
+
 /// Adds to a report:
 ///   Contact/NAME  of contacts between bodies: Coupling (in words), Force Imbalance and Moment Imbalance of the two sides, beside
 ///                 the sum of the forces and its product with the size of the surface

@@ -73,6 +73,39 @@ TEST(AccuracyLoopTest, TellsOfEveryMeshAndKeepsTheElementsOfTheLastAlone) {
   }
 }
 
+/// The error of a quantity is the square of the solution's; estimates are wrong by a factor that the meshes tell.
+TEST(AccuracyLoopTest, ReachesATargetOfAQuantity) {
+  for (const int order : {1, 2})
+    for (const double estimateByError : {1.0, 0.7})
+      for (const double target : {0.02, 0.001, 1e-5}) {
+        Patches problem;
+        problem.hasQuantity = true;
+        problem.estimateByError = estimateByError;
+        problem.believed = estimateByError;
+        const LoopResult result = refineToTarget(problem, {.target = target, .order = order});
+        EXPECT_TRUE(result.isMet) << result.reason;
+        ASSERT_GT(result.meshes.size(), 1U);
+        const MeshResult& last = result.meshes.back();
+        const double error = 1 - last.quantity->value; // of 1
+        EXPECT_LE(error, target);
+        EXPECT_GE(last.quantity->discretisation, (1 - 1e-9) * error);
+        EXPECT_LE(last.quantity->discretisation, 1.5 * error);
+        EXPECT_NEAR(last.relative(), last.quantity->discretisation / last.quantity->value, 1e-12);
+      }
+}
+
+/// The estimate is a tenth of the error: the change tells.
+TEST(AccuracyLoopTest, ABarIsNoSmallerThanTheLastChangeLetsExpect) {
+  Patches problem;
+  problem.hasQuantity = true;
+  problem.knowsChange = false;
+  problem.estimateByError = std::sqrt(0.1);
+  const LoopResult result = refineToTarget(problem, {.target = 0.004, .maxMeshes = 2, .order = 1});
+  ASSERT_EQ(result.meshes.size(), 2U);
+  const double error = 1 - result.meshes.back().quantity->value;
+  EXPECT_NEAR(result.meshes.back().quantity->discretisation, error, 1e-9);
+}
+
 /// One per cent less than the last mesh took, and one more.
 TEST(AccuracyLoopTest, StopsBeforeAMeshThatPassesALimitAndSaysWhichOne) {
   constexpr double target = 0.004;

@@ -35,6 +35,7 @@ public:
   double surprise = 1;                       ///< error by what was foreseen, on all meshes but the first
   std::size_t failing = 99;                  ///< mesh whose iteration fails
   double algebraic = 0;                      ///< error of the iteration
+  bool hasQuantity = false;                  ///< 1 less η² in all, its bar what is left
   std::vector<double> errors;                ///< in truth, of each mesh
   mutable std::vector<RefinementGoal> goals; ///< that plan() was given
 
@@ -65,6 +66,8 @@ public:
     result.bytes = 1e3 * static_cast<double>(result.unknowns);
     if (knowsChange && !errors.empty())
       result.change = std::sqrt(std::max(0.0, errors.back() * errors.back() - squared));
+    if (hasQuantity)
+      result.quantity = {1 - squared, estimateByError * estimateByError * squared, algebraic};
     if (errors.size() == failing)
       result.failure = "it stagnated";
     errors.push_back(std::sqrt(squared));

@@ -223,6 +223,43 @@ class SolvesAsAccuratelyAsAsked(Driver):
             self.assertIn(said, status["Reason"])
             self.assertIn("0.1 %", status["Reason"])
 
+    def quantity(self, name, *entries, target="0.1%"):
+        """The report's list Quantity of a run to a target, and the list Accuracy."""
+        report = self.place / "report.xml"
+        run = epafi(scene(name), "--accuracy", target, "--report", report,
+                    *(part for entry in entries for part in ("--set", f"Accuracy/Quantity/{entry}")))
+        self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
+        self.assertIn("quantity    ", run.stdout)
+        content = read_report(report)
+        return {key: float(value) for key, value in content["Quantity"].items() if key != "Name"}
+
+    def test_a_quantity_has_an_error_bar_that_holds(self):
+        for name, entries in (("coercive", ("Kind=force", "Contact=interface")),
+                              ("punch", ("Kind=displacement", "Body=punch", "Surface=top", "Direction={0, 1}")),
+                              ("angle", ("Kind=displacement", "Body=angle", "Surface=head", "Direction={1, 0}"))):
+            exact = self.quantity(name, *entries, target="0.005%")["Value"]
+            for target in ("5%", "1%", "0.1%"):
+                found = self.quantity(name, *entries, target=target)
+                share = float(target.rstrip("%")) / 100
+                self.assertLessEqual(found["Error Bar"], share * abs(found["Value"]))
+                self.assertLessEqual(abs(found["Value"] - exact), found["Error Bar"] + 5e-5 * abs(exact), (name, target))
+
+    def test_a_quantity_without_a_target_is_that_of_the_scenes_mesh(self):
+        run = epafi(scene("coercive"), "--set", "Accuracy/Quantity/Kind=force", "--set", "Accuracy/Quantity/Contact=interface", ranks=2)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        self.assertRegex(run.stdout, r"quantity    force of contact 'interface': 0\.134\d* ± ")
+
+    def test_a_quantity_that_the_scene_does_not_have_is_refused(self):
+        for entries, said in ((("Kind=force", "Contact=interfaze"), "did you mean 'interface'?"), (("Kind=force",), "needs a \"Contact\""),
+                              (("Kind=displacement", "Body=left"), "either a \"Surface\" or a \"Point\""),
+                              (("Kind=displacement", "Body=left", "Surface=lid"), "no surface 'lid'"),
+                              (("Kind=displacement", "Body=left", "Point={9, 9}"), "lies outside of body 'left'"),
+                              (("Kind=displacement", "Body=left", "Point={0.5, 0.5}", "Direction={0, 1}"), "membranes deflect along z"),
+                              (("Contact=interface",), "kind \"force\" alone")):
+            run = epafi(scene("coercive"), *(part for entry in entries for part in ("--set", f"Accuracy/Quantity/{entry}")), ranks=2)
+            self.assertEqual(run.returncode, WRONG_INPUT, run.stdout)
+            self.assertIn(said, run.stderr)
+
     def test_a_target_that_is_none_is_refused(self):
         for target in ("abc", "200%", "-1%", "1 percent"):
             run = epafi(scene("coercive"), "--accuracy", target)

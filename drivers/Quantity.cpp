@@ -1,0 +1,164 @@
+#include "Quantity.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Parameters.hpp"
+#include "epafi/output/JointResults.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace epafi::drivers {
+namespace {
+
+/// Estimates of coarse meshes see 0.7 of the error.
+constexpr double safety = 1.5;
+
+const std::vector<std::string> kinds{"none", "force", "displacement"};
+
+[[noreturn]] void refuse(const std::string& objection) {
+  throw InputError("list \"Accuracy/Quantity\" " + objection);
+}
+
+/// The place of a name among those of some things. \throws InputError that suggests the nearest one.
+template <class Things>
+std::size_t placeOf(const std::string& name, const Things& things, const std::string& what) {
+  std::vector<std::string> names;
+  for (const auto& thing : things)
+    names.push_back(thing.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    const std::string near = nearestName(name, names);
+    refuse("asks for " + what + " '" + name + "', which the scene does not have" +
+           (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+} // namespace
+
+void QuantityParameters::addTo(Teuchos::ParameterList& accuracy) {
+  Teuchos::ParameterList& list =
+      accuracy.sublist("Quantity", false,
+                       "The number that the scene is solved for: it is reported with an error bar, and a "
+                       "Target is relative to it, not to the "
+                       "energy norm.");
+  addChoice(list, "Kind", kinds.front(),
+            "force: the size of a contact's resultant. displacement: averaged over a surface of a body, or "
+            "at a point of it.",
+            kinds);
+  list.set("Contact", "", "Kind force, required: the contact.");
+  list.set("Body", "", "Kind displacement, required: the body.");
+  list.set("Surface", "", "Kind displacement: the surface to average over.");
+  addArray(list, "Point", Teuchos::Array<double>(),
+           "Kind displacement, unless there is a surface: the point in the undeformed body.",
+           "{x, y} or {x, y, z}");
+  addArray(list, "Direction", Teuchos::Array<double>(),
+           "Kind displacement of elastic bodies, required: along what it is measured, of any length but 0.",
+           "{x, y} or {x, y, z}");
+}
+
+QuantityParameters QuantityParameters::from(const Teuchos::ParameterList& list) {
+  QuantityParameters parameters;
+  parameters.kind = enumeratorFrom<Kind>(list, "Kind", kinds);
+  parameters.contact = list.get<std::string>("Contact");
+  parameters.body = list.get<std::string>("Body");
+  parameters.surface = list.get<std::string>("Surface");
+  parameters.point = list.get<Teuchos::Array<double>>("Point").toVector();
+  parameters.direction = list.get<Teuchos::Array<double>>("Direction").toVector();
+  const bool asksForceOf = !parameters.contact.empty(),
+             asksDisplacementOf = !parameters.body.empty() || !parameters.surface.empty() ||
+                                  !parameters.point.empty() || !parameters.direction.empty();
+  if (parameters.kind != Kind::force && asksForceOf)
+    refuse("names a contact, which goes with the kind \"force\" alone");
+  if (parameters.kind != Kind::displacement && asksDisplacementOf)
+    refuse("has a body, surface, point or direction, which go with the kind \"displacement\" alone");
+  if (parameters.kind == Kind::force && !asksForceOf)
+    refuse("is of the kind \"force\", and needs a \"Contact\"");
+  if (parameters.kind == Kind::displacement &&
+      (parameters.body.empty() || parameters.surface.empty() == parameters.point.empty()))
+    refuse("is of the kind \"displacement\", and needs a \"Body\", and either a \"Surface\" or a \"Point\"");
+  return parameters;
+}
+
+double Quantity::relative() const {
+  const double absolute = bar + algebraic;
+  if (absolute == 0)
+    return 0;
+  return value == 0 ? std::numeric_limits<double>::infinity() : absolute / std::abs(value);
+}
+
+QuantityOfScene::QuantityOfScene(const QuantityParameters& parameters, const scene::Scene& scene,
+                                 const model::Decomposition& decomposition)
+    : parameters_(parameters), decomposition_(decomposition) {
+  if (parameters.kind == QuantityParameters::Kind::force) {
+    placeOf(parameters.contact, scene.contacts, "contact");
+    contact_ =
+        &decomposition
+             .contacts[placeOf(parameters.contact, decomposition.contacts, "a contact that is no joint,")];
+    name_ = "force of contact '" + parameters.contact + "'";
+    return;
+  }
+  accuracy::DisplacementTerms terms;
+  terms.body = static_cast<int>(placeOf(parameters.body, scene.bodies, "body"));
+  terms.surface = parameters.surface;
+  const auto dimension = static_cast<std::size_t>(dimensionOf(scene.bodies.front().physics));
+  const auto isVector = [&](const std::vector<double>& x) {
+    return x.size() == dimension &&
+           std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); });
+  };
+  if (terms.surface.empty() && !isVector(parameters.point))
+    refuse("needs a \"Point\" of " + std::to_string(dimension) + " finite numbers");
+  std::copy(parameters.point.begin(), parameters.point.end(), terms.point.begin());
+  if (scene.bodies.front().physics == scene::Physics::membrane) {
+    if (!parameters.direction.empty())
+      refuse("has a \"Direction\", and membranes deflect along z alone");
+  } else {
+    terms.direction.setZero();
+    if (isVector(parameters.direction))
+      std::copy(parameters.direction.begin(), parameters.direction.end(), terms.direction.begin());
+    if (!(terms.direction.norm() > 0))
+      refuse("needs a \"Direction\" of " + std::to_string(dimension) + " finite numbers, not all of them 0");
+  }
+  weights_ = accuracy::displacementWeights(decomposition, terms);
+  name_ = "displacement of body '" + parameters.body + "' " +
+          (terms.surface.empty() ? "at the point" : "over '" + terms.surface + "'");
+}
+
+Quantity QuantityOfScene::operator()(const ContactSolver& solver, const output::SolvedScene& solved,
+                                     accuracy::ErrorEstimator& estimator, double energyNorm) const {
+  const decomposition::DecomposedProblem& problem = decomposition_.problem;
+  Quantity quantity;
+  quantity.name = name_;
+  fetidp::DataChange change;
+  if (contact_ != nullptr) {
+    const output::ContactForce force = output::contactForce(solved, *contact_);
+    quantity.value = force.value;
+    change.gap = force.weights;
+    for (const decomposition::Subdomain& subdomain : problem.subdomains)
+      change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
+  } else {
+    AccurateSum sum;
+    for (std::size_t s = 0; s < weights_.size(); ++s) {
+      sum.add(weights_[s].dot(solved.solution.displacement[s]));
+      change.load.push_back(decomposition::loadOf(problem.subdomains[s], weights_[s]));
+    }
+    sumOverRanks(*problem.comm, {&sum, 1});
+    quantity.value = sum.value();
+  }
+  const fetidp::ContactResponse dual = solver.respond(solved.solution, change);
+  accuracy::QuantityError error = accuracy::quantityError(*problem.comm, estimator, energyNorm,
+                                                          solved.solution.displacement, dual.displacement);
+  quantity.error = error.error;
+  quantity.bar = safety * error.bar;
+  quantity.elements = std::move(error.elements);
+  quantity.multiplications = dual.report.counts.hessianMultiplications;
+  if (std::isfinite(solved.solution.algebraicError))
+    quantity.algebraic = solved.solution.algebraicError * error.dualNorm;
+  return quantity;
+}
+
+} // namespace epafi::drivers

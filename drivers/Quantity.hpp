@@ -1,0 +1,63 @@
+#pragma once
+
+/// The number that a scene is solved for, with an error bar: the list Accuracy/Quantity.
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/accuracy/Quantity.hpp"
+#include "epafi/output/SolvedScene.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <string>
+#include <vector>
+
+namespace epafi::drivers {
+
+struct QuantityParameters {
+  /// What is asked for.
+  enum class Kind { none, force, displacement };
+  Kind kind = Kind::none;
+  std::string contact, body, surface;
+  std::vector<double> point, direction;
+
+  /// Adds the list Quantity to the list Accuracy of the schema.
+  static void addTo(Teuchos::ParameterList& accuracy);
+  /// From a validated list Quantity. \throws InputError if entries do not go together.
+  static QuantityParameters from(const Teuchos::ParameterList& list);
+};
+
+/// J_h, and how far it may be off.
+struct Quantity {
+  std::string name; ///< "force of contact 'foot'"
+  double value = 0;
+  double error = 0;                          ///< estimate of J − J_h
+  double bar = 0;                            ///< of the mesh: what |J − J_h| hardly exceeds
+  double algebraic = 0;                      ///< of the iteration: a bound
+  std::vector<std::vector<double>> elements; ///< |e_T|, as ErrorEstimate::elements
+  int multiplications = 0;                   ///< products with F for the dual solution
+
+  /// Both relative to |J_h|; infinite if this is 0.
+  [[nodiscard]] double relative() const;
+};
+
+/// A quantity of a scene that is cut: made before the solve, so that a wrong name is found at once.
+class QuantityOfScene {
+public:
+  /// Keeps references. Not collective. \throws InputError, the same on all ranks, if the scene has no such thing.
+  QuantityOfScene(const QuantityParameters& parameters, const scene::Scene& scene,
+                  const model::Decomposition& decomposition);
+
+  /// A linear solve with contact as the solution has it, and three passes of the estimator. Collective.
+  /// \throws InputError if the contact carries no force; Error if closed contacts cannot take what the quantity asks.
+  Quantity operator()(const ContactSolver& solver, const output::SolvedScene& solved,
+                      accuracy::ErrorEstimator& estimator, double energyNorm) const;
+
+private:
+  const QuantityParameters& parameters_;
+  const model::Decomposition& decomposition_;
+  std::string name_;
+  const contact::ContactLayout* contact_ = nullptr;
+  std::vector<Eigen::VectorXd> weights_; ///< of displacements
+};
+
+} // namespace epafi::drivers

@@ -1,0 +1,133 @@
+#include "epafi/accuracy/Quantity.hpp"
+
+#include "epafi/accuracy/PointLocation.hpp"
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace epafi::accuracy {
+namespace {
+
+/// How much of a node, as seen from an element, counts.
+struct Weight {
+  GlobalOrdinal element, node;
+  double value;
+};
+
+std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std::string& name) {
+  const std::vector<std::string> names = body.mesh->surfaceNames();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw InputError("body '" + body.name + "' has no surface '" + name + "' to average a displacement over");
+  const fem::Surface surface = body.mesh->surface(name);
+  std::vector<Weight> weights;
+  std::vector<fem::Point> points;
+  std::vector<double> shares(static_cast<std::size_t>(surface.nodesPerFacet()));
+  double area = 0;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    const auto nodes = surface.facet(f);
+    body.mesh->pointsAt(nodes, points);
+    fem::nodalShares(surface.facetType, points, shares);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      weights.push_back({surface.elements[f], nodes[a], shares[a]});
+      area += shares[a];
+    }
+  }
+  for (Weight& weight : weights)
+    weight.value /= area;
+  return weights;
+}
+
+/// Meshes of round bodies leave out points close to their border.
+std::vector<Weight> weightsAtPoint(const model::BodyLayout& body, const fem::Point& point) {
+  const Location location = PointLocation(*body.mesh).find(point);
+  const fem::ElementNodes nodes(*body.mesh, location.element);
+  std::vector<fem::Point> points;
+  body.mesh->elementPoints(location.element, points);
+  std::vector<Weight> weights;
+  Eigen::Vector3d found(0, 0, 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    weights.push_back({location.element, nodes[i], location.weights[i]});
+    found += location.weights[i] * Eigen::Map<const Eigen::Vector3d>(points[i].data());
+  }
+  const auto [lower, upper] = fem::boxOf(points);
+  double size = 0;
+  for (std::size_t d = 0; d < 3; ++d)
+    size = std::max(size, upper[d] - lower[d]);
+  constexpr double margin = 0.15; // a chord of an eighth of a circle leaves out 0.1 of its length
+  if ((found - Eigen::Map<const Eigen::Vector3d>(point.data())).norm() > margin * size)
+    throw InputError("the point " + text(point) + " of the quantity lies outside of body '" + body.name +
+                     "'");
+  return weights;
+}
+
+/// Collective.
+double largestOf(const Comm& comm, std::span<const Eigen::VectorXd> u) {
+  double largest = 0;
+  for (const Eigen::VectorXd& values : u)
+    largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
+  return maxOverRanks(comm, largest);
+}
+
+} // namespace
+
+std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& decomposition,
+                                                 const DisplacementTerms& terms) {
+  const model::BodyLayout& body = decomposition.bodies[static_cast<std::size_t>(terms.body)];
+  const std::vector<Weight> weights =
+      terms.surface.empty() ? weightsAtPoint(body, terms.point) : weightsOverSurface(body, terms.surface);
+  const auto components = static_cast<Eigen::Index>(decomposition.problem.components);
+  const Eigen::VectorXd direction = components == 1
+                                        ? Eigen::VectorXd::Ones(1)
+                                        : Eigen::VectorXd(terms.direction.normalized().head(components));
+  std::vector<Eigen::VectorXd> result;
+  for (const decomposition::Subdomain& subdomain : decomposition.problem.subdomains) {
+    Eigen::VectorXd& own = result.emplace_back(Eigen::VectorXd::Zero(subdomain.prescribed.size()));
+    if (subdomain.body != terms.body)
+      continue;
+    for (const Weight& weight : weights) {
+      if (body.partition->partOf(weight.element) != subdomain.number - body.firstSubdomain)
+        continue;
+      const auto place = std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), weight.node);
+      own.segment(components * (place - subdomain.nodes.begin()), components) += weight.value * direction;
+    }
+  }
+  return result;
+}
+
+QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double norm,
+                            std::span<const Eigen::VectorXd> u, std::span<const Eigen::VectorXd> z) {
+  QuantityError result;
+  result.dualNorm = estimator(z).energyNorm;
+  double t = result.dualNorm > 0 && norm > 0 ? norm / result.dualNorm : 1.0;
+  constexpr double most = 1e3; // where z is a rigid motion, without energy but for round-off
+  const double largest[] = {largestOf(comm, u), largestOf(comm, z)};
+  if (largest[0] > 0 && largest[1] > 0)
+    t = std::min(t, most * largest[0] / largest[1]);
+  const auto moved = [&](double factor) {
+    std::vector<Eigen::VectorXd> sum;
+    for (std::size_t s = 0; s < u.size(); ++s)
+      sum.emplace_back(u[s] + factor * z[s]);
+    return estimator(sum).elements;
+  };
+  const std::vector<std::vector<double>> up = moved(t), down = moved(-t);
+  AccurateSum sums[2]; // e, |e|
+  result.elements = up;
+  for (std::size_t s = 0; s < up.size(); ++s)
+    for (std::size_t e = 0; e < up[s].size(); ++e) {
+      const double share = (up[s][e] - down[s][e]) / (4 * t);
+      sums[0].add(share);
+      sums[1].add(std::abs(share));
+      result.elements[s][e] = std::abs(share);
+    }
+  sumOverRanks(comm, sums);
+  result.error = sums[0].value();
+  result.bar = sums[1].value();
+  return result;
+}
+
+} // namespace epafi::accuracy
