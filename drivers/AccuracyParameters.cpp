@@ -25,7 +25,8 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
            "Relative error in the energy norm, or of a Quantity, that is asked for, such as 0.01 or \"1 %\", "
            "also by --accuracy: "
            "mesh after mesh, each started from the last one's solution, until the estimate is met. The "
-           "tolerance is 'balanced' then, unless the scene gives one or a Quantity. 0: the scene's meshes as "
+           "tolerance is 'balanced' then, 1e-8 for a Quantity, unless the scene gives one. 0: the scene's "
+           "meshes as "
            "they are.");
   addChoice(
       list, "Refinement", refinements.front(),

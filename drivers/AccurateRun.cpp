@@ -50,6 +50,9 @@ double distance(const SceneRun& finer, const SceneRun& coarser) {
       .energy;
 }
 
+/// Numbers are asked to more digits than norms, and a bound of what the iteration may be off by is in their bars.
+constexpr double quantityTolerance = 1e-8;
+
 /// A scene on its meshes.
 class SceneLevels : public accuracy::RefinableProblem {
 public:
@@ -57,9 +60,12 @@ public:
               RCP<const Comm> comm, RunCompanion* companion)
       : solverParameters_(solverParameters), quantity_(std::move(quantity)), comm_(std::move(comm)),
         companion_(companion) {
-    if (quantity_.kind == QuantityParameters::Kind::none &&
-        (!solverParameters_.isParameter("Tolerance") || solverParameters_.getEntry("Tolerance").isDefault()))
-      solverParameters_.set("Tolerance", std::string("balanced"));
+    if (!solverParameters_.isParameter("Tolerance") || solverParameters_.getEntry("Tolerance").isDefault()) {
+      if (quantity_.kind == QuantityParameters::Kind::none)
+        solverParameters_.set("Tolerance", std::string("balanced"));
+      else
+        solverParameters_.set("Tolerance", quantityTolerance);
+    }
     restart();
   }
 

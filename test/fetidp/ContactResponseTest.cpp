@@ -69,8 +69,8 @@ TEST(ContactResponseTest, IsTheDerivativeOfTheSolution) {
 
     std::vector<Eigen::VectorXd> difference;
     for (std::size_t i = 0; i < moved.displacement.size(); ++i)
-      difference.push_back((moved.displacement[i] - solved.solution.displacement[i]) / s -
-                           response.displacement[i]);
+      difference.emplace_back((moved.displacement[i] - solved.solution.displacement[i]) / s -
+                              response.displacement[i]);
     EXPECT_LE(largest(difference, *world()), 1e-6 * largest(response.displacement, *world()));
     Vector forces(*moved.multiplier, Teuchos::Copy);
     forces.update(-1.0, *solved.solution.multiplier, 1.0);
