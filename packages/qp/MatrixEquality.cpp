@@ -4,10 +4,11 @@
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/RawCommunicator.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/qp/EqualityRows.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_Comm.hpp>
 #include <Teuchos_LAPACK.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
@@ -47,10 +48,7 @@ private:
 
 /// The rows of B numbered from 0 over the ranks: the number of this rank's first one.
 std::size_t firstRow(const Map& rows, std::size_t numLocalRows) {
-  const auto mine = static_cast<GlobalOrdinal>(numLocalRows);
-  GlobalOrdinal upToMine = 0;
-  Teuchos::scan(*rows.getComm(), Teuchos::REDUCE_SUM, 1, &mine, &upToMine);
-  return static_cast<std::size_t>(upToMine - mine);
+  return static_cast<std::size_t>(sumBefore(*rows.getComm(), static_cast<GlobalOrdinal>(numLocalRows)));
 }
 
 /// BBᵀ, m × m on every rank, by 16 columns at a time.

@@ -1,8 +1,9 @@
 #include "epafi/decomposition/GluingRows.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/RawCommunicator.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_Comm.hpp>
 
 #include <algorithm>
 #include <span>
@@ -27,11 +28,10 @@ std::vector<GlobalOrdinal> numberLinks(const Substructures& all, const SharedNod
       }
       ++copy;
     }
-  GlobalOrdinal last = 0; // ranks have their subdomains in ascending order
-  Teuchos::scan(*all.comm, Teuchos::REDUCE_SUM, number, Teuchos::outArg(last));
+  const GlobalOrdinal before = sumBefore(*all.comm, number); // ranks have their subdomains in ascending order
   for (GlobalOrdinal& row : rows)
     if (row >= 0)
-      row += firstRow + last - number;
+      row += firstRow + before;
   numRows = sumOverRanks(*all.comm, number);
   return rows;
 }

@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/RawCommunicator.hpp"
 #include "epafi/decomposition/BodyKernels.hpp"
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
@@ -10,7 +11,7 @@
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Splitting.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_Comm.hpp>
 #include <Teuchos_OrdinalTraits.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Export.hpp>
@@ -135,10 +136,8 @@ void UnassembledProblem::complete() {
 /// The number of this rank's first subdomain; counts all. Collective.
 int UnassembledProblem::firstNumber() {
   const int mine = static_cast<int>(added_.size() + nodal_.size());
-  int last = 0;
-  Teuchos::scan(*comm_, Teuchos::REDUCE_SUM, mine, Teuchos::outArg(last));
   problem_.numSubdomains = sumOverRanks(*comm_, mine);
-  return last - mine;
+  return static_cast<int>(sumBefore(*comm_, mine));
 }
 
 /// The subdomains in the order of their nodes, prescribed unknowns taken out; near-kernels stay. Collective.

@@ -3,8 +3,9 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/RawCommunicator.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_Comm.hpp>
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
@@ -149,9 +150,7 @@ void fillCells(const BodyLayout& layout, BodyFields& fields) {
 
 void numberCrosspoints(const Comm& comm, BodyFields& fields) {
   fields.crosspoints.count = static_cast<GlobalOrdinal>(fields.crosspointPoints.size() / 3);
-  GlobalOrdinal upToHere = 0;
-  Teuchos::scan(comm, Teuchos::REDUCE_SUM, 1, &fields.crosspoints.count, &upToHere);
-  fields.crosspoints.first = upToHere - fields.crosspoints.count;
+  fields.crosspoints.first = sumBefore(comm, fields.crosspoints.count);
   fields.numCrosspoints = sumOverRanks(comm, fields.crosspoints.count);
 }
 
