@@ -30,7 +30,8 @@ std::vector<double> allErrors(const SceneRun& run) {
   for (const model::BodyLayout& body : decomposition.bodies)
     first.push_back(first.back() + static_cast<std::size_t>(body.mesh->numElements()));
   std::vector<double> errors(first.back(), 0.0);
-  const auto& shares = run.quantity ? run.quantity->elements : run.error->elements;
+  const auto& shares =
+      run.quantity && run.quantity->failure.empty() ? run.quantity->elements : run.error->elements;
   for (std::size_t s = 0; s < decomposition.problem.subdomains.size(); ++s) {
     const decomposition::Subdomain& subdomain = decomposition.problem.subdomains[s];
     const model::BodyLayout& body = decomposition.bodies[static_cast<std::size_t>(subdomain.body)];
@@ -112,7 +113,7 @@ private:
     result.energyNorm = run.error->energyNorm;
     result.discretisation = run.error->discretisation;
     result.algebraic = run.solution.algebraicError;
-    if (run.quantity)
+    if (run.quantity && run.quantity->failure.empty())
       result.quantity = {run.quantity->value, run.quantity->bar, run.quantity->algebraic};
     result.bytes = sumOverRanks(*comm_, peakBytes() - bytesBefore_);
     // Short of its tolerance an iteration may still be good enough for a mesh: its error is known, and counts.
@@ -120,6 +121,8 @@ private:
     if (report.status == qp::Status::interrupted ||
         (report.status != qp::Status::converged && !(result.algebraic <= result.discretisation)))
       result.failure = report.reason;
+    else if (run.quantity)
+      result.failure = run.quantity->failure;
     result.elements = elementsOf(run);
     return result;
   }
@@ -243,8 +246,9 @@ void report(AccurateRun& result, double target) {
   list.sublist("Accuracy").set("Target", target);
   if (!result.loop.choice.empty())
     list.sublist("Accuracy").set("Choice of Order", result.loop.choice);
-  const std::string what =
-      result.run.quantity ? "the error bar of the " + result.run.quantity->name : "the estimated error";
+  const std::string what = result.loop.meshes.back().quantity
+                               ? "the error bar of the " + result.run.quantity->name
+                               : "the estimated error";
   std::ostringstream reason;
   reason.precision(3);
   if (result.loop.isMet) {

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace epafi::drivers {
 namespace {
+
+/// Residual of the dual problem at which its solution still serves, should round-off allow no less: meshes have larger errors.
+constexpr double enough = 1e-3;
 
 /// Estimates of coarse meshes see 0.7 of the error.
 constexpr double safety = 1.5;
@@ -84,16 +86,9 @@ QuantityParameters QuantityParameters::from(const Teuchos::ParameterList& list) 
   return parameters;
 }
 
-double Quantity::relative() const {
-  const double absolute = bar + algebraic;
-  if (absolute == 0)
-    return 0;
-  return value == 0 ? std::numeric_limits<double>::infinity() : absolute / std::abs(value);
-}
-
 QuantityOfScene::QuantityOfScene(const QuantityParameters& parameters, const scene::Scene& scene,
                                  const model::Decomposition& decomposition)
-    : parameters_(parameters), decomposition_(decomposition) {
+    : decomposition_(decomposition) {
   if (parameters.kind == QuantityParameters::Kind::force) {
     placeOf(parameters.contact, scene.contacts, "contact");
     contact_ =
@@ -128,11 +123,8 @@ QuantityOfScene::QuantityOfScene(const QuantityParameters& parameters, const sce
           (terms.surface.empty() ? "at the point" : "over '" + terms.surface + "'");
 }
 
-Quantity QuantityOfScene::operator()(const ContactSolver& solver, const output::SolvedScene& solved,
-                                     accuracy::ErrorEstimator& estimator, double energyNorm) const {
+fetidp::DataChange QuantityOfScene::evaluate(const output::SolvedScene& solved, Quantity& quantity) const {
   const decomposition::DecomposedProblem& problem = decomposition_.problem;
-  Quantity quantity;
-  quantity.name = name_;
   fetidp::DataChange change;
   if (contact_ != nullptr) {
     const output::ContactForce force = output::contactForce(solved, *contact_);
@@ -140,17 +132,40 @@ Quantity QuantityOfScene::operator()(const ContactSolver& solver, const output::
     change.gap = force.weights;
     for (const decomposition::Subdomain& subdomain : problem.subdomains)
       change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
-  } else {
-    AccurateSum sum;
-    for (std::size_t s = 0; s < weights_.size(); ++s) {
-      sum.add(weights_[s].dot(solved.solution.displacement[s]));
-      change.load.push_back(decomposition::loadOf(problem.subdomains[s], weights_[s]));
-    }
-    sumOverRanks(*problem.comm, {&sum, 1});
-    quantity.value = sum.value();
+    if (force.value == 0)
+      quantity.failure = "the contact carries no force, which has no direction then";
+    return change;
   }
-  const fetidp::ContactResponse dual = solver.respond(solved.solution, change);
-  accuracy::QuantityError error = accuracy::quantityError(*problem.comm, estimator, energyNorm,
+  AccurateSum sum;
+  for (std::size_t s = 0; s < weights_.size(); ++s) {
+    sum.add(weights_[s].dot(solved.solution.displacement[s]));
+    change.load.push_back(decomposition::loadOf(problem.subdomains[s], weights_[s]));
+  }
+  sumOverRanks(*problem.comm, {&sum, 1});
+  quantity.value = sum.value();
+  return change;
+}
+
+Quantity QuantityOfScene::operator()(const ContactSolver& solver, const output::SolvedScene& solved,
+                                     accuracy::ErrorEstimator& estimator, double energyNorm) const {
+  Quantity quantity;
+  quantity.name = name_;
+  const fetidp::DataChange change = evaluate(solved, quantity);
+  if (solver.report().status == qp::Status::interrupted)
+    quantity.failure = "the iteration was stopped";
+  if (!quantity.failure.empty())
+    return quantity;
+  fetidp::ContactResponse dual;
+  try {
+    dual = solver.respond(solved.solution, change);
+    if (!(dual.report.relativeProjectedGradient <= enough))
+      quantity.failure = "its dual problem was not solved: " + dual.report.reason;
+  } catch (const Error& error) { // on all ranks
+    quantity.failure = std::string("it has no dual solution: ") + error.what();
+  }
+  if (!quantity.failure.empty())
+    return quantity;
+  accuracy::QuantityError error = accuracy::quantityError(*decomposition_.problem.comm, estimator, energyNorm,
                                                           solved.solution.displacement, dual.displacement);
   quantity.error = error.error;
   quantity.bar = safety * error.bar;

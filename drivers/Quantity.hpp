@@ -28,16 +28,14 @@ struct QuantityParameters {
 
 /// J_h, and how far it may be off.
 struct Quantity {
-  std::string name; ///< "force of contact 'foot'"
+  std::string name;    ///< "force of contact 'foot'"
+  std::string failure; ///< why there is no bar; else empty
   double value = 0;
   double error = 0;                          ///< estimate of J − J_h
   double bar = 0;                            ///< of the mesh: what |J − J_h| hardly exceeds
   double algebraic = 0;                      ///< of the iteration: a bound
   std::vector<std::vector<double>> elements; ///< |e_T|, as ErrorEstimate::elements
   int multiplications = 0;                   ///< products with F for the dual solution
-
-  /// Both relative to |J_h|; infinite if this is 0.
-  [[nodiscard]] double relative() const;
 };
 
 /// A quantity of a scene that is cut: made before the solve, so that a wrong name is found at once.
@@ -48,12 +46,13 @@ public:
                   const model::Decomposition& decomposition);
 
   /// A linear solve with contact as the solution has it, and three passes of the estimator. Collective.
-  /// \throws InputError if the contact carries no force; Error if closed contacts cannot take what the quantity asks.
   Quantity operator()(const ContactSolver& solver, const output::SolvedScene& solved,
                       accuracy::ErrorEstimator& estimator, double energyNorm) const;
 
 private:
-  const QuantityParameters& parameters_;
+  /// J_h, and what has its dual solution as response. Collective.
+  fetidp::DataChange evaluate(const output::SolvedScene& solved, Quantity& quantity) const;
+
   const model::Decomposition& decomposition_;
   std::string name_;
   const contact::ContactLayout* contact_ = nullptr;

@@ -8,6 +8,7 @@
 
 #include <Teuchos_Time.hpp>
 
+#include <iomanip>
 #include <sstream>
 
 namespace epafi::drivers {
@@ -44,7 +45,10 @@ std::string line(std::string label, const std::string& text) {
 std::string tableOfMeshes(const Teuchos::ParameterList& levels) {
   std::ostringstream table;
   table << "mesh,order,unknowns,hessian_multiplications,relative_error,discretisation_error,algebraic_error,"
-           "effectivity,seconds\n";
+           "effectivity,seconds";
+  const bool haveQuantity =
+      Teuchos::getValue<Teuchos::ParameterList>(levels.entry(levels.begin())).isParameter("Quantity");
+  table << (haveQuantity ? ",quantity,error_bar\n" : "\n");
   table.precision(6);
   int number = 0;
   for (auto entry = levels.begin(); entry != levels.end(); ++entry, ++number) {
@@ -54,6 +58,11 @@ std::string tableOfMeshes(const Teuchos::ParameterList& levels) {
     for (const char* name :
          {"Relative Error", "Discretisation Error", "Algebraic Error", "Effectivity", "Seconds"})
       table << ',' << mesh.get<double>(name);
+    if (haveQuantity && mesh.isParameter("Quantity"))
+      table << ',' << std::setprecision(9) << mesh.get<double>("Quantity") << std::setprecision(6) << ','
+            << mesh.get<double>("Error Bar");
+    else if (haveQuantity)
+      table << ",,";
     table << '\n';
   }
   return table.str();

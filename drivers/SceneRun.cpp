@@ -105,13 +105,16 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
         .set("Discretisation Error", run.error->discretisation)
         .set("Relative Error", run.relativeError());
   }
-  if (run.quantity)
-    run.report.sublist("Quantity")
-        .set("Name", run.quantity->name)
-        .set("Value", run.quantity->value)
-        .set("Error Bar", run.quantity->bar + run.quantity->algebraic)
-        .set("Estimated Error", run.quantity->error)
-        .set("Hessian Multiplications", run.quantity->multiplications);
+  if (run.quantity) {
+    Teuchos::ParameterList& list = run.report.sublist("Quantity");
+    list.set("Name", run.quantity->name).set("Value", run.quantity->value);
+    if (run.quantity->failure.empty())
+      list.set("Error Bar", run.quantity->bar + run.quantity->algebraic)
+          .set("Estimated Error", run.quantity->error)
+          .set("Hessian Multiplications", run.quantity->multiplications);
+    else
+      list.set("Reason", run.quantity->failure);
+  }
   run.report.sublist("Problem").set("Title", scene.title);
   return run;
 }

@@ -109,6 +109,15 @@ std::string valueWithBar(double value, double bar) {
   return text.str();
 }
 
+void describeQuantity(std::ostream& text, const Quantity& quantity) {
+  text << "\n  quantity    " << quantity.name << ": ";
+  if (quantity.failure.empty())
+    text << valueWithBar(quantity.value, quantity.bar + quantity.algebraic)
+         << "; its error is estimated to be " << std::setprecision(2) << quantity.error;
+  else
+    text << std::setprecision(8) << quantity.value << ", without an error bar: " << quantity.failure;
+}
+
 /// What of the error the mesh and what the iteration is to blame for.
 void describeError(std::ostream& text, const SceneRun& run) {
   const accuracy::ErrorEstimate& error = *run.error;
@@ -136,9 +145,7 @@ void describeAccuracy(std::ostream& text, const SceneRun& run) {
   if (run.error)
     describeError(text, run);
   if (run.quantity)
-    text << "\n  quantity    " << run.quantity->name << ": "
-         << valueWithBar(run.quantity->value, run.quantity->bar + run.quantity->algebraic)
-         << "; its error is estimated to be " << std::setprecision(2) << run.quantity->error;
+    describeQuantity(text, *run.quantity);
   text << "\n  solution    energy " << scientific(accuracy, "Energy", 9);
   if (count(run.report.sublist("Problem"), "Inequality Multipliers") > 0)
     text << ", contact force " << scientific(accuracy, "Contact Force", 9) << " on "

@@ -124,4 +124,13 @@ void gather(const Comm& comm, const void* mine, std::span<const int> counts, std
 }
 
 } // namespace detail
+GlobalOrdinal sumBefore(const Comm& comm, GlobalOrdinal mine) {
+  if (comm.getSize() == 1)
+    return 0;
+  long long sum = 0;
+  const long long own = mine;
+  MPI_Scan(&own, &sum, 1, MPI_LONG_LONG, MPI_SUM, rawCommunicator(comm));
+  return static_cast<GlobalOrdinal>(sum - own);
+}
+
 } // namespace epafi

@@ -34,6 +34,10 @@ void sumOverRanks(const Comm& comm, std::span<double> values);
 void sumOverRanks(const Comm& comm, std::span<GlobalOrdinal> values); ///< likewise
 void sumOverRanks(const Comm& comm, std::span<int> values);           ///< likewise
 
+/// Σ of the values of the ranks before this one. Not by Teuchos::scan, which makes of a lack of memory an exception without a
+/// word. Collective.
+GlobalOrdinal sumBefore(const Comm& comm, GlobalOrdinal mine);
+
 namespace detail {
 /// Of one number of each rank, by `type`. Collective.
 template <class Number>

@@ -13,13 +13,4 @@ MPI_Comm rawCommunicator(const Comm& comm) {
   return *mpi->getRawMpiComm();
 }
 
-GlobalOrdinal sumBefore(const Comm& comm, GlobalOrdinal mine) {
-  if (comm.getSize() == 1)
-    return 0;
-  long long sum = 0;
-  const long long own = mine;
-  MPI_Scan(&own, &sum, 1, MPI_LONG_LONG, MPI_SUM, rawCommunicator(comm));
-  return static_cast<GlobalOrdinal>(sum - own);
-}
-
 } // namespace epafi

@@ -4,7 +4,6 @@
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/base/RawCommunicator.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/qp/EqualityRows.hpp"
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace epafi::accuracy {
 namespace {
@@ -84,17 +85,21 @@ std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& dec
   const Eigen::VectorXd direction = components == 1
                                         ? Eigen::VectorXd::Ones(1)
                                         : Eigen::VectorXd(terms.direction.normalized().head(components));
+  const auto& subdomains = decomposition.problem.subdomains;
   std::vector<Eigen::VectorXd> result;
-  for (const decomposition::Subdomain& subdomain : decomposition.problem.subdomains) {
-    Eigen::VectorXd& own = result.emplace_back(Eigen::VectorXd::Zero(subdomain.prescribed.size()));
-    if (subdomain.body != terms.body)
+  std::unordered_map<int, std::size_t> placeOf; // of this rank's parts of the body
+  for (const decomposition::Subdomain& subdomain : subdomains) {
+    if (subdomain.body == terms.body)
+      placeOf.emplace(subdomain.number - body.firstSubdomain, result.size());
+    result.emplace_back(Eigen::VectorXd::Zero(subdomain.prescribed.size()));
+  }
+  for (const Weight& weight : weights) {
+    const auto found = placeOf.find(body.partition->partOf(weight.element));
+    if (found == placeOf.end())
       continue;
-    for (const Weight& weight : weights) {
-      if (body.partition->partOf(weight.element) != subdomain.number - body.firstSubdomain)
-        continue;
-      const auto place = std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), weight.node);
-      own.segment(components * (place - subdomain.nodes.begin()), components) += weight.value * direction;
-    }
+    const std::vector<GlobalOrdinal>& nodes = subdomains[found->second].nodes;
+    const auto place = std::lower_bound(nodes.begin(), nodes.end(), weight.node) - nodes.begin();
+    result[found->second].segment(components * place, components) += weight.value * direction;
   }
   return result;
 }

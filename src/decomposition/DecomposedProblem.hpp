@@ -79,6 +79,9 @@ void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u);
 /// Turns values at all positions of a subdomain (nodes × components) into components in space, in place.
 void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values);
 
+/// Values at all positions in space of unknowns ũ. \param all  what supported positions have, along the nodes' axes
+Eigen::VectorXd atAllPositions(const Subdomain& subdomain, Eigen::VectorXd u, Eigen::VectorXd all);
+
 /// The other way round: unknowns ũ of values at all positions in space; supported values are left out.
 Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values);
 

@@ -1,7 +1,6 @@
 #include "epafi/decomposition/GluingRows.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/RawCommunicator.hpp"
 
 #include <Teuchos_Comm.hpp>
 

@@ -23,6 +23,13 @@ void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values) {
   }
 }
 
+Eigen::VectorXd atAllPositions(const Subdomain& subdomain, Eigen::VectorXd u, Eigen::VectorXd all) {
+  toNodalValues(subdomain, u);
+  all(subdomain.unknownPosition) = u;
+  toSpace(subdomain, all);
+  return all;
+}
+
 namespace {
 
 /// From components in space, in place.

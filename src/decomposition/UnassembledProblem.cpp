@@ -3,7 +3,6 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
-#include "epafi/base/RawCommunicator.hpp"
 #include "epafi/decomposition/BodyKernels.hpp"
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"

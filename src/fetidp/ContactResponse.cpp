@@ -12,6 +12,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -30,14 +31,16 @@ public:
   void restrict(Vector& x) const;
   /// The shortest λ on the face with G̃_a λ = ẽ. Collective. \throws Error if there is none.
   void balance(const Eigen::VectorXd& resultants, Vector& lambda) const;
-  /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. Collective.
-  [[nodiscard]] Eigen::VectorXd motionOf(const Vector& x) const {
-    return transform_.transpose() * (transform_ * product(x));
+  /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. Valid until the next call. Collective.
+  [[nodiscard]] const Eigen::VectorXd& motionOf(const Vector& x) const {
+    held_.noalias() = transform_ * product(x);
+    motion_.noalias() = transform_.transpose() * held_;
+    return motion_;
   }
 
 private:
   /// G̃_a x. Collective.
-  [[nodiscard]] Eigen::VectorXd product(const Vector& x) const;
+  [[nodiscard]] const Eigen::VectorXd& product(const Vector& x) const;
   /// y += factor · G̃_aᵀ μ
   void addTransposed(const Eigen::VectorXd& mu, double factor, Vector& y) const;
 
@@ -45,6 +48,8 @@ private:
   std::vector<LocalOrdinal> openRows_;
   std::vector<KernelEntry> entries_; ///< G̃_aᵀ
   Eigen::MatrixXd transform_;        ///< T, (motions held) × k
+  mutable std::vector<AccurateSum> sums_;
+  mutable Eigen::VectorXd product_, held_, motion_; ///< work: G̃_a x, G_a x, α
 };
 
 Face::Face(const DualProblem& dual, const Vector& closed) : comm_(*dual.problem().comm) {
@@ -59,34 +64,24 @@ Face::Face(const DualProblem& dual, const Vector& closed) : comm_(*dual.problem(
   const Eigen::Index k = problem.kernelDimension;
   if (k == 0)
     return;
-  std::vector<std::vector<KernelEntry>> rows(static_cast<std::size_t>(isClosed.size()));
-  for (const KernelEntry& entry : dual.kernelEntries())
-    if (!isOpen(entry.row)) {
-      entries_.push_back(entry);
-      rows[static_cast<std::size_t>(entry.row)].push_back(entry);
-    }
-  Eigen::MatrixXd gram(k, k); // G̃_a G̃_aᵀ
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(gram.size()));
-  for (const auto& row : rows)
-    for (const KernelEntry& a : row)
-      for (const KernelEntry& b : row)
-        sums[static_cast<std::size_t>(a.mode + k * b.mode)].add(a.value * b.value);
-  sumOverRanks(comm_, sums, gram.data());
+  sums_.resize(static_cast<std::size_t>(k));
+  product_.resize(k);
+  std::copy_if(dual.kernelEntries().begin(), dual.kernelEntries().end(), std::back_inserter(entries_),
+               [&](const KernelEntry& entry) { return !isOpen(entry.row); });
   constexpr double roundOff = 1e-12; // of the largest eigenvalue
-  const direct::SymmetricEigen spectrum = direct::eigenOf(gram);
+  const direct::SymmetricEigen spectrum = direct::eigenOf(kernelGram(problem, entries_));
   const Eigen::Index held = k - spectrum.numUpTo(roundOff * spectrum.values.maxCoeff());
   transform_ = spectrum.values.tail(held).cwiseSqrt().cwiseInverse().asDiagonal() *
                spectrum.vectors.rightCols(held).transpose();
 }
 
-Eigen::VectorXd Face::product(const Vector& x) const {
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(transform_.cols()));
+const Eigen::VectorXd& Face::product(const Vector& x) const {
+  std::fill(sums_.begin(), sums_.end(), AccurateSum());
   const auto values = x.getData();
   for (const KernelEntry& entry : entries_)
-    sums[static_cast<std::size_t>(entry.mode)].add(entry.value * values[entry.row]);
-  Eigen::VectorXd result(transform_.cols());
-  sumOverRanks(comm_, sums, result.data());
-  return result;
+    sums_[static_cast<std::size_t>(entry.mode)].add(entry.value * values[entry.row]);
+  sumOverRanks(comm_, sums_, product_.data());
+  return product_;
 }
 
 void Face::addTransposed(const Eigen::VectorXd& mu, double factor, Vector& y) const {
@@ -114,7 +109,7 @@ void Face::balance(const Eigen::VectorXd& resultants, Vector& lambda) const {
     throw Error("the load has a resultant on a floating body that its closed contacts cannot take");
 }
 
-/// x ↦ Z P A P Z x, Z = 1 on the face and 0 off it.
+/// x ↦ Z P A P Z x, Z = 1 on the face and 0 off it. From both sides: of round-off off the face CG would make negative curvature.
 class FaceOperator final : public SymmetricOperator {
 public:
   FaceOperator(RCP<const Operator> a, const Face& face)
@@ -160,20 +155,6 @@ struct Jumps {
   RCP<Vector> values;
 };
 
-/// ẽ of a load. Collective.
-Eigen::VectorXd resultantsOf(const DecomposedProblem& problem, const DataChange& change) {
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(problem.kernelDimension));
-  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
-    const decomposition::Subdomain& subdomain = problem.subdomains[s];
-    const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
-    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
-      sums[static_cast<std::size_t>(offset + mode)].add(subdomain.kernel.col(mode).dot(change.load[s]));
-  }
-  Eigen::VectorXd result(problem.kernelDimension);
-  sumOverRanks(*problem.comm, sums, result.data());
-  return result;
-}
-
 /// λ̇. Collective.
 RCP<Vector> multiplierOf(const DualProblem& dual, const Face& face, const DataChange& change,
                          double tolerance, qp::SolveReport& report) {
@@ -187,7 +168,7 @@ RCP<Vector> multiplierOf(const DualProblem& dual, const Face& face, const DataCh
     operators.deflated->space().projectTransposed(*rhs);
   Vector balanced(problem.multiplierMap); // λ̃
   if (problem.kernelDimension > 0) {
-    face.balance(resultantsOf(problem, change), balanced);
+    face.balance(kernelLoad(problem, {change.load.begin(), change.load.end()}), balanced);
     operators.flexibility()->apply(balanced, *rhs, Teuchos::NO_TRANS, -1.0, 1.0);
   }
   face.restrict(*rhs);
@@ -226,11 +207,8 @@ ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, c
     const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
     if (subdomain.kernel.cols() > 0)
       jumps.u[s] += subdomain.kernel * alpha.segment(offset, subdomain.kernel.cols());
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(subdomain.prescribed.size());
-    decomposition::toNodalValues(subdomain, jumps.u[s].col(0));
-    all(subdomain.unknownPosition) = jumps.u[s].col(0);
-    decomposition::toSpace(subdomain, all);
-    response.displacement.push_back(std::move(all));
+    response.displacement.push_back(decomposition::atAllPositions(
+        subdomain, jumps.u[s], Eigen::VectorXd::Zero(subdomain.prescribed.size())));
   }
   return response;
 }

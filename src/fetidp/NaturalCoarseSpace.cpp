@@ -46,16 +46,16 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
 
 namespace {
 
-/// Σ Rᵀ f over all subdomains, or Σ |R|ᵀ|f|.
-Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, bool magnitudes) {
+/// Σ product(r, f) of the modes r and the loads f over all subdomains.
+template <class Product>
+Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads,
+                           const Product& product) {
   std::vector<AccurateSum> sums(static_cast<std::size_t>(problem.kernelDimension));
-  for (const auto& subdomain : problem.subdomains) {
+  for (std::size_t s = 0; s < loads.size(); ++s) {
+    const decomposition::Subdomain& subdomain = problem.subdomains[s];
     const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
-    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
-      const auto r = subdomain.kernel.col(mode);
-      sums[static_cast<std::size_t>(offset + mode)].add(
-          magnitudes ? r.cwiseAbs().dot(subdomain.load.cwiseAbs()) : r.dot(subdomain.load));
-    }
+    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
+      sums[static_cast<std::size_t>(offset + mode)].add(product(subdomain.kernel.col(mode), loads[s].col(0)));
   }
   Eigen::VectorXd result(problem.kernelDimension);
   sumOverRanks(*problem.comm, sums, result.data());
@@ -64,12 +64,33 @@ Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, bool
 
 } // namespace
 
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads) {
+  return resultants(problem, loads, [](const auto& r, const auto& f) { return r.dot(f); });
+}
+
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
-  return resultants(problem, false);
+  return kernelLoad(problem, loadsOf(problem));
 }
 
 Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem) {
-  return resultants(problem, true);
+  return resultants(problem, loadsOf(problem),
+                    [](const auto& r, const auto& f) { return r.cwiseAbs().dot(f.cwiseAbs()); });
+}
+
+Eigen::MatrixXd kernelGram(const decomposition::DecomposedProblem& problem,
+                           const std::vector<KernelEntry>& entries) {
+  const Eigen::Index k = problem.kernelDimension;
+  std::vector<AccurateSum> sums(static_cast<std::size_t>(k * k));
+  std::vector<std::vector<KernelEntry>> rows(numLocal(*problem.multiplierMap));
+  for (const KernelEntry& entry : entries)
+    rows[static_cast<std::size_t>(entry.row)].push_back(entry);
+  for (const auto& row : rows)
+    for (const KernelEntry& a : row)
+      for (const KernelEntry& b : row)
+        sums[static_cast<std::size_t>(a.mode + k * b.mode)].add(a.value * b.value);
+  Eigen::MatrixXd gram(k, k);
+  sumOverRanks(*problem.comm, sums, gram.data());
+  return gram;
 }
 
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,
@@ -77,21 +98,7 @@ NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& p
     : comm_(problem.comm), entries_(std::move(entries)),
       sums_(static_cast<std::size_t>(problem.kernelDimension)), work_(problem.kernelDimension),
       product_(problem.kernelDimension) {
-  // G̃G̃ᵀ from the rows of G̃ᵀ.
-  const auto numRows = numLocal(*problem.multiplierMap);
-  const auto numModes = static_cast<std::size_t>(problem.kernelDimension);
-  std::vector<AccurateSum> sums(numModes * numModes);
-  std::vector<std::vector<KernelEntry>> rows(numRows);
-  for (const KernelEntry& entry : entries_)
-    rows[static_cast<std::size_t>(entry.row)].push_back(entry);
-  for (const auto& row : rows)
-    for (const KernelEntry& a : row)
-      for (const KernelEntry& b : row)
-        sums[static_cast<std::size_t>(a.mode) + numModes * static_cast<std::size_t>(b.mode)].add(a.value *
-                                                                                                 b.value);
-  Eigen::MatrixXd gram(problem.kernelDimension, problem.kernelDimension);
-  sumOverRanks(*comm_, sums, gram.data());
-  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+  const Eigen::LLT<Eigen::MatrixXd> factor(kernelGram(problem, entries_));
   if (factor.info() != Eigen::Success)
     throw Error(
         "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");

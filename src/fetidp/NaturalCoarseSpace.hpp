@@ -31,6 +31,12 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
 
 /// ẽ = Rᵀ f̄ for the loads that the problem holds, on every rank. Collective.
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem);
+/// Likewise for other loads, n_s × 1 of each of this rank's subdomains.
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads);
+
+/// G̃G̃ᵀ of some rows of G̃ᵀ, k × k, on every rank. Collective.
+Eigen::MatrixXd kernelGram(const decomposition::DecomposedProblem& problem,
+                           const std::vector<KernelEntry>& entries);
 
 /// |R|ᵀ|f̄|: what ẽ would be if nothing in it cancelled, its yardstick. On every rank. Collective.
 Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem);

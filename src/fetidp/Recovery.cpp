@@ -37,15 +37,6 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   return energy.value();
 }
 
-/// Values at all positions of a subdomain, the unknowns' and the prescribed ones, in space.
-Eigen::VectorXd atAllPositions(const decomposition::Subdomain& subdomain, Eigen::MatrixXd& u) {
-  Eigen::VectorXd all = subdomain.prescribed;
-  decomposition::toNodalValues(subdomain, u.col(0));
-  all(subdomain.unknownPosition) = u.col(0);
-  decomposition::toSpace(subdomain, all);
-  return all;
-}
-
 /// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
 /// problem.
 void assess(const DecomposedProblem& problem, const DualSolution& dual, double operatorNorm,
@@ -101,7 +92,8 @@ std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vecto
   SubdomainVectors u = unknownsOf(problem, dual.inverse(), lambda);
   std::vector<Eigen::VectorXd> displacement;
   for (std::size_t s = 0; s < u.size(); ++s)
-    displacement.push_back(atAllPositions(problem.subdomains[s], u[s]));
+    displacement.push_back(
+        decomposition::atAllPositions(problem.subdomains[s], u[s], problem.subdomains[s].prescribed));
   return displacement;
 }
 
@@ -131,7 +123,8 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
 
   double largest = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    solution.displacement.push_back(atAllPositions(problem.subdomains[s], u[s]));
+    solution.displacement.push_back(
+        decomposition::atAllPositions(problem.subdomains[s], u[s], problem.subdomains[s].prescribed));
     u[s].resize(0, 0); // primal vectors are what takes memory once the factors are shared
     if (solution.displacement.back().size() > 0)
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());

@@ -3,7 +3,6 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
-#include "epafi/base/RawCommunicator.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Import.hpp>

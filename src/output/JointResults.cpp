@@ -2,7 +2,6 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/output/ContactState.hpp"
 
@@ -179,8 +178,8 @@ TieFields gatherTieFields(const SolvedScene& solved, const ContactLayout& tie) {
 ContactForce contactForce(const SolvedScene& solved, const ContactLayout& layout) {
   const Vector3d resultant = sumsOf(solved, layout, 0, [](std::size_t, double) {}).resultant();
   ContactForce force{resultant.norm(), rcp(new Vector(solved.decomposition.problem.multiplierMap))};
-  if (!(force.value > 0))
-    throw InputError("contact '" + layout.name + "' carries no force, and a quantity is asked of it");
+  if (force.value == 0)
+    return force;
   const auto weights = force.weights->getDataNonConst();
   for (LocalOrdinal i = 0; i < weights.size(); ++i) {
     const GlobalOrdinal row = force.weights->getMap()->getGlobalElement(i) - layout.firstRow;

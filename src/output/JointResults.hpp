@@ -23,12 +23,12 @@ struct TieFields {
 TieFields gatherTieFields(const SolvedScene& solved, const contact::ContactLayout& tie);
 
 /// The size of a contact's resultant, and how it depends on the forces of the rows: value = Σ gᵀλ, g what a motion of the first body
-/// along the resultant takes of the rows' gaps. On multiplierMap.
+/// along the resultant takes of the rows' gaps; 0 where there is no force. On multiplierMap.
 struct ContactForce {
   double value = 0;
   RCP<Vector> weights; ///< g
 };
-/// Collective. \throws InputError if the contact carries no force.
+/// Collective.
 ContactForce contactForce(const SolvedScene& solved, const contact::ContactLayout& layout);
 
 /// Adds to a report:

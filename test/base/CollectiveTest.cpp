@@ -109,6 +109,8 @@ TEST_F(CollectiveTest, PassesAnEmptyText) {
 
 TEST_F(CollectiveTest, ReducesOverTheRanks) {
   const double ranks = comm->getSize();
+  EXPECT_EQ(sumBefore(*comm, comm->getRank() + GlobalOrdinal{5'000'000'000}),
+            comm->getRank() * (comm->getRank() - 1) / 2 + comm->getRank() * GlobalOrdinal{5'000'000'000});
   EXPECT_EQ(sumOverRanks(*comm, 1.0), ranks);
   EXPECT_EQ(sumOverRanks(*comm, GlobalOrdinal{2}), 2 * comm->getSize());
   EXPECT_EQ(maxOverRanks(*comm, 1.0 * comm->getRank()), ranks - 1);

@@ -224,14 +224,13 @@ class SolvesAsAccuratelyAsAsked(Driver):
             self.assertIn("0.1 %", status["Reason"])
 
     def quantity(self, name, *entries, target="0.1%"):
-        """The report's list Quantity of a run to a target, and the list Accuracy."""
+        """The numbers of the report's list Quantity, of a run to a target."""
         report = self.place / "report.xml"
         run = epafi(scene(name), "--accuracy", target, "--report", report,
                     *(part for entry in entries for part in ("--set", f"Accuracy/Quantity/{entry}")))
         self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
         self.assertIn("quantity    ", run.stdout)
-        content = read_report(report)
-        return {key: float(value) for key, value in content["Quantity"].items() if key != "Name"}
+        return {key: float(value) for key, value in read_report(report)["Quantity"].items() if key != "Name"}
 
     def test_a_quantity_has_an_error_bar_that_holds(self):
         for name, entries in (("coercive", ("Kind=force", "Contact=interface")),
@@ -248,6 +247,37 @@ class SolvesAsAccuratelyAsAsked(Driver):
         run = epafi(scene("coercive"), "--set", "Accuracy/Quantity/Kind=force", "--set", "Accuracy/Quantity/Contact=interface", ranks=2)
         self.assertEqual(run.returncode, SOLVED, run.stderr)
         self.assertRegex(run.stdout, r"quantity    force of contact 'interface': 0\.134\d* ± ")
+
+    def test_the_study_of_error_bars_sets_them_beside_errors(self):
+        command = [SOURCE / "drivers/study/error_bars", "--program", PROGRAM, "--output", self.place]
+        run = subprocess.run([*command, "--scene", "coercive"], capture_output=True, text=True, check=False)
+        self.assertEqual((run.returncode, run.stderr), (0, ""), run.stdout)
+        with open(self.place / "error_bars.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreater(len(rows), 3)
+        self.assertEqual({row["holds"] for row in rows}, {"1"})
+        self.assertEqual(subprocess.run([*command, "--scene", "none"], capture_output=True, check=False).returncode, WRONG_INPUT)
+
+    def test_a_contact_without_force_has_no_bar_and_its_run_keeps_its_results(self):
+        entries = [part for entry in ("Contact/interface/Gap=10", "Accuracy/Quantity/Kind=force", "Accuracy/Quantity/Contact=interface")
+                   for part in ("--set", entry)]
+        run = epafi(scene("coercive"), *entries, "--output", self.place, ranks=2)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        self.assertIn("without an error bar: the contact carries no force", run.stdout)
+        run = epafi(scene("coercive"), *entries, "--accuracy", "1%", "--output", self.place)
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+        self.assertIn("the contact carries no force", read_report(self.place / "report.xml")["Status"]["Reason"])
+
+    def test_a_quantity_is_in_the_table_of_meshes(self):
+        run = epafi(scene("coercive"), "--accuracy", "1%", "--set", "Accuracy/Quantity/Kind=force", "--set",
+                    "Accuracy/Quantity/Contact=interface", "--output", self.place)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        with open(self.place / "meshes.csv", encoding="utf-8", newline="") as file:
+            last = list(csv.DictReader(file))[-1]
+        content = read_report(self.place / "report.xml")
+        self.assertAlmostEqual(float(last["quantity"]), float(content["Quantity"]["Value"]), places=8)
+        self.assertAlmostEqual(float(last["error_bar"]) / float(content["Quantity"]["Error Bar"]), 1, places=4)
+        self.assertAlmostEqual(float(last["relative_error"]), float(last["error_bar"]) / float(last["quantity"]), places=6)
 
     def test_a_quantity_that_the_scene_does_not_have_is_refused(self):
         for entries, said in ((("Kind=force", "Contact=interfaze"), "did you mean 'interface'?"), (("Kind=force",), "needs a \"Contact\""),
