@@ -2,6 +2,7 @@
 
 #include "PeakMemory.hpp"
 
+#include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
 
 #include <string>
@@ -40,10 +41,9 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       "fewer unknowns.",
       0, 2);
   addInteger(list, "Maximum Levels", defaults.maxLevels, "With a target: meshes at most.", 1);
-  addReal(list, "Maximum Unknowns", defaults.maxUnknowns,
-          "With a target: no mesh with more unknowns is made.", 1);
-  addReal(list, "Maximum Seconds", defaults.maxSeconds,
-          "With a target: no mesh is begun that would not be ready by then.", 0);
+  addReal(list, "Maximum Unknowns", 0, "With a target: no mesh with more unknowns is made. 0: no limit.", 0);
+  addReal(list, "Maximum Seconds", 0,
+          "With a target: no mesh is begun that would not be ready by then. 0: no limit.", 0);
   addReal(list, "Maximum Memory", 0,
           "With a target: no mesh is made that would take more, in GB, on all ranks together. 0: four fifths "
           "of what "
@@ -59,9 +59,17 @@ AccuracyParameters AccuracyParameters::from(const Teuchos::ParameterList& list) 
   parameters.target = list.get<double>("Target");
   parameters.refinement = enumeratorFrom<Refinement>(list, "Refinement", refinements);
   parameters.order = list.get<int>("Order");
+  if (parameters.refinement == Refinement::even && parameters.order != 0)
+    throw InputError(
+        "list \"Accuracy\" has an \"Order\", which goes with \"Refinement\" = \"local\" alone: \"even\" "
+        "keeps the order that \"Bodies\" give; leave it out, or give the bodies' \"Order\"");
   parameters.maxLevels = list.get<int>("Maximum Levels");
-  parameters.maxUnknowns = list.get<double>("Maximum Unknowns");
-  parameters.maxSeconds = list.get<double>("Maximum Seconds");
+  const auto limit = [&](const char* name) {
+    const double value = list.get<double>(name);
+    return value > 0 ? value : std::numeric_limits<double>::infinity();
+  };
+  parameters.maxUnknowns = limit("Maximum Unknowns");
+  parameters.maxSeconds = limit("Maximum Seconds");
   constexpr double share = 0.8, giga = 1e9;
   const double memory = giga * list.get<double>("Maximum Memory");
   parameters.maxBytes = memory > 0 ? memory : share * freeBytes();

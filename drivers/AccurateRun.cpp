@@ -80,6 +80,8 @@ public:
     if (hasRun_)
       options.coarser = &run_;
     SceneRun run = solveScene(scene, solverParameters_, comm_, options);
+    if (hasRun_ && run.solver->report().status == qp::Status::interrupted)
+      throw Interrupted("stopped in the iteration"); // its iterate may be worse than the last mesh's solution
     const double change = hasRun_ && measuresChange() ? distance(run, run_) : 0;
     run_ = std::move(run); // the coarser one is needed no longer
     hasRun_ = true;
@@ -99,6 +101,7 @@ protected:
   /// Whether estimates are to be measured.
   [[nodiscard]] virtual bool measuresChange() const = 0;
   [[nodiscard]] const Comm& comm() const { return *comm_; }
+  [[nodiscard]] RunCompanion* companion() const { return companion_; }
 
 private:
   void restart() { start_ = Teuchos::Time::wallTime(); }
@@ -114,7 +117,8 @@ private:
     result.discretisation = run.error->discretisation;
     result.algebraic = run.solution.algebraicError;
     if (run.quantity && run.quantity->failure.empty())
-      result.quantity = {run.quantity->value, run.quantity->bar, run.quantity->algebraic};
+      result.quantity = {run.quantity->value, run.quantity->bar, run.quantity->algebraic,
+                         run.quantity->width};
     result.bytes = sumOverRanks(*comm_, peakBytes() - bytesBefore_);
     // Short of its tolerance an iteration may still be good enough for a mesh: its error is known, and counts.
     const qp::SolveReport& report = run.solver->report();
@@ -186,6 +190,8 @@ public:
       halvings.emplace_back(next, end);
       next = end;
     }
+    if (companion() != nullptr && meshes_.areRemeshed())
+      companion()->meshing();
     std::vector<LocalOrdinal> ancestors;
     LocalOrdinal first = 0;
     const auto ofBodies = meshes_.refine(halvings, comm());
@@ -246,6 +252,7 @@ void report(AccurateRun& result, double target) {
   list.sublist("Accuracy").set("Target", target);
   if (!result.loop.choice.empty())
     list.sublist("Accuracy").set("Choice of Order", result.loop.choice);
+  const std::string status = result.isInterrupted ? "Interrupted" : "TargetMissed";
   const std::string what = result.loop.meshes.back().quantity
                                ? "the error bar of the " + result.run.quantity->name
                                : "the estimated error";
@@ -262,10 +269,9 @@ void report(AccurateRun& result, double target) {
   }
   reason << what << " is " << 100 * result.loop.meshes.back().relative() << " %, and " << 100 * target
          << " % was asked for: " << result.loop.reason;
-  list.sublist("Status")
-      .set("Converged", false)
-      .set("Status", std::string("TargetMissed"))
-      .set("Reason", reason.str());
+  if (result.loop.isEndless)
+    reason << "; round the edge, or ask for the force";
+  list.sublist("Status").set("Converged", false).set("Status", status).set("Reason", reason.str());
 }
 
 } // namespace
@@ -296,11 +302,13 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
                                   .maxBytes = minOverRanks(*comm, accuracy.maxBytes),
                                   .order = isLocal ? accuracy.order : 1},
                                  note);
-  } catch (const Interrupted& signal) {
+  } catch (const Interrupted&) {
     if (done.empty())
       throw;
     result.loop.meshes = std::move(done);
-    result.loop.reason = signal.what();
+    result.loop.reason =
+        "a signal came before the next mesh was solved on; the results are those of the last complete one";
+    result.isInterrupted = true;
   } catch (const Error& error) { // on all ranks; what was reached is not thrown away
     if (done.empty())
       throw;
@@ -308,6 +316,8 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
     result.loop.reason = std::string("the next mesh failed: ") + error.what();
   }
   result.run = std::move(levels->run());
+  if (result.run.solver->report().status == qp::Status::interrupted) // on the first mesh
+    result.isInterrupted = true;
   const MeshResult& last = result.loop.meshes.back();
   result.run.correctEstimate(last.effectivity);
   if (last.quantity)

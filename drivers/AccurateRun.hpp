@@ -16,6 +16,7 @@ namespace epafi::drivers {
 struct AccurateRun {
   SceneRun run; ///< on the last mesh
   accuracy::LoopResult loop;
+  bool isInterrupted = false; ///< by a signal: the run is on the last mesh whose iteration ended
 };
 
 /// Refines the scene until the estimated relative error is at most the target, or no finer mesh is allowed. Its report gets

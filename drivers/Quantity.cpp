@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
 #include "epafi/output/JointResults.hpp"
+#include "epafi/output/LargestPressure.hpp"
 
 #include <Eigen/Geometry>
 
@@ -19,7 +20,7 @@ constexpr double enough = 1e-3;
 /// Estimates of coarse meshes see 0.7 of the error.
 constexpr double safety = 1.5;
 
-const std::vector<std::string> kinds{"none", "force", "displacement"};
+const std::vector<std::string> kinds{"none", "force", "displacement", "pressure"};
 
 [[noreturn]] void refuse(const std::string& objection) {
   throw InputError("list \"Accuracy/Quantity\" " + objection);
@@ -48,11 +49,12 @@ void QuantityParameters::addTo(Teuchos::ParameterList& accuracy) {
                        "The number that the scene is solved for: it is reported with an error bar, and a "
                        "Target is relative to it, not to the "
                        "energy norm.");
-  addChoice(list, "Kind", kinds.front(),
-            "force: the size of a contact's resultant. displacement: averaged over a surface of a body, or "
-            "at a point of it.",
-            kinds);
-  list.set("Contact", "", "Kind force, required: the contact.");
+  addChoice(
+      list, "Kind", kinds.front(),
+      "force: the size of a contact's resultant. pressure: its largest one. displacement: averaged over "
+      "a surface of a body, or at a point of it.",
+      kinds);
+  list.set("Contact", "", "Kinds force and pressure, required: the contact.");
   list.set("Body", "", "Kind displacement, required: the body.");
   list.set("Surface", "", "Kind displacement: the surface to average over.");
   addArray(list, "Point", Teuchos::Array<double>(),
@@ -71,15 +73,17 @@ QuantityParameters QuantityParameters::from(const Teuchos::ParameterList& list) 
   parameters.surface = list.get<std::string>("Surface");
   parameters.point = list.get<Teuchos::Array<double>>("Point").toVector();
   parameters.direction = list.get<Teuchos::Array<double>>("Direction").toVector();
-  const bool asksForceOf = !parameters.contact.empty(),
+  const bool isOfContact = parameters.kind == Kind::force || parameters.kind == Kind::pressure,
+             namesContact = !parameters.contact.empty(),
              asksDisplacementOf = !parameters.body.empty() || !parameters.surface.empty() ||
                                   !parameters.point.empty() || !parameters.direction.empty();
-  if (parameters.kind != Kind::force && asksForceOf)
-    refuse("names a contact, which goes with the kind \"force\" alone");
+  if (!isOfContact && namesContact)
+    refuse("names a contact, which goes with the kinds \"force\" and \"pressure\" alone");
   if (parameters.kind != Kind::displacement && asksDisplacementOf)
     refuse("has a body, surface, point or direction, which go with the kind \"displacement\" alone");
-  if (parameters.kind == Kind::force && !asksForceOf)
-    refuse("is of the kind \"force\", and needs a \"Contact\"");
+  if (isOfContact && !namesContact)
+    refuse("is of the kind \"" + kinds[static_cast<std::size_t>(parameters.kind)] +
+           "\", and needs a \"Contact\"");
   if (parameters.kind == Kind::displacement &&
       (parameters.body.empty() || parameters.surface.empty() == parameters.point.empty()))
     refuse("is of the kind \"displacement\", and needs a \"Body\", and either a \"Surface\" or a \"Point\"");
@@ -88,13 +92,14 @@ QuantityParameters QuantityParameters::from(const Teuchos::ParameterList& list) 
 
 QuantityOfScene::QuantityOfScene(const QuantityParameters& parameters, const scene::Scene& scene,
                                  const model::Decomposition& decomposition)
-    : decomposition_(decomposition) {
-  if (parameters.kind == QuantityParameters::Kind::force) {
+    : decomposition_(decomposition), kind_(parameters.kind) {
+  if (kind_ != Kind::displacement) {
     placeOf(parameters.contact, scene.contacts, "contact");
     contact_ =
         &decomposition
              .contacts[placeOf(parameters.contact, decomposition.contacts, "a contact that is no joint,")];
-    name_ = "force of contact '" + parameters.contact + "'";
+    name_ = (kind_ == Kind::force ? "force of contact '" : "largest pressure of contact '") +
+            parameters.contact + "'";
     return;
   }
   accuracy::DisplacementTerms terms;
@@ -127,13 +132,21 @@ fetidp::DataChange QuantityOfScene::evaluate(const output::SolvedScene& solved, 
   const decomposition::DecomposedProblem& problem = decomposition_.problem;
   fetidp::DataChange change;
   if (contact_ != nullptr) {
-    const output::ContactForce force = output::contactForce(solved, *contact_);
-    quantity.value = force.value;
-    change.gap = force.weights;
+    if (kind_ == Kind::force) {
+      const output::ContactForce force = output::contactForce(solved, *contact_);
+      quantity.value = force.value;
+      change.gap = force.weights;
+    } else {
+      const output::LargestPressure pressure = output::largestPressure(solved, *contact_);
+      quantity.value = pressure.value;
+      quantity.remainder = pressure.remainder;
+      quantity.width = pressure.width;
+      change.gap = pressure.weights;
+    }
     for (const decomposition::Subdomain& subdomain : problem.subdomains)
       change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
-    if (force.value == 0)
-      quantity.failure = "the contact carries no force, which has no direction then";
+    if (quantity.value == 0)
+      quantity.failure = "the contact carries no force";
     return change;
   }
   AccurateSum sum;
@@ -168,7 +181,7 @@ Quantity QuantityOfScene::operator()(const ContactSolver& solver, const output::
   accuracy::QuantityError error = accuracy::quantityError(*decomposition_.problem.comm, estimator, energyNorm,
                                                           solved.solution.displacement, dual.displacement);
   quantity.error = error.error;
-  quantity.bar = safety * error.bar;
+  quantity.bar = safety * error.bar + quantity.remainder;
   quantity.elements = std::move(error.elements);
   quantity.multiplications = dual.report.counts.hessianMultiplications;
   if (std::isfinite(solved.solution.algebraicError))

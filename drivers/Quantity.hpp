@@ -15,7 +15,7 @@ namespace epafi::drivers {
 
 struct QuantityParameters {
   /// What is asked for.
-  enum class Kind { none, force, displacement };
+  enum class Kind { none, force, displacement, pressure };
   Kind kind = Kind::none;
   std::string contact, body, surface;
   std::vector<double> point, direction;
@@ -33,6 +33,8 @@ struct Quantity {
   double value = 0;
   double error = 0;                          ///< estimate of J − J_h
   double bar = 0;                            ///< of the mesh: what |J − J_h| hardly exceeds
+  double remainder = 0;                      ///< of what is looked at: within the bar (LargestPressure.hpp)
+  double width = 0;                          ///< of what is looked at, where it shrinks with the mesh; else 0
   double algebraic = 0;                      ///< of the iteration: a bound
   std::vector<std::vector<double>> elements; ///< |e_T|, as ErrorEstimate::elements
   int multiplications = 0;                   ///< products with F for the dual solution
@@ -50,10 +52,13 @@ public:
                       accuracy::ErrorEstimator& estimator, double energyNorm) const;
 
 private:
+  using Kind = QuantityParameters::Kind;
+
   /// J_h, and what has its dual solution as response. Collective.
   fetidp::DataChange evaluate(const output::SolvedScene& solved, Quantity& quantity) const;
 
   const model::Decomposition& decomposition_;
+  Kind kind_;
   std::string name_;
   const contact::ContactLayout* contact_ = nullptr;
   std::vector<Eigen::VectorXd> weights_; ///< of displacements

@@ -3,7 +3,9 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"
+#include "epafi/output/Checkpoint.hpp"
 #include "epafi/output/FieldWriter.hpp"
+#include "epafi/output/Fingerprint.hpp"
 #include "epafi/output/Report.hpp"
 
 #include <Teuchos_Time.hpp>
@@ -78,7 +80,8 @@ WrittenFiles writeFiles(const Options& options, const RunWatch& watch, SceneRun&
   if (!options.output.empty()) {
     const std::filesystem::path directory = options.output;
     attempt(files, watch.checkpoint(), [&] {
-      watch.writeCheckpoint(*run.solution.multiplier);
+      output::writeCheckpoint(watch.checkpoint(), output::fingerprintOf(run.decomposition->problem),
+                              *run.solution.multiplier);
       checkpoint = line("checkpoint", watch.checkpoint().string());
       return std::string();
     });

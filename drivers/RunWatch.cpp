@@ -56,12 +56,23 @@ void RunWatch::beforeIteration() {
   lastCheckpoint_ = Teuchos::Time::wallTime();
 }
 
-void RunWatch::step(const qp::StepRecord& record) {
-  constexpr double interval = 5; // seconds between lines that tell people that a long solve is alive
+bool RunWatch::lineIsDue() {
+  constexpr double interval = 5; // seconds between lines that tell people that a long run is alive
   const double now = Teuchos::Time::wallTime();
   if (!tellsProgress_ || now - lastLine_ < interval)
-    return;
+    return false;
   lastLine_ = now;
+  return true;
+}
+
+void RunWatch::meshing() {
+  if (lineIsDue())
+    std::cout << "  meshing ...\n" << std::flush;
+}
+
+void RunWatch::step(const qp::StepRecord& record) {
+  if (!lineIsDue())
+    return;
   std::cout << "  step " << record.iteration << " (" << static_cast<char>(record.kind)
             << "): projected gradient " << std::scientific << std::setprecision(2) << record.projectedGradient
             << ", " << record.activeBounds << " at bounds, " << record.hessianMultiplications << " products\n"
@@ -82,16 +93,12 @@ bool RunWatch::wantsToLook() {
 
 void RunWatch::look(const Vector& lambda) {
   try {
-    writeCheckpoint(lambda);
+    output::writeCheckpoint(checkpoint_, fingerprint_, lambda);
   } catch (const Error& error) {
     if (speaks_ && !std::exchange(hasComplained_, true))
       std::cerr << "epafi: the run goes on without a checkpoint: " << error.what() << '\n' << std::flush;
   }
   lastCheckpoint_ = Teuchos::Time::wallTime();
-}
-
-void RunWatch::writeCheckpoint(const Vector& lambda) const {
-  output::writeCheckpoint(checkpoint_, fingerprint_, lambda);
 }
 
 } // namespace epafi::drivers

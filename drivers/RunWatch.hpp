@@ -30,6 +30,7 @@ public:
   /// \throws Interrupted if a signal has come.
   void beforeIteration() override;
 
+  void meshing() override;
   void step(const qp::StepRecord& record) override;
   [[nodiscard]] bool wantsToStop() override;
   [[nodiscard]] bool wantsToLook() override;
@@ -42,13 +43,13 @@ public:
   [[nodiscard]] bool restarts() const { return restart_.has_value(); }
   /// DIR/checkpoint.epafi; empty without --output.
   [[nodiscard]] const std::filesystem::path& checkpoint() const { return checkpoint_; }
-  /// Collective. \throws Error, or InputError.
-  void writeCheckpoint(const Vector& lambda) const;
   /// "SIGTERM" on all ranks if one received it; empty if none did. Collective.
   [[nodiscard]] std::string signal() const;
 
 private:
   void requireNoSignal(const std::string& when) const;
+  /// Whether no line has been written for some seconds; notes that one is now.
+  [[nodiscard]] bool lineIsDue();
 
   RCP<const Comm> comm_;
   bool speaks_;

@@ -29,6 +29,8 @@ public:
   virtual RCP<const Vector> begin(const decomposition::DecomposedProblem& /*problem*/) {
     return Teuchos::null;
   }
+  /// Called when Gmsh begins on the next mesh of a series.
+  virtual void meshing() {}
   /// Called when all is ready for the iteration. Likewise.
   virtual void beforeIteration() {}
 };

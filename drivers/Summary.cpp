@@ -146,6 +146,8 @@ void describeAccuracy(std::ostream& text, const SceneRun& run) {
     describeError(text, run);
   if (run.quantity)
     describeQuantity(text, *run.quantity);
+  if (accuracy.isParameter("Choice of Order"))
+    text << "\n  order       " << accuracy.get<std::string>("Choice of Order");
   text << "\n  solution    energy " << scientific(accuracy, "Energy", 9);
   if (count(run.report.sublist("Problem"), "Inequality Multipliers") > 0)
     text << ", contact force " << scientific(accuracy, "Contact Force", 9) << " on "
@@ -202,14 +204,16 @@ void describeResults(std::ostream& text, const SceneRun& run) {
 void describeCosts(std::ostream& text, const SceneRun& run) {
   const ParameterList& time = run.report.sublist("Time");
   const ParameterList& memory = run.report.sublist("Memory");
-  text << "  time        assembly " << seconds(time, "Assembly") << ", setup " << seconds(time, "Setup")
-       << ", solve " << seconds(time, "Solve") << ", recovery " << seconds(time, "Recovery");
+  const bool isLastOfMany = run.report.isSublist("Levels");
+  text << "  time        " << (isLastOfMany ? "last mesh: " : "") << "assembly " << seconds(time, "Assembly")
+       << ", setup " << seconds(time, "Setup") << ", solve " << seconds(time, "Solve") << ", recovery "
+       << seconds(time, "Recovery");
   if (time.isParameter("Error Estimate"))
     text << ", error estimate " << seconds(time, "Error Estimate");
   if (time.isParameter("Output"))
     text << ", output " << seconds(time, "Output");
   if (time.isParameter("Total"))
-    text << "; total " << seconds(time, "Total");
+    text << (isLastOfMany ? "; total of all meshes " : "; total ") << seconds(time, "Total");
   text << "\n  memory      " << bytes(memory.get<double>("Peak Bytes"))
        << " at most over all ranks, of which factors " << bytes(memory.get<double>("Factor Bytes")) << '\n';
 }

@@ -108,7 +108,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   RunWatch watch(options, comm);
   SceneRun run = solveAsAsked(scene, list, comm, watch, speaks);
   run.started = start;
-  const bool isInterrupted = run.solver->report().status == qp::Status::interrupted;
+  const bool isInterrupted = run.report.sublist("Status").get<std::string>("Status") == "Interrupted";
   const std::string signal = isInterrupted ? watch.signal() : "";
   const WrittenFiles files = writeFiles(options, watch, run, *comm);
   bool isComplete = run.report.sublist("Status").get<bool>("Converged") && files.failures.empty();

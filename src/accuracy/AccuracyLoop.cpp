@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 #include <utility>
@@ -30,6 +31,44 @@ double leftOfChange(const MeshResult::Quantity& last, const MeshResult::Quantity
   const double ratio =
       last.discretisation > 0 ? std::min(most, next.discretisation / last.discretisation) : most;
   return std::abs(next.value - last.value) * ratio / (1 - ratio);
+}
+
+/// Three digits, and from 1000 on a whole number of as many.
+std::string rounded(double value) {
+  constexpr double whole = 1000;
+  std::ostringstream text;
+  if (value >= whole && std::isfinite(value)) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+    text << std::fixed << std::setprecision(0) << unit * std::round(value / unit);
+  } else {
+    text << std::setprecision(3) << value;
+  }
+  return text.str();
+}
+
+/// Says so if a quantity grows with every mesh by a power of the width that it looks at, as at a sharp edge; else empty. On the way
+/// to a limit the powers fall to 0.
+std::string endlessGrowth(const std::vector<MeshResult>& meshes) {
+  // A force on one element after another has the power 1, in space 2.
+  constexpr double least = 0.08, alike = 0.7, most = 0.9, finer = 1.3;
+  constexpr std::size_t number = 3;
+  if (meshes.size() < number)
+    return "";
+  std::ostringstream text;
+  double before = 0;
+  for (auto mesh = meshes.end() - number; mesh != meshes.end(); ++mesh) {
+    if (!mesh->quantity || !(mesh->quantity->width > 0))
+      return "";
+    text << (mesh == meshes.end() - number ? "from " : " to ") << rounded(mesh->quantity->value);
+    if (mesh == meshes.end() - number)
+      continue;
+    const double ratio = (mesh - 1)->quantity->width / mesh->quantity->width,
+                 power = std::log(mesh->quantity->value / (mesh - 1)->quantity->value) / std::log(ratio);
+    if (!(ratio >= finer) || !(power >= std::max(least, alike * before)) || power > most)
+      return "";
+    before = power;
+  }
+  return "it has no limit: it grows with every mesh, " + text.str() + ", as at a sharp edge";
 }
 
 /// What the elements' shares add up to, its root: as estimated, not corrected.
@@ -71,7 +110,6 @@ double unknownsOfOrderTwo(const MeshResult& result, int dimension) {
 std::string obstacle(const std::vector<MeshResult>& meshes, double growth, const LoopGoal& goal) {
   const MeshResult& last = meshes.back();
   std::ostringstream text;
-  text.precision(3);
   const double next = growth * static_cast<double>(last.unknowns);
   double seconds = 0;
   for (const MeshResult& mesh : meshes)
@@ -81,14 +119,15 @@ std::string obstacle(const std::vector<MeshResult>& meshes, double growth, const
   else if (static_cast<int>(meshes.size()) >= goal.maxMeshes)
     text << "no more than " << goal.maxMeshes << " meshes are allowed";
   else if (next > goal.maxUnknowns)
-    text << "the next mesh would have some " << next << " unknowns, and " << goal.maxUnknowns
-         << " are allowed";
+    text << "the next mesh would have some " << rounded(next) << " unknowns, and "
+         << rounded(goal.maxUnknowns) << " are allowed";
   else if (seconds + growth * last.seconds > goal.maxSeconds)
-    text << "the next mesh would take some " << growth * last.seconds << " s after the " << seconds
-         << " s that the others took, and " << goal.maxSeconds << " s are allowed";
+    text << "the next mesh would take some " << rounded(growth * last.seconds) << " s after the "
+         << rounded(seconds) << " s that the others took, and " << rounded(goal.maxSeconds)
+         << " s are allowed";
   else if (growth * last.bytes > goal.maxBytes)
-    text << "the next mesh would take some " << growth * last.bytes / 1e9 << " GB of memory, and "
-         << goal.maxBytes / 1e9 << " GB are allowed";
+    text << "the next mesh would take some " << rounded(growth * last.bytes / 1e9) << " GB of memory, and "
+         << rounded(goal.maxBytes / 1e9) << " GB are allowed";
   return text.str();
 }
 
@@ -146,13 +185,13 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
     const double one = unknownsOfOrderOne(*last, dimension, goal.target),
                  two = unknownsOfOrderTwo(*last, dimension);
     std::ostringstream text;
-    text.precision(2);
     if (result.isMet)
       text << "elements of order 1 on the first mesh make no more error than is allowed";
     else if (one <= two)
-      text << "order 1 needs some " << one << " unknowns for it, order 2 " << two << " on the first mesh";
+      text << "order 1 needs some " << rounded(one) << " unknowns for it, order 2 " << rounded(two)
+           << " on the first mesh";
     else
-      text << "order 1 would need some " << one << " unknowns";
+      text << "order 2, as order 1 would need some " << rounded(one) << " unknowns";
     result.choice = text.str();
     if (!result.isMet && one > two) {
       result.reason = obstacle(result.meshes, dimension == 2 ? 4 : 8, goal);
@@ -169,7 +208,10 @@ LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,
       error = std::min(error, confirming * estimated(*last));
     const WantedSizes wanted = problem.plan(*last, {.dimension = dimension, .error = error});
     expected = wanted.error;
-    result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
+    result.reason = endlessGrowth(result.meshes);
+    result.isEndless = !result.reason.empty();
+    if (!result.isEndless)
+      result.reason = obstacle(result.meshes, std::max(1.0, wanted.growth), goal);
     constexpr double nothing = 1.001;
     if (result.reason.empty() && wanted.growth < nothing)
       result.reason = "the mesh is fine enough, but the iteration is not; ask it for a smaller tolerance";

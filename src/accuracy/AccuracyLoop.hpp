@@ -35,6 +35,8 @@ struct MeshResult {
   /// the square of the effectivity), and by the iteration.
   struct Quantity {
     double value = 0, discretisation = 0, algebraic = 0;
+    double width =
+        0; ///< of what it looks at, where that shrinks with the mesh; 0: it looks at the same on all
   };
   std::optional<Quantity> quantity;
   double change = 0;      ///< ‖u − u of the last mesh‖ in the energy norm; 0: not known
@@ -79,13 +81,14 @@ struct LoopGoal {
 struct LoopResult {
   std::vector<MeshResult> meshes;
   bool isMet = false;
-  std::string reason; ///< if not: why no finer mesh was made
-  std::string choice; ///< why this order; empty if it was given
+  bool isEndless = false; ///< whether a quantity was given up because it grows with every mesh
+  std::string reason;     ///< if not: why no finer mesh was made
+  std::string choice;     ///< why this order; empty if it was given
 };
 
 /// Solves and refines until the estimate is at most the target, or a limit is in the way. Each mesh tells how good the estimates are: with
 /// errors e_k = η_k/θ and e_{k−1}² = e_k² + ‖u_k − u_{k−1}‖² (what refinement adds is orthogonal to what is left, but for what contact
-/// changes), θ² = (η_{k−1}² − η_k²) / ‖u_k − u_{k−1}‖²; estimates are divided by it, those of a quantity by θ², and these are no less than what its last change lets expect, so that it takes two meshes. With `order` = 0 the first mesh is
+/// changes), θ² = (η_{k−1}² − η_k²) / ‖u_k − u_{k−1}‖²; estimates are divided by it, those of a quantity by θ², and these are no less than what its last change lets expect, so that it takes two meshes. A quantity that looks at less and less is given up if it grows by the same power of that from mesh to mesh: it has no limit. With `order` = 0 the first mesh is
 /// solved on with elements of order 1: if these meet the target there, or are expected to with no more unknowns than order 2 has on
 /// the same mesh, they stay; else order 2 starts from their solution. Collective.
 /// \param tell  is told of every mesh; may be empty

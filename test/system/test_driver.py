@@ -243,6 +243,25 @@ class SolvesAsAccuratelyAsAsked(Driver):
                 self.assertLessEqual(found["Error Bar"], share * abs(found["Value"]))
                 self.assertLessEqual(abs(found["Value"] - exact), found["Error Bar"] + 5e-5 * abs(exact), (name, target))
 
+    def test_the_largest_pressure_of_a_round_contact_has_a_bar_that_holds(self):
+        exact = self.quantity("hertz_cylinder", "Kind=pressure", "Contact=touch", target="0.01%")["Value"]
+        self.assertAlmostEqual(exact / 1153.7, 1, delta=0.004)  # Hertz's, which the block's lies 0.3 % below
+        for target in ("10%", "2%", "0.5%"):
+            found = self.quantity("hertz_cylinder", "Kind=pressure", "Contact=touch", target=target)
+            self.assertLessEqual(abs(found["Value"] - exact), found["Error Bar"] + 1e-4 * exact, target)
+
+    def test_the_largest_pressure_at_a_sharp_edge_is_given_up(self):
+        report = self.place / "report.xml"
+        for order in ("1", "2"):
+            run = epafi(scene("punch"), "--accuracy", "5%", "--set", "Accuracy/Quantity/Kind=pressure", "--set",
+                        "Accuracy/Quantity/Contact=face", "--set", f"Accuracy/Order={order}", "--report", report)
+            self.assertEqual(run.returncode, NOT_CONVERGED, run.stdout)
+            self.assertIn("grows with every mesh, from", read_report(report)["Status"]["Reason"])
+
+    def test_even_refinement_has_no_order_of_its_own(self):
+        self.expect(WRONG_INPUT, ["Order", "even"], scene("coercive"), "--accuracy", "1%", "--set", "Accuracy/Refinement=even", "--set",
+                    "Accuracy/Order=2")
+
     def test_a_quantity_without_a_target_is_that_of_the_scenes_mesh(self):
         run = epafi(scene("coercive"), "--set", "Accuracy/Quantity/Kind=force", "--set", "Accuracy/Quantity/Contact=interface", ranks=2)
         self.assertEqual(run.returncode, SOLVED, run.stderr)
@@ -285,7 +304,7 @@ class SolvesAsAccuratelyAsAsked(Driver):
                               (("Kind=displacement", "Body=left", "Surface=lid"), "no surface 'lid'"),
                               (("Kind=displacement", "Body=left", "Point={9, 9}"), "lies outside of body 'left'"),
                               (("Kind=displacement", "Body=left", "Point={0.5, 0.5}", "Direction={0, 1}"), "membranes deflect along z"),
-                              (("Contact=interface",), "kind \"force\" alone")):
+                              (("Contact=interface",), "kinds \"force\" and \"pressure\" alone")):
             run = epafi(scene("coercive"), *(part for entry in entries for part in ("--set", f"Accuracy/Quantity/{entry}")), ranks=2)
             self.assertEqual(run.returncode, WRONG_INPUT, run.stdout)
             self.assertIn(said, run.stderr)
