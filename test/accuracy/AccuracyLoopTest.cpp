@@ -50,6 +50,34 @@ TEST(AccuracyLoopTest, ReachesTheTargetOfASmoothSolutionWithLittleMoreThanItsLas
       }
 }
 
+/// A number that looks at one element, and grows by a power of its size to a limit of its own, or without one.
+class Peak : public Patches {
+public:
+  Peak(double power, double limit) : power_(power), limit_(limit) {}
+  MeshResult solve(int order) override {
+    MeshResult result = Patches::solve(order);
+    const double width = 10 / std::sqrt(static_cast<double>(result.unknowns));
+    const double value = std::pow(std::hypot(width, limit_), -power_);
+    result.quantity = {value, value, 0, width};
+    return result;
+  }
+
+private:
+  double power_, limit_;
+};
+
+TEST(AccuracyLoopTest, ANumberThatGrowsByTheSamePowerFromMeshToMeshIsGivenUp) {
+  for (const double power : {0.2, 0.5}) {
+    Peak sharp(power, 0), round(power, 0.3);
+    const LoopGoal goal{.maxMeshes = 6, .order = 1};
+    const LoopResult endless = refineToTarget(sharp, goal), ended = refineToTarget(round, goal);
+    EXPECT_TRUE(endless.isEndless);
+    EXPECT_TRUE(says(endless, "grows with every mesh, from ")) << endless.reason;
+    EXPECT_EQ(endless.meshes.size(), 3U);
+    EXPECT_FALSE(ended.isEndless) << ended.reason;
+  }
+}
+
 TEST(AccuracyLoopTest, AMeshThatIsGoodEnoughIsNotRefined) {
   Patches problem;
   const LoopResult result = refineToTarget(problem, {.target = 0.26, .order = 1});
