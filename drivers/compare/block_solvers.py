@@ -105,7 +105,7 @@ def run_snesvi(solver, case):
     ranks = 1 if solver == "cholmod" else case.ranks
     threads = {"OPENBLAS_NUM_THREADS": str(case.ranks // ranks)}
     return solvers.measured_snesvi(solvers.start(
-        [*case.launcher(ranks), solvers.COMPARE / "snesvi_blocks.py", solver, case.file, "--tolerance", case.tolerance], case,
+        [*case.launcher(ranks), solvers.COMPARE / "snesvi_scenes.py", solver, case.file, "--tolerance", case.tolerance], case,
         threads))
 
 

@@ -9,6 +9,7 @@ Exit codes: 0 solved, 1 not solved (the reason on stderr), 2 wrong usage, 3 a pa
 
 import argparse
 import glob
+import importlib
 import json
 import os
 import resource
@@ -61,12 +62,12 @@ def load_petsc(options):
     return PETSc
 
 
-def assemble(problem, size):
+def module(name):
+    """One of this folder's that needs packages. \\raises MissingPackage"""
     try:
-        import membranes
+        return importlib.import_module(name)
     except ImportError as error:
         raise MissingPackage("python3-" + error.name.split(".")[0]) from None
-    return membranes.with_jump(problem == "coercive", size)
 
 
 def newton(PETSc, defaults, stiffness, load, lower, upper, tolerance):
@@ -102,7 +103,7 @@ def reason_of(PETSc, code):
 def measure(options):
     PETSc = load_petsc(options.petsc_options)
     start = time.perf_counter()
-    system = assemble(options.problem, options.size)
+    system = module("membranes").with_jump(options.problem == "coercive", options.size)
     matrix = system.stiffness
     stiffness = PETSc.Mat().createAIJ(matrix.shape, csr=(matrix.indptr, matrix.indices, matrix.data), comm=PETSc.COMM_SELF)
     stiffness.setOption(PETSc.Mat.Option.SYMMETRIC, True)
@@ -132,18 +133,23 @@ def measure(options):
             "peak_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss}
 
 
-def main(arguments):
-    options = parse(arguments)
+def printed(script, measure, options):
+    """Prints measure(options), or why there is nothing; the exit code. On all ranks."""
+    first = int(os.environ.get("OMPI_COMM_WORLD_RANK", "0")) == 0
     try:
-        print(json.dumps(measure(options)))
+        measurements = measure(options)
+        if first:
+            print(json.dumps(measurements))
     except MissingPackage as error:
+        if not first:  # in silence: what two ranks say runs together, and the first that fails ends the others
+            return 0
         print(error, file=sys.stderr)
         return 3
     except NotSolved as error:
-        print(f"snesvi.py: {error}", file=sys.stderr)
+        print(f"{script}: {error}", file=sys.stderr)
         return 1
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(printed("snesvi.py", measure, parse(sys.argv[1:])))

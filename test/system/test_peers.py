@@ -13,6 +13,7 @@ import tempfile
 import unittest
 
 import numpy
+import scipy.sparse
 
 PEERS, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 COMPLETE, FAILED, WRONG_USAGE = range(3)
@@ -50,10 +51,7 @@ def active_set_energy(file):
 
 
 def dense(source):
-    starts, columns, values, shape = source.matrix(lambda size: (0, size))
-    result = numpy.zeros(shape)
-    result[numpy.repeat(numpy.arange(shape[0]), numpy.diff(starts)), columns] = values
-    return result
+    return source.matrix().toarray()
 
 
 def reference_energy(problem, size):
@@ -173,21 +171,17 @@ class Peers(unittest.TestCase):
         self.assertEqual(free.tolist(), [2])  # sliding planes hold the five others
 
     def test_the_change_of_variables_makes_jumps_bounds(self):
-        # b = (2, -1) on unknowns 0, 2 and b = (0, 3) on 3: z = T^-1 u has b u in the pivots' places.
-        rows = contact_bounds.Rows(numpy.array([0, 2, 2, 3]), numpy.array([0, 2, 3]), numpy.array([2.0, -1.0, 3.0]),
-                                   numpy.array([0.5, 9.0, 0.25]))
-        change = numpy.eye(4)
-        for i, j, value in rows.change_of_variables():
-            change[i, j] += value
-        u = numpy.arange(8.0).reshape(4, 2)**2
-        z = u.copy()
-        rows.invert(z)
-        numpy.testing.assert_allclose(change @ z, u, rtol=1e-14)
-        self.assertEqual(rows.pivots.tolist(), [0, 3])
-        self.assertEqual(rows.gap.tolist(), [0.5, 0.25])
-        numpy.testing.assert_allclose(z[[0, 3]], [2 * u[0] - u[2], 3 * u[3]])
-        with self.assertRaisesRegex(ValueError, "share an unknown"):
-            contact_bounds.Rows(numpy.array([0, 2, 3]), numpy.array([0, 2, 2]), numpy.ones(3), numpy.zeros(2))
+        # b = (2, -1, 0) on unknowns 0, 2, 4; b = 3 on 3; b = (1, 2) on 0, 4: two rows share unknowns, as mortars do.
+        rows = contact_bounds.Rows(scipy.sparse.csr_matrix([[2.0, 0, -1, 0, 0], [0, 0, 0, 3, 0], [0] * 5, [1, 0, 0, 0, 2]]),
+                                   numpy.array([0.5, 0.25, 9.0, 0.75]))
+        change = rows.change_of_variables().toarray()
+        u = numpy.arange(10.0).reshape(5, 2)**2
+        z = rows.invert(u)
+        numpy.testing.assert_allclose(change @ z, u, rtol=1e-14, atol=1e-14)
+        self.assertEqual(rows.gap.tolist(), [0.5, 0.25, 0.75])
+        numpy.testing.assert_allclose(z[rows.pivots], [2 * u[0] - u[2], 3 * u[3], u[0] + 2 * u[4]])
+        with self.assertRaisesRegex(ValueError, "depend on each other"):
+            contact_bounds.Rows(scipy.sparse.csr_matrix([[1.0, 2], [2, 4]]), numpy.zeros(2)).change_of_variables()
 
     @unittest.skipUnless(HAS_PETSC, "PETSc for Python is not installed: ./setup packages peers")
     def test_all_solvers_find_the_same_energy_of_blocks(self):

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""snesvi_blocks.py cholmod|hypre|gamg FILE: a contact problem that epafi-export wrote, by PETSc's SNESVI (reduced-space
-Newton), for `peers`. On any number of ranks, CHOLMOD on one. Prints its measurements as one line of JSON.
+"""snesvi_scenes.py cholmod|hypre|gamg FILE: a contact problem that epafi-export wrote, by PETSc's SNESVI (reduced-space
+Newton), for `peers`. Begins with the solution with all contact closed: without contact bodies may float. On any number of
+ranks, CHOLMOD on one. Prints its measurements as one line of JSON.
 
 Exit codes: 0 solved, 1 not solved (the reason on stderr), 2 wrong usage, 3 a package is missing (its name on stderr).
 """
 
 import argparse
-import json
 import os
 import resource
 import sys
@@ -33,15 +33,12 @@ SOLVERS = {
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(prog="snesvi_blocks.py", description=__doc__.split("\n\n")[0])
+    parser = argparse.ArgumentParser(prog="snesvi_scenes.py", description=__doc__.split("\n\n")[0])
     parser.add_argument("solver", choices=SOLVERS)
     parser.add_argument("file", help="what epafi-export wrote")
     parser.add_argument("--tolerance", type=float, default=1e-6, metavar="T", help="reduction of the residual (1e-6)")
     parser.add_argument("--petsc-options", default="", metavar="TEXT", help="further options of PETSc")
-    options = parser.parse_args(arguments)
-    if not os.path.isfile(options.file):
-        parser.error(f"there is no file '{options.file}'; epafi-export makes it")
-    return options
+    return parser.parse_args(arguments)
 
 
 class Multigrid:
@@ -79,33 +76,38 @@ class Multigrid:
 
 
 def solve(PETSc, options, system):
-    snes = snesvi.newton(PETSc, SOLVERS[options.solver], system.stiffness, system.load, None, system.upper,
+    snes = snesvi.newton(PETSc, SOLVERS[options.solver], system.stiffness, system.load, system.lower, system.upper,
                          options.tolerance)
     if options.solver != "cholmod":
         preconditioner = snes.getKSP().getPC()
         preconditioner.setType(PETSc.PC.Type.PYTHON)
         preconditioner.setPythonContext(Multigrid(PETSc, snes, system.stiffness, system.modes))
+    zone = snesvi.module("zones").ZoneSolver(PETSc, system, options.solver)
     z = system.load.duplicate()
-    z.set(0.0)
+    steps = zone.solve(system.gap == system.gap, z, 1e-2)
     snes.solve(None, z)
-    return snes, z
+    return snes, z, steps + snes.getLinearSolveIterations()
+
+
+def loaded(PETSc, solver, files):
+    """The systems in the files. \\raises NotSolved"""
+    if solver == "cholmod" and PETSc.COMM_WORLD.size > 1:
+        raise snesvi.NotSolved("CHOLMOD works on one rank; give it threads by OPENBLAS_NUM_THREADS")
+    try:
+        return [snesvi.module("contact_bounds").load(PETSc, file) for file in files]
+    except (OSError, ValueError) as error:
+        raise snesvi.NotSolved(str(error)) from None
 
 
 def measure(options):
     PETSc = snesvi.load_petsc(options.petsc_options)
-    try:
-        import contact_bounds
-    except ImportError as error:
-        raise snesvi.MissingPackage("python3-" + error.name.split(".")[0]) from None
     comm = PETSc.COMM_WORLD.tompi4py()
     start = time.perf_counter()
     try:
-        if options.solver == "cholmod" and comm.size > 1:
-            raise snesvi.NotSolved("CHOLMOD works on one rank; give it threads by OPENBLAS_NUM_THREADS")
-        system = contact_bounds.load(PETSc, options.file)
+        system, = loaded(PETSc, options.solver, [options.file])
         comm.Barrier()
         assembled = time.perf_counter()
-        snes, z = solve(PETSc, options, system)
+        snes, z, linear_iterations = solve(PETSc, options, system)
     except PETSc.Error as error:
         raise snesvi.NotSolved("PETSc says: " + str(error).splitlines()[-1].strip()) from error
     comm.Barrier()
@@ -113,29 +115,11 @@ def measure(options):
     if snes.getConvergedReason() <= 0:
         raise snesvi.NotSolved(f"SNESVI stopped with {snesvi.reason_of(PETSc, snes.getConvergedReason())} after "
                                f"{snes.getIterationNumber()} steps")
-    return {"unknowns": z.getSize(), "assembly_seconds": assembled - start, "solve_seconds": finished - assembled,
-            "iterations": snes.getIterationNumber(), "linear_iterations": snes.getLinearSolveIterations(),
+    return {"unknowns": system.unknowns, "assembly_seconds": assembled - start, "solve_seconds": finished - assembled,
+            "iterations": snes.getIterationNumber(), "linear_iterations": linear_iterations,
             "energy": system.energy(z), "closed_nodes": system.closed_nodes(z),
             "peak_bytes": comm.allreduce(1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)}
 
 
-def main(arguments):
-    options = parse(arguments)
-    first = int(os.environ.get("OMPI_COMM_WORLD_RANK", "0")) == 0
-    try:
-        measurements = measure(options)
-        if first:
-            print(json.dumps(measurements))
-    except snesvi.MissingPackage as error:
-        if not first:  # in silence: what two ranks say runs together, and the first that fails ends the others
-            return 0
-        print(error, file=sys.stderr)
-        return 3
-    except snesvi.NotSolved as error:
-        print(f"snesvi_blocks.py: {error}", file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(snesvi.printed("snesvi_scenes.py", measure, parse(sys.argv[1:])))
