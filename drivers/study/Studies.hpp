@@ -17,6 +17,9 @@ bool studyAccuracy(const std::filesystem::path& directory, bool quick, const RCP
 /// is more than a tenth above its target.
 bool studyTargets(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 
+/// Local refinement to targets beside even meshes of order 1 and 2: seconds over the true error, refinement.csv.
+bool studyRefinement(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
+
 /// Tables 1 and 2 of the paper, dimensions and iterations of the model problem, ours beside the paper's, in 18 cells (quick: those
 /// with H/h ≤ 8): tables.csv and tables.md. False if a cell did not converge.
 bool studyTables(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);

@@ -29,6 +29,7 @@ constexpr const char* usage =
     "of\n"
     "            DIR/peers.csv and DIR/peers/*/peers.csv, as drivers/compare/peers writes them, join in\n"
     "  targets   scenes that are asked for an accuracy: the true error beside target and estimate\n"
+    "  refinement  seconds of local refinement to a target beside those of even meshes, over the true error\n"
     "  tables    Tables 1 and 2 of the paper: dimensions and iterations, ours beside the paper's\n"
     "  qp        problems with bounds: products with the Hessian by method, preconditioner and start\n"
     "  scaling   time, memory and messages over the number of subdomains, their size and the number of "
@@ -42,9 +43,9 @@ constexpr const char* usage =
 
 using Study = bool (*)(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 const std::map<std::string, Study> studies{
-    {"accuracy", studyAccuracy}, {"tables", studyTables},       {"qp", studyQp},
-    {"scaling", studyScaling},   {"stability", studyStability}, {"heterogeneity", studyHeterogeneity},
-    {"targets", studyTargets}};
+    {"accuracy", studyAccuracy}, {"tables", studyTables},        {"qp", studyQp},
+    {"scaling", studyScaling},   {"stability", studyStability},  {"heterogeneity", studyHeterogeneity},
+    {"targets", studyTargets},   {"refinement", studyRefinement}};
 
 struct Request {
   std::string study;
