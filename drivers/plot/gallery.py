@@ -1,6 +1,6 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import (accuracy, contact, convergence, hertz, heterogeneity, mesh, part, plane, pressure, qp, scaling, space, stability,
+from . import (accuracy, accuracy_peers, contact, convergence, hertz, heterogeneity, mesh, part, plane, pressure, qp, scaling, space, stability,
                subdomains, surface, table, tables, targets)
 from .errors import PlotError
 from .run import read_run
@@ -73,6 +73,8 @@ def draw_table(file, canvas):
         yield canvas.save(heterogeneity.figure(file, rows), file.stem)
     elif table.has(rows, hertz.COLUMNS):
         yield canvas.save(hertz.figure(file, rows), file.stem)
+    elif table.has(rows, accuracy_peers.COLUMNS):
+        yield canvas.save(accuracy_peers.figure(file, rows), file.stem)
     elif table.has(rows, targets.COLUMNS):
         yield canvas.save(targets.figure(file, rows), file.stem)
     elif table.has(rows, targets.MESHES):
