@@ -17,9 +17,12 @@
 #include <limits>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace epafi {
 namespace {
+
+const std::vector<std::string> algorithms = {"auto", "MPRGP", "active set"};
 
 double longest(const Comm& comm, double since) {
   return maxOverRanks(comm, Teuchos::Time::wallTime() - since);
@@ -43,6 +46,15 @@ Teuchos::ParameterList ContactSolver::validParameters() {
   addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
           "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes.",
           0.0, 1.0, true);
+  addChoice(list, "Algorithm", algorithms.front(),
+            "How contact is found. 'MPRGP': the paper's, with SMALBE around it where bodies float; always "
+            "gets there. 'active "
+            "set': primal-dual active sets with equilibrium held exactly on every face, then MPRGP or SMALBE "
+            "from their best "
+            "point, should the faces not settle. 'auto': active set where bodies float and there is a "
+            "preconditioner, else "
+            "MPRGP. Without contact there is nothing to choose.",
+            algorithms);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());
   list.sublist("SMALBE").setParameters(qp::SmalbeParameters::validParameters());
   list.sublist("Norm Estimate").setParameters(qp::NormEstimateParameters::validParameters());
@@ -57,6 +69,7 @@ ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters) {
     dualParameters_.tolerance = list.get<double>("Tolerance");
   algebraicFraction_ = list.get<double>("Algebraic Fraction");
   dualParameters_.equilibriumTolerance = list.get<double>("Equilibrium Tolerance");
+  dualParameters_.method = enumeratorFrom<fetidp::DualParameters::Method>(list, "Algorithm", algorithms);
   dualParameters_.mprgp = qp::MprgpParameters::from(list.sublist("MPRGP"));
   dualParameters_.smalbe = qp::SmalbeParameters::from(list.sublist("SMALBE"));
   dualParameters_.norm = qp::NormEstimateParameters::from(list.sublist("Norm Estimate"));
@@ -144,24 +157,6 @@ double allowedViolation(double tolerance) {
   return std::max(1e-7, 1e3 * tolerance);
 }
 
-/// Adds what a further solve did, its history numbered on.
-void append(const qp::SolveReport& further, qp::SolveReport& report) {
-  qp::StepCounts& counts = report.counts;
-  const int iterations = report.history.empty() ? 0 : report.history.back().iteration + 1;
-  for (qp::StepRecord record : further.history) {
-    record.iteration += iterations;
-    record.outer += counts.outer;
-    record.hessianMultiplications += counts.hessianMultiplications;
-    report.history.push_back(record);
-  }
-  using Counts = qp::StepCounts;
-  for (int Counts::*const count :
-       {&Counts::outer, &Counts::conjugateGradient, &Counts::expansion, &Counts::proportioning,
-        &Counts::hessianMultiplications, &Counts::preconditionerApplications, &Counts::safeguards,
-        &Counts::normCorrections})
-    counts.*count += further.counts.*count;
-}
-
 } // namespace
 
 /// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the tolerance is met
@@ -176,7 +171,7 @@ void ContactSolver::tighten(fetidp::DualSolution dual, qp::Observer* observer,
     tightening *= std::max(1e-6, 0.01 * allowed / solution.feasibility);
     const double violated = solution.feasibility;
     dual = dual_->solve(dual.lambda.get(), observer, {nullptr, tightening});
-    append(dual.report, report_);
+    qp::append(dual.report, report_);
     const fetidp::ContactSolution better = fetidp::recover(*dual_, dual);
     if (better.feasibility < violated)
       solution = better;

@@ -49,6 +49,22 @@ std::string explain(Status status) {
   return wordsOf(status).meaning;
 }
 
+void append(const SolveReport& further, SolveReport& report) {
+  StepCounts& counts = report.counts;
+  const int iterations = report.history.empty() ? 0 : report.history.back().iteration + 1;
+  for (StepRecord record : further.history) {
+    record.iteration += iterations;
+    record.outer += counts.outer;
+    record.hessianMultiplications += counts.hessianMultiplications;
+    report.history.push_back(record);
+  }
+  for (int StepCounts::*const count :
+       {&StepCounts::outer, &StepCounts::conjugateGradient, &StepCounts::expansion,
+        &StepCounts::proportioning, &StepCounts::hessianMultiplications,
+        &StepCounts::preconditionerApplications, &StepCounts::safeguards, &StepCounts::normCorrections})
+    counts.*count += further.counts.*count;
+}
+
 void HistoryRecorder::step(const StepRecord& record) {
   history_.push_back(record);
   if (next_ != nullptr)

@@ -88,6 +88,9 @@ struct SolveReport {
   History history; ///< every step, in order
 };
 
+/// Adds the steps of a further solve to a report, its history numbered on. The rest of the report stays as it is.
+void append(const SolveReport& further, SolveReport& report);
+
 /// Receives every step of a solver as it happens, and may ask for more. Called on all ranks that have one; must not throw.
 class Observer {
 public:

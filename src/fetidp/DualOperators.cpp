@@ -77,11 +77,11 @@ bool hasAverages(const DecomposedProblem& problem) {
 }
 
 /// With a preconditioner, what the parameters leave open. Collective.
-qp::MprgpParameters preconditionedMprgp(const DecomposedProblem& problem, Algorithm algorithm,
-                                        bool isCorrected, qp::MprgpParameters mprgp) {
+qp::MprgpParameters preconditionedMprgp(const DecomposedProblem& problem, bool isCorrected,
+                                        qp::MprgpParameters mprgp) {
   if (mprgp.sufficientShare == 0)
     mprgp.sufficientShare = 0.25; // most expansions would fix one multiplier or two
-  const bool solvesFacesInFewSteps = algorithm == Algorithm::smalbe || (hasAverages(problem) && !isCorrected);
+  const bool solvesFacesInFewSteps = problem.kernelDimension > 0 || (hasAverages(problem) && !isCorrected);
   if (mprgp.proportioningConstant == 0 && solvesFacesInFewSteps)
     mprgp.proportioningConstant = 0.1; // steps in a wrong face are lost
   return mprgp;
@@ -90,7 +90,7 @@ qp::MprgpParameters preconditionedMprgp(const DecomposedProblem& problem, Algori
 } // namespace
 
 std::string toString(Algorithm algorithm) {
-  constexpr const char* names[] = {"Direct", "CG", "MPRGP", "SMALBE-M"};
+  constexpr const char* names[] = {"Direct", "CG", "MPRGP", "SMALBE-M", "Active sets"};
   return names[static_cast<int>(algorithm)];
 }
 
@@ -110,6 +110,18 @@ AlgorithmChoice leastAlgorithm(const DecomposedProblem& problem) {
       names += (names.empty() ? "" : ", ") + body.name;
   return {Algorithm::smalbe,
           "contact with floating bodies (" + names + "): bounds and equilibrium constraints"};
+}
+
+AlgorithmChoice chosenAlgorithm(const DecomposedProblem& problem, const DualParameters& parameters) {
+  using Method = DualParameters::Method;
+  AlgorithmChoice choice = leastAlgorithm(problem);
+  const bool hasContact = choice.algorithm == Algorithm::mprgp || choice.algorithm == Algorithm::smalbe;
+  const bool saves = choice.algorithm == Algorithm::smalbe &&
+                     parameters.preconditioner.type != PreconditionerParameters::Type::none;
+  if (hasContact &&
+      (parameters.method == Method::activeSets || (parameters.method == Method::automatic && saves)))
+    choice.algorithm = Algorithm::activeSets;
+  return choice;
 }
 
 RCP<const Operator> DualOperators::flexibility() const {
@@ -144,8 +156,7 @@ DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algo
     operators.norm = qp::estimateNorm(*operators.hessian, parameters.norm);
   if (parameters.preconditioner.type != PreconditionerParameters::Type::none) {
     addPreconditioner(problem, inverse, parameters, operators);
-    operators.mprgp =
-        preconditionedMprgp(problem, algorithm, !operators.corrected.is_null(), parameters.mprgp);
+    operators.mprgp = preconditionedMprgp(problem, !operators.corrected.is_null(), parameters.mprgp);
   }
   return operators;
 }

@@ -23,10 +23,10 @@ namespace epafi::fetidp {
 ///   no multiplier at all   direct solve, nothing to iterate
 ///   no contact             conjugate gradients on F (Belos)
 ///   contact, all supported MPRGP
-///   floating bodies        SMALBE with MPRGP inside, on PFP after the shift by λ̃
-enum class Algorithm { direct, conjugateGradient, mprgp, smalbe };
+///   floating bodies        SMALBE with MPRGP inside, on PFP after the shift by λ̃; or active sets, with Gλ = e held exactly
+enum class Algorithm { direct, conjugateGradient, mprgp, smalbe, activeSets };
 
-/// "Direct", "CG", "MPRGP", "SMALBE-M".
+/// "Direct", "CG", "MPRGP", "SMALBE-M", "Active sets".
 std::string toString(Algorithm algorithm);
 
 struct AlgorithmChoice {
@@ -39,6 +39,9 @@ AlgorithmChoice leastAlgorithm(const decomposition::DecomposedProblem& problem);
 
 /// How the dual problem is solved, and how accurately.
 struct DualParameters {
+  /// Of problems with contact: active sets where bodies float and there is a preconditioner; MPRGP or SMALBE; active sets.
+  enum class Method { automatic, mprgp, activeSets };
+  Method method = Method::automatic;
   double tolerance = 1e-6;            ///< on ‖g^P‖ relative to ‖d̃‖ or ‖Pd‖
   bool isBalanced = false;            ///< in its place: the algebraic error against the discretisation error
   double equilibriumTolerance = 1e-6; ///< on ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes
@@ -49,6 +52,10 @@ struct DualParameters {
   PreconditionerParameters preconditioner;
   AdaptiveConstraintParameters adaptiveConstraints;
 };
+
+/// The least, or active sets in its place where the parameters say so. Likewise.
+AlgorithmChoice chosenAlgorithm(const decomposition::DecomposedProblem& problem,
+                                const DualParameters& parameters);
 
 /// Where there is nothing to iterate, all are null.
 struct DualOperators {

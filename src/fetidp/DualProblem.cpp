@@ -8,8 +8,8 @@ namespace epafi::fetidp {
 
 DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
                          const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters)
-    : problem_(problem), inverse_(inverse), parameters_(parameters), choice_(leastAlgorithm(problem)),
-      kernelEntries_(kernelConstraint(problem)),
+    : problem_(problem), inverse_(inverse), parameters_(parameters),
+      choice_(chosenAlgorithm(problem, parameters)), kernelEntries_(kernelConstraint(problem)),
       operators_(makeDualOperators(problem, choice_.algorithm, inverse, kernelEntries_, parameters)) {}
 
 RCP<Vector> DualProblem::startFrom(std::span<const Eigen::VectorXd> displacement) const {

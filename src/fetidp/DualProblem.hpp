@@ -37,7 +37,7 @@ public:
   DualProblem(const decomposition::DecomposedProblem& problem,
               const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters);
 
-  [[nodiscard]] Algorithm algorithm() const { return choice_.algorithm; } ///< the least that will do
+  [[nodiscard]] Algorithm algorithm() const { return choice_.algorithm; } ///< see chosenAlgorithm
   /// One sentence: why this algorithm.
   [[nodiscard]] const std::string& reason() const { return choice_.reason; }
   /// Of the Hessian.

@@ -7,10 +7,12 @@
 #include "epafi/fetidp/ProblemChecks.hpp"
 #include "epafi/fetidp/Recovery.hpp"
 #include "epafi/fetidp/Solvability.hpp"
+#include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"
 #include "epafi/qp/ConjugateGradient.hpp"
 
+#include <Teuchos_Time.hpp>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
@@ -128,6 +130,9 @@ public:
 private:
   bool setReference();
   void iterateInBounds();
+  void iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
+               qp::Observer* observer,
+               const std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>& always);
   void completeJumps(Vector& lambda) const;
   [[nodiscard]] double equilibriumReference(const Eigen::VectorXd& e) const;
 
@@ -172,20 +177,59 @@ DualSolution IterativeSolve::coercive() {
   return std::move(solution_);
 }
 
-/// MPRGP; without contact it is CG, step by step.
+/// Active sets where they were chosen; where not, and from their best point on where their faces do not settle, what always gets
+/// there.
+void IterativeSolve::iterate(
+    const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
+    qp::Observer* observer,
+    const std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>& always) {
+  using Status = qp::Status;
+  qp::MprgpParameters limits = dual_.operators().mprgp;
+  if (dual_.algorithm() != Algorithm::activeSets) {
+    solution_.report = always(x, limits);
+    return;
+  }
+  const double began = Teuchos::Time::wallTime();
+  Vector face(x.getMap()); // all contact closed, if nothing better is known
+  face.putScalar(1.0);
+  solution_.report =
+      qp::solveByActiveSets(faces, x, start_ == nullptr ? &face : nullptr, tolerances, limits, observer);
+  const Status status = solution_.report.status;
+  if (status == Status::converged || status == Status::maxIterations || status == Status::timeLimit ||
+      status == Status::interrupted)
+    return;
+  limits.maxMultiplications =
+      std::max(1, limits.maxMultiplications - solution_.report.counts.hessianMultiplications);
+  if (limits.timeLimit > 0)
+    limits.timeLimit = std::max(1e-9, limits.timeLimit - (Teuchos::Time::wallTime() - began));
+  qp::SolveReport further = always(x, limits);
+  qp::append(further, solution_.report);
+  further.counts = solution_.report.counts;
+  further.history = std::move(solution_.report.history);
+  solution_.report = std::move(further);
+}
+
+/// MPRGP, or active sets; without contact it is CG, step by step.
 void IterativeSolve::iterateInBounds() {
-  const qp::MprgpParameters& mprgp = dual_.operators().mprgp;
   const qp::BoundProblem problem{dual_.hessian(), rhs_, rcp(new qp::Box(lowerBounds(problem_))),
                                  dual_.preconditioner(), dual_.norm().norm};
+  const qp::ActiveSetProblem faces{problem.hessian, problem.linearTerm,     problem.set,
+                                   Teuchos::null,   problem.preconditioner, problem.operatorNorm};
   const double reference = accurateNorm(*rhs_);
+  qp::SmalbeTolerances tolerances{.gradient = tolerance_, .gradientReference = reference};
   if (balance_ == nullptr || reference == 0) {
-    solution_.report =
-        qp::solveBoundProblem(problem, *solution_.lambda, {tolerance_, reference, 0.0}, mprgp, observer_);
+    iterate(faces, tolerances, *solution_.lambda, observer_,
+            [&](Vector& x, const qp::MprgpParameters& mprgp) {
+              return qp::solveBoundProblem(problem, x, {tolerance_, reference, 0.0}, mprgp, observer_);
+            });
     return;
   }
   BalancedTarget target(dual_, *balance_, [this](Vector& x) { completeJumps(x); });
-  qp::ErrorRule rule(target, reference);
-  solution_.report = qp::solveBoundProblem(problem, *solution_.lambda, rule, reference, mprgp, observer_);
+  tolerances.error = &target;
+  iterate(faces, tolerances, *solution_.lambda, observer_, [&](Vector& x, const qp::MprgpParameters& mprgp) {
+    qp::ErrorRule rule(target, reference);
+    return qp::solveBoundProblem(problem, x, rule, reference, mprgp, observer_);
+  });
   solution_.errorTarget = target.last();
 }
 
@@ -237,11 +281,16 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
                                dual_.parameters().mprgp.maxMultiplications, observer, dual_.preconditioner());
     mu.assign(*start);
   } else {
-    std::vector<double> multiplier;
-    solution_.report = qp::solveEqualityBoundProblem(
-        {dual_.hessian(), rhs_, rcp(new qp::Box(lower)), dual_.coarseSpace(), dual_.preconditioner(),
-         dual_.norm().norm},
-        mu, multiplier, tolerances, dual_.parameters().smalbe, dual_.operators().mprgp, observer);
+    const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lower));
+    const double norm = dual_.norm().norm;
+    iterate({dual_.operators().flexibility(), rhs_, set, dual_.coarseSpace(),
+             dual_.operators().facePreconditioner, norm},
+            tolerances, mu, observer, [&](Vector& x, const qp::MprgpParameters& mprgp) {
+              std::vector<double> multiplier;
+              return qp::solveEqualityBoundProblem(
+                  {dual_.hessian(), rhs_, set, dual_.coarseSpace(), dual_.preconditioner(), norm}, x,
+                  multiplier, tolerances, dual_.parameters().smalbe, mprgp, observer);
+            });
   }
   if (target)
     solution_.errorTarget = target->last();

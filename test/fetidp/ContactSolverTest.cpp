@@ -111,7 +111,26 @@ TEST(ContactSolverTest, ChoosesTheLeastAlgorithm) {
   EXPECT_EQ(algorithmOf(decomposition::oneBody(4, 4, grid(1, 1), {wall})), Algorithm::direct);
   EXPECT_EQ(algorithmOf(decomposition::oneBody(4, 4, grid(2, 2), {wall})), Algorithm::conjugateGradient);
   EXPECT_EQ(algorithmOf(membranes(true)), Algorithm::mprgp);
-  EXPECT_EQ(algorithmOf(membranes(false)), Algorithm::smalbe);
+  EXPECT_EQ(algorithmOf(membranes(false)), Algorithm::activeSets);
+}
+
+TEST(ContactSolverTest, EveryAlgorithmFindsTheSameSolution) {
+  for (const bool held : {true, false}) {
+    std::vector<double> energies;
+    for (const char* algorithm : {"MPRGP", "active set"}) {
+      model::Decomposition decomposition = model::decompose(membranes(held), Tpetra::getDefaultComm());
+      ContactSolver solver(Teuchos::ParameterList().set("Algorithm", algorithm).set("Tolerance", 1e-10));
+      solver.setup(decomposition.problem);
+      const ContactSolution solution = solver.solve();
+      EXPECT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
+      EXPECT_EQ(solver.dualProblem().algorithm() == Algorithm::activeSets,
+                algorithm == std::string("active set"));
+      EXPECT_LE(solution.relativeProjectedGradient, 2e-10);
+      EXPECT_LE(solution.equilibrium, 1e-12);
+      energies.push_back(solution.energy);
+    }
+    EXPECT_NEAR(energies[0], energies[1], 1e-9 * std::abs(energies[0]));
+  }
 }
 
 TEST(ContactSolverTest, BodiesWithoutContactAreSolvedToo) {

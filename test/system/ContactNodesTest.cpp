@@ -40,13 +40,13 @@ TEST(ContactNodesTest, ANodeInACornerHasARowForEachWall) {
 }
 
 TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
-  const SolidRun reference(inCorner(cutInGrid({2, 2, 1})));
+  const SolidRun reference(inCorner(cutInGrid({2, 2, 1})), 1e-11); // energies err by λᵀ(c − Bu)
   scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
   scene::SurfaceContact foot = onPlane("foot", 0, "bottom", {0, -1, 0}, {0, 1, 0});
   foot.obstacle.kind = scene::Obstacle::Kind::sphere; // the corner again, and lower beside it
   foot.obstacle.radius = 1;
   scene.contacts.push_back(foot);
-  const SolidRun run(scene);
+  const SolidRun run(scene, 1e-11);
   EXPECT_EQ(run.decomposition.problem.numInequalities, 14);
   EXPECT_EQ(run.solution.activeContactNodes, reference.solution.activeContactNodes);
   EXPECT_NEAR(run.solution.contactForce, reference.solution.contactForce, 1e-8);

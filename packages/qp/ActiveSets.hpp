@@ -1,0 +1,37 @@
+#pragma once
+
+/// Primal–dual active sets for min ½xᵀAx − bᵀx, Bx = c, x in Ω (Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003); of FETI
+/// the planning steps of Avery, Rebel, Lesoinne, Farhat, *Comput. Methods Appl. Mech. Engrg* 193 (2004)):
+///   minimise on the face as if it had no bounds, Bx = c held exactly, as far as the next decision needs;
+///   put the entries that left Ω on its boundary, and let those move whose multipliers have the wrong sign, all at once.
+/// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not settle, the method
+/// says so: MPRGP and SMALBE, which always get there, can go on from its best point.
+
+#include "epafi/qp/ConvexSet.hpp"
+#include "epafi/qp/EqualityConstraint.hpp"
+#include "epafi/qp/MprgpParameters.hpp"
+#include "epafi/qp/Smalbe.hpp"
+#include "epafi/qp/SolveReport.hpp"
+
+namespace epafi::qp {
+
+/// The problem, as the method needs it.
+struct ActiveSetProblem {
+  RCP<const Operator> hessian;            ///< A, n × n, positive definite on Ker B
+  RCP<const Vector> linearTerm;           ///< b
+  RCP<const ConvexSet> set;               ///< Ω
+  RCP<const ReplicatedEquality> equality; ///< Bx = c; null for none
+  RCP<const Operator> preconditioner;     ///< M ≈ A⁻¹, or null; used as P_F M P_F
+  double operatorNorm = 1;                ///< ‖A‖ on Ker B, about
+};
+
+/// \param x     in: start; out: the last point, in Ω
+/// \param face  1 where x may move at first, else 0; the start's own if null
+/// Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product, 4 reductions. Allocates nothing on the way
+/// but k² numbers a face for k rows of B.
+/// Returns converged only for a gradient computed afresh; stagnated, with the best point met, where faces do not settle. Collective.
+SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
+                              const SmalbeTolerances& tolerances, const MprgpParameters& limits,
+                              Observer* observer = nullptr);
+
+} // namespace epafi::qp

@@ -1,0 +1,47 @@
+#pragma once
+
+/// Bx = c on a face: on the columns of B where x may move. Rows may depend on each other there.
+
+#include "epafi/base/Types.hpp"
+#include "epafi/qp/EqualityConstraint.hpp"
+
+#include <Tpetra_Vector.hpp>
+
+#include <span>
+#include <vector>
+
+namespace epafi::qp {
+
+/// With Z = 1 on the face and 0 off it, B_F = BZ, and P_F = Z − B_Fᵀ(B_F B_Fᵀ)⁺B_F, the projector onto what moves in the face and
+/// leaves Bx as it is. Without rows it is Z.
+class FaceEquality {
+public:
+  /// \param equality  B of k rows; null for none
+  FaceEquality(RCP<const ReplicatedEquality> equality, const RCP<const Map>& map);
+
+  /// From now on the face is where `face` is 1, not 0; kept by reference. One message of k² numbers. Collective.
+  void setFace(const Vector& face);
+
+  [[nodiscard]] int numRows() const { return numRows_; } ///< k
+  /// Adds this rank's contributions to Bx. All ranks call it together.
+  void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const;
+  /// Bx of the sums over the ranks. Not collective.
+  void finish(std::span<const AccurateSum> sums, std::span<double> bx) const;
+  /// μ = (B_F B_Fᵀ)⁺ b. Not collective.
+  void multiplierOf(std::span<const double> b, std::span<double> mu) const;
+  /// y += factor · B_Fᵀμ; y becomes 0 off the face. Not collective.
+  void addTransposed(std::span<const double> mu, double factor, Vector& y) const;
+  /// y += factor · Bᵀμ, off the face too. Not collective.
+  void addWholeTransposed(std::span<const double> mu, double factor, Vector& y) const;
+  /// Bx − c. Collective.
+  void residual(const Vector& x, std::span<double> r) const;
+
+private:
+  RCP<const ReplicatedEquality> equality_;
+  int numRows_;
+  const Vector* face_ = nullptr;
+  std::vector<double> inverse_; ///< (B_F B_Fᵀ)⁺, k × k
+  Vector column_;               ///< work
+};
+
+} // namespace epafi::qp

@@ -1,0 +1,175 @@
+#include "Problems.hpp"
+
+#include "epafi/qp/ActiveSets.hpp"
+#include "epafi/qp/Box.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace epafi;
+using qp::Status;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Problem {
+  Eigen::MatrixXd a, g; ///< g: orthonormal rows, or none
+  Eigen::VectorXd b, lower;
+  Eigen::MatrixXd m{}; ///< preconditioner, or empty
+};
+
+struct Answer {
+  Eigen::VectorXd x;
+  qp::SolveReport report;
+};
+
+Answer solve(const Problem& problem, double tolerance, const Eigen::VectorXd& face = {},
+             const qp::MprgpParameters& limits = {}, const Eigen::VectorXd& start = {}) {
+  const auto map = test::linearMap(static_cast<int>(problem.b.size()));
+  qp::ActiveSetProblem given;
+  given.hessian = rcp(new test::DenseOperator(map, problem.a));
+  given.linearTerm = test::makeVector(map, problem.b);
+  given.set = rcp(new qp::Box(test::makeVector(map, problem.lower)));
+  if (problem.g.rows() > 0)
+    given.equality = rcp(new test::DenseEquality(map, problem.g));
+  if (problem.m.size() > 0)
+    given.preconditioner = rcp(new test::DenseOperator(map, problem.m));
+  Vector x(map);
+  if (start.size() > 0)
+    x.assign(*test::makeVector(map, start));
+  const RCP<Vector> first = face.size() > 0 ? test::makeVector(map, face) : Teuchos::null;
+  const auto report =
+      qp::solveByActiveSets(given, x, first.get(), {tolerance, problem.b.norm(), 1e-10, 1.0}, limits);
+  return {test::gather(x), report};
+}
+
+/// Bounds on two of three entries; n, rows > 0.
+Problem randomProblem(int n, int rows, double condition, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  Problem problem{test::randomSpd(n, condition, random), test::randomOrthogonal(n, random).topRows(rows),
+                  Eigen::VectorXd(n), Eigen::VectorXd::Constant(n, -0.3)};
+  for (int i = 0; i < n; ++i) {
+    problem.b[i] = normal(random);
+    if (i % 3 == 0)
+      problem.lower[i] = -infinity;
+  }
+  return problem;
+}
+
+/// ‖g^P‖ from scratch, with the multiplier of Gx = 0 that makes g + Gᵀμ shortest on the free entries.
+double projectedGradient(const Problem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd g = problem.a * x - problem.b;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (x[i] > problem.lower[i])
+      free.push_back(i);
+  if (problem.g.rows() > 0) {
+    const Eigen::MatrixXd columns = problem.g(Eigen::all, free).transpose();
+    g += problem.g.transpose() * columns.colPivHouseholderQr().solve(-g(free)).eval();
+  }
+  double squared = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    squared += std::pow(x[i] > problem.lower[i] ? g[i] : std::min(g[i], 0.0), 2);
+  return std::sqrt(squared);
+}
+
+TEST(ActiveSetsTest, SolvesTwoUnknownsByHand) {
+  // min ½(x² + y²) − 3x − y over x + y = 0 (as an orthonormal row), y ≥ −0.5: y = −0.5, x = 0.5.
+  const Problem problem{Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Constant(1, 2, 1 / std::sqrt(2.0)),
+                        Eigen::Vector2d(3, 1), Eigen::Vector2d(-infinity, -0.5)};
+
+  const Answer answer = solve(problem, 1e-10);
+
+  EXPECT_EQ(answer.report.status, Status::converged);
+  EXPECT_NEAR(answer.x[0], 0.5, 1e-12);
+  EXPECT_NEAR(answer.x[1], -0.5, 1e-12);
+}
+
+TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
+  std::mt19937 random(1);
+  int numSettled = 0;
+  for (int problemNumber = 0; problemNumber < 40; ++problemNumber) {
+    const int rows = problemNumber % 4;
+    Problem problem = randomProblem(24, std::max(rows, 1), 100, random);
+    if (rows == 0)
+      problem.g.resize(0, 24);
+    if (problemNumber % 2 != 0)
+      problem.m = problem.a.inverse() + 0.1 * Eigen::MatrixXd::Identity(24, 24);
+
+    const Answer answer = solve(problem, 1e-8);
+
+    EXPECT_TRUE(answer.report.status == Status::converged || answer.report.status == Status::stagnated);
+    EXPECT_GE((answer.x - problem.lower).minCoeff(), 0.0) << problemNumber;
+    if (answer.report.status != Status::converged)
+      continue;
+    ++numSettled;
+    EXPECT_LE(projectedGradient(problem, answer.x), 1.01e-8 * problem.b.norm()) << problemNumber;
+    if (rows > 0) {
+      EXPECT_LE((problem.g * answer.x).norm(), 1e-13) << problemNumber;
+    }
+    ASSERT_FALSE(answer.report.gradient.is_null());
+    const Eigen::VectorXd rest = test::gather(*answer.report.gradient) - (problem.a * answer.x - problem.b);
+    const Eigen::VectorXd inRows =
+        rows > 0 ? Eigen::VectorXd(problem.g.transpose() * (problem.g * rest)) : Eigen::VectorXd::Zero(24);
+    EXPECT_LE((rest - inRows).norm(), 1e-12) << "the gradient is Ax − b + Bᵀμ";
+  }
+  EXPECT_GE(numSettled, 36);
+}
+
+TEST(ActiveSetsTest, NeedsLessFromNearby) {
+  std::mt19937 random(2);
+  Problem problem = randomProblem(30, 3, 100, random);
+  const Answer first = solve(problem, 1e-8);
+  ASSERT_EQ(first.report.status, Status::converged);
+  Eigen::VectorXd nearby = first.x;
+  for (Eigen::Index i = 0; i < 30; ++i)
+    if (nearby[i] > problem.lower[i])
+      nearby[i] *= 1.0001;
+
+  const Answer again = solve(problem, 1e-8, {}, {}, nearby);
+
+  EXPECT_EQ(again.report.status, Status::converged);
+  EXPECT_LT(again.report.counts.hessianMultiplications, first.report.counts.hessianMultiplications);
+  EXPECT_LT((again.x - first.x).norm(), 1e-6);
+}
+
+TEST(ActiveSetsTest, EndsInTheSetWhereAFaceCannotHoldTheEquality) {
+  // x ≥ 1 and x₁ + … + x₄ = 0 contradict each other.
+  const Problem problem{Eigen::MatrixXd::Identity(4, 4), Eigen::MatrixXd::Constant(1, 4, 0.5),
+                        Eigen::VectorXd::Constant(4, -1.0), Eigen::VectorXd::Constant(4, 1.0)};
+
+  const Answer answer = solve(problem, 1e-8, Eigen::VectorXd::Ones(4));
+
+  EXPECT_EQ(answer.report.status, Status::stagnated);
+  EXPECT_GE(answer.x.minCoeff(), 1.0);
+}
+
+TEST(ActiveSetsTest, StopsAtTheLimitOfProducts) {
+  std::mt19937 random(3);
+  const Problem problem = randomProblem(40, 2, 1e4, random);
+  qp::MprgpParameters limits;
+  limits.maxMultiplications = 7;
+
+  const Answer answer = solve(problem, 1e-12, {}, limits);
+
+  EXPECT_EQ(answer.report.status, Status::maxIterations);
+  EXPECT_LE(answer.report.counts.hessianMultiplications, 8);
+  EXPECT_GE((answer.x - problem.lower).minCoeff(), 0.0);
+}
+
+TEST(ActiveSetsTest, LeavesASolutionAlone) {
+  std::mt19937 random(4);
+  const Problem problem = randomProblem(20, 2, 50, random);
+  const Answer first = solve(problem, 1e-10);
+  ASSERT_EQ(first.report.status, Status::converged);
+
+  const Answer again = solve(problem, 1e-8, {}, {}, first.x);
+
+  EXPECT_EQ(again.report.status, Status::converged);
+  EXPECT_EQ(again.report.counts.hessianMultiplications, 1);
+  EXPECT_LT((again.x - first.x).norm(), 1e-13);
+}
+
+} // namespace
