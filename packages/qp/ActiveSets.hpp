@@ -1,7 +1,7 @@
 #pragma once
 
-/// Primal–dual active sets for min ½xᵀAx − bᵀx, Bx = c, x in Ω (Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003); of FETI
-/// the planning steps of Avery, Rebel, Lesoinne, Farhat, *Comput. Methods Appl. Mech. Engrg* 193 (2004)):
+/// Primal–dual active sets for min ½xᵀAx − bᵀx, Bx = c, x in Ω. Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003); for FETI
+/// the planning steps of Avery, Rebel, Lesoinne, Farhat, *Comput. Methods Appl. Mech. Engrg* 193 (2004):
 ///   minimise on the face as if it had no bounds, Bx = c held exactly, as far as the next decision needs;
 ///   put the entries that left Ω on its boundary, and let those move whose multipliers have the wrong sign, all at once.
 /// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not settle, the method

@@ -234,7 +234,7 @@ VectorXd Pressures::fit(const Patch& patch) const {
 }
 
 VectorXd Pressures::ofMultipliers(const VectorXd& weights) const {
-  const VectorXd scaled = weights.cwiseQuotient(areas_);
+  VectorXd scaled = weights.cwiseQuotient(areas_);
   if (layout_.isDual || layout_.smoothed.empty())
     return scaled;
   VectorXd result = VectorXd::Zero(scaled.size());
@@ -253,7 +253,7 @@ LargestPressure largestPressure(const SolvedScene& solved, const ContactLayout& 
   if (!(pressures.largest() > 0))
     return result;
   constexpr double widest = 0.3, finest = 0.01; // of the peak's mean, what nodes may lack
-  const auto most = static_cast<std::size_t>(4 * pressures.numMonomials());
+  const auto most = 4 * static_cast<std::size_t>(pressures.numMonomials());
   double band = finest;
   while (band < widest && pressures.patch(1 - band).rows.size() < most)
     band *= 2;

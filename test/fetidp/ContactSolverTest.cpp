@@ -6,6 +6,7 @@
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
 #include <Teuchos_Comm.hpp>
+#include <Tpetra_Core.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
