@@ -45,9 +45,8 @@ struct AdaptiveConstraintParameters {
   enum class Use { automatic, yes, no };
   Use use = Use::automatic;
   double threshold = 10; ///< τ: jumps that M overrates by more are constrained
-  /// Largest over smallest stiffness along an interface, from which on `automatic` looks at it: corners and middles of quadratic
-  /// elements in space alone differ by ten to fifty.
-  double stiffnessRatio = 100;
+  /// Largest over smallest stiffness along an interface, from which on `automatic` looks at it.
+  double stiffnessRatio = 10;
   int maxNumber = 1000; ///< constraints at most, n_U
   bool operator==(const AdaptiveConstraintParameters& other) const = default;
 };
