@@ -13,11 +13,11 @@
 namespace epafi::drivers {
 namespace {
 
-/// Solves by MPRGP and SMALBE, with the default parameters but for Adaptive Constraints/Use = `use`, and estimates the condition
-/// of what the iteration works on, by Lanczos. `constraints` are the adaptive ones, each a product with F in the set-up. Collective.
+/// Solves with the default parameters but for Adaptive Constraints/Use = `use`, and estimates the condition of what the iteration
+/// works on, by Lanczos. `constraints` are the adaptive ones, each a product with F in the set-up. Collective.
 Row measure(const Case& which, const std::string& use, const RCP<const Comm>& comm) {
   Teuchos::ParameterList parameters;
-  parameters.set("Algorithm", "MPRGP").sublist("Adaptive Constraints").set("Use", use);
+  parameters.sublist("Adaptive Constraints").set("Use", use);
   const SceneRun run = solveScene(scene::readScene(which.scene(), which.name), parameters, comm);
   const fetidp::DualProblem& dual = run.solver->dualProblem();
   const qp::SpectrumEstimate spectrum = qp::estimateSpectrum(*dual.hessian(), dual.preconditioner());

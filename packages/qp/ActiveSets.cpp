@@ -20,7 +20,8 @@ namespace {
 constexpr int maxFaces = 300;
 constexpr int patience = 12;      ///< faces in a row with no smaller gradient to begin with
 constexpr int maxFaceSteps = 200; ///< of CG before the face is looked at again
-/// Of (rᵀMr)^½ before the face is looked at: less, and wrong decisions are paid by further faces (docs/theory.md).
+/// Of ‖Zg‖ and of (gᵀMg)^½ before the face is looked at. Of both: the energy alone can be that of one direction which M overrates,
+/// gone after a step; the norm alone, that of one which hardly moves x. Less, and wrong decisions are paid by further faces.
 constexpr double reduction = 0.1;
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
 constexpr double safety = 0.5;
@@ -223,10 +224,10 @@ void ActiveSets::precondition() {
   equality_.addTransposed(multiplier_, -1.0, z_);
 }
 
-/// Preconditioned CG on the face until gᵀMg has fallen to reduction² of itself, or the gradient is small enough.
+/// Preconditioned CG on the face until ‖Zg‖ and (gᵀMg)^½ have fallen to a share of themselves, or are small enough.
 std::optional<Status> ActiveSets::minimise() {
-  const double goal = reduction * reduction * energy_;
-  for (int step = 0; energy_ > goal && !isNearlySmall(); ++step) {
+  const double goal = reduction * reduction * energy_, most = reduction * gradient_;
+  for (int step = 0; (energy_ > goal || gradient_ > most) && !isNearlySmall(); ++step) {
     if (!std::isfinite(gradient_))
       return Status::notFinite;
     if (wish_)
