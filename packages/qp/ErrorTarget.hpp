@@ -39,6 +39,9 @@ public:
     return isMet_;
   }
 
+  /// The last answer; 0: none was asked for.
+  [[nodiscard]] double limit() const { return limit_; }
+
 private:
   ErrorTarget& target_;
   double limit_ = 0;

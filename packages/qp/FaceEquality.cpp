@@ -36,7 +36,8 @@ std::vector<double> pseudoInverse(std::vector<double> a, int k) {
 } // namespace
 
 FaceEquality::FaceEquality(RCP<const ReplicatedEquality> equality, const RCP<const Map>& map)
-    : equality_(std::move(equality)), numRows_(equality_.is_null() ? 0 : equality_->size()), column_(map) {}
+    : equality_(std::move(equality)), numRows_(equality_.is_null() ? 0 : equality_->size()), column_(map),
+      product_(static_cast<std::size_t>(numRows_)), multiplier_(product_.size()) {}
 
 void FaceEquality::setFace(const Vector& face) {
   face_ = &face;
@@ -56,6 +57,18 @@ void FaceEquality::setFace(const Vector& face) {
   for (std::size_t j = 0; j < k; ++j)
     equality_->finishProduct(std::span(sums).subspan(j * k, k), std::span(gram).subspan(j * k, k));
   inverse_ = pseudoInverse(std::move(gram), numRows_);
+}
+
+void FaceEquality::project(Vector& x) {
+  addTransposed(fit(x), -1.0, x);
+}
+
+std::span<const double> FaceEquality::fit(Vector& x) {
+  addTransposed(multiplier_, 0.0, x); // 0 off the face
+  if (numRows_ > 0)
+    equality_->product(x, product_);
+  multiplierOf(product_, multiplier_);
+  return multiplier_;
 }
 
 void FaceEquality::addLocalSums(const Vector& x, std::span<AccurateSum> sums) const {

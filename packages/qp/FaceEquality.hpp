@@ -27,6 +27,10 @@ public:
   void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const;
   /// Bx of the sums over the ranks. Not collective.
   void finish(std::span<const AccurateSum> sums, std::span<double> bx) const;
+  /// x ← P_F x. One message of k numbers. Collective.
+  void project(Vector& x);
+  /// μ with B_Fᵀμ nearest to x on the face, of those the shortest; x becomes 0 off the face. Valid until the next call. Likewise.
+  [[nodiscard]] std::span<const double> fit(Vector& x);
   /// μ = (B_F B_Fᵀ)⁺ b. Not collective.
   void multiplierOf(std::span<const double> b, std::span<double> mu) const;
   /// y += factor · B_Fᵀμ; y becomes 0 off the face. Not collective.
@@ -40,8 +44,9 @@ private:
   RCP<const ReplicatedEquality> equality_;
   int numRows_;
   const Vector* face_ = nullptr;
-  std::vector<double> inverse_; ///< (B_F B_Fᵀ)⁺, k × k
-  Vector column_;               ///< work
+  std::vector<double> inverse_;              ///< (B_F B_Fᵀ)⁺, k × k
+  Vector column_;                            ///< work
+  std::vector<double> product_, multiplier_; ///< likewise, k
 };
 
 } // namespace epafi::qp

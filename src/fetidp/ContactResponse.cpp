@@ -4,15 +4,14 @@
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
 #include "epafi/qp/ConjugateGradient.hpp"
+#include "epafi/qp/FaceEquality.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -21,98 +20,48 @@ namespace {
 using decomposition::DecomposedProblem;
 using decomposition::OwnedMultiplier;
 
-/// Rows that hold both ways, and the equilibrium of floating bodies in them: G_a = T G̃_a with G_a G_aᵀ = I.
+/// Rows that hold both ways, and the equilibrium of floating bodies in them.
 class Face {
 public:
-  /// Collective.
-  Face(const DualProblem& dual, const Vector& closed);
+  /// Keeps a reference to `dual`. Collective.
+  Face(const DualProblem& dual, const Vector& closed)
+      : space_(dual.coarseSpace()), rows_(closed.getMap()), equality_(space_, closed.getMap()) {
+    const auto rows = rows_.getDataNonConst();
+    const auto isClosed = closed.getData();
+    for (LocalOrdinal row = 0; row < rows.size(); ++row) {
+      const bool isContact = dual.problem().kindOf(OwnedMultiplier(row)) == decomposition::RowKind::contact;
+      rows[row] = isContact && isClosed[row] == 0 ? 0 : 1;
+    }
+    equality_.setFace(rows_);
+  }
 
   /// x ← P x on the face, 0 off it. With floating bodies a message of k numbers. Collective.
-  void restrict(Vector& x) const;
+  void restrict(Vector& x) { equality_.project(x); }
   /// The shortest λ on the face with G̃_a λ = ẽ. Collective. \throws Error if there is none.
-  void balance(const Eigen::VectorXd& resultants, Vector& lambda) const;
-  /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. Valid until the next call. Collective.
-  [[nodiscard]] const Eigen::VectorXd& motionOf(const Vector& x) const {
-    held_.noalias() = transform_ * product(x);
-    motion_.noalias() = transform_.transpose() * held_;
-    return motion_;
+  void balance(const Eigen::VectorXd& resultants, Vector& lambda) {
+    constexpr double roundOff = 1e-9;
+    const Eigen::VectorXd e = space_->normalized(resultants);
+    const auto size = static_cast<std::size_t>(e.size());
+    std::vector<double> mu(size);
+    equality_.multiplierOf({e.data(), size}, mu);
+    lambda.putScalar(0.0);
+    equality_.addTransposed(mu, 1.0, lambda);
+    if ((space_->product(lambda) - e).norm() > roundOff * e.norm())
+      throw Error("the load has a resultant on a floating body that its closed contacts cannot take");
   }
+  /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. x becomes 0 off the face. Collective.
+  [[nodiscard]] Eigen::VectorXd motionOf(Vector& x) { return space_->motionOf(equality_.fit(x)); }
 
 private:
-  /// G̃_a x. Collective.
-  [[nodiscard]] const Eigen::VectorXd& product(const Vector& x) const;
-  /// y += factor · G̃_aᵀ μ
-  void addTransposed(const Eigen::VectorXd& mu, double factor, Vector& y) const;
-
-  const Comm& comm_;
-  std::vector<LocalOrdinal> openRows_;
-  std::vector<KernelEntry> entries_; ///< G̃_aᵀ
-  Eigen::MatrixXd transform_;        ///< T, (motions held) × k
-  mutable std::vector<AccurateSum> sums_;
-  mutable Eigen::VectorXd product_, held_, motion_; ///< work: G̃_a x, G_a x, α
+  RCP<const NaturalCoarseSpace> space_;
+  Vector rows_; ///< 1 on the face
+  qp::FaceEquality equality_;
 };
-
-Face::Face(const DualProblem& dual, const Vector& closed) : comm_(*dual.problem().comm) {
-  const DecomposedProblem& problem = dual.problem();
-  const auto isClosed = closed.getData();
-  const auto isOpen = [&](LocalOrdinal row) {
-    return problem.kindOf(OwnedMultiplier(row)) == decomposition::RowKind::contact && isClosed[row] == 0;
-  };
-  for (LocalOrdinal row = 0; row < isClosed.size(); ++row)
-    if (isOpen(row))
-      openRows_.push_back(row);
-  const Eigen::Index k = problem.kernelDimension;
-  if (k == 0)
-    return;
-  sums_.resize(static_cast<std::size_t>(k));
-  product_.resize(k);
-  std::copy_if(dual.kernelEntries().begin(), dual.kernelEntries().end(), std::back_inserter(entries_),
-               [&](const KernelEntry& entry) { return !isOpen(entry.row); });
-  constexpr double roundOff = 1e-12; // of the largest eigenvalue
-  const direct::SymmetricEigen spectrum = direct::eigenOf(kernelGram(problem, entries_));
-  const Eigen::Index held = k - spectrum.numUpTo(roundOff * spectrum.values.maxCoeff());
-  transform_ = spectrum.values.tail(held).cwiseSqrt().cwiseInverse().asDiagonal() *
-               spectrum.vectors.rightCols(held).transpose();
-}
-
-const Eigen::VectorXd& Face::product(const Vector& x) const {
-  std::fill(sums_.begin(), sums_.end(), AccurateSum());
-  const auto values = x.getData();
-  for (const KernelEntry& entry : entries_)
-    sums_[static_cast<std::size_t>(entry.mode)].add(entry.value * values[entry.row]);
-  sumOverRanks(comm_, sums_, product_.data());
-  return product_;
-}
-
-void Face::addTransposed(const Eigen::VectorXd& mu, double factor, Vector& y) const {
-  const auto values = y.getDataNonConst();
-  for (const KernelEntry& entry : entries_)
-    values[entry.row] += factor * entry.value * mu[entry.mode];
-}
-
-void Face::restrict(Vector& x) const {
-  {
-    const auto values = x.getDataNonConst();
-    for (const LocalOrdinal row : openRows_)
-      values[row] = 0;
-  }
-  if (transform_.cols() > 0)
-    addTransposed(motionOf(x), -1.0, x);
-}
-
-void Face::balance(const Eigen::VectorXd& resultants, Vector& lambda) const {
-  constexpr double roundOff = 1e-9;
-  const Eigen::VectorXd e = transform_ * resultants;
-  lambda.putScalar(0.0);
-  addTransposed(transform_.transpose() * e, 1.0, lambda);
-  if ((product(lambda) - resultants).norm() > roundOff * resultants.norm())
-    throw Error("the load has a resultant on a floating body that its closed contacts cannot take");
-}
 
 /// x ↦ Z P A P Z x, Z = 1 on the face and 0 off it. From both sides: of round-off off the face CG would make negative curvature.
 class FaceOperator final : public SymmetricOperator {
 public:
-  FaceOperator(RCP<const Operator> a, const Face& face)
+  FaceOperator(RCP<const Operator> a, Face& face)
       : SymmetricOperator(a->getDomainMap()), a_(std::move(a)), face_(face), restricted_(getDomainMap()) {}
 
 private:
@@ -126,7 +75,7 @@ private:
   }
 
   RCP<const Operator> a_;
-  const Face& face_;
+  Face& face_;
   mutable Vector restricted_; ///< work
 };
 
@@ -156,8 +105,8 @@ struct Jumps {
 };
 
 /// λ̇. Collective.
-RCP<Vector> multiplierOf(const DualProblem& dual, const Face& face, const DataChange& change,
-                         double tolerance, qp::SolveReport& report) {
+RCP<Vector> multiplierOf(const DualProblem& dual, Face& face, const DataChange& change, double tolerance,
+                         qp::SolveReport& report) {
   const DecomposedProblem& problem = dual.problem();
   const DualOperators& operators = dual.operators();
   const Jumps start(dual, change, nullptr);
@@ -192,7 +141,7 @@ RCP<Vector> multiplierOf(const DualProblem& dual, const Face& face, const DataCh
 ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
                                 double tolerance) {
   const DecomposedProblem& problem = dual.problem();
-  const Face face(dual, closed);
+  Face face(dual, closed);
   ContactResponse response;
   response.report.status = qp::Status::converged;
   response.multiplier = dual.algorithm() == Algorithm::direct

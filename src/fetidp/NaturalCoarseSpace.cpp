@@ -62,21 +62,7 @@ Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, cons
   return result;
 }
 
-} // namespace
-
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads) {
-  return resultants(problem, loads, [](const auto& r, const auto& f) { return r.dot(f); });
-}
-
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
-  return kernelLoad(problem, loadsOf(problem));
-}
-
-Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem) {
-  return resultants(problem, loadsOf(problem),
-                    [](const auto& r, const auto& f) { return r.cwiseAbs().dot(f.cwiseAbs()); });
-}
-
+/// G̃G̃ᵀ, k × k, on every rank. Collective.
 Eigen::MatrixXd kernelGram(const decomposition::DecomposedProblem& problem,
                            const std::vector<KernelEntry>& entries) {
   const Eigen::Index k = problem.kernelDimension;
@@ -91,6 +77,21 @@ Eigen::MatrixXd kernelGram(const decomposition::DecomposedProblem& problem,
   Eigen::MatrixXd gram(k, k);
   sumOverRanks(*problem.comm, sums, gram.data());
   return gram;
+}
+
+} // namespace
+
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads) {
+  return resultants(problem, loads, [](const auto& r, const auto& f) { return r.dot(f); });
+}
+
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
+  return kernelLoad(problem, loadsOf(problem));
+}
+
+Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem) {
+  return resultants(problem, loadsOf(problem),
+                    [](const auto& r, const auto& f) { return r.cwiseAbs().dot(f.cwiseAbs()); });
 }
 
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,
@@ -143,6 +144,11 @@ void NaturalCoarseSpace::project(Vector& x) const {
 
 Eigen::VectorXd NaturalCoarseSpace::normalized(const Eigen::VectorXd& kernelLoad) const {
   return cholesky_.triangularView<Eigen::Lower>().solve(kernelLoad);
+}
+
+Eigen::VectorXd NaturalCoarseSpace::motionOf(std::span<const double> mu) const {
+  const Eigen::Map<const Eigen::VectorXd> given(mu.data(), static_cast<Eigen::Index>(mu.size()));
+  return cholesky_.transpose().triangularView<Eigen::Upper>().solve(given);
 }
 
 void NaturalCoarseSpace::feasiblePoint(const Eigen::VectorXd& e, Vector& lambda) const {

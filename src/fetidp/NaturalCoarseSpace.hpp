@@ -34,10 +34,6 @@ Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem);
 /// Likewise for other loads, n_s × 1 of each of this rank's subdomains.
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads);
 
-/// G̃G̃ᵀ of some rows of G̃ᵀ, k × k, on every rank. Collective.
-Eigen::MatrixXd kernelGram(const decomposition::DecomposedProblem& problem,
-                           const std::vector<KernelEntry>& entries);
-
 /// |R|ᵀ|f̄|: what ẽ would be if nothing in it cancelled, its yardstick. On every rank. Collective.
 Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem);
 
@@ -60,6 +56,8 @@ public:
   void project(Vector& x) const;
   /// e = T̃ ẽ. Not collective.
   [[nodiscard]] Eigen::VectorXd normalized(const Eigen::VectorXd& kernelLoad) const;
+  /// The motion α of the bodies that μ stands for: Gᵀμ = G̃ᵀα. Not collective.
+  [[nodiscard]] Eigen::VectorXd motionOf(std::span<const double> mu) const;
   /// λ̃ = Gᵀe, the shortest λ with Gλ = e. Not collective.
   void feasiblePoint(const Eigen::VectorXd& e, Vector& lambda) const;
 

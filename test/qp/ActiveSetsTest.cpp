@@ -1,4 +1,4 @@
-#include "Problems.hpp"
+#include "EqualityProblems.hpp"
 
 #include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/Box.hpp"
@@ -14,9 +14,7 @@ using qp::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Problem {
-  Eigen::MatrixXd a, g; ///< g: orthonormal rows, or none
-  Eigen::VectorXd b, lower;
+struct Problem : test::EqualityProblem {
   Eigen::MatrixXd m{}; ///< preconditioner, or empty
 };
 
@@ -45,36 +43,6 @@ Answer solve(const Problem& problem, double tolerance, const Eigen::VectorXd& fa
   return {test::gather(x), report};
 }
 
-/// Bounds on two of three entries; n, rows > 0.
-Problem randomProblem(int n, int rows, double condition, std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  Problem problem{test::randomSpd(n, condition, random), test::randomOrthogonal(n, random).topRows(rows),
-                  Eigen::VectorXd(n), Eigen::VectorXd::Constant(n, -0.3)};
-  for (int i = 0; i < n; ++i) {
-    problem.b[i] = normal(random);
-    if (i % 3 == 0)
-      problem.lower[i] = -infinity;
-  }
-  return problem;
-}
-
-/// ‖g^P‖ from scratch, with the multiplier of Gx = 0 that makes g + Gᵀμ shortest on the free entries.
-double projectedGradient(const Problem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd g = problem.a * x - problem.b;
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (x[i] > problem.lower[i])
-      free.push_back(i);
-  if (problem.g.rows() > 0) {
-    const Eigen::MatrixXd columns = problem.g(Eigen::all, free).transpose();
-    g += problem.g.transpose() * columns.colPivHouseholderQr().solve(-g(free)).eval();
-  }
-  double squared = 0;
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    squared += std::pow(x[i] > problem.lower[i] ? g[i] : std::min(g[i], 0.0), 2);
-  return std::sqrt(squared);
-}
-
 TEST(ActiveSetsTest, SolvesTwoUnknownsByHand) {
   // min ½(x² + y²) − 3x − y over x + y = 0 (as an orthonormal row), y ≥ −0.5: y = −0.5, x = 0.5.
   const Problem problem{Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Constant(1, 2, 1 / std::sqrt(2.0)),
@@ -92,7 +60,7 @@ TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
   int numSettled = 0;
   for (int problemNumber = 0; problemNumber < 40; ++problemNumber) {
     const int rows = problemNumber % 4;
-    Problem problem = randomProblem(24, std::max(rows, 1), 100, random);
+    Problem problem{test::randomProblem(24, std::max(rows, 1), 100, random)};
     if (rows == 0)
       problem.g.resize(0, 24);
     if (problemNumber % 2 != 0)
@@ -105,7 +73,7 @@ TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
     if (answer.report.status != Status::converged)
       continue;
     ++numSettled;
-    EXPECT_LE(projectedGradient(problem, answer.x), 1.01e-8 * problem.b.norm()) << problemNumber;
+    EXPECT_LE(test::projectedGradient(problem, answer.x), 1.01e-8 * problem.b.norm()) << problemNumber;
     if (rows > 0) {
       EXPECT_LE((problem.g * answer.x).norm(), 1e-13) << problemNumber;
     }
@@ -120,7 +88,7 @@ TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
 
 TEST(ActiveSetsTest, NeedsLessFromNearby) {
   std::mt19937 random(2);
-  Problem problem = randomProblem(30, 3, 100, random);
+  Problem problem{test::randomProblem(30, 3, 100, random)};
   const Answer first = solve(problem, 1e-8);
   ASSERT_EQ(first.report.status, Status::converged);
   Eigen::VectorXd nearby = first.x;
@@ -148,7 +116,7 @@ TEST(ActiveSetsTest, EndsInTheSetWhereAFaceCannotHoldTheEquality) {
 
 TEST(ActiveSetsTest, StopsAtTheLimitOfProducts) {
   std::mt19937 random(3);
-  const Problem problem = randomProblem(40, 2, 1e4, random);
+  const Problem problem{test::randomProblem(40, 2, 1e4, random)};
   qp::MprgpParameters limits;
   limits.maxMultiplications = 7;
 
@@ -161,7 +129,7 @@ TEST(ActiveSetsTest, StopsAtTheLimitOfProducts) {
 
 TEST(ActiveSetsTest, LeavesASolutionAlone) {
   std::mt19937 random(4);
-  const Problem problem = randomProblem(20, 2, 50, random);
+  const Problem problem{test::randomProblem(20, 2, 50, random)};
   const Answer first = solve(problem, 1e-10);
   ASSERT_EQ(first.report.status, Status::converged);
 

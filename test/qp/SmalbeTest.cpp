@@ -1,4 +1,4 @@
-#include "Problems.hpp"
+#include "EqualityProblems.hpp"
 
 #include "epafi/qp/Box.hpp"
 #include "epafi/qp/Smalbe.hpp"
@@ -14,10 +14,9 @@ using qp::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Problem {
-  Eigen::MatrixXd a, g; ///< g: orthonormal rows
-  Eigen::VectorXd b, lower;
-};
+using test::projectedGradient;
+using test::randomProblem;
+using Problem = test::EqualityProblem;
 
 struct Answer {
   Eigen::VectorXd x;
@@ -39,36 +38,6 @@ Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameter
                                      test::makeVector(map, problem.b), box, g, Teuchos::null, norm},
                                     x, multiplier, tolerances, parameters, {});
   return {test::gather(x), report};
-}
-
-Problem randomProblem(int n, int rows, double condition, std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  Problem problem{test::randomSpd(n, condition, random), test::randomOrthogonal(n, random).topRows(rows),
-                  Eigen::VectorXd(n), Eigen::VectorXd::Constant(n, -0.3)};
-  for (int i = 0; i < n; ++i) {
-    problem.b[i] = normal(random);
-    if (i % 3 == 0)
-      problem.lower[i] = -infinity;
-  }
-  return problem;
-}
-
-/// ‖g^P‖ with the best multiplier of Gx = 0, from scratch: least squares of g + Gᵀμ over the free entries.
-double projectedGradient(const Problem& problem, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd g = problem.a * x - problem.b;
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (x[i] > problem.lower[i])
-      free.push_back(i);
-  const Eigen::MatrixXd columns = problem.g(Eigen::all, free).transpose();
-  const Eigen::VectorXd mu = columns.colPivHouseholderQr().solve(-g(free));
-  const Eigen::VectorXd full = g + problem.g.transpose() * mu;
-  double squared = 0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double p = x[i] > problem.lower[i] ? full[i] : std::min(full[i], 0.0);
-    squared += p * p;
-  }
-  return std::sqrt(squared);
 }
 
 TEST(SmalbeTest, SolvesTwoUnknownsByHand) {

@@ -1,0 +1,121 @@
+#include "epafi/qp/FaceIteration.hpp"
+
+#include "epafi/qp/LocalData.hpp"
+
+#include <Tpetra_Map.hpp>
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace epafi::qp {
+namespace {
+
+/// to = from where `on` is 1, 0 elsewhere.
+void mask(const Vector& on, const Vector& from, Vector& to) {
+  const auto face = localData(on), in = localData(from);
+  const auto out = localDataNonConst(to);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = face[i] * in[i];
+}
+
+/// sum += aᵀb, this rank's share.
+void addDot(const Vector& a, const Vector& b, AccurateSum& sum) {
+  const auto x = localData(a), y = localData(b);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    sum.add(x[i] * y[i]);
+}
+
+} // namespace
+
+FaceIteration::FaceIteration(ScaledObjective& objective, RCP<const Operator> m,
+                             const RCP<const ReplicatedEquality>& equality, const Interruption& interruption,
+                             StepCounts& counts)
+    : x(objective.map()), face(objective.map()), objective_(objective), m_(std::move(m)),
+      equality_(equality, objective.map()), interruption_(interruption), counts_(counts), g_(objective.map()),
+      r_(objective.map()), z_(objective.map()), p_(objective.map()), image_(objective.map()),
+      reduction_(objective.map()->getComm(), numOwnSums + equality_.numRows()),
+      rows_(static_cast<std::size_t>(equality_.numRows())), multiplier_(rows_.size()) {}
+
+void FaceIteration::enter() {
+  equality_.setFace(face);
+  equality_.residual(x, rows_);
+  equality_.multiplierOf(rows_, multiplier_);
+  p_.putScalar(0.0);
+  equality_.addTransposed(multiplier_, -1.0, p_);
+  addScaled(1.0, p_, x);
+  equality_.residual(x, rows_);
+  residual_ = std::sqrt(std::inner_product(rows_.begin(), rows_.end(), rows_.begin(), 0.0));
+  objective_.multiply(x, image_);
+  f_ = objective_.evaluate(x, image_, x, p_).objective;
+  objective_.gradient(image_, g_);
+  copy(g_, r_);
+  equality_.addWholeTransposed(equality_.fit(r_), -1.0, g_);
+  curvature_ = 0;
+  precondition();
+}
+
+/// z = P_F M Zg, gᵀz, zᵀAp, ‖Zg‖, in one message. As Zg is in Ker B, gᵀz is that of M Zg.
+void FaceIteration::precondition() {
+  mask(face, g_, r_);
+  if (m_.is_null()) {
+    copy(r_, z_);
+  } else {
+    m_->apply(r_, z_);
+    mask(face, z_, z_);
+    ++counts_.preconditionerApplications;
+  }
+  reduction_.clear();
+  const auto sums = reduction_.sums();
+  addDot(r_, z_, sums[first]);
+  addDot(z_, image_, sums[second]);
+  addDot(r_, r_, sums[third]);
+  sums[timeIsUp] = AccurateSum(interruption_.timeIsUp() ? 1.0 : 0.0);
+  sums[interrupted] = AccurateSum(interruption_.isWanted() ? 1.0 : 0.0);
+  sums[look] = AccurateSum(interruption_.isLookWanted() ? 1.0 : 0.0);
+  equality_.addLocalSums(z_, rowSums());
+  reduction_.reduce();
+  energy_ = reduction_.sum(first);
+  timesImage_ = reduction_.sum(second);
+  gradient_ = std::sqrt(reduction_.sum(third));
+  wish_.reset();
+  if (reduction_.sum(interrupted) > 0)
+    wish_ = Status::interrupted;
+  else if (reduction_.sum(timeIsUp) > 0)
+    wish_ = Status::timeLimit;
+  isLookWanted_ = reduction_.sum(look) > 0;
+  equality_.finish(rowSums(), rows_);
+  equality_.multiplierOf(rows_, multiplier_);
+  equality_.addTransposed(multiplier_, -1.0, z_);
+}
+
+std::optional<Status> FaceIteration::step() {
+  setConjugate(z_, curvature_ > 0 ? objective_.scale() * timesImage_ / curvature_ : 0.0,
+               p_); // z − (zᵀAp/pᵀAp) p
+  objective_.multiply(p_, image_);
+  mask(face, image_, r_);
+  reduction_.clear();
+  const auto sums = reduction_.sums();
+  addDot(p_, image_, sums[first]);
+  addDot(g_, p_, sums[second]);
+  addDot(p_, p_, sums[third]);
+  equality_.addLocalSums(r_, rowSums());
+  reduction_.reduce();
+  curvature_ = objective_.scale() * reduction_.sum(first);
+  if (!(curvature_ > objective_.zeroCurvature(reduction_.sum(third))))
+    return Status::stagnated;
+  const double slope = reduction_.sum(second), length = slope / curvature_;
+  equality_.finish(rowSums(), rows_);
+  equality_.multiplierOf(rows_, multiplier_);
+  equality_.addWholeTransposed(multiplier_, -1.0, image_); // Ap − Bᵀη, on the face in Ker B
+  addScaled(-length, p_, x);
+  addScaled(-length * objective_.scale(), image_, g_);
+  f_ += length * (0.5 * length * curvature_ - slope);
+  ++counts_.conjugateGradient;
+  precondition();
+  if (!std::isfinite(gradient_))
+    return Status::notFinite;
+  return std::nullopt;
+}
+
+} // namespace epafi::qp

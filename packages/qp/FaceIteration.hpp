@@ -1,0 +1,68 @@
+#pragma once
+
+/// Conjugate gradients on a face, as if it had no bounds: min ½xᵀAx − bᵀx over the entries that may move, Bx = c held exactly.
+
+#include "epafi/qp/FaceEquality.hpp"
+#include "epafi/qp/Interruption.hpp"
+#include "epafi/qp/ScaledObjective.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace epafi::qp {
+
+/// The point x, and the gradient g = Ax − b + Bᵀμ of the Lagrangian with the μ that makes it shortest on the face, scaled by 1/‖A‖
+/// (ScaledObjective.hpp); g is known off the face too, where it is the bounds' multiplier. Z, P_F: FaceEquality.hpp.
+class FaceIteration {
+public:
+  /// Keeps references to objective, interruption and counts. \param m  M ≈ A⁻¹ or null
+  FaceIteration(ScaledObjective& objective, RCP<const Operator> m,
+                const RCP<const ReplicatedEquality>& equality, const Interruption& interruption,
+                StepCounts& counts);
+
+  Vector x;    ///< the point; of the caller until `enter`
+  Vector face; ///< 1 where x may move, else 0; likewise
+
+  /// x moves onto Bx = c within the face, and g is computed afresh. One product. Collective.
+  void enter();
+  /// One step. One product, one application of M, two messages. Returns why there can be none: stagnated where the face has no
+  /// minimum or round-off allows no better one. Collective.
+  std::optional<Status> step();
+
+  [[nodiscard]] const Vector& gradient() const { return g_; }     ///< g
+  [[nodiscard]] double gradientNorm() const { return gradient_; } ///< ‖Zg‖
+  [[nodiscard]] double energy() const { return energy_; }         ///< gᵀZ P_F M P_F Zg
+  [[nodiscard]] double objective() const { return f_; }           ///< f, scaled
+  [[nodiscard]] double constraintResidual() const {
+    return residual_;
+  } ///< ‖Bx − c‖ where the face was entered
+  /// What an observer or the clock asked for, on any rank, when the last step was made.
+  [[nodiscard]] std::optional<Status> wish() const { return wish_; }
+  [[nodiscard]] bool isLookWanted() const { return isLookWanted_; } ///< likewise
+
+private:
+  /// The sums of a step, before those of B's rows: three products, and who wants what.
+  enum Sums : int { first, second, third, timeIsUp, interrupted, look, numOwnSums };
+  void precondition();
+  [[nodiscard]] std::span<AccurateSum> rowSums() {
+    return reduction_.sums().subspan(numOwnSums, rows_.size());
+  }
+
+  ScaledObjective& objective_;
+  RCP<const Operator> m_;
+  FaceEquality equality_;
+  const Interruption& interruption_;
+  StepCounts& counts_;
+  Vector g_, r_, z_; ///< r: Zg or another masked vector; z = P_F M Zg
+  Vector p_, image_; ///< direction and A times it
+  FusedReduction reduction_;
+  std::vector<double> rows_, multiplier_; ///< work, k
+  double f_ = 0, gradient_ = 0, energy_ = 0, residual_ = 0;
+  double timesImage_ = 0; ///< zᵀAp
+  double curvature_ = 0;  ///< pᵀAp of the last step; 0: there was none on this face
+  std::optional<Status> wish_;
+  bool isLookWanted_ = false;
+};
+
+} // namespace epafi::qp

@@ -1,0 +1,46 @@
+#pragma once
+
+/// What the patch tests solve: two blocks under pressure, of any elements, from any source, one on the other.
+
+#include "../fem/MeshFiles.hpp"
+#include "../fem/TurnedMesh.hpp"
+#include "SolidScenes.hpp"
+
+namespace epafi::test {
+
+inline constexpr double pressure = 3;
+
+/// Where the elements come from: the program's own boxes (of simplices: the same in a file), a file of them turned and
+/// moved away, the same of curved elements of order 2, or a geometry that Gmsh meshes as it likes but for the joint.
+enum class Source { structured, turned, curved, gmsh };
+
+struct Kind {
+  Physics physics;
+  fem::CellType cell;
+  Source source;
+  int order = 1;
+  int lowerOrder = order;         ///< of the lower block
+  fem::CellType lowerCell = cell; ///< likewise
+  int lowerElements = 0;          ///< along the joint, if the lower block is meshed apart
+  int upperElements = 0;          ///< along the joint, if not as usual
+
+  [[nodiscard]] int dimension() const { return fem::dimensionOf(cell); }
+  [[nodiscard]] fem::test::Placement placement() const {
+    return source == Source::turned || source == Source::curved
+               ? fem::test::placed(dimension(), 0.7, {2, -1, dimension() == 3 ? 3.0 : 0.0})
+               : fem::test::Placement{};
+  }
+};
+
+bool isSimplex(fem::CellType cell);
+
+/// What the upper block is pressed against.
+enum class Below { block, tiedBlock, blockAtADistance, plane };
+
+inline constexpr double distance = 0.01;
+
+/// Two blocks, one on the other, on a sliding floor, or the upper one alone on a plane in the lower one's place; the upper
+/// one floats and is pressed down.
+scene::Scene stack(const Kind& kind, Below below, const fem::test::MeshFolder& folder);
+
+} // namespace epafi::test
