@@ -4,6 +4,7 @@
 #include <cctype>
 #include <new>
 #include <sstream>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -49,8 +50,10 @@ std::string shortened(const std::string& text) {
 }
 
 std::string sentenceOf(const std::exception& error, int rank) {
-  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
-    std::string text = "rank ";
+  const bool hasLostItsKind =
+      typeid(error) == typeid(std::exception); // a library threw on a copy of the base class
+  if (hasLostItsKind || dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    std::string text = hasLostItsKind ? "a library gives no reason; most likely rank " : "rank ";
     text += std::to_string(rank);
     return text + " has no memory left; spread the run over more machines, or make the mesh or the "
                   "subdomains smaller";

@@ -72,11 +72,14 @@ std::string hdf5Reason() {
   return ends.first == ends.second ? ends.first : ends.first + " (" + ends.second + ")";
 }
 
-/// `result` if it is no HDF5 error; works for identifiers and return codes.
+/// `result` if it is no HDF5 error; works for identifiers and return codes. Words are put together after HDF5 has
+/// failed, never before it is called: a rank without memory for them would stay behind, and HDF5 with the others wait.
 template <class Result>
-Result checked(Result result, const std::filesystem::path& file, const std::string& what) {
+Result checked(Result result, const std::filesystem::path& file, const char* what,
+               const std::string& name = {}) {
   if (result < 0)
-    throw Error("File '" + file.string() + "': " + what + " failed: " + hdf5Reason() + ".");
+    throw Error("File '" + file.string() + "': " + what + (name.empty() ? "" : " '" + name + "'") +
+                " failed: " + hdf5Reason() + ".");
   return result;
 }
 
@@ -117,7 +120,7 @@ hid_t createDataset(hid_t file, const std::filesystem::path& path, const std::st
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER); // every row is written
   return checked(H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT), path,
-                 "making dataset '" + name + "'");
+                 "making dataset", name);
 }
 
 void writeRows(hid_t dataset, const std::filesystem::path& path, const std::string& name, hid_t type,
@@ -137,8 +140,7 @@ void writeRows(hid_t dataset, const std::filesystem::path& path, const std::stri
   H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
   const double nothing = 0; // HDF5 wants an address even of no rows
   const void* source = range.count == 0 ? &nothing : values;
-  checked(H5Dwrite(dataset, type, memorySpace, fileSpace, transfer, source), path,
-          "writing dataset '" + name + "'");
+  checked(H5Dwrite(dataset, type, memorySpace, fileSpace, transfer, source), path, "writing dataset", name);
 }
 
 } // namespace
@@ -226,7 +228,7 @@ void Hdf5File::createGroup(const std::string& group) {
       const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
       H5Pset_create_intermediate_group(links, 1);
       const Handle made(H5Gcreate2(file_, group.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-      checked<hid_t>(made, path_, "making group '" + group + "'");
+      checked<hid_t>(made, path_, "making group", group);
     });
   });
 }
@@ -274,13 +276,12 @@ void Hdf5File::writeAttribute(const std::string& object, const std::string& name
   together([&] {
     reserve(bytesOfObject + H5Tget_size(type));
     collectively(*comm_, [&] {
-      const std::string what = "writing attribute '" + name + "' of '" + object + "'";
       const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
       const Handle made(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
                                           H5P_DEFAULT, H5P_DEFAULT),
                         H5Aclose);
-      checked<hid_t>(made, path_, what);
-      checked(H5Awrite(made, type, value), path_, what);
+      checked<hid_t>(made, path_, "making attribute", name);
+      checked(H5Awrite(made, type, value), path_, "writing attribute", name);
     });
   });
 }

@@ -80,6 +80,7 @@ TEST_F(CollectiveTest, NamesTheRankThatHasNoMemory) {
 TEST_F(CollectiveTest, PutsTheTextOfAnExceptionOnOneLine) {
   EXPECT_EQ(sentenceOf(std::runtime_error("\n first\n\n   second line\t \n"), 0), "first second line");
   EXPECT_EQ(sentenceOf(std::runtime_error(""), 0), "");
+  test::expectSays(sentenceOf(std::exception(), 3), {"most likely rank 3 has no memory left"});
 }
 
 TEST_F(CollectiveTest, NamesTheRankOfAnExceptionThatHasNoText) {

@@ -146,9 +146,10 @@ class OneRankFails(Faults):
         undisturbed = time.monotonic() - start
         self.assertEqual(counted.returncode, SOLVED, counted.stderr)
         total = int(next(line for line in counted.stderr.splitlines() if line.startswith("allocations: ")).split()[1])
-        for share in (0.2, 0.5, 0.8, 0.9, 0.95, 0.98):
+        writing = [0.95 + 0.005 * step for step in range(10)]
+        for share in (0.2, 0.5, 0.8, 0.9, *writing):
             with self.subTest(share):
-                directory = self.place / f"out{share}"
+                directory = self.place / f"out{share:.3f}"
                 arguments[2] = directory
                 environment["EPAFI_TEST_FAIL"] = f"1:{int(share * total)}"
                 ended = self.timed(SHORT_OF_MEMORY, *arguments, undisturbed=undisturbed, ranks=2, env=environment)
