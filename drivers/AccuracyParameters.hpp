@@ -4,6 +4,8 @@
 
 #include "Quantity.hpp"
 
+#include "epafi/base/Types.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 
 #include <limits>
@@ -13,7 +15,9 @@ namespace epafi::drivers {
 struct AccuracyParameters {
   /// How meshes are refined: where the error is, or everywhere.
   enum class Refinement { local, even };
-  bool estimate = true;        ///< whether to estimate the error at the end
+  bool estimate = true; ///< whether to estimate the error at the end
+  GlobalOrdinal coarserFrom =
+      12000;                   ///< unknowns from which on a coarser mesh is looked at first, without a target
   QuantityParameters quantity; ///< in place of the energy norm
   double target = 0;           ///< of the relative error; 0: as accurate as the scene's mesh
   Refinement refinement = Refinement::local;

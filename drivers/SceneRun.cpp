@@ -1,7 +1,11 @@
 #include "SceneRun.hpp"
 
+#include "CoarserScene.hpp"
+
+#include "epafi/accuracy/ContactTransfer.hpp"
 #include "epafi/accuracy/Transfer.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -48,6 +52,62 @@ void SceneRun::correctQuantity(double effectivity, double bar) {
       .set("Error Bar", quantity->bar + quantity->algebraic);
 }
 
+namespace {
+
+/// The solution on a coarser mesh as λ of a run that is set up; null if that has no use for it. Collective.
+RCP<Vector> startFrom(const SceneRun& coarser, const SceneRun& run) {
+  const RCP<Vector> start =
+      run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
+                                                  *run.decomposition, accuracy::NodesOf::interfaces));
+  if (!start.is_null())
+    accuracy::transferContact(*coarser.decomposition, *coarser.solution.multiplier, *run.decomposition,
+                              *start);
+  return start;
+}
+
+/// Passes on the wish to stop, and nothing else.
+class Silent final : public RunCompanion {
+public:
+  explicit Silent(RunCompanion* of) : of_(of) {}
+  void step(const qp::StepRecord& /*record*/) override {}
+  [[nodiscard]] bool wantsToStop() override { return of_ != nullptr && of_->wantsToStop(); }
+
+private:
+  RunCompanion* of_;
+};
+
+/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Membranes are solved in less time than it takes.
+/// What goes wrong there is no matter. Collective.
+RCP<Vector> startFromCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
+                                 const RCP<const Comm>& comm, const RunOptions& options) {
+  constexpr double enough = 1e-4; // meshes differ by more
+  const decomposition::DecomposedProblem& problem = run.decomposition->problem;
+  if (run.solver->dualProblem().algorithm() != fetidp::Algorithm::activeSets || problem.components == 1 ||
+      problem.primalDimension < options.coarserFrom)
+    return Teuchos::null;
+  const double began = Teuchos::Time::wallTime();
+  try {
+    std::optional<CoarserScene> coarser = coarserScene(run.scene, run.decomposition->bodies, *comm);
+    if (!coarser)
+      return Teuchos::null;
+    Teuchos::ParameterList parameters(solverParameters);
+    parameters.set("Tolerance", enough);
+    Silent silent(options.companion);
+    const SceneRun coarse = solveScene(
+        coarser->scene, parameters, comm,
+        {.coarserFrom = 4 * options.coarserFrom, .companion = &silent, .bodies = &coarser->bodies});
+    const RCP<Vector> start = startFrom(coarse, run);
+    run.start = {coarser->means, coarse.decomposition->problem.primalDimension,
+                 coarse.solver->report().counts.hessianMultiplications,
+                 maxOverRanks(*comm, Teuchos::Time::wallTime() - began)};
+    return start;
+  } catch (const Error&) { // on all ranks
+    return Teuchos::null;
+  }
+}
+
+} // namespace
+
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, const RunOptions& options) {
   SceneRun run;
@@ -75,13 +135,12 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   balance.fraction = run.solver->algebraicFraction();
   balance.estimate = [&](std::span<const Eigen::VectorXd> u) { return (*estimator)(u).toBalance(); };
   if (options.coarser != nullptr) {
-    const SceneRun& coarser = *options.coarser;
     if (start.is_null())
-      start =
-          run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
-                                                      *run.decomposition, accuracy::NodesOf::interfaces));
-    if (coarser.error) // of linear elements it is halved at best
-      balance.expected = 0.5 * coarser.error->discretisation;
+      start = startFrom(*options.coarser, run);
+    if (options.coarser->error) // of linear elements it is halved at best
+      balance.expected = 0.5 * options.coarser->error->discretisation;
+  } else if (start.is_null()) {
+    start = startFromCoarserMesh(run, solverParameters, comm, options);
   }
   run.solution =
       run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
@@ -104,6 +163,13 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
         .set("Energy Norm", run.error->energyNorm)
         .set("Discretisation Error", run.error->discretisation)
         .set("Relative Error", run.relativeError());
+  }
+  if (run.start) {
+    run.report.sublist("Start")
+        .set("Mesh", run.start->means)
+        .set("Primal Dimension", run.start->unknowns)
+        .set("Hessian Multiplications", run.start->multiplications);
+    run.report.sublist("Time").set("Start", run.start->seconds);
   }
   if (run.quantity) {
     Teuchos::ParameterList& list = run.report.sublist("Quantity");

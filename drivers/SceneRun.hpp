@@ -14,6 +14,7 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -38,6 +39,14 @@ public:
 /// The schema of a whole XML file: the scene, and the sublists Solver and Accuracy.
 Teuchos::ParameterList driverSchema();
 
+/// A coarser mesh on which the contact zone was found first.
+struct CoarserStart {
+  std::string means; ///< what made it coarser
+  GlobalOrdinal unknowns = 0;
+  int multiplications = 0; ///< products with F
+  double seconds = 0;
+};
+
 /// A solved scene. Heap members keep their addresses: the solver refers to the problem.
 struct SceneRun {
   scene::Scene scene;
@@ -46,6 +55,7 @@ struct SceneRun {
   fetidp::ContactSolution solution;
   std::optional<accuracy::ErrorEstimate> error; ///< if asked for
   std::optional<Quantity> quantity;             ///< likewise
+  std::optional<CoarserStart> start;            ///< if there was one
   output::Evaluation evaluation;
   Teuchos::ParameterList report; ///< complete but for Time/Output and Time/Total
   double started = 0;            ///< wall time at the start
@@ -66,6 +76,8 @@ struct RunOptions {
   QuantityParameters quantity{}; ///< needs the estimate, and has it made
   const SceneRun* coarser =
       nullptr; ///< the same scene on a coarser mesh: its solution is where this run starts
+  /// Unknowns from which on the run may look for a coarser mesh itself.
+  GlobalOrdinal coarserFrom = std::numeric_limits<GlobalOrdinal>::max();
   RunCompanion* companion = nullptr;
   /// Bodies that are meshed and cut already, which the run takes; null: as the scene says.
   std::vector<model::BodyLayout>* bodies = nullptr;

@@ -85,8 +85,12 @@ void describeSolution(std::ostream& text, const SceneRun& run) {
        << algorithm.get<std::string>("Preconditioner") << ", subdomains by "
        << algorithm.get<std::string>("Subdomain Solver") << ", coarse problem by "
        << algorithm.get<std::string>("Coarse Solver") << "\n              F "
-       << algorithm.get<std::string>("Dual Operator") << "\n  iterations  "
-       << counted(iterations, "Hessian Multiplications", "product") << " with F (and "
+       << algorithm.get<std::string>("Dual Operator") << '\n';
+  if (run.start)
+    text << "  start       contact zone of " << run.start->means << ": "
+         << counted(run.start->unknowns, "primal unknown") << ", "
+         << counted(run.start->multiplications, "product") << " with F\n";
+  text << "  iterations  " << counted(iterations, "Hessian Multiplications", "product") << " with F (and "
        << count(iterations, "Norm Estimate Multiplications")
        << " to estimate its norm): " << count(iterations, "CG Steps") << " CG + "
        << count(iterations, "Expansion Steps") << " expansion + " << count(iterations, "Proportioning Steps")
@@ -206,8 +210,10 @@ void describeCosts(std::ostream& text, const SceneRun& run) {
   const ParameterList& memory = run.report.sublist("Memory");
   const bool isLastOfMany = run.report.isSublist("Levels");
   text << "  time        " << (isLastOfMany ? "last mesh: " : "") << "assembly " << seconds(time, "Assembly")
-       << ", setup " << seconds(time, "Setup") << ", solve " << seconds(time, "Solve") << ", recovery "
-       << seconds(time, "Recovery");
+       << ", setup " << seconds(time, "Setup");
+  if (time.isParameter("Start"))
+    text << ", start " << seconds(time, "Start");
+  text << ", solve " << seconds(time, "Solve") << ", recovery " << seconds(time, "Recovery");
   if (time.isParameter("Error Estimate"))
     text << ", error estimate " << seconds(time, "Error Estimate");
   if (time.isParameter("Output"))

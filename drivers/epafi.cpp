@@ -68,9 +68,11 @@ SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& l
   const auto accuracy = AccuracyParameters::from(list.sublist("Accuracy"));
   const Teuchos::ParameterList& solver = list.sublist("Solver");
   if (accuracy.target == 0)
-    return solveScene(
-        scene, solver, comm,
-        {.estimatesError = accuracy.estimate, .quantity = accuracy.quantity, .companion = &watch});
+    return solveScene(scene, solver, comm,
+                      {.estimatesError = accuracy.estimate,
+                       .quantity = accuracy.quantity,
+                       .coarserFrom = accuracy.coarserFrom,
+                       .companion = &watch});
   watch.expectSeries();
   const auto tell = [speaks](const accuracy::MeshResult& mesh) {
     if (speaks)

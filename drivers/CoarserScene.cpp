@@ -1,0 +1,88 @@
+#include "CoarserScene.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/fem/SimplexMesh.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace epafi::drivers {
+namespace {
+
+bool isOfSimplices(const fem::Mesh& mesh) {
+  const fem::CellType type = withOrder(mesh.cellType(), 1);
+  return type == fem::CellType::triangle || type == fem::CellType::tetrahedron;
+}
+
+/// Subdomains that are `times` smaller in unknowns need not be as many.
+void mergeParts(scene::Decomposition& decomposition, int times) {
+  decomposition.parts = std::max(1, decomposition.parts / times);
+}
+
+/// Half as many cells along each axis, or elements twice as large; false if that cannot be.
+bool halve(scene::Body& body, int dimension) {
+  scene::MeshSource& mesh = body.mesh;
+  if (mesh.file.empty()) {
+    scene::Decomposition& cut = body.decomposition;
+    const auto axes = static_cast<std::size_t>(dimension);
+    for (std::size_t axis = 0; axis < axes; ++axis)
+      if (mesh.elements[axis] % 2 != 0)
+        return false;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      mesh.elements[axis] /= 2;
+      cut.counts[axis] = std::gcd(mesh.elements[axis], std::max(1, cut.counts[axis] / 2));
+    }
+  } else if (mesh.refinements > 0) {
+    --mesh.refinements;
+  } else if (mesh.file.ends_with(".geo")) {
+    mesh.sizeFactor *= 2;
+  } else {
+    return false;
+  }
+  mergeParts(body.decomposition, dimension == 2 ? 4 : 8);
+  return true;
+}
+
+} // namespace
+
+std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
+                                         const std::vector<model::BodyLayout>& fine, const Comm& comm) {
+  CoarserScene coarser{scene, {}, {}};
+  const auto isQuadratic = [&](std::size_t b) { return fem::orderOf(fine[b].mesh->cellType()) == 2; };
+  const std::size_t number = fine.size();
+  bool hasQuadratic = false, isCoarser = false;
+  for (std::size_t b = 0; b < number; ++b)
+    hasQuadratic = hasQuadratic || isQuadratic(b);
+  if (!hasQuadratic) {
+    for (scene::Body& body : coarser.scene.bodies)
+      isCoarser = halve(body, dimensionOf(body.physics)) || isCoarser;
+    if (!isCoarser)
+      return std::nullopt;
+    coarser.bodies = model::layoutBodies(coarser.scene, comm);
+    coarser.means = "elements twice as large";
+    return coarser;
+  }
+  coarser.means = "elements of order 1";
+  for (std::size_t b = 0; b < number; ++b) {
+    coarser.scene.bodies[b].mesh.order = 1;
+    if (isQuadratic(b))
+      mergeParts(coarser.scene.bodies[b].decomposition, dimensionOf(scene.bodies[b].physics) == 2 ? 4 : 8);
+  }
+  const bool areSimplices = std::all_of(
+      fine.begin(), fine.end(), [](const model::BodyLayout& body) { return isOfSimplices(*body.mesh); });
+  if (!areSimplices) {
+    coarser.bodies = model::layoutBodies(coarser.scene, comm);
+    return coarser;
+  }
+  std::vector<std::unique_ptr<const fem::Mesh>> meshes;
+  collectively(comm, [&] { // Gmsh is not to mesh a geometry once more
+    for (const model::BodyLayout& body : fine)
+      meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(arraysOf(simplicesOf(*body.mesh), 1)));
+  });
+  coarser.bodies = model::cutBodies(coarser.scene, std::move(meshes), comm);
+  return coarser;
+}
+
+} // namespace epafi::drivers
