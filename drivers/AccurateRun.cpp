@@ -93,6 +93,7 @@ public:
   }
 
   [[nodiscard]] SceneRun& run() { return run_; }
+  [[nodiscard]] const SceneRun& run() const { return run_; }
 
 protected:
   /// The scene with an order, and its bodies unless it has them itself.
@@ -180,16 +181,16 @@ public:
     RefinementGoal own(goal);
     if (meshes_.areRemeshed()) // what Gmsh does not do as asked is lost in the error's fall then
       own.leastGrowth = dimension_ == 2 ? 1.5 : 2.5;
-    return SceneLevels::plan(result, own);
+    return wantedSizes(result.elements.squared, result.elements.orders, own,
+                       [&](const std::vector<double>& halvings) {
+                         std::vector<double> parts;
+                         for (const std::vector<double>& body : meshes_.parts(ofBodies(halvings)))
+                           parts.insert(parts.end(), body.begin(), body.end());
+                         return parts;
+                       });
   }
   std::vector<LocalOrdinal> refine(const WantedSizes& wanted) override {
-    std::vector<std::vector<double>> halvings;
-    auto next = wanted.halvings.begin();
-    for (const model::BodyLayout& body : run().decomposition->bodies) {
-      const auto end = next + static_cast<std::ptrdiff_t>(body.mesh->numElements());
-      halvings.emplace_back(next, end);
-      next = end;
-    }
+    const std::vector<std::vector<double>> halvings = ofBodies(wanted.halvings);
     if (companion() != nullptr && meshes_.areRemeshed())
       companion()->meshing();
     std::vector<LocalOrdinal> ancestors;
@@ -204,6 +205,16 @@ public:
   }
 
 protected:
+  [[nodiscard]] std::vector<std::vector<double>> ofBodies(const std::vector<double>& elements) const {
+    std::vector<std::vector<double>> values;
+    auto next = elements.begin();
+    for (const model::BodyLayout& body : run().decomposition->bodies) {
+      const auto end = next + static_cast<std::ptrdiff_t>(body.mesh->numElements());
+      values.emplace_back(next, end);
+      next = end;
+    }
+    return values;
+  }
   /// Where bodies are of one material the diagonal varies with the elements' size and nodes' kinds alone, which no preconditioner
   /// minds: no eigenproblems.
   static Teuchos::ParameterList parametersFor(const scene::Scene& scene, Teuchos::ParameterList list) {

@@ -72,6 +72,18 @@ double sizeOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
   return sum / number;
 }
 
+/// How often each element is to be bisected.
+std::vector<int> timesOf(const std::vector<double>& halvings, int dimension) {
+  std::vector<int> times;
+  double rest = 0; // of rounding, carried on: all together are split as often as is wanted
+  for (const double halving : halvings) {
+    const double wanted = std::max(0.0, dimension * halving);
+    times.push_back(wanted > 0 ? std::max(0, static_cast<int>(std::lround(wanted + rest))) : 0);
+    rest += wanted - times.back();
+  }
+  return times;
+}
+
 /// Adds the sizes that are wanted in a body: at nodes the (geometric) means of the elements around.
 void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, double stretch,
               fem::MeshSizes& sizes) {
@@ -147,17 +159,27 @@ std::vector<std::vector<LocalOrdinal>> RefinableMeshes::refine(std::span<const s
     for (std::size_t b = 0; b < meshes_.size(); ++b) {
       if (!ancestors[b].empty())
         continue;
-      std::vector<int> times;
-      double rest = 0; // of rounding, carried on: all together are split as often as is wanted
-      for (const double halving : halvings[b]) {
-        const double wanted = std::max(0.0, meshes_[b].dimension * halving);
-        times.push_back(wanted > 0 ? std::max(0, static_cast<int>(std::lround(wanted + rest))) : 0);
-        rest += wanted - times.back();
-      }
-      ancestors[b] = bisect(meshes_[b], std::move(times));
+      ancestors[b] = bisect(meshes_[b], timesOf(halvings[b], meshes_[b].dimension));
     }
   });
   return ancestors;
+}
+
+std::vector<std::vector<double>> RefinableMeshes::parts(std::span<const std::vector<double>> halvings) const {
+  std::vector<std::vector<double>> parts;
+  for (std::size_t b = 0; b < meshes_.size(); ++b) {
+    std::vector<double>& own = parts.emplace_back();
+    if (isRemeshed_[b]) {
+      for (const double halving : halvings[b])
+        own.push_back(std::exp2(meshes_[b].dimension * halving));
+      continue;
+    }
+    own.assign(halvings[b].size(), 0);
+    SimplexMesh copy(meshes_[b]);
+    for (const LocalOrdinal ancestor : bisect(copy, timesOf(halvings[b], copy.dimension)))
+      ++own[index(ancestor)];
+  }
+  return parts;
 }
 
 /// Each geometry once, with the sizes of all its bodies.

@@ -38,6 +38,9 @@ public:
   std::vector<std::vector<LocalOrdinal>> refine(std::span<const std::vector<double>> halvings,
                                                 const Comm& comm);
 
+  /// Into how many parts refine() would cut each element, neighbours that follow among them; of geometries as many as are wanted.
+  /// Costs copies of the meshes. Not collective.
+  [[nodiscard]] std::vector<std::vector<double>> parts(std::span<const std::vector<double>> halvings) const;
   /// Whether Gmsh makes any of the next meshes: then they differ from the last ones everywhere.
   [[nodiscard]] bool areRemeshed() const;
   /// Area or volume of each element of each body, edges taken as straight.

@@ -7,6 +7,11 @@
 namespace epafi::accuracy {
 namespace {
 
+// Of the search for what is to be asked for, where more comes: its first step down, as a power of two of the number of parts of elements
+// of order 1, and its steps.
+constexpr double span = 2;
+constexpr int numTrials = 5;
+
 /// The family of meshes that are best for some error, from coarse to fine.
 class BestMeshes {
 public:
@@ -34,6 +39,13 @@ public:
     double sum = 0;
     for (std::size_t e = 0; e < errors_.size(); ++e)
       sum += errors_[e] * std::exp2(-decay_[e] * parts(e, level));
+    return sum;
+  }
+  /// The error of elements cut into n parts each.
+  [[nodiscard]] double squaredErrorOf(std::span<const double> n) const {
+    double sum = 0;
+    for (std::size_t e = 0; e < errors_.size(); ++e)
+      sum += errors_[e] * std::pow(n[e], -decay_[e]);
     return sum;
   }
   /// Whether the error is small enough, or most of it is in elements that can get no smaller at once: what the others add is
@@ -67,7 +79,7 @@ private:
 } // namespace
 
 WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const double> orders,
-                        const RefinementGoal& goal) {
+                        const RefinementGoal& goal, const Outcome& outcome) {
   WantedSizes wanted;
   wanted.halvings.assign(squaredErrors.size(), 0);
   const auto number = static_cast<double>(squaredErrors.size());
@@ -78,12 +90,29 @@ WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const d
   const double whole = meshes.elements(level) / number;
   const double steps = std::max(1.0, std::ceil(std::log(whole) / std::log(goal.growth) - 1e-9));
   const double growth = std::max(std::pow(whole, 1 / steps), goal.leastGrowth);
-  if (steps > 1 || growth > whole)
+  const bool isOnTheWay = steps > 1 || growth > whole;
+  if (isOnTheWay)
     level = meshes.first([&](double l) { return meshes.elements(l) >= growth * number; });
-  for (std::size_t e = 0; e < squaredErrors.size(); ++e)
-    wanted.halvings[e] = meshes.parts(e, level) / goal.dimension;
-  wanted.growth = meshes.elements(level) / number;
-  wanted.error = std::sqrt(meshes.squaredError(level));
+  const auto take = [&](double l) {
+    for (std::size_t e = 0; e < squaredErrors.size(); ++e)
+      wanted.halvings[e] = meshes.parts(e, l) / goal.dimension;
+    wanted.growth = meshes.elements(l) / number;
+    wanted.error = std::sqrt(meshes.squaredError(l));
+  };
+  take(level);
+  if (!outcome)
+    return wanted;
+  const double planned = wanted.error;
+  double enough = level, tooFew = level - span * (1 + 2.0 / goal.dimension); // a fraction of the elements
+  for (int i = 0; i <= numTrials; ++i) {
+    const double trial = i < numTrials ? 0.5 * (enough + tooFew) : enough;
+    take(trial);
+    const std::vector<double> parts = outcome(wanted.halvings);
+    wanted.growth = std::accumulate(parts.begin(), parts.end(), 0.0) / number;
+    wanted.error = std::sqrt(meshes.squaredErrorOf(parts));
+    const bool suffices = isOnTheWay ? wanted.growth >= growth : wanted.error <= planned;
+    (suffices ? enough : tooFew) = trial;
+  }
   return wanted;
 }
 

@@ -7,6 +7,7 @@
 /// error the one with n ~ (q η²)^(d/(d+2q)) has the fewest elements (Lagrange). Elements whose n would be below one stay as they
 /// are: what is marked is the bulk of the error.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,9 +29,13 @@ struct WantedSizes {
   double error = 0;             ///< discretisation error, expected; 0: not known
 };
 
+/// Into how many parts each element would really be cut if such halvings were asked for: neighbours follow where no node is to hang.
+using Outcome = std::function<std::vector<double>(const std::vector<double>& halvings)>;
+
 /// \param squaredErrors  η² of each element, not negative  \param orders  q of each, > 0
-/// O(n). Not collective: the same everywhere.
+/// \param outcome  makes that much less be asked for as comes by itself; empty: nothing does
+/// O(n), and six calls of `outcome`. Not collective: the same everywhere.
 WantedSizes wantedSizes(std::span<const double> squaredErrors, std::span<const double> orders,
-                        const RefinementGoal& goal);
+                        const RefinementGoal& goal, const Outcome& outcome = {});
 
 } // namespace epafi::accuracy

@@ -135,6 +135,24 @@ TEST_F(RefinableMeshesTest, AGrowthThatIsWantedEverywhereIsMade) {
   }
 }
 
+TEST_F(RefinableMeshesTest, PartsAreForetoldAsTheyAreMade) {
+  const auto inACorner = [](const fem::Point& x) { return x[0] + x[1] < 0.5 ? 1.3 : 0.0; };
+  for (const test::Kind& kind : test::kinds()) {
+    RefinableMeshes meshes(test::stackedBlocks(kind, 1, 1, directory, *comm), *comm);
+    for (int round = 0; round < 2; ++round) {
+      const std::vector<Values> wanted = halvings(meshes, inACorner);
+      const std::vector<Values> foretold = meshes.parts(wanted);
+      const std::vector<Ancestors> ancestors = meshes.refine(wanted, *comm);
+      for (std::size_t b = 0; b < ancestors.size(); ++b) {
+        Values made(wanted[b].size(), 0.0);
+        for (const LocalOrdinal ancestor : ancestors[b])
+          ++made[static_cast<std::size_t>(ancestor)];
+        EXPECT_EQ(made, foretold[b]) << toString(kind.physics) << ", body " << b;
+      }
+    }
+  }
+}
+
 TEST_F(RefinableMeshesTest, BodiesAreCutIntoMorePartsAsTheirMeshesGrow) {
   RefinableMeshes meshes(test::membrane(4, 2), *comm);
   const scene::Scene first = meshes.scene(1);

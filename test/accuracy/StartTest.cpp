@@ -3,11 +3,16 @@
 #include "Samples.hpp"
 
 #include "epafi/ContactSolver.hpp"
+#include "epafi/accuracy/ContactTransfer.hpp"
 #include "epafi/accuracy/Refinement.hpp"
 #include "epafi/accuracy/Transfer.hpp"
 #include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Collective.hpp"
 
 #include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+#include <iterator>
 
 namespace epafi::accuracy {
 namespace {
@@ -19,12 +24,9 @@ struct Solved {
   ContactSolver solver;
   fetidp::ContactSolution solution;
 
-  Solved(const scene::Scene& scene, const RCP<const Comm>& comm, double tolerance = 1e-12,
-         const std::string& algorithm = "auto")
-      : decomposition(model::decompose(scene, comm)), solver(Teuchos::ParameterList()
-                                                                 .set("Tolerance", tolerance)
-                                                                 .set("Equilibrium Tolerance", tolerance)
-                                                                 .set("Algorithm", algorithm)) {
+  Solved(const scene::Scene& scene, const RCP<const Comm>& comm, double tolerance = 1e-12)
+      : decomposition(model::decompose(scene, comm)),
+        solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
     solver.setup(decomposition.problem);
     solution = solver.solve();
   }
@@ -58,17 +60,70 @@ TEST_F(StartTest, TheMultipliersOfASolutionAreItsOwn) {
 TEST_F(StartTest, ASolveFromThereIsShorterAndEndsAtTheSameSolution) {
   for (const bool coercive : {true, false}) {
     const scene::Scene scene = scene::modelProblem(coercive, 2, 16);
-    const std::string method =
-        "MPRGP"; // active sets begin with all contact closed, which is as good a start here
-    const Solved coarse(scene, comm, 1e-8, method), fine(refined(scene), comm, 1e-8, method);
-    Solved warm(refined(scene), comm, 1e-8, method);
-    const RCP<const Vector> start = warm.solver.startFrom(interpolate(
+    const Solved coarse(scene, comm, 1e-8), fine(refined(scene), comm, 1e-8);
+    Solved warm(refined(scene), comm, 1e-8);
+    const RCP<Vector> start = warm.solver.startFrom(interpolate(
         coarse.decomposition, coarse.solution.displacement, warm.decomposition, NodesOf::interfaces));
+    transferContact(coarse.decomposition, *coarse.solution.multiplier, warm.decomposition, *start);
     const fetidp::ContactSolution solution = warm.solver.solve(start.get());
     EXPECT_NEAR(solution.energy, fine.solution.energy, 1e-7 * std::abs(fine.solution.energy));
     EXPECT_LT(warm.solver.report().counts.hessianMultiplications,
               fine.solver.report().counts.hessianMultiplications);
   }
+}
+
+/// Places of rows with λ > 0, of this rank.
+std::vector<LocalOrdinal> closedRows(const model::Decomposition& decomposition, const Vector& lambda) {
+  std::vector<LocalOrdinal> closed;
+  const auto values = lambda.getData();
+  for (LocalOrdinal row = 0; row < values.size(); ++row)
+    if (decomposition.problem.kindOf(decomposition::OwnedMultiplier(row)) ==
+            decomposition::RowKind::contact &&
+        values[row] > 0)
+      closed.push_back(row);
+  return closed;
+}
+
+/// Of this rank.
+double sumOfContact(const model::Decomposition& decomposition, const Vector& lambda) {
+  const auto values = lambda.getData();
+  double sum = 0;
+  for (const LocalOrdinal row : closedRows(decomposition, lambda))
+    sum += values[row];
+  return sum;
+}
+
+TEST_F(StartTest, ContactOnTheSameMeshIsItsOwn) {
+  for (const test::Kind& kind : test::kinds()) {
+    const Solved solved(test::stackedBlocks(kind, 6, 1, directory, *comm), comm);
+    const Vector& lambda = *solved.solution.multiplier;
+    const double largest = lambda.normInf();
+    Vector start(lambda.getMap());
+    start.putScalar(-3.0);
+    transferContact(solved.decomposition, lambda, solved.decomposition, start);
+    const auto values = start.getData(), own = lambda.getData();
+    for (LocalOrdinal row = 0; row < values.size(); ++row)
+      if (solved.decomposition.problem.kindOf(decomposition::OwnedMultiplier(row)) ==
+          decomposition::RowKind::contact)
+        EXPECT_NEAR(values[row], std::max(0.0, own[row]), 1e-12 * largest) << toString(kind.physics);
+      else
+        EXPECT_EQ(values[row], -3.0); // not of contact
+  }
+}
+
+TEST_F(StartTest, ActiveSetsStartNearTheZoneOfACoarserMesh) {
+  const scene::Scene scene = scene::modelProblem(false, 2, 16);
+  const Solved coarse(scene, comm), fine(refined(scene), comm);
+  Vector start(fine.solution.multiplier->getMap());
+  transferContact(coarse.decomposition, *coarse.solution.multiplier, fine.decomposition, start);
+  EXPECT_NEAR(sumOverRanks(*comm, sumOfContact(fine.decomposition, start)), coarse.solution.contactForce,
+              0.1 * coarse.solution.contactForce);
+  const auto guessed = closedRows(fine.decomposition, start),
+             found = closedRows(fine.decomposition, *fine.solution.multiplier);
+  std::vector<LocalOrdinal> different;
+  std::set_symmetric_difference(guessed.begin(), guessed.end(), found.begin(), found.end(),
+                                std::back_inserter(different));
+  EXPECT_LE(sumOverRanks(*comm, static_cast<int>(different.size())), 4);
 }
 
 } // namespace

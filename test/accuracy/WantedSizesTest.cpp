@@ -184,6 +184,39 @@ TEST(WantedSizesTest, AFarGoalIsReachedInEqualStepsEachWithinTheGrowth) {
   }
 }
 
+/// As where neighbours follow: every element, and some of them once more.
+TEST(WantedSizesTest, WhatComesByItselfIsNotAskedForAndTheGoalIsStillReached) {
+  const Sample sample(4);
+  for (const int dimension : {2, 3}) {
+    const Outcome more = [dimension](const Values& halvings) {
+      Values parts;
+      for (const double halving : halvings)
+        parts.push_back((parts.size() % 3 == 0 ? 3.0 : 1.5) * std::exp2(dimension * halving));
+      return parts;
+    };
+    const double number = static_cast<double>(sample.squared.size());
+    for (const bool isNear : {true, false}) { // else a step on the way
+      const RefinementGoal goal{.dimension = dimension,
+                                .error = (isNear ? 0.4 : 0.02) * sample.error(),
+                                .growth = isNear ? noLimit : 4,
+                                .mostHalvings = 40};
+      const WantedSizes naive = wantedSizes(sample.squared, sample.orders, goal),
+                        wanted = wantedSizes(sample.squared, sample.orders, goal, more);
+      const Values parts = more(wanted.halvings);
+      EXPECT_NEAR(wanted.growth, sumOf(parts) / number, 1e-12 * wanted.growth);
+      EXPECT_NEAR(wanted.error, std::sqrt(squaredError(sample.squared, sample.orders, parts, dimension)),
+                  1e-12 * wanted.error);
+      EXPECT_LT(wanted.growth, 0.8 * sumOf(more(naive.halvings)) / number);
+      if (isNear) {
+        EXPECT_LE(wanted.error, goal.error);
+        EXPECT_GE(wanted.error, 0.8 * goal.error);
+      } else {
+        EXPECT_GE(wanted.growth, naive.growth);
+      }
+    }
+  }
+}
+
 TEST(WantedSizesTest, NoElementIsHalvedMoreOftenThanItMayBe) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const Sample sample(seed);

@@ -206,6 +206,29 @@ class SolvesAsAccuratelyAsAsked(Driver):
         run = epafi(scene("stacked_blocks"), "--accuracy", "5%")
         self.assertEqual((run.returncode, [order for order, _, _ in self.meshes(run)]), (SOLVED, [1]), run.stdout)
 
+    def test_the_contact_zone_of_a_coarser_mesh_saves_products_and_changes_nothing(self):
+        """Grids and geometries of order 1 and 2, quadrilaterals and simplices."""
+        cases = [("stacked_blocks", []), ("channels", []), ("notch", []), ("notch", ["--set", "Bodies/block/Order=1"])]
+        for name, settings in cases:
+            with self.subTest(name=name, settings=settings):
+                alone, started = (self.solved(name, *settings, "--set", "Solver/Tolerance=1e-8", "--set",
+                                              f"Accuracy/Coarser Start={unknowns}") for unknowns in (0, 500))
+                self.assertNotIn("Start", alone)
+                self.assertLess(2 * int(started["Start"]["Primal Dimension"]), int(started["Problem"]["Primal Dimension"]))
+                self.assertLess(int(started["Iterations"]["Hessian Multiplications"]), int(alone["Iterations"]["Hessian Multiplications"]))
+                self.assertAlmostEqual(float(started["Accuracy"]["Energy"]) / float(alone["Accuracy"]["Energy"]), 1, delta=1e-6)
+                self.assertEqual(started["Accuracy"]["Active Contact Nodes"], alone["Accuracy"]["Active Contact Nodes"])
+
+    def test_membranes_and_held_bodies_start_from_nothing(self):
+        for name in ("semicoercive", "gap"):
+            self.assertNotIn("Start", self.solved(name, "--set", "Accuracy/Coarser Start=1"), name)
+
+    def solved(self, name, *arguments):
+        """The report of a run that ends well."""
+        run = epafi(scene(name), "--quiet", "--output", self.place / "out", *arguments)
+        self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
+        return read_report(self.place / "out" / "report.xml")
+
     def test_even_refinement_takes_the_scenes_own_mesh(self):
         run = epafi(scene("coercive"), "--accuracy", "2%", "--set", "Accuracy/Refinement=even")
         self.assertEqual(run.returncode, SOLVED, run.stderr)
