@@ -52,6 +52,8 @@ double distance(const SceneRun& finer, const SceneRun& coarser) {
 
 /// Numbers are asked to more digits than norms, and a bound of what the iteration may be off by is in their bars.
 constexpr double quantityTolerance = 1e-8;
+/// Half of what single runs have: a target that is missed by the iteration's share costs another mesh.
+constexpr double fractionOnTheWay = 0.05;
 
 /// Elements halved everywhere, and as many times more subdomains.
 class EvenLevels final : public SceneLevels {
@@ -161,12 +163,18 @@ SceneLevels::SceneLevels(const Teuchos::ParameterList& solverParameters, Quantit
                          RCP<const Comm> comm, RunCompanion* companion)
     : solverParameters_(solverParameters), quantity_(std::move(quantity)), comm_(std::move(comm)),
       companion_(companion), start_(Teuchos::Time::wallTime()), bytesBefore_(resetPeakBytes()) {
-  if (solverParameters_.isParameter("Tolerance") && !solverParameters_.getEntry("Tolerance").isDefault())
+  const auto isGiven = [&](const char* name) {
+    return solverParameters_.isParameter(name) && !solverParameters_.getEntry(name).isDefault();
+  };
+  if (isGiven("Tolerance"))
     return;
-  if (quantity_.kind == QuantityParameters::Kind::none)
-    solverParameters_.set("Tolerance", std::string("balanced"));
-  else
+  if (quantity_.kind != QuantityParameters::Kind::none) {
     solverParameters_.set("Tolerance", quantityTolerance);
+    return;
+  }
+  solverParameters_.set("Tolerance", std::string("balanced"));
+  if (!isGiven("Algebraic Fraction"))
+    solverParameters_.set("Algebraic Fraction", fractionOnTheWay);
 }
 
 MeshResult SceneLevels::solve(int order) {

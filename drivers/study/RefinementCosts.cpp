@@ -71,7 +71,8 @@ public:
   }
 
   [[nodiscard]] Measured even(double size, int order) const {
-    SceneRun run = solveScene(onEvenMesh(scene_, order, size), solver_, comm_, {.estimatesError = true});
+    SceneRun run = solveScene(onEvenMesh(scene_, order, size), solver_, comm_,
+                              {.estimatesError = true, .coarserFrom = AccuracyParameters().coarserFrom});
     if (!run.report.sublist("Status").get<bool>("Converged"))
       throw Error(scene_.title + ": " + run.report.sublist("Status").get<std::string>("Reason"));
     return {std::move(run), {{"refinement", "even"}, {"size", size}, {"order", order}, {"meshes", 1}}};
