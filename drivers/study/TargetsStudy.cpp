@@ -17,9 +17,8 @@ bool studyTargets(const std::filesystem::path& directory, bool quick, const RCP<
     for (double target = one.list.get("Largest", 0.05); target >= 0.99 * one.list.get<double>("Least");
          target *= 0.5)
       targets.push_back(target);
-    const std::vector<Row> rows =
-        measureTargets(one.name, static_cast<int>(one.list.get("Order", 0.0)), targets,
-                       one.list.get<double>("Reference"), sceneDirectory(), comm);
+    const std::vector<Row> rows = measureTargets(one.name, one.list.get("Order", 0), targets,
+                                                 one.list.get<double>("Reference"), sceneDirectory(), comm);
     table.rows.insert(table.rows.end(), rows.begin(), rows.end());
     const std::string report = targetsReport(table);
     tell(*comm, "\n" + report);

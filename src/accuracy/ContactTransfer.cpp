@@ -1,18 +1,12 @@
 #include "epafi/accuracy/ContactTransfer.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/fem/PointTree.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
-#define BOOST_ALLOW_DEPRECATED_HEADERS // what its own headers include
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
-#include <boost/geometry/strategies/strategies.hpp>
-
 #include <algorithm>
-#include <iterator>
-#include <utility>
 #include <vector>
 
 namespace epafi::accuracy {
@@ -20,18 +14,13 @@ namespace {
 
 using contact::ContactLayout;
 using model::Decomposition;
-using TreePoint = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
-using Entry = std::pair<TreePoint, std::size_t>;
-using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
 
 /// Where the rows of a contact are.
-std::vector<TreePoint> placesOf(const Decomposition& decomposition, const ContactLayout& contact) {
+std::vector<fem::Point> placesOf(const Decomposition& decomposition, const ContactLayout& contact) {
   const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
-  std::vector<TreePoint> places;
-  for (const GlobalOrdinal node : contact.firstNodes) {
-    const fem::Point point = mesh.point(node);
-    places.emplace_back(point[0], point[1], point[2]);
-  }
+  std::vector<fem::Point> places;
+  for (const GlobalOrdinal node : contact.firstNodes)
+    places.push_back(mesh.point(node));
   return places;
 }
 
@@ -59,20 +48,16 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
   for (std::size_t c = 0; c < to.contacts.size(); ++c) {
     const ContactLayout &coarse = from.contacts[c], &fine = to.contacts[c];
     const std::vector<double> pressure = pressures(from, coarse, lambda);
-    std::vector<Entry> entries;
-    for (const TreePoint& place : placesOf(from, coarse))
-      entries.emplace_back(place, entries.size());
-    if (entries.empty())
+    if (pressure.empty())
       continue;
-    const Tree tree(entries);
-    const std::vector<TreePoint> places = placesOf(to, fine);
+    const fem::PointTree tree(placesOf(from, coarse));
+    const std::vector<fem::Point> places = placesOf(to, fine);
     for (std::size_t row = 0; row < places.size(); ++row) {
       const LocalOrdinal local = map.getLocalElement(fine.firstRow + static_cast<GlobalOrdinal>(row));
       if (local < 0)
         continue;
-      std::vector<Entry> nearest;
-      tree.query(boost::geometry::index::nearest(places[row], 1), std::back_inserter(nearest));
-      values[local] = std::max(0.0, pressure[nearest.front().second]) * fine.areas[row];
+      const double nearest = pressure[static_cast<std::size_t>(tree.nearest(places[row]))];
+      values[local] = std::max(0.0, nearest) * fine.areas[row];
     }
   }
 }

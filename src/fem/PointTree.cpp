@@ -1,6 +1,7 @@
 #include "epafi/fem/PointTree.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -72,6 +73,37 @@ void PointTree::inBox(const Point& lower, const Point& upper, std::vector<LocalO
       self(self, middle + 1, end);
   };
   visit(visit, 0, points_.size());
+}
+
+LocalOrdinal PointTree::nearest(const Point& x) const {
+  LocalOrdinal best = -1;
+  double least = std::numeric_limits<double>::infinity(); // squared distance
+  const auto look = [&](std::size_t i) {
+    const Point& point = points_[i];
+    const double a = point[0] - x[0], b = point[1] - x[1], c = point[2] - x[2],
+                 squared = a * a + b * b + c * c;
+    if (squared < least || (squared == least && index_[i] < best)) {
+      least = squared;
+      best = index_[i];
+    }
+  };
+  const auto visit = [&](const auto& self, std::size_t begin, std::size_t end) -> void {
+    if (end - begin <= shortRange) {
+      for (std::size_t i = begin; i < end; ++i)
+        look(i);
+      return;
+    }
+    const std::size_t middle = middleOf(begin, end), axis = axis_[middle];
+    look(middle);
+    const double beyond = x[axis] - points_[middle][axis]; // first the side that x lies on
+    const auto lower = [&] { self(self, begin, middle); };
+    const auto upper = [&] { self(self, middle + 1, end); };
+    beyond < 0 ? lower() : upper();
+    if (beyond * beyond <= least)
+      beyond < 0 ? upper() : lower();
+  };
+  visit(visit, 0, points_.size());
+  return best;
 }
 
 } // namespace epafi::fem

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Points sorted into a k-d tree, to find those in a box without looking at the others. Made in O(n log n), whatever the
+/// Points sorted into a k-d tree, to find those in a box, or the nearest one, without looking at the others. Made in O(n log n), whatever the
 /// points' distribution; holds 29 bytes a point.
 
 #include "epafi/base/Types.hpp"
@@ -18,6 +18,9 @@ public:
 
   /// Indices of the points in a closed box, in no order; `found` is overwritten.
   void inBox(const Point& lower, const Point& upper, std::vector<LocalOrdinal>& found) const;
+
+  /// Index of the point nearest to x; of equally near ones the lowest. Precondition: there is one.
+  [[nodiscard]] LocalOrdinal nearest(const Point& x) const;
 
 private:
   void sort(std::size_t begin, std::size_t end);
