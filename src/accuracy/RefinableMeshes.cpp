@@ -182,13 +182,14 @@ std::vector<std::vector<double>> RefinableMeshes::parts(std::span<const std::vec
   return parts;
 }
 
-/// Each geometry once, with the sizes of all its bodies.
+/// Each geometry once, with the sizes of all its bodies: of one body alone they would be carried on into the others, and these be meshed
+/// as finely as their contact.
 void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
                              std::span<std::vector<LocalOrdinal>> ancestors, const Comm& comm) {
-  std::map<std::pair<std::string, double>, std::vector<std::size_t>> geometries; // and their bodies
+  std::map<std::string, std::vector<std::size_t>> geometries; // and their bodies
   for (std::size_t b = 0; b < meshes_.size(); ++b)
     if (isRemeshed_[b])
-      geometries[{scene_.bodies[b].mesh.file, scene_.bodies[b].mesh.sizeFactor}].push_back(b);
+      geometries[scene_.bodies[b].mesh.file].push_back(b);
   for (const auto& [geometry, bodies] : geometries) {
     const int dimension = meshes_[bodies.front()].dimension;
     double& stretch = stretch_.try_emplace(geometry, dimension == 2 ? 1.05 : 1.25).first->second;
@@ -200,10 +201,11 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
       for (const double halving : halvings[b])
         wanted += std::exp2(dimension * halving);
     }
-    const auto makeText = [&, &name = geometry.first, factor = geometry.second] {
+    const double factor = scene_.bodies[bodies.front()].mesh.sizeFactor; // for what the geometry reads it
+    const auto makeText = [&, &name = geometry] {
       return fem::textOfGeometry(name, factor, fem::SizeField(std::move(sizes)));
     };
-    const fem::GmshFile mesh = model::meshOnAllRanks(geometry.first, makeText, comm);
+    const fem::GmshFile mesh = model::meshOnAllRanks(geometry, makeText, comm);
     collectively(comm, [&] {
       for (const std::size_t b : bodies) {
         SimplexMesh finer = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));

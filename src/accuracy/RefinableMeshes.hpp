@@ -15,7 +15,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace epafi::accuracy {
@@ -54,7 +53,7 @@ private:
   std::vector<fem::SimplexMesh> meshes_; ///< of each body
   std::vector<bool> isRemeshed_;         ///< whether Gmsh makes the next one
   /// By geometry: edges that Gmsh makes, on average, in units of the size it is asked for; measured mesh by mesh.
-  std::map<std::pair<std::string, double>, double> stretch_;
+  std::map<std::string, double> stretch_;
 };
 
 } // namespace epafi::accuracy
