@@ -90,7 +90,8 @@ def newton(PETSc, defaults, stiffness, load, lower, upper, tolerance):
         if given is None:
             bound.set(infinity)
     snes.setVariableBounds(*bounds)
-    snes.setTolerances(rtol=tolerance, atol=0.0, stol=0.0, max_it=200)
+    # Of the loads, too, which are the residual of no displacement: what begins near the solution cannot lose as much again.
+    snes.setTolerances(rtol=tolerance, atol=tolerance * load.norm(), stol=0.0, max_it=200)
     snes.setFromOptions()
     return snes
 

@@ -36,7 +36,7 @@ def parse(arguments):
     parser = argparse.ArgumentParser(prog="snesvi_scenes.py", description=__doc__.split("\n\n")[0])
     parser.add_argument("solver", choices=SOLVERS)
     parser.add_argument("file", help="what epafi-export wrote")
-    parser.add_argument("--tolerance", type=float, default=1e-6, metavar="T", help="reduction of the residual (1e-6)")
+    parser.add_argument("--tolerance", type=float, default=1e-6, metavar="T", help="of the residual, below that at the start or the loads (1e-6)")
     parser.add_argument("--petsc-options", default="", metavar="TEXT", help="further options of PETSc")
     return parser.parse_args(arguments)
 

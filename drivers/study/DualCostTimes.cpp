@@ -41,7 +41,7 @@ struct Work {
       const auto size = static_cast<double>(group.condensed().numBoundary());
       const auto members = static_cast<double>(group.members().size());
       boundary = std::max(boundary, size);
-      factorEntries += members * static_cast<double>(group.condensed().factor().numEntries());
+      factorEntries += members * static_cast<double>(group.condensed().factor().numKeptEntries());
       blockEntries += members * size * size;
       cubes += std::pow(size, 3);
     }

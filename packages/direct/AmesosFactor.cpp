@@ -81,6 +81,21 @@ public:
     return (0.5 * (result + result.transpose())).eval();
   }
 
+  /// The Schur complement is made when it is first asked for, and kept.
+  void multiplyKept(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y) override {
+    if (schur_.size() == 0)
+      schur_ = schurComplement();
+    y = (schur_ * x).eval();
+  }
+  void solveKept(const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> x) override {
+    whole_.setZero(size_, 1);
+    image_.resize(size_, 1);
+    whole_(kept_, 0) = b;
+    solve(whole_, image_);
+    x = image_(kept_, 0);
+  }
+  [[nodiscard]] std::size_t numKeptEntries() const override { return numEntries(); }
+
   [[nodiscard]] std::size_t bytes() const override { return numEntries() * (sizeof(double) + sizeof(int)); }
   [[nodiscard]] std::size_t numEntries() const override { return solver_->getStatus().getNnzLU(); }
 
@@ -90,6 +105,7 @@ private:
   RCP<CrsMatrix> matrix_;
   MultiVector x_, b_;
   RCP<AmesosSolver> solver_;
+  Eigen::MatrixXd schur_, whole_, image_; ///< S, once it was asked for; work
 };
 
 } // namespace

@@ -2,11 +2,13 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/direct/LastBlock.hpp"
 
 #include <cholmod.h>
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 // OpenMP's own header is the compiler's, and not every tool that reads this file has it.
@@ -168,6 +170,8 @@ public:
       throw Error(failureText());
     if (factor_->minor < factor_->n)
       throw Error("the matrix is not positive definite");
+    lastBlock_.emplace(*factor_, static_cast<int>(pattern_->place().size()));
+    kept_.resize(static_cast<Eigen::Index>(pattern_->place().size()));
   }
   [[nodiscard]] int size() const override { return static_cast<int>(factor_->n); }
 
@@ -185,8 +189,22 @@ public:
 
   [[nodiscard]] const std::shared_ptr<const CholmodPattern>& pattern() const { return pattern_; }
 
-  Eigen::MatrixXd schurComplement() override { return inGivenOrder(productOfFactor(lastBlock())); }
-  Eigen::MatrixXd inverseOfKept() override { return inGivenOrder(inverseFromFactor(lastBlock())); }
+  Eigen::MatrixXd schurComplement() override { return inGivenOrder(productOfFactor(lastBlock_->dense())); }
+  Eigen::MatrixXd inverseOfKept() override { return inGivenOrder(inverseFromFactor(lastBlock_->dense())); }
+
+  void multiplyKept(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y) override {
+    const OneThread guard;
+    kept_(pattern_->place()) = x;
+    lastBlock_->multiply(kept_.data());
+    y = kept_(pattern_->place());
+  }
+  void solveKept(const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> x) override {
+    const OneThread guard;
+    kept_(pattern_->place()) = b;
+    lastBlock_->solve(kept_.data());
+    x = kept_(pattern_->place());
+  }
+  [[nodiscard]] std::size_t numKeptEntries() const override { return lastBlock_->numEntries(); }
 
   [[nodiscard]] std::size_t bytes() const override {
     return numEntries() * sizeof(double) +
@@ -197,41 +215,14 @@ public:
   }
 
 private:
-  /// C, lower triangular: S = C Cᵀ in the factor's order.
-  [[nodiscard]] Eigen::MatrixXd lastBlock() const {
-    const auto k = static_cast<Eigen::Index>(pattern_->place().size());
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(k, k);
-    const Eigen::Index first = size() - k;
-    const auto* values = static_cast<const double*>(factor_->x);
-    const auto put = [&](Eigen::Index row, Eigen::Index column, double value) {
-      if (row >= column && column >= first)
-        block(row - first, column - first) = value;
-    };
-    if (factor_->is_super == 0) {
-      const auto *start = static_cast<const int*>(factor_->p), *rows = static_cast<const int*>(factor_->i),
-                 *count = static_cast<const int*>(factor_->nz);
-      for (Eigen::Index column = first; column < size(); ++column)
-        for (int entry = start[column]; entry < start[column] + count[column]; ++entry)
-          put(rows[entry], column, values[entry]);
-      return block;
-    }
-    const auto *super = static_cast<const int*>(factor_->super), *pi = static_cast<const int*>(factor_->pi),
-               *px = static_cast<const int*>(factor_->px), *rows = static_cast<const int*>(factor_->s);
-    for (std::size_t s = factor_->nsuper; s-- > 0 && super[s + 1] > first;) {
-      const int numRows = pi[s + 1] - pi[s];
-      for (int column = super[s]; column < super[s + 1]; ++column)
-        for (int i = 0; i < numRows; ++i)
-          put(rows[pi[s] + i], column, values[px[s] + i + (column - super[s]) * numRows]);
-    }
-    return block;
-  }
-
   [[nodiscard]] Eigen::MatrixXd inGivenOrder(const Eigen::MatrixXd& block) const {
     return block(pattern_->place(), pattern_->place());
   }
 
   std::shared_ptr<const CholmodPattern> pattern_;
   FactorHandle factor_;
+  std::optional<LastBlock> lastBlock_; ///< of the factor
+  Eigen::VectorXd kept_;               ///< work, in its order
 };
 
 } // namespace

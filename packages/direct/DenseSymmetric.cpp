@@ -3,9 +3,9 @@
 #include "epafi/base/Errors.hpp"
 
 #include <Eigen/Cholesky>
-#include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -18,6 +18,9 @@ extern "C" void dsyevr_( // NOLINT(readability-identifier-naming): LAPACK's name
     const double* vl, const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w,
     double* z, const int* ldz, int* isuppz, double* work, const int* lwork, int* iwork, const int* liwork,
     int* info, std::size_t, std::size_t, std::size_t);
+/// U Uᵀ of an upper triangle, in its place.
+extern "C" void dlauum_( // NOLINT(readability-identifier-naming)
+    const char* uplo, const int* n, double* a, const int* lda, int* info, std::size_t);
 
 namespace epafi::direct {
 namespace {
@@ -28,14 +31,19 @@ void mirrorLower(Eigen::MatrixXd& matrix) {
 
 } // namespace
 
-Eigen::MatrixXd productOfFactor(const Eigen::MatrixXd& lower) {
-  Eigen::MatrixXd result(lower.rows(), lower.cols());
+Eigen::MatrixXd productOfFactor(Eigen::MatrixXd lower) {
   const int k = static_cast<int>(lower.rows());
-  if (k > 0)
-    Teuchos::BLAS<int, double>().SYRK(Teuchos::LOWER_TRI, Teuchos::NO_TRANS, k, k, 1.0, lower.data(), k, 0.0,
-                                      result.data(), k);
-  mirrorLower(result);
-  return result;
+  if (k == 0)
+    return lower;
+  double *const begin = lower.data(), *const end = begin + lower.size();
+  int info = 0;
+  std::reverse(
+      begin,
+      end); // with the last row and column first C is an upper triangle: a third of a general product's work
+  dlauum_("U", &k, begin, &k, &info, 1);
+  std::reverse(begin, end);
+  mirrorLower(lower);
+  return lower;
 }
 
 Eigen::MatrixXd inverseFromFactor(Eigen::MatrixXd lower) {

@@ -24,8 +24,11 @@ public:
   void solve(const Eigen::Ref<const Eigen::MatrixXd>&, Eigen::Ref<Eigen::MatrixXd>) override {}
   Eigen::MatrixXd schurComplement() override { return {}; }
   Eigen::MatrixXd inverseOfKept() override { return {}; }
+  void multiplyKept(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::VectorXd>) override {}
+  void solveKept(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::VectorXd>) override {}
   [[nodiscard]] std::size_t bytes() const override { return 0; }
   [[nodiscard]] std::size_t numEntries() const override { return 0; }
+  [[nodiscard]] std::size_t numKeptEntries() const override { return 0; }
 };
 
 void requireKnown(const std::string& solver) {

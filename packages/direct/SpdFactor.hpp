@@ -33,10 +33,17 @@ public:
   virtual Eigen::MatrixXd schurComplement() = 0;
   /// (A⁻¹)_kk = S⁻¹, likewise.
   virtual Eigen::MatrixXd inverseOfKept() = 0;
+  /// y = S x, without S: CHOLMOD reads its factor's last k columns, no others, twice. k entries each, in the same order; y may
+  /// be x.
+  virtual void multiplyKept(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y) = 0;
+  /// x = S⁻¹ b, likewise.
+  virtual void solveKept(const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> x) = 0;
   /// Bytes that the factors take.
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Entries of the factor: a solve reads each of them twice.
   [[nodiscard]] virtual std::size_t numEntries() const = 0;
+  /// Those that solveKept reads, likewise.
+  [[nodiscard]] virtual std::size_t numKeptEntries() const = 0;
 };
 
 /// Ordering and elimination tree of a pattern (CholmodFactor.hpp).

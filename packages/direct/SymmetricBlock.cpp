@@ -71,6 +71,17 @@ std::vector<Scalar> stored(const Eigen::MatrixXd& matrix, bool isPacked) {
   return values;
 }
 
+/// The matrix of which `stored` made the values.
+template <class Scalar>
+Eigen::MatrixXd restored(const std::vector<Scalar>& values, Eigen::Index size, bool isPacked) {
+  Eigen::MatrixXd matrix(size, size);
+  auto value = values.begin();
+  for (Eigen::Index column = 0; column < size; ++column)
+    for (Eigen::Index row = isPacked ? column : 0; row < size; ++row)
+      matrix(row, column) = matrix(column, row) = *value++;
+  return matrix;
+}
+
 } // namespace
 
 SymmetricBlock::SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision precision)
@@ -82,6 +93,11 @@ SymmetricBlock::SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision
     values_ = stored<double>(matrix, isPacked_);
 }
 
+Eigen::MatrixXd SymmetricBlock::matrix() const {
+  return precision_ == Precision::single ? restored(singleValues_, size_, isPacked_)
+                                         : restored(values_, size_, isPacked_);
+}
+
 template <class Scalar>
 void SymmetricBlock::applyStored(const std::vector<Scalar>& values, int numColumns, const Scalar* x,
                                  Scalar* y, std::vector<Scalar>& padded) const {
@@ -89,8 +105,13 @@ void SymmetricBlock::applyStored(const std::vector<Scalar>& values, int numColum
     multiply(use_, size_, numColumns, values.data(), x, y, padded);
     return;
   }
-  for (std::ptrdiff_t column = 0; column < numColumns; ++column)
-    multiplyPacked(size_, values.data(), x + column * size_, y + column * size_);
+  for (std::ptrdiff_t column = 0; column < numColumns; ++column) {
+    const Scalar* given = x + column * size_;
+    if (std::all_of(given, given + size_, [](Scalar value) { return value == 0; }))
+      std::fill_n(y + column * size_, size_, Scalar{0}); // constraints touch few subdomains
+    else
+      multiplyPacked(size_, values.data(), given, y + column * size_);
+  }
 }
 
 void SymmetricBlock::apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const {

@@ -24,6 +24,8 @@ public:
 
   [[nodiscard]] int size() const { return size_; }                 ///< k
   [[nodiscard]] Precision precision() const { return precision_; } ///< as it was asked for
+  /// A, both triangles, as it is kept.
+  [[nodiscard]] Eigen::MatrixXd matrix() const;
   /// Y = A X; both k × m, m ≥ 0, column-major without gaps. Not collective. Y may not overlap X.
   void apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const;
   /// Bytes that one product reads of the matrix; also what it takes in memory.

@@ -7,13 +7,17 @@
 namespace epafi::fetidp {
 namespace {
 
+/// Null where S_ΔΔ is not worth a block of its own: as F's is not.
 std::shared_ptr<const direct::SymmetricBlock> stiffnessOf(const decomposition::DecomposedProblem& problem,
                                                           const SubdomainGroup& group,
                                                           const PreconditionerParameters& parameters) {
   using Precision = direct::SymmetricBlock::Precision;
   const auto precision = parameters.isSingle ? Precision::single : Precision::full;
-  if (parameters.type == PreconditionerParameters::Type::dirichlet)
-    return group.boundaryStiffness(precision);
+  if (parameters.type == PreconditionerParameters::Type::dirichlet) {
+    const bool isLeftToFactor =
+        !parameters.isSingle && !group.isExplicit() && group.use() == direct::SymmetricBlock::Use::alone;
+    return isLeftToFactor ? nullptr : group.boundaryStiffness(precision);
+  }
   const std::vector<int>& unknowns = group.condensed().interface().boundaryUnknowns;
   const Eigen::MatrixXd k(
       block(*problem.subdomains[group.members().front()].stiffness, unknowns, unknowns)); // K_ΔΔ
@@ -55,6 +59,20 @@ BoundaryPreconditioner::Work& BoundaryPreconditioner::prepared(std::size_t group
   return work;
 }
 
+/// forces = S_Δ displacement.
+void BoundaryPreconditioner::multiply(std::size_t group, Work& work) const {
+  if (blocks_[group].stiffness) {
+    blocks_[group].stiffness->apply(work.displacement, work.forces);
+    return;
+  }
+  direct::SpdFactor& factor = inverse_->groups()[group].condensed().factor();
+  for (Eigen::Index column = 0; column < work.displacement.cols(); ++column)
+    if (work.displacement.col(column).isZero(0))
+      work.forces.col(column).setZero();
+    else
+      factor.multiplyKept(work.displacement.col(column), work.forces.col(column));
+}
+
 void BoundaryPreconditioner::apply(const MultiVector& x, MultiVector& y) const {
   const auto numColumns = static_cast<Eigen::Index>(x.getNumVectors());
   const std::span<const double> lambda = input_.toSubdomains(x);
@@ -63,7 +81,7 @@ void BoundaryPreconditioner::apply(const MultiVector& x, MultiVector& y) const {
     Work& work = prepared(g, numColumns);
     work.displacement.setZero();
     addTransposed(blocks_[g].scaled, lambda, numColumns, work.displacement);
-    blocks_[g].stiffness->apply(work.displacement, work.forces);
+    multiply(g, work);
     addProduct(blocks_[g].scaled, work.forces, numColumns, result);
   }
   output_.sumToOwners(y);
@@ -77,7 +95,7 @@ void BoundaryPreconditioner::applyTo(const SubdomainVectors& u, Vector& y) const
     for (std::size_t m = 0; m < group.members().size(); ++m)
       work.displacement.col(static_cast<Eigen::Index>(m)) =
           u[group.members()[m]].col(0)(group.condensed().interface().boundaryUnknowns);
-    blocks_[g].stiffness->apply(work.displacement, work.forces);
+    multiply(g, work);
     addProduct(blocks_[g].scaled, work.forces, 1, result);
   }
   output_.sumToOwners(y);
@@ -86,7 +104,7 @@ void BoundaryPreconditioner::applyTo(const SubdomainVectors& u, Vector& y) const
 std::size_t BoundaryPreconditioner::bytes() const {
   std::size_t bytes = 0;
   for (const Block& block : blocks_)
-    bytes += block.stiffness->bytes();
+    bytes += block.stiffness ? block.stiffness->bytes() : 0;
   return bytes;
 }
 

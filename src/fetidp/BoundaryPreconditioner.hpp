@@ -22,24 +22,26 @@ public:
                          std::shared_ptr<const GeneralizedInverse> inverse, const ScaledConstraint& scaled,
                          const PreconditionerParameters& parameters);
 
-  /// y = Σ B_D S_Δ B_Dᵀ x, all columns in one pass: two neighbour exchanges, one dense product a subdomain and column.
+  /// y = Σ B_D S_Δ B_Dᵀ x, all columns in one pass: two neighbour exchanges, one dense product a subdomain and column, or two
+  /// triangular ones with its factor.
   /// Collective.
   void apply(const MultiVector& x, MultiVector& y) const;
   /// y = Σ B_D S_Δ u_Δ, u of n_s × 1. Collective.
   void applyTo(const SubdomainVectors& u, Vector& y) const;
-  /// Bytes of this rank's blocks; what an application reads.
+  /// Bytes of this rank's blocks; what is left to factors takes none.
   [[nodiscard]] std::size_t bytes() const;
 
 private:
   /// Of a group of identical subdomains: m members, n_Δ boundary unknowns.
   struct Block {
-    std::shared_ptr<const direct::SymmetricBlock> stiffness; ///< S_Δ
+    std::shared_ptr<const direct::SymmetricBlock> stiffness; ///< S_Δ; null: as the factor has it
     std::vector<InterfaceEntry> scaled;                      ///< B_D's entries
   };
   struct Work {
     Eigen::MatrixXd displacement, forces; ///< n_Δ × mk
   };
   [[nodiscard]] Work& prepared(std::size_t group, Eigen::Index numColumns) const;
+  void multiply(std::size_t group, Work& work) const;
 
   std::shared_ptr<const GeneralizedInverse> inverse_;
   std::vector<Block> blocks_; ///< of the inverse's groups

@@ -21,6 +21,11 @@ namespace epafi::fetidp {
 decomposition::SparseMatrix block(const decomposition::SparseMatrix& matrix, const std::vector<int>& rows,
                                   const std::vector<int>& columns);
 
+/// A subdomain condensed to its boundary Δ, both ways.
+struct CondensedBoundary {
+  Eigen::MatrixXd stiffness, flexibility; ///< S_ΔΔ and its inverse, n_Δ × n_Δ
+};
+
 /// Shared by all subdomains that are identical. n_r remainders, n_Δ of them in the boundary, n_c crosspoint values.
 class CondensedSubdomain {
 public:

@@ -6,12 +6,11 @@ namespace epafi::fetidp {
 namespace {
 
 // Measured by `epafi-study scaling` on subdomains with H/h from 8 to 64 (docs/performance.md); within a factor of two.
-constexpr double solveRate = 1.3e9;     ///< entries of a sparse factor a second, one right-hand side
-constexpr double batchRate = 2.8e9;     ///< the same, several right-hand sides at once
+constexpr double solveRate = 1.3e9;     ///< entries of a factor a second
 constexpr double streamRate = 3e9;      ///< entries of a dense block a second, one vector
 constexpr double productRate = 2.2e10;  ///< multiplications and additions a second, several vectors
-constexpr double inverseRate = 4.5e9;   ///< the same when the block is made
-constexpr double callSeconds = 1e-7;    ///< what a product costs, however small
+constexpr double inverseRate = 8e9;     ///< the same when the block is made
+constexpr double callSeconds = 1e-7;    ///< what a product costs, however small, and each half of a solve
 constexpr double blockSeconds = 1.5e-6; ///< what making a block costs, however small
 
 } // namespace
@@ -19,10 +18,10 @@ constexpr double blockSeconds = 1.5e-6; ///< what making a block costs, however 
 DualCosts expectedCosts(const SubdomainGroup& group) {
   const auto members = static_cast<double>(group.numOnAllRanks());
   const auto size = static_cast<double>(group.condensed().numBoundary());
-  const auto entries = static_cast<double>(group.condensed().factor().numEntries());
+  const auto entries = static_cast<double>(group.condensed().factor().numKeptEntries());
   const bool isAlone = group.use() == direct::SymmetricBlock::Use::alone;
   DualCosts costs;
-  costs.implicitProduct = callSeconds + 2 * members * entries / (isAlone ? solveRate : batchRate);
+  costs.implicitProduct = members * (2 * callSeconds + 2 * entries / solveRate);
   costs.explicitProduct =
       callSeconds + (isAlone ? size * size / streamRate : 2 * members * size * size / productRate);
   costs.explicitSetup = blockSeconds + 2.0 / 3.0 * std::pow(size, 3) / inverseRate;

@@ -17,6 +17,7 @@ using decomposition::DecomposedProblem;
 
 /// F_U, or null if there are no adaptive constraints.
 RCP<const qp::DeflatedOperator> deflatedOperator(const DecomposedProblem& problem,
+                                                 GeneralizedInverse& inverse,
                                                  const RCP<const DualOperator>& f,
                                                  const DualParameters& parameters) {
   using Use = AdaptiveConstraintParameters::Use;
@@ -24,21 +25,20 @@ RCP<const qp::DeflatedOperator> deflatedOperator(const DecomposedProblem& proble
   const bool hasPreconditioner = parameters.preconditioner.type != PreconditionerParameters::Type::none;
   if (use == Use::no || (use == Use::automatic && !hasPreconditioner))
     return Teuchos::null;
-  const OverratedColumns columns =
-      findOverratedColumns(problem, f->inverse(), RowKind::gluing, parameters.adaptiveConstraints,
-                           parameters.preconditioner.scaling);
+  const OverratedColumns columns = findOverratedColumns(
+      problem, inverse, RowKind::gluing, parameters.adaptiveConstraints, parameters.preconditioner.scaling);
   if (columns.number == 0)
     return Teuchos::null;
-  return rcp(new qp::DeflatedOperator(f, spaceOf(columns, *f->inverse().multiplierPlan(), *f)));
+  return rcp(new qp::DeflatedOperator(f, spaceOf(columns, *inverse.multiplierPlan(), *f)));
 }
 
 /// M corrected for the jumps of contact that it overrates, or null if there are none.
 RCP<const CorrectedPreconditioner> correctedPreconditioner(const DecomposedProblem& problem,
+                                                           GeneralizedInverse& inverse,
                                                            const DualOperators& operators,
                                                            const DualParameters& parameters) {
   if (parameters.adaptiveConstraints.use == AdaptiveConstraintParameters::Use::no)
     return Teuchos::null;
-  const GeneralizedInverse& inverse = operators.f->inverse();
   const OverratedColumns columns = findOverratedColumns(
       problem, inverse, RowKind::contact, parameters.adaptiveConstraints, parameters.preconditioner.scaling);
   if (columns.number == 0)
@@ -49,8 +49,7 @@ RCP<const CorrectedPreconditioner> correctedPreconditioner(const DecomposedProbl
 }
 
 /// M, or PMP + ρ⁻¹Q for the penalty ρ that SMALBE starts with.
-void addPreconditioner(const DecomposedProblem& problem,
-                       const std::shared_ptr<const GeneralizedInverse>& inverse,
+void addPreconditioner(const DecomposedProblem& problem, const std::shared_ptr<GeneralizedInverse>& inverse,
                        const DualParameters& parameters, DualOperators& operators) {
   operators.dualPreconditioner =
       rcp(new DualPreconditioner(problem, inverse, parameters.preconditioner, operators.deflated));
@@ -60,7 +59,7 @@ void addPreconditioner(const DecomposedProblem& problem,
   if (holdsAnywhere(*problem.comm, !shared.empty()))
     operators.preconditioner =
         rcp(new ShiftedPreconditioner(operators.preconditioner, std::move(shared), 1 / norm));
-  operators.corrected = correctedPreconditioner(problem, operators, parameters);
+  operators.corrected = correctedPreconditioner(problem, *inverse, operators, parameters);
   if (!operators.corrected.is_null())
     operators.preconditioner = operators.corrected;
   operators.facePreconditioner = operators.preconditioner;
@@ -145,7 +144,7 @@ DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algo
     return operators;
   collectively(*problem.comm, [&] { inverse->prepareDual(parameters.dualOperator); });
   operators.f = rcp(new DualOperator(inverse));
-  operators.deflated = deflatedOperator(problem, operators.f, parameters);
+  operators.deflated = deflatedOperator(problem, *inverse, operators.f, parameters);
   operators.hessian = operators.flexibility();
   if (problem.kernelDimension > 0) {
     requireContactForEveryMotion(problem, kernelEntries);

@@ -78,7 +78,7 @@ void addFetiParameters(Teuchos::ParameterList& list) {
              "message and gives the same digits on any number of ranks; beyond, rank 0 alone does.");
   Teuchos::ParameterList& dual = list.sublist("Dual Operator");
   addChoice(dual, "Mode", "auto",
-            "How F is multiplied with: 'implicit' by two sparse triangular solves a subdomain, 'explicit' by "
+            "How F is multiplied with: 'implicit' by two triangular solves a subdomain, 'explicit' by "
             "a dense block each, 'auto' by what is less work for the expected products.",
             modes);
   addInteger(dual, "Expected Products", operatorDefaults.expectedProducts,

@@ -34,11 +34,6 @@ struct JointPart {
   Eigen::VectorXd weights;           ///< Σ b²/δ of each row, n_E
 };
 
-/// A subdomain condensed to its boundary Δ, both ways.
-struct CondensedBoundary {
-  Eigen::MatrixXd stiffness, flexibility; ///< S_ΔΔ and its inverse, n_Δ × n_Δ
-};
-
 /// \param rows  the joint's rows, local indices in multiplierGhostMap; the subdomain must touch each. Not collective.
 JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdomain& condensed,
                  const CondensedBoundary& boundary, std::span<const int> rows,

@@ -61,14 +61,14 @@ std::vector<int> ranksOfSubdomains(const DecomposedProblem& problem) {
 }
 
 /// Calls action(joint, part) for each joint and each of this rank's subdomains in it. Not collective.
-void forEachPart(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
+void forEachPart(const DecomposedProblem& problem, GeneralizedInverse& inverse,
                  const std::vector<Joint>& joints, PreconditionerParameters::Scaling scaling,
                  const std::function<void(std::size_t, JointPart)>& action) {
   std::map<int, std::vector<std::size_t>> jointsOfSubdomain;
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (const int number : joints[j].subdomains)
       jointsOfSubdomain[number].push_back(j);
-  for (const SubdomainGroup& group : inverse.groups()) {
+  for (SubdomainGroup& group : inverse.groups()) {
     CondensedBoundary boundary; // of all members alike
     for (const std::size_t member : group.members()) {
       const auto& subdomain = problem.subdomains[member];
@@ -76,7 +76,7 @@ void forEachPart(const DecomposedProblem& problem, const GeneralizedInverse& inv
       if (found == jointsOfSubdomain.end())
         continue;
       if (boundary.stiffness.size() == 0)
-        boundary = {group.condensed().factor().schurComplement(), group.condensed().factor().inverseOfKept()};
+        boundary = group.condensedBoundary();
       for (const std::size_t j : found->second)
         action(j, partOf(subdomain, group.condensed(), boundary, joints[j].rows, scaling));
     }
@@ -89,7 +89,7 @@ GlobalOrdinal firstRowOf(const Joint& joint, const DecomposedProblem& problem) {
 
 /// The parts of each joint whose first subdomain is on this rank, in the order of the subdomains. Collective.
 std::vector<std::vector<JointPart>> gatheredParts(const DecomposedProblem& problem,
-                                                  const GeneralizedInverse& inverse,
+                                                  GeneralizedInverse& inverse,
                                                   const std::vector<Joint>& joints,
                                                   PreconditionerParameters::Scaling scaling) {
   const std::vector<int> rankOf = ranksOfSubdomains(problem);
@@ -152,7 +152,7 @@ std::vector<Candidate> chosenCandidates(const Comm& comm, const std::vector<Cand
 
 } // namespace
 
-OverratedColumns findOverratedColumns(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
+OverratedColumns findOverratedColumns(const DecomposedProblem& problem, GeneralizedInverse& inverse,
                                       RowKind kind, const AdaptiveConstraintParameters& parameters,
                                       PreconditionerParameters::Scaling scaling) {
   OverratedColumns columns;

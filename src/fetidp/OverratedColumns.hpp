@@ -30,11 +30,11 @@ struct OverratedColumns {
   int numJoints = 0;          ///< whose eigenproblems were solved
 };
 
-/// Costs, where a joint of n_E rows is looked at: (S_ΔΔ)⁻¹ of its subdomains, a message of about 2 n_E² numbers from each of
+/// Costs, where a joint of n_E rows is looked at: S_ΔΔ and its inverse of its subdomains, which `inverse` keeps, a message of about 2 n_E² numbers from each of
 /// them but the first, and a dense eigenproblem of size n_E. The same on any number of ranks. Collective.
 /// \throws Error if round-off has spoilt a joint's matrices, the same on all ranks.
 OverratedColumns findOverratedColumns(const decomposition::DecomposedProblem& problem,
-                                      const GeneralizedInverse& inverse, RowKind kind,
+                                      GeneralizedInverse& inverse, RowKind kind,
                                       const AdaptiveConstraintParameters& parameters,
                                       PreconditionerParameters::Scaling scaling);
 

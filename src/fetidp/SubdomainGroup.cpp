@@ -98,11 +98,29 @@ void SubdomainGroup::makeExplicit() {
   isExplicit_ = true;
 }
 
+CondensedBoundary SubdomainGroup::condensedBoundary() {
+  using Block = direct::SymmetricBlock;
+  const bool hasStiffness = boundaryStiffness_ && boundaryStiffness_->precision() == Block::Precision::full;
+  CondensedBoundary boundary{hasStiffness ? boundaryStiffness_->matrix()
+                                          : condensed_->factor().schurComplement(),
+                             flexibility_ ? flexibility_->matrix() : condensed_->factor().inverseOfKept()};
+  if (use_ == Block::Use::alone) { // as it is on any number of ranks
+    if (!hasStiffness)
+      boundaryStiffness_ = std::make_shared<const Block>(boundary.stiffness, use_);
+    if (!flexibility_)
+      flexibility_ = std::make_shared<const Block>(boundary.flexibility, use_);
+    isExplicit_ = true;
+  }
+  return boundary;
+}
+
 std::shared_ptr<const direct::SymmetricBlock>
 SubdomainGroup::boundaryStiffness(direct::SymmetricBlock::Precision precision) const {
-  if (!boundaryStiffness_ || boundaryStiffness_->precision() != precision)
+  if (!boundaryStiffness_ || boundaryStiffness_->precision() != precision) {
+    const bool isMoreExact = boundaryStiffness_ && precision == direct::SymmetricBlock::Precision::single;
     boundaryStiffness_ = std::make_shared<const direct::SymmetricBlock>(
-        condensed_->factor().schurComplement(), use_, precision);
+        isMoreExact ? boundaryStiffness_->matrix() : condensed_->factor().schurComplement(), use_, precision);
+  }
   return boundaryStiffness_;
 }
 
@@ -134,16 +152,13 @@ Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index numLeft, Workspace& work)
   return columns;
 }
 
-/// (K_rr⁻¹)_ΔΔ B_Δᵀ λ by sparse solves.
+/// (K_rr⁻¹)_ΔΔ B_Δᵀ λ with the factor alone. Columns of constraints touch few subdomains.
 void SubdomainGroup::solveForBoundary(Workspace& work) const {
-  const std::vector<int>& positions = condensed_->interface().boundary;
-  for (Eigen::Index first = 0; first < work.forces.cols(); first += batch) {
-    const Eigen::Index columns = prepareBatch(work.forces.cols() - first, work);
-    work.rhs.setZero();
-    work.rhs.leftCols(columns)(positions, Eigen::all) = work.forces.middleCols(first, columns);
-    condensed_->factor().solve(work.rhs, work.solution);
-    work.displacement.middleCols(first, columns) = work.solution.leftCols(columns)(positions, Eigen::all);
-  }
+  for (Eigen::Index column = 0; column < work.forces.cols(); ++column)
+    if (work.forces.col(column).isZero(0))
+      work.displacement.col(column).setZero();
+    else
+      condensed_->factor().solveKept(work.forces.col(column), work.displacement.col(column));
 }
 
 void SubdomainGroup::applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result,
@@ -247,7 +262,7 @@ std::size_t SubdomainGroup::factorBytes() const {
 }
 
 std::size_t SubdomainGroup::applyBytes() const {
-  return isExplicit_ ? flexibility_->bytes() : 2 * condensed_->factor().bytes();
+  return isExplicit_ ? flexibility_->bytes() : 2 * sizeof(double) * condensed_->factor().numKeptEntries();
 }
 
 } // namespace epafi::fetidp

@@ -67,9 +67,11 @@ public:
   /// B's entries in the members' boundaries, member after member.
   [[nodiscard]] std::span<const InterfaceEntry> boundaryEntries() const { return boundaryEntries_; }
 
-  /// From now on (K_rr⁻¹)_ΔΔ is a dense block, not a pair of sparse solves.
+  /// From now on (K_rr⁻¹)_ΔΔ is a dense block, not a pair of solves with the end of its factor.
   void makeExplicit();
   [[nodiscard]] bool isExplicit() const { return isExplicit_; }
+  /// S_ΔΔ and its inverse. A subdomain alone keeps them as blocks, for F and for preconditioners: they are there.
+  [[nodiscard]] CondensedBoundary condensedBoundary();
   /// Whether both work with one factor.
   [[nodiscard]] bool sharesFactorWith(const SubdomainGroup& other) const {
     return condensed_ == other.condensed_;

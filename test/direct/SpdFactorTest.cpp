@@ -110,6 +110,12 @@ TEST_P(SpdFactorTest, CondensesToTheKeptUnknownsInTheOrderGiven) {
         << n;
     EXPECT_EQ((inverse - inverse.transpose()).norm(), 0) << n;
     EXPECT_EQ((schur - schur.transpose()).norm(), 0) << n;
+
+    Eigen::VectorXd x = Eigen::VectorXd::Random(expected.rows()), y(x.size());
+    factor->solveKept(x, y);
+    EXPECT_LE((y - inverse * x).norm(), 1e-12 * x.norm()) << n;
+    factor->multiplyKept(y, y);
+    EXPECT_LE((y - x).norm(), 1e-12 * x.norm()) << n;
   }
 }
 
@@ -123,6 +129,28 @@ TEST_P(SpdFactorTest, SolvesWithUnknownsKept) {
   factor->solve(b, x);
 
   EXPECT_LE((a * x - b).norm(), 1e-12 * b.norm());
+}
+
+TEST_P(SpdFactorTest, KeepsUnknownsThatShareASupernodeWithOthers) {
+  const SparseMatrix a = plate(30);
+  for (const int number : {1, 7, 300}) {
+    std::vector<int> kept(static_cast<std::size_t>(number));
+    std::iota(kept.begin(), kept.end(), 440);
+    direct::Factorizer factorizer(GetParam());
+    const auto factor = factorizer.factorize(a, kept, "a test");
+    const Eigen::VectorXd b = Eigen::VectorXd::Random(number);
+    Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(900, 1), expected(900, 1);
+    whole(kept, 0) = b;
+    factor->solve(whole, expected);
+    Eigen::VectorXd x(number), y(number);
+
+    factor->solveKept(b, x);
+    factor->multiplyKept(x, y);
+
+    EXPECT_LE((x - expected(kept, 0)).norm(), 1e-12 * b.norm()) << number;
+    EXPECT_LE((y - b).norm(), 1e-12 * b.norm()) << number;
+    EXPECT_LE(factor->numKeptEntries(), factor->numEntries());
+  }
 }
 
 TEST_P(SpdFactorTest, KeepsAllOrNothing) {

@@ -53,6 +53,19 @@ TEST(SymmetricBlockTest, AColumnDoesNotDependOnHowManyThereAre) {
     }
 }
 
+TEST(SymmetricBlockTest, GivesItsMatrixBackAndNothingForNothing) {
+  for (const int k : {0, 7, 60, 124})
+    for (const auto use : {Use::alone, Use::shared}) {
+      const Eigen::MatrixXd a = symmetric(k), zero = Eigen::MatrixXd::Zero(k, 3);
+      const SymmetricBlock block(a, use);
+      EXPECT_EQ((block.matrix() - a).norm(), 0) << k;
+      EXPECT_LE((SymmetricBlock(a, use, Precision::single).matrix() - a).norm(), 1e-6 * a.norm()) << k;
+      Eigen::MatrixXd y = Eigen::MatrixXd::Ones(k, 3);
+      block.apply(zero, y);
+      EXPECT_EQ(y, zero) << k;
+    }
+}
+
 TEST(SymmetricBlockTest, CountsWhatItReads) {
   const Eigen::MatrixXd small = symmetric(10), large = symmetric(100);
   EXPECT_EQ(SymmetricBlock(small, Use::alone).bytes(), 800U);

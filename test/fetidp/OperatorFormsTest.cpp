@@ -91,6 +91,28 @@ TEST(OperatorFormsTest, EveryFormIsTheSameToTheLastDigitOnAnyNumberOfRanks) {
   }
 }
 
+/// M by blocks of full precision or by the factors alone, where F has no block.
+TEST(OperatorFormsTest, AllFormsAreTheSamePreconditioner) {
+  const auto matrixOfM = [](const DecomposedProblem& problem, const Form& form) {
+    auto inverse =
+        std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
+    inverse->prepareDual({form.mode, 40});
+    const DualPreconditioner m(problem, inverse, PreconditionerParameters{});
+    return matrixOf(m);
+  };
+  for (const ContactCase& c : formCases()) {
+    const auto together = decompose(c.scene, world()), alone = decompose(c.scene, thisRankOnly());
+    const Eigen::MatrixXd blocks = matrixOfM(together.problem, {"CHOLMOD", false, Mode::explicitBlocks});
+    for (const Form& form : allForms()) {
+      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      const Eigen::MatrixXd m = matrixOfM(together.problem, form);
+      EXPECT_LE(relativeError(m, blocks), 1e-12);
+      EXPECT_LE((m - m.transpose()).norm(), 1e-13 * m.norm());
+      EXPECT_EQ((m - matrixOfM(alone.problem, form)).cwiseAbs().maxCoeff(), 0);
+    }
+  }
+}
+
 /// A group's columns do not disturb each other: F of many multipliers at once and one after the other.
 TEST(OperatorFormsTest, ProductsWithManyMultipliersAtOnceAreTheSumOfSingleOnes) {
   const auto decomposition = decompose(twoMembranes(false, 12, grid(4, 4)), world());
