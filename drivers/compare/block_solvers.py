@@ -36,6 +36,11 @@ def programs(names):
     return {"epafi" if name.startswith("epafi") else "epafi-export" for name in names if not name.startswith("calculix")}
 
 
+def launcher(ranks):
+    """What stands before a program that runs on so many ranks."""
+    return ["mpirun", "--quiet", "--oversubscribe", "-n", ranks] if ranks > 1 else []
+
+
 class Case:
     """What is solved, and how.
 
@@ -76,10 +81,6 @@ class Case:
             return ["Contact/joint/Coupling=mortar", "Contact/joint/Multipliers=second"]
         return ["Contact/joint/Multipliers=first"]
 
-    def launcher(self, ranks):
-        """What stands before a program that runs on so many ranks."""
-        return ["mpirun", "--quiet", "--oversubscribe", "-n", ranks] if ranks > 1 else []
-
 
 def export(case):
     """Writes the system that the peers read. \\raises Trouble"""
@@ -95,7 +96,7 @@ def run_epafi(case, further):
                 *further, *case.epafi_options]
     with tempfile.TemporaryDirectory() as place:
         report = pathlib.Path(place) / "report.xml"
-        process = solvers.start([*case.launcher(case.ranks), case.programs / "epafi", case.scene, "--quiet", "--report", report,
+        process = solvers.start([*launcher(case.ranks), case.programs / "epafi", case.scene, "--quiet", "--report", report,
                                  *case.elements(), *(f"--set={setting}" for setting in settings)], case)
         return {"unknowns": case.unknowns(), **solvers.reported(process, report)}
 
@@ -105,7 +106,7 @@ def run_snesvi(solver, case):
     ranks = 1 if solver == "cholmod" else case.ranks
     threads = {"OPENBLAS_NUM_THREADS": str(case.ranks // ranks)}
     return solvers.measured_snesvi(solvers.start(
-        [*case.launcher(ranks), solvers.COMPARE / "snesvi_scenes.py", solver, case.file, "--tolerance", case.tolerance], case,
+        [*launcher(ranks), solvers.COMPARE / "snesvi_scenes.py", solver, case.file, "--tolerance", case.tolerance], case,
         threads))
 
 

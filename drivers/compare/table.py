@@ -96,7 +96,7 @@ def text(options, content, known):
 def printed(row):
     if row["total_seconds"] == "":
         return [row["solver"], row["status"], *[""] * 7]
-    inner = f" ({row['linear_iterations']} CG)" if row["solver"] in ("snesvi_hypre", "snesvi_gamg") else ""
+    inner = f" ({row['linear_iterations']} CG)" if row["solver"].endswith(("_hypre", "_gamg")) else ""
     return [row["solver"], *(f"{row[name]:.3f}" for name in ("total_seconds", "minimum", "maximum")),
             "" if row["ratio"] == "" else f"{row['ratio']:.2f}", f"{row['iterations']}{inner}",
             f"{row['peak_bytes'] / 1e6:.0f} MB", f"{row['energy']:.12g}",

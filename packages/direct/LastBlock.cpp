@@ -1,8 +1,10 @@
 #include "epafi/direct/LastBlock.hpp"
 
 #include <Teuchos_BLAS.hpp>
+#include <cholmod.h>
 
 #include <algorithm>
+#include <ranges>
 
 // Teuchos has these for several columns only. NOLINTBEGIN(readability-identifier-naming)
 extern "C" void dtrsv_(const char* uplo, const char* trans, const char* diag, const int* n, const double* a,
@@ -12,7 +14,7 @@ extern "C" void dtrmv_(const char* uplo, const char* trans, const char* diag, co
 // NOLINTEND(readability-identifier-naming)
 
 namespace epafi::direct {
-LastBlock::LastBlock(const cholmod_factor& factor, int k) : offset_(static_cast<int>(factor.n) - k) {
+LastBlock::LastBlock(const cholmod_factor_struct& factor, int k) : offset_(static_cast<int>(factor.n) - k) {
   const auto* values = static_cast<const double*>(factor.x);
   if (factor.is_super == 0) {
     const auto *start = static_cast<const int*>(factor.p), *rows = static_cast<const int*>(factor.i),
@@ -113,9 +115,9 @@ void LastBlock::solve(double* x) const {
     solveTriangle("N", panel, x);
     addBelow(panel, -1, x);
   }
-  for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) { // Cᵀ x = y
-    addFromBelow(*panel, -1, x);
-    solveTriangle("T", *panel, x);
+  for (const Panel& panel : std::views::reverse(panels_)) { // Cᵀ x = y
+    addFromBelow(panel, -1, x);
+    solveTriangle("T", panel, x);
   }
 }
 
@@ -124,9 +126,9 @@ void LastBlock::multiply(double* x) const {
     multiplyTriangle("T", panel, x);
     addFromBelow(panel, 1, x);
   }
-  for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) { // x = C y
-    addBelow(*panel, 1, x);
-    multiplyTriangle("N", *panel, x);
+  for (const Panel& panel : std::views::reverse(panels_)) { // x = C y
+    addBelow(panel, 1, x);
+    multiplyTriangle("N", panel, x);
   }
 }
 

@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include <cholmod.h>
-
 #include <cstddef>
 #include <vector>
+
+struct cholmod_factor_struct; // NOLINT(readability-identifier-naming): a cholmod_factor
 
 namespace epafi::direct {
 
@@ -16,7 +16,7 @@ namespace epafi::direct {
 class LastBlock {
 public:
   /// \param factor  L Lᵀ, simplicial or supernodal; 0 ≤ k ≤ its size
-  LastBlock(const cholmod_factor& factor, int k);
+  LastBlock(const cholmod_factor_struct& factor, int k);
 
   /// C, k × k.
   [[nodiscard]] Eigen::MatrixXd dense() const;

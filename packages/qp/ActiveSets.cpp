@@ -15,7 +15,8 @@ namespace epafi::qp {
 namespace {
 
 constexpr int maxFaces = 300;
-constexpr int patience = 12;      ///< faces in a row with no smaller gradient to begin with
+constexpr int patience = 24;      ///< faces in a row with no smaller gradient to begin with
+constexpr int caution = 4;        ///< from so many of them on one bound is released at a time
 constexpr int maxFaceSteps = 200; ///< of CG before the face is looked at again
 /// Of ‖Zg‖ and of (gᵀMg)^½ before the face is looked at. Of both: the energy alone can be that of one direction which M overrates,
 /// gone after a step; the norm alone, that of one which hardly moves x. Less, and wrong decisions are paid by further faces.
@@ -37,7 +38,7 @@ public:
 private:
   std::optional<Status> minimise();
   [[nodiscard]] bool isNearlySmall() const;
-  bool chooseFace();
+  bool chooseFace(bool isCautious);
   bool isSolved();
   [[nodiscard]] bool isSmall(double gradient, double energy);
   [[nodiscard]] bool holdsEquality() const;
@@ -108,7 +109,7 @@ Status ActiveSets::run(Observer* observer) {
           copy(best_, on_.x);
         return *status;
       }
-    } while (!chooseFace() && // where x left Ω, where multipliers are wrong
+    } while (!chooseFace(numIdle >= caution) && // where x left Ω, where multipliers are wrong
              !isSmall(on_.gradientNorm() / safety, on_.energy()));
     ++counts_.expansion;
   }
@@ -145,13 +146,14 @@ bool ActiveSets::isNearlySmall() const {
                 : on_.gradientNorm() <= safety * enough();
 }
 
-/// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong sign. False if that
-/// is the present face.
-bool ActiveSets::chooseFace() {
+/// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong sign; with caution
+/// only where it is the largest of these. False if that is the present face.
+bool ActiveSets::chooseFace(bool isCautious) {
   copy(on_.x, inside_);
   set_.project(inside_);
   set_.freeIndicator(inside_, next_);
   set_.choppedGradient(inside_, on_.gradient(), negligibleShare * on_.gradientNorm(), work_);
+  const double least = isCautious ? work_.normInf() : 0;
   reduction_.clear();
   {
     const auto on = localData(on_.face), wrong = localData(work_);
@@ -159,7 +161,7 @@ bool ActiveSets::chooseFace() {
     const auto sums = reduction_.sums();
     for (std::size_t i = 0; i < next.size(); ++i) {
       if (on[i] == 0)
-        next[i] = wrong[i] != 0 ? 1 : 0;
+        next[i] = wrong[i] != 0 && std::abs(wrong[i]) >= least ? 1 : 0;
       sums[0].add(next[i] != on[i] ? 1.0 : 0.0);
       sums[1].add(1 - next[i]);
     }

@@ -260,6 +260,23 @@ class Peers(unittest.TestCase):
             self.assertEqual(run.returncode, WRONG_USAGE, run.stderr)
             self.assertIn("epafi-export --help", run.stderr)
 
+    def test_scenes_have_one_energy_by_whatever_solver_and_zone(self):
+        for problem, order, peers in (("three_cubes", 1, "active_sets_cholmod,active_sets_gamg,snesvi_cholmod,linear_cholmod,linear_gamg"),
+                                      ("hertz_sphere", 2, "active_sets_cholmod,linear_cholmod")):
+            run = self.peers("--problem", problem, "--order", order, "--repeats", 1, "--ranks", 1, "--solvers", f"epafi,{peers}")
+            self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""), run.stdout)
+            rows = self.table()
+            self.assertEqual(",".join(rows), f"epafi,{peers}")
+            self.assertEqual({row["status"] for row in rows.values()}, {"ok"})
+            self.assertEqual(rows["linear_cholmod"]["closed_nodes"], rows["epafi"]["closed_nodes"])
+            self.assertGreater(int(rows["active_sets_cholmod"]["iterations"]), 3)  # three meshes and more
+            self.assertEqual(int(rows["linear_cholmod"]["iterations"]), 1)
+
+    def test_a_linear_solve_asks_for_a_zone(self):
+        run = self.peers("--problem", "three_cubes", "--repeats", 1, "--ranks", 1, "--solvers", "epafi,linear_cholmod")
+        self.assertEqual(run.returncode, FAILED, run.stdout)
+        self.assertIn("let active_sets_cholmod", self.table()["linear_cholmod"]["reason"])
+
     def test_wrong_usage(self):
         for word, arguments in (("abaqus", ["--solvers", "epafi,abaqus"]), ("--size", ["--size", "18"]),
                                 ("--repeats", ["--repeats", "0"]), ("--tolerance", ["--tolerance", "0"]),
@@ -271,7 +288,8 @@ class Peers(unittest.TestCase):
                                 ("have mortars", ["--problem", "held_blocks", "--lower-size", "5", "--solvers", "snesvi_gamg"]),
                                 ("within 4 ... 128", ["--problem", "held_blocks", "--lower-size", "2"]),
                                 ("have mortars", ["--problem", "held_blocks", "--multipliers", "upper", "--solvers", "snesvi_hypre"]),
-                                ("not for membranes", ["--lower-size", "8"]),
+                                ("for blocks only", ["--lower-size", "8"]), ("within 1 ... 8", ["--problem", "lug", "--size", "9"]),
+                                ("snesvi_cholmod", ["--problem", "bracket", "--solvers", "calculix"]),
                                 ("setup build", ["--programs", str(self.place)])):
             run = self.peers(*arguments)
             self.assertEqual(run.returncode, WRONG_USAGE, run.stdout + run.stderr)
