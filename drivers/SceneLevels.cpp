@@ -52,8 +52,8 @@ double distance(const SceneRun& finer, const SceneRun& coarser) {
 
 /// Numbers are asked to more digits than norms, and a bound of what the iteration may be off by is in their bars.
 constexpr double quantityTolerance = 1e-8;
-/// Half of what single runs have: a target that is missed by the iteration's share costs another mesh.
-constexpr double fractionOnTheWay = 0.05;
+/// A fifth of what single runs have: some products more, where a target that is missed by the iteration's share costs another mesh.
+constexpr double fractionOnTheWay = 0.02;
 
 /// Elements halved everywhere, and as many times more subdomains.
 class EvenLevels final : public SceneLevels {

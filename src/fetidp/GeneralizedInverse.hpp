@@ -75,7 +75,7 @@ public:
 
   /// This rank's subdomains, identical ones together.
   [[nodiscard]] std::span<const SubdomainGroup> groups() const { return groups_; }
-  [[nodiscard]] std::span<SubdomainGroup> groups() { return groups_; }
+  [[nodiscard]] std::span<SubdomainGroup> groups() { return groups_; } ///< to make blocks that others share
   /// Bytes of this rank's factors and dense blocks.
   [[nodiscard]] std::size_t factorBytes() const;
   [[nodiscard]] const CoarseProblem& coarseProblem() const { return *coarseProblem_; } ///< S_cc
