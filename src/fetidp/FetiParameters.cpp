@@ -79,7 +79,8 @@ void addFetiParameters(Teuchos::ParameterList& list) {
   Teuchos::ParameterList& dual = list.sublist("Dual Operator");
   addChoice(dual, "Mode", "auto",
             "How F is multiplied with: 'implicit' by two triangular solves a subdomain, 'explicit' by "
-            "a dense block each, 'auto' by what is less work for the expected products.",
+            "a dense block each, 'auto' by what is less work for the expected products. The preconditioner "
+            "follows it in subdomains that are like no other.",
             modes);
   addInteger(dual, "Expected Products", operatorDefaults.expectedProducts,
              "Products with F in which explicit blocks must pay off, for 'auto'.", 1);
