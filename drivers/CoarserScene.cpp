@@ -18,7 +18,8 @@ bool isOfSimplices(const fem::Mesh& mesh) {
 
 /// Subdomains that are `times` smaller in unknowns need not be as many.
 void mergeParts(scene::Decomposition& decomposition, int times) {
-  decomposition.parts = std::max(1, decomposition.parts / times);
+  if (decomposition.parts > 0)
+    decomposition.parts = std::max(1, decomposition.parts / times);
 }
 
 /// Half as many cells along each axis, or elements twice as large; false if that cannot be.

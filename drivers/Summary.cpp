@@ -69,10 +69,13 @@ void describeProblem(std::ostream& text, const SceneRun& run) {
   for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {
     const scene::Decomposition& asked = run.scene.bodies[b].decomposition;
     const int parts = run.decomposition->bodies[b].partition->numParts();
-    if (asked.method == scene::Decomposition::Method::metis && asked.parts != parts)
+    if (asked.method == scene::Decomposition::Method::metis && asked.parts > 0 && asked.parts != parts)
       text << "              METIS cut body '" << run.scene.bodies[b].name << "' into "
            << counted(parts, "connected part") << ", not the " << asked.parts << " asked for\n";
   }
+  if (const auto clusters = run.decomposition->problem.clusters.size(); clusters > run.scene.bodies.size())
+    text << "  clusters    " << clusters << " of subdomains that share crosspoints, "
+         << counted(problem, "Kernel Dimension", "rigid motion") << " of them\n";
   const std::string floating = floatingBodies(run);
   text << "  floating    " << (floating.empty() ? "no body" : floating) << '\n';
 }

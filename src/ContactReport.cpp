@@ -80,6 +80,7 @@ Teuchos::ParameterList ContactSolver::reportList(const fetidp::ContactSolution& 
       .set("Crosspoints", problem.numCrosspoints)
       .set("Adaptive Constraints", numAdaptiveConstraints())
       .set("Subdomains", problem.numSubdomains)
+      .set("Clusters", static_cast<int>(problem.clusters.size()))
       .set("Floating Bodies", floating)
       .set("Kernel Dimension", problem.kernelDimension)
       .set("Ranks", comm.getSize());

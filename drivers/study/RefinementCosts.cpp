@@ -38,9 +38,7 @@ scene::Scene onEvenMesh(scene::Scene scene, int order, double size) {
       body.decomposition.counts[k] =
           std::max(1, static_cast<int>(std::lround(order * elements / perSubdomain)));
     }
-    body.decomposition.parts =
-        std::max(1, static_cast<int>(std::lround(body.decomposition.parts *
-                                                 std::pow(order / (2 * size), isSolid ? 3 : 2))));
+    body.decomposition.parts = 0; // as many as suit
   }
   return scene;
 }

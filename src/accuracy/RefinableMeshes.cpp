@@ -22,20 +22,6 @@ std::size_t index(GlobalOrdinal number) {
   return static_cast<std::size_t>(number);
 }
 
-/// Unknowns of a subdomain: factors of many small ones cost less than those of a few large ones, in space above all.
-constexpr double unknownsPerPart(int dimension) {
-  return dimension == 2 ? 4000 : 1000;
-}
-
-/// Nodes of a mesh of order 2 by its corners, about: with every edge one more.
-double numNodes(const SimplexMesh& mesh, int order) {
-  const auto corners = static_cast<double>(mesh.points.size());
-  if (order == 1)
-    return corners;
-  return mesh.dimension == 2 ? corners + 1.5 * static_cast<double>(mesh.elements.size())
-                             : 2 * corners + static_cast<double>(mesh.elements.size());
-}
-
 std::vector<fem::Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
   std::vector<fem::Point> corners;
   for (int i = 0; i <= mesh.dimension; ++i)
@@ -132,11 +118,9 @@ scene::Scene RefinableMeshes::scene(int order) const {
   scene::Scene scene(scene_);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     scene::Body& body = scene.bodies[b];
-    const double unknowns = componentsOf(body.physics) * numNodes(meshes_[b], order);
     body.mesh.order = order;
     body.decomposition.method = scene::Decomposition::Method::metis;
-    body.decomposition.parts =
-        std::max(1, static_cast<int>(std::ceil(unknowns / unknownsPerPart(dimensionOf(body.physics)))));
+    body.decomposition.parts = 0; // as many as suit
   }
   return scene;
 }

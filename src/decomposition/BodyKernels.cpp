@@ -2,7 +2,6 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/fem/RigidModes.hpp"
 
 #include <algorithm>
@@ -62,14 +61,14 @@ Motions nearMotions(const SubdomainMatrix& matrix, const OwnSubdomain& own, cons
 void requireEqualNumbers(const std::vector<Motions>& motions, const Substructures& all) {
   std::vector<GlobalOrdinal> numModes(all.bodies.size(), -1);
   for (const Motions& m : motions) {
-    GlobalOrdinal& number = numModes[static_cast<std::size_t>(m.body)];
+    GlobalOrdinal& number = numModes[static_cast<std::size_t>(m.group)];
     number = std::max(number, static_cast<GlobalOrdinal>(m.near.cols()));
   }
   for (GlobalOrdinal& number : numModes)
     number = maxOverRanks(*all.comm, number);
   collectively(*all.comm, [&] {
     for (std::size_t s = 0; s < motions.size(); ++s)
-      if (const GlobalOrdinal number = numModes[static_cast<std::size_t>(motions[s].body)];
+      if (const GlobalOrdinal number = numModes[static_cast<std::size_t>(motions[s].group)];
           motions[s].near.cols() != number)
         throw InputError("subdomain " + std::to_string(all.subdomains[s].number) + " has a near-kernel of " +
                          std::to_string(motions[s].near.cols()) + " columns, another one of its body has " +
@@ -98,7 +97,7 @@ BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMat
                         const std::vector<OwnSubdomain>& own) {
   const auto components = static_cast<int>(all.components);
   const bool isElastic = components == all.places.dimension;
-  BodyKernels result{{all.bodies.begin(), all.bodies.end()}, {}};
+  BodyKernels result{{all.bodies.begin(), all.bodies.end()}, {}, {}};
   const std::size_t numBodies = result.bodies.size();
   const auto rigid = rigidModesOf(matrices, isElastic ? components : 1, numBodies, *all.comm);
   std::vector<Motions> motions;
@@ -106,16 +105,23 @@ BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMat
     motions.push_back(nearMotions(matrices[s], own[s], *all.nodal[s].stiffness,
                                   rigid[static_cast<std::size_t>(matrices[s].body)], components, isElastic));
   requireEqualNumbers(motions, all);
-  const std::vector<Eigen::MatrixXd> combinations = findFreeMotions(motions, *all.comm, result.bodies);
+  const std::vector<Eigen::MatrixXd> combinations = findFreeMotions(motions, *all.comm, numBodies);
   const std::vector<bool> isRigid = areRigid(matrices, numBodies, *all.comm);
-  for (std::size_t b = 0; b < numBodies; ++b)
-    if (Body& body = result.bodies[b]; body.kernelDimension > 0 && isElastic && isRigid[b]) {
+  int offset = 0;
+  for (std::size_t b = 0; b < numBodies; ++b) {
+    Body& body = result.bodies[b];
+    body.kernelDimension = static_cast<int>(combinations[b].cols());
+    body.kernelOffset = offset;
+    offset += body.kernelDimension;
+    if (body.kernelDimension > 0 && isElastic && isRigid[b]) {
       const fem::Point& centre = rigid[b].centre();
       body.motions = {
           {centre[0], centre[1], centre[2]}, rigid[b].size(), rigid[b].twists() * combinations[b]};
     }
+  }
   for (const Motions& m : motions)
-    result.kernels.emplace_back(m.near * combinations[static_cast<std::size_t>(m.body)]);
+    result.kernels.emplace_back(m.near * combinations[static_cast<std::size_t>(m.group)]);
+  result.near = std::move(motions);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 /// The kernels R^s of an application's bodies, from the near-kernels that it gave, or from rigid motions.
 
+#include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/decomposition/OwnSubdomain.hpp"
 #include "epafi/decomposition/Substructures.hpp"
 
@@ -14,6 +15,7 @@ namespace epafi::decomposition {
 struct BodyKernels {
   std::vector<Body> bodies;             ///< with their kernels' dimensions and motions
   std::vector<Eigen::MatrixXd> kernels; ///< R^s of each of this rank's subdomains
+  std::vector<Motions> near;            ///< their near-kernels
 };
 
 /// \param matrices, own  of the subdomains

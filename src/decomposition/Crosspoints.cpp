@@ -1,6 +1,7 @@
 #include "epafi/decomposition/Crosspoints.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/Corners.hpp"
 #include "epafi/decomposition/InterfaceEnds.hpp"
 
@@ -8,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <span>
+#include <string>
 
 namespace epafi::decomposition {
 namespace {
@@ -49,12 +51,14 @@ void markCorners(const Substructures& all, const SharedNodes& shared, std::size_
     }
 }
 
-/// Marks and lists the nodes that a subdomain asks for, and the ends of its interfaces where there is no mesh.
-void markChosen(const Substructures& all, const SharedNodes& shared, std::size_t s,
+/// Marks and lists the nodes that a subdomain asks for, as far as no other cluster has them, and the ends of its interfaces
+/// where there is no mesh.
+void markChosen(const Substructures& all, const SharedNodes& inside, const SharedNodes& shared, std::size_t s,
                 std::vector<char>& isCrosspoint, std::vector<CrosspointNode>& extra) {
   std::vector<std::size_t> chosen = all.nodal[s].crosspoints;
+  std::erase_if(chosen, [&](std::size_t place) { return shared.find(s, place) && !inside.find(s, place); });
   if (!all.places.isBoundaryNode) {
-    const std::vector<std::size_t> ends = findInterfaceEnds(all, shared, s);
+    const std::vector<std::size_t> ends = findInterfaceEnds(all, inside, s);
     chosen.insert(chosen.end(), ends.begin(), ends.end());
   }
   for (const std::size_t place : chosen)
@@ -101,20 +105,25 @@ void addInterfacePoints(const Substructures& all, const SharedNodes& shared, std
   }
 }
 
-/// Crosspoints of a floating body in one piece.
-void addPointsInside(const Substructures& all, std::size_t s, std::vector<char>& isCrosspoint,
-                     std::vector<CrosspointNode>& extra) {
+/// Crosspoints of a floating cluster in one piece, at nodes that no other subdomain has.
+void addPointsInside(const Substructures& all, const SharedNodes& shared, std::size_t s,
+                     std::vector<char>& isCrosspoint, std::vector<CrosspointNode>& extra) {
   std::vector<std::size_t> free;
   std::vector<fem::Point> candidates;
   for (std::size_t node = 0; node < all.numNodes(s); ++node)
-    if (all.isFree(s, node)) {
+    if (all.isFree(s, node) && !shared.find(s, node)) {
       free.push_back(node);
       candidates.push_back(all.point(s, node));
     }
-  for (const std::size_t place : HoldingPoints(static_cast<int>(all.components)).complete(candidates)) {
-    isCrosspoint[free[place]] = 1; // no other subdomain has it
+  HoldingPoints points(static_cast<int>(all.components));
+  for (const std::size_t place : points.complete(candidates)) {
+    isCrosspoint[free[place]] = 1;
     extra.push_back(nodeAt(all, s, free[place]));
   }
+  if (!points.hold())
+    throw InputError("subdomain " + std::to_string(all.subdomains[s].number) +
+                     " is a cluster of its own and has too few nodes that no other subdomain shares: they do "
+                     "not hold it; make the subdomains or the clusters larger");
 }
 
 /// The union of all ranks' lists, sorted, on every rank. Collective.
@@ -150,8 +159,6 @@ std::vector<std::vector<EdgeAverage>> markCarriers(const Substructures& all, con
                                                    Marks& isCrosspoint,
                                                    std::vector<CrosspointNode>& carriers) {
   std::vector<std::vector<EdgeAverage>> averages(all.size());
-  if (!hasEdgeAverages(all))
-    return averages;
   for (std::size_t s = 0; s < all.size(); ++s) {
     averages[s] = findEdgeAverages(all, shared, s, isCrosspoint[s]);
     for (const EdgeAverage& average : averages[s]) {
@@ -165,23 +172,30 @@ std::vector<std::vector<EdgeAverage>> markCarriers(const Substructures& all, con
 
 } // namespace
 
-Crosspoints::Crosspoints(const Substructures& all, const SharedNodes& shared) {
+Crosspoints::Crosspoints(const Substructures& all, const SharedNodes& inside, const SharedNodes& shared) {
   const std::vector<char> held = findHeld(all);
   std::vector<CrosspointNode> corners, extra, carriers;
-  for (std::size_t s = 0; s < all.size(); ++s) {
-    std::vector<char>& marks = isCrosspoint_.emplace_back(all.numNodes(s), 0);
-    markCorners(all, shared, s, marks, corners);
-    markChosen(all, shared, s, marks, extra);
-    addInterfacePoints(all, shared, s, marks, held, extra);
-    if (all.subdomains[s].kernel.cols() > 0 && shared.copiesOf(s).empty())
-      addPointsInside(all, s, marks, extra);
-  }
+  collectively(*all.comm, [&] {
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      std::vector<char>& marks = isCrosspoint_.emplace_back(all.numNodes(s), 0);
+      markCorners(all, inside, s, marks, corners);
+      markChosen(all, inside, shared, s, marks, extra);
+      addInterfacePoints(all, inside, s, marks, held, extra);
+      if (all.subdomains[s].kernel.cols() > 0 && inside.copiesOf(s).empty())
+        addPointsInside(all, shared, s, marks, extra);
+    }
+  });
   nodes_ = gatherNodes(*all.comm, corners);
   extra = gatherNodes(*all.comm, extra);
-  mark(all, shared, extra, isCrosspoint_);
+  mark(all, inside, extra, isCrosspoint_);
   unite(nodes_, extra);
   numCorners_ = static_cast<GlobalOrdinal>(nodes_.size());
-  averages_ = markCarriers(all, shared, isCrosspoint_, carriers);
+  // Interfaces lack corners where they meet other clusters.
+  const bool isSplit = holdsAnywhere(*all.comm, inside.numNodes() < shared.numNodes());
+  if (isSplit || hasEdgeAverages(all))
+    averages_ = markCarriers(all, inside, isCrosspoint_, carriers);
+  else
+    averages_.resize(all.size());
   unite(nodes_, gatherNodes(*all.comm, carriers));
   firstIndex_.reserve(nodes_.size());
   for (const CrosspointNode& node : nodes_) {

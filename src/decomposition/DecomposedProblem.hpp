@@ -70,7 +70,7 @@ struct Subdomain {
   std::vector<NodeFrame> frames; ///< where positions are not components in space; most often none
   Eigen::VectorXd prescribed;    ///< value at each position; 0 at the free ones
   double energyOffset = 0;       ///< energy that prescribed values alone contribute
-  Eigen::MatrixXd kernel;        ///< R^s, n_s × kernelDimension of its body
+  Eigen::MatrixXd kernel;        ///< R^s, n_s × kernelDimension of its cluster
 };
 
 /// Turns unknowns ũ of a subdomain into values of its nodes, in place.
@@ -92,11 +92,20 @@ Eigen::VectorXd loadOf(const Subdomain& subdomain, Eigen::VectorXd forces);
 struct Body {
   std::string name;
   int kernelDimension = 0;     ///< rigid modes that its supports leave free; > 0 means that the body floats
-  int kernelOffset = 0;        ///< column of its first mode in R
+  int kernelOffset = 0;        ///< number of its first mode among those of all bodies
   GlobalOrdinal firstNode = 0; ///< number of its node 0 among those of all bodies
   /// What the modes are in space, for errors that say how a body can move; most often there where a body with
   /// several unknowns a node floats. Nothing is computed from it.
   std::optional<fem::RigidMotions> motions = std::nullopt;
+};
+
+/// Subdomains of one body that share crosspoints (Clusters.hpp): all of them, if nothing else is asked for.
+struct Cluster {
+  int body = 0;            ///< index into DecomposedProblem::bodies
+  int kernelDimension = 0; ///< rigid modes that its own supports leave free
+  int kernelOffset = 0;    ///< column of its first mode in R
+  /// Its part of the body's modes, R_body = R X there: kernelDimension × kernelDimension of the body.
+  Eigen::MatrixXd ofBody;
 };
 
 /// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are
@@ -110,8 +119,10 @@ struct DecomposedProblem {
   ~DecomposedProblem() = default;
 
   RCP<const Comm> comm;
-  int components = 1;                ///< unknowns a node: 1 membrane, 2 or 3 elasticity
-  std::vector<Body> bodies;          ///< all bodies, on every rank
+  int components = 1;            ///< unknowns a node: 1 membrane, 2 or 3 elasticity
+  std::vector<Body> bodies;      ///< all bodies, on every rank
+  std::vector<Cluster> clusters; ///< all clusters, on every rank
+  std::vector<int> clusterOf; ///< index into clusters, of each subdomain of the whole problem, on every rank
   std::vector<Subdomain> subdomains; ///< those of this rank; may be none
 
   RCP<const Map> remainderMap;  ///< all v_r, each owned by its subdomain's rank
@@ -123,7 +134,7 @@ struct DecomposedProblem {
 
   // Numbers of the whole problem.
   int numSubdomains = 0;
-  int kernelDimension = 0;           ///< columns of R
+  int kernelDimension = 0;           ///< columns of R: of all clusters
   GlobalOrdinal numInequalities = 0; ///< n_I
   GlobalOrdinal numTies = 0;         ///< the first n_T of the equalities: joints of bodies
   GlobalOrdinal numEqualities = 0;   ///< n_E
@@ -144,6 +155,17 @@ struct DecomposedProblem {
   }
   [[nodiscard]] MultiplierNumber numberOf(TouchedMultiplier row) const { ///< likewise
     return multiplierGhostMap->getGlobalElement(row);
+  }
+  [[nodiscard]] const Cluster& clusterAt(const Subdomain& subdomain) const {
+    return clusters[static_cast<std::size_t>(clusterOf[static_cast<std::size_t>(subdomain.number)])];
+  }
+  /// Columns of R that a subdomain's kernel stands in: number of the first.
+  [[nodiscard]] int kernelOffsetOf(const Subdomain& subdomain) const {
+    return clusterAt(subdomain).kernelOffset;
+  }
+  /// Modes of all bodies.
+  [[nodiscard]] int numRigidModes() const {
+    return bodies.empty() ? 0 : bodies.back().kernelOffset + bodies.back().kernelDimension;
   }
   /// n_λ
   [[nodiscard]] GlobalOrdinal dualDimension() const { return numInequalities + numEqualities; }

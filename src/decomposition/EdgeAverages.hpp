@@ -3,7 +3,8 @@
 /// Averages along the edges of subdomains as coarse unknowns: in space, where corners alone do not make FETI-DP scalable
 /// (Klawonn, Widlund, Dryja, *SIAM J. Numer. Anal.* 40 (2002)), and for elastic bodies in the plane, where they take 40 % of
 /// the iterations away (22 become 14 products with F for two blocks, 1/H = 8, H/h = 8; METIS parts 25 become 16). Membranes
-/// in the plane do without: their corners suffice, and the coarse problem stays small.
+/// in the plane do without: their corners suffice, and the coarse problem stays small; but for bodies of several clusters
+/// (Clusters.hpp), whose corners at other clusters are no crosspoints.
 /// Made by a change of basis (Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006); Li, Widlund, *Int. J. Numer. Meth.
 /// Engng* 66 (2006)).
 ///
@@ -32,7 +33,7 @@ struct EdgeAverage {
   std::vector<std::size_t> others; ///< places of the other nodes, ascending
 };
 
-/// Whether bodies of these dimensions and unknowns a node have averages.
+/// Whether bodies of these dimensions and unknowns a node have averages in any case.
 bool hasEdgeAverages(const Substructures& all);
 
 /// The averages of a subdomain: an edge are the free nodes that just the same subdomains share, three or more in space and

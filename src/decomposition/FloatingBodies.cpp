@@ -21,31 +21,50 @@ constexpr double nearlyFreeUpTo = 1e-6;
 /// Motions of the near-kernel that others make up, in weighted length.
 constexpr double dependent = 1e-10;
 
-/// Σ Zᵀ D Z and Σ (KZ)ᵀ D⁻¹ (KZ) of each body, D = diag K^s.
+/// Columns of the groups' near-kernels. Collective.
+std::vector<Eigen::Index> numbersOfModes(const std::vector<Motions>& motions, const Comm& comm,
+                                         std::size_t numGroups) {
+  std::vector<GlobalOrdinal> sums(2 * numGroups, 0); // of modes, and of subdomains, which agree
+  for (const Motions& m : motions) {
+    sums[static_cast<std::size_t>(m.group)] += m.near.cols();
+    ++sums[numGroups + static_cast<std::size_t>(m.group)];
+  }
+  sumOverRanks(comm, std::span(sums));
+  std::vector<Eigen::Index> numbers;
+  for (std::size_t g = 0; g < numGroups; ++g)
+    numbers.push_back(sums[numGroups + g] > 0 ? sums[g] / sums[numGroups + g] : 0);
+  return numbers;
+}
+
+/// Σ Zᵀ D Z and Σ (KZ)ᵀ D⁻¹ (KZ) of each group, D = diag K^s.
 struct Energies {
   std::vector<Eigen::MatrixXd> size, force;
 };
 
-Energies energiesOf(const std::vector<Motions>& motions, const Comm& comm, std::size_t numBodies) {
-  std::vector<GlobalOrdinal> numModes(numBodies, 0);
-  for (const Motions& m : motions)
-    numModes[static_cast<std::size_t>(m.body)] = m.near.cols();
-  Energies energies;
-  for (std::size_t b = 0; b < numBodies; ++b) {
-    const Eigen::Index k = maxOverRanks(comm, numModes[b]);
-    energies.size.emplace_back(Eigen::MatrixXd::Zero(k, k));
-    energies.force.emplace_back(Eigen::MatrixXd::Zero(k, k));
-  }
+Energies energiesOf(const std::vector<Motions>& motions, const Comm& comm, std::size_t numGroups) {
+  const std::vector<Eigen::Index> numModes = numbersOfModes(motions, comm, numGroups);
+  std::vector<std::size_t> first(1, 0); // of each group's two matrices, which one message sums
+  for (const Eigen::Index k : numModes)
+    first.push_back(first.back() + 2 * static_cast<std::size_t>(k * k));
+  std::vector<double> values(first.back(), 0.0);
+  const auto matrix = [&](std::size_t group, std::size_t which) {
+    const Eigen::Index k = numModes[group];
+    return Eigen::Map<Eigen::MatrixXd>(values.data() + first[group] + which * static_cast<std::size_t>(k * k),
+                                       k, k);
+  };
   for (const Motions& m : motions) {
-    const auto b = static_cast<std::size_t>(m.body);
+    const auto group = static_cast<std::size_t>(m.group);
     const Eigen::VectorXd d = Eigen::VectorXd(m.stiffness->diagonal()).cwiseMax(1e-300);
     const Eigen::MatrixXd forces = *m.stiffness * m.near;
-    energies.size[b] += m.near.transpose() * d.asDiagonal() * m.near;
-    energies.force[b] += forces.transpose() * d.cwiseInverse().asDiagonal() * forces;
+    matrix(group, 0) += m.near.transpose() * d.asDiagonal() * m.near;
+    matrix(group, 1) += forces.transpose() * d.cwiseInverse().asDiagonal() * forces;
   }
-  for (auto* matrices : {&energies.size, &energies.force})
-    for (Eigen::MatrixXd& matrix : *matrices)
-      sumOverRanks(comm, std::span<double>(matrix.data(), static_cast<std::size_t>(matrix.size())));
+  sumOverRanks(comm, std::span<double>(values));
+  Energies energies;
+  for (std::size_t group = 0; group < numGroups; ++group) {
+    energies.size.emplace_back(matrix(group, 0));
+    energies.force.emplace_back(matrix(group, 1));
+  }
   return energies;
 }
 
@@ -76,31 +95,26 @@ Eigen::MatrixXd freeCombinations(const Eigen::MatrixXd& size, const Eigen::Matri
 }
 
 std::vector<Eigen::MatrixXd> freeCombinations(const std::vector<Motions>& motions, const Comm& comm,
-                                              std::size_t numBodies, double bound) {
-  const Energies energies = energiesOf(motions, comm, numBodies);
+                                              std::size_t numGroups, double bound) {
+  const Energies energies = energiesOf(motions, comm, numGroups);
   std::vector<Eigen::MatrixXd> combinations;
-  for (std::size_t b = 0; b < numBodies; ++b)
-    combinations.push_back(freeCombinations(energies.size[b], energies.force[b], bound));
+  for (std::size_t group = 0; group < numGroups; ++group)
+    combinations.push_back(freeCombinations(energies.size[group], energies.force[group], bound));
   return combinations;
 }
 
 } // namespace
 
 std::vector<Eigen::MatrixXd> findFreeMotions(const std::vector<Motions>& motions, const Comm& comm,
-                                             std::vector<Body>& bodies) {
+                                             std::size_t numGroups) {
   // Squares beside larger ones tell no more than half of the digits: what they leave is looked at alone, once more.
-  std::vector<Eigen::MatrixXd> combinations = freeCombinations(motions, comm, bodies.size(), nearlyFreeUpTo);
+  std::vector<Eigen::MatrixXd> combinations = freeCombinations(motions, comm, numGroups, nearlyFreeUpTo);
   std::vector<Motions> nearlyFree;
   for (const Motions& m : motions)
-    nearlyFree.push_back({m.body, m.stiffness, m.near * combinations[static_cast<std::size_t>(m.body)]});
-  const std::vector<Eigen::MatrixXd> among = freeCombinations(nearlyFree, comm, bodies.size(), freeUpTo);
-  int offset = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    combinations[b] = (combinations[b] * among[b]).eval();
-    bodies[b].kernelDimension = static_cast<int>(combinations[b].cols());
-    bodies[b].kernelOffset = offset;
-    offset += bodies[b].kernelDimension;
-  }
+    nearlyFree.push_back({m.group, m.stiffness, m.near * combinations[static_cast<std::size_t>(m.group)]});
+  const std::vector<Eigen::MatrixXd> among = freeCombinations(nearlyFree, comm, numGroups, freeUpTo);
+  for (std::size_t group = 0; group < numGroups; ++group)
+    combinations[group] = (combinations[group] * among[group]).eval();
   return combinations;
 }
 

@@ -116,6 +116,20 @@ std::vector<Sighting> ofSharedNodes(const RCP<const Comm>& comm, std::span<const
   return all;
 }
 
+/// Those of nodes whose subdomains are all of one cluster.
+std::vector<Sighting> insideClusters(std::span<const Sighting> shared, std::span<const int> clusterOf) {
+  std::vector<Sighting> inside;
+  forEachNode(shared, [&](std::span<const Sighting> atNode) {
+    const auto cluster = [&](const Sighting& sighting) {
+      return clusterOf[static_cast<std::size_t>(sighting.number)];
+    };
+    if (std::all_of(atNode.begin(), atNode.end(),
+                    [&](const Sighting& sighting) { return cluster(sighting) == cluster(atNode.front()); }))
+      inside.insert(inside.end(), atNode.begin(), atNode.end());
+  });
+  return inside;
+}
+
 void requireEqualUnknowns(const Comm& comm, std::span<const Sighting> shared) {
   collectively(comm, [&] {
     forEachNode(shared, [](std::span<const Sighting> atNode) {
@@ -132,9 +146,13 @@ void requireEqualUnknowns(const Comm& comm, std::span<const Sighting> shared) {
 
 } // namespace
 
-SharedNodes::SharedNodes(const Substructures& all) : comm_(all.comm) {
-  const std::vector<Sighting> shared = ofSharedNodes(comm_, sightingsHere(all));
+SharedNodes::SharedNodes(const Substructures& all) : SharedNodes(all, {}) {}
+
+SharedNodes::SharedNodes(const Substructures& all, std::span<const int> clusterOf) : comm_(all.comm) {
+  std::vector<Sighting> shared = ofSharedNodes(comm_, sightingsHere(all));
   requireEqualUnknowns(*comm_, shared);
+  if (!clusterOf.empty())
+    shared = insideClusters(shared, clusterOf);
 
   const int me = comm_->getRank(),
             firstNumber = all.size() > 0 ? static_cast<int>(all.subdomains.front().number) : 0;

@@ -23,6 +23,9 @@ public:
   /// The ranks tell each other the border nodes of their subdomains; each keeps lists of its own nodes only.
   /// \throws InputError, the same on all ranks, if the subdomains at a node differ in its free unknowns. Collective.
   explicit SharedNodes(const Substructures& all);
+  /// Those alone whose subdomains are all of one cluster. \param clusterOf  of each subdomain of the whole problem
+  /// Collective.
+  SharedNodes(const Substructures& all, std::span<const int> clusterOf);
 
   struct Copy {
     NodePlace place;

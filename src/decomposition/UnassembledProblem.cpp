@@ -4,9 +4,9 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/decomposition/BodyKernels.hpp"
+#include "epafi/decomposition/Clusters.hpp"
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
-#include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Splitting.hpp"
 
@@ -64,11 +64,22 @@ UnassembledProblem::UnassembledProblem(RCP<const Comm> comm, int components, std
   problem_.comm = comm_;
   problem_.components = components;
   problem_.bodies = std::move(bodies);
-  for (const Body& body : problem_.bodies)
-    problem_.kernelDimension += body.kernelDimension;
 }
 
 UnassembledProblem::~UnassembledProblem() = default;
+
+void UnassembledProblem::setClusterSizes(std::vector<int> sizes) {
+  if (sizes.size() != problem_.bodies.size())
+    throw InputError("there are " + std::to_string(sizes.size()) + " sizes of clusters for " +
+                     std::to_string(problem_.bodies.size()) + " bodies; give one for each.");
+  for (const int size : sizes)
+    if (size < 0)
+      throw InputError("a cluster has " + std::to_string(size) +
+                       " subdomains; it must have 1 or more, or, with 0, all of a body.");
+  if (crosspoints_)
+    throw Error("UnassembledProblem::setClusterSizes was called after complete; call it before.");
+  clusterSizes_ = std::move(sizes);
+}
 
 void UnassembledProblem::add(SubdomainMatrix matrix) {
   if (crosspoints_)
@@ -124,9 +135,19 @@ void UnassembledProblem::complete() {
   for (std::size_t s = 0; s < nodal_.size(); ++s)
     problem_.subdomains[s].number = first + static_cast<int>(s);
   shared_ = SharedNodes(view());
+  std::vector<Motions> near;
   if (!areKernelsKnown)
-    findBodies();
-  crosspoints_.emplace(view(), shared_);
+    near = findBodies();
+  problem_.clusterOf = findClusters(view(), shared_, clusterSizes_);
+  if (std::any_of(clusterSizes_.begin(), clusterSizes_.end(), [](int size) { return size > 0; })) {
+    formClusters(areKernelsKnown ? rigidMotionsOf(view()) : std::move(near));
+    crosspoints_.emplace(view(), SharedNodes(view(), problem_.clusterOf), shared_);
+  } else {
+    problem_.clusters = clustersOfBodies(problem_.bodies);
+    crosspoints_.emplace(view(), shared_, shared_);
+  }
+  for (const Cluster& cluster : problem_.clusters)
+    problem_.kernelDimension += cluster.kernelDimension;
   split();
   attach();
   places_ = {}; // nobody asks any more
@@ -191,14 +212,21 @@ void UnassembledProblem::mapUnknowns() {
   copies_ = all;
 }
 
-/// Kernels of the bodies, once it is known that each is in one piece. Collective.
-void UnassembledProblem::findBodies() {
+/// Kernels of the bodies, once it is known that each is in one piece; returns near-kernels. Collective.
+std::vector<Motions> UnassembledProblem::findBodies() {
   requireConnected(view(), shared_);
   BodyKernels found = findKernels(view(), added_, own_);
   std::vector<SubdomainMatrix>().swap(added_);
   problem_.bodies = std::move(found.bodies);
-  for (const Body& body : problem_.bodies)
-    problem_.kernelDimension += body.kernelDimension;
+  for (std::size_t s = 0; s < found.kernels.size(); ++s)
+    problem_.subdomains[s].kernel = std::move(found.kernels[s]);
+  return std::move(found.near);
+}
+
+/// Clusters with kernels of their own, which take the place of the bodies'. Collective.
+void UnassembledProblem::formClusters(std::vector<Motions> near) {
+  ClusterKernels found = findClusterKernels(view(), std::move(near), problem_.clusterOf);
+  problem_.clusters = std::move(found.clusters);
   for (std::size_t s = 0; s < found.kernels.size(); ++s)
     problem_.subdomains[s].kernel = std::move(found.kernels[s]);
 }

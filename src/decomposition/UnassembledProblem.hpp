@@ -16,6 +16,7 @@
 
 #include "epafi/decomposition/ContactRows.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
+#include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/decomposition/OwnSubdomain.hpp"
 #include "epafi/decomposition/SharedNodes.hpp"
 #include "epafi/decomposition/SubdomainMatrix.hpp"
@@ -59,6 +60,12 @@ public:
   UnassembledProblem(UnassembledProblem&&) = delete;
   UnassembledProblem& operator=(UnassembledProblem&&) = delete;
   ~UnassembledProblem();
+
+  /// Lets runs of so many subdomains of a body share crosspoints, no more (Clusters.hpp); 0, the default: all of it.
+  /// \param sizes  of each body
+  /// \throws InputError if one is negative, or if they are not as many as bodies. Precondition: not yet complete. Not
+  /// collective; the same on all ranks.
+  void setClusterSizes(std::vector<int> sizes);
 
   /// Takes one subdomain of this rank; what is wrong with it is said by `complete`. Not collective.
   /// Precondition: not yet complete.
@@ -116,7 +123,8 @@ private:
   void takeAdded(int first);
   void mapUnknowns();
   [[nodiscard]] RCP<const Map> ownUnknowns() const;
-  void findBodies();
+  std::vector<Motions> findBodies();
+  void formClusters(std::vector<Motions> near);
   void split();
   void attach();
   RCP<const Vector> enter(const ContactMatrix& matrix, GlobalOrdinal firstRow,
@@ -126,6 +134,7 @@ private:
 
   RCP<const Comm> comm_;
   NodePlaces places_;
+  std::vector<int> clusterSizes_;      ///< of each body
   std::vector<SubdomainMatrix> added_; ///< until complete
   std::optional<ContactMatrix> contact_, ties_;
   std::vector<OwnSubdomain> own_; ///< of those that were not node-ordered

@@ -5,6 +5,7 @@
 #include "epafi/base/Maps.hpp"
 
 #include <Eigen/QR>
+#include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
@@ -20,10 +21,13 @@ using decomposition::SparseMatrix;
 /// Entries (i, j, value), also in messages.
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
+/// Place of a coarse unknown in the matrix.
+using PlaceOf = std::function<int(decomposition::CoarseNumber)>;
+
 /// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from;
-/// on rank 0 alone unless replicated.
-SparseMatrix assemble(const DecomposedProblem& problem, int size, std::span<const SubdomainGroup> groups,
-                      bool isReplicated) {
+/// on rank 0 alone, or on all ranks of `comm`.
+SparseMatrix assemble(const DecomposedProblem& problem, const Comm& comm, int size, const PlaceOf& placeOf,
+                      std::span<const SubdomainGroup> groups, bool isOnFirst) {
   std::vector<const Eigen::MatrixXd*> blocks(problem.subdomains.size());
   for (const SubdomainGroup& group : groups)
     for (const std::size_t member : group.members())
@@ -33,75 +37,93 @@ SparseMatrix assemble(const DecomposedProblem& problem, int size, std::span<cons
     const auto& indices = problem.subdomains[s].crosspointIndices;
     for (std::size_t j = 0; j < indices.size(); ++j)
       for (std::size_t i = 0; i < indices.size(); ++i)
-        mine.emplace_back(static_cast<int>(indices[i]), static_cast<int>(indices[j]),
+        mine.emplace_back(placeOf(indices[i]), placeOf(indices[j]),
                           (*blocks[s])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
-  const Triplets all = isReplicated ? gatherOnAll(*problem.comm, mine) : gatherOnFirst(*problem.comm, mine);
+  const Triplets all = isOnFirst ? gatherOnFirst(comm, mine) : gatherOnAll(comm, mine);
   SparseMatrix result(size, size);
   result.setFromTriplets(all.begin(), all.end());
   return result;
 }
 
-/// R at the crosspoints, size × kernelDimension, and the body of each coarse unknown that floats (−1
-/// elsewhere).
+/// R at the crosspoints: a row has the modes of its cluster, from the first column on, and coarse unknowns of other clusters
+/// have nothing to do with it; and the cluster of each coarse unknown that floats (−1 elsewhere).
 struct CoarseKernel {
   Eigen::MatrixXd modes;
-  std::vector<int> body;
+  std::vector<int> cluster;
 };
 
-CoarseKernel gatherKernel(const DecomposedProblem& problem, int size) {
+/// Collective over `comm`.
+CoarseKernel gatherKernel(const DecomposedProblem& problem, const Comm& comm, int size,
+                          const PlaceOf& placeOf) {
   Triplets mine;
   for (const auto& subdomain : problem.subdomains)
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
-      for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode) {
-        const auto column = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset + mode;
-        mine.emplace_back(static_cast<int>(subdomain.crosspointIndices[i]), static_cast<int>(column),
+      for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
+        mine.emplace_back(placeOf(subdomain.crosspointIndices[i]),
+                          problem.kernelOffsetOf(subdomain) + static_cast<int>(mode),
                           subdomain.kernel(subdomain.crosspointUnknowns[i], mode));
-      }
-  CoarseKernel kernel{Eigen::MatrixXd::Zero(size, problem.kernelDimension),
+  int most = 0;
+  std::vector<int> clusterOf; // of each mode
+  for (std::size_t c = 0; c < problem.clusters.size(); ++c) {
+    most = std::max(most, problem.clusters[c].kernelDimension);
+    clusterOf.insert(clusterOf.end(), static_cast<std::size_t>(problem.clusters[c].kernelDimension),
+                     static_cast<int>(c));
+  }
+  CoarseKernel kernel{Eigen::MatrixXd::Zero(size, most),
                       std::vector<int>(static_cast<std::size_t>(size), -1)};
-  for (const auto& entry : gatherOnAll(*problem.comm, mine)) {
-    kernel.modes(entry.row(), entry.col()) = entry.value(); // copies of a crosspoint agree
-    for (std::size_t body = 0; body < problem.bodies.size(); ++body)
-      if (entry.col() >= problem.bodies[body].kernelOffset &&
-          entry.col() < problem.bodies[body].kernelOffset + problem.bodies[body].kernelDimension)
-        kernel.body[static_cast<std::size_t>(entry.row())] = static_cast<int>(body);
+  for (const auto& entry : gatherOnAll(comm, mine)) {
+    const int cluster = clusterOf[static_cast<std::size_t>(entry.col())];
+    kernel.cluster[static_cast<std::size_t>(entry.row())] = cluster;
+    kernel.modes(entry.row(),
+                 entry.col() - problem.clusters[static_cast<std::size_t>(cluster)].kernelOffset) =
+        entry.value(); // copies of a crosspoint agree
   }
   return kernel;
 }
 
-/// As many crosspoint values of the body as it has modes, such that R there is well conditioned: QR with
+/// As many crosspoint values of each cluster as it has modes, such that R there is well conditioned: QR with
 /// pivoting.
-std::vector<int> fixingUnknowns(const decomposition::Body& body, int index, const CoarseKernel& kernel) {
-  std::vector<int> candidates;
-  for (std::size_t i = 0; i < kernel.body.size(); ++i)
-    if (kernel.body[i] == index)
-      candidates.push_back(static_cast<int>(i));
-  const Eigen::MatrixXd transposed =
-      kernel.modes(candidates, Eigen::seqN(body.kernelOffset, body.kernelDimension)).transpose();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
-  if (qr.rank() < body.kernelDimension)
-    throw Error("the crosspoints of the floating body '" + body.name + "' do not hold its " +
-                std::to_string(body.kernelDimension) + " rigid modes; choose more crosspoints");
+std::vector<int> fixingUnknowns(const DecomposedProblem& problem, const CoarseKernel& kernel) {
+  std::vector<std::vector<int>> candidates(problem.clusters.size());
+  for (std::size_t i = 0; i < kernel.cluster.size(); ++i)
+    if (kernel.cluster[i] >= 0)
+      candidates[static_cast<std::size_t>(kernel.cluster[i])].push_back(static_cast<int>(i));
   std::vector<int> fixed;
-  for (int k = 0; k < body.kernelDimension; ++k)
-    fixed.push_back(candidates[static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    const decomposition::Cluster& cluster = problem.clusters[c];
+    if (cluster.kernelDimension == 0 || candidates[c].empty()) // it may be another rank's
+      continue;
+    const Eigen::MatrixXd transposed =
+        kernel.modes(candidates[c], Eigen::seqN(0, cluster.kernelDimension)).transpose();
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
+    if (qr.rank() < cluster.kernelDimension)
+      throw Error("the crosspoints of the floating body '" +
+                  problem.bodies[static_cast<std::size_t>(cluster.body)].name + "' do not hold the " +
+                  std::to_string(cluster.kernelDimension) +
+                  " rigid modes of its cluster of subdomains number " + std::to_string(c) +
+                  "; choose more crosspoints");
+    for (int k = 0; k < cluster.kernelDimension; ++k)
+      fixed.push_back(candidates[c][static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
+  }
   return fixed;
 }
 
-/// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness at the crosspoints of the same body:
+/// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness at the crosspoints of the same cluster:
 /// round-off of its stiff parts reaches its soft ones. Not collective; the same on all ranks.
 void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const Eigen::VectorXd& stiffness) {
-  const Eigen::MatrixXd forces = matrix * kernel.modes;
+  if (kernel.modes.size() == 0)
+    return;
+  const Eigen::MatrixXd forces = matrix * kernel.modes; // S_cc joins no two clusters
   const double largestMode = kernel.modes.cwiseAbs().maxCoeff();
   std::map<int, double> stiffnessOf;
-  for (std::size_t i = 0; i < kernel.body.size(); ++i) {
-    double& largest = stiffnessOf[kernel.body[i]];
+  for (std::size_t i = 0; i < kernel.cluster.size(); ++i) {
+    double& largest = stiffnessOf[kernel.cluster[i]];
     largest = std::max(largest, stiffness[static_cast<Eigen::Index>(i)]);
   }
-  for (std::size_t i = 0; i < kernel.body.size(); ++i) {
+  for (std::size_t i = 0; i < kernel.cluster.size(); ++i) {
     const double force = forces.row(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>();
-    if (!(force <= 1e-8 * stiffnessOf[kernel.body[i]] * largestMode)) // also NaN
+    if (!(force <= 1e-8 * stiffnessOf[kernel.cluster[i]] * largestMode)) // also NaN
       throw Error("the rigid modes of the floating bodies are no kernel of the coarse problem; check "
                   "stiffness and kernel");
   }
@@ -109,7 +131,7 @@ void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const
 
 } // namespace
 
-Eigen::VectorXd crosspointDiagonal(const DecomposedProblem& problem, Eigen::Index size,
+Eigen::VectorXd crosspointDiagonal(const DecomposedProblem& problem, const Comm& comm, Eigen::Index size,
                                    const std::function<int(GlobalOrdinal)>& placeOf) {
   std::vector<AccurateSum> sums(static_cast<std::size_t>(size));
   for (const auto& subdomain : problem.subdomains)
@@ -119,40 +141,44 @@ Eigen::VectorXd crosspointDiagonal(const DecomposedProblem& problem, Eigen::Inde
         sums[static_cast<std::size_t>(place)].add(subdomain.stiffness->coeff(unknown, unknown));
       }
   Eigen::VectorXd diagonal(size);
-  sumOverRanks(*problem.comm, sums, diagonal.data());
+  sumOverRanks(comm, sums, diagonal.data());
   return diagonal;
 }
 
 CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
                              std::span<const decomposition::CoarseNumber> crosspoints,
                              const DirectSolvers& solvers)
-    : comm_(problem.comm), size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())),
+    : comm_(problem.comm), numRanks_(comm_->getSize()),
+      size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())), factorSize_(size_),
       crosspoints_(crosspoints.begin(), crosspoints.end()) {
-  const bool isReplicated = size_ <= solvers.maxReplicated || comm_->getSize() == 1;
-  const bool isMine = isReplicated || comm_->getRank() == 0;
-  SparseMatrix matrix = assemble(problem, size_, groups, isReplicated);
+  const auto mine = static_cast<GlobalOrdinal>(crosspoints_.size());
+  if (numRanks_ > 1 && sumOverRanks(*problem.comm, mine) == size_) {
+    comm_ = rcp(new Teuchos::SerialComm<int>());
+    factorSize_ = static_cast<int>(mine);
+  }
+  const bool isOnFirst = factorSize_ > solvers.maxReplicated && comm_->getSize() > 1;
+  const bool isMine = !isOnFirst || comm_->getRank() == 0;
+  const auto place = [this](decomposition::CoarseNumber unknown) { return placeOf(unknown); };
+  SparseMatrix matrix = assemble(problem, *comm_, factorSize_, place, groups, isOnFirst);
   std::optional<CoarseKernel> kernel;
   Eigen::VectorXd stiffness;
   if (problem.kernelDimension > 0) {
-    kernel = gatherKernel(problem, size_);
-    stiffness =
-        crosspointDiagonal(problem, size_, [](GlobalOrdinal unknown) { return static_cast<int>(unknown); });
+    kernel = gatherKernel(problem, *comm_, factorSize_, place);
+    stiffness = crosspointDiagonal(problem, *comm_, factorSize_, place);
   }
-  collectively(*comm_, [&] {
+  collectively(*problem.comm, [&] {
     if (!isMine)
       return;
     if (kernel) {
       requireKernel(matrix, *kernel, stiffness);
-      for (std::size_t body = 0; body < problem.bodies.size(); ++body)
-        if (problem.bodies[body].kernelDimension > 0)
-          for (const int unknown : fixingUnknowns(problem.bodies[body], static_cast<int>(body), *kernel))
-            matrix.coeffRef(unknown, unknown) += stiffness[unknown]; // τ
+      for (const int unknown : fixingUnknowns(problem, *kernel))
+        matrix.coeffRef(unknown, unknown) += stiffness[unknown]; // τ
     }
     matrix.makeCompressed();
     factor_ = direct::factorize(matrix, solvers.coarse, "the coarse problem");
   });
-  if (isReplicated) {
-    sums_.resize(static_cast<std::size_t>(size_));
+  if (!isOnFirst) {
+    sums_.resize(static_cast<std::size_t>(factorSize_));
     return;
   }
   const auto whole = static_cast<Tpetra::global_size_t>(size_);
@@ -163,29 +189,38 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   mine_ = rcp(new MultiVector(myMap, 1));
 }
 
+/// In the factor.
+int CoarseProblem::placeOf(decomposition::CoarseNumber unknown) const {
+  if (!isSplit())
+    return static_cast<int>(unknown);
+  return static_cast<int>(std::lower_bound(crosspoints_.begin(), crosspoints_.end(), unknown) -
+                          crosspoints_.begin());
+}
+
 void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
-  if (size_ == 0)
+  if (factorSize_ == 0)
     return;
   if (factor_) {
-    rhs_.resize(size_, x.cols());
-    solution_.resize(size_, x.cols());
+    rhs_.resize(factorSize_, x.cols());
+    solution_.resize(factorSize_, x.cols());
   }
-  if (isReplicated())
-    solveReplicated(z, x);
-  else
+  if (isOnFirst())
     solveOnFirst(z, x);
+  else
+    solveReplicated(z, x);
 }
 
 void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
   sums_.assign(static_cast<std::size_t>(rhs_.size()), AccurateSum());
   for (Eigen::Index j = 0, k = 0; j < x.cols(); ++j)
     for (const decomposition::CoarseNumber crosspoint : crosspoints_)
-      sums_[static_cast<std::size_t>(j * size_ + crosspoint)] = z[static_cast<std::size_t>(k++)];
+      sums_[static_cast<std::size_t>(j * factorSize_ + placeOf(crosspoint))] =
+          z[static_cast<std::size_t>(k++)];
   sumOverRanks(*comm_, sums_, rhs_.data());
   factor_->solve(rhs_, solution_);
   for (Eigen::Index j = 0; j < x.cols(); ++j)
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      x(i, j) = solution_(static_cast<Eigen::Index>(crosspoints_[static_cast<std::size_t>(i)]), j);
+      x(i, j) = solution_(placeOf(crosspoints_[static_cast<std::size_t>(i)]), j);
 }
 
 void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {

@@ -21,10 +21,13 @@ Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
   return unknowns;
 }
 
-/// Coarse unknowns that rows of contact touch, and all those of the bodies that these belong to. Collective.
+/// Coarse unknowns that rows of contact touch, and all those of the clusters that these belong to. Collective.
 void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& near) {
   Unknowns myTouched, myNear;
-  std::vector<int> isTouched(problem.bodies.size(), 0); // of each body
+  std::vector<int> isTouched(problem.clusters.size(), 0); // of each cluster
+  const auto clusterOf = [&problem](const decomposition::Subdomain& subdomain) {
+    return static_cast<std::size_t>(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
+  };
   std::vector<int> crosspointOf;
   for (const auto& subdomain : problem.subdomains) {
     crosspointOf.assign(static_cast<std::size_t>(subdomain.stiffness->rows()), -1);
@@ -33,13 +36,13 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
     for (const auto& entry : subdomain.constraint)
       if (const int i = crosspointOf[static_cast<std::size_t>(entry.unknown)]; i >= 0) {
         myTouched.push_back(subdomain.crosspointIndices[static_cast<std::size_t>(i)]);
-        isTouched[static_cast<std::size_t>(subdomain.body)] = 1;
+        isTouched[clusterOf(subdomain)] = 1;
       }
   }
   touched = unionOverRanks(*problem.comm, myTouched);
   sumOverRanks(*problem.comm, std::span(isTouched));
   for (const auto& subdomain : problem.subdomains)
-    if (isTouched[static_cast<std::size_t>(subdomain.body)] > 0)
+    if (isTouched[clusterOf(subdomain)] > 0)
       myNear.insert(myNear.end(), subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
   near = unionOverRanks(*problem.comm, myNear);
 }

@@ -26,7 +26,7 @@ public:
   [[nodiscard]] int indexOf(decomposition::CoarseNumber coarseUnknown) const;
   /// Likewise of an unknown of a subdomain; −1 if it is a remainder.
   [[nodiscard]] int indexOf(const decomposition::Subdomain& subdomain, decomposition::Unknown unknown) const;
-  /// Index of a coarse unknown among the n_N *near* ones, all those of bodies with touched ones, or −1.
+  /// Index of a coarse unknown among the n_N *near* ones, all those of clusters with touched ones, or −1.
   [[nodiscard]] int nearIndexOf(decomposition::CoarseNumber coarseUnknown) const;
   /// How the near ones follow, X: n_N × n_C, on every rank.
   [[nodiscard]] const Eigen::MatrixXd& extension() const { return extension_; }

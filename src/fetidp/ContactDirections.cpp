@@ -20,12 +20,12 @@ bool isTied(const decomposition::DecomposedProblem& problem, int row) {
 }
 
 Eigen::VectorXd modeLengths(const decomposition::DecomposedProblem& problem) {
-  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(problem.kernelDimension);
+  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(problem.numRigidModes());
   for (const auto& subdomain : problem.subdomains) {
     const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
-    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols() && subdomain.kernel.rows() > 0; ++mode)
-      lengths[offset + mode] =
-          std::max(lengths[offset + mode], subdomain.kernel.col(mode).lpNorm<Eigen::Infinity>());
+    const Eigen::MatrixXd modes = subdomain.kernel * problem.clusterAt(subdomain).ofBody;
+    for (Eigen::Index mode = 0; mode < modes.cols() && modes.rows() > 0; ++mode)
+      lengths[offset + mode] = std::max(lengths[offset + mode], modes.col(mode).lpNorm<Eigen::Infinity>());
   }
   for (double& length : lengths) {
     length = maxOverRanks(*problem.comm, length);
@@ -86,7 +86,7 @@ std::map<int, Eigen::VectorXd> contactRows(const std::vector<KernelEntry>& entri
 
 Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,
                                   const std::vector<KernelEntry>& entries, const Eigen::VectorXd& lengths) {
-  DistinctDirections directions(problem.kernelDimension);
+  DistinctDirections directions(problem.numRigidModes());
   for (const auto& [row, vector] : contactRows(entries, lengths)) {
     directions.add(vector, 0.0);
     if (isTied(problem, row))

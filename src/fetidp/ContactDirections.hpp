@@ -15,7 +15,7 @@ namespace epafi::fetidp {
 /// Whether this rank's row (local index in multiplierMap) holds both ways.
 bool isTied(const decomposition::DecomposedProblem& problem, int row);
 
-/// Largest entry of each mode: by how much it moves a node at most, and with which motions are measured in lengths, whatever
+/// Largest entry of each mode of the bodies: by how much it moves a node at most, and with which motions are measured in lengths, whatever
 /// the modes' scaling is. 1 for a mode without entries. Collective.
 Eigen::VectorXd modeLengths(const decomposition::DecomposedProblem& problem);
 
@@ -42,11 +42,13 @@ private:
       known_; ///< direction and number, by the rounded direction
 };
 
-/// This rank's rows of G̃ᵀ, with modes of the given lengths: by local index in multiplierMap.
+/// This rank's rows of G̃ᵀ of whole bodies, with modes of the given lengths: by local index in multiplierMap.
 std::map<int, Eigen::VectorXd> contactRows(const std::vector<KernelEntry>& entries,
                                            const Eigen::VectorXd& lengths);
 
-/// The directions of all contacts, of ties both, k × (as many as differ): 𝒪(n log n) in the number of rows. Collective.
+/// The directions of all contacts, of ties both, k × (as many as differ): 𝒪(n log n) in the number of rows.
+/// \param entries  see kernelConstraintOfBodies
+/// Collective.
 Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,
                                   const std::vector<KernelEntry>& entries, const Eigen::VectorXd& lengths);
 

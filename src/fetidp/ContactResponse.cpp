@@ -153,7 +153,7 @@ ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, c
       problem.kernelDimension > 0 ? face.motionOf(*jumps.values) : Eigen::VectorXd();
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const decomposition::Subdomain& subdomain = problem.subdomains[s];
-    const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
+    const int offset = problem.kernelOffsetOf(subdomain);
     if (subdomain.kernel.cols() > 0)
       jumps.u[s] += subdomain.kernel * alpha.segment(offset, subdomain.kernel.cols());
     response.displacement.push_back(decomposition::atAllPositions(

@@ -107,6 +107,9 @@ AlgorithmChoice leastAlgorithm(const DecomposedProblem& problem) {
   for (const auto& body : problem.bodies)
     if (body.kernelDimension > 0)
       names += (names.empty() ? "" : ", ") + body.name;
+  if (names.empty())
+    return {Algorithm::smalbe,
+            "contact with floating clusters of subdomains: bounds and equilibrium constraints"};
   return {Algorithm::smalbe,
           "contact with floating bodies (" + names + "): bounds and equilibrium constraints"};
 }

@@ -1,10 +1,10 @@
 #pragma once
 
-/// Equilibrium of the floating bodies: G̃ = Rᵀ B̄ᵀ, ẽ = Rᵀ f̄, made orthonormal: G = T̃ G̃ with GGᵀ = I, e = T̃ ẽ;
+/// Equilibrium of the floating clusters of subdomains, most often whole bodies: G̃ = Rᵀ B̄ᵀ, ẽ = Rᵀ f̄, made orthonormal: G = T̃ G̃ with GGᵀ = I, e = T̃ ẽ;
 /// the projectors Q = GᵀG on Im Gᵀ and P = I − Q on Ker G; the feasible λ̃ = Gᵀe.
 ///
-/// The kernel R of a body satisfies the gluing, so that G̃ has entries in the rows of contact only, each
-/// touching at most two bodies: it is kept sparse, by rows of B. T̃ is the inverse of the Cholesky factor of
+/// The kernel R of a cluster satisfies the gluing inside, so that G̃ has entries in the rows of contact and ties, and in those that
+/// glue clusters, each touching a few clusters: it is kept sparse, by rows of B. T̃ is the inverse of the Cholesky factor of
 /// G̃G̃ᵀ (k × k on every rank).
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
@@ -29,10 +29,21 @@ struct KernelEntry {
 /// G̃ᵀ by rows, this rank's. Collective.
 std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem& problem);
 
+/// The same of whole bodies, which gluing does not hold: columns are the bodies' modes. \param entries  see kernelConstraint
+/// Not collective.
+std::vector<KernelEntry> kernelConstraintOfBodies(const decomposition::DecomposedProblem& problem,
+                                                  const std::vector<KernelEntry>& entries);
+
 /// ẽ = Rᵀ f̄ for the loads that the problem holds, on every rank. Collective.
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem);
 /// Likewise for other loads, n_s × 1 of each of this rank's subdomains.
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads);
+
+/// Resultants on whole bodies of those on clusters. Not collective.
+Eigen::VectorXd onBodies(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& resultants);
+
+/// Bounds of what they would be if nothing in them cancelled. Collective.
+Eigen::VectorXd magnitudesOnBodies(const decomposition::DecomposedProblem& problem);
 
 /// |R|ᵀ|f̄|: what ẽ would be if nothing in it cancelled, its yardstick. On every rank. Collective.
 Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem);

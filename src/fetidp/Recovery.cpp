@@ -114,7 +114,7 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
     solution.energy -= kernelLoad(problem).dot(alpha);
     for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
       const auto& subdomain = problem.subdomains[s];
-      const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
+      const int offset = problem.kernelOffsetOf(subdomain);
       if (subdomain.kernel.cols() > 0)
         u[s] += subdomain.kernel * alpha.segment(offset, subdomain.kernel.cols());
     }

@@ -7,11 +7,16 @@
 #include "epafi/fetidp/ContactDirections.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 
+#include <Eigen/QR>
+#include <Eigen/SparseCholesky>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <map>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace epafi::fetidp {
 namespace {
@@ -24,7 +29,7 @@ constexpr double roundOff = 1e-12; ///< of the largest eigenvalue
 /// [G̃_A G̃_Aᵀ, G̃_A slack_A] of the rows A that carry force. Collective.
 Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda,
                                 const Vector& slack) {
-  const Eigen::Index k = problem.kernelDimension;
+  const Eigen::Index k = problem.numRigidModes();
   const auto force = lambda.getData(), gap = slack.getData();
   Eigen::MatrixXd normal(k, k + 1);
   std::vector<AccurateSum> sums(static_cast<std::size_t>(normal.size()));
@@ -88,11 +93,55 @@ std::optional<Eigen::VectorXd> looseMotion(const Eigen::MatrixXd& directions, co
   return std::nullopt;
 }
 
-} // namespace
-
-Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
-                            const Vector& lambda, const Vector& slack, bool isSolved) {
+/// How far clusters move until they fit together: the least squares of G̃ᵀα = slack over the rows that glue them, where the
+/// bodies' own motions are left open the one that leaves a cluster of each in its place. Collective.
+Eigen::VectorXd fittedClusters(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
+                               const Vector& slack) {
+  std::map<int, std::vector<KernelEntry>> rows;
+  for (const KernelEntry& entry : entries)
+    if (problem.kindOf(decomposition::OwnedMultiplier(entry.row)) == decomposition::RowKind::gluing)
+      rows[entry.row].push_back(entry);
   const Eigen::Index k = problem.kernelDimension;
+  Eigen::VectorXd alpha = Eigen::VectorXd::Zero(k);
+  if (!holdsAnywhere(*problem.comm, !rows.empty()))
+    return alpha;
+  const auto gap = slack.getData();
+  std::map<std::pair<int, int>, double> sums;
+  for (const auto& [row, all] : rows)
+    for (const KernelEntry& a : all) {
+      alpha[a.mode] += a.value * gap[row];
+      for (const KernelEntry& b : all)
+        sums[{a.mode, b.mode}] += a.value * b.value;
+    }
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (const auto& [place, value] : sums)
+    triplets.emplace_back(place.first, place.second, value);
+  triplets = gatherOnAll(*problem.comm, triplets);
+  sumOverRanks(*problem.comm, std::span<double>(alpha.data(), static_cast<std::size_t>(k)));
+  std::vector<bool> isHeld(problem.bodies.size(), false);
+  for (const decomposition::Cluster& cluster : problem.clusters) {
+    if (cluster.ofBody.cols() == 0 || isHeld[static_cast<std::size_t>(cluster.body)])
+      continue;
+    isHeld[static_cast<std::size_t>(cluster.body)] = true;
+    const Eigen::MatrixXd motions = Eigen::HouseholderQR<Eigen::MatrixXd>(cluster.ofBody).householderQ() *
+                                    Eigen::MatrixXd::Identity(cluster.kernelDimension, cluster.ofBody.cols());
+    const Eigen::MatrixXd hold = motions * motions.transpose();
+    for (int i = 0; i < cluster.kernelDimension; ++i)
+      for (int j = 0; j < cluster.kernelDimension; ++j)
+        triplets.emplace_back(cluster.kernelOffset + i, cluster.kernelOffset + j, hold(i, j));
+  }
+  decomposition::SparseMatrix normal(static_cast<int>(k), static_cast<int>(k));
+  normal.setFromTriplets(triplets.begin(), triplets.end());
+  const Eigen::SimplicialLDLT<decomposition::SparseMatrix> factor(normal);
+  if (factor.info() != Eigen::Success)
+    throw Error("the gluing of clusters does not tell how they lie to each other; make them larger");
+  return factor.solve(alpha);
+}
+
+/// The same of whole bodies. \param entries  see kernelConstraintOfBodies
+Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
+                               const Vector& lambda, const Vector& slack, bool isSolved) {
+  const Eigen::Index k = problem.numRigidModes();
   const Eigen::VectorXd lengths = modeLengths(problem);
   const Rows rows = contactRows(entries, lengths);
   const Eigen::MatrixXd normal = normalEquations(problem, rows, lambda, slack);
@@ -129,6 +178,28 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<
   if (const Shortest further = shortest(open.transpose() * directions, room); further.x)
     alpha += length * (open * *further.x);
   return alpha.cwiseQuotient(lengths);
+}
+
+} // namespace
+
+Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
+                            const Vector& lambda, const Vector& slack, bool isSolved) {
+  Eigen::VectorXd alpha = fittedClusters(problem, entries, slack);
+  if (problem.numRigidModes() == 0)
+    return alpha;
+  Vector left(slack, Teuchos::Copy);
+  {
+    const auto values = left.getDataNonConst();
+    for (const KernelEntry& entry : entries)
+      values[entry.row] -= entry.value * alpha[entry.mode];
+  }
+  const Eigen::VectorXd motion =
+      motionOfBodies(problem, kernelConstraintOfBodies(problem, entries), lambda, left, isSolved);
+  for (const decomposition::Cluster& cluster : problem.clusters)
+    alpha.segment(cluster.kernelOffset, cluster.kernelDimension) +=
+        cluster.ofBody * motion.segment(problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset,
+                                        cluster.ofBody.cols());
+  return alpha;
 }
 
 } // namespace epafi::fetidp

@@ -13,8 +13,9 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
                                  const ContactCrosspoints& crosspoints,
                                  PreconditionerParameters::Scaling scaling, const RCP<const Import>& plan) {
   // B has an entry for one copy of each crosspoint value that contact touches, whose own stiffness may be far from that of all.
-  const Eigen::VectorXd atCrosspoints = crosspointDiagonal(
-      problem, crosspoints.size(), [&](GlobalOrdinal unknown) { return crosspoints.indexOf(unknown); });
+  const Eigen::VectorXd atCrosspoints =
+      crosspointDiagonal(problem, *problem.comm, crosspoints.size(),
+                         [&](GlobalOrdinal unknown) { return crosspoints.indexOf(unknown); });
   const auto weightOf = [&](const Subdomain& subdomain, int unknown) { // δ
     if (scaling == PreconditionerParameters::Scaling::multiplicity)
       return 1.0;

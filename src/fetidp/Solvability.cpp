@@ -32,7 +32,7 @@ std::string along(const MotionWords& words, const std::string& before) {
   return words.motion.empty() ? "" : before + words.motion;
 }
 
-/// Loads and contacts as rigid motions meet them, measured by the modes' lengths.
+/// Loads and contacts as rigid motions of the bodies meet them, measured by the modes' lengths.
 struct RigidBalance {
   const DecomposedProblem& problem;
   Eigen::VectorXd lengths;    ///< of the modes, k
@@ -40,11 +40,13 @@ struct RigidBalance {
   Eigen::VectorXd load;       ///< ẽ
   Eigen::VectorXd magnitudes; ///< the same if nothing cancelled
 
+  /// \param entries  see kernelConstraint
   /// Collective.
   RigidBalance(const DecomposedProblem& given, const std::vector<KernelEntry>& entries)
-      : problem(given), lengths(modeLengths(given)), directions(contactDirections(given, entries, lengths)),
-        load(kernelLoad(given).cwiseQuotient(lengths)),
-        magnitudes(kernelLoadMagnitude(given).cwiseQuotient(lengths)) {}
+      : problem(given), lengths(modeLengths(given)),
+        directions(contactDirections(given, kernelConstraintOfBodies(given, entries), lengths)),
+        load(onBodies(given, kernelLoad(given)).cwiseQuotient(lengths)),
+        magnitudes(magnitudesOnBodies(given).cwiseQuotient(lengths)) {}
 
   /// Of a motion that is measured as the others are.
   [[nodiscard]] MotionWords words(const Eigen::VectorXd& motion) const {
@@ -108,7 +110,7 @@ struct ScaledCone {
 } // namespace
 
 void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  if (problem.kernelDimension == 0)
+  if (problem.numRigidModes() == 0)
     return;
   const RigidBalance balance(problem, entries);
   refuseFreeMotion(balance);
@@ -138,7 +140,8 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  refuseFreeMotion(RigidBalance(problem, entries));
+  if (problem.numRigidModes() > 0)
+    refuseFreeMotion(RigidBalance(problem, entries));
 }
 
 } // namespace epafi::fetidp

@@ -22,7 +22,7 @@ inline constexpr double resultantTolerance = 1e-9;
 ///  - the load on it has no resultant against its contacts, or against a motion that they do not hinder, such as one that
 ///    acts exactly above the edge of the base (not unique).
 /// Bodies whose modes are known as motions in space (Body::motions) are said to slide or turn, with direction and axis.
-/// \param entries  this rank's rows of G̃ᵀ
+/// \param entries  this rank's rows of G̃ᵀ, see kernelConstraint
 /// Collective.
 void requireUniqueSolution(const decomposition::DecomposedProblem& problem,
                            const std::vector<KernelEntry>& entries);

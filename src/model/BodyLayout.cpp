@@ -42,8 +42,27 @@ std::array<int, 3> elementCounts(const fem::Mesh& mesh) {
   return mesh.structured() != nullptr ? mesh.structured()->elements() : std::array<int, 3>{0, 0, 0};
 }
 
-void requireCut(const scene::Body& body, const fem::Mesh& mesh) {
-  const scene::Decomposition& cut = body.decomposition;
+/// Unknowns of a subdomain: factors of many small ones cost less than those of a few large ones, in space above all.
+constexpr double unknownsPerPart(int dimension) {
+  return dimension == 2 ? 4000 : 1000;
+}
+
+int componentsOf(const scene::Body& body) {
+  return scene::componentsOf(body.physics);
+}
+
+/// With a number of METIS' parts where the scene leaves it open.
+scene::Decomposition cutOf(const scene::Body& body, const fem::Mesh& mesh) {
+  scene::Decomposition cut = body.decomposition;
+  if (cut.method == scene::Decomposition::Method::metis && cut.parts == 0) {
+    const double unknowns = static_cast<double>(mesh.numNodes()) * componentsOf(body),
+                 parts = std::ceil(unknowns / unknownsPerPart(dimensionOf(mesh.cellType())));
+    cut.parts = static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(mesh.numElements())));
+  }
+  return cut;
+}
+
+void requireCut(const scene::Body& body, const scene::Decomposition& cut, const fem::Mesh& mesh) {
   const std::string where = "body '" + body.name + "' has ";
   if (cut.method == scene::Decomposition::Method::metis) {
     if (cut.parts < 1 || cut.parts > mesh.numElements())
@@ -75,33 +94,34 @@ std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, const MeshFil
 /// Whether two bodies are meshed and cut alike: their partitions are the same.
 bool areCutAlike(const fem::Mesh& a, const scene::Decomposition& cut, const fem::Mesh& b,
                  const scene::Decomposition& other) {
-  if (elementCounts(a) != elementCounts(b) || elementCounts(a)[0] == 0 || cut.method != other.method)
+  if (elementCounts(a) != elementCounts(b) || elementCounts(a)[0] == 0 || cut.method != other.method ||
+      cut.cluster > 1 || other.cluster > 1)
     return false;
   return cut.method == scene::Decomposition::Method::metis ? cut.parts == other.parts
                                                            : cut.counts == other.counts;
 }
 
 /// Collective.
-std::shared_ptr<const Partition> cutByMetis(const scene::Body& body, const fem::Mesh& mesh,
+std::shared_ptr<const Partition> cutByMetis(const scene::Body& body, int parts, const fem::Mesh& mesh,
                                             const Comm& comm) {
   try {
-    return std::make_shared<const GraphPartition>(mesh, body.decomposition.parts, comm);
+    return std::make_shared<const GraphPartition>(mesh, parts, comm);
   } catch (const InputError& error) { // the same on all ranks
     throw InputError("body '" + body.name + "': " + error.what());
   }
 }
 
 /// Collective.
-std::shared_ptr<const Partition> makePartition(const scene::Body& body, const fem::Mesh& mesh,
-                                               const Comm& comm) {
-  const scene::Decomposition& cut = body.decomposition;
+std::shared_ptr<const Partition> makePartition(const scene::Body& body, const scene::Decomposition& cut,
+                                               const fem::Mesh& mesh, const Comm& comm) {
+  std::shared_ptr<const Partition> parts;
   if (cut.method == scene::Decomposition::Method::metis)
-    return cutByMetis(body, mesh, comm);
-  return std::make_shared<const GridPartition>(*mesh.structured(), cut.counts);
-}
-
-int componentsOf(const scene::Body& body) {
-  return scene::componentsOf(body.physics);
+    parts = cutByMetis(body, cut.parts, mesh, comm);
+  else
+    parts = std::make_shared<const GridPartition>(*mesh.structured(), cut.counts);
+  if (cut.cluster <= 1)
+    return parts;
+  return std::make_shared<const GroupedPartition>(std::move(parts), mesh, cut.cluster);
 }
 
 /// Bodies that touch have the same unknowns; a vector of the dual problem knows no other.
@@ -130,20 +150,21 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
                                   std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm) {
   std::vector<BodyLayout> bodies;
+  std::vector<scene::Decomposition> cuts;
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes.size(); ++b) {
       bodies.push_back({scene.bodies[b].name, std::move(meshes[b]), nullptr, 0});
-      requireCut(scene.bodies[b], *bodies.back().mesh);
+      cuts.push_back(cutOf(scene.bodies[b], *bodies.back().mesh));
+      requireCut(scene.bodies[b], cuts.back(), *bodies.back().mesh);
     }
   });
   int firstSubdomain = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::size_t alike = 0; // the first body that is cut like this one, perhaps itself
-    while (alike < b && !areCutAlike(*bodies[alike].mesh, scene.bodies[alike].decomposition, *bodies[b].mesh,
-                                     scene.bodies[b].decomposition))
+    while (alike < b && !areCutAlike(*bodies[alike].mesh, cuts[alike], *bodies[b].mesh, cuts[b]))
       ++alike;
     bodies[b].partition =
-        alike < b ? bodies[alike].partition : makePartition(scene.bodies[b], *bodies[b].mesh, comm);
+        alike < b ? bodies[alike].partition : makePartition(scene.bodies[b], cuts[b], *bodies[b].mesh, comm);
     bodies[b].firstSubdomain = firstSubdomain;
     firstSubdomain += bodies[b].partition->numParts();
   }

@@ -149,6 +149,32 @@ int renumber(std::vector<int>& part) {
   return next;
 }
 
+/// Sorts parts along the axis on which their centres spread most, and so on in both halves, which end where runs of `size` do.
+void bisect(std::span<int> parts, std::size_t size, const std::vector<fem::Point>& centres) {
+  const std::size_t runs = (parts.size() + size - 1) / size;
+  if (runs < 2)
+    return;
+  const auto at = [&](int part) -> const fem::Point& { return centres[static_cast<std::size_t>(part)]; };
+  std::size_t axis = 0;
+  double widest = -1;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto [low, high] =
+        std::minmax_element(parts.begin(), parts.end(), [&](int a, int b) { return at(a)[d] < at(b)[d]; });
+    if (const double spread = at(*high)[d] - at(*low)[d]; spread > widest * (1 + 1e-9)) {
+      widest = spread;
+      axis = d;
+    }
+  }
+  const double same = 1e-9 * widest; // centres of a grid's row: their order is that of the numbers
+  std::stable_sort(parts.begin(), parts.end(), [&](int a, int b) {
+    const auto rounded = [&](int part) { return std::round(at(part)[axis] / (same > 0 ? same : 1)); };
+    return rounded(a) != rounded(b) ? rounded(a) < rounded(b) : a < b;
+  });
+  const std::size_t half = runs / 2 * size;
+  bisect(parts.first(half), size, centres);
+  bisect(parts.subspan(half), size, centres);
+}
+
 /// Part k of m takes the columns floor(k n / m) … floor((k + 1) n / m) − 1 of n.
 GlobalOrdinal firstOf(GlobalOrdinal k, int n, int m) {
   return k * n / m;
@@ -160,6 +186,25 @@ void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
   while (moveStray(mesh, part)) {
     // It is one with a piece of its new part now: there are fewer pieces each time.
   }
+}
+
+GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const fem::Mesh& mesh, int size)
+    : parts_(std::move(parts)), order_(static_cast<std::size_t>(parts_->numParts())), number_(order_.size()) {
+  std::vector<fem::Point> centres(order_.size());
+  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+  for (std::size_t part = 0; part < centres.size(); ++part) {
+    const std::vector<GlobalOrdinal> elements = parts_->elementsOf(static_cast<int>(part));
+    for (const GlobalOrdinal element : elements) {
+      mesh.elementNodes(element, nodes);
+      for (const GlobalOrdinal node : nodes)
+        for (std::size_t d = 0; d < 3; ++d)
+          centres[part][d] += mesh.point(node)[d] / static_cast<double>(elements.size() * nodes.size());
+    }
+  }
+  std::iota(order_.begin(), order_.end(), 0);
+  bisect(order_, static_cast<std::size_t>(size), centres);
+  for (std::size_t part = 0; part < order_.size(); ++part)
+    number_[static_cast<std::size_t>(order_[part])] = static_cast<int>(part);
 }
 
 GridPartition::GridPartition(const fem::StructuredMesh& mesh, std::array<int, 3> counts)

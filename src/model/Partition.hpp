@@ -5,6 +5,7 @@
 #include "epafi/fem/StructuredMesh.hpp"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace epafi::model {
@@ -58,6 +59,25 @@ private:
   std::vector<int> part_;
   std::vector<std::size_t> start_; ///< of each part in members_
   std::vector<int> members_;       ///< elements, part by part, ascending in each
+};
+
+/// Another partition with its parts numbered anew: each run of `size` lies together, as recursive bisection of their centres
+/// has it, so that runs can be clusters, and ranks have neighbours.
+class GroupedPartition final : public Partition {
+public:
+  /// \param size  > 0. Passes once over the mesh. Not collective.
+  GroupedPartition(std::shared_ptr<const Partition> parts, const fem::Mesh& mesh, int size);
+  [[nodiscard]] int numParts() const override { return parts_->numParts(); }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override {
+    return number_[static_cast<std::size_t>(parts_->partOf(element))];
+  }
+  [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override {
+    return parts_->elementsOf(order_[static_cast<std::size_t>(part)]);
+  }
+
+private:
+  std::shared_ptr<const Partition> parts_;
+  std::vector<int> order_, number_; ///< old numbers of the parts, and new ones
 };
 
 /// Makes every part of a mesh connected through facets of elements (edges in 2-D, faces in 3-D): each piece

@@ -99,7 +99,8 @@ struct Decomposition {
   enum class Method { grid, metis };
   Method method = Method::grid;
   std::array<int, 3> counts = {2, 2, 2}; ///< grid: subdomains in x, y and, in space, z
-  int parts = 4;                         ///< metis: number of parts
+  int parts = 0;                         ///< metis: number of parts; 0: as many as suit
+  int cluster = 0; ///< subdomains that share crosspoints, one body's: so many; 0: all of it
 };
 
 struct Body {

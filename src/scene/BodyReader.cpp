@@ -259,6 +259,7 @@ std::vector<SolidLoad> readLoads(const ListReader& list, const Body& body) {
 
 Decomposition readDecomposition(const ListReader& list, const Body& body) {
   Decomposition cut;
+  cut.cluster = list.integer("Cluster");
   const std::array<int, 3>& elements = body.mesh.elements;
   const bool isStructured = body.mesh.file.empty();
   const std::string tooMany = "body \"" + body.name + "\" has only " + text(elements) + " elements";

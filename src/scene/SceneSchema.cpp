@@ -203,7 +203,17 @@ ParameterList decompositionSchema() {
       "With the method grid: number of subdomains {nx, ny} in x and y of each body, in space {nx, ny, nz} "
       "(if not given {2, 2, 2}).",
       counts);
-  addInteger(list, "Parts", cut.parts, "With the method metis: number of subdomains of each body.", 1);
+  addInteger(
+      list, "Parts", cut.parts,
+      "With the method metis: number of subdomains of each body; 0: one for every 4000 unknowns in the "
+      "plane, for every 1000 in space.",
+      0);
+  addInteger(
+      list, "Cluster", cut.cluster,
+      "How many subdomains of a body share crosspoints. 0: all of it (FETI-DP, one coarse problem); 1: "
+      "none (FETI, a coarse space of rigid motions); else so many neighbours (hybrid), best those of a "
+      "rank.",
+      0);
   return list;
 }
 

@@ -138,6 +138,11 @@ int kernelDimension(const Eigen::MatrixXd& symmetric) {
   return static_cast<int>((solver.eigenvalues().array() < threshold).count());
 }
 
+scene::Decomposition clustered(scene::Decomposition cut, int size) {
+  cut.cluster = size;
+  return cut;
+}
+
 std::vector<Case> smallCases() {
   const scene::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}},
       top{"top", "top", {0.0}}, bottom{"bottom", "bottom", {0.0}};

@@ -39,6 +39,8 @@ scene::Scene twoMembranes(bool coercive, int elements, const scene::Decompositio
 
 scene::Decomposition grid(int nx, int ny);
 scene::Decomposition metis(int parts);
+/// The same, `size` subdomains a cluster.
+scene::Decomposition clustered(scene::Decomposition cut, int size);
 
 /// One square body of n × m elements, without contact.
 scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,

@@ -4,7 +4,7 @@
 
 #include "epafi/base/Collective.hpp"
 
-#include <Teuchos_Comm.hpp>
+#include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
 
 namespace epafi::fetidp {
@@ -17,10 +17,28 @@ TEST(CoarseProblemTest, LiesOnOneRankWhereItIsTooLargeForAll) {
   const GeneralizedInverse onFirst(decomposition.problem, solvers);
   const GeneralizedInverse onAll(decomposition.problem, DirectSolvers());
 
-  EXPECT_TRUE(onAll.coarseProblem().isReplicated());
-  EXPECT_EQ(onFirst.coarseProblem().isReplicated(), world()->getSize() == 1);
-  const bool hasFactor = world()->getSize() == 1 || world()->getRank() == 0;
+  const int ranks = world()->getSize();
+  const bool isSplit = ranks == 2; // a body each
+  EXPECT_EQ(onAll.coarseProblem().isReplicated(), !isSplit);
+  EXPECT_EQ(onFirst.coarseProblem().isReplicated(), ranks == 1);
+  const bool hasFactor = ranks == 1 || isSplit || world()->getRank() == 0;
   EXPECT_EQ(onFirst.coarseProblem().factorBytes() > 0, hasFactor);
+}
+
+TEST(CoarseProblemTest, EachRankHasThePartOfItsClusters) {
+  const scene::Decomposition cut =
+      clustered(grid(4, 4), 4); // four clusters a body, whole ones on one, two and four ranks
+  const auto decomposition = decompose(twoMembranes(false, 12, cut), world());
+  const GeneralizedInverse inverse(decomposition.problem, DirectSolvers());
+  const int ranks = world()->getSize();
+  EXPECT_EQ(inverse.coarseProblem().isSplit(), ranks == 2 || ranks == 4);
+  EXPECT_EQ(inverse.coarseProblem().isReplicated(), !inverse.coarseProblem().isSplit());
+  // F of one rank, which has it all.
+  const auto alone = decompose(twoMembranes(false, 12, cut), rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)));
+  const auto f = [](const model::Decomposition& d) {
+    return matrixOf(DualOperator(std::make_shared<GeneralizedInverse>(d.problem, DirectSolvers())));
+  };
+  EXPECT_LE(relativeError(f(decomposition), f(alone)), 1e-13);
 }
 
 TEST(CoarseProblemTest, TakesManyColumnsOnOneRankAsOnAll) {

@@ -69,6 +69,8 @@ std::vector<ContactCase> contactCases() {
     cases.push_back({kind + "uneven grid", twoMembranes(coercive, 5, grid(3, 1)), coercive});
     cases.push_back({kind + "one element a subdomain", twoMembranes(coercive, 3, grid(3, 3)), coercive});
     cases.push_back({kind + "METIS", twoMembranes(coercive, 6, metis(3)), coercive});
+    cases.push_back(
+        {kind + "a subdomain a cluster", twoMembranes(coercive, 6, clustered(grid(2, 2), 1)), coercive});
     scene::Scene withBystander = twoMembranes(coercive, 4, grid(2, 1));
     withBystander.bodies.push_back(
         decomposition::oneBody(2, 2, grid(1, 1), {{"foot", "bottom", {0.0}}}).bodies.front());
@@ -94,7 +96,7 @@ DenseProblem densify(const DecomposedProblem& problem) {
   const auto columns = mergedColumns(problem);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
-    const int offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
+    const int offset = problem.kernelOffsetOf(subdomain);
     for (std::size_t i = 0; i < columns[s].size(); ++i) {
       const auto unknown = static_cast<Eigen::Index>(i);
       dense.load[columns[s][i]] += subdomain.load[unknown];

@@ -15,6 +15,7 @@
 namespace epafi::fetidp {
 
 using decomposition::DecomposedProblem;
+using decomposition::clustered;
 using decomposition::grid;
 using decomposition::metis;
 using decomposition::twoMembranes;

@@ -45,8 +45,10 @@ TEST(IndependenceTest, TheSolutionDoesNotDependOnThePartition) {
   for (const bool coercive : {true, false}) {
     const Solved reference(membranes(coercive, 6, grid(1, 1)));
     const Field u = fieldOf(reference.decomposition, reference.solution);
-    for (const auto& cut : {grid(2, 2), grid(6, 6), grid(1, 3), metis(3), metis(7)}) {
-      SCOPED_TRACE(testing::Message() << coercive << ' ' << cut.counts[0] << ' ' << cut.parts);
+    for (const auto& cut : {grid(2, 2), grid(6, 6), grid(1, 3), metis(3), metis(7), clustered(grid(2, 2), 1),
+                            clustered(grid(3, 3), 4), clustered(metis(4), 2)}) {
+      SCOPED_TRACE(testing::Message()
+                   << coercive << ' ' << cut.counts[0] << ' ' << cut.parts << ' ' << cut.cluster);
       const Solved solved(membranes(coercive, 6, cut));
       EXPECT_LE(fieldError(fieldOf(solved.decomposition, solved.solution), u), 1e-8);
       EXPECT_NEAR(solved.solution.energy, reference.solution.energy,

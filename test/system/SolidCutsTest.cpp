@@ -118,9 +118,13 @@ TEST_P(SolidCutsTest, TheAnswerIsThatOfOneSubdomainABody) {
     cuts.push_back(cutInGrid({2, 2, GetParam().dimension == 3 ? 2 : 1}));
     cuts.push_back(cutInGrid({4, 3, 1}));
   }
+  for (const auto& [parts, size] : {std::pair{2, 1}, {16, 4}, {16, 8}}) { // FETI and hybrid
+    cuts.push_back(cutByMetis(parts));
+    cuts.back().cluster = size;
+  }
   for (const scene::Decomposition& cut : cuts) {
     SCOPED_TRACE(testing::Message() << cut.counts[0] << '.' << cut.counts[1] << '.' << cut.counts[2] << ' '
-                                    << cut.parts);
+                                    << cut.parts << ' ' << cut.cluster);
     cutAlike(scene_, cut);
     expectSame(SolidRun(scene_, 1e-12), whole, 1e-9);
   }

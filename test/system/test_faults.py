@@ -259,6 +259,31 @@ class Signals(Faults):
             self.expect(self.finish(process), FAILED, "SIGTERM", "before the iteration", "start again")
             self.assertEqual(list((self.place / "out").iterdir()), [])
 
+    def test_in_a_later_mesh_the_last_complete_one_is_kept(self):
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                directory = self.place / f"out{ranks}"
+                process = self.start(PROGRAM, scene("punch"), "--accuracy", "0.02%", "--output", directory, ranks=ranks)
+                told = 0
+                while told < 3:  # of six or more
+                    line = process.stdout.readline()
+                    self.assertTrue(line, "ended early")
+                    told += line.startswith("  mesh ")
+                process.send_signal(signal.SIGTERM)
+                ended = self.finish(process)
+                self.assertEqual(ended.returncode, FAILED, ended.stdout + ended.stderr)
+                self.assertEqual(said(ended.stderr), [])
+                told += ended.stdout.count("\n  mesh ") + ended.stdout.startswith("  mesh ")
+                status = report_of(directory)["Status"]
+                self.assertEqual(status["Status"], "Interrupted")
+                self.assertIn("0.02 % was asked for: a signal came", status["Reason"])
+                meshes = (directory / "meshes.csv").read_text().splitlines()
+                self.assertEqual(len(meshes), 1 + told)
+                unknowns = int(report_of(directory)["Problem"]["Primal Dimension"])
+                self.assertIn(f",{unknowns},", meshes[-1])
+                self.assertTrue(numpy.isfinite(fields_of(directory / "punch.h5")).all())
+                self.assertEqual([file.name for file in directory.iterdir() if file.suffix == ".partial"], [])
+
     def test_a_second_signal_ends_at_once(self):
         process = self.start(PROGRAM, scene("coercive"), *elements(1536, "left", "right"), "--set",
                              "Solver/Direct Solvers/Share Identical Subdomains=no")

@@ -1,0 +1,222 @@
+#include "epafi/decomposition/Clusters.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/decomposition/Corners.hpp"
+#include "epafi/fem/RigidModes.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace epafi::decomposition {
+namespace {
+
+/// Subdomains of one cluster that hold each other.
+struct Link {
+  int subdomain, other;
+};
+
+/// Those of this rank's subdomains with higher ones, at free nodes that no other cluster has.
+std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
+                          std::span<const int> clusterOf) {
+  const auto cluster = [&](int number) { return clusterOf[static_cast<std::size_t>(number)]; };
+  std::vector<Link> links;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const int own = static_cast<int>(all.subdomains[s].number);
+    std::map<int, HoldingPoints> points; // of each higher neighbour
+    for (const SharedNodes::Copy& copy : shared.copiesOf(s)) {
+      const std::span<const int> at = shared.subdomainsAt(copy.node);
+      if (!all.isFree(s, copy.place) ||
+          !std::all_of(at.begin(), at.end(), [&](int number) { return cluster(number) == cluster(own); }))
+        continue;
+      for (const int other : at.subspan(copy.order + 1))
+        points.try_emplace(other, static_cast<int>(all.components))
+            .first->second.add(all.point(s, copy.place));
+    }
+    for (const auto& [other, holding] : points)
+      if (holding.hold())
+        links.push_back({own, other});
+  }
+  return links;
+}
+
+/// Numbers what links join, in the order of the lowest members.
+std::vector<int> piecesOf(std::size_t number, const std::vector<Link>& links) {
+  std::vector<std::size_t> root(number);
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&root](std::size_t s) {
+    while (root[s] != s)
+      s = root[s] = root[root[s]];
+    return s;
+  };
+  for (const Link& link : links) {
+    const std::size_t a = find(static_cast<std::size_t>(link.subdomain)),
+                      b = find(static_cast<std::size_t>(link.other));
+    root[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<int> piece(number);
+  int next = 0;
+  for (std::size_t s = 0; s < number; ++s)
+    piece[s] = find(s) == s ? next++ : piece[find(s)];
+  return piece;
+}
+
+/// The rigid motions of each body about its middle. Collective.
+std::vector<fem::RigidModes> modesOf(const Substructures& all) {
+  std::vector<fem::RigidModes> modes;
+  for (std::size_t b = 0; b < all.bodies.size(); ++b) {
+    fem::Point centre{};
+    double size = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t s = 0; s < all.size(); ++s)
+        for (std::size_t node = 0;
+             static_cast<std::size_t>(all.subdomains[s].body) == b && node < all.numNodes(s); ++node) {
+          low = std::min(low, all.point(s, node)[d]);
+          high = std::max(high, all.point(s, node)[d]);
+        }
+      low = minOverRanks(*all.comm, low);
+      high = maxOverRanks(*all.comm, high);
+      centre[d] = 0.5 * (low + high);
+      size = std::max(size, 0.5 * (high - low));
+    }
+    modes.emplace_back(static_cast<int>(all.components), centre, size > 0 ? size : 1.0);
+  }
+  return modes;
+}
+
+/// Σ (R^s)ᵀ A^s over the subdomains of each cluster, on every rank. Collective.
+std::vector<Eigen::MatrixXd> clusterSums(const Comm& comm, const std::vector<Motions>& motions,
+                                         const std::vector<Eigen::MatrixXd>& kernels,
+                                         const std::vector<Cluster>& clusters,
+                                         const std::vector<Eigen::Index>& columns,
+                                         const std::function<const Eigen::MatrixXd&(std::size_t)>& factor) {
+  std::vector<std::size_t> first(1, 0);
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    first.push_back(first.back() + static_cast<std::size_t>(clusters[c].kernelDimension * columns[c]));
+  std::vector<double> values(first.back(), 0.0);
+  const auto sum = [&](std::size_t c) {
+    return Eigen::Map<Eigen::MatrixXd>(values.data() + first[c], clusters[c].kernelDimension, columns[c]);
+  };
+  for (std::size_t s = 0; s < kernels.size(); ++s)
+    sum(static_cast<std::size_t>(motions[s].group)) += kernels[s].transpose() * factor(s);
+  sumOverRanks(comm, std::span<double>(values));
+  std::vector<Eigen::MatrixXd> sums;
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    sums.emplace_back(sum(c));
+  return sums;
+}
+
+} // namespace
+
+std::vector<int> findClusters(const Substructures& all, const SharedNodes& shared,
+                              std::span<const int> sizes) {
+  std::vector<int> clusterOf; // first the bodies
+  for (std::size_t s = 0; s < all.size(); ++s)
+    clusterOf.push_back(all.subdomains[s].body);
+  clusterOf = gatherOnAll(*all.comm, clusterOf); // subdomains are numbered rank by rank
+  if (std::all_of(sizes.begin(), sizes.end(), [](int size) { return size == 0; }))
+    return clusterOf;
+  std::vector<int> count(all.bodies.size(), 0), current(all.bodies.size(), 0);
+  int next = 0;
+  for (int& cluster : clusterOf) {
+    const auto body = static_cast<std::size_t>(cluster);
+    const int run = sizes[body] > 0 ? sizes[body] : std::numeric_limits<int>::max();
+    if (count[body]++ % run == 0)
+      current[body] = next++;
+    cluster = current[body];
+  }
+  for (int before = 0; before != next;) { // a cut takes nodes away from what it leaves
+    before = next;
+    clusterOf = piecesOf(clusterOf.size(), gatherOnAll(*all.comm, linksOf(all, shared, clusterOf)));
+    next = clusterOf.empty() ? 0 : 1 + *std::max_element(clusterOf.begin(), clusterOf.end());
+  }
+  return clusterOf;
+}
+
+std::vector<Cluster> clustersOfBodies(std::span<const Body> bodies) {
+  std::vector<Cluster> clusters;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    clusters.push_back({static_cast<int>(b), bodies[b].kernelDimension, bodies[b].kernelOffset,
+                        Eigen::MatrixXd::Identity(bodies[b].kernelDimension, bodies[b].kernelDimension)});
+  return clusters;
+}
+
+std::vector<Motions> rigidMotionsOf(const Substructures& all) {
+  const bool isElastic = static_cast<int>(all.components) == all.places.dimension;
+  const std::vector<fem::RigidModes> modes =
+      isElastic ? modesOf(all) : std::vector<fem::RigidModes>(all.bodies.size(), {1, {}, 1.0});
+  std::vector<Motions> motions;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const Subdomain& subdomain = all.subdomains[s];
+    const fem::RigidModes& own = modes[static_cast<std::size_t>(subdomain.body)];
+    std::map<std::size_t, const Eigen::Matrix3d*> axes;
+    for (const NodeFrame& frame : subdomain.frames)
+      axes.emplace(static_cast<std::size_t>(frame.node), &frame.axes);
+    Motions& target = motions.emplace_back(Motions{subdomain.body, all.nodal[s].stiffness.get(), {}});
+    target.near.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()),
+                       isElastic ? own.number() : static_cast<Eigen::Index>(all.components));
+    for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
+      const auto position = static_cast<std::size_t>(subdomain.unknownPosition[i]);
+      const std::size_t node = position / all.components;
+      const auto component = static_cast<int>(position % all.components);
+      const auto found = axes.find(node);
+      const auto row = static_cast<Eigen::Index>(i);
+      if (!isElastic)
+        target.near.row(row) = Eigen::RowVectorXd::Unit(target.near.cols(), component);
+      else if (found != axes.end())
+        target.near.row(row) = own.along(all.point(s, node), found->second->col(component)).transpose();
+      else
+        target.near.row(row) = own.at(all.point(s, node), component).transpose();
+    }
+  }
+  return motions;
+}
+
+ClusterKernels findClusterKernels(const Substructures& all, std::vector<Motions> motions,
+                                  const std::vector<int>& clusterOf) {
+  ClusterKernels result;
+  result.clusters.resize(clusterOf.empty() ? 0
+                                           : static_cast<std::size_t>(
+                                                 1 + *std::max_element(clusterOf.begin(), clusterOf.end())));
+  std::vector<int> bodies;
+  for (std::size_t s = 0; s < all.size(); ++s)
+    bodies.push_back(all.subdomains[s].body);
+  bodies = gatherOnAll(*all.comm, bodies);
+  for (std::size_t s = 0; s < bodies.size(); ++s)
+    result.clusters[static_cast<std::size_t>(clusterOf[s])].body = bodies[s];
+  for (std::size_t s = 0; s < motions.size(); ++s)
+    motions[s].group = clusterOf[static_cast<std::size_t>(all.subdomains[s].number)];
+  const std::vector<Eigen::MatrixXd> free = findFreeMotions(motions, *all.comm, result.clusters.size());
+  std::vector<Eigen::Index> own, ofBody; // numbers of modes
+  int offset = 0;
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    Cluster& cluster = result.clusters[c];
+    cluster.kernelDimension = static_cast<int>(free[c].cols());
+    cluster.kernelOffset = offset;
+    offset += cluster.kernelDimension;
+    own.push_back(cluster.kernelDimension);
+    ofBody.push_back(all.bodies[static_cast<std::size_t>(cluster.body)].kernelDimension);
+  }
+  for (const Motions& m : motions)
+    result.kernels.emplace_back(m.near * free[static_cast<std::size_t>(m.group)]);
+  const auto sums = [&](const std::vector<Eigen::Index>& columns, const auto& factor) {
+    return clusterSums(*all.comm, motions, result.kernels, result.clusters, columns, factor);
+  };
+  const auto gram = sums(own, [&](std::size_t s) -> const Eigen::MatrixXd& { return result.kernels[s]; });
+  const auto mixed =
+      sums(ofBody, [&](std::size_t s) -> const Eigen::MatrixXd& { return all.subdomains[s].kernel; });
+  for (std::size_t c = 0; c < free.size(); ++c) { // R X = R_body, but for round-off
+    result.clusters[c].ofBody = mixed[c];
+    if (result.clusters[c].kernelDimension > 0)
+      result.clusters[c].ofBody = gram[c].ldlt().solve(mixed[c]);
+  }
+  return result;
+}
+
+} // namespace epafi::decomposition

@@ -1,0 +1,156 @@
+// Clusters of subdomains: what joins them inside, what glues them, and how they move.
+
+#include "Gathered.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <span>
+
+namespace epafi::decomposition {
+namespace {
+
+scene::Scene solid(int dimension, const scene::Decomposition& cut, bool isHeld) {
+  scene::Scene scene;
+  scene::Body body;
+  body.name = "block";
+  body.physics = dimension == 3 ? scene::Physics::elasticity3d : scene::Physics::planeStrain;
+  body.mesh.box = {{3, 5, 7}, {5, 6, 8}};
+  body.mesh.elements = dimension == 3 ? std::array{8, 8, 8} : std::array{16, 16, 0};
+  body.decomposition = cut;
+  if (isHeld)
+    body.supports = {{"foot", "left", {0.0, 0.0, dimension == 3 ? std::optional(0.0) : std::nullopt}}};
+  scene.bodies = {body};
+  return scene;
+}
+
+std::vector<Case> clusteredCases() {
+  std::vector<Case> cases;
+  for (const bool isHeld : {false, true})
+    for (const int size : {1, 2, 3, 4}) {
+      const std::string kind =
+          (isHeld ? "held, clusters of " : "floating, clusters of ") + std::to_string(size);
+      cases.push_back({"membranes " + kind, twoMembranes(isHeld, 12, clustered(grid(4, 2), size))});
+      cases.push_back({"membranes by METIS " + kind, twoMembranes(isHeld, 12, clustered(metis(6), size))});
+      cases.push_back({"plane " + kind, solid(2, clustered(grid(4, 2), size), isHeld)});
+      scene::Decomposition cut = clustered(grid(2, 2), size);
+      cut.counts[2] = 2;
+      cases.push_back({"space " + kind, solid(3, cut, isHeld)});
+    }
+  return cases;
+}
+
+TEST(ClustersTest, EachIsARunOfSubdomainsOfOneBodyNoLongerThanAskedFor) {
+  for (const Case& c : clusteredCases()) {
+    SCOPED_TRACE(c.name);
+    const auto result = decompose(c.scene, world());
+    const DecomposedProblem& p = result.problem;
+    ASSERT_EQ(static_cast<int>(p.clusterOf.size()), p.numSubdomains);
+    std::vector<int> size(p.clusters.size(), 0);
+    for (const int cluster : p.clusterOf)
+      ++size[static_cast<std::size_t>(cluster)];
+    EXPECT_GE(*std::min_element(size.begin(), size.end()), 1);
+    EXPECT_LE(*std::max_element(size.begin(), size.end()), c.scene.bodies.front().decomposition.cluster);
+    for (const Subdomain& s : p.subdomains) {
+      EXPECT_EQ(p.clusterAt(s).body, s.body);
+      EXPECT_EQ(s.kernel.cols(), p.clusterAt(s).kernelDimension);
+    }
+    EXPECT_EQ(p.kernelDimension, p.clusters.back().kernelOffset + p.clusters.back().kernelDimension);
+  }
+}
+
+TEST(ClustersTest, NoCrosspointBelongsToTwo) {
+  for (const Case& c : clusteredCases()) {
+    SCOPED_TRACE(c.name);
+    const auto result = decompose(c.scene, world());
+    const DecomposedProblem& p = result.problem;
+    struct Sighting {
+      GlobalOrdinal unknown;
+      int cluster;
+    };
+    std::vector<Sighting> mine;
+    for (const Subdomain& s : p.subdomains)
+      for (const CoarseNumber unknown : s.crosspointIndices)
+        mine.push_back({unknown, p.clusterOf[static_cast<std::size_t>(s.number)]});
+    std::map<GlobalOrdinal, int> cluster;
+    for (const Sighting& sighting : gatherOnAll(*p.comm, mine))
+      EXPECT_EQ(cluster.try_emplace(sighting.unknown, sighting.cluster).first->second, sighting.cluster);
+    EXPECT_GT(smallestPivot(p), 1e-6);
+    EXPECT_EQ(kernelDimension(mergedStiffness(p)), p.kernelDimension);
+  }
+}
+
+TEST(ClustersTest, TheirMotionsCostNothingAndAmongThemAreThoseOfTheBodies) {
+  for (const Case& c : clusteredCases()) {
+    SCOPED_TRACE(c.name);
+    const auto result = decompose(c.scene, world());
+    scene::Scene plain = c.scene;
+    for (scene::Body& body : plain.bodies) // the same numbers of subdomains
+      body.decomposition.cluster = 0;
+    const auto whole = decompose(plain, world());
+    for (const Subdomain& s : result.problem.subdomains) {
+      const double scale = Eigen::VectorXd(s.stiffness->diagonal()).maxCoeff();
+      if (s.kernel.size() > 0) {
+        EXPECT_LE((*s.stiffness * s.kernel).cwiseAbs().maxCoeff(),
+                  1e-9 * scale * s.kernel.cwiseAbs().maxCoeff());
+      }
+      EXPECT_EQ(result.problem.clusterAt(s).ofBody.cols(),
+                result.problem.bodies[static_cast<std::size_t>(s.body)].kernelDimension);
+    }
+    EXPECT_EQ(result.problem.numRigidModes(), whole.problem.kernelDimension);
+    // A motion of a body does not tear its gluing, R X of the clusters' modes.
+    const DecomposedProblem& p = result.problem;
+    std::vector<double> jumps(static_cast<std::size_t>(p.dualDimension() * std::max(1, p.numRigidModes())),
+                              0.0);
+    for (const Subdomain& s : p.subdomains) {
+      const Eigen::MatrixXd modes = s.kernel * p.clusterAt(s).ofBody;
+      const int first = p.bodies[static_cast<std::size_t>(s.body)].kernelOffset;
+      for (const ConstraintEntry& entry : s.constraint)
+        for (Eigen::Index mode = 0; mode < modes.cols(); ++mode)
+          jumps[static_cast<std::size_t>(p.numberOf(entry.multiplier) * p.numRigidModes() + first + mode)] +=
+              entry.coefficient * modes(entry.unknown, mode);
+    }
+    sumOverRanks(*p.comm, std::span(jumps));
+    for (GlobalOrdinal row = p.numInequalities; row < p.dualDimension(); ++row)
+      for (int mode = 0; mode < p.numRigidModes(); ++mode)
+        EXPECT_NEAR(jumps[static_cast<std::size_t>(row * p.numRigidModes() + mode)], 0, 1e-9) << row;
+  }
+}
+
+TEST(ClustersTest, GluingHoldsThemTogether) {
+  for (const Case& c : clusteredCases()) {
+    SCOPED_TRACE(c.name);
+    const auto result = decompose(c.scene, world());
+    const Eigen::MatrixXd b = mergedConstraint(result.problem);
+    EXPECT_EQ(kernelDimension(b * b.transpose()), 0); // no row is redundant
+    const Eigen::MatrixXd gluing = b.bottomRows(result.problem.numEqualities),
+                          k = mergedStiffness(result.problem);
+    EXPECT_EQ(kernelDimension(k + k.diagonal().maxCoeff() * gluing.transpose() * gluing),
+              result.problem.numRigidModes());
+  }
+}
+
+TEST(ClustersTest, OneSubdomainAClusterIsFeti) {
+  const auto result = decompose(twoMembranes(true, 12, clustered(grid(3, 3), 1)), world());
+  EXPECT_EQ(result.problem.clusters.size(), 18u);
+  EXPECT_EQ(result.problem.kernelDimension, 18 - 6); // three of each body are held
+  EXPECT_EQ(result.problem.numCrosspoints, 12);      // one inside each that floats
+}
+
+TEST(ClustersTest, SubdomainsThatDoNotHoldEachOtherArePartedAndTinyOnesRefused) {
+  scene::Scene scene =
+      solid(2, clustered(grid(8, 8), 4), true); // 2 × 2 elements: one node on an interface's inside
+  const auto result = decompose(scene, world());
+  for (const Cluster& cluster : result.problem.clusters)
+    EXPECT_LE(cluster.kernelDimension, 3);                    // no mechanisms
+  scene.bodies[0].decomposition = clustered(grid(16, 16), 1); // one element each: no node inside
+  EXPECT_THROW((void)decompose(scene, world()), InputError);
+}
+
+} // namespace
+} // namespace epafi::decomposition
