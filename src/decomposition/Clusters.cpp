@@ -16,12 +16,7 @@
 namespace epafi::decomposition {
 namespace {
 
-/// Subdomains of one cluster that hold each other.
-struct Link {
-  int subdomain, other;
-};
-
-/// Those of this rank's subdomains with higher ones, at free nodes that no other cluster has.
+/// Subdomains of one cluster that hold each other: this rank's with higher ones, at free nodes that no other cluster has.
 std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
                           std::span<const int> clusterOf) {
   const auto cluster = [&](int number) { return clusterOf[static_cast<std::size_t>(number)]; };
@@ -43,27 +38,6 @@ std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
         links.push_back({own, other});
   }
   return links;
-}
-
-/// Numbers what links join, in the order of the lowest members.
-std::vector<int> piecesOf(std::size_t number, const std::vector<Link>& links) {
-  std::vector<std::size_t> root(number);
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&root](std::size_t s) {
-    while (root[s] != s)
-      s = root[s] = root[root[s]];
-    return s;
-  };
-  for (const Link& link : links) {
-    const std::size_t a = find(static_cast<std::size_t>(link.subdomain)),
-                      b = find(static_cast<std::size_t>(link.other));
-    root[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<int> piece(number);
-  int next = 0;
-  for (std::size_t s = 0; s < number; ++s)
-    piece[s] = find(s) == s ? next++ : piece[find(s)];
-  return piece;
 }
 
 /// The rigid motions of each body about its middle. Collective.
@@ -113,6 +87,26 @@ std::vector<Eigen::MatrixXd> clusterSums(const Comm& comm, const std::vector<Mot
 }
 
 } // namespace
+
+std::vector<int> piecesOf(std::size_t numSubdomains, std::span<const Link> links) {
+  std::vector<std::size_t> root(numSubdomains);
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&root](std::size_t s) {
+    while (root[s] != s)
+      s = root[s] = root[root[s]];
+    return s;
+  };
+  for (const Link& link : links) {
+    const std::size_t a = find(static_cast<std::size_t>(link.subdomain)),
+                      b = find(static_cast<std::size_t>(link.other));
+    root[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<int> piece(numSubdomains);
+  int next = 0;
+  for (std::size_t s = 0; s < numSubdomains; ++s)
+    piece[s] = find(s) == s ? next++ : piece[find(s)];
+  return piece;
+}
 
 std::vector<int> findClusters(const Substructures& all, const SharedNodes& shared,
                               std::span<const int> sizes) {

@@ -18,6 +18,14 @@
 
 namespace epafi::decomposition {
 
+/// Two subdomains that hang together, by their numbers.
+struct Link {
+  int subdomain, other;
+};
+
+/// What links join among so many subdomains: the piece of each, numbered in the order of their lowest members. Not collective.
+std::vector<int> piecesOf(std::size_t numSubdomains, std::span<const Link> links);
+
 /// The cluster of each subdomain of the whole problem, on every rank: runs of subdomains of a body in the order of
 /// their numbers, cut where subdomains of a run do not hold each other at nodes that no other cluster has.
 /// \param sizes  of the runs, of each body; 0: all of it

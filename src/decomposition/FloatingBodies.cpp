@@ -2,11 +2,11 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/decomposition/Clusters.hpp"
 
 #include <Eigen/Eigenvalues>
 
-#include <algorithm>
-#include <numeric>
+#include <map>
 #include <set>
 #include <span>
 
@@ -119,9 +119,6 @@ std::vector<Eigen::MatrixXd> findFreeMotions(const std::vector<Motions>& motions
 }
 
 void requireConnected(const Substructures& all, const SharedNodes& shared) {
-  struct Link {
-    int subdomain, neighbour;
-  };
   std::vector<Link> links;
   std::vector<int> owner; // body of each subdomain
   for (std::size_t s = 0; s < all.size(); ++s) {
@@ -132,29 +129,22 @@ void requireConnected(const Substructures& all, const SharedNodes& shared) {
     for (const int neighbour : neighbours)
       links.push_back({all.subdomains[s].number, neighbour});
   }
-  links = gatherOnAll(*all.comm, links);
   owner = gatherOnAll(*all.comm, owner); // numbers ascend with ranks
-  std::vector<std::size_t> root(owner.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&root](std::size_t s) {
-    while (root[s] != s)
-      s = root[s] = root[root[s]];
-    return s;
-  };
-  for (const Link& link : links)
-    root[find(static_cast<std::size_t>(link.subdomain))] = find(static_cast<std::size_t>(link.neighbour));
-  const std::span<const Body> bodies = all.bodies;
-  std::vector<std::size_t> first(bodies.size(), root.size());
-  for (std::size_t s = 0; s < root.size(); ++s) {
-    const auto b = static_cast<std::size_t>(owner[s]);
-    if (owner[find(s)] != owner[s])
-      throw InputError("subdomains of the bodies '" + bodies[b].name + "' and '" +
-                       bodies[static_cast<std::size_t>(owner[find(s)])].name +
+  const std::vector<int> pieces = piecesOf(owner.size(), gatherOnAll(*all.comm, links));
+  std::map<int, int> bodyOf;                       // of each piece, that of its lowest subdomain
+  std::vector<int> pieceOf(all.bodies.size(), -1); // the first of each body
+  for (std::size_t s = 0; s < pieces.size(); ++s) {
+    const int known = bodyOf.try_emplace(pieces[s], owner[s]).first->second;
+    const Body &own = all.bodies[static_cast<std::size_t>(owner[s])],
+               &other = all.bodies[static_cast<std::size_t>(known)];
+    if (known != owner[s])
+      throw InputError("subdomains of the bodies '" + own.name + "' and '" + other.name +
                        "' share nodes; what is joined is one body.");
-    if (first[b] == root.size())
-      first[b] = find(s);
-    if (first[b] != find(s))
-      throw InputError("the body '" + bodies[b].name +
+    int& first = pieceOf[static_cast<std::size_t>(owner[s])];
+    if (first < 0)
+      first = pieces[s];
+    if (first != pieces[s])
+      throw InputError("the body '" + own.name +
                        "' falls into parts that share no node; give each part a body of its own.");
   }
 }

@@ -21,7 +21,7 @@ scene::Scene solid(int dimension, const scene::Decomposition& cut, bool isHeld) 
   body.name = "block";
   body.physics = dimension == 3 ? scene::Physics::elasticity3d : scene::Physics::planeStrain;
   body.mesh.box = {{3, 5, 7}, {5, 6, 8}};
-  body.mesh.elements = dimension == 3 ? std::array{8, 8, 8} : std::array{16, 16, 0};
+  body.mesh.elements = dimension == 3 ? std::array{6, 6, 6} : std::array{12, 6, 0};
   body.decomposition = cut;
   if (isHeld)
     body.supports = {{"foot", "left", {0.0, 0.0, dimension == 3 ? std::optional(0.0) : std::nullopt}}};
@@ -29,7 +29,8 @@ scene::Scene solid(int dimension, const scene::Decomposition& cut, bool isHeld) 
   return scene;
 }
 
-std::vector<Case> clusteredCases() {
+/// \param inSpace  with bodies in space, too large for dense matrices
+std::vector<Case> clusteredCases(bool inSpace) {
   std::vector<Case> cases;
   for (const bool isHeld : {false, true})
     for (const int size : {1, 2, 3, 4}) {
@@ -40,13 +41,14 @@ std::vector<Case> clusteredCases() {
       cases.push_back({"plane " + kind, solid(2, clustered(grid(4, 2), size), isHeld)});
       scene::Decomposition cut = clustered(grid(2, 2), size);
       cut.counts[2] = 2;
-      cases.push_back({"space " + kind, solid(3, cut, isHeld)});
+      if (inSpace)
+        cases.push_back({"space " + kind, solid(3, cut, isHeld)});
     }
   return cases;
 }
 
 TEST(ClustersTest, EachIsARunOfSubdomainsOfOneBodyNoLongerThanAskedFor) {
-  for (const Case& c : clusteredCases()) {
+  for (const Case& c : clusteredCases(true)) {
     SCOPED_TRACE(c.name);
     const auto result = decompose(c.scene, world());
     const DecomposedProblem& p = result.problem;
@@ -65,7 +67,7 @@ TEST(ClustersTest, EachIsARunOfSubdomainsOfOneBodyNoLongerThanAskedFor) {
 }
 
 TEST(ClustersTest, NoCrosspointBelongsToTwo) {
-  for (const Case& c : clusteredCases()) {
+  for (const Case& c : clusteredCases(true)) {
     SCOPED_TRACE(c.name);
     const auto result = decompose(c.scene, world());
     const DecomposedProblem& p = result.problem;
@@ -81,12 +83,19 @@ TEST(ClustersTest, NoCrosspointBelongsToTwo) {
     for (const Sighting& sighting : gatherOnAll(*p.comm, mine))
       EXPECT_EQ(cluster.try_emplace(sighting.unknown, sighting.cluster).first->second, sighting.cluster);
     EXPECT_GT(smallestPivot(p), 1e-6);
-    EXPECT_EQ(kernelDimension(mergedStiffness(p)), p.kernelDimension);
+  }
+}
+
+TEST(ClustersTest, MergedTheyHaveNoKernelButTheirOwn) {
+  for (const Case& c : clusteredCases(false)) {
+    SCOPED_TRACE(c.name);
+    const auto result = decompose(c.scene, world());
+    EXPECT_EQ(kernelDimension(mergedStiffness(result.problem)), result.problem.kernelDimension);
   }
 }
 
 TEST(ClustersTest, TheirMotionsCostNothingAndAmongThemAreThoseOfTheBodies) {
-  for (const Case& c : clusteredCases()) {
+  for (const Case& c : clusteredCases(true)) {
     SCOPED_TRACE(c.name);
     const auto result = decompose(c.scene, world());
     scene::Scene plain = c.scene;
@@ -123,7 +132,7 @@ TEST(ClustersTest, TheirMotionsCostNothingAndAmongThemAreThoseOfTheBodies) {
 }
 
 TEST(ClustersTest, GluingHoldsThemTogether) {
-  for (const Case& c : clusteredCases()) {
+  for (const Case& c : clusteredCases(false)) {
     SCOPED_TRACE(c.name);
     const auto result = decompose(c.scene, world());
     const Eigen::MatrixXd b = mergedConstraint(result.problem);
@@ -144,11 +153,11 @@ TEST(ClustersTest, OneSubdomainAClusterIsFeti) {
 
 TEST(ClustersTest, SubdomainsThatDoNotHoldEachOtherArePartedAndTinyOnesRefused) {
   scene::Scene scene =
-      solid(2, clustered(grid(8, 8), 4), true); // 2 × 2 elements: one node on an interface's inside
+      solid(2, clustered(grid(6, 3), 4), true); // 2 × 2 elements: one node on an interface's inside
   const auto result = decompose(scene, world());
   for (const Cluster& cluster : result.problem.clusters)
-    EXPECT_LE(cluster.kernelDimension, 3);                    // no mechanisms
-  scene.bodies[0].decomposition = clustered(grid(16, 16), 1); // one element each: no node inside
+    EXPECT_LE(cluster.kernelDimension, 3);                   // no mechanisms
+  scene.bodies[0].decomposition = clustered(grid(12, 6), 1); // one element each: no node inside
   EXPECT_THROW((void)decompose(scene, world()), InputError);
 }
 

@@ -309,5 +309,30 @@ TEST(PartitionTest, MeshesInPiecesAreNotCut) {
   }
 }
 
+TEST(PartitionTest, AGroupedGridFallsIntoBlocks) {
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {16, 16, 0}, 1);
+  const auto parts = std::make_shared<const GridPartition>(mesh, std::array{8, 8, 1});
+  const model::GroupedPartition grouped(parts, mesh, 16);
+  std::vector<int> elements(64, 0);
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    const int part = grouped.partOf(element);
+    ++elements[static_cast<std::size_t>(part)];
+    const GlobalOrdinal i = element % 16, j = element / 16;
+    EXPECT_EQ(part / 16, grouped.partOf((j / 8 * 8) * 16 + i / 8 * 8) / 16); // four blocks of 4 × 4 parts
+  }
+  EXPECT_EQ(elements, std::vector<int>(64, 4));
+  for (int part = 0; part < 64; ++part)
+    for (const GlobalOrdinal element : grouped.elementsOf(part))
+      EXPECT_EQ(grouped.partOf(element), part);
+}
+
+TEST(PartitionTest, PartsAreAsManyAsSuitWhereNoneAreAskedFor) {
+  for (const int elements : {10, 70, 140}) {
+    const scene::Scene scene = oneBody(elements, elements, metis(0), {});
+    const int nodes = (elements + 1) * (elements + 1);
+    EXPECT_EQ(layoutBodies(scene, *world()).front().partition->numParts(), (nodes + 3999) / 4000);
+  }
+}
+
 } // namespace
 } // namespace epafi::decomposition
