@@ -156,7 +156,7 @@ struct DecomposedProblem {
   [[nodiscard]] MultiplierNumber numberOf(TouchedMultiplier row) const { ///< likewise
     return multiplierGhostMap->getGlobalElement(row);
   }
-  [[nodiscard]] const Cluster& clusterAt(const Subdomain& subdomain) const {
+  [[nodiscard]] const Cluster& clusterAt(const Subdomain& subdomain) const { ///< that it is in
     return clusters[static_cast<std::size_t>(clusterOf[static_cast<std::size_t>(subdomain.number)])];
   }
   /// Columns of R that a subdomain's kernel stands in: number of the first.
