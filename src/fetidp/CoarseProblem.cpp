@@ -152,7 +152,9 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
       size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())), factorSize_(size_),
       crosspoints_(crosspoints.begin(), crosspoints.end()) {
   const auto mine = static_cast<GlobalOrdinal>(crosspoints_.size());
-  if (numRanks_ > 1 && sumOverRanks(*problem.comm, mine) == size_) {
+  // Whole bodies stay together: factors of all are the same to the last digit on any number of ranks.
+  const bool hasParts = problem.clusters.size() > problem.bodies.size();
+  if (numRanks_ > 1 && hasParts && sumOverRanks(*problem.comm, mine) == size_) {
     comm_ = rcp(new Teuchos::SerialComm<int>());
     factorSize_ = static_cast<int>(mine);
   }

@@ -2,8 +2,8 @@
 
 /// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. While it is small it is the one thing of global
 /// size that every rank holds: all factorise and solve it alike, for the price of one message. A large one lies on
-/// rank 0, and the others send their shares and receive their values, by plans built once. Where no coarse unknown belongs to
-/// two ranks, as with a cluster or more a rank (Clusters.hpp), each rank has the part of its own, and there are no messages.
+/// rank 0, and the others send their shares and receive their values, by plans built once. Where bodies are of several
+/// clusters (Clusters.hpp) and no coarse unknown belongs to two ranks, each rank has the part of its own, and there are no messages.
 ///
 /// Where a cluster floats, most often a whole body, S_cc is singular with the known kernel R_c (R at the crosspoints). A generalised
 /// inverse is then S_cc⁺ = (S_cc + τEEᵀ)⁻¹, where E picks as many crosspoint values of every floating cluster as

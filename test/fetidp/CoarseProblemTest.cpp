@@ -18,10 +18,9 @@ TEST(CoarseProblemTest, LiesOnOneRankWhereItIsTooLargeForAll) {
   const GeneralizedInverse onAll(decomposition.problem, DirectSolvers());
 
   const int ranks = world()->getSize();
-  const bool isSplit = ranks == 2; // a body each
-  EXPECT_EQ(onAll.coarseProblem().isReplicated(), !isSplit);
+  EXPECT_TRUE(onAll.coarseProblem().isReplicated());
   EXPECT_EQ(onFirst.coarseProblem().isReplicated(), ranks == 1);
-  const bool hasFactor = ranks == 1 || isSplit || world()->getRank() == 0;
+  const bool hasFactor = ranks == 1 || world()->getRank() == 0;
   EXPECT_EQ(onFirst.coarseProblem().factorBytes() > 0, hasFactor);
 }
 

@@ -13,7 +13,7 @@
 namespace epafi::output {
 namespace {
 
-constexpr int cells = 10;
+constexpr int cells = 14;
 
 /// p = p₀ − Σ a_d (x_d − c_d)²
 struct Bowl {
@@ -44,13 +44,14 @@ std::array<double, 2> moments(double x, double c, int order) {
   return sums;
 }
 
-/// ∫pN
+/// ∫pN, in the plane times the thickness.
 double multiplier(const Bowl& bowl, const fem::Point& x, int dimension, int order) {
   std::array<std::array<double, 2>, 2> along{{{1, 0}, {1, 0}}};
   for (std::size_t d = 0; d + 1 < static_cast<std::size_t>(dimension); ++d)
     along[d] = moments(x[d], bowl.centre[d], order);
-  return bowl.peak * along[0][0] * along[1][0] - bowl.slope[0] * along[0][1] * along[1][0] -
-         bowl.slope[1] * along[0][0] * along[1][1];
+  const double thickness = dimension == 2 ? 0.5 : 1; // elasticBlock's
+  return thickness * (bowl.peak * along[0][0] * along[1][0] - bowl.slope[0] * along[0][1] * along[1][0] -
+                      bowl.slope[1] * along[0][0] * along[1][1]);
 }
 
 struct LargestPressureTest : testing::Test {

@@ -223,8 +223,8 @@ TEST(BodyReaderTest, RefusesMoreSubdomainsThanElements) {
 TEST(BodyReaderTest, RefusesCountsOfSubdomainsBelowOne) {
   const auto grid = [](ParameterList& list) { list.sublist("Decomposition").set("Grid", counts({0, 2})); };
   expectSays(sceneRefusal(grid), {"\"Grid\"", "{0, 2}", "at least 1"});
-  const auto metis = [](ParameterList& list) { list.sublist("Decomposition").set("Parts", 0); };
-  expectSays(sceneRefusal(metis), {"a.xml: ", "\"Parts\"", "\"Decomposition\"", "is 0", "≥ 1"});
+  const auto metis = [](ParameterList& list) { list.sublist("Decomposition").set("Parts", -1); };
+  expectSays(sceneRefusal(metis), {"a.xml: ", "\"Parts\"", "\"Decomposition\"", "is -1", "≥ 0"});
 }
 
 TEST(BodyReaderTest, RefusesAnUnknownMethodOfDecomposition) {
