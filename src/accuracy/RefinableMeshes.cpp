@@ -116,8 +116,7 @@ RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : 
 
 scene::Scene RefinableMeshes::scene(int order) const {
   scene::Scene scene(scene_);
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    scene::Body& body = scene.bodies[b];
+  for (scene::Body& body : scene.bodies) {
     body.mesh.order = order;
     body.decomposition.method = scene::Decomposition::Method::metis;
     body.decomposition.parts = 0; // as many as suit
