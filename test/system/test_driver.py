@@ -219,6 +219,21 @@ class SolvesAsAccuratelyAsAsked(Driver):
                 self.assertAlmostEqual(float(started["Accuracy"]["Energy"]) / float(alone["Accuracy"]["Energy"]), 1, delta=1e-6)
                 self.assertEqual(started["Accuracy"]["Active Contact Nodes"], alone["Accuracy"]["Active Contact Nodes"])
 
+    def test_clusters_of_subdomains_change_nothing_but_the_way(self):
+        """FETI-DP, FETI and hybrid, on ranks that have whole clusters and on such that do not."""
+        for name, settings in (("semicoercive", []), ("channels", []), ("notch", ["--set", "Decomposition/Parts=8"])):
+            energies, clusters = [], []
+            for cluster, ranks in ((0, 1), (1, 1), (1, 3), (4, 1), (4, 2)):
+                run = epafi(scene(name), "--quiet", "--output", self.place / "out", "--set", f"Decomposition/Cluster={cluster}", "--set",
+                            "Solver/Tolerance=1e-8", *settings, ranks=ranks)
+                self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
+                report = read_report(self.place / "out" / "report.xml")
+                energies.append(float(report["Accuracy"]["Energy"]))
+                clusters.append(int(report["Problem"]["Clusters"]))
+            self.assertTrue(clusters[0] < clusters[3] < clusters[1], clusters)
+            for energy in energies[1:]:
+                self.assertAlmostEqual(energy / energies[0], 1, delta=1e-6, msg=name)
+
     def test_membranes_and_held_bodies_start_from_nothing(self):
         for name in ("semicoercive", "gap"):
             self.assertNotIn("Start", self.solved(name, "--set", "Accuracy/Coarser Start=1"), name)
@@ -381,7 +396,8 @@ class RefusesWrongInput(Driver):
         (["Contact/interface"], "Contact/interface/First Edge=top"),
         (["Contact/interface", "left"], "Bodies/left/Supports/wall/Edge=right"),
         (["Grid"], "Decomposition/Grid={33,1}"),
-        (["Parts"], "Decomposition/Parts=0"),
+        (["Parts"], "Decomposition/Parts=-1"),
+        (["Cluster"], "Decomposition/Cluster=-1"),
         (["Method"], "Decomposition/Method=random"),
         (["Maximum Multiplications"], "Solver/MPRGP/Maximum Multiplications=0"),
         (["Tolerance"], "Solver/Tolerance=0"),
@@ -404,6 +420,11 @@ class RefusesWrongInput(Driver):
         for words, change in self.CASES:
             with self.subTest(change):
                 self.expect(WRONG_INPUT, words, scene("coercive"), "--set", change)
+
+    def test_clusters_of_subdomains_that_are_too_small(self):
+        for ranks in (1, 2):
+            self.expect(WRONG_INPUT, ["is a cluster of its own", "larger"], scene("coercive"), "--set", "Decomposition/Grid={32,32}", "--set",
+                        "Decomposition/Cluster=1", ranks=ranks)
 
     def test_a_suggestion_ends_the_sentence(self):
         for change in ("Contact/interface/First Body=lefft", "Bodies/left/Elments={4,4}", "Decomposition/Method=metsi",
