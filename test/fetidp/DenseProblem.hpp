@@ -14,8 +14,8 @@
 
 namespace epafi::fetidp {
 
-using decomposition::DecomposedProblem;
 using decomposition::clustered;
+using decomposition::DecomposedProblem;
 using decomposition::grid;
 using decomposition::metis;
 using decomposition::twoMembranes;
