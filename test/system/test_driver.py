@@ -221,16 +221,16 @@ class SolvesAsAccuratelyAsAsked(Driver):
 
     def test_clusters_of_subdomains_change_nothing_but_the_way(self):
         """FETI-DP, FETI and hybrid, on ranks that have whole clusters and on such that do not."""
-        for name, settings in (("semicoercive", []), ("channels", []), ("notch", ["--set", "Decomposition/Parts=8"])):
+        for name in ("semicoercive", "channels"):
             energies, clusters = [], []
-            for cluster, ranks in ((0, 1), (1, 1), (1, 3), (4, 1), (4, 2)):
+            for cluster, ranks in ((0, 1), (1, 3), (4, 2)):
                 run = epafi(scene(name), "--quiet", "--output", self.place / "out", "--set", f"Decomposition/Cluster={cluster}", "--set",
-                            "Solver/Tolerance=1e-8", *settings, ranks=ranks)
+                            "Solver/Tolerance=1e-8", ranks=ranks)
                 self.assertEqual(run.returncode, SOLVED, run.stdout + run.stderr)
                 report = read_report(self.place / "out" / "report.xml")
                 energies.append(float(report["Accuracy"]["Energy"]))
                 clusters.append(int(report["Problem"]["Clusters"]))
-            self.assertTrue(clusters[0] < clusters[3] < clusters[1], clusters)
+            self.assertTrue(clusters[0] < clusters[2] < clusters[1], clusters)
             for energy in energies[1:]:
                 self.assertAlmostEqual(energy / energies[0], 1, delta=1e-6, msg=name)
 
