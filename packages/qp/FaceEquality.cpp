@@ -7,38 +7,13 @@
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace epafi::qp {
 namespace {
 
-/// Replaces A by A⁻¹, both k × k, both triangles stored, by Cholesky; false, and A is lost, if it is not far from singular.
-bool invert(std::vector<double>& a, int k) {
-  constexpr double regular = 1e-8; // of the largest pivot
-  const auto size = static_cast<std::size_t>(k);
-  int info = 0;
-  Teuchos::LAPACK<int, double> lapack;
-  lapack.POTRF('L', k, a.data(), k, &info);
-  double least = std::numeric_limits<double>::infinity(), largest = 0;
-  for (std::size_t i = 0; i < size && info == 0; ++i) {
-    const double pivot = a[i * size + i] * a[i * size + i];
-    least = std::min(least, pivot);
-    largest = std::max(largest, pivot);
-  }
-  if (info != 0 || !(least > regular * largest))
-    return false;
-  lapack.POTRI('L', k, a.data(), k, &info);
-  for (std::size_t j = 0; j < size; ++j)
-    for (std::size_t i = 0; i < j; ++i)
-      a[j * size + i] = a[i * size + j];
-  return info == 0;
-}
-
 /// A⁺ of a symmetric positive semidefinite A, k × k, both triangles stored.
 std::vector<double> pseudoInverse(std::vector<double> a, int k) {
-  if (std::vector<double> inverse = a; invert(inverse, k))
-    return inverse;
   constexpr double roundOff = 1e-12; // of the largest eigenvalue
   const auto size = static_cast<std::size_t>(k);
   std::vector<double> values(size), work(3 * size), result(size * size, 0.0);

@@ -5,56 +5,85 @@
 #include "epafi/fem/RigidModes.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <string>
 
 namespace epafi::decomposition {
 namespace {
 
-/// Of each body, about its middle and scaled by half of its largest extent. Collective.
-std::vector<fem::RigidModes> rigidModesOf(const std::vector<SubdomainMatrix>& matrices, int components,
-                                          std::size_t numBodies, const Comm& comm) {
+/// Whether unknowns are displacements, of which rigid motions cost nothing; else constants do.
+bool movesRigidly(const Substructures& all) {
+  return static_cast<int>(all.components) == all.places.dimension;
+}
+
+/// Of each body, about its middle and scaled by half of its largest extent; of unknowns that are no displacements none is
+/// asked for. Collective.
+std::vector<fem::RigidModes> rigidModesOf(const Substructures& all) {
+  if (!movesRigidly(all))
+    return std::vector<fem::RigidModes>(all.bodies.size(), {1, {}, 1.0});
   std::vector<fem::RigidModes> modes;
-  for (std::size_t b = 0; b < numBodies; ++b) {
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-    for (const SubdomainMatrix& matrix : matrices)
-      if (static_cast<std::size_t>(matrix.body) == b)
-        for (Eigen::Index c = 0; c < matrix.coordinates.cols(); ++c) {
-          low[c] = std::min(low[c], matrix.coordinates.col(c).minCoeff());
-          high[c] = std::max(high[c], matrix.coordinates.col(c).maxCoeff());
-        }
+  for (std::size_t b = 0; b < all.bodies.size(); ++b) {
     fem::Point centre{};
     double size = 0;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const double from = minOverRanks(comm, low[c]), to = maxOverRanks(comm, high[c]);
-      if (from > to)
-        continue; // a coordinate that the space does not have, or a body without subdomains
-      centre[static_cast<std::size_t>(c)] = 0.5 * (from + to);
-      size = std::max(size, 0.5 * (to - from));
+    for (std::size_t d = 0; d < 3; ++d) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t s = 0; s < all.size(); ++s)
+        for (std::size_t node = 0;
+             static_cast<std::size_t>(all.subdomains[s].body) == b && node < all.numNodes(s); ++node) {
+          low = std::min(low, all.point(s, node)[d]);
+          high = std::max(high, all.point(s, node)[d]);
+        }
+      low = minOverRanks(*all.comm, low);
+      high = maxOverRanks(*all.comm, high);
+      if (low > high)
+        continue; // a body without subdomains
+      centre[d] = 0.5 * (low + high);
+      size = std::max(size, 0.5 * (high - low));
     }
-    modes.emplace_back(components, centre, size > 0 ? size : 1.0);
+    modes.emplace_back(static_cast<int>(all.components), centre, size > 0 ? size : 1.0);
   }
   return modes;
 }
 
-/// Z^s: the given near-kernel, rigid motions, or constants.
-Motions nearMotions(const SubdomainMatrix& matrix, const OwnSubdomain& own, const SparseMatrix& stiffness,
-                    const fem::RigidModes& rigid, int components, bool isElastic) {
-  const Eigen::Index given = matrix.nearKernel.cols(),
-                     number = given > 0 ? given : (isElastic ? rigid.number() : components);
-  Motions motions{matrix.body, &stiffness, Eigen::MatrixXd::Zero(stiffness.rows(), number)};
-  for (std::size_t i = 0; i < own.row.size(); ++i) {
-    const auto place = static_cast<Eigen::Index>(i);
-    const int row = own.row[i], component = static_cast<int>(own.unknowns[i] % components);
-    if (row < 0)
-      continue;
-    if (given > 0)
-      motions.near.row(row) = matrix.nearKernel.row(place);
-    else if (isElastic)
-      motions.near.row(row) = rigid.at(pointAt(matrix.coordinates, place), component).transpose();
-    else
-      motions.near(row, component) = 1;
+/// Rigid motions of this rank's subdomains, or constants. \param modes  of each body
+std::vector<Motions> motionsOf(const Substructures& all, const std::vector<fem::RigidModes>& modes) {
+  const bool isElastic = movesRigidly(all);
+  std::vector<Motions> motions;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const Subdomain& subdomain = all.subdomains[s];
+    const fem::RigidModes& own = modes[static_cast<std::size_t>(subdomain.body)];
+    std::map<std::size_t, const Eigen::Matrix3d*> axes;
+    for (const NodeFrame& frame : subdomain.frames)
+      axes.emplace(static_cast<std::size_t>(frame.node), &frame.axes);
+    Motions& target = motions.emplace_back(Motions{subdomain.body, all.nodal[s].stiffness.get(), {}});
+    target.near.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()),
+                       isElastic ? own.number() : static_cast<Eigen::Index>(all.components));
+    for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
+      const auto position = static_cast<std::size_t>(subdomain.unknownPosition[i]);
+      const std::size_t node = position / all.components;
+      const auto component = static_cast<int>(position % all.components);
+      const auto found = axes.find(node);
+      const auto row = static_cast<Eigen::Index>(i);
+      if (!isElastic)
+        target.near.row(row) = Eigen::RowVectorXd::Unit(target.near.cols(), component);
+      else if (found != axes.end())
+        target.near.row(row) = own.along(all.point(s, node), found->second->col(component)).transpose();
+      else
+        target.near.row(row) = own.at(all.point(s, node), component).transpose();
+    }
   }
   return motions;
+}
+
+/// Z^s as the application gives it.
+Eigen::MatrixXd givenNearKernel(const SubdomainMatrix& matrix, const OwnSubdomain& own,
+                                Eigen::Index numFree) {
+  Eigen::MatrixXd near = Eigen::MatrixXd::Zero(numFree, matrix.nearKernel.cols());
+  for (std::size_t i = 0; i < own.row.size(); ++i)
+    if (own.row[i] >= 0)
+      near.row(own.row[i]) = matrix.nearKernel.row(static_cast<Eigen::Index>(i));
+  return near;
 }
 
 /// \throws InputError, the same on all ranks. Collective.
@@ -93,17 +122,20 @@ std::vector<bool> areRigid(const std::vector<SubdomainMatrix>& matrices, std::si
 
 } // namespace
 
+std::vector<Motions> rigidMotionsOf(const Substructures& all) {
+  return motionsOf(all, rigidModesOf(all));
+}
+
 BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMatrix>& matrices,
                         const std::vector<OwnSubdomain>& own) {
-  const auto components = static_cast<int>(all.components);
-  const bool isElastic = components == all.places.dimension;
   BodyKernels result{{all.bodies.begin(), all.bodies.end()}, {}, {}};
   const std::size_t numBodies = result.bodies.size();
-  const auto rigid = rigidModesOf(matrices, isElastic ? components : 1, numBodies, *all.comm);
-  std::vector<Motions> motions;
+  const bool isElastic = movesRigidly(all);
+  const std::vector<fem::RigidModes> rigid = rigidModesOf(all);
+  std::vector<Motions> motions = motionsOf(all, rigid);
   for (std::size_t s = 0; s < matrices.size(); ++s)
-    motions.push_back(nearMotions(matrices[s], own[s], *all.nodal[s].stiffness,
-                                  rigid[static_cast<std::size_t>(matrices[s].body)], components, isElastic));
+    if (matrices[s].nearKernel.cols() > 0)
+      motions[s].near = givenNearKernel(matrices[s], own[s], motions[s].near.rows());
   requireEqualNumbers(motions, all);
   const std::vector<Eigen::MatrixXd> combinations = findFreeMotions(motions, *all.comm, numBodies);
   const std::vector<bool> isRigid = areRigid(matrices, numBodies, *all.comm);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The kernels R^s of an application's bodies, from the near-kernels that it gave, or from rigid motions.
+/// Near-kernels of bodies, rigid motions most often, and the kernels R^s of an application's bodies from them.
 
 #include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/decomposition/OwnSubdomain.hpp"
@@ -17,6 +17,10 @@ struct BodyKernels {
   std::vector<Eigen::MatrixXd> kernels; ///< R^s of each of this rank's subdomains
   std::vector<Motions> near;            ///< their near-kernels
 };
+
+/// Rigid motions of each of this rank's subdomains, about the middle of its body, or constants where unknowns are no
+/// displacements. Collective.
+std::vector<Motions> rigidMotionsOf(const Substructures& all);
 
 /// \param matrices, own  of the subdomains
 /// \throws InputError, the same on all ranks, if near-kernels of one body differ in number or a body has no subdomain.

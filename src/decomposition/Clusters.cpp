@@ -2,7 +2,6 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/decomposition/Corners.hpp"
-#include "epafi/fem/RigidModes.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -38,30 +37,6 @@ std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
         links.push_back({own, other});
   }
   return links;
-}
-
-/// The rigid motions of each body about its middle. Collective.
-std::vector<fem::RigidModes> modesOf(const Substructures& all) {
-  std::vector<fem::RigidModes> modes;
-  for (std::size_t b = 0; b < all.bodies.size(); ++b) {
-    fem::Point centre{};
-    double size = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (std::size_t s = 0; s < all.size(); ++s)
-        for (std::size_t node = 0;
-             static_cast<std::size_t>(all.subdomains[s].body) == b && node < all.numNodes(s); ++node) {
-          low = std::min(low, all.point(s, node)[d]);
-          high = std::max(high, all.point(s, node)[d]);
-        }
-      low = minOverRanks(*all.comm, low);
-      high = maxOverRanks(*all.comm, high);
-      centre[d] = 0.5 * (low + high);
-      size = std::max(size, 0.5 * (high - low));
-    }
-    modes.emplace_back(static_cast<int>(all.components), centre, size > 0 ? size : 1.0);
-  }
-  return modes;
 }
 
 /// Σ (R^s)ᵀ A^s over the subdomains of each cluster, on every rank. Collective.
@@ -116,18 +91,26 @@ std::vector<int> findClusters(const Substructures& all, const SharedNodes& share
   clusterOf = gatherOnAll(*all.comm, clusterOf); // subdomains are numbered rank by rank
   if (std::all_of(sizes.begin(), sizes.end(), [](int size) { return size == 0; }))
     return clusterOf;
-  std::vector<int> count(all.bodies.size(), 0), current(all.bodies.size(), 0);
+  std::vector<int> count(all.bodies.size(), 0), first(all.bodies.size(), 0); // first of the run
+  std::vector<Link> whole; // what is not to be cut, whatever holds it
   int next = 0;
-  for (int& cluster : clusterOf) {
-    const auto body = static_cast<std::size_t>(cluster);
-    const int run = sizes[body] > 0 ? sizes[body] : std::numeric_limits<int>::max();
-    if (count[body]++ % run == 0)
-      current[body] = next++;
-    cluster = current[body];
+  for (std::size_t s = 0; s < clusterOf.size(); ++s) {
+    const auto body = static_cast<std::size_t>(clusterOf[s]);
+    const int number = count[body]++;
+    if (number == 0 || (sizes[body] > 0 && number % sizes[body] == 0)) {
+      first[body] = static_cast<int>(s);
+      clusterOf[s] = next++;
+      continue;
+    }
+    clusterOf[s] = clusterOf[static_cast<std::size_t>(first[body])];
+    if (sizes[body] == 0)
+      whole.push_back({first[body], static_cast<int>(s)});
   }
   for (int before = 0; before != next;) { // a cut takes nodes away from what it leaves
     before = next;
-    clusterOf = piecesOf(clusterOf.size(), gatherOnAll(*all.comm, linksOf(all, shared, clusterOf)));
+    std::vector<Link> links = gatherOnAll(*all.comm, linksOf(all, shared, clusterOf));
+    links.insert(links.end(), whole.begin(), whole.end());
+    clusterOf = piecesOf(clusterOf.size(), links);
     next = clusterOf.empty() ? 0 : 1 + *std::max_element(clusterOf.begin(), clusterOf.end());
   }
   return clusterOf;
@@ -139,37 +122,6 @@ std::vector<Cluster> clustersOfBodies(std::span<const Body> bodies) {
     clusters.push_back({static_cast<int>(b), bodies[b].kernelDimension, bodies[b].kernelOffset,
                         Eigen::MatrixXd::Identity(bodies[b].kernelDimension, bodies[b].kernelDimension)});
   return clusters;
-}
-
-std::vector<Motions> rigidMotionsOf(const Substructures& all) {
-  const bool isElastic = static_cast<int>(all.components) == all.places.dimension;
-  const std::vector<fem::RigidModes> modes =
-      isElastic ? modesOf(all) : std::vector<fem::RigidModes>(all.bodies.size(), {1, {}, 1.0});
-  std::vector<Motions> motions;
-  for (std::size_t s = 0; s < all.size(); ++s) {
-    const Subdomain& subdomain = all.subdomains[s];
-    const fem::RigidModes& own = modes[static_cast<std::size_t>(subdomain.body)];
-    std::map<std::size_t, const Eigen::Matrix3d*> axes;
-    for (const NodeFrame& frame : subdomain.frames)
-      axes.emplace(static_cast<std::size_t>(frame.node), &frame.axes);
-    Motions& target = motions.emplace_back(Motions{subdomain.body, all.nodal[s].stiffness.get(), {}});
-    target.near.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()),
-                       isElastic ? own.number() : static_cast<Eigen::Index>(all.components));
-    for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
-      const auto position = static_cast<std::size_t>(subdomain.unknownPosition[i]);
-      const std::size_t node = position / all.components;
-      const auto component = static_cast<int>(position % all.components);
-      const auto found = axes.find(node);
-      const auto row = static_cast<Eigen::Index>(i);
-      if (!isElastic)
-        target.near.row(row) = Eigen::RowVectorXd::Unit(target.near.cols(), component);
-      else if (found != axes.end())
-        target.near.row(row) = own.along(all.point(s, node), found->second->col(component)).transpose();
-      else
-        target.near.row(row) = own.at(all.point(s, node), component).transpose();
-    }
-  }
-  return motions;
 }
 
 ClusterKernels findClusterKernels(const Substructures& all, std::vector<Motions> motions,

@@ -36,9 +36,6 @@ std::vector<int> findClusters(const Substructures& all, const SharedNodes& share
 /// Whole bodies, with their kernels. Not collective.
 std::vector<Cluster> clustersOfBodies(std::span<const Body> bodies);
 
-/// Rigid motions, or constants, of each of this rank's subdomains, about the middle of its body. Collective.
-std::vector<Motions> rigidMotionsOf(const Substructures& all);
-
 struct ClusterKernels {
   std::vector<Cluster> clusters;
   std::vector<Eigen::MatrixXd> kernels; ///< R^s of each of this rank's subdomains

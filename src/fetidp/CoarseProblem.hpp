@@ -41,7 +41,7 @@ public:
   [[nodiscard]] bool isSplit() const { return comm_->getSize() < numRanks_; }
   [[nodiscard]] bool isReplicated() const { return !isSplit() && !isOnFirst(); } ///< the latter
   /// X = S_cc⁺ Σ_ranks Z, both of this rank's crosspoints, with the columns of X, one after the other in Z. One sum over
-  /// the ranks if replicated, none if split; the same digits then on any number of ranks. Collective.
+  /// the ranks if replicated, and the same digits then on any number of ranks; none if split. Collective.
   void solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
   /// Of this rank.
   [[nodiscard]] std::size_t factorBytes() const;

@@ -112,6 +112,34 @@ struct Twice {
   ContactSolution solution;
 };
 
+TEST(UnassembledProblemTest, ClustersMayBeAskedForOfSomeBodies) {
+  for (const std::vector<int>& sizes : {std::vector{1, 1}, {0, 1}, {2, 0}}) {
+    SCOPED_TRACE(testing::Message() << sizes[0] << ' ' << sizes[1]);
+    scene::Scene membranes = twoMembranes(false, 12, grid(2, 2));
+    setHalves(membranes.bodies[0], 4.0, -5.0);
+    setHalves(membranes.bodies[1], -3.0, 2.0);
+    scene::Scene blocks = twoBlocks(2, test::cutInGrid({2, 2, 1}));
+    for (scene::Body& body : blocks.bodies)
+      body.mesh.elements = {8, 8, 0};
+    for (const scene::Scene& scene : {membranes, blocks}) {
+      const Supports supports = Supports::prescribed;
+      const Twice twice(scene, supports, [&](Twice& both) {
+        both.handed->setClusterSizes(sizes);
+        both.handed->setContact(contactOf(scene, both.direct.decomposition, supports));
+      });
+      const DecomposedProblem& problem = twice.handed->problem();
+      for (std::size_t b = 0; b < 2; ++b)
+        EXPECT_EQ(std::count_if(problem.clusters.begin(), problem.clusters.end(),
+                                [b](const Cluster& cluster) { return cluster.body == static_cast<int>(b); }),
+                  sizes[b] == 0 ? 1 : 4 / sizes[b]);
+      EXPECT_LE(twice.difference(), 1e-9);
+    }
+  }
+  const auto problem = handOver(twoMembranes(false, 8, grid(2, 2)), {});
+  expectSays(refusal([&] { problem->setClusterSizes({1}); }), {"1 sizes", "2 bodies"});
+  expectSays(refusal([&] { problem->setClusterSizes({1, -1}); }), {"-1 subdomains"});
+}
+
 TEST(UnassembledProblemTest, AHandedOverSceneHasTheSameAnswer) {
   for (const Case& c : contactCases())
     for (const Supports supports : {Supports::eliminated, Supports::prescribed}) {
