@@ -1,13 +1,13 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import (accuracy, accuracy_peers, contact, convergence, hertz, heterogeneity, mesh, part, plane, pressure, qp, scaling, space, stability,
-               subdomains, surface, table, tables, targets)
+from . import (accuracy, accuracy_peers, contact, convergence, hertz, heterogeneity, mesh, part, plane, pressure, qp, scaling, space, spectra,
+               stability, subdomains, surface, table, tables, targets)
 from .errors import PlotError
 from .run import read_run
 from .style import Canvas
 
 STUDIES = ("accuracy.csv", "tables.csv", "qp.csv", "scaling.csv", "stability.csv", "heterogeneity.csv", "hertz.csv",
-           "targets.csv", "meshes.csv")
+           "spectra.csv", "targets.csv", "meshes.csv")
 
 
 def draw(source, output, extension, dpi, box=None):
@@ -71,6 +71,8 @@ def draw_table(file, canvas):
         yield canvas.save(stability.figure(file, rows), file.stem)
     elif table.has(rows, heterogeneity.COLUMNS):
         yield canvas.save(heterogeneity.figure(file, rows), file.stem)
+    elif table.has(rows, spectra.COLUMNS):
+        yield canvas.save(spectra.figure(file, rows), file.stem)
     elif table.has(rows, hertz.COLUMNS):
         yield canvas.save(hertz.figure(file, rows), file.stem)
     elif table.has(rows, accuracy_peers.COLUMNS):
@@ -91,6 +93,7 @@ def draw_table(file, canvas):
                         f"nor those of scaling.csv ({', '.join(scaling.COLUMNS)}) "
                         f"nor those of stability.csv ({', '.join(stability.COLUMNS)}) "
                         f"nor those of heterogeneity.csv ({', '.join(heterogeneity.COLUMNS)}) "
+                        f"nor those of spectra.csv ({', '.join(spectra.COLUMNS)}) "
                         f"nor those of hertz.csv ({', '.join(hertz.COLUMNS)}) "
                         f"nor those of targets.csv ({', '.join(targets.COLUMNS)}) "
                         f"nor those of meshes.csv ({', '.join(targets.MESHES)}) "

@@ -19,9 +19,10 @@ std::vector<Row> measureTargets(const std::string& name, int order, const std::v
   const std::string file = (scenes / (name + ".xml")).string();
   const Teuchos::ParameterList given = scene::readParameterFile(file, *comm);
   const scene::Scene scene = scene::readScene(given, file);
-  const Teuchos::ParameterList solver = validated(given, driverSchema(), file).sublist("Solver");
+  const Teuchos::ParameterList complete = validated(given, driverSchema(), file);
+  const Teuchos::ParameterList solver = complete.sublist("Solver");
   const auto solve = [&](double target, int elements) {
-    AccuracyParameters accuracy;
+    AccuracyParameters accuracy = AccuracyParameters::from(complete.sublist("Accuracy")); // memory free now
     accuracy.target = target;
     accuracy.order = elements;
     return solveToTarget(scene, solver, accuracy, comm, nullptr, {});

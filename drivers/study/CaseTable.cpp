@@ -108,7 +108,8 @@ Teuchos::Array<Number> arrayOf(const std::string& text) {
 }
 
 Teuchos::ParameterEntry entryOf(const std::string& name, const std::string& text) {
-  static const std::set<std::string> integers{"Elements", "Order", "Grid", "Parts", "Maximum Iterations"};
+  static const std::set<std::string> integers{"Cluster", "Elements", "Order",
+                                              "Grid",    "Parts",    "Maximum Iterations"};
   const bool isInteger = integers.count(name) > 0;
   if (text.starts_with('{'))
     return isInteger ? Teuchos::ParameterEntry(arrayOf<int>(text))

@@ -47,4 +47,9 @@ bool studyStability(const std::filesystem::path& directory, bool quick, const RC
 /// converge.
 bool studyHeterogeneity(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 
+/// Smallest and largest eigenvalues of F, or PFP, plain and preconditioned, over the size and the number of subdomains: for
+/// FETI-DP, of the whole and of its gluing and contact parts, FETI and hybrid; products beside them: spectra.csv and
+/// spectra.md. False if a run did not converge or an eigenvalue is not known to 2 %.
+bool studySpectra(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
+
 } // namespace epafi::drivers

@@ -39,13 +39,15 @@ constexpr const char* usage =
     "family\n"
     "            'ranks', which take up to 7: mpirun --oversubscribe -n 7 has them all\n"
     "  heterogeneity  products and condition numbers where the stiffness jumps, without and with adaptive\n"
-    "            constraints\n";
+    "            constraints\n"
+    "  spectra   extreme eigenvalues of F, plain and preconditioned, of its gluing and contact parts, over\n"
+    "            H/h and 1/H: FETI-DP, FETI and hybrid\n";
 
 using Study = bool (*)(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 const std::map<std::string, Study> studies{
-    {"accuracy", studyAccuracy}, {"tables", studyTables},        {"qp", studyQp},
-    {"scaling", studyScaling},   {"stability", studyStability},  {"heterogeneity", studyHeterogeneity},
-    {"targets", studyTargets},   {"refinement", studyRefinement}};
+    {"accuracy", studyAccuracy}, {"tables", studyTables},         {"qp", studyQp},
+    {"scaling", studyScaling},   {"stability", studyStability},   {"heterogeneity", studyHeterogeneity},
+    {"targets", studyTargets},   {"refinement", studyRefinement}, {"spectra", studySpectra}};
 
 struct Request {
   std::string study;

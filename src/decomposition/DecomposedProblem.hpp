@@ -46,6 +46,14 @@ struct Average {
   bool operator==(const Average& other) const = default;
 };
 
+/// A value on a face where an edge of a cluster ends at another one, and the edge's average, which follows the mean of these
+/// (EdgeEnds.hpp).
+struct EdgeEnd {
+  Unknown unknown;
+  CoarseNumber average;
+  double share = 1; ///< of this value in that mean
+};
+
 /// A node whose unknowns are the components of its displacement along axes of its own, not those of space.
 struct NodeFrame {
   NodePlace node;
@@ -64,6 +72,7 @@ struct Subdomain {
   std::vector<int> crosspointUnknowns;           ///< v_c: unknowns that are crosspoint values, ascending
   std::vector<CoarseNumber> crosspointIndices;   ///< L_c: coarse unknown of each v_c
   std::vector<Average> averages;                 ///< where unknowns are no values of nodes; most often none
+  std::vector<EdgeEnd> edgeEnds;                 ///< where there are clusters; most often none
   std::vector<ConstraintEntry> constraint;       ///< B^s
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
   Eigen::VectorXd load;          ///< f^s, n_s, supports' prescribed values already moved to the right

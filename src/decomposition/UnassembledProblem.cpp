@@ -6,6 +6,7 @@
 #include "epafi/decomposition/BodyKernels.hpp"
 #include "epafi/decomposition/Clusters.hpp"
 #include "epafi/decomposition/EdgeAverages.hpp"
+#include "epafi/decomposition/EdgeEnds.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
 #include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Splitting.hpp"
@@ -141,7 +142,11 @@ void UnassembledProblem::complete() {
   problem_.clusterOf = findClusters(view(), shared_, clusterSizes_);
   if (std::any_of(clusterSizes_.begin(), clusterSizes_.end(), [](int size) { return size > 0; })) {
     formClusters(areKernelsKnown ? rigidMotionsOf(view()) : std::move(near));
-    crosspoints_.emplace(view(), SharedNodes(view(), problem_.clusterOf), shared_);
+    const SharedNodes inside(view(), problem_.clusterOf);
+    crosspoints_.emplace(view(), inside, shared_);
+    for (std::size_t s = 0; s < nodal_.size(); ++s)
+      problem_.subdomains[s].edgeEnds =
+          findEdgeEnds(view(), inside, shared_, problem_.clusterOf, *crosspoints_, s);
   } else {
     problem_.clusters = clustersOfBodies(problem_.bodies);
     crosspoints_.emplace(view(), shared_, shared_);

@@ -7,6 +7,7 @@
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace epafi::fetidp {
 namespace {
@@ -21,9 +22,11 @@ Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
   return unknowns;
 }
 
-/// Coarse unknowns that rows of contact touch, and all those of the clusters that these belong to. Collective.
-void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& near) {
-  Unknowns myTouched, myNear;
+/// Coarse unknowns that rows of contact touch, and those that follow faces at their edges' ends, which are added to them; all those
+/// of the clusters that these belong to. Collective.
+void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& following,
+                  Unknowns& near) {
+  Unknowns myTouched, myFollowing, myNear;
   std::vector<int> isTouched(problem.clusters.size(), 0); // of each cluster
   const auto clusterOf = [&problem](const decomposition::Subdomain& subdomain) {
     return static_cast<std::size_t>(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
@@ -38,8 +41,17 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
         myTouched.push_back(subdomain.crosspointIndices[static_cast<std::size_t>(i)]);
         isTouched[clusterOf(subdomain)] = 1;
       }
+    for (const decomposition::EdgeEnd& end : subdomain.edgeEnds) {
+      myFollowing.push_back(end.average);
+      isTouched[clusterOf(subdomain)] = 1;
+    }
   }
   touched = unionOverRanks(*problem.comm, myTouched);
+  const Unknowns ends = unionOverRanks(*problem.comm, myFollowing);
+  std::set_difference(ends.begin(), ends.end(), touched.begin(), touched.end(),
+                      std::back_inserter(following));
+  touched.insert(touched.end(), following.begin(), following.end());
+  std::sort(touched.begin(), touched.end());
   sumOverRanks(*problem.comm, std::span(isTouched));
   for (const auto& subdomain : problem.subdomains)
     if (isTouched[clusterOf(subdomain)] > 0)
@@ -56,7 +68,7 @@ int positionIn(const Unknowns& unknowns, decomposition::CoarseNumber unknown) {
 
 ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& problem,
                                        const GeneralizedInverse& inverse) {
-  findUnknowns(problem, touched_, near_);
+  findUnknowns(problem, touched_, following_, near_);
   const auto n = static_cast<Eigen::Index>(touched_.size());
   if (n == 0)
     return;
@@ -98,6 +110,10 @@ int ContactCrosspoints::indexOf(const decomposition::Subdomain& subdomain,
   if (found == all.end() || *found != unknown)
     return -1;
   return indexOf(subdomain.crosspointIndices[static_cast<std::size_t>(found - all.begin())]);
+}
+
+bool ContactCrosspoints::follows(decomposition::CoarseNumber coarseUnknown) const {
+  return positionIn(following_, coarseUnknown) >= 0;
 }
 
 int ContactCrosspoints::nearIndexOf(decomposition::CoarseNumber coarseUnknown) const {

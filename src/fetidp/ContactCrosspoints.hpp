@@ -6,6 +6,9 @@
 /// contact asks of a body is split: the crosspoints that contact touches move against Ŝ, the stiffness of the whole body
 /// condensed to them (the Schur complement of S_cc), and take all others of the body along (a hierarchical basis, as in
 /// Smith, Widlund, *SIAM J. Sci. Stat. Comput.* 11 (1990)); DualPreconditioner.hpp says what is left for the boundaries.
+///
+/// Likewise at the borders of clusters, in whose jumps no crosspoint takes part: the averages of the edges that end there move with
+/// the faces around them (EdgeEnds.hpp), as far as no row touches them.
 
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 
@@ -24,7 +27,9 @@ public:
   [[nodiscard]] Eigen::Index size() const { return stiffness_.rows(); }
   /// Index of a coarse unknown among them, or −1.
   [[nodiscard]] int indexOf(decomposition::CoarseNumber coarseUnknown) const;
-  /// Likewise of an unknown of a subdomain; −1 if it is a remainder.
+  /// Whether a coarse unknown follows the faces at its edge's ends: no row touches it.
+  [[nodiscard]] bool follows(decomposition::CoarseNumber coarseUnknown) const;
+  /// The index of an unknown of a subdomain; −1 if it is a remainder.
   [[nodiscard]] int indexOf(const decomposition::Subdomain& subdomain, decomposition::Unknown unknown) const;
   /// Index of a coarse unknown among the n_N *near* ones, all those of clusters with touched ones, or −1.
   [[nodiscard]] int nearIndexOf(decomposition::CoarseNumber coarseUnknown) const;
@@ -34,7 +39,8 @@ public:
   [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }
 
 private:
-  std::vector<decomposition::CoarseNumber> touched_, near_; ///< ascending
+  std::vector<decomposition::CoarseNumber> touched_, following_,
+      near_; ///< ascending; the second are among the first
   Eigen::MatrixXd stiffness_, extension_;
 };
 

@@ -55,6 +55,10 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
       }
       result.boundary[s].push_back(weight);
       result.boundaryShares[row] += weight * entry.coefficient;
+      for (const decomposition::EdgeEnd& end : problem.subdomains[s].edgeEnds)
+        if (end.unknown == entry.unknown && crosspoints.follows(end.average))
+          result.atCrosspoints.push_back(
+              {entry.multiplier, crosspoints.indexOf(end.average), end.share * weight});
     }
   return result;
 }

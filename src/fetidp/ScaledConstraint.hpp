@@ -16,7 +16,8 @@
 namespace epafi::fetidp {
 
 struct ScaledConstraint {
-  /// An entry at a crosspoint: multiplier (ghost map), index in ContactCrosspoints, value.
+  /// What moves a crosspoint, an entry there or a share of one on a face at its edge's end: multiplier (ghost map), index in
+  /// ContactCrosspoints, value.
   struct CrosspointEntry {
     int multiplier, touched;
     double weight;

@@ -190,6 +190,7 @@ TEST(ContactCrosspointsTest, BodiesMoveByThemselves) {
       }
 }
 
+/// Of clusters up to round-off: three and more subdomains share a row where their corners meet.
 TEST(ContactCrosspointsTest, AreTheSameToTheLastDigitOnAnyNumberOfRanks) {
   for (const ContactCase& c : crosspointCases()) {
     SCOPED_TRACE(c.name);
@@ -198,8 +199,9 @@ TEST(ContactCrosspointsTest, AreTheSameToTheLastDigitOnAnyNumberOfRanks) {
     GeneralizedInverse inverse(decomposition.problem, DirectSolvers());
     const ContactCrosspoints alone(decomposition.problem, inverse);
     ASSERT_EQ(together.found.size(), alone.size());
-    EXPECT_EQ(together.found.stiffness(), alone.stiffness());
-    EXPECT_EQ(together.found.extension(), alone.extension());
+    const double allowed = c.scene.bodies.front().decomposition.cluster > 0 ? 1e-13 : 0;
+    EXPECT_LE((together.found.stiffness() - alone.stiffness()).norm(), allowed * alone.stiffness().norm());
+    EXPECT_LE((together.found.extension() - alone.extension()).norm(), allowed * alone.extension().norm());
   }
 }
 

@@ -71,6 +71,8 @@ std::vector<ContactCase> contactCases() {
     cases.push_back({kind + "METIS", twoMembranes(coercive, 6, metis(3)), coercive});
     cases.push_back(
         {kind + "a subdomain a cluster", twoMembranes(coercive, 6, clustered(grid(2, 2), 1)), coercive});
+    cases.push_back(
+        {kind + "four subdomains a cluster", twoMembranes(coercive, 8, clustered(grid(2, 4), 4)), coercive});
     scene::Scene withBystander = twoMembranes(coercive, 4, grid(2, 1));
     withBystander.bodies.push_back(
         decomposition::oneBody(2, 2, grid(1, 1), {{"foot", "bottom", {0.0}}}).bodies.front());

@@ -88,6 +88,11 @@ public:
         for (const auto& entry : s.constraint)
           if (entry.unknown == s.crosspointUnknowns[c])
             touched(crosspoints_.indexOf(s.crosspointIndices[c]), row(entry)) += scaled(s, entry);
+    for (const Subdomain& s : problem_.subdomains)
+      for (const decomposition::EdgeEnd& end : s.edgeEnds)
+        for (const auto& entry : s.constraint)
+          if (entry.unknown == end.unknown && crosspoints_.follows(end.average))
+            touched(crosspoints_.indexOf(end.average), row(entry)) += end.share * scaled(s, entry);
     sum(touched);
     Eigen::MatrixXd jumps = Eigen::MatrixXd::Zero(n, n); // J C
     for (const Subdomain& s : problem_.subdomains)

@@ -73,6 +73,10 @@ cubes in space,columns,grid,1,auto,0,24,22.5,1
 cubes in space,columns,grid,1e+06,no,0,1132,4e5,1
 cubes in space,columns,grid,1e+06,auto,36,83,8.3,1
 """
+SPECTRA = """problem,cluster,series,value,part,preconditioner,smallest_eigenvalue,largest_eigenvalue
+""" + "".join(f"coercive,{cluster},{series},{value},{part},{kind},0.5,{top}\n" for kind, top in (("none", 30), ("dirichlet", 4))
+              for cluster, part in ((0, "all"), (0, "gluing"), (0, "contact"), (1, "all"))
+              for series, value in (("H/h", 4), ("H/h", 8), ("1/H", 2), ("1/H", 4)))
 ACCURACY = ("problem,variant,order,elements,tolerance,unknowns,seconds,hessian_multiplications,energy_error,algebraic_error,"
             "estimated_error,on_pareto_front,discretisation_error\n") + "".join(
     f"coercive,{variant},1,{elements},{tolerance},{elements**2},{elements / 1000},20,{1 / elements},1e-5,{1 / elements},1,"
@@ -195,6 +199,17 @@ class Plot(unittest.TestCase):
         self.assertIn("stopped early", picture.read_text())
         self.assertGreater(picture.read_text().count("stroke-dasharray: "), lines)
         (self.directory / "heterogeneity.csv").write_text(HETEROGENEITY.replace("1132", "many"))
+        self.assertIn("many", self.refused(self.directory))
+
+    def test_spectra_are_drawn_over_size_and_number_of_subdomains(self):
+        (self.directory / "spectra.csv").write_text(SPECTRA)
+        (picture,) = self.pictures(self.directory, "--format", "svg")
+        self.assertEqual(picture.name, "spectra.svg")
+        drawn = picture.read_text()
+        for words in ("FETI-DP", "contact alone", "eigenvalues of MF", "1/H, H/h = 8", "(H/h)²"):
+            self.assertIn(words, drawn)
+        self.assertNotIn("hybrid", drawn)
+        (self.directory / "spectra.csv").write_text(SPECTRA.replace(",30", ",many"))
         self.assertIn("many", self.refused(self.directory))
 
     def test_scaling_is_drawn_as_far_as_it_was_measured(self):

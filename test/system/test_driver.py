@@ -622,6 +622,25 @@ class StudiesQuadraticPrograms(Driver):
             if cut == "grid":
                 self.assertLess(float(row["condition"]), 50, row)
 
+    def test_the_quick_study_of_spectra(self):
+        run = self.study("spectra", "--quick", "--output", self.place)
+        self.assertEqual((run.returncode, run.stderr), (SOLVED, ""), run.stdout)
+        self.assertGreater((self.place / "spectra.png").stat().st_size, 5000)
+        with open(self.place / "spectra.csv", newline="", encoding="utf-8") as table:
+            rows = {(row["problem"], row["cluster"], row["series"], row["value"], row["part"], row["preconditioner"]): row
+                    for row in csv.DictReader(table)}
+        for (problem, cluster, series, value, part, kind), row in rows.items():
+            smallest, largest = float(row["smallest_eigenvalue"]), float(row["largest_eigenvalue"])
+            self.assertLessEqual(smallest, largest, row)
+            whole = rows[problem, cluster, series, value, "all", kind]
+            if kind == "none":  # Cauchy's interlacing
+                self.assertLessEqual(0.98 * float(whole["smallest_eigenvalue"]), smallest, row)
+                self.assertLessEqual(0.98 * largest, float(whole["largest_eigenvalue"]), row)
+            else:
+                plain = rows[problem, cluster, series, value, part, "none"]
+                self.assertLess(largest / smallest, float(plain["largest_eigenvalue"]) / float(plain["smallest_eigenvalue"]), row)
+        self.assertEqual({key[4] for key in rows if key[1] == "0"}, {"all", "gluing", "contact"})
+
     def test_unknown_studies(self):
         for words, arguments in ((["tabels", "qp", "tables"], ["tabels"]), (["no study"], [])):
             run = self.study(*arguments)
