@@ -42,7 +42,8 @@ constexpr std::array<Cell, 18> paper{{
     {false, 8, 4, 3200, 705, 154, 35},
 }};
 
-/// Our numbers, and the paper's under the same names after "paper_". The plain method is the paper's; the other has a preconditioner.
+/// Our numbers, and the paper's under the same names after "paper_". The plain method is the paper's; others have a preconditioner, and
+/// active sets where they are the default.
 Row solveCell(const Cell& cell, const RCP<const Comm>& comm) {
   const scene::Scene scene = scene::modelProblem(cell.coercive, cell.subdomainsPerSide,
                                                  cell.subdomainsPerSide * cell.elementsPerSide);
@@ -51,6 +52,7 @@ Row solveCell(const Cell& cell, const RCP<const Comm>& comm) {
   plainMethod.sublist("Preconditioner").set("Type", "none");
   const SceneRun run = solveScene(scene, plainMethod, comm);
   const SceneRun preconditioned = solveScene(scene, method, comm);
+  const SceneRun byDefault = solveScene(scene, {}, comm);
   const auto& problem = run.decomposition->problem;
   const qp::SolveReport& report = run.solver->report();
   return {{"problem", cell.coercive ? "coercive" : "semicoercive"},
@@ -73,6 +75,7 @@ Row solveCell(const Cell& cell, const RCP<const Comm>& comm) {
           {"solve_seconds", run.solver->times().solve},
           {"norm_multiplications", run.solver->dualProblem().norm().multiplications},
           {"preconditioned_multiplications", preconditioned.solver->report().counts.hessianMultiplications},
+          {"default_multiplications", byDefault.solver->report().counts.hessianMultiplications},
           {"converged", report.status == qp::Status::converged}};
 }
 
@@ -82,8 +85,9 @@ std::string lineOf(const Row& row) {
     entries.push_back(count(row.number(column)));
   for (const std::string column : {"primal_dimension", "dual_dimension", "corners", "cg_iterations"})
     entries.push_back(count(row.number(column)) + " / " + count(row.number("paper_" + column)));
-  for (const char* column : {"expansion_steps", "proportioning_steps", "outer_iterations",
-                             "hessian_multiplications", "preconditioned_multiplications"})
+  for (const char* column :
+       {"expansion_steps", "proportioning_steps", "outer_iterations", "hessian_multiplications",
+        "preconditioned_multiplications", "default_multiplications"})
     entries.push_back(count(row.number(column)));
   return markdownLine(entries);
 }
@@ -95,11 +99,13 @@ bool studyTables(const std::filesystem::path& directory, bool quick, const RCP<c
       "problem,H_inverse,H_over_h,primal_dimension,dual_dimension,corners,cg_iterations,expansion_steps,"
       "proportioning_steps,hessian_multiplications,outer_iterations,relative_projected_gradient,setup_"
       "seconds,"
-      "solve_seconds,paper_cg_iterations,norm_multiplications,preconditioned_multiplications");
+      "solve_seconds,paper_cg_iterations,norm_multiplications,preconditioned_multiplications,"
+      "default_multiplications");
   std::string markdown = markdownHeading(
       "problem | 1/H | H/h | primal (ours / paper) | dual (ours / paper) | corners (ours / paper) | CG steps "
       "(ours / "
-      "paper) | expansions | proportionings | outer | products with F | with Dirichlet preconditioner");
+      "paper) | expansions | proportionings | outer | products with F | with Dirichlet preconditioner | by "
+      "default");
   bool allConverged = true;
   for (const Cell& cell : paper) {
     if (quick && cell.elementsPerSide > 8)

@@ -36,6 +36,7 @@ public:
   [[nodiscard]] const Vector& solution() const { return on_.x; }
 
 private:
+  void chooseFirstFace(const ActiveSetProblem& problem);
   std::optional<Status> minimise();
   [[nodiscard]] bool isNearlySmall() const;
   bool chooseFace(bool isCautious);
@@ -59,6 +60,7 @@ private:
   FusedReduction reduction_;
   double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled
   long long numActive_ = 0;
+  bool isAtOrigin_ = false; ///< where the method starts
 };
 
 ActiveSets::ActiveSets(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
@@ -74,14 +76,25 @@ ActiveSets::ActiveSets(const ActiveSetProblem& problem, const Vector& start, con
     watch_.emplace(*tolerances.error);
   copy(start, on_.x);
   set_.project(on_.x);
-  if (face == nullptr) {
-    set_.freeIndicator(on_.x, on_.face);
-    return;
-  }
-  copy(*face, on_.face);
+  if (face != nullptr)
+    copy(*face, on_.face);
+  else
+    chooseFirstFace(problem);
   next_.putScalar(1.0);
   addScaled(-1.0, on_.face, next_);
   set_.activate(next_, on_.x);
+  isAtOrigin_ = on_.x.normInf() == 0;
+}
+
+/// That of the start; at the origin, where it says nothing, that of Mb, as if M were A⁻¹.
+void ActiveSets::chooseFirstFace(const ActiveSetProblem& problem) {
+  copy(on_.x, inside_);
+  if (on_.x.normInf() == 0 && !problem.preconditioner.is_null()) {
+    problem.preconditioner->apply(objective_.linearTerm(), inside_);
+    ++counts_.preconditionerApplications;
+    set_.project(inside_);
+  }
+  set_.freeIndicator(inside_, on_.face);
 }
 
 Status ActiveSets::run(Observer* observer) {
@@ -89,7 +102,7 @@ Status ActiveSets::run(Observer* observer) {
   double least = std::numeric_limits<double>::infinity();
   int numIdle = 0;
   for (int faces = 0; faces < maxFaces && numIdle <= patience; ++faces) {
-    on_.enter(); // Bx = c, g afresh
+    on_.enter(isAtOrigin_ && faces == 0); // Bx = c, g afresh
     gradient_ = on_.gradientNorm();
     record(faces == 0 ? StepKind::start : StepKind::expansion);
     if (!std::isfinite(gradient_))

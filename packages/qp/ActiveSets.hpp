@@ -26,8 +26,8 @@ struct ActiveSetProblem {
 };
 
 /// \param x     in: start; out: the last point, in Ω
-/// \param face  1 where x may move at first, else 0; the start's own if null
-/// Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product, 4 reductions. Allocates nothing on the way
+/// \param face  1 where x may move at first, else 0; if null the start's own, or, where that is 0, the face to which Mb points
+/// Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product (none at the start 0), 4 reductions. Allocates nothing on the way
 /// but k² numbers a face for k rows of B.
 /// Returns converged only for a gradient computed afresh; stagnated, with the best point met, where faces do not settle. Collective.
 SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,

@@ -37,7 +37,7 @@ FaceIteration::FaceIteration(ScaledObjective& objective, RCP<const Operator> m,
       reduction_(objective.map()->getComm(), numOwnSums + equality_.numRows()),
       rows_(static_cast<std::size_t>(equality_.numRows())), multiplier_(rows_.size()) {}
 
-void FaceIteration::enter() {
+void FaceIteration::enter(bool isOrigin) {
   equality_.setFace(face);
   equality_.residual(x, rows_);
   equality_.multiplierOf(rows_, multiplier_);
@@ -46,8 +46,13 @@ void FaceIteration::enter() {
   addScaled(1.0, p_, x);
   equality_.residual(x, rows_);
   residual_ = std::sqrt(std::inner_product(rows_.begin(), rows_.end(), rows_.begin(), 0.0));
-  objective_.multiply(x, image_);
-  f_ = objective_.evaluate(x, image_, x, p_).objective;
+  if (isOrigin && residual_ == 0) { // and so it has stayed: no product
+    image_.putScalar(0.0);
+    f_ = objective_.constant();
+  } else {
+    objective_.multiply(x, image_);
+    f_ = objective_.evaluate(x, image_, x, p_).objective;
+  }
   objective_.gradient(image_, g_);
   copy(g_, r_);
   equality_.addWholeTransposed(equality_.fit(r_), -1.0, g_);

@@ -24,8 +24,9 @@ public:
   Vector x;    ///< the point; of the caller until `enter`
   Vector face; ///< 1 where x may move, else 0; likewise
 
-  /// x moves onto Bx = c within the face, and g is computed afresh. One product. Collective.
-  void enter();
+  /// x moves onto Bx = c within the face, and g is computed afresh. One product, or none at the origin. Collective.
+  /// \param isOrigin  whether x = 0
+  void enter(bool isOrigin = false);
   /// One step. One product, one application of M, two messages. Returns why there can be none: stagnated where the face has no
   /// minimum or round-off allows no better one. Collective.
   std::optional<Status> step();

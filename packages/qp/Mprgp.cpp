@@ -14,6 +14,8 @@ namespace epafi::qp {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double impatience = 0.1; ///< what Γ is multiplied by on faces that last long
+constexpr int growthOfPatience = 16;
 
 /// The sums of a measurement: its own, then those of the preconditioner, then the rule's.
 enum Sums : int {
@@ -42,6 +44,8 @@ Mprgp::Mprgp(RCP<const Operator> a, RCP<const ConvexSet> set, const MprgpParamet
       objective_(std::move(a), operatorNorm, parameters.maxMultiplications, counts_),
       interruption_(parameters.timeLimit), iterate_(objective_.map()), work_(objective_.map()),
       measureReduction_(objective_.map()->getComm(), numOwnSums) {
+  if (preconditioner.is_null() || parameters.proportioningConstant > 0)
+    patience_ = std::numeric_limits<int>::max();
   parameters_.proportioningConstant = orDefault(parameters.proportioningConstant);
   parameters_.sufficientShare = orDefault(parameters.sufficientShare);
   if (!preconditioner.is_null())
@@ -86,9 +90,10 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
   }
 }
 
-/// βᵀβ ≤ margin Γ² φ̃ᵀφ.
+/// βᵀβ ≤ margin Γ² φ̃ᵀφ, with a smaller Γ where the face lasts long.
 bool Mprgp::isProportional(double margin) const {
-  const double gamma = parameters_.proportioningConstant;
+  const bool lastsLong = stepsInFace_ >= patience_;
+  const double gamma = parameters_.proportioningConstant * (lastsLong ? impatience : 1);
   return now_.choppedSquared <= margin * gamma * gamma * now_.reducedTimesFree;
 }
 
@@ -189,6 +194,9 @@ StepSizes Mprgp::stepSizes() {
 
 void Mprgp::step(const StepSizes& sizes, StepKind kind) {
   const bool isConjugateGradient = kind == StepKind::conjugateGradient;
+  if (!isConjugateGradient && stepsInFace_ >= patience_)
+    patience_ *= growthOfPatience; // if that was rash, it is not soon again
+  stepsInFace_ = isConjugateGradient ? stepsInFace_ + 1 : 0;
   ++(isConjugateGradient ? counts_.conjugateGradient : counts_.proportioning);
   const bool hasCurvature = sizes.curvature > objective_.zeroCurvature(sizes.squared);
   const double exact = hasCurvature ? sizes.slope / sizes.curvature : sizes.feasible;

@@ -147,6 +147,10 @@ private:
   std::optional<double> lastCurvature_;
   double energyShare_ = 0; ///< rᵀMr/rᵀr of the last r it was computed for; 0: none yet
   double startGradient_ = 0;
+  int stepsInFace_ = 0; ///< of CG, since the face was entered
+  /// So many steps, and a preconditioned face is more likely a wrong one, with bounds on what M would have to move, than a hard one;
+  /// where Γ is left open.
+  int patience_ = 16;
   int projectionFailures_ = 0; ///< projected CG steps that raised the objective, bad ones more than once
 };
 

@@ -14,6 +14,7 @@ namespace epafi::qp {
 /// objective.
 std::optional<Status> Mprgp::expand(const StepSizes& sizes, StepKind intent) {
   ++counts_.expansion;
+  stepsInFace_ = 0;
   lastCurvature_.reset();
   const bool hasCurvature = sizes.curvature > objective_.zeroCurvature(sizes.squared);
   if (parameters_.expansion == Expansion::activeSet && !prediction_)

@@ -56,7 +56,8 @@ void addPreconditioner(const DecomposedProblem& problem, const std::shared_ptr<G
   operators.preconditioner = operators.dualPreconditioner;
   const double norm = operators.norm.norm > 0 ? operators.norm.norm : 1.0;
   std::vector<LocalOrdinal> shared = ownEntries(problem, *inverse->multiplierPlan()).dependent;
-  if (holdsAnywhere(*problem.comm, !shared.empty()))
+  operators.hasDependentRows = holdsAnywhere(*problem.comm, !shared.empty());
+  if (operators.hasDependentRows)
     operators.preconditioner =
         rcp(new ShiftedPreconditioner(operators.preconditioner, std::move(shared), 1 / norm));
   operators.corrected = correctedPreconditioner(problem, *inverse, operators, parameters);

@@ -66,6 +66,8 @@ struct DualOperators {
   qp::NormEstimate norm;                            ///< of the Hessian, where it is needed
   RCP<const DualPreconditioner> dualPreconditioner; ///< M ≈ F⁻¹; null without
   RCP<const CorrectedPreconditioner> corrected;     ///< of M; null where no jump of contact is overrated
+  bool hasDependentRows =
+      false; ///< some have no unknown of their own (SharedRows.hpp), and M says nothing of their multipliers
   RCP<const Operator> facePreconditioner; ///< M with all corrections, between no projectors; or null
   RCP<const Operator> preconditioner;     ///< of the Hessian, or null
   qp::MprgpParameters mprgp;              ///< as given, what was left open decided

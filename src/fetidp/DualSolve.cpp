@@ -190,10 +190,12 @@ void IterativeSolve::iterate(
     return;
   }
   const double began = Teuchos::Time::wallTime();
-  Vector face(x.getMap()); // all contact closed, if nothing better is known
-  face.putScalar(1.0);
+  Vector closed(x.getMap()); // all contact, where neither a start nor M knows better
+  closed.putScalar(1.0);
+  const bool isUnknown =
+      start_ == nullptr && (faces.preconditioner.is_null() || dual_.operators().hasDependentRows);
   solution_.report =
-      qp::solveByActiveSets(faces, x, start_ == nullptr ? &face : nullptr, tolerances, limits, observer);
+      qp::solveByActiveSets(faces, x, isUnknown ? &closed : nullptr, tolerances, limits, observer);
   const Status status = solution_.report.status;
   if (status == Status::converged || status == Status::maxIterations || status == Status::timeLimit ||
       status == Status::interrupted)

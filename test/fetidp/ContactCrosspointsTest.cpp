@@ -190,9 +190,37 @@ TEST(ContactCrosspointsTest, BodiesMoveByThemselves) {
       }
 }
 
+/// Averages of edges that end at another cluster follow the faces there, where no row touches them: each a mean of jumps.
+TEST(ContactCrosspointsTest, EdgesFollowTheFacesOfOtherClusters) {
+  for (const ContactCase& c : clusteredCases()) {
+    SCOPED_TRACE(c.name);
+    const Crosspoints crosspoints(c.scene);
+    std::vector<double> shares(static_cast<std::size_t>(crosspoints.stiffness.rows()), 0.0);
+    for (const auto& subdomain : crosspoints.problem.subdomains)
+      for (const decomposition::EdgeEnd& end : subdomain.edgeEnds) {
+        shares[static_cast<std::size_t>(end.average)] += end.share;
+        EXPECT_EQ(crosspoints.found.follows(end.average), crosspoints.isTouched[end.average] == 0);
+        EXPECT_GE(crosspoints.found.indexOf(end.average), 0);
+      }
+    sumOverRanks(*crosspoints.problem.comm, std::span(shares));
+    int numFollowing = 0;
+    for (const double share : shares)
+      if (share != 0) {
+        EXPECT_LE(share, 1 + 1e-14);
+        EXPECT_GT(share, 0.7); // less than 1 where a support holds a node of the faces
+        ++numFollowing;
+      }
+    EXPECT_EQ(numFollowing, 4); // one a cluster
+    EXPECT_EQ(crosspoints.found.size(), static_cast<Eigen::Index>(crosspoints.touched.size()) + 4);
+  }
+}
+
 /// Of clusters up to round-off: three and more subdomains share a row where their corners meet.
 TEST(ContactCrosspointsTest, AreTheSameToTheLastDigitOnAnyNumberOfRanks) {
-  for (const ContactCase& c : crosspointCases()) {
+  std::vector<ContactCase> cases = crosspointCases();
+  for (ContactCase& c : clusteredCases())
+    cases.push_back(std::move(c));
+  for (const ContactCase& c : cases) {
     SCOPED_TRACE(c.name);
     const Crosspoints together(c.scene);
     const auto decomposition = decompose(c.scene, thisRankOnly());

@@ -60,6 +60,14 @@ void setHalves(scene::Body& body, double lower, double upper) {
   body.loads = {scene::loadInside("lower half", low, lower), scene::loadInside("upper half", high, upper)};
 }
 
+std::vector<ContactCase> clusteredCases() {
+  std::vector<ContactCase> cases;
+  for (const bool coercive : {true, false})
+    cases.push_back({std::string(coercive ? "coercive" : "semicoercive") + ", four subdomains a cluster",
+                     twoMembranes(coercive, 12, clustered(grid(2, 4), 4)), coercive});
+  return cases;
+}
+
 std::vector<ContactCase> contactCases() {
   std::vector<ContactCase> cases;
   for (const bool coercive : {true, false}) {
@@ -71,8 +79,6 @@ std::vector<ContactCase> contactCases() {
     cases.push_back({kind + "METIS", twoMembranes(coercive, 6, metis(3)), coercive});
     cases.push_back(
         {kind + "a subdomain a cluster", twoMembranes(coercive, 6, clustered(grid(2, 2), 1)), coercive});
-    cases.push_back(
-        {kind + "four subdomains a cluster", twoMembranes(coercive, 8, clustered(grid(2, 4), 4)), coercive});
     scene::Scene withBystander = twoMembranes(coercive, 4, grid(2, 1));
     withBystander.bodies.push_back(
         decomposition::oneBody(2, 2, grid(1, 1), {{"foot", "bottom", {0.0}}}).bodies.front());

@@ -18,7 +18,7 @@ using decomposition::Subdomain;
 
 std::vector<ContactCase> allCases() {
   std::vector<ContactCase> cases = contactCases();
-  for (const auto& more : {hardCases(), jumpsInside()})
+  for (const auto& more : {clusteredCases(), hardCases(), jumpsInside()})
     cases.insert(cases.end(), more.begin(), more.end());
   return cases;
 }

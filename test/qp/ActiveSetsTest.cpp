@@ -55,6 +55,21 @@ TEST(ActiveSetsTest, SolvesTwoUnknownsByHand) {
   EXPECT_NEAR(answer.x[1], -0.5, 1e-12);
 }
 
+TEST(ActiveSetsTest, AtTheOriginThePreconditionerChoosesTheFirstFace) {
+  Problem problem{Eigen::VectorXd::LinSpaced(12, 1, 5).asDiagonal(), Eigen::MatrixXd(0, 12), {}, {}};
+  problem.b = Eigen::VectorXd::LinSpaced(12, -3, 4).array().sin().matrix();
+  problem.lower = Eigen::VectorXd::Zero(12);
+  EXPECT_GT(solve(problem, 1e-10).report.counts.expansion, 0); // from the face where nothing moves
+  problem.m = problem.a.inverse();
+
+  const Answer answer = solve(problem, 1e-10);
+
+  EXPECT_EQ(answer.report.status, Status::converged);
+  EXPECT_LE((answer.x - (problem.m * problem.b).cwiseMax(0.0)).norm(), 1e-14);
+  EXPECT_EQ(answer.report.counts.conjugateGradient, 1);
+  EXPECT_EQ(answer.report.counts.hessianMultiplications, 2); // no product at 0; the second confirms
+}
+
 TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
   std::mt19937 random(1);
   int numSettled = 0;
