@@ -22,4 +22,18 @@ RCP<const Map> mapInOrder(const std::vector<GlobalOrdinal>& indices, const RCP<c
       0, comm));
 }
 
+std::vector<int> ownersOf(const Map& map, std::span<const GlobalOrdinal> indices) {
+  std::vector<GlobalOrdinal> numbers(indices.begin(),
+                                     indices.end()); // each once: Tpetra answers no question twice
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::vector<int> owners(numbers.size()), ranks;
+  map.getRemoteIndexList(Teuchos::arrayViewFromVector(numbers), Teuchos::arrayViewFromVector(owners));
+  ranks.reserve(indices.size());
+  for (const GlobalOrdinal index : indices)
+    ranks.push_back(owners[static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), index) -
+                                                    numbers.begin())]);
+  return ranks;
+}
+
 } // namespace epafi

@@ -15,4 +15,7 @@ RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>
 /// Of these indices in the order given. Precondition: none stands twice on a rank. Collective.
 RCP<const Map> mapInOrder(const std::vector<GlobalOrdinal>& indices, const RCP<const Comm>& comm);
 
+/// The rank of each index, which may stand more than once. Precondition: one rank has it. Collective.
+std::vector<int> ownersOf(const Map& map, std::span<const GlobalOrdinal> indices);
+
 } // namespace epafi

@@ -1,11 +1,87 @@
 #include "epafi/qp/EqualityConstraint.hpp"
 
+#include "epafi/base/Errors.hpp"
+#include "epafi/qp/LocalData.hpp"
+
+#include <Teuchos_LAPACK.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace epafi::qp {
+namespace {
+
+/// A⁺ of a symmetric positive semidefinite A, k × k, both triangles stored.
+std::vector<double> pseudoInverse(std::vector<double> a, int k) {
+  constexpr double roundOff = 1e-12; // of the largest eigenvalue
+  const auto size = static_cast<std::size_t>(k);
+  std::vector<double> values(size), work(3 * size), result(size * size, 0.0);
+  int info = 0;
+  Teuchos::LAPACK<int, double>().SYEV('V', 'L', k, a.data(), k, values.data(), work.data(),
+                                      static_cast<int>(work.size()), &info);
+  if (info != 0)
+    throw Error("the equality constraints on a face could not be decomposed");
+  for (std::size_t v = 0; v < size; ++v) {
+    if (!(values[v] > roundOff * values.back()))
+      continue;
+    const double* vector = &a[v * size];
+    for (std::size_t j = 0; j < size; ++j)
+      for (std::size_t i = 0; i < size; ++i)
+        result[j * size + i] += vector[i] * vector[j] / values[v];
+  }
+  return result;
+}
+
+class DenseFaceInverse final : public FaceInverse {
+public:
+  DenseFaceInverse(const ReplicatedEquality& equality, const RCP<const Map>& map)
+      : equality_(equality), size_(equality.numEntries()), column_(map) {}
+
+  void setFace(const Vector& face) override {
+    const auto isFree = localData(face);
+    std::vector<AccurateSum> sums(size_ * size_);
+    std::vector<double> unit(size_, 0.0), gram(size_ * size_);
+    for (std::size_t j = 0; j < size_; ++j) {
+      unit[j] = 1;
+      column_.putScalar(0.0);
+      equality_.addTransposedProduct(unit, 1.0, column_);
+      unit[j] = 0;
+      {
+        const auto values = localDataNonConst(column_);
+        for (std::size_t i = 0; i < values.size(); ++i)
+          values[i] *= isFree[i];
+      }
+      equality_.addLocalProduct(column_, std::span(sums).subspan(j * size_, size_));
+    }
+    sumOverRanks(*face.getMap()->getComm(), sums);
+    for (std::size_t j = 0; j < size_; ++j)
+      equality_.finishProduct(std::span(sums).subspan(j * size_, size_),
+                              std::span(gram).subspan(j * size_, size_));
+    inverse_ = pseudoInverse(std::move(gram), static_cast<int>(size_));
+  }
+
+  void apply(std::span<const double> b, std::span<double> mu) const override {
+    std::fill(mu.begin(), mu.end(), 0.0);
+    for (std::size_t j = 0; j < size_; ++j)
+      for (std::size_t i = 0; i < size_; ++i)
+        mu[i] += inverse_[j * size_ + i] * b[j];
+  }
+
+private:
+  const ReplicatedEquality& equality_;
+  std::size_t size_;
+  std::vector<double> inverse_; ///< k × k
+  Vector column_;               ///< work
+};
+
+} // namespace
+
+std::unique_ptr<FaceInverse> ReplicatedEquality::faceInverse(const RCP<const Map>& map) const {
+  return std::make_unique<DenseFaceInverse>(*this, map);
+}
 
 void ReplicatedEquality::finishProduct(std::span<const AccurateSum> sums, std::span<double> bx) const {
   for (std::size_t k = 0; k < bx.size(); ++k)

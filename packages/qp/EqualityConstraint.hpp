@@ -5,7 +5,9 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Types.hpp"
+#include "epafi/qp/FaceInverse.hpp"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -53,6 +55,9 @@ public:
   virtual void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const = 0;
   /// bx = Bx from the sums over the ranks. Both have size() entries. Not collective.
   virtual void finishProduct(std::span<const AccurateSum> sums, std::span<double> bx) const;
+  /// For faces; by default dense, with k² numbers in a message a face and k³ operations on every rank. It may keep a reference to this.
+  /// Not collective.
+  [[nodiscard]] virtual std::unique_ptr<FaceInverse> faceInverse(const RCP<const Map>& map) const;
 
   [[nodiscard]] std::size_t numEntries() const final { return static_cast<std::size_t>(size()); }
   [[nodiscard]] bool isReplicated() const final { return true; }

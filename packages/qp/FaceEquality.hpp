@@ -7,6 +7,7 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ public:
   /// \param equality  B of k rows; null for none
   FaceEquality(RCP<const ReplicatedEquality> equality, const RCP<const Map>& map);
 
-  /// From now on the face is where `face` is 1, not 0; kept by reference. One message of k² numbers. Collective.
+  /// From now on the face is where `face` is 1, not 0; kept by reference. One message, see the rows' face inverse. Collective.
   void setFace(const Vector& face);
 
   [[nodiscard]] int numRows() const { return numRows_; } ///< k
@@ -44,9 +45,8 @@ private:
   RCP<const ReplicatedEquality> equality_;
   int numRows_;
   const Vector* face_ = nullptr;
-  std::vector<double> inverse_;              ///< (B_F B_Fᵀ)⁺, k × k
-  Vector column_;                            ///< work
-  std::vector<double> product_, multiplier_; ///< likewise, k
+  std::unique_ptr<FaceInverse> inverse_;     ///< (B_F B_Fᵀ)⁺; null without rows
+  std::vector<double> product_, multiplier_; ///< work, k
 };
 
 } // namespace epafi::qp

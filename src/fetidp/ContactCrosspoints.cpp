@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <utility>
 
 namespace epafi::fetidp {
 namespace {
@@ -24,9 +26,10 @@ Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
 
 /// Coarse unknowns that rows of contact touch, and those that follow faces at their edges' ends, which are added to them; all those
 /// of the clusters that these belong to. Collective.
+/// \param clusters  of the last ones
 void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& following,
-                  Unknowns& near) {
-  Unknowns myTouched, myFollowing, myNear;
+                  Unknowns& near, std::vector<int>& clusters) {
+  Unknowns myTouched, myFollowing;
   std::vector<int> isTouched(problem.clusters.size(), 0); // of each cluster
   const auto clusterOf = [&problem](const decomposition::Subdomain& subdomain) {
     return static_cast<std::size_t>(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
@@ -53,10 +56,24 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
   touched.insert(touched.end(), following.begin(), following.end());
   std::sort(touched.begin(), touched.end());
   sumOverRanks(*problem.comm, std::span(isTouched));
+  std::map<decomposition::CoarseNumber, int> found; // the clusters of the near ones
   for (const auto& subdomain : problem.subdomains)
     if (isTouched[clusterOf(subdomain)] > 0)
-      myNear.insert(myNear.end(), subdomain.crosspointIndices.begin(), subdomain.crosspointIndices.end());
-  near = unionOverRanks(*problem.comm, myNear);
+      for (const decomposition::CoarseNumber unknown : subdomain.crosspointIndices)
+        found[unknown] = static_cast<int>(clusterOf(subdomain));
+  struct Near {
+    decomposition::CoarseNumber unknown;
+    int cluster;
+  };
+  std::vector<Near> mine;
+  for (const auto& [unknown, cluster] : found)
+    mine.push_back({unknown, cluster});
+  for (const auto& [unknown, cluster] : gatherOnAll(*problem.comm, mine))
+    found[unknown] = cluster;
+  for (const auto& [unknown, cluster] : found) {
+    near.push_back(unknown);
+    clusters.push_back(cluster);
+  }
 }
 
 int positionIn(const Unknowns& unknowns, decomposition::CoarseNumber unknown) {
@@ -68,35 +85,116 @@ int positionIn(const Unknowns& unknowns, decomposition::CoarseNumber unknown) {
 
 ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& problem,
                                        const GeneralizedInverse& inverse) {
-  findUnknowns(problem, touched_, following_, near_);
-  const auto n = static_cast<Eigen::Index>(touched_.size());
-  if (n == 0)
-    return;
-  // S_cc⁺ at the near ones, which the touched ones are among; each value from the rank that owns it.
-  std::vector<double> values(near_.size() * touched_.size(), 0.0);
+  std::vector<int> clusters;
+  findUnknowns(problem, touched_, following_, near_, clusters);
+  findBlocks(clusters);
+  fillBlocks(problem, inverse);
+}
+
+/// \param clusters  of the near ones
+void ContactCrosspoints::findBlocks(const std::vector<int>& clusters) {
+  std::map<int, Block> blocks; // by cluster
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    Block& block = blocks[clusters[i]];
+    block.near.push_back(static_cast<int>(i));
+    if (const int touched = indexOf(near_[i]); touched >= 0)
+      block.touched.push_back(touched);
+  }
+  Eigen::Index mostTouched = 0, mostNear = 0;
+  for (auto& [cluster, block] : blocks) {
+    mostTouched = std::max(mostTouched, static_cast<Eigen::Index>(block.touched.size()));
+    mostNear = std::max(mostNear, static_cast<Eigen::Index>(block.near.size()));
+    blocks_.push_back(std::move(block));
+  }
+  touchedWork_.resize(mostTouched);
+  sumWork_.resize(mostTouched);
+  nearWork_.resize(mostNear);
+}
+
+/// S_cc⁺ at the near ones, which the touched ones are among; each value from the rank that owns it. A column has one of each cluster.
+void ContactCrosspoints::fillBlocks(const decomposition::DecomposedProblem& problem,
+                                    const GeneralizedInverse& inverse) {
+  std::size_t numValues = 0, numColumns = 0;
+  for (const Block& block : blocks_) {
+    numValues += block.near.size() * block.touched.size();
+    numColumns = std::max(numColumns, block.touched.size());
+  }
+  std::vector<double> values(numValues, 0.0); // block by block, column by column
   constexpr std::size_t batch =
       16; // columns at once: work space stays small beside the coarse problem's factor
-  for (std::size_t first = 0; first < touched_.size(); first += batch) {
-    const auto unknowns = std::span(touched_).subspan(first, std::min(batch, touched_.size() - first));
-    std::vector<bool> isOwner;
-    for (const decomposition::CoarseNumber unknown : unknowns)
-      isOwner.push_back(problem.crosspointMap->isNodeGlobalElement(unknown));
-    const Eigen::MatrixXd columns = inverse.coarseColumns(unknowns, isOwner);
-    for (std::size_t i = 0; i < near_.size(); ++i)
-      if (problem.crosspointMap->isNodeGlobalElement(near_[i]))
-        for (std::size_t j = 0; j < unknowns.size(); ++j)
-          values[i + (first + j) * near_.size()] =
-              columns(inverse.coarseIndexOf(near_[i]), static_cast<Eigen::Index>(j));
+  for (std::size_t first = 0; first < numColumns; first += batch) {
+    std::vector<Unknowns> unknowns(std::min(batch, numColumns - first));
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      for (const Block& block : blocks_)
+        if (first + j < block.touched.size())
+          unknowns[j].push_back(touched_[static_cast<std::size_t>(block.touched[first + j])]);
+    const Eigen::MatrixXd columns = inverse.coarseColumns(unknowns);
+    auto value = values.begin();
+    for (const Block& block : blocks_) {
+      for (std::size_t i = 0; i < block.near.size(); ++i)
+        if (const auto unknown = near_[static_cast<std::size_t>(block.near[i])];
+            problem.crosspointMap->isNodeGlobalElement(unknown))
+          for (std::size_t j = 0; j < unknowns.size() && first + j < block.touched.size(); ++j)
+            value[static_cast<std::ptrdiff_t>(i + (first + j) * block.near.size())] =
+                columns(inverse.coarseIndexOf(unknown), static_cast<Eigen::Index>(j));
+      value += static_cast<std::ptrdiff_t>(block.near.size() * block.touched.size());
+    }
   }
   sumOverRanks(*problem.comm, std::span<double>(values));
-  const Eigen::Map<const Eigen::MatrixXd> response(values.data(), static_cast<Eigen::Index>(near_.size()), n);
-  Eigen::MatrixXd flexibility(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    flexibility.row(i) = response.row(nearIndexOf(touched_[static_cast<std::size_t>(i)]));
   collectively(*problem.comm, [&] {
-    stiffness_ = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
+    const double* value = values.data();
+    for (Block& block : blocks_) {
+      const auto numNear = static_cast<Eigen::Index>(block.near.size()),
+                 n = static_cast<Eigen::Index>(block.touched.size());
+      const Eigen::Map<const Eigen::MatrixXd> response(value, numNear, n);
+      value += response.size();
+      Eigen::MatrixXd flexibility(n, n);
+      for (Eigen::Index i = 0, t = 0; i < numNear; ++i)
+        if (indexOf(near_[static_cast<std::size_t>(block.near[static_cast<std::size_t>(i)])]) >= 0)
+          flexibility.row(t++) = response.row(i);
+      block.stiffness = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
+      block.extension = response * block.stiffness;
+    }
   });
-  extension_ = response * stiffness_;
+}
+
+void ContactCrosspoints::extend(const Eigen::MatrixXd& u, Eigen::MatrixXd& near) const {
+  for (const Block& block : blocks_)
+    for (Eigen::Index column = 0; column < u.cols(); ++column) {
+      auto atTouched = touchedWork_.head(block.stiffness.rows());
+      auto atNear = nearWork_.head(block.extension.rows());
+      atTouched = u.col(column)(block.touched);
+      atNear.noalias() = block.extension * atTouched;
+      near.col(column)(block.near) = atNear;
+    }
+}
+
+void ContactCrosspoints::forcesOf(const Eigen::MatrixXd& u, const Eigen::MatrixXd& near,
+                                  Eigen::MatrixXd& forces) const {
+  for (const Block& block : blocks_)
+    for (Eigen::Index column = 0; column < u.cols(); ++column) {
+      auto atTouched = touchedWork_.head(block.stiffness.rows()), sum = sumWork_.head(atTouched.size());
+      auto atNear = nearWork_.head(block.extension.rows());
+      atTouched = u.col(column)(block.touched);
+      atNear = near.col(column)(block.near);
+      sum.noalias() = block.stiffness * atTouched;
+      sum.noalias() += block.extension.transpose() * atNear;
+      forces.col(column)(block.touched) = sum;
+    }
+}
+
+Eigen::MatrixXd ContactCrosspoints::extension() const {
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(numNear(), size());
+  for (const Block& block : blocks_)
+    whole(block.near, block.touched) = block.extension;
+  return whole;
+}
+
+Eigen::MatrixXd ContactCrosspoints::stiffness() const {
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size(), size());
+  for (const Block& block : blocks_)
+    whole(block.touched, block.touched) = block.stiffness;
+  return whole;
 }
 
 int ContactCrosspoints::indexOf(decomposition::CoarseNumber coarseUnknown) const {

@@ -20,11 +20,13 @@ namespace epafi::fetidp {
 
 class ContactCrosspoints {
 public:
-  /// Costs a coarse solve for each crosspoint value that contact touches, sixteen at once. Collective.
+  /// Costs as many coarse solves, sixteen at once, as contact touches crosspoint values of one cluster at most. Collective.
   ContactCrosspoints(const decomposition::DecomposedProblem& problem, const GeneralizedInverse& inverse);
 
   /// Number of the crosspoint values, n_C; the same on all ranks.
-  [[nodiscard]] Eigen::Index size() const { return stiffness_.rows(); }
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(touched_.size()); }
+  /// Number of the near ones, n_N; likewise.
+  [[nodiscard]] Eigen::Index numNear() const { return static_cast<Eigen::Index>(near_.size()); }
   /// Index of a coarse unknown among them, or −1.
   [[nodiscard]] int indexOf(decomposition::CoarseNumber coarseUnknown) const;
   /// Whether a coarse unknown follows the faces at its edge's ends: no row touches it.
@@ -33,15 +35,27 @@ public:
   [[nodiscard]] int indexOf(const decomposition::Subdomain& subdomain, decomposition::Unknown unknown) const;
   /// Index of a coarse unknown among the n_N *near* ones, all those of clusters with touched ones, or −1.
   [[nodiscard]] int nearIndexOf(decomposition::CoarseNumber coarseUnknown) const;
-  /// How the near ones follow, X: n_N × n_C, on every rank.
-  [[nodiscard]] const Eigen::MatrixXd& extension() const { return extension_; }
-  /// Ŝ, n_C × n_C, symmetric positive definite, on every rank.
-  [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }
+  /// near = X u: how the near ones follow. u: n_C × k, near: n_N × k. Not collective.
+  void extend(const Eigen::MatrixXd& u, Eigen::MatrixXd& near) const;
+  /// forces = Ŝ u + Xᵀ near. Not collective.
+  void forcesOf(const Eigen::MatrixXd& u, const Eigen::MatrixXd& near, Eigen::MatrixXd& forces) const;
+  /// X, n_N × n_C, and Ŝ, n_C × n_C, symmetric positive definite; with the zeros between clusters.
+  [[nodiscard]] Eigen::MatrixXd extension() const;
+  [[nodiscard]] Eigen::MatrixXd stiffness() const;
 
 private:
+  /// Of one cluster: S_cc⁺ joins nothing else.
+  struct Block {
+    std::vector<int> touched, near;       ///< indices
+    Eigen::MatrixXd stiffness, extension; ///< Ŝ and X there, on every rank
+  };
+  void findBlocks(const std::vector<int>& clusters);
+  void fillBlocks(const decomposition::DecomposedProblem& problem, const GeneralizedInverse& inverse);
+
   std::vector<decomposition::CoarseNumber> touched_, following_,
       near_; ///< ascending; the second are among the first
-  Eigen::MatrixXd stiffness_, extension_;
+  std::vector<Block> blocks_;
+  mutable Eigen::VectorXd touchedWork_, sumWork_, nearWork_; ///< as long as the largest block asks for
 };
 
 } // namespace epafi::fetidp

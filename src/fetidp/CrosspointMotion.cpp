@@ -1,6 +1,7 @@
 #include "epafi/fetidp/CrosspointMotion.hpp"
 
-#include "epafi/base/Collective.hpp"
+#include "epafi/base/Maps.hpp"
+#include "epafi/base/Records.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -42,11 +43,13 @@ void CrosspointMotion::takeWeights(const ScaledConstraint& scaled, const Map& ma
     double value;
   };
   std::vector<Weight> mine;
-  for (const ScaledConstraint::CrosspointEntry& entry : scaled.atCrosspoints)
-    mine.push_back({ghosts.getGlobalElement(entry.multiplier), entry.touched, entry.weight});
-  for (const Weight& weight : gatherOnAll(*map.getComm(), mine))
-    if (const LocalOrdinal row = map.getLocalElement(weight.row); row >= 0)
-      weights_.push_back({row, weight.touched, weight.value});
+  std::vector<GlobalOrdinal> rows;
+  for (const ScaledConstraint::CrosspointEntry& entry : scaled.atCrosspoints) {
+    rows.push_back(ghosts.getGlobalElement(entry.multiplier));
+    mine.push_back({rows.back(), entry.touched, entry.weight});
+  }
+  for (const Weight& weight : sendRecords<Weight>(map.getComm(), mine, ownersOf(map, rows)))
+    weights_.push_back({map.getLocalElement(weight.row), weight.touched, weight.value});
   std::sort(weights_.begin(), weights_.end(),
             [](const ScaledConstraint::CrosspointEntry& a, const ScaledConstraint::CrosspointEntry& b) {
               return std::pair(a.multiplier, a.touched) < std::pair(b.multiplier, b.touched);
@@ -96,7 +99,7 @@ void CrosspointMotion::prepareColumns(Eigen::Index numColumns) const {
     work_.followers[f].atBoundary.resize(followers_[f].group->condensed().numBoundary(),
                                          near.cols() * numColumns);
   }
-  work_.nearDisplacement.resize(crosspoints_.extension().rows(), numColumns);
+  work_.nearDisplacement.resize(crosspoints_.numNear(), numColumns);
   work_.nearForces.resizeLike(work_.nearDisplacement);
   work_.forces.resize(crosspoints_.size(), numColumns);
   work_.touchedSums.assign(static_cast<std::size_t>(work_.forces.size()), AccurateSum());
@@ -118,7 +121,7 @@ void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, Mult
   if (constrained_) {
     constrained_->negativeJumps(u, rest);
   } else {
-    work_.nearDisplacement.noalias() = crosspoints_.extension() * u;
+    crosspoints_.extend(u, work_.nearDisplacement);
     negativeJumps(rest);
   }
   for (std::size_t j = 0; j < rest.getNumVectors(); ++j) {
@@ -207,8 +210,7 @@ void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const 
   } else {
     addForcesOfJumps();
     sumOverRanks(comm, work_.nearSums, work_.nearForces.data());
-    work_.forces.noalias() = crosspoints_.stiffness() * u;
-    work_.forces.noalias() += crosspoints_.extension().transpose() * work_.nearForces;
+    crosspoints_.forcesOf(u, work_.nearForces, work_.forces);
   }
   for (Eigen::Index j = 0; j < u.cols(); ++j) {
     const auto values = y.getDataNonConst(static_cast<std::size_t>(j));

@@ -126,13 +126,13 @@ void GeneralizedInverse::solveRemainders(const SubdomainVectors& b, SubdomainVec
     groups_[g].substitute(work.coarseValues, b, u, work.groups[g]);
 }
 
-Eigen::MatrixXd GeneralizedInverse::coarseColumns(std::span<const decomposition::CoarseNumber> unknowns,
-                                                  const std::vector<bool>& isOwner) const {
+Eigen::MatrixXd
+GeneralizedInverse::coarseColumns(std::span<const std::vector<decomposition::CoarseNumber>> unknowns) const {
   std::vector<AccurateSum> units(crosspoints_.size() * unknowns.size());
   for (std::size_t j = 0; j < unknowns.size(); ++j)
-    if (isOwner[j])
-      units[j * crosspoints_.size() + static_cast<std::size_t>(coarseIndexOf(unknowns[j]))] =
-          AccurateSum(1.0);
+    for (const decomposition::CoarseNumber unknown : unknowns[j])
+      if (crosspointMap_->isNodeGlobalElement(unknown)) // one rank says so
+        units[j * crosspoints_.size() + static_cast<std::size_t>(coarseIndexOf(unknown))] = AccurateSum(1.0);
   Eigen::MatrixXd columns(static_cast<Eigen::Index>(crosspoints_.size()),
                           static_cast<Eigen::Index>(unknowns.size()));
   coarseProblem_->solve(units, columns);

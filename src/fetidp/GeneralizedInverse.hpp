@@ -65,11 +65,10 @@ public:
   /// result = this rank's part of B̄ u (on the ghost map × k). Not collective.
   void constraint(const SubdomainVectors& u, std::span<double> result) const;
 
-  /// Columns of S_cc⁺ at this rank's coarse unknowns.
-  /// \param isOwner  of each of `unknowns`: true on exactly one rank, which must have it
+  /// S_cc⁺ of unit forces, at this rank's coarse unknowns. \param unknowns  where they act, for each column; the same on every rank
   /// Collective.
-  [[nodiscard]] Eigen::MatrixXd coarseColumns(std::span<const decomposition::CoarseNumber> unknowns,
-                                              const std::vector<bool>& isOwner) const;
+  [[nodiscard]] Eigen::MatrixXd
+  coarseColumns(std::span<const std::vector<decomposition::CoarseNumber>> unknowns) const;
   /// Place of a coarse unknown among this rank's, or −1.
   [[nodiscard]] decomposition::CoarsePlace coarseIndexOf(decomposition::CoarseNumber unknown) const;
 

@@ -1,213 +1,30 @@
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
-#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/base/Records.hpp"
+#include "epafi/fetidp/ClusterFaceInverse.hpp"
 #include "epafi/qp/LocalData.hpp"
 
-#include <Tpetra_Import.hpp>
+#include <Eigen/SparseCholesky>
 #include <Tpetra_Map.hpp>
-#include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <tuple>
 #include <utility>
 
 namespace epafi::fetidp {
 
-namespace {
-
-using decomposition::DecomposedProblem;
-
-/// What a subdomain adds to an entry of G̃ᵀ.
-struct Term {
-  GlobalOrdinal row;
-  int mode;
-  double value;
-  [[nodiscard]] bool operator<(const Term& other) const {
-    return std::tie(row, mode, value) < std::tie(other.row, other.mode, other.value);
-  }
-};
-
-/// Of this rank's subdomains; rows that glue a body which is one cluster are left out.
-std::vector<Term> termsOf(const DecomposedProblem& problem) {
-  std::vector<int> numClusters(problem.bodies.size(), 0);
-  for (const decomposition::Cluster& cluster : problem.clusters)
-    ++numClusters[static_cast<std::size_t>(cluster.body)];
-  std::vector<Term> terms;
-  for (const auto& subdomain : problem.subdomains)
-    for (const auto& entry : subdomain.constraint) {
-      if (problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing &&
-          numClusters[static_cast<std::size_t>(subdomain.body)] == 1)
-        continue;
-      for (int mode = 0; mode < static_cast<int>(subdomain.kernel.cols()); ++mode)
-        if (const double value = entry.coefficient * subdomain.kernel(entry.unknown, mode); value != 0)
-          terms.push_back(
-              {problem.numberOf(entry.multiplier), problem.kernelOffsetOf(subdomain) + mode, value});
-    }
-  return terms;
-}
-
-/// Ranks of the terms' rows. Collective.
-std::vector<int> ownersOf(const Map& rows, const std::vector<Term>& terms) {
-  std::vector<GlobalOrdinal> numbers; // each once: Tpetra answers no question twice
-  for (const Term& term : terms)
-    numbers.push_back(term.row);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  std::vector<int> owners(numbers.size()), ranks;
-  rows.getRemoteIndexList(Teuchos::arrayViewFromVector(numbers), Teuchos::arrayViewFromVector(owners));
-  ranks.reserve(terms.size());
-  for (const Term& term : terms)
-    ranks.push_back(owners[static_cast<std::size_t>(
-        std::lower_bound(numbers.begin(), numbers.end(), term.row) - numbers.begin())]);
-  return ranks;
-}
-
-/// The cluster of each column of R.
-std::vector<std::size_t> clustersOfModes(const DecomposedProblem& problem) {
-  std::vector<std::size_t> clusterOf;
-  for (std::size_t c = 0; c < problem.clusters.size(); ++c)
-    clusterOf.insert(clusterOf.end(), static_cast<std::size_t>(problem.clusters[c].kernelDimension), c);
-  return clusterOf;
-}
-
-} // namespace
-
-std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem& problem) {
-  std::vector<KernelEntry> entries;
-  if (problem.kernelDimension == 0)
-    return entries;
-  const std::vector<Term> mine = termsOf(problem);
-  std::vector<Term> terms = sendRecords<Term>(problem.comm, mine, ownersOf(*problem.multiplierMap, mine));
-  std::sort(terms.begin(), terms.end());
-  for (auto first = terms.begin(), end = first; first != terms.end(); first = end) {
-    AccurateSum sum;
-    double magnitude = 0;
-    for (; end != terms.end() && end->row == first->row && end->mode == first->mode; ++end) {
-      sum.add(end->value);
-      magnitude += std::abs(end->value);
-    }
-    // What glues a cluster cancels: copies of a node have the same value of R, but for round-off.
-    const bool isGluing =
-        problem.kindOf(decomposition::MultiplierNumber(first->row)) == decomposition::RowKind::gluing;
-    constexpr double roundOff = 1e-12;
-    if (std::abs(sum.value()) > (isGluing ? roundOff * magnitude : 0.0))
-      entries.push_back({problem.multiplierMap->getLocalElement(first->row), first->mode, sum.value()});
-  }
-  return entries;
-}
-
-std::vector<KernelEntry> kernelConstraintOfBodies(const DecomposedProblem& problem,
-                                                  const std::vector<KernelEntry>& entries) {
-  const std::vector<std::size_t> clusterOf = clustersOfModes(problem);
-  std::map<std::pair<int, int>, double> values; // of a row and a body's mode
-  for (const KernelEntry& entry : entries) {
-    if (problem.kindOf(decomposition::OwnedMultiplier(entry.row)) == decomposition::RowKind::gluing)
-      continue;
-    const decomposition::Cluster& cluster = problem.clusters[clusterOf[static_cast<std::size_t>(entry.mode)]];
-    const int first = problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset;
-    for (Eigen::Index mode = 0; mode < cluster.ofBody.cols(); ++mode)
-      values[{entry.row, first + static_cast<int>(mode)}] +=
-          entry.value * cluster.ofBody(entry.mode - cluster.kernelOffset, mode);
-  }
-  std::vector<KernelEntry> result;
-  for (const auto& [place, value] : values)
-    if (value != 0)
-      result.push_back({place.first, place.second, value});
-  return result;
-}
-
-namespace {
-
-/// Σ product(r, f) of the modes r and the loads f over all subdomains.
-template <class Product>
-Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads,
-                           const Product& product) {
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(problem.kernelDimension));
-  for (std::size_t s = 0; s < loads.size(); ++s) {
-    const decomposition::Subdomain& subdomain = problem.subdomains[s];
-    const int offset = problem.kernelOffsetOf(subdomain);
-    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
-      sums[static_cast<std::size_t>(offset + mode)].add(product(subdomain.kernel.col(mode), loads[s].col(0)));
-  }
-  Eigen::VectorXd result(problem.kernelDimension);
-  sumOverRanks(*problem.comm, sums, result.data());
-  return result;
-}
-
-/// G̃G̃ᵀ, k × k, on every rank. Collective.
-Eigen::MatrixXd kernelGram(const decomposition::DecomposedProblem& problem,
-                           const std::vector<KernelEntry>& entries) {
-  const Eigen::Index k = problem.kernelDimension;
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(k * k));
-  std::vector<std::vector<KernelEntry>> rows(numLocal(*problem.multiplierMap));
-  for (const KernelEntry& entry : entries)
-    rows[static_cast<std::size_t>(entry.row)].push_back(entry);
-  for (const auto& row : rows)
-    for (const KernelEntry& a : row)
-      for (const KernelEntry& b : row)
-        sums[static_cast<std::size_t>(a.mode + k * b.mode)].add(a.value * b.value);
-  Eigen::MatrixXd gram(k, k);
-  sumOverRanks(*problem.comm, sums, gram.data());
-  return gram;
-}
-
-} // namespace
-
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads) {
-  return resultants(problem, loads, [](const auto& r, const auto& f) { return r.dot(f); });
-}
-
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
-  return kernelLoad(problem, loadsOf(problem));
-}
-
-namespace {
-
-/// Σ XᵀẽC over the clusters of each body, X given by `part` of a cluster.
-template <class Part>
-Eigen::VectorXd sumsOnBodies(const DecomposedProblem& problem, const Eigen::VectorXd& resultants,
-                             const Part& part) {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(problem.numRigidModes());
-  for (const decomposition::Cluster& cluster : problem.clusters)
-    sums.segment(problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset,
-                 cluster.ofBody.cols()) +=
-        part(cluster).transpose() * resultants.segment(cluster.kernelOffset, cluster.kernelDimension);
-  return sums;
-}
-
-} // namespace
-
-Eigen::VectorXd onBodies(const DecomposedProblem& problem, const Eigen::VectorXd& resultants) {
-  return sumsOnBodies(problem, resultants,
-                      [](const decomposition::Cluster& cluster) { return cluster.ofBody; });
-}
-
-Eigen::VectorXd magnitudesOnBodies(const DecomposedProblem& problem) {
-  return sumsOnBodies(problem, kernelLoadMagnitude(problem), [](const decomposition::Cluster& cluster) {
-    return Eigen::MatrixXd(cluster.ofBody.cwiseAbs());
-  });
-}
-
-Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem) {
-  return resultants(problem, loadsOf(problem),
-                    [](const auto& r, const auto& f) { return r.cwiseAbs().dot(f.cwiseAbs()); });
-}
-
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,
                                        std::vector<KernelEntry> entries)
     : comm_(problem.comm), entries_(std::move(entries)),
+      gram_(std::make_shared<const KernelGram>(problem, entries_)), anchors_(anchorsOf(problem)),
       sums_(static_cast<std::size_t>(problem.kernelDimension)), work_(problem.kernelDimension),
       product_(problem.kernelDimension) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(kernelGram(problem, entries_));
+  const Eigen::SimplicialLLT<KernelGram::Matrix> factor(gram_->whole());
   if (factor.info() != Eigen::Success)
     throw Error(
         "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
-  cholesky_ = factor.matrixL();
+  lower_ = factor.matrixL();
+  order_ = factor.permutationP();
 }
 
 /// G̃x; L⁻¹ waits for the sum, so that the order of the terms does not matter.
@@ -219,18 +36,18 @@ void NaturalCoarseSpace::addLocalProduct(const Vector& x, std::span<AccurateSum>
 
 void NaturalCoarseSpace::finishProduct(std::span<const AccurateSum> sums, std::span<double> gx) const {
   for (std::size_t k = 0; k < gx.size(); ++k)
-    gx[k] = sums[k].value();
+    gx[static_cast<std::size_t>(order_.indices()[static_cast<Eigen::Index>(k)])] = sums[k].value(); // Π G̃x
   Eigen::Map<Eigen::VectorXd> product(gx.data(), static_cast<Eigen::Index>(gx.size()));
-  cholesky_.triangularView<Eigen::Lower>().solveInPlace(product); // L⁻¹ G̃x
+  lower_.triangularView<Eigen::Lower>().solveInPlace(product); // L⁻¹
 }
 
 void NaturalCoarseSpace::addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const {
   for (std::size_t k = 0; k < mu.size(); ++k)
     work_[static_cast<Eigen::Index>(k)] = factor * mu[k];
-  cholesky_.transpose().triangularView<Eigen::Upper>().solveInPlace(work_); // L⁻ᵀ μ
+  lower_.transpose().triangularView<Eigen::Upper>().solveInPlace(work_); // L⁻ᵀ μ
   const std::span<double> values = qp::localDataNonConst(y);
   for (const KernelEntry& entry : entries_)
-    values[static_cast<std::size_t>(entry.row)] += entry.value * work_[entry.mode]; // G̃ᵀ
+    values[static_cast<std::size_t>(entry.row)] += entry.value * work_[order_.indices()[entry.mode]]; // G̃ᵀΠᵀ
 }
 
 const Eigen::VectorXd& NaturalCoarseSpace::product(const Vector& x) const {
@@ -247,17 +64,37 @@ void NaturalCoarseSpace::project(Vector& x) const {
 }
 
 Eigen::VectorXd NaturalCoarseSpace::normalized(const Eigen::VectorXd& kernelLoad) const {
-  return cholesky_.triangularView<Eigen::Lower>().solve(kernelLoad);
+  Eigen::VectorXd e = order_ * kernelLoad;
+  lower_.triangularView<Eigen::Lower>().solveInPlace(e);
+  return e;
 }
 
 Eigen::VectorXd NaturalCoarseSpace::motionOf(std::span<const double> mu) const {
-  const Eigen::Map<const Eigen::VectorXd> given(mu.data(), static_cast<Eigen::Index>(mu.size()));
-  return cholesky_.transpose().triangularView<Eigen::Upper>().solve(given);
+  Eigen::VectorXd motion = Eigen::Map<const Eigen::VectorXd>(mu.data(), static_cast<Eigen::Index>(mu.size()));
+  lower_.transpose().triangularView<Eigen::Upper>().solveInPlace(motion);
+  return order_.transpose() * motion;
+}
+
+void NaturalCoarseSpace::resultantOf(std::span<const double> e, Eigen::VectorXd& kernelLoad) const {
+  work_.noalias() = lower_ * Eigen::Map<const Eigen::VectorXd>(e.data(), static_cast<Eigen::Index>(e.size()));
+  kernelLoad.noalias() = order_.transpose() * work_;
+}
+
+void NaturalCoarseSpace::multiplierOf(const Eigen::VectorXd& motion, std::span<double> mu) const {
+  work_.noalias() = order_ * motion;
+  Eigen::Map<Eigen::VectorXd>(mu.data(), static_cast<Eigen::Index>(mu.size())).noalias() =
+      lower_.transpose() * work_;
 }
 
 void NaturalCoarseSpace::feasiblePoint(const Eigen::VectorXd& e, Vector& lambda) const {
   lambda.putScalar(0.0);
   addTransposedProduct({e.data(), static_cast<std::size_t>(e.size())}, 1.0, lambda);
+}
+
+std::unique_ptr<qp::FaceInverse> NaturalCoarseSpace::faceInverse(const RCP<const Map>& map) const {
+  if (!anchors_)
+    return ReplicatedEquality::faceInverse(map);
+  return std::make_unique<ClusterFaceInverse>(*this, gram_, *anchors_);
 }
 
 } // namespace epafi::fetidp

@@ -1,0 +1,21 @@
+#pragma once
+
+/// (B_F B_Fᵀ)⁺ of the rows of an equality constraint on a face, which may depend on each other there.
+
+#include "epafi/base/Types.hpp"
+
+#include <span>
+
+namespace epafi::qp {
+
+/// A generalised inverse N⁻ of N = B_F B_Fᵀ, B_F = BZ with Z = 1 on the face and 0 off it: N N⁻ N = N, symmetric. B_FᵀN⁻B_F does not depend on the choice.
+class FaceInverse {
+public:
+  virtual ~FaceInverse() = default;
+  /// From now on the face is where `face` is 1, not 0. Collective.
+  virtual void setFace(const Vector& face) = 0;
+  /// μ = N⁻ b; 0 is what it chooses of motions that the face leaves free. Not collective.
+  virtual void apply(std::span<const double> b, std::span<double> mu) const = 0;
+};
+
+} // namespace epafi::qp

@@ -1,0 +1,131 @@
+#include "Preconditioned.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
+#include "epafi/fetidp/NaturalCoarseSpace.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+#include <gtest/gtest.h>
+
+namespace epafi::fetidp {
+namespace {
+
+std::vector<ContactCase> cutCases() {
+  std::vector<ContactCase> cases;
+  for (ContactCase& c : clusteredCases())
+    if (!c.coercive) // else supports hold all of them
+      cases.push_back(std::move(c));
+  for (const bool coercive : {true, false})
+    cases.push_back({std::string(coercive ? "coercive" : "semicoercive") + ", a subdomain a cluster",
+                     twoMembranes(coercive, 6, clustered(grid(3, 3), 1)), coercive});
+  scene::Scene three = threeMembranes(true, 6, clustered(grid(2, 3), 2)); // two of them float
+  cases.push_back({"three membranes", std::move(three), false});
+  return cases;
+}
+
+/// Contact closed everywhere, at every third row, nowhere.
+std::vector<RCP<Vector>> faces(const DecomposedProblem& problem) {
+  std::vector<RCP<Vector>> result;
+  for (const GlobalOrdinal step : {1, 3, 1000000}) {
+    result.push_back(rcp(new Vector(problem.multiplierMap)));
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(numLocal(*problem.multiplierMap)); ++row) {
+      const bool isContact =
+          problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact;
+      const bool isFree = !isContact || (problem.multiplierMap->getGlobalElement(row) + 1) % step == 0;
+      result.back()->replaceLocalValue(row, isFree ? 1.0 : 0.0);
+    }
+  }
+  return result;
+}
+
+Eigen::MatrixXd matrixOf(const qp::FaceInverse& inverse, Eigen::Index size) {
+  Eigen::MatrixXd matrix(size, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(size, j);
+    inverse.apply({unit.data(), static_cast<std::size_t>(size)},
+                  {matrix.col(j).data(), static_cast<std::size_t>(size)});
+  }
+  return matrix;
+}
+
+struct Cut {
+  explicit Cut(const scene::Scene& scene)
+      : decomposition(decompose(scene, world())), problem(decomposition.problem),
+        entries(kernelConstraint(problem)), space(problem, entries) {}
+
+  /// G on a face, dense.
+  [[nodiscard]] Eigen::MatrixXd rows(const Eigen::VectorXd& face) const {
+    Eigen::MatrixXd g(space.size(), face.size());
+    for (Eigen::Index j = 0; j < face.size(); ++j)
+      g.col(j) =
+          face[j] * space.product(*spread(problem.multiplierMap, Eigen::VectorXd::Unit(face.size(), j)));
+    return g;
+  }
+
+  model::Decomposition decomposition;
+  const DecomposedProblem& problem;
+  std::vector<KernelEntry> entries;
+  NaturalCoarseSpace space;
+};
+
+TEST(ClusterFaceInverseTest, IsAGeneralisedInverseOnEveryFace) {
+  int numSingular = 0;
+  for (const ContactCase& c : cutCases()) {
+    SCOPED_TRACE(c.name);
+    const Cut cut(c.scene);
+    const auto inverse = cut.space.faceInverse(cut.problem.multiplierMap);
+    const auto dense = cut.space.qp::ReplicatedEquality::faceInverse(cut.problem.multiplierMap);
+    for (const RCP<Vector>& face : faces(cut.problem)) {
+      inverse->setFace(*face);
+      dense->setFace(*face);
+      const Eigen::MatrixXd g = cut.rows(gathered(*face)), n = g * g.transpose();
+      const Eigen::MatrixXd found = matrixOf(*inverse, n.rows());
+      EXPECT_LE((found - found.transpose()).norm(), 1e-10 * found.norm());
+      EXPECT_LE((n * found * n - n).norm(), 1e-11 * n.norm());
+      EXPECT_LE((g.transpose() * (found - matrixOf(*dense, n.rows())) * g).norm(), 1e-10);
+      numSingular += Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(n).eigenvalues()[0] < 1e-10 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(numSingular, 3); // nothing closed under a floating body
+}
+
+/// α of what contact does not hinder is 0 at the anchors: where nothing asks for it no body moves.
+TEST(ClusterFaceInverseTest, LeavesBodiesThatAreFreeAtRest) {
+  const Cut cut(twoMembranes(false, 6, clustered(grid(3, 3), 1)));
+  const auto inverse = cut.space.faceInverse(cut.problem.multiplierMap);
+  inverse->setFace(*faces(cut.problem).back());
+  const Eigen::VectorXd load = kernelLoad(cut.problem), e = cut.space.normalized(load);
+  Eigen::VectorXd mu(e.size());
+  inverse->apply({e.data(), static_cast<std::size_t>(e.size())},
+                 {mu.data(), static_cast<std::size_t>(mu.size())});
+  const Eigen::VectorXd motion = cut.space.motionOf({mu.data(), static_cast<std::size_t>(mu.size())});
+  EXPECT_TRUE(motion.allFinite());
+  EXPECT_LE(motion.cwiseAbs().minCoeff(), 1e-10 * motion.cwiseAbs().maxCoeff());
+}
+
+TEST(KernelGramTest, IsTheProductOfTheRowsOnTheFaceOnAnyNumberOfRanks) {
+  for (const ContactCase& c : cutCases()) {
+    SCOPED_TRACE(c.name);
+    const Cut cut(c.scene);
+    const KernelGram gram(cut.problem, cut.entries);
+    const DenseProblem dense = densify(cut.problem);
+    const Eigen::MatrixXd gt = dense.constraint * dense.kernel; // G̃ᵀ
+    const auto lower = [](const Eigen::MatrixXd& m) {
+      return Eigen::MatrixXd(m.triangularView<Eigen::Lower>());
+    };
+    const auto cutAlone = decompose(c.scene, thisRankOnly());
+    const KernelGram alone(cutAlone.problem, kernelConstraint(cutAlone.problem));
+    EXPECT_LE((Eigen::MatrixXd(gram.whole()) - Eigen::MatrixXd(alone.whole())).norm(),
+              1e-14 * gt.squaredNorm());
+    for (const RCP<Vector>& face : faces(cut.problem)) {
+      const Eigen::MatrixXd expected = gt.transpose() * gathered(*face).asDiagonal() * gt;
+      EXPECT_LE((Eigen::MatrixXd(gram.onFace(*face)) - lower(expected)).norm(), 1e-13 * expected.norm());
+    }
+    EXPECT_LE((Eigen::MatrixXd(gram.whole()) - lower(gt.transpose() * gt)).norm(), 1e-13 * gt.squaredNorm());
+  }
+}
+
+} // namespace
+} // namespace epafi::fetidp
