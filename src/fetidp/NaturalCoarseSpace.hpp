@@ -41,8 +41,9 @@ public:
   [[nodiscard]] Eigen::VectorXd normalized(const Eigen::VectorXd& kernelLoad) const;
   /// The motion α = T̃ᵀμ of the clusters that μ stands for: Gᵀμ = G̃ᵀα. Not collective.
   [[nodiscard]] Eigen::VectorXd motionOf(std::span<const double> mu) const;
-  /// What `normalized` makes e of, T̃⁻¹e, and `motionOf` α, T̃⁻ᵀα. Not collective.
+  /// T̃⁻¹e, what `normalized` makes e of. Not collective.
   void resultantOf(std::span<const double> e, Eigen::VectorXd& kernelLoad) const;
+  /// T̃⁻ᵀα, what `motionOf` makes α of. Not collective.
   void multiplierOf(const Eigen::VectorXd& motion, std::span<double> mu) const;
   /// λ̃ = Gᵀe, the shortest λ with Gλ = e. Not collective.
   void feasiblePoint(const Eigen::VectorXd& e, Vector& lambda) const;
