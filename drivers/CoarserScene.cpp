@@ -11,11 +11,6 @@
 namespace epafi::drivers {
 namespace {
 
-bool isOfSimplices(const fem::Mesh& mesh) {
-  const fem::CellType type = withOrder(mesh.cellType(), 1);
-  return type == fem::CellType::triangle || type == fem::CellType::tetrahedron;
-}
-
 /// Subdomains that are `times` smaller in unknowns need not be as many.
 void mergeParts(scene::Decomposition& decomposition, int times) {
   if (decomposition.parts > 0)

@@ -40,11 +40,6 @@ std::vector<LocalOrdinal> elementsAround(const SimplexMesh& inner, const Simplex
   return around;
 }
 
-bool isOfSimplices(const fem::Mesh& mesh) {
-  const fem::CellType type = withOrder(mesh.cellType(), 1);
-  return type == fem::CellType::triangle || type == fem::CellType::tetrahedron;
-}
-
 /// Mean length of an element's edges.
 double sizeOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
   double sum = 0;

@@ -231,6 +231,11 @@ void bendEdges(const SimplexMesh& mesh, MeshArrays& arrays) {
 
 } // namespace
 
+bool isOfSimplices(const Mesh& mesh) {
+  const CellType type = withOrder(mesh.cellType(), 1);
+  return type == CellType::triangle || type == CellType::tetrahedron;
+}
+
 SimplexMesh simplicesOf(const Mesh& mesh) {
   return Cutting(mesh).make();
 }

@@ -42,6 +42,8 @@ struct SimplexMesh {
 /// tetrahedra round its lowest node, faces cut from their lowest node on, the same from both sides. Edges of elements of order
 /// 2 keep their curvature. O(n).
 SimplexMesh simplicesOf(const Mesh& mesh);
+/// Whether its elements are triangles or tetrahedra, of any order.
+bool isOfSimplices(const Mesh& mesh);
 
 /// As a mesh of an order. Elements keep their numbers.
 MeshArrays arraysOf(const SimplexMesh& mesh, int order);
