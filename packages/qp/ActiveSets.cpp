@@ -38,6 +38,7 @@ public:
 private:
   void chooseFirstFace(const ActiveSetProblem& problem);
   std::optional<Status> minimise();
+  [[nodiscard]] bool isEndless();
   [[nodiscard]] bool isNearlySmall() const;
   bool chooseFace(bool isCautious);
   bool isSolved();
@@ -118,7 +119,7 @@ Status ActiveSets::run(Observer* observer) {
     }
     do {
       if (const auto status = minimise()) { // on the face, as if it had no bounds
-        if (*status == Status::stagnated)
+        if (*status == Status::stagnated || *status == Status::unbounded)
           copy(best_, on_.x);
         return *status;
       }
@@ -146,11 +147,21 @@ std::optional<Status> ActiveSets::minimise() {
     if (step == maxFaceSteps)
       return Status::stagnated;
     if (const auto status = on_.step())
-      return status;
+      return *status == Status::unbounded && !isEndless() ? Status::stagnated : *status;
     gradient_ = on_.gradientNorm();
     record(StepKind::conjugateGradient);
   }
   return std::nullopt;
+}
+
+/// Whether the set goes on for ever where the last direction leads down, or nearly so.
+bool ActiveSets::isEndless() {
+  constexpr double mostOff = 0.1;
+  inside_.update(on_.slope() > 0 ? -1.0 : 1.0, on_.direction(), 0.0);
+  copy(inside_, next_);
+  set_.recessionCone(objective_.map())->project(next_);
+  addScaled(-1.0, inside_, next_);
+  return accurateNorm(next_) <= mostOff * accurateNorm(inside_);
 }
 
 /// Whether CG has done what the tolerance asks for, with something to spare.

@@ -107,15 +107,16 @@ std::optional<Status> FaceIteration::step() {
   equality_.addLocalSums(r_, rowSums());
   reduction_.reduce();
   curvature_ = objective_.scale() * reduction_.sum(first);
+  slope_ = reduction_.sum(second);
   if (!(curvature_ > objective_.zeroCurvature(reduction_.sum(third))))
-    return Status::stagnated;
-  const double slope = reduction_.sum(second), length = slope / curvature_;
+    return Status::unbounded;
+  const double length = slope_ / curvature_;
   equality_.finish(rowSums(), rows_);
   equality_.multiplierOf(rows_, multiplier_);
   equality_.addWholeTransposed(multiplier_, -1.0, image_); // Ap − Bᵀη, on the face in Ker B
   addScaled(-length, p_, x);
   addScaled(-length * objective_.scale(), image_, g_);
-  f_ += length * (0.5 * length * curvature_ - slope);
+  f_ += length * (0.5 * length * curvature_ - slope_);
   ++counts_.conjugateGradient;
   precondition();
   if (!std::isfinite(gradient_))

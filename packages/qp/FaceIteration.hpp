@@ -27,10 +27,13 @@ public:
   /// x moves onto Bx = c within the face, and g is computed afresh. One product, or none at the origin. Collective.
   /// \param isOrigin  whether x = 0
   void enter(bool isOrigin = false);
-  /// One step. One product, one application of M, two messages. Returns why there can be none: stagnated where the face has no
-  /// minimum or round-off allows no better one. Collective.
+  /// One step. One product, one application of M, two messages. Returns why there can be none: unbounded where there is no curvature, since the
+  /// face has no minimum or round-off allows no better one. Collective.
   std::optional<Status> step();
 
+  /// The direction of the last step, against which x moves where its slope is positive.
+  [[nodiscard]] const Vector& direction() const { return p_; }
+  [[nodiscard]] double slope() const { return slope_; }           ///< gᵀ of it
   [[nodiscard]] const Vector& gradient() const { return g_; }     ///< g
   [[nodiscard]] double gradientNorm() const { return gradient_; } ///< ‖Zg‖
   [[nodiscard]] double energy() const { return energy_; }         ///< gᵀZ P_F M P_F Zg
@@ -61,6 +64,7 @@ private:
   std::vector<double> rows_, multiplier_; ///< work, k
   double f_ = 0, gradient_ = 0, energy_ = 0, residual_ = 0;
   double timesImage_ = 0; ///< zᵀAp
+  double slope_ = 0;      ///< gᵀp
   double curvature_ = 0;  ///< pᵀAp of the last step; 0: there was none on this face
   std::optional<Status> wish_;
   bool isLookWanted_ = false;

@@ -11,6 +11,7 @@
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"
 #include "epafi/qp/ConjugateGradient.hpp"
+#include "epafi/qp/RecessionDirection.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <Tpetra_Map.hpp>
@@ -133,6 +134,7 @@ private:
   void iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
                qp::Observer* observer,
                const std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>& always);
+  bool findContradiction(const qp::ActiveSetProblem& faces);
   void completeJumps(Vector& lambda) const;
   [[nodiscard]] double equilibriumReference(const Eigen::VectorXd& e) const;
 
@@ -177,6 +179,17 @@ DualSolution IterativeSolve::coercive() {
   return std::move(solution_);
 }
 
+/// Whether the constraints contradict each other: then the objective falls without end along a direction, the certificate. Collective.
+bool IterativeSolve::findContradiction(const qp::ActiveSetProblem& faces) {
+  constexpr int patience = 2000; // products; contradictions are rare, and say so at once where they are not
+  qp::SolveReport& report = solution_.report;
+  const qp::RecessionDirection found = qp::findRecessionDirection(dual_.hessian(), dual_.norm().norm, *rhs_,
+                                                                  *faces.set, faces.equality, patience);
+  report.counts.hessianMultiplications += found.multiplications;
+  report.certificate = found.direction;
+  return !found.direction.is_null();
+}
+
 /// Active sets where they were chosen; where not, and from their best point on where their faces do not settle, what always gets
 /// there.
 void IterativeSolve::iterate(
@@ -198,7 +211,7 @@ void IterativeSolve::iterate(
       qp::solveByActiveSets(faces, x, isUnknown ? &closed : nullptr, tolerances, limits, observer);
   const Status status = solution_.report.status;
   if (status == Status::converged || status == Status::maxIterations || status == Status::timeLimit ||
-      status == Status::interrupted)
+      status == Status::interrupted || (status == Status::unbounded && findContradiction(faces)))
     return;
   limits.maxMultiplications =
       std::max(1, limits.maxMultiplications - solution_.report.counts.hessianMultiplications);
