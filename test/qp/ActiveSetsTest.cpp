@@ -70,6 +70,19 @@ TEST(ActiveSetsTest, AtTheOriginThePreconditionerChoosesTheFirstFace) {
   EXPECT_EQ(answer.report.counts.hessianMultiplications, 2); // no product at 0; the second confirms
 }
 
+TEST(ActiveSetsTest, TellsADirectionWithoutEndFromOneThatBoundsEnd) {
+  Problem problem{(Eigen::Matrix2d() << 1, -1, -1, 1).finished(), Eigen::MatrixXd(0, 2),
+                  Eigen::Vector2d(1, 2), Eigen::Vector2d::Zero()};
+  const Eigen::VectorXd everywhere = Eigen::VectorXd::Ones(2);
+  EXPECT_EQ(solve(problem, 1e-10, everywhere).report.status, Status::unbounded); // along (1, 1)
+  problem.a << 1, 1, 1, 1; // no curvature along (1, −1), which the bounds end
+  const Answer answer = solve(problem, 1e-10, everywhere);
+  EXPECT_NE(answer.report.status, Status::unbounded);
+  if (answer.report.status == Status::converged) {
+    EXPECT_LE((answer.x - Eigen::Vector2d(0, 2)).norm(), 1e-9);
+  }
+}
+
 TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
   std::mt19937 random(1);
   int numSettled = 0;
