@@ -134,7 +134,7 @@ private:
   void iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
                qp::Observer* observer,
                const std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>& always);
-  bool findContradiction(const qp::ActiveSetProblem& faces);
+  void refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications);
   void completeJumps(Vector& lambda) const;
   [[nodiscard]] double equilibriumReference(const Eigen::VectorXd& e) const;
 
@@ -179,15 +179,16 @@ DualSolution IterativeSolve::coercive() {
   return std::move(solution_);
 }
 
-/// Whether the constraints contradict each other: then the objective falls without end along a direction, the certificate. Collective.
-bool IterativeSolve::findContradiction(const qp::ActiveSetProblem& faces) {
-  constexpr int patience = 2000; // products; contradictions are rare, and say so at once where they are not
-  qp::SolveReport& report = solution_.report;
-  const qp::RecessionDirection found = qp::findRecessionDirection(dual_.hessian(), dual_.norm().norm, *rhs_,
-                                                                  *faces.set, faces.equality, patience);
-  report.counts.hessianMultiplications += found.multiplications;
-  report.certificate = found.direction;
-  return !found.direction.is_null();
+/// Refuses constraints that contradict each other: then the objective falls without end along a direction. Collective.
+/// \param maxMultiplications  that are left
+void IterativeSolve::refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications) {
+  constexpr int patience = 2000; // products
+  const qp::RecessionDirection found =
+      qp::findRecessionDirection(dual_.hessian(), dual_.norm().norm, *rhs_, *faces.set, faces.equality,
+                                 std::min(patience, maxMultiplications));
+  solution_.report.counts.hessianMultiplications += found.multiplications;
+  if (!found.direction.is_null())
+    refuseContradiction(problem_, *found.direction);
 }
 
 /// Active sets where they were chosen; where not, and from their best point on where their faces do not settle, what always gets
@@ -211,8 +212,10 @@ void IterativeSolve::iterate(
       qp::solveByActiveSets(faces, x, isUnknown ? &closed : nullptr, tolerances, limits, observer);
   const Status status = solution_.report.status;
   if (status == Status::converged || status == Status::maxIterations || status == Status::timeLimit ||
-      status == Status::interrupted || (status == Status::unbounded && findContradiction(faces)))
+      status == Status::interrupted)
     return;
+  if (status == Status::unbounded)
+    refuseIfContradictory(faces, limits.maxMultiplications - solution_.report.counts.hessianMultiplications);
   limits.maxMultiplications =
       std::max(1, limits.maxMultiplications - solution_.report.counts.hessianMultiplications);
   if (limits.timeLimit > 0)
