@@ -1,6 +1,7 @@
 #include "CoarserScene.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/fem/MeshPart.hpp"
 #include "epafi/fem/SimplexMesh.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 
@@ -73,11 +74,19 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
     return coarser;
   }
   std::vector<std::unique_ptr<const fem::Mesh>> meshes;
+  std::vector<std::shared_ptr<const model::Partition>> partitions;
   collectively(comm, [&] { // Gmsh is not to mesh a geometry once more
-    for (const model::BodyLayout& body : fine)
-      meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(arraysOf(simplicesOf(*body.mesh), 1)));
+    for (const model::BodyLayout& body : fine) {
+      const fem::MeshPart* piece = body.mesh->part();
+      if (piece != nullptr)
+        meshes.push_back(piece->ofOrder1());
+      else
+        meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(arraysOf(simplicesOf(*body.mesh), 1)));
+      partitions.push_back(piece != nullptr ? body.partition
+                                            : nullptr); // what is dealt out stays cut as it is
+    }
   });
-  coarser.bodies = model::cutBodies(coarser.scene, std::move(meshes), comm);
+  coarser.bodies = model::cutBodies(coarser.scene, std::move(meshes), comm, std::move(partitions));
   return coarser;
 }
 

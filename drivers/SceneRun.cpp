@@ -114,8 +114,9 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   run.started = Teuchos::Time::wallTime();
   run.scene = scene;
   run.solver = std::make_unique<ContactSolver>(solverParameters);
+  const model::Meshes meshes = options.quantity.point.empty() ? options.meshes : model::Meshes::whole;
   run.decomposition = std::make_unique<model::Decomposition>(
-      options.bodies == nullptr ? model::decompose(scene, comm)
+      options.bodies == nullptr ? model::decompose(scene, comm, meshes)
                                 : model::decompose(scene, std::move(*options.bodies), comm));
   std::optional<QuantityOfScene> quantity;
   if (options.quantity.kind != QuantityParameters::Kind::none)

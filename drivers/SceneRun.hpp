@@ -79,6 +79,9 @@ struct RunOptions {
   /// Unknowns from which on the run may look for a coarser mesh itself.
   GlobalOrdinal coarserFrom = std::numeric_limits<GlobalOrdinal>::max();
   RunCompanion* companion = nullptr;
+  /// How meshes of files lie on several ranks, where `bodies` does not say: whole if runs are to be compared. A displacement at a
+  /// point wants them whole, and has them.
+  model::Meshes meshes = model::Meshes::whole;
   /// Bodies that are meshed and cut already, which the run takes; null: as the scene says.
   std::vector<model::BodyLayout>* bodies = nullptr;
 };

@@ -72,7 +72,8 @@ SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& l
                       {.estimatesError = accuracy.estimate,
                        .quantity = accuracy.quantity,
                        .coarserFrom = accuracy.coarserFrom,
-                       .companion = &watch});
+                       .companion = &watch,
+                       .meshes = model::Meshes::pieces});
   watch.expectSeries();
   const auto tell = [speaks](const accuracy::MeshResult& mesh) {
     if (speaks)

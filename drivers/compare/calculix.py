@@ -3,6 +3,7 @@
 agree as meshes become finer, not on one mesh."""
 
 import itertools
+import math
 import os
 import pathlib
 import re
@@ -51,12 +52,17 @@ SHAPES = {
 
 
 class Block:
-    """Nodes and elements of a cube of n cubes a side whose lower side is at `bottom`."""
+    """Nodes and elements of a box between two corners, of so many cubes along each axis."""
 
-    def __init__(self, n, order, shape, bottom, first):
-        self.n, self.order, self.shape, self.bottom, self.first = n, order, shape, bottom, first
+    def __init__(self, cubes, order, shape, box, first):
+        self.cubes, self.order, self.shape, self.box, self.first = cubes, order, shape, box, first
         self.number = {}
-        self.elements = [self.element(cell, i, j, k) for k in range(n) for j in range(n) for i in range(n) for cell in shape.cells]
+        self.elements = [self.element(cell, *place) for place in self.places() for cell in shape.cells]
+
+    def places(self):
+        """Of the cubes, in the order of their elements."""
+        nx, ny, nz = self.cubes
+        return ((i, j, k) for k in range(nz) for j in range(ny) for i in range(nx))
 
     def node(self, *place):
         """Of a place on the grid of half cubes (of order 1: of cubes)."""
@@ -70,21 +76,44 @@ class Block:
             nodes += [self.node(*(p + q for p, q in zip(corners[a], corners[b]))) for a, b in self.shape.edges]
         return nodes
 
-    def point(self, place):
-        h = EDGE / (self.n * self.order)
-        return place[0] * h, place[1] * h, self.bottom + place[2] * h
+    def points(self):
+        """{node: its coordinates}."""
+        return {node: tuple(low + x * (high - low) / (n * self.order) for x, n, low, high in zip(place, self.cubes, *self.box))
+                for place, node in self.number.items()}
+
+    def volume(self):
+        """Of an element."""
+        return math.prod((high - low) / n for n, low, high in zip(self.cubes, *self.box)) / len(self.shape.cells)
 
     def chosen(self, inside):
         """Numbers of the elements in the cubes whose place fulfils a condition, from 0 in this block."""
-        n, each = self.n, len(self.shape.cells)
-        return [each * (i + n * (j + n * k)) + cell for k in range(n) for j in range(n) for i in range(n) if inside(i, j, k)
-                for cell in range(each)]
+        each = len(self.shape.cells)
+        return [each * cube + cell for cube, place in enumerate(self.places()) if inside(*place) for cell in range(each)]
 
     def side(self, height):
         """Pairs (element, number of its face from 1) at the lower (0) or upper (1) side."""
-        cubes = self.chosen(lambda i, j, k: k == height * (self.n - 1))
+        cubes = self.chosen(lambda i, j, k: k == height * (self.cubes[2] - 1))
         return [(element, face) for element in cubes for face, corners in enumerate(self.shape.faces, start=1)
                 if all(self.shape.cells[element % len(self.shape.cells)][corner][2] == height for corner in corners)]
+
+    def at_zero(self, axis):
+        """Nodes on the side where an axis, from 0, begins."""
+        return [node for place, node in self.number.items() if place[axis] == 0]
+
+
+def node_lines(points):
+    return [f"{node}, " + ", ".join(f"{x:.12g}" for x in point) for node, point in points.items()]  # of a number 20 characters are read
+
+
+def element_lines(elements, first):
+    """A line of numbers has 16 at most, and ends with a comma where it goes on."""
+    lines = []
+    for number, nodes in enumerate(elements, start=first):
+        words = [str(number), *map(str, nodes)]
+        lines.append(", ".join(words[:11]) + ("," if len(words) > 11 else ""))
+        if len(words) > 11:
+            lines.append(", ".join(words[11:]))
+    return lines
 
 
 def listed(numbers, across=12):
@@ -96,19 +125,11 @@ def deck(problem, n, order, shape="hexahedra", n_lower=None, slave="lower"):
     """CalculiX's input file, and the forces of its loads, with n cubes along an edge of the blocks, of the lower one n_lower if given;
     slave: the block with the multipliers."""
     kind = SHAPES[shape]
-    lower = Block(n_lower or n, order, kind, 0.0, 1)
-    upper = Block(n, order, kind, EDGE, 1 + len(lower.number))
+    lower = Block((n_lower or n,) * 3, order, kind, ((0.0,) * 3, (EDGE,) * 3), 1)
+    upper = Block((n,) * 3, order, kind, ((0.0, 0.0, EDGE), (EDGE, EDGE, 2 * EDGE)), 1 + len(lower.number))
     count = len(lower.elements)
-    lines = ["*NODE, NSET=NALL"]
-    for block in (lower, upper):
-        lines += [f"{node}, {x!r}, {y!r}, {z!r}" for place, node in block.number.items() for x, y, z in [block.point(place)]]
-    lines.append(f"*ELEMENT, TYPE={kind.names[order - 1]}, ELSET=EALL")
-    for start, block in ((1, lower), (1 + count, upper)):
-        for k, nodes in enumerate(block.elements):
-            words = [str(start + k), *map(str, nodes)]
-            lines.append(", ".join(words[:11]) + ("," if len(words) > 11 else ""))
-            if len(words) > 11:
-                lines.append(", ".join(words[11:]))
+    lines = ["*NODE, NSET=NALL", *node_lines(lower.points() | upper.points()),
+             f"*ELEMENT, TYPE={kind.names[order - 1]}, ELSET=EALL", *element_lines(lower.elements + upper.elements, 1)]
     half = n // 2
     for name, inside in (("RIGHT", lambda i, j, k: i >= half), ("BACK", lambda i, j, k: j >= half)):
         lines += [f"*ELSET, ELSET={name}", listed(1 + count + e for e in upper.chosen(inside))]
@@ -116,7 +137,7 @@ def deck(problem, n, order, shape="hexahedra", n_lower=None, slave="lower"):
     for name, block, start, height in zip(sides, (lower, upper), (1, 1 + count), (1, 0)):
         lines += [f"*SURFACE, NAME={name}, TYPE=ELEMENT", *(f"{start + e}, S{face}" for e, face in block.side(height))]
     for name, block, axis in (("FLOOR", lower, 2), ("WALL", upper, 0), ("FRONT", upper, 1)):
-        lines += [f"*NSET, NSET={name}", listed(node for place, node in block.number.items() if place[axis] == 0)]
+        lines += [f"*NSET, NSET={name}", listed(block.at_zero(axis))]
     lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG}, {POISSON}", "*DENSITY", "1.0",
               "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL", "*SURFACE INTERACTION, NAME=HARD",
               "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD", "*CONTACT PAIR, INTERACTION=HARD, TYPE=MORTAR", "SLAVE, MASTER",
@@ -129,34 +150,38 @@ def deck(problem, n, order, shape="hexahedra", n_lower=None, slave="lower"):
 
 
 def loads(block, half, lift):
-    """Vertical forces on the nodes, {node: force}."""
-    volume = (EDGE / block.n)**3 / len(block.shape.cells)
-    shares = block.shape.shares[block.order - 1]
-    forces = dict.fromkeys(range(block.first, block.first + len(block.number)), 0.0)
+    """Forces on the nodes, {(node, axis from 1): force}: vertical ones."""
+    forces = {(node, 3): 0.0 for node in block.number.values()}
     for density, inside in ((-WEIGHT, lambda i, j, k: i >= half), (lift, lambda i, j, k: j >= half)):
         for element in block.chosen(inside):
-            for node, share in zip(block.elements[element], shares):
-                forces[node] += density * volume * share
+            for node, share in zip(block.elements[element], block.shape.shares[block.order - 1]):
+                forces[node, 3] += density * block.volume() * share
     return forces
 
 
 def energy_of(results, forces):
-    """-1/2 f'u from CalculiX's printed displacements: the least potential energy, with that of its contact, which yields a little."""
+    """-1/2 f'u from CalculiX's last printed displacements: the least potential energy, with that of its contact, which yields a
+    little."""
     work = 0.0
-    for line in results.splitlines():
+    for line in results.rsplit("displacements", 1)[-1].splitlines():
         words = line.split()
         if len(words) == 4 and words[0].isdigit():
-            work += forces.get(int(words[0]), 0.0) * float(words[3])
+            work += sum(forces.get((int(words[0]), axis), 0.0) * float(words[axis]) for axis in (1, 2, 3))
     return -work / 2
 
 
 def solve(program, problem, sizes, order, shape, slave, threads, time_limit):
-    """A run as in solvers.py: the whole program counts, input and output included. \\raises Failed"""
+    """A run as in solvers.py. \\raises Failed"""
+    text, forces = deck(problem, sizes["upper"], order, shape, sizes["lower"], slave)
+    return {"unknowns": 3 * (text.split("*ELEMENT")[0].count("\n") - 1), **measured(program, text, forces, threads, time_limit)}
+
+
+def measured(program, text, forces, threads, time_limit):
+    """What a run of an input file measures: the whole program counts, input and output included. \\raises Failed"""
     with tempfile.TemporaryDirectory() as place:
-        text, forces = deck(problem, sizes["upper"], order, shape, sizes["lower"], slave)
-        (pathlib.Path(place) / "blocks.inp").write_text(text, encoding="ascii")
+        (pathlib.Path(place) / "model.inp").write_text(text, encoding="ascii")
         start = time.perf_counter()
-        with subprocess.Popen([program, "blocks"], cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        with subprocess.Popen([program, "model"], cwd=place, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, env={**os.environ, "OMP_NUM_THREADS": str(threads)}) as process:
             try:
                 output, _ = process.communicate(timeout=time_limit)
@@ -164,9 +189,9 @@ def solve(program, problem, sizes, order, shape, slave, threads, time_limit):
                 process.kill()
                 raise Failed(f"took longer than {time_limit:g} s") from None
         seconds = time.perf_counter() - start
-        results = pathlib.Path(place) / "blocks.dat"
+        results = pathlib.Path(place) / "model.dat"
         energy = energy_of(results.read_text(encoding="ascii"), forces) if results.exists() else 0
         if energy == 0 or process.returncode != 0:
             raise Failed(next((line.strip() for line in output.splitlines() if "*ERROR" in line), "it says nothing of displacements"))
-    return {"unknowns": 3 * (text.split("*ELEMENT")[0].count("\n") - 1), "total_seconds": seconds, "energy": energy, "peak_bytes": 0,
+    return {"total_seconds": seconds, "energy": energy, "peak_bytes": 0,
             "iterations": len(re.findall(r"^ iteration\s+\d+", output, re.MULTILINE))}

@@ -8,7 +8,7 @@ from . import style, table
 COLUMNS = ["problem", "solver", "order", "refinement", "unknowns", "seconds", "energy_error"]
 # Label, colour, marker; local refinement has full lines, even refinement dashed ones, order 1 hollow markers.
 SOLVERS = {"epafi": ("Epafi", style.BLUE, "o"), "snesvi_cholmod": ("SNESVI + CHOLMOD", style.BLACK, "X"),
-           "dealii": ("deal.II", style.VERMILLION, "s")}
+           "calculix": ("CalculiX", style.GREEN, "^"), "dealii": ("deal.II", style.VERMILLION, "s")}
 
 
 def curves(rows):

@@ -2,6 +2,7 @@
 
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementMap.hpp"
+#include "epafi/fem/MeshPart.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 
@@ -95,7 +96,11 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
     return;
   std::vector<Boxes::Entry> entries;
   std::vector<Point> nodes;
-  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+  const fem::MeshPart* part = mesh.part();
+  const GlobalOrdinal numHeld =
+      part == nullptr ? mesh.numElements() : static_cast<GlobalOrdinal>(part->elements().size());
+  for (GlobalOrdinal held = 0; held < numHeld; ++held) {
+    const GlobalOrdinal element = part == nullptr ? held : part->elements()[static_cast<std::size_t>(held)];
     mesh.elementPoints(element, nodes);
     auto [lower, upper] = fem::boxOf(nodes);
     constexpr double margin = 0.01; // curved edges bulge beyond their nodes

@@ -23,7 +23,7 @@ public:
   ~PointLocation();
 
   /// The element that contains the point; for a point outside of the body, as finer meshes of round bodies have, that of a
-  /// near one, and the weights are those of a point of it. Not collective.
+  /// near one, and the weights are those of a point of it; of a piece of a mesh, of the held ones. Not collective.
   [[nodiscard]] Location find(const fem::Point& point) const;
 
 private:

@@ -2,6 +2,7 @@
 
 #include "epafi/accuracy/PointLocation.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -66,6 +67,8 @@ std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, No
     const Subdomain& subdomain = to.problem.subdomains[s];
     const auto body = static_cast<std::size_t>(subdomain.body);
     const fem::Mesh &coarse = *from.bodies[body].mesh, &fine = *to.bodies[body].mesh;
+    if (nodes == NodesOf::subdomains && coarse.part() != nullptr)
+      throw Error("The values of a mesh are asked for at nodes anywhere, but no rank holds it whole.");
     if (!locations[body])
       locations[body].emplace(coarse);
     for (const std::size_t node : nodes == NodesOf::interfaces

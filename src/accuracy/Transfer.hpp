@@ -22,7 +22,8 @@ enum class NodesOf {
 /// \param from          decomposition of a scene on a coarse mesh
 /// \param displacement  u at all positions of each of this rank's subdomains of `from`
 /// \param to            decomposition of the same scene on another mesh: the same bodies in the same order
-/// Each rank gets the values that it needs and no more. Collective.
+/// Each rank gets the values that it needs and no more. Where meshes of `from` are pieces, guesses at interfaces are those of held
+/// elements: good where both are cut alike, as `coarserScene` cuts them. Collective. \throws Error if values at all nodes are wanted of pieces.
 std::vector<Eigen::VectorXd> interpolate(const model::Decomposition& from,
                                          std::span<const Eigen::VectorXd> displacement,
                                          const model::Decomposition& to, NodesOf nodes);

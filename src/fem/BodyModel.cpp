@@ -4,6 +4,7 @@
 #include "epafi/fem/ConnectedElements.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
+#include "epafi/fem/MeshPart.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -24,7 +25,7 @@ void requireDimension(const SolidBody& body) {
 /// cannot. \throws InputError if an elastic body is not joined in facets, or a membrane not even in nodes. Linear in the number
 /// of elements.
 void requireJoined(const SolidBody& body) {
-  if (body.isCongruent())
+  if (body.isCongruent() || body.mesh.part() != nullptr) // a piece's body has been looked at whole
     return;
   const Mesh& mesh = body.mesh;
   const bool isMembrane = body.components() == 1;
@@ -72,8 +73,11 @@ Eigen::Matrix4d rectangleStiffness(double hx, double hy) {
 RigidModes rigidModesOf(const SolidBody& body) {
   const Mesh& mesh = body.mesh;
   std::vector<Point> points; // of a structured mesh the first and the last will do
-  for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += body.isCongruent() ? mesh.numNodes() - 1 : 1)
-    points.push_back(mesh.point(node));
+  if (mesh.part() != nullptr)
+    points.assign(mesh.part()->box().begin(), mesh.part()->box().end());
+  else
+    for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += body.isCongruent() ? mesh.numNodes() - 1 : 1)
+      points.push_back(mesh.point(node));
   const auto [lower, upper] = boxOf(points);
   Point centre{};
   double size = 0;

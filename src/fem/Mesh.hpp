@@ -1,7 +1,8 @@
 #pragma once
 
 /// A mesh of one body as the decomposition sees it. Nodes and elements are numbered from 0; every query is
-/// local (no communication) and cheap, so that each rank asks only about its own part of the body.
+/// local (no communication) and cheap, so that each rank asks only about its own part of the body: more it need not hold
+/// (MeshPart.hpp).
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/Cell.hpp"
@@ -33,6 +34,7 @@ struct Surface {
 };
 
 class StructuredMesh;
+class MeshPart;
 
 class Mesh {
 public:
@@ -40,6 +42,8 @@ public:
 
   /// The mesh itself if it is structured, else null.
   [[nodiscard]] virtual const StructuredMesh* structured() const { return nullptr; }
+  /// The mesh itself if it is one rank's piece of a body's, else null.
+  [[nodiscard]] virtual const MeshPart* part() const { return nullptr; }
   [[nodiscard]] virtual CellType cellType() const = 0;         ///< of all its elements
   [[nodiscard]] virtual GlobalOrdinal numNodes() const = 0;    ///< of the whole body
   [[nodiscard]] virtual GlobalOrdinal numElements() const = 0; ///< likewise

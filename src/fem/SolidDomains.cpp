@@ -46,7 +46,7 @@ SolidDomain::SolidDomain(const SolidBody& body, const std::string& user, const s
                                                     : rangeIn(*mesh, d, box.lower[d], box.upper[d]);
       isEmpty = isEmpty || ranges_[d][0] == ranges_[d][1];
     }
-  } else {
+  } else if (body.mesh.part() == nullptr) { // a piece need not meet it
     GlobalOrdinal element = 0;
     while (element < body.mesh.numElements() && !contains(body, element))
       ++element;

@@ -3,11 +3,13 @@
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/HookesLaw.hpp"
+#include "epafi/fem/MeshPart.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace epafi::fem {
@@ -25,13 +27,17 @@ std::array<double, 3> segmentLoad(double a, double b, double low, double high, i
   return {length * (1 - 3 * s + 2 * square), length * 4 * (s - square), length * (2 * square - s)};
 }
 
-/// The node that lies at the point of a load.
-GlobalOrdinal nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
+/// The node that lies at the point of a load; nothing where a piece of a mesh does not hold it.
+std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
   const Mesh& mesh = body.mesh;
   GlobalOrdinal nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   const int dimension = dimensionOf(mesh.cellType());
-  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
+  const GlobalOrdinal numHeld =
+      mesh.part() == nullptr ? mesh.numNodes() : static_cast<GlobalOrdinal>(mesh.part()->nodes().size());
+  for (GlobalOrdinal held = 0; held < numHeld; ++held) {
+    const GlobalOrdinal node =
+        mesh.part() == nullptr ? held : mesh.part()->nodes()[static_cast<std::size_t>(held)];
     const Point point = mesh.point(node);
     double distance = 0;
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
@@ -48,7 +54,10 @@ GlobalOrdinal nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
   double edge = 0;
   for (std::size_t d = 0; d < 3; ++d)
     edge = std::max(edge, std::abs(points[1][d] - points[0][d]));
-  if (std::sqrt(least) > 1e-6 * edge)
+  const bool isThere = std::sqrt(least) <= 1e-6 * edge;
+  if (!isThere && mesh.part() != nullptr)
+    return std::nullopt;
+  if (!isThere)
     throw body.refusal("no node lies at the point " + text(load.point) + " of load '" + load.name +
                        "'; the nearest one is at " + text(mesh.point(nearest)));
   return nearest;
@@ -113,10 +122,12 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions,
 }
 
 void SolidLoads::addPoint(const SolidBody& body, const scene::SolidLoad& load) {
-  const GlobalOrdinal node = nodeAt(body, load);
+  const std::optional<GlobalOrdinal> node = nodeAt(body, load);
+  if (!node)
+    return;
   std::vector<GlobalOrdinal> elements;
-  body.mesh.nodeElements(node, elements);
-  forces_.push_back({*std::min_element(elements.begin(), elements.end()), node, load.value});
+  body.mesh.nodeElements(*node, elements);
+  forces_.push_back({*std::min_element(elements.begin(), elements.end()), *node, load.value});
 }
 
 void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,

@@ -6,6 +6,9 @@
 #include "epafi/fem/GmshReader.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/model/MeshFiles.hpp"
+#include "epafi/model/MeshPieces.hpp"
+
+#include <Teuchos_DefaultSerialComm.hpp>
 
 #include <algorithm>
 #include <map>
@@ -134,11 +137,58 @@ void requireSameComponents(const scene::Scene& scene) {
           " unknowns a node; all bodies of a scene must have the same physics or the same dimension");
 }
 
+/// Rank 0 makes a scene of the bodies whose meshes come from files alone, as a single rank would, looks at them whole, and deals
+/// them out. Collective.
+std::vector<BodyLayout> layoutInPieces(const scene::Scene& scene, const Comm& comm) {
+  scene::Scene fromFiles(scene);
+  std::erase_if(fromFiles.bodies, [](const scene::Body& body) { return body.mesh.file.empty(); });
+  std::vector<BodyLayout> whole; // on rank 0
+  std::vector<int> numParts(fromFiles.bodies.size(), 0);
+  collectively(comm, [&] {
+    if (comm.getRank() != 0 || fromFiles.bodies.empty())
+      return;
+    whole = layoutBodies(fromFiles, Teuchos::SerialComm<int>());
+    for (std::size_t b = 0; b < whole.size(); ++b) {
+      makeModel(fromFiles.bodies[b], *whole[b].mesh); // says what is wrong
+      numParts[b] = whole[b].partition->numParts();
+    }
+  });
+  Teuchos::broadcast(comm, 0, static_cast<int>(numParts.size()), numParts.data());
+
+  std::vector<std::unique_ptr<const fem::Mesh>> meshes(scene.bodies.size());
+  std::vector<std::shared_ptr<const Partition>> partitions(scene.bodies.size());
+  collectively(comm, [&] {
+    for (std::size_t b = 0, next = 0; b < meshes.size(); ++b)
+      if (scene.bodies[b].mesh.file.empty())
+        meshes[b] = makeMesh(scene.bodies[b], {});
+      else
+        partitions[b] = std::make_shared<const HeldPartition>(numParts[next++], HeldElements{});
+  });
+  std::vector<BodyLayout> bodies = cutBodies(scene, std::move(meshes), comm, std::move(partitions));
+  const auto partsOf = [&](std::size_t body, int rank) {
+    const Share share = shareOf(bodies, rank, comm.getSize());
+    const int first = bodies[body].firstSubdomain, number = bodies[body].partition->numParts();
+    return Share{std::clamp(share.begin - first, 0, number), std::clamp(share.end - first, 0, number)};
+  };
+  for (std::size_t b = 0, next = 0; b < bodies.size(); ++b)
+    if (!scene.bodies[b].mesh.file.empty()) {
+      dealOut(
+          whole.empty() ? nullptr : &whole[next], [&](int rank) { return partsOf(b, rank); }, comm,
+          bodies[b]);
+      if (!whole.empty())
+        whole[next] = {};
+      ++next;
+    }
+  return bodies;
+}
+
 } // namespace
 
-std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm) {
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm, Meshes form) {
   std::vector<std::unique_ptr<const fem::Mesh>> meshes;
   collectively(comm, [&] { requireSameComponents(scene); });
+  if (form == Meshes::pieces && comm.getSize() > 1)
+    return layoutInPieces(scene, comm);
   const MeshFiles files = readMeshFiles(scene, comm);
   collectively(comm, [&] {
     for (const scene::Body& body : scene.bodies)
@@ -148,33 +198,45 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
 }
 
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
-                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm) {
+                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm,
+                                  std::vector<std::shared_ptr<const Partition>> partitions) {
   std::vector<BodyLayout> bodies;
   std::vector<scene::Decomposition> cuts;
+  partitions.resize(meshes.size());
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes.size(); ++b) {
-      bodies.push_back({scene.bodies[b].name, std::move(meshes[b]), nullptr, 0});
-      cuts.push_back(cutOf(scene.bodies[b], *bodies.back().mesh));
+      bodies.push_back({scene.bodies[b].name, std::move(meshes[b]), std::move(partitions[b]), 0});
+      cuts.emplace_back();
+      if (bodies.back().partition)
+        continue;
+      cuts.back() = cutOf(scene.bodies[b], *bodies.back().mesh);
       requireCut(scene.bodies[b], cuts.back(), *bodies.back().mesh);
     }
   });
   int firstSubdomain = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    std::size_t alike = 0; // the first body that is cut like this one, perhaps itself
-    while (alike < b && !areCutAlike(*bodies[alike].mesh, cuts[alike], *bodies[b].mesh, cuts[b]))
-      ++alike;
-    bodies[b].partition =
-        alike < b ? bodies[alike].partition : makePartition(scene.bodies[b], cuts[b], *bodies[b].mesh, comm);
+    if (!bodies[b].partition) {
+      std::size_t alike = 0; // the first body that is cut like this one, perhaps itself
+      while (alike < b && (!bodies[alike].mesh ||
+                           !areCutAlike(*bodies[alike].mesh, cuts[alike], *bodies[b].mesh, cuts[b])))
+        ++alike;
+      bodies[b].partition = alike < b ? bodies[alike].partition
+                                      : makePartition(scene.bodies[b], cuts[b], *bodies[b].mesh, comm);
+    }
     bodies[b].firstSubdomain = firstSubdomain;
     firstSubdomain += bodies[b].partition->numParts();
   }
   return bodies;
 }
 
-Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm) {
+Share shareOf(const std::vector<BodyLayout>& bodies, int rank, int ranks) {
   const GlobalOrdinal number = bodies.back().firstSubdomain + bodies.back().partition->numParts();
-  const auto first = [&](GlobalOrdinal rank) { return static_cast<int>(rank * number / comm.getSize()); };
-  return {first(comm.getRank()), first(comm.getRank() + 1)};
+  const auto first = [&](GlobalOrdinal r) { return static_cast<int>(r * number / ranks); };
+  return {first(rank), first(rank + 1)};
+}
+
+Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm) {
+  return shareOf(bodies, comm.getRank(), comm.getSize());
 }
 
 std::vector<GlobalOrdinal> firstNodes(const std::vector<BodyLayout>& bodies) {

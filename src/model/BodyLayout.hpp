@@ -21,25 +21,37 @@ struct BodyLayout {
   int firstSubdomain = 0;                     ///< number of its part 0 in the whole problem
 };
 
-/// Meshes the bodies and cuts them. Collective. \throws InputError, the same on all ranks, if a body cannot be meshed or
-/// cut as the scene says, or bodies differ in the unknowns of a node.
-std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm);
+/// How the meshes of files and geometries lie on several ranks; structured meshes are numbers alone.
+enum class Meshes {
+  whole, ///< all on each rank: for what looks at elements anywhere, as refinement does
+  pieces ///< rank 0 reads, checks and cuts them, and keeps as little of them as the others (MeshPieces.hpp)
+};
+
+/// Meshes the bodies and cuts them: the same parts in both forms and on any number of ranks. Collective. \throws InputError, the
+/// same on all ranks, if a body cannot be meshed or cut as the scene says, bodies differ in the unknowns of a node, or, where
+/// meshes go out in pieces, makeModel() refuses one.
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm,
+                                     Meshes meshes = Meshes::whole);
 
 /// Cuts bodies that are meshed already, on all ranks alike. Collective. \throws InputError likewise.
+/// \param partitions  of each body, or nothing; those not null are taken as they are
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
-                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm);
+                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm,
+                                  std::vector<std::shared_ptr<const Partition>> partitions = {});
 
 /// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P).
 struct Share {
   int begin = 0, end = 0; ///< this rank's numbers
 };
+/// That of a rank among so many. Not collective.
+Share shareOf(const std::vector<BodyLayout>& bodies, int rank, int ranks);
 /// That of this rank. Not collective.
 Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm);
 
 /// First number of each body's nodes in the whole problem, and the number of them all.
 std::vector<GlobalOrdinal> firstNodes(const std::vector<BodyLayout>& bodies);
 
-/// The lowest part that has a node.
+/// The lowest part that has a node; of a piece of a mesh among the held elements, numParts() if none of them has it.
 int lowestPartAt(const BodyLayout& body, GlobalOrdinal node);
 
 /// The physics of a body; keeps references to both. \throws InputError if mesh and scene do not go together.

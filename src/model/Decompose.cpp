@@ -113,8 +113,8 @@ void requireKernel(const SparseMatrix& k, const Eigen::MatrixXd& r, const std::s
     }
 }
 
-Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm) {
-  return decompose(scene, layoutBodies(scene, *comm), comm);
+Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm, Meshes meshes) {
+  return decompose(scene, layoutBodies(scene, *comm, meshes), comm);
 }
 
 Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodies,

@@ -24,7 +24,8 @@ struct Decomposition {
 /// Cuts the scene into subdomains, gives each rank a contiguous run of them and assembles them.
 /// Collective. \throws InputError (the same on all ranks) if contact edges do not match, or if a contact edge
 /// is supported.
-Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm);
+Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm,
+                        Meshes meshes = Meshes::whole);
 
 /// The same of bodies that are meshed and cut already, on all ranks alike.
 Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodies,

@@ -278,4 +278,23 @@ std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
   return {members.begin(), members.end()};
 }
 
+HeldPartition::HeldPartition(int numParts, HeldElements held)
+    : numParts_(numParts), held_(std::move(held)), own_(static_cast<std::size_t>(held_.end - held_.begin)) {
+  for (std::size_t e = 0; e < held_.elements.size(); ++e)
+    if (const int part = held_.parts[e]; held_.begin <= part && part < held_.end)
+      own_[static_cast<std::size_t>(part - held_.begin)].push_back(held_.elements[e]);
+}
+
+int HeldPartition::partOf(GlobalOrdinal element) const {
+  const auto found = std::lower_bound(held_.elements.begin(), held_.elements.end(), element);
+  if (found == held_.elements.end() || *found != element)
+    throw Error("The part of element " + std::to_string(element) +
+                " is asked for on a rank that does not hold it.");
+  return held_.parts[static_cast<std::size_t>(found - held_.elements.begin())];
+}
+
+std::vector<GlobalOrdinal> HeldPartition::elementsOf(int part) const {
+  return own_.at(static_cast<std::size_t>(part - held_.begin));
+}
+
 } // namespace epafi::model

@@ -80,6 +80,27 @@ private:
   std::vector<int> order_, number_; ///< old numbers of the parts, and new ones
 };
 
+/// Elements that a rank holds, and their parts.
+struct HeldElements {
+  int begin = 0, end = 0;              ///< the rank's own parts
+  std::vector<GlobalOrdinal> elements; ///< ascending: all those of the own parts, and others
+  std::vector<int> parts;              ///< of each
+};
+
+/// What one rank knows of a partition that rank 0 made.
+class HeldPartition final : public Partition {
+public:
+  HeldPartition(int numParts, HeldElements held);
+  [[nodiscard]] int numParts() const override { return numParts_; }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override;               ///< of a held one
+  [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override; ///< of an own one
+
+private:
+  int numParts_;
+  HeldElements held_;
+  std::vector<std::vector<GlobalOrdinal>> own_; ///< elements of each own part
+};
+
 /// Makes every part of a mesh connected through facets of elements (edges in 2-D, faces in 3-D): each piece
 /// that is not the largest of its part goes to the neighbouring part with which it shares most facets. Parts
 /// may become empty. Where the mesh itself has pieces, these remain as they are.

@@ -220,8 +220,8 @@ contact::ContactMatrix contactMatrix(const std::vector<BodyLayout>& bodies,
   };
   unknowns.isMine = [&, share = shareOf(bodies, *comm)](int body, GlobalOrdinal node) {
     const BodyLayout& layout = bodies[static_cast<std::size_t>(body)];
-    const int lowest = layout.firstSubdomain + lowestPartAt(layout, node);
-    return share.begin <= lowest && lowest < share.end;
+    const int part = lowestPartAt(layout, node), lowest = layout.firstSubdomain + part;
+    return part < layout.partition->numParts() && share.begin <= lowest && lowest < share.end;
   };
   return contact::contactMatrix(contacts, unknowns, comm);
 }

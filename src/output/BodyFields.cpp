@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/Records.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Import.hpp>
@@ -10,6 +11,8 @@
 #include <Tpetra_MultiVector.hpp>
 
 #include <algorithm>
+#include <cstring>
+#include <span>
 
 namespace epafi::output {
 namespace {
@@ -47,7 +50,7 @@ struct NodeKinds {
   }
 };
 
-/// Values that this rank's subdomains send: node, u (components) and 1 for a crosspoint, row by row.
+/// Values that this rank's subdomains send: node, u (components), 1 for a crosspoint, and the node's place, row by row.
 struct NodeValues {
   std::vector<GlobalOrdinal> nodes;
   std::vector<double> values;
@@ -72,6 +75,8 @@ void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
         isPlane && (parts.size() > 2 || (parts.size() == 2 && layout.mesh->isBoundaryNode(node)));
     const bool isCrosspoint = kinds.free[k] != 0 ? kinds.crosspoint[k] != 0 : wouldBe;
     result.values.push_back(isCrosspoint ? 1 : 0);
+    const fem::Point point = layout.mesh->point(node);
+    result.values.insert(result.values.end(), point.begin(), point.end());
   }
 }
 
@@ -116,12 +121,7 @@ MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal nu
   return to;
 }
 
-void appendPoint(const fem::Mesh& mesh, GlobalOrdinal node, std::vector<double>& table) {
-  const fem::Point point = mesh.point(node);
-  table.insert(table.end(), point.begin(), point.end());
-}
-
-void fillNodes(const fem::Mesh& mesh, const MultiVector& values, int components, BodyFields& fields) {
+void fillNodes(const MultiVector& values, int components, BodyFields& fields) {
   const auto crosspoint = values.getData(static_cast<std::size_t>(components));
   fields.u.resize(static_cast<std::size_t>(fields.nodes.count * components));
   for (int component = 0; component < components; ++component) {
@@ -129,21 +129,52 @@ void fillNodes(const fem::Mesh& mesh, const MultiVector& values, int components,
     for (Teuchos::Ordinal row = 0; row < data.size(); ++row)
       fields.u[static_cast<std::size_t>(row * components + component)] = data[row];
   }
-  for (GlobalOrdinal row = 0; row < fields.nodes.count; ++row) {
-    const GlobalOrdinal node = fields.nodes.first + row;
-    appendPoint(mesh, node, fields.points);
-    if (crosspoint[static_cast<Teuchos::Ordinal>(row)] > 0)
-      appendPoint(mesh, node, fields.crosspointPoints);
-  }
+  Teuchos::ArrayRCP<const double> place[3];
+  for (std::size_t d = 0; d < 3; ++d)
+    place[d] = values.getData(static_cast<std::size_t>(components) + 1 + d);
+  for (Teuchos::Ordinal row = 0; row < crosspoint.size(); ++row)
+    for (const auto& coordinate : place) {
+      fields.points.push_back(coordinate[row]);
+      if (crosspoint[row] > 0)
+        fields.crosspointPoints.push_back(coordinate[row]);
+    }
 }
 
-void fillCells(const BodyLayout& layout, BodyFields& fields) {
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(numNodesOf(fields.cellType)));
-  for (GlobalOrdinal row = 0; row < fields.cells.count; ++row) {
-    const GlobalOrdinal cell = fields.cells.first + row;
-    layout.mesh->elementNodes(cell, nodes);
-    fields.corners.insert(fields.corners.end(), nodes.begin(), nodes.end());
-    fields.subdomain.push_back(layout.firstSubdomain + layout.partition->partOf(cell));
+/// The cells go from their subdomains to the slabs: number, subdomain, nodes. Collective.
+void fillCells(const SolvedScene& solved, int body, BodyFields& fields) {
+  const auto& problem = solved.decomposition.problem;
+  const BodyLayout& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
+  const auto perCell = static_cast<std::size_t>(numNodesOf(fields.cellType)), width = perCell + 2;
+  std::vector<GlobalOrdinal> records;
+  std::vector<int> ranks;
+  collectively(*problem.comm, [&] {
+    for (const Subdomain& subdomain : problem.subdomains) {
+      if (subdomain.body != body)
+        continue;
+      for (const GlobalOrdinal cell :
+           layout.partition->elementsOf(subdomain.number - layout.firstSubdomain)) {
+        records.insert(records.end(), {cell, subdomain.number});
+        records.resize(records.size() + perCell);
+        layout.mesh->elementNodes(cell, std::span(records).last(perCell));
+        ranks.push_back(rankOfRow(cell, fields.numCells, problem.comm->getSize()));
+      }
+    }
+  });
+  const std::vector<char> bytes = sendRecordBytes(problem.comm, reinterpret_cast<const char*>(records.data()),
+                                                  width * sizeof(GlobalOrdinal), ranks);
+  const auto count = static_cast<std::size_t>(fields.cells.count);
+  if (bytes.size() != count * width * sizeof(GlobalOrdinal))
+    throw Error("The subdomains of a body hold other elements than it has.");
+  fields.corners.resize(count * perCell);
+  fields.subdomain.resize(count);
+  std::vector<GlobalOrdinal> record(width);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::memcpy(record.data(), bytes.data() + k * width * sizeof(GlobalOrdinal),
+                width * sizeof(GlobalOrdinal));
+    const auto row = static_cast<std::size_t>(record[0] - fields.cells.first);
+    fields.subdomain[row] = static_cast<int>(record[1]);
+    std::copy(record.begin() + 2, record.end(),
+              fields.corners.begin() + static_cast<std::ptrdiff_t>(row * perCell));
   }
 }
 
@@ -167,10 +198,10 @@ BodyFields gatherBodyFields(const SolvedScene& solved, int body) {
   fields.numCells = layout.mesh->numElements();
   fields.cells = evenShare(fields.numCells, *problem.comm);
   fields.cellType = layout.mesh->cellType();
-  const auto columns = static_cast<std::size_t>(problem.components) + 1;
+  const auto columns = static_cast<std::size_t>(problem.components) + 4;
   const MultiVector values = toSlab(sent, columns, fields.numNodes, problem.comm);
-  fillNodes(*layout.mesh, values, problem.components, fields);
-  fillCells(layout, fields);
+  fillNodes(values, problem.components, fields);
+  fillCells(solved, body, fields);
   numberCrosspoints(*problem.comm, fields);
   return fields;
 }

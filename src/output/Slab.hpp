@@ -26,6 +26,12 @@ inline RowRange evenShare(GlobalOrdinal rows, GlobalOrdinal rank, GlobalOrdinal 
   return {rank * least + std::min(rank, longer), least + (rank < longer ? 1 : 0)};
 }
 
+/// The rank whose share a row is in.
+inline int rankOfRow(GlobalOrdinal row, GlobalOrdinal rows, GlobalOrdinal ranks) {
+  const GlobalOrdinal least = rows / ranks, longer = rows % ranks, inLonger = longer * (least + 1);
+  return static_cast<int>(row < inLonger ? row / (least + 1) : longer + (row - inLonger) / least);
+}
+
 /// This rank's. Not collective.
 inline RowRange evenShare(GlobalOrdinal rows, const Comm& comm) {
   return evenShare(rows, comm.getRank(), comm.getSize());

@@ -3,10 +3,12 @@
 a machine that lacks it, the others are skipped there."""
 
 import csv
+import ctypes.util
 import glob
 import importlib.util
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -26,6 +28,7 @@ HAS_PETSC = (glob.glob("/usr/lib/petscdir/petsc*/*-real/lib/python3/dist-package
 
 sys.path.insert(0, str(SOURCE / "drivers/compare"))
 import calculix  # noqa: E402
+import calculix_scenes  # noqa: E402
 import contact_bounds  # noqa: E402
 
 
@@ -242,6 +245,48 @@ class Peers(unittest.TestCase):
             text, forces = calculix.deck("held_blocks", upper, 1, n_lower=lower, slave=slave)
             self.assertEqual(len(forces), (upper + 1)**3)
             self.assertIn(f"*SURFACE, NAME={first}, TYPE=ELEMENT\n{lower**2 * (lower - 1) + 1}, S2", text)
+
+    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed: ./setup packages peers")
+    def test_calculix_has_the_energy_of_the_same_elements_of_the_punch(self):
+        meshes = {"block": (8, 8), "punch": (2, 4)}
+        settings = [word for body, (nx, ny) in meshes.items()
+                    for word in (f"--set=Bodies/{body}/Elements={{{nx},{ny}}}", f"--set=Bodies/{body}/Order=1")]
+        run, file = self.export(SOURCE / "xml/punch.xml", *settings)
+        self.assertEqual((run.returncode, run.stderr), (COMPLETE, ""))
+        energy, _ = active_set_energy(file)
+        coarse, = calculix_scenes.solve("ccx", "punch", meshes, 1, 1, LIMIT)
+        fine, = calculix_scenes.solve("ccx", "punch", meshes, 2, 1, LIMIT)
+        self.assertLess(abs(coarse["energy"] / energy - 1), 1e-5)  # contact yields a little
+        self.assertEqual(coarse["unknowns"], 3 * 2 * (81 + 15))
+        self.assertTrue(-19.2 < fine["energy"] < coarse["energy"])  # the limit is -19.195
+
+    def test_the_forces_of_a_scene_for_calculix_are_its_loads(self):
+        for order in (1, 2):
+            for problem, meshes, force in (("punch", {"block": (8, 8), "punch": (2, 4)}, -200 * 5),
+                                           ("three_cubes", dict.fromkeys(("lower", "middle", "upper"), (4,) * 3), 300 * 2.5**3 - 80 * 5**3)):
+                deck = calculix_scenes.SCENES[problem](meshes, order)
+                self.assertAlmostEqual(sum(deck.forces.values()), force, places=9)
+        with self.assertRaisesRegex(calculix.Failed, "no multiple of 4"):
+            calculix_scenes.three_cubes({"upper": (6, 6, 6)}, 2)
+
+    def test_facets_have_the_area_of_the_surface_that_they_follow(self):
+        corners = [(0.0, 0.0, 1.0), (3.0, 0.0, 1.0), (0.0, 2.0, 1.0)]
+        middles = [(1.5, 0.0, 1.0), (1.5, 1.0, 1.0), (0.0, 1.0, 1.0)]
+        numpy.testing.assert_allclose(calculix_scenes.areas(corners), [1, 1, 1], rtol=1e-12)
+        numpy.testing.assert_allclose(calculix_scenes.areas(corners + middles), [0, 0, 0, 1, 1, 1], rtol=1e-12, atol=1e-12)
+        angles = ((0.0, 0.0), (0.4, 0.0), (0.0, 1.0), (0.2, 0.0), (0.2, 0.5), (0.0, 0.5))  # and heights, on a cylinder of radius 1
+        curved = calculix_scenes.areas([(numpy.cos(angle), numpy.sin(angle), height) for angle, height in angles])
+        self.assertLess(abs(sum(curved) / 0.2 - 1), 1e-3)
+        self.assertGreater(abs(sum(calculix_scenes.areas([(numpy.cos(a), numpy.sin(a), z) for a, z in angles[:3]])) / 0.2 - 1), 5e-3)
+
+    @unittest.skipUnless(ctypes.util.find_library("gmsh"), "Gmsh's library is not installed: ./setup packages build")
+    def test_the_bracket_for_calculix_is_whole(self):
+        deck = calculix_scenes.bracket({"bracket": 7.0}, 2)
+        along = [sum(force for (_, axis), force in deck.forces.items() if axis == k) for k in (1, 2, 3)]
+        eye, washers = 2 * numpy.pi * 8 * 8, 2 * numpy.pi * (9**2 - 4.5**2)
+        numpy.testing.assert_allclose(along, [5 * eye, 0, 5 * eye - 26.2 * washers], rtol=3e-3, atol=1e-9)
+        heights = [z for _, _, z in deck.nodes.values()]
+        self.assertAlmostEqual(max(heights), 60)
 
     def test_blocks_name_a_missing_package_on_two_ranks(self):
         (self.place / "petsc4py.py").write_text("raise ImportError('not here')\n", encoding="utf-8")
