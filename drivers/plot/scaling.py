@@ -9,10 +9,12 @@ from .errors import PlotError
 
 COLUMNS = ["problem", "H_inverse", "H_over_h", "ranks", "operator", "preconditioner", "hessian_multiplications",
            "assembly_seconds", "setup_seconds", "solve_seconds", "apply_seconds", "apply_bytes", "stream_bytes_per_second"]
-PREDICTION = ["ranks", "subdomains_per_rank", "local_seconds", "neighbour_seconds", "reduction_seconds",
-              "coarse_sum_seconds", "coarse_solve_seconds"]
+PREDICTION = ["problem", "method", "ranks", "subdomains_a_rank", "local_seconds", "neighbour_seconds", "reduction_seconds",
+              "coarse_sum_seconds", "coarse_solve_seconds", "efficiency"]
 MARKERS = "osD^vP"
 LINES = {"coercive": "-", "semicoercive": "--"}
+METHODS = {"feti-dp": style.BLUE, "feti-1": style.ORANGE, "hybrid": style.GREEN, "hybrid-spread": style.VERMILLION}
+PROBLEMS = {"coercive": ("membranes", "-"), "blocks": ("blocks in space", "--")}
 OPERATORS = {"implicit": style.VERMILLION, "explicit": style.BLUE, "shared": style.GREEN}
 PHASES = [("assembly", style.GREY), ("setup", style.ORANGE), ("solve", style.BLUE)]
 PARTS = [("local work", ("local_seconds",), style.AREAS[0]),
@@ -143,8 +145,9 @@ def duration(seconds):
     return f"{1e9 * seconds:.0f} ns"
 
 
-def draw_prediction(axes, rows, subdomains):
-    rows = sorted((row for row in rows if float(row["subdomains_per_rank"]) == subdomains), key=lambda row: float(row["ranks"]))
+def draw_parts(axes, rows):
+    """Of an iteration of membranes by FETI-DP."""
+    rows = sorted((row for row in rows if (row["problem"], row["method"]) == ("coercive", "feti-dp")), key=lambda row: float(row["ranks"]))
     ranks = numpy.array([float(row["ranks"]) for row in rows])
     total = sum(numpy.array([float(row[column]) for row in rows]) for _, columns, _ in PARTS for column in columns)
     base = numpy.zeros_like(ranks)
@@ -163,6 +166,18 @@ def draw_prediction(axes, rows, subdomains):
     axes.set_ylabel("share of an iteration [%]")
 
 
+def draw_efficiency(axes, rows):
+    for method, colour in METHODS.items():
+        for problem, (name, line) in PROBLEMS.items():
+            points = curve([row for row in rows if (row["problem"], row["method"]) == (problem, method)], "ranks", "efficiency")
+            axes.plot(*points, color=colour, linestyle=line, marker="o", linewidth=1.8, markersize=5, label=f"{method}, {name}")
+    axes.set_xscale("log")
+    axes.set_ylim(0, 1.02)
+    axes.set_xlabel("ranks [number]")
+    axes.set_ylabel("local work by all time [1]")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=2)
+
+
 def draw_one_rank(panels, rows, inverse, ratios):
     draw_iterations(panels[0, 0], rows, "H_over_h", "H_inverse", ratios)
     panels[0, 0].set_title("More subdomains")
@@ -175,18 +190,21 @@ def draw_one_rank(panels, rows, inverse, ratios):
 
 
 def draw_predictions(panels, file):
-    """One rank with few subdomains, one with many; on top the time of an iteration."""
+    """With many subdomains a rank; above the parts the time of an iteration."""
     rows = table.read(file)
-    numbers = values(rows, "subdomains_per_rank")
-    for axes, number in zip(panels, (numbers[0], numbers[-1])):
-        draw_prediction(axes, rows, number)
-        axes.set_title(f"Predicted time of an iteration, {number:g} subdomain{'s' if number > 1 else ''} a rank", pad=20)
-    panels[0].legend(loc="upper center", bbox_to_anchor=(1.1, -0.17), ncol=5)
+    number = values(rows, "subdomains_a_rank")[-1]
+    rows = [row for row in rows if float(row["subdomains_a_rank"]) == number]
+    draw_parts(panels[0], rows)
+    panels[0].set_title(f"Predicted iteration by FETI-DP, {number:g} subdomains a rank", pad=20)
+    panels[0].legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=2)
+    draw_efficiency(panels[1], rows)
+    panels[1].set_title("Predicted efficiency by method", pad=20)
 
 
 def figure(file, rows):
     for column in ("H_inverse", "H_over_h", "ranks", "hessian_multiplications", "apply_seconds", "apply_bytes"):
         table.numbers(file, rows, column)  # complains of what is no number
+    rows = [row for row in rows if row["problem"] in LINES and float(row.get("cluster") or 0) == 0]  # FETI-DP of membranes
     shared = chosen(rows, operator="shared")
     inverse = longest_series(shared, "H_inverse", "H_over_h")
     ratios = [value for value in values(shared, "H_over_h")
@@ -198,7 +216,7 @@ def figure(file, rows):
     if not heights:
         raise PlotError(f"'{file}' holds no series to draw; run the study anew.")
     picture = pyplot.figure(figsize=(12, 0.4 + 4.8 * sum(heights)))
-    places = picture.add_gridspec(len(heights), 2, height_ratios=heights, hspace=0.46, wspace=0.2)
+    places = picture.add_gridspec(len(heights), 2, height_ratios=heights, hspace=0.56, wspace=0.2)
     if has_series:
         panels = numpy.array([[picture.add_subplot(places[i, j]) for j in (0, 1)] for i in range(2 + has_prediction)])
         draw_one_rank(panels, rows, inverse, ratios)

@@ -3,10 +3,10 @@
 #include "Median.hpp"
 #include "MessageCounts.hpp"
 #include "PeakMemory.hpp"
+#include "ScalingScene.hpp"
 #include "SceneRun.hpp"
 
 #include "epafi/fetidp/DualPreconditioner.hpp"
-#include "epafi/scene/ModelProblem.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Operator.hpp>
@@ -38,16 +38,21 @@ Teuchos::ParameterList parametersOf(const Row& run) {
 class ReductionCount final : public RunCompanion {
 public:
   void step(const qp::StepRecord& record) override {
-    const auto now = static_cast<double>(messageCounts().reductions);
-    if (record.kind == qp::StepKind::conjugateGradient)
-      ofSteps_.push_back(now - last_);
+    const MessageCounts now = messageCounts(), ofStep = now - last_;
+    if (record.kind == qp::StepKind::conjugateGradient) {
+      number_.push_back(static_cast<double>(ofStep.reductions));
+      bytes_.push_back(static_cast<double>(ofStep.reductionBytes));
+    }
     last_ = now;
   }
-  [[nodiscard]] double perStep() const { return ofSteps_.empty() ? notMeasured : median(ofSteps_); }
+  void addTo(Row& row) const {
+    row["reductions_per_step"] = number_.empty() ? notMeasured : median(number_);
+    row["reduction_bytes_per_step"] = bytes_.empty() ? notMeasured : median(bytes_);
+  }
 
 private:
-  double last_ = 0;
-  std::vector<double> ofSteps_;
+  MessageCounts last_;
+  std::vector<double> number_, bytes_;
 };
 
 /// Times of one run after the other.
@@ -129,7 +134,7 @@ bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const C
   times.add(run.report);
   row["hessian_multiplications"] = run.solver->report().counts.hessianMultiplications;
   row["energy"] = run.solution.energy;
-  row["reductions_per_step"] = reductions.perStep();
+  reductions.addTo(row);
   const decomposition::DecomposedProblem& problem = run.decomposition->problem;
   row["unknowns"] = static_cast<double>(problem.primalDimension);
   row["multipliers"] = static_cast<double>(problem.dualDimension());
@@ -146,9 +151,10 @@ bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const C
 } // namespace
 
 bool measureRun(Row& row, const RCP<const Comm>& comm) {
-  const int counts = static_cast<int>(row.number("H_inverse"));
-  const scene::Scene scene = scene::modelProblem(row.text("problem") == "coercive", counts,
-                                                 counts * static_cast<int>(row.number("H_over_h")));
+  scene::Scene scene = scalingScene(row.text("problem"), static_cast<int>(row.number("H_inverse")),
+                                    static_cast<int>(row.number("H_over_h")));
+  for (scene::Body& body : scene.bodies)
+    body.decomposition.cluster = static_cast<int>(row.number("cluster"));
   row["ranks"] = comm->getSize();
   RunTimes times;
   bool converged = true;

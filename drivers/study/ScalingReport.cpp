@@ -137,10 +137,38 @@ std::string ranksReport(const Table& table, const ScalingSizes& sizes) {
   return text;
 }
 
+/// What the methods send, by the number of ranks.
+std::string methodsReport(const Table& table, const ScalingSizes& sizes) {
+  std::string text =
+      heading("Methods on ranks:",
+              "problem | ranks | 1/H | subdomains a cluster | products with F | total ms | messages a "
+              "product | bytes sent a product | sums a step | bytes summed a step");
+  for (const char* problem : {"coercive", "blocks"})
+    for (const Row& row : table.rows) {
+      const bool isBlocks = problem == std::string("blocks");
+      if (row.text("problem") != problem || row.text("operator") != (isBlocks ? "implicit" : "shared") ||
+          row.number("H_inverse") != (isBlocks ? sizes.blocks : sizes.strongSubdomains) ||
+          row.number("H_over_h") != (isBlocks ? sizes.blocksElements : sizes.ranksElements) ||
+          row.text("preconditioner") != "dirichlet" || row.text("precision") != "double")
+        continue;
+      text += line({{problem},
+                    numbers(row, {"ranks", "H_inverse"}, 0),
+                    {row.number("cluster") == 0 ? "all of a body" : count(row.number("cluster"))},
+                    numbers(row, {"hessian_multiplications"}, 0),
+                    numbers(row, {"total_seconds"}, milli),
+                    numbers(row,
+                            {"messages_per_apply", "bytes_sent_per_apply", "reductions_per_step",
+                             "reduction_bytes_per_step"},
+                            0)});
+    }
+  return text;
+}
+
 } // namespace
 
 std::string scalingReport(const Table& table, const ScalingSizes& sizes) {
-  return growthReport(table, sizes) + combinationReport(table, sizes) + ranksReport(table, sizes);
+  return growthReport(table, sizes) + combinationReport(table, sizes) + ranksReport(table, sizes) +
+         methodsReport(table, sizes);
 }
 
 std::string blockReport(const Table& products, double streamRate) {
@@ -173,22 +201,25 @@ std::string costReport(const Table& times) {
   return text;
 }
 
-std::string predictionReport(const Table& steps, const Row& like) {
+std::string predictionReport(const Table& steps) {
   const Network network;
-  std::string text =
-      heading("Predicted: one iteration of the coercive problem, H/h = " + count(like.number("H_over_h")) +
-                  ", latency " + inUnits(network.latency, micro) + " µs, " +
-                  inUnits(network.bandwidth, giga) + " GB/s a rank:",
-              "subdomains a rank | ranks | coarse unknowns | local µs | neighbours µs | scalar products µs | "
-              "coarse sum µs "
-              "| coarse solve µs | iteration µs | efficiency | coarse share | coarse factor MB");
+  constexpr double subdomainsARank = 64;
+  std::string text = heading(
+      "Predicted: one iteration with " + count(subdomainsARank) + " subdomains a rank, latency " +
+          inUnits(network.latency, micro) + " µs, " + inUnits(network.bandwidth, giga) + " GB/s a rank:",
+      "problem | method | ranks | coarse unknowns | local µs | neighbours µs | scalar products µs | coarse "
+      "sum µs "
+      "| coarse solve µs | iteration µs | efficiency | coarse share | coarse MB a rank");
   for (const Row& step : steps.rows)
-    text += line({numbers(step, {"subdomains_per_rank", "ranks", "coarse_unknowns"}, 0),
-                  numbers(step,
-                          {"local_seconds", "neighbour_seconds", "reduction_seconds", "coarse_sum_seconds",
-                           "coarse_solve_seconds", "total_seconds"},
-                          micro),
-                  numbers(step, {"efficiency", "coarse_share"}, 1), numbers(step, {"coarse_bytes"}, mega)});
+    if (step.number("subdomains_a_rank") == subdomainsARank)
+      text += line({{step.text("problem"), step.text("method")},
+                    numbers(step, {"ranks", "coarse_unknowns"}, 0),
+                    numbers(step,
+                            {"local_seconds", "neighbour_seconds", "reduction_seconds", "coarse_sum_seconds",
+                             "coarse_solve_seconds", "total_seconds"},
+                            micro),
+                    numbers(step, {"efficiency", "coarse_share"}, 1),
+                    numbers(step, {"bytes_a_rank"}, mega)});
   return text;
 }
 

@@ -19,6 +19,6 @@ std::string scalingReport(const Table& table, const ScalingSizes& sizes);
 
 std::string blockReport(const Table& products, double streamRate);
 std::string costReport(const Table& times);
-std::string predictionReport(const Table& steps, const Row& like);
+std::string predictionReport(const Table& steps);
 
 } // namespace epafi::drivers

@@ -40,7 +40,8 @@ ScalingSizes::ScalingSizes(bool quick)
       someCombinations(quick ? std::vector{16} : std::vector{32, 64}), strongSubdomains(quick ? 8 : 32),
       weakSubdomains(quick ? 4 : 16), ranksElements(quick ? 8 : 16),
       coarse(quick ? std::vector{4, 8, 16} : std::vector{4, 8, 16, 32, 64, 128}),
-      streamBytes(quick ? 3e8 : 1.5e9), blockBytes(quick ? 2e7 : 5e8) {}
+      coarseBlocks(quick ? std::vector{2, 3, 4} : std::vector{2, 4, 6, 8, 10}), blocks(4),
+      blocksElements(quick ? 4 : 6), streamBytes(quick ? 3e8 : 1.5e9), blockBytes(quick ? 2e7 : 5e8) {}
 
 int ScalingSizes::weakOn(double ranks) const {
   return static_cast<int>(std::lround(weakSubdomains * std::sqrt(ranks)));
@@ -54,6 +55,18 @@ std::vector<Row> runsOnRanks(const ScalingSizes& sizes, int ranks) {
       row["operator"] = dualOperator;
       addOnce(row, runs);
     }
+  for (const char* problem : {"coercive", "blocks"}) {
+    const bool isBlocks = problem == std::string("blocks");
+    const int side = isBlocks ? sizes.blocks : sizes.strongSubdomains;
+    const int ofBody = isBlocks ? side * side * side : side * side;
+    for (const int cluster : {0, 1, 2 * ofBody / ranks}) {
+      Row row = scalingRun(problem, side, isBlocks ? sizes.blocksElements : sizes.ranksElements, ranks);
+      row["cluster"] = cluster < ofBody ? cluster : 0; // of the whole body
+      if (isBlocks)
+        row["operator"] = "implicit";
+      addOnce(row, runs);
+    }
+  }
   return runs;
 }
 

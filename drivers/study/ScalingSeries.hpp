@@ -19,7 +19,8 @@ struct ScalingSizes {
   std::vector<int> allCombinations;  ///< H/h with every form of F and every preconditioner
   std::vector<int> someCombinations; ///< with every form, and every preconditioner of the shared one
   int strongSubdomains, weakSubdomains, ranksElements; ///< 1/H on any number of ranks, on one; H/h of both
-  std::vector<int> coarse;                             ///< 1/H of coarse problems alone
+  std::vector<int> coarse, coarseBlocks; ///< 1/H of coarse problems alone, of membranes and of blocks
+  int blocks, blocksElements;            ///< 1/H and H/h of blocks in space
   double streamBytes, blockBytes;
 
   /// 1/H of the weak series: about as many subdomains a rank on any number of ranks.
@@ -28,7 +29,7 @@ struct ScalingSizes {
 
 /// Each run once.
 std::vector<Row> runsOnOneRank(const ScalingSizes& sizes);
-/// Strong and weak scaling.
+/// Strong and weak scaling; and, of membranes and blocks, FETI-DP, FETI and clusters that are ranks.
 std::vector<Row> runsOnRanks(const ScalingSizes& sizes, int ranks);
 
 } // namespace epafi::drivers

@@ -58,19 +58,25 @@ std::string measureParts(const std::filesystem::path& directory, const ScalingSi
   const Table products = timeBlockProducts(sizes.blockBytes, streamRate);
   std::vector<int> costSizes = sizes.allCombinations;
   costSizes.insert(costSizes.end(), sizes.someCombinations.begin(), sizes.someCombinations.end());
-  const Table costs = timeDualCosts(sizes.fixedSubdomains, costSizes),
-              coarse = timeCoarseProblems(sizes.coarse);
-  Row like = scalingRun("coercive", sizes.fixedSubdomains, sizes.elements.back());
-  like["operator"] = "explicit";
-  like = *table.find(like, scalingSettings); // one of the combinations
-  const Table steps = predictSteps(like, coarse, {1, 16, 64});
+  const Table costs = timeDualCosts(sizes.fixedSubdomains, costSizes);
+  Row membranes = scalingRun("coercive", sizes.fixedSubdomains, sizes.elements.back()),
+      blocks = scalingRun("blocks", sizes.blocks, sizes.blocksElements);
+  membranes["operator"] = "explicit"; // one of the combinations
+  blocks["operator"] = "implicit";    // one of the methods
+  Table coarse = timeCoarseProblems("coercive", sizes.coarse), steps = predictedTable();
+  const Table ofBlocks = timeCoarseProblems("blocks", sizes.coarseBlocks);
+  coarse.rows.insert(coarse.rows.end(), ofBlocks.rows.begin(), ofBlocks.rows.end());
+  for (const Row& like : {membranes, blocks}) {
+    const Table more = predictSteps(LocalWork::of(*table.find(like, scalingSettings)), coarse, {1, 16, 64});
+    steps.rows.insert(steps.rows.end(), more.rows.begin(), more.rows.end());
+  }
   writeFiles(directory,
              {{"scaling_blocks.csv", products.csv()},
               {"scaling_costs.csv", costs.csv()},
               {"scaling_coarse.csv", coarse.csv()},
               {"scaling_prediction.csv", steps.csv()}},
              comm);
-  return blockReport(products, streamRate) + costReport(costs) + predictionReport(steps, like);
+  return blockReport(products, streamRate) + costReport(costs) + predictionReport(steps);
 }
 
 } // namespace

@@ -4,8 +4,8 @@
 
 namespace epafi::drivers {
 
-const std::vector<std::string> scalingSettings{"problem",  "H_inverse",      "H_over_h", "ranks",
-                                               "operator", "preconditioner", "precision"};
+const std::vector<std::string> scalingSettings{"problem",  "H_inverse",      "H_over_h",  "ranks",
+                                               "operator", "preconditioner", "precision", "cluster"};
 
 Table scalingTable() {
   return Table(
@@ -13,14 +13,16 @@ Table scalingTable() {
       "setup_seconds,solve_seconds,total_seconds,peak_bytes,apply_seconds,apply_bytes,"
       "stream_bytes_per_second,precision,messages_per_apply,bytes_sent_per_apply,coarse_unknowns,"
       "reductions_per_step,factor_bytes,explicit_setup_seconds,payoff_products,energy,preconditioner_seconds,"
-      "preconditioner_bytes,problem_bytes,base_bytes,unknowns,multipliers,reduction_bytes_per_apply",
+      "preconditioner_bytes,problem_bytes,base_bytes,unknowns,multipliers,reduction_bytes_per_apply,cluster,"
+      "reduction_bytes_per_step",
       10);
 }
 
 Row scalingRun(const std::string& problem, int subdomainsPerSide, int elementsPerSide, int ranks) {
-  return {{"problem", problem},   {"H_inverse", subdomainsPerSide}, {"H_over_h", elementsPerSide},
-          {"ranks", ranks},       {"operator", "shared"},           {"preconditioner", "dirichlet"},
-          {"precision", "double"}};
+  return {{"problem", problem},          {"H_inverse", subdomainsPerSide},
+          {"H_over_h", elementsPerSide}, {"ranks", ranks},
+          {"operator", "shared"},        {"preconditioner", "dirichlet"},
+          {"precision", "double"},       {"cluster", 0}};
 }
 
 Table readScaling(const std::filesystem::path& file, int withoutRanks) {

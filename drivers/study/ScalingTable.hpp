@@ -9,7 +9,9 @@ namespace epafi::drivers {
 /// What runs, and what it took. Times in seconds, the largest over the ranks; bytes of all ranks together unless said
 /// otherwise:
 ///
+///   problem                        coercive, semicoercive: the paper's membranes; blocks: two elastic ones in space (ScalingScene.hpp)
 ///   H_inverse, H_over_h            1/H, H/h
+///   cluster                        subdomains that share crosspoints; 0: a whole body's
 ///   operator                       of F: implicit, explicit, shared
 ///   total_seconds                  recovery of u too
 ///   apply_seconds, apply_bytes     of one product with F, what it reads of factors or blocks
@@ -20,7 +22,7 @@ namespace epafi::drivers {
 ///   problem_bytes                  different subdomain matrices, and vectors
 ///   base_bytes                     held before the run: program and libraries
 ///   unknowns, multipliers          primal and dual dimension
-///   reduction_bytes_per_apply      of one rank
+///   reduction_bytes_per_apply      of one rank; reduction_bytes_per_step of a conjugate gradient step
 Table scalingTable();
 
 /// A run by its settings, with the shared form of F and the Dirichlet preconditioner.

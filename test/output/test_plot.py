@@ -93,9 +93,11 @@ coercive,0,0.02,0.02,1
 coercive,1,0.01,0.02,0.5
 stacked_blocks,0,1e-12,1e-13,10
 """
-PREDICTION = """ranks,subdomains_per_rank,local_seconds,neighbour_seconds,reduction_seconds,coarse_sum_seconds,coarse_solve_seconds
-1,1,1e-3,0,0,0,1e-6
-1000,1,1e-3,1e-5,1e-5,1e-5,1e-3
+PREDICTION = """problem,method,ranks,subdomains_a_rank,local_seconds,neighbour_seconds,reduction_seconds,coarse_sum_seconds,coarse_solve_seconds,efficiency
+coercive,feti-dp,1,1,1e-3,0,0,0,1e-6,1
+coercive,feti-dp,1000,1,1e-3,1e-5,1e-5,1e-5,1e-3,0.5
+blocks,hybrid,1,1,1e-3,0,0,0,1e-6,1
+blocks,hybrid,1000,1,1e-3,1e-5,1e-5,1e-5,1e-4,0.8
 """
 
 

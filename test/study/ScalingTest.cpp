@@ -91,21 +91,53 @@ TEST(MessageCountsTest, CountsSumsOverTheRanks) {
   }
 }
 
-TEST(RankPredictionTest, TheCoarseProblemTakesOver) {
+/// Ten subdomains have ten crosspoints and as many motions; factors cost as their size.
+Table linearCosts(const std::string& problem) {
   Table coarse("");
-  coarse.rows = {{{"coarse_unknowns", 100}, {"solve_seconds", 1e-6}, {"factor_bytes", 1e4}},
-                 {{"coarse_unknowns", 1000}, {"solve_seconds", 1e-5}, {"factor_bytes", 1e5}}};
+  for (const char* kind : {"crosspoints", "motions"})
+    for (const double n : {100.0, 1000.0})
+      coarse.rows.push_back({{"problem", problem},
+                             {"kind", kind},
+                             {"subdomains", n},
+                             {"unknowns", n},
+                             {"solve_seconds", 1e-8 * n},
+                             {"factor_bytes", 100 * n}});
+  return coarse;
+}
 
-  const std::vector<Row> steps = predictSteps(someRow(1), coarse, {16}).rows;
+TEST(RankPredictionTest, TheCoarseProblemOfFetiDpTakesOver) {
+  const LocalWork local = LocalWork::of(someRow(1));
+  const std::vector<Row> steps = predictSteps(local, linearCosts("coercive"), {16}).rows;
 
   // 40 products in 0.128 s with 128 subdomains: 25 µs a product and subdomain.
-  EXPECT_NEAR(steps.front().number("local_seconds"), 16 * 25e-6, 1e-12);
-  EXPECT_GT(steps.front().number("efficiency"), 0.99);
-  EXPECT_NEAR(steps.back().number("coarse_unknowns"), 1.6e6, 1);
-  EXPECT_NEAR(steps.back().number("coarse_solve_seconds"), 1.6e-2, 1e-9) << "as n";
-  for (std::size_t i = 1; i < steps.size(); ++i) {
+  EXPECT_NEAR(steps[0].number("local_seconds"), 16 * 25e-6, 1e-12);
+  EXPECT_GT(steps[0].number("efficiency"), 0.99);
+  EXPECT_EQ(steps[5].text("method"), "feti-dp");
+  EXPECT_NEAR(steps[5].number("coarse_unknowns"), 1.6e6, 1);
+  EXPECT_NEAR(steps[5].number("coarse_solve_seconds"), 1.6e-2, 1e-9) << "as n";
+  EXPECT_NEAR(steps[5].number("bytes_a_rank"), 1.6e6 * (100 + 16), 1);
+  for (std::size_t i = 1; i < 6; ++i) {
     EXPECT_LT(steps[i].number("efficiency"), steps[i - 1].number("efficiency"));
     EXPECT_GT(steps[i].number("coarse_share"), steps[i - 1].number("coarse_share"));
+  }
+}
+
+TEST(RankPredictionTest, ClustersOfRanksHaveTheMotionsOfRanks) {
+  LocalWork local = LocalWork::of(someRow(1));
+  local.stream = 1e10;
+  for (const auto& [problem, modes] : {std::pair{"coercive", 1}, {"blocks", 6}}) {
+    local.problem = problem;
+    const Table steps = predictSteps(local, linearCosts(problem), {64});
+    const auto at = [&](const char* method) {
+      const Row* row = steps.find({{"method", method}, {"ranks", 1e4}}, {"method", "ranks"});
+      EXPECT_NE(row, nullptr);
+      return *row;
+    };
+    EXPECT_EQ(at("feti-1").number("coarse_unknowns"), modes * 64e4);
+    EXPECT_EQ(at("hybrid").number("coarse_unknowns"), modes * 1e4);
+    EXPECT_GT(at("hybrid").number("efficiency"), at("feti-1").number("efficiency"));
+    EXPECT_GT(at("hybrid-spread").number("efficiency"), at("hybrid").number("efficiency") * 0.99);
+    EXPECT_EQ(at("hybrid-spread").number("bytes_a_rank"), 8.0 * (modes + 2) * modes * 1e4);
   }
 }
 
