@@ -22,13 +22,14 @@ void AccuracyParameters::addTo(Teuchos::ParameterList& schema) {
       "Estimate Error", defaults.estimate,
       "Whether the discretisation error is estimated at the end, in the energy norm, by a recovered flux "
       "(Zienkiewicz, Zhu 1987).");
-  addInteger(
-      list, "Coarser Start", static_cast<int>(defaults.coarserFrom),
-      "Without a target: elastic scenes with floating bodies and so many unknowns or more look for the "
-      "contact "
-      "zone on a coarser mesh first: elements of order 1 on the same mesh if those of the scene are of order "
-      "2; else grids of half as many cells each way, and geometries with elements twice as large. 0: never.",
-      0);
+  addInteger(list, "Coarser Start", static_cast<int>(defaults.coarserFrom),
+             "Without a target: elastic scenes with contact and so many unknowns or more look for the "
+             "contact zone on a coarser mesh "
+             "first, and are solved by active sets if nothing else is asked for: elements of order 1 on the "
+             "same mesh if those of the "
+             "scene are of order 2; else grids of half as many cells each way, and geometries with elements "
+             "twice as large. 0: never.",
+             0);
   addShare(list, "Target", defaults.target,
            "Relative error in the energy norm, or of a Quantity, that is asked for, such as 0.01 or \"1 %\", "
            "also by --accuracy: "

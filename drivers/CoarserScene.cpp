@@ -24,12 +24,15 @@ bool halve(scene::Body& body, int dimension) {
   if (mesh.file.empty()) {
     scene::Decomposition& cut = body.decomposition;
     const auto axes = static_cast<std::size_t>(dimension);
-    for (std::size_t axis = 0; axis < axes; ++axis)
-      if (mesh.elements[axis] % 2 != 0)
-        return false;
+    if (std::all_of(mesh.elements.begin(), mesh.elements.begin() + dimension,
+                    [](int count) { return count == 1; }))
+      return false;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      mesh.elements[axis] /= 2;
-      cut.counts[axis] = std::gcd(mesh.elements[axis], std::max(1, cut.counts[axis] / 2));
+      const bool isEven = mesh.elements[axis] % 2 == 0;
+      mesh.elements[axis] = (mesh.elements[axis] + 1) / 2;
+      const int counts = std::max(1, cut.counts[axis] / 2);
+      cut.counts[axis] =
+          isEven ? std::gcd(mesh.elements[axis], counts) : std::min(mesh.elements[axis], counts);
     }
   } else if (mesh.refinements > 0) {
     --mesh.refinements;

@@ -76,14 +76,30 @@ private:
   RunCompanion* of_;
 };
 
-/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Membranes are solved in less time than it takes.
-/// What goes wrong there is no matter. Collective.
+/// Whether a run looks for the contact zone on a coarser mesh first. Membranes are solved in less time than it takes.
+bool beginsOnCoarserMesh(const decomposition::DecomposedProblem& problem, const RunOptions& options) {
+  return options.coarser == nullptr && problem.components > 1 && problem.numInequalities > 0 &&
+         problem.primalDimension >= options.coarserFrom;
+}
+
+/// From a good start active sets need the fewest products where bodies are held, too; from none MPRGP does.
+Teuchos::ParameterList chosenFor(const decomposition::DecomposedProblem& problem,
+                                 Teuchos::ParameterList parameters, const RunOptions& options) {
+  const bool isOpen = parameters.get<std::string>("Algorithm", "auto") == "auto",
+             isPreconditioned =
+                 parameters.sublist("Preconditioner").get<std::string>("Type", "dirichlet") != "none";
+  if (isOpen && isPreconditioned && beginsOnCoarserMesh(problem, options))
+    parameters.set("Algorithm", std::string("active set"));
+  return parameters;
+}
+
+/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. What goes wrong there is no matter.
+/// Collective.
 RCP<Vector> startFromCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
                                  const RCP<const Comm>& comm, const RunOptions& options) {
   constexpr double enough = 1e-4; // meshes differ by more
-  const decomposition::DecomposedProblem& problem = run.decomposition->problem;
-  if (run.solver->dualProblem().algorithm() != fetidp::Algorithm::activeSets || problem.components == 1 ||
-      problem.primalDimension < options.coarserFrom)
+  if (run.solver->dualProblem().algorithm() != fetidp::Algorithm::activeSets ||
+      !beginsOnCoarserMesh(run.decomposition->problem, options))
     return Teuchos::null;
   const double began = Teuchos::Time::wallTime();
   try {
@@ -113,11 +129,12 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   SceneRun run;
   run.started = Teuchos::Time::wallTime();
   run.scene = scene;
-  run.solver = std::make_unique<ContactSolver>(solverParameters);
   const model::Meshes meshes = options.quantity.point.empty() ? options.meshes : model::Meshes::whole;
   run.decomposition = std::make_unique<model::Decomposition>(
       options.bodies == nullptr ? model::decompose(scene, comm, meshes)
                                 : model::decompose(scene, std::move(*options.bodies), comm));
+  run.solver =
+      std::make_unique<ContactSolver>(chosenFor(run.decomposition->problem, solverParameters, options));
   std::optional<QuantityOfScene> quantity;
   if (options.quantity.kind != QuantityParameters::Kind::none)
     quantity.emplace(options.quantity, run.scene, *run.decomposition);

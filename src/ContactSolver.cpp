@@ -52,7 +52,7 @@ Teuchos::ParameterList ContactSolver::validParameters() {
             "set': primal-dual active sets with equilibrium held exactly on every face, then MPRGP or SMALBE "
             "from their best "
             "point, should the faces not settle. 'auto': active set where bodies float and there is a "
-            "preconditioner, else "
+            "preconditioner, and where the driver starts from a coarser mesh (Accuracy/Coarser Start), else "
             "MPRGP. Without contact there is nothing to choose.",
             algorithms);
   list.sublist("MPRGP").setParameters(qp::MprgpParameters::validParameters());

@@ -140,7 +140,7 @@ def deck(problem, n, order, shape="hexahedra", n_lower=None, slave="lower"):
         lines += [f"*NSET, NSET={name}", listed(block.at_zero(axis))]
     lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{YOUNG}, {POISSON}", "*DENSITY", "1.0",
               "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL", "*SURFACE INTERACTION, NAME=HARD",
-              "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD", "*CONTACT PAIR, INTERACTION=HARD, TYPE=MORTAR", "SLAVE, MASTER",
+              "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", "1e12", "*CONTACT PAIR, INTERACTION=HARD, TYPE=MORTAR", "SLAVE, MASTER",
               "*BOUNDARY", "FLOOR, 1, 3, 0.0"]
     lines += ["WALL, 1, 3, 0.0"] if problem == "held_blocks" else ["WALL, 1, 1, 0.0", "FRONT, 2, 2, 0.0"]
     lines += ["*STEP", "*STATIC", "1.0, 1.0", "*DLOAD", f"RIGHT, GRAV, {WEIGHT}, 0.0, 0.0, -1.0",
