@@ -216,7 +216,7 @@ def figure(file, rows):
     if not heights:
         raise PlotError(f"'{file}' holds no series to draw; run the study anew.")
     picture = pyplot.figure(figsize=(12, 0.4 + 4.8 * sum(heights)))
-    places = picture.add_gridspec(len(heights), 2, height_ratios=heights, hspace=0.56, wspace=0.2)
+    places = picture.add_gridspec(len(heights), 2, height_ratios=heights, hspace=0.68, wspace=0.2)
     if has_series:
         panels = numpy.array([[picture.add_subplot(places[i, j]) for j in (0, 1)] for i in range(2 + has_prediction)])
         draw_one_rank(panels, rows, inverse, ratios)

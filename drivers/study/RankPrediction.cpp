@@ -69,7 +69,7 @@ Row timeMotions(const std::string& problem, const model::Decomposition& cut, con
                    nonZeros * (sizeof(double) + sizeof(int)));
 }
 
-/// y(n) = c nᵃ through the two largest of a kind.
+/// Bytes c nᵃ of a factor through the two largest of a kind; a solve reads them as fast as the largest was read.
 class Extrapolation {
 public:
   Extrapolation(const Table& coarse, const std::string& problem, const std::string& kind) {
@@ -79,10 +79,15 @@ public:
         last_ = row;
       }
   }
-  [[nodiscard]] double at(double n, const char* column) const {
-    const double exponent = std::log(last_.number(column) / before_.number(column)) /
-                            std::log(last_.number("unknowns") / before_.number("unknowns"));
-    return last_.number(column) * std::pow(n / last_.number("unknowns"), exponent);
+  [[nodiscard]] double bytes(double n) const {
+    const auto logarithm = [&](const char* column) {
+      return std::log(last_.number(column) / before_.number(column));
+    };
+    return last_.number("factor_bytes") *
+           std::pow(n / last_.number("unknowns"), logarithm("factor_bytes") / logarithm("unknowns"));
+  }
+  [[nodiscard]] double seconds(double n) const {
+    return bytes(n) / last_.number("factor_bytes") * last_.number("solve_seconds");
   }
   [[nodiscard]] double perSubdomain() const { return last_.number("unknowns") / last_.number("subdomains"); }
 
@@ -147,13 +152,13 @@ private:
     const double crosspoints = crosspoints_.perSubdomain() * subdomains;
     if (method == "feti-dp") {
       const double n = crosspoints * ranks;
-      return {n, sumSeconds(ranks, bytesOfSum * n), crosspoints_.at(n, "solve_seconds"),
-              crosspoints_.at(n, "factor_bytes") + bytesOfSum * n};
+      return {n, sumSeconds(ranks, bytesOfSum * n), crosspoints_.seconds(n),
+              crosspoints_.bytes(n) + bytesOfSum * n};
     }
     const double modes = dimension_ == 3 ? 6 : 1,
                  k = modes * (method == "feti-1" ? subdomains * ranks : ranks);
-    CoarseStep step{k, sumSeconds(ranks, bytesOfSum * k), motions_.at(k, "solve_seconds"),
-                    motions_.at(k, "factor_bytes") + bytesOfSum * k};
+    CoarseStep step{k, sumSeconds(ranks, bytesOfSum * k), motions_.seconds(k),
+                    motions_.bytes(k) + bytesOfSum * k};
     if (method ==
         "hybrid-spread") { // the small vectors go to all once, each rank has the rows of its motions
       step.sum = std::ceil(std::log2(ranks)) * network_.latency + sizeof(double) * k / network_.bandwidth;
@@ -161,7 +166,7 @@ private:
       step.bytes = sizeof(double) * (modes + 2) * k;
     }
     if (method != "feti-1")
-      step.solve += crosspoints_.at(crosspoints, "solve_seconds");
+      step.solve += crosspoints_.seconds(crosspoints);
     return step;
   }
 

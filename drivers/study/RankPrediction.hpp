@@ -37,8 +37,8 @@ Table predictedTable();
 
 /// Weak scaling: 1/h grows with the ranks, each of which has a square or cube of subdomains and a neighbour on every side. Methods:
 /// feti-dp; feti-1, whose clusters are subdomains; hybrid, whose clusters are ranks; and what is not built, hybrid-spread: hybrid whose ranks have
-/// rows of (G̃G̃ᵀ)⁻¹, so that one gathering of small vectors and some dense rows are a projection. Times and sizes of coarse problems
-/// are extrapolated as c nᵃ through the two largest of `coarse`.
+/// rows of (G̃G̃ᵀ)⁻¹, so that one gathering of small vectors and some dense rows are a projection. Sizes of coarse
+/// problems are extrapolated as c nᵃ through the two largest of `coarse`, and read as fast as the largest.
 /// Columns of scaling_prediction.csv; bytes_a_rank: of the coarse problem on every rank. Precondition: two rows of each kind in
 /// `coarse`.
 Table predictSteps(const LocalWork& local, const Table& coarse, const std::vector<double>& subdomainsPerRank,

@@ -142,6 +142,12 @@ TEST_F(RefusedPiecesTest, FilesThatAreNotThereAreRefused) {
   expectRefusedAlike("nothing.msh");
 }
 
+TEST_F(RefusedPiecesTest, FilesThatAreCutOffAreRefused) {
+  scene_.bodies[1].mesh.file =
+      folder_.write("cut.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n");
+  expectRefusedAlike("cut.msh");
+}
+
 TEST_F(RefusedPiecesTest, TooManyPartsAreRefused) {
   scene_.bodies[1].decomposition.parts = 1000000;
   expectRefusedAlike("cannot be cut into 1000000 parts");
