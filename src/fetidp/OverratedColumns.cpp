@@ -22,9 +22,27 @@ namespace {
 
 using decomposition::DecomposedProblem;
 
+/// Of S_ΔΔ and its inverse of the subdomains in some joints, on all ranks. Collective.
+double bytesOfBlocks(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
+                     const std::vector<Joint>& joints, const std::vector<bool>& isIn) {
+  std::set<int> subdomains;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (isIn[j])
+      subdomains.insert(joints[j].subdomains.begin(), joints[j].subdomains.end());
+  double bytes = 0;
+  for (const SubdomainGroup& group : inverse.groups()) {
+    const auto size = static_cast<double>(group.condensed().numBoundary());
+    for (const std::size_t member : group.members())
+      if (subdomains.contains(problem.subdomains[member].number))
+        bytes += 2 * sizeof(double) * size * size;
+  }
+  return sumOverRanks(*problem.comm, bytes);
+}
+
 /// The joints to look at. Collective.
-std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Import& plan, RowKind kind,
-                                const AdaptiveConstraintParameters& parameters) {
+std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
+                                RowKind kind, const AdaptiveConstraintParameters& parameters) {
+  const Import& plan = *inverse.multiplierPlan();
   std::vector<Joint> all = jointsOf(problem, plan, kind);
   if (parameters.use == AdaptiveConstraintParameters::Use::yes)
     return all;
@@ -38,7 +56,12 @@ std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Import& 
   std::vector<bool> always;
   if (kind == RowKind::contact && problem.components > 1)
     always = bodiesOfVaryingStiffness(problem, ratio);
-  const std::vector<bool> varies = stiffnessVaries(problem, plan, all, ratio, always);
+  std::vector<bool> varies = stiffnessVaries(problem, plan, all, ratio, always);
+  // What uneven meshes do to the diagonal costs up to a half more products, and constraints as much time as they save: they have to
+  // be cheap in memory.
+  constexpr double ofMeshes = 10, mostBytes = 1e9;
+  if (kind == RowKind::gluing && bytesOfBlocks(problem, inverse, all, varies) > mostBytes)
+    varies = stiffnessVaries(problem, plan, all, ofMeshes * ratio);
   std::vector<Joint> chosen;
   for (std::size_t j = 0; j < all.size(); ++j)
     if (varies[j])
@@ -157,7 +180,7 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, Generali
                                       PreconditionerParameters::Scaling scaling) {
   OverratedColumns columns;
   const Comm& comm = *problem.comm;
-  const std::vector<Joint> joints = chosenJoints(problem, *inverse.multiplierPlan(), kind, parameters);
+  const std::vector<Joint> joints = chosenJoints(problem, inverse, kind, parameters);
   if (!holdsAnywhere(comm, !joints.empty()))
     return columns;
   const std::vector<std::vector<JointPart>> parts = gatheredParts(problem, inverse, joints, scaling);
