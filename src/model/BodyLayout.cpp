@@ -184,17 +184,17 @@ std::vector<BodyLayout> layoutInPieces(const scene::Scene& scene, const Comm& co
 
 } // namespace
 
-std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm, Meshes form) {
-  std::vector<std::unique_ptr<const fem::Mesh>> meshes;
+std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm, Meshes meshes) {
+  std::vector<std::unique_ptr<const fem::Mesh>> made;
   collectively(comm, [&] { requireSameComponents(scene); });
-  if (form == Meshes::pieces && comm.getSize() > 1)
+  if (meshes == Meshes::pieces && comm.getSize() > 1)
     return layoutInPieces(scene, comm);
   const MeshFiles files = readMeshFiles(scene, comm);
   collectively(comm, [&] {
     for (const scene::Body& body : scene.bodies)
-      meshes.push_back(makeMesh(body, files));
+      made.push_back(makeMesh(body, files));
   });
-  return cutBodies(scene, std::move(meshes), comm);
+  return cutBodies(scene, std::move(made), comm);
 }
 
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,

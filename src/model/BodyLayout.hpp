@@ -31,7 +31,7 @@ enum class Meshes {
 /// same on all ranks, if a body cannot be meshed or cut as the scene says, bodies differ in the unknowns of a node, or, where
 /// meshes go out in pieces, makeModel() refuses one.
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm,
-                                     Meshes form = Meshes::whole);
+                                     Meshes meshes = Meshes::whole);
 
 /// Cuts bodies that are meshed already, on all ranks alike. Collective. \throws InputError likewise.
 /// \param partitions  of each body, or nothing; those not null are taken as they are
