@@ -37,7 +37,9 @@ void addAdaptiveConstraintParameters(Teuchos::ParameterList& list) {
           1.0);
   addReal(list, "Stiffness Ratio", defaults.stiffnessRatio,
           "Largest over smallest stiffness, from which on 'auto' looks at an interface: along it within one "
-          "subdomain; at contacts ten times that, also between subdomains of an elastic body.",
+          "subdomain; ten times that where the dense blocks of these subdomains would take more than 1 GB in "
+          "all, "
+          "and at contacts, there also between subdomains of an elastic body.",
           1.0);
   addInteger(list, "Maximum Number", defaults.maxNumber,
              "Constraints at most, the worst jumps first. Each takes a product with F in the setup, and "
