@@ -14,7 +14,7 @@ import unittest
 
 LIMIT = 300  # seconds
 FALL = -0.85  # of the data of the rank with most, as a power of the number of ranks
-LEAST_ON_8 = 1 / 6
+LEAST_ON_8, LEAST_OF_MESHES_ON_8 = 1 / 6, 1 / 5  # 1/3.6 if each rank had the mesh whole
 
 
 def measured(program):
@@ -133,7 +133,7 @@ class Memory(unittest.TestCase):
         (whole,), energy = self.run_on(1, mesh, membranes)
         peaks, same = self.run_on(8, mesh, membranes)
         data = [peak - libraries[rank] for rank, peak in enumerate(peaks)]
-        self.assertLessEqual(max(data[1:]), LEAST_ON_8 * (whole - libraries[0]), (data, whole))
+        self.assertLessEqual(max(data[1:]), LEAST_OF_MESHES_ON_8 * (whole - libraries[0]), (data, whole))
         self.assertLessEqual(abs(same - energy), 1e-6 * abs(energy))
 
 
