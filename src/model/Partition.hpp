@@ -90,7 +90,7 @@ struct HeldElements {
 /// What one rank knows of a partition that rank 0 made.
 class HeldPartition final : public Partition {
 public:
-  HeldPartition(int numParts, HeldElements held);
+  HeldPartition(int numParts, HeldElements held); ///< numParts: of the whole body
   [[nodiscard]] int numParts() const override { return numParts_; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override;               ///< of a held one
   [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override; ///< of an own one
