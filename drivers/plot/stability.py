@@ -1,5 +1,7 @@
 """Hard cases: products over what makes them hard, and how each family ended, from stability.csv."""
 
+import textwrap
+
 import matplotlib.pyplot as pyplot
 import numpy
 from matplotlib.lines import Line2D
@@ -31,7 +33,7 @@ PANELS = [
     ("Nearly incompressible", "1/(1 − 2ν)", ["default", "plain"], {
         "squares": "squares", "square on a floor": "square on a floor", "cubes": "cubes"}),
     ("Parameters of the algorithms", "Γ, ρ, M: value", ["default", "plain"], {
-        "proportioning constant": "Γ", "proportioning constant, floating": "Γ, floating", "penalty": "ρ",
+        "proportioning constant": "Γ", "proportioning constant, floating": "Γ, floating", "penalty, membranes": "ρ",
         "balance": "M"}),
 ]
 OUTCOMES = [("solved", style.BLUE), ("refused, as it should be", style.SKY), ("stopped, and said so", style.ORANGE),
@@ -103,7 +105,7 @@ def draw_outcomes(axes, rows):
         left += counts
     for place, total in enumerate(left):
         axes.text(total + 1, place, f"{total:.0f}", va="center", fontsize=9)
-    axes.set_yticks(range(len(families)), [family.replace(" ", "\n") for family in families], fontsize=9)
+    axes.set_yticks(range(len(families)), [textwrap.fill(family, 15) for family in families], fontsize=8.5, linespacing=0.9)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.margins(x=0.12)
