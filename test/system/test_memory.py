@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """test_memory.py EPAFI MPIRUN [FLAG...] NUMBER_FLAG: what a rank holds of a scene whose mesh comes from a file falls as ranks
-become more. In space factors are most of it, in the plane meshes."""
+become more. In space factors are most of it, in the plane meshes.
+
+test_memory.py --squares N DIR: writes the membranes with 4 N² triangles, DIR/scene.xml and scene.msh.
+"""
 
 import json
 import os
@@ -11,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
+import numpy
 
 LIMIT = 300  # seconds
 FALL = -0.85  # of the data of the rank with most, as a power of the number of ranks
@@ -35,7 +40,7 @@ def gmsh(groups, nodes, elements):
                       "$Nodes", str(len(points)), *points, "$EndNodes", "$Elements", str(len(cells)), *cells, "$EndElements", ""])
 
 
-def block(n):
+def block(n, file):
     """A cube of n³ bricks whose lower and upper sides are surfaces."""
     def node(i, j, k):
         return i + (n + 1) * (j + (n + 1) * k)
@@ -43,25 +48,39 @@ def block(n):
     bricks = [(5, 1, [node(i + a, j + b, k + c) for c in (0, 1) for a, b in across])
               for k in range(n) for j in range(n) for i in range(n)]
     sides = [(3, tag, [node(i + a, j + b, k) for a, b in across]) for tag, k in ((2, 0), (3, n)) for j in range(n) for i in range(n)]
-    return gmsh([(3, "block"), (2, "bottom"), (2, "top")],
-                [(i / n, j / n, k / n) for k in range(n + 1) for j in range(n + 1) for i in range(n + 1)], bricks + sides)
+    points = [(i / n, j / n, k / n) for k in range(n + 1) for j in range(n + 1) for i in range(n + 1)]
+    file.write_text(gmsh([(3, "block"), (2, "bottom"), (2, "top")], points, bricks + sides), encoding="ascii")
 
 
-def squares(n):
-    """Two unit squares side by side, of 2 n² triangles each and with nodes of their own; their left and right edges are surfaces."""
+def squares(n, file):
+    """Two unit squares side by side, of 2 n² triangles each and with nodes of their own, in binary; their left and right edges are
+    surfaces."""
+    j, i = numpy.divmod(numpy.arange((n + 1)**2), n + 1)
     nodes, elements = [], []
     for square in (0, 1):
-        first = square * (n + 1)**2
-        nodes += [(square + i / n, j / n, 0) for j in range(n + 1) for i in range(n + 1)]
-        for j in range(n):
-            for i in range(n):
-                a = first + i + (n + 1) * j
-                elements += [(2, 1 + square, (a, a + 1, a + n + 2)), (2, 1 + square, (a, a + n + 2, a + n + 1))]
+        nodes.append(numpy.column_stack([square + i / n, j / n, 0 * i]))
+        first = 1 + square * (n + 1)**2
+        a = first + numpy.arange((n + 1)**2)[(i < n) & (j < n)]
+        corners = numpy.vstack([numpy.column_stack([a, a + 1, a + n + 2]), numpy.column_stack([a, a + n + 2, a + n + 1])])
+        elements.append((2, 1 + square, corners))
         for edge in (0, 1):
-            ends = (first + edge * n + (n + 1) * j for j in range(n))
-            elements += [(1, 3 + 2 * square + edge, (end, end + n + 1)) for end in ends]
-    return gmsh([(2, "left"), (2, "right"), *((1, f"{name} of {square}") for square in ("left", "right") for name in ("start", "end"))],
-                nodes, elements)
+            a = first + edge * n + (n + 1) * numpy.arange(n)
+            elements.append((1, 3 + 2 * square + edge, numpy.column_stack([a, a + n + 1])))
+    names = ['2 1 "left"', '2 2 "right"', '1 3 "start of left"', '1 4 "end of left"', '1 5 "start of right"', '1 6 "end of right"']
+    points = numpy.empty(2 * (n + 1)**2, [("number", "<i4"), ("point", "<f8", 3)])
+    points["number"], points["point"] = 1 + numpy.arange(len(points)), numpy.vstack(nodes)
+    with open(file, "wb") as stream:
+        stream.write(b"$MeshFormat\n2.2 1 8\n\x01\0\0\0\n$EndMeshFormat\n")
+        stream.write("\n".join(["$PhysicalNames", "6", *names, "$EndPhysicalNames", "$Nodes", str(len(points)), ""]).encode())
+        points.tofile(stream)
+        number = sum(len(corners) for _, _, corners in elements)
+        stream.write(f"\n$EndNodes\n$Elements\n{number}\n".encode())
+        for kind, tag, corners in elements:
+            numpy.array([kind, len(corners), 2], "<i4").tofile(stream)
+            numbers = numpy.arange(number - len(corners) + 1, number + 1)
+            number -= len(corners)
+            numpy.column_stack([numbers, numpy.full((len(corners), 2), tag), corners]).astype("<i4").tofile(stream)
+        stream.write(b"\n$EndElements\n")
 
 
 def entry(name, kind, value):
@@ -100,11 +119,11 @@ def membranes(mesh):
 
 
 class Memory(unittest.TestCase):
-    def run_on(self, ranks, mesh, scene):
+    def run_on(self, ranks, mesh, n, scene):
         """(peak of each rank in kB, energy)"""
         with tempfile.TemporaryDirectory() as folder:
             place = pathlib.Path(folder)
-            (place / "scene.msh").write_text(mesh, encoding="ascii")
+            mesh(n, place / "scene.msh")
             (place / "scene.xml").write_text(scene("scene.msh"), encoding="ascii")
             run = subprocess.run([*LAUNCHER, str(ranks), sys.executable, __file__, "--measured", folder, EPAFI, place / "scene.xml",
                                   "--quiet", "--report", place / "report.xml"],
@@ -114,13 +133,13 @@ class Memory(unittest.TestCase):
             return [json.loads((place / str(rank)).read_text(encoding="ascii")) for rank in range(ranks)], float(energy[1])
 
     def test_data_of_the_rank_with_most_fall(self):
-        libraries, _ = self.run_on(8, block(4), on_floor)
-        mesh = block(36)
-        alone, energy = self.run_on(1, mesh, on_floor)
+        libraries, _ = self.run_on(8, block, 4, on_floor)
+        alone, energy = self.run_on(1, block, 36, on_floor)
         whole = alone[0] - libraries[0]
         for ranks in (2, 4, 8):
-            peaks, same = self.run_on(ranks, mesh, on_floor)
+            peaks, same = self.run_on(ranks, block, 36, on_floor)
             data = [peak - libraries[rank] for rank, peak in enumerate(peaks)]
+            print(f"{ranks} ranks: data of each {data} kB, of one rank {whole} kB", flush=True)
             with self.subTest(ranks=ranks, data=data, whole=whole):
                 self.assertLessEqual(max(data), whole * ranks**FALL)
                 self.assertLessEqual(abs(same - energy), 1e-6 * abs(energy))
@@ -128,11 +147,11 @@ class Memory(unittest.TestCase):
                     self.assertLessEqual(max(data), LEAST_ON_8 * whole)
 
     def test_no_rank_but_the_first_has_the_mesh(self):
-        libraries, _ = self.run_on(8, squares(8), membranes)
-        mesh = squares(400)
-        (whole,), energy = self.run_on(1, mesh, membranes)
-        peaks, same = self.run_on(8, mesh, membranes)
+        libraries, _ = self.run_on(8, squares, 8, membranes)
+        (whole,), energy = self.run_on(1, squares, 400, membranes)
+        peaks, same = self.run_on(8, squares, 400, membranes)
         data = [peak - libraries[rank] for rank, peak in enumerate(peaks)]
+        print(f"membranes, 8 ranks: data of each {data} kB, of one rank {whole - libraries[0]} kB", flush=True)
         self.assertLessEqual(max(data[1:]), LEAST_OF_MESHES_ON_8 * (whole - libraries[0]), (data, whole))
         self.assertLessEqual(abs(same - energy), 1e-6 * abs(energy))
 
@@ -140,5 +159,11 @@ class Memory(unittest.TestCase):
 if __name__ == "__main__":
     if sys.argv[1] == "--measured":
         sys.exit(measured(sys.argv[2:]))
+    if sys.argv[1] == "--squares":
+        PLACE = pathlib.Path(sys.argv[3])
+        PLACE.mkdir(parents=True, exist_ok=True)
+        squares(int(sys.argv[2]), PLACE / "scene.msh")
+        (PLACE / "scene.xml").write_text(membranes("scene.msh"), encoding="ascii")
+        sys.exit()
     EPAFI, *LAUNCHER = sys.argv[1:]
     unittest.main(argv=sys.argv[:1])
