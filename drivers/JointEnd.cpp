@@ -1,5 +1,7 @@
 #include "JointEnd.hpp"
 
+#include "PeakMemory.hpp"
+
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/HeldSignal.hpp"
 
@@ -101,6 +103,7 @@ int endTogether(const Comm& comm, const std::function<int()>& work, double patie
 
 int runMain(int argc, char** argv, const std::string& program,
             const std::function<int(const RCP<const Comm>&)>& work) {
+  keepFreedMemory();
   int programNameOnly = std::min(argc, 1); // Kokkos would answer --help itself
   const Tpetra::ScopeGuard scope = [&] {
     const HeldSignal held(SIGTERM); // from the threads that MPI starts: METIS must be able to hold it

@@ -24,7 +24,7 @@ enum ExitCode : int { solved = 0, notConverged = 1, wrongInput = 2, notSolvable 
 int endTogether(const Comm& comm, const std::function<int()>& work, double patience = 3.0,
                 const std::string& program = "epafi");
 
-/// What the programs' main() does: MPI from here to the end, and `work` on all ranks. Returns the exit code.
+/// What the programs' main() does: MPI from here to the end, and `work` on all ranks, with memory as keepFreedMemory has it. Returns the exit code.
 int runMain(int argc, char** argv, const std::string& program,
             const std::function<int(const RCP<const Comm>&)>& work);
 

@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <fstream>
+#include <limits>
 #include <string>
 
 namespace epafi::drivers {
@@ -21,6 +22,12 @@ double bytesIn(const char* file, const std::string& name) {
 }
 
 } // namespace
+
+void keepFreedMemory() {
+  constexpr int largest = 32 << 20; // that the C library allows; larger pieces always come from the system
+  mallopt(M_MMAP_THRESHOLD, largest);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
 
 double resetPeakBytes() {
   malloc_trim(0);

@@ -114,12 +114,41 @@ RCP<Vector> startFromCoarserMesh(SceneRun& run, const Teuchos::ParameterList& so
         {.coarserFrom = 4 * options.coarserFrom, .companion = &silent, .bodies = &coarser->bodies});
     const RCP<Vector> start = startFrom(coarse, run);
     run.start = {coarser->means, coarse.decomposition->problem.primalDimension,
-                 coarse.solver->report().counts.hessianMultiplications,
+                 coarse.solver->report().counts.hessianMultiplications, coarse.solution.energy,
                  maxOverRanks(*comm, Teuchos::Time::wallTime() - began)};
     return start;
   } catch (const Error&) { // on all ranks
     return Teuchos::null;
   }
+}
+
+/// A guess of the discretisation error relative to the solution, from nothing but the number of nodes: h of even meshes of bodies
+/// of size 1, as edges and borders of contact leave it to any order.
+double guessedError(const SceneRun& run) {
+  const decomposition::DecomposedProblem& problem = run.decomposition->problem;
+  const auto& bodies = run.scene.bodies;
+  const double nodes =
+      static_cast<double>(problem.primalDimension) / problem.components / static_cast<double>(bodies.size());
+  return std::pow(nodes, -1.0 / scene::dimensionOf(bodies.front().physics));
+}
+
+/// How far the iteration has to go. `looked` becomes the last estimate. Keeps references.
+fetidp::ErrorBalance balanceOf(const SceneRun& run, std::optional<accuracy::ErrorEstimator>& estimator,
+                               std::optional<accuracy::ErrorEstimate>& looked, const RunOptions& options) {
+  fetidp::ErrorBalance balance;
+  balance.fraction = run.solver->algebraicFraction();
+  balance.estimate = [&](std::span<const Eigen::VectorXd> u) {
+    looked = (*estimator)(u);
+    return looked->toBalance();
+  };
+  const double guess = std::min(guessedError(run), 0.1);
+  balance.firstLook =
+      0.2 * balance.fraction * guess; // without any coupling the energy is some times the solution's
+  if (options.coarser != nullptr && options.coarser->error) // of linear elements it is halved at best
+    balance.expected = 0.5 * options.coarser->error->discretisation;
+  else if (run.start)
+    balance.expected = guess * std::sqrt(2 * std::abs(run.start->energy));
+  return balance;
 }
 
 } // namespace
@@ -149,21 +178,19 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   std::optional<accuracy::ErrorEstimator> estimator;
   if (estimatesError || run.solver->isBalanced())
     estimator.emplace(run.scene, *run.decomposition);
-  fetidp::ErrorBalance balance;
-  balance.fraction = run.solver->algebraicFraction();
-  balance.estimate = [&](std::span<const Eigen::VectorXd> u) { return (*estimator)(u).toBalance(); };
   if (options.coarser != nullptr) {
     if (start.is_null())
       start = startFrom(*options.coarser, run);
-    if (options.coarser->error) // of linear elements it is halved at best
-      balance.expected = 0.5 * options.coarser->error->discretisation;
   } else if (start.is_null()) {
     start = startFromCoarserMesh(run, solverParameters, comm, options);
   }
+  const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
   run.solution =
       run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
   const double solved = Teuchos::Time::wallTime();
-  if (estimatesError)
+  if (!estimatesError)
+    run.error.reset(); // the iteration's last look, if it took one
+  else if (!run.solution.isEstimated)
     run.error = (*estimator)(run.solution.displacement);
   if (quantity)
     run.quantity = (*quantity)(*run.solver, run.solved(), *estimator, run.error->energyNorm);

@@ -44,6 +44,7 @@ struct CoarserStart {
   std::string means; ///< what made it coarser
   GlobalOrdinal unknowns = 0;
   int multiplications = 0; ///< products with F
+  double energy = 0;
   double seconds = 0;
 };
 

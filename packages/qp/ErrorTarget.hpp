@@ -13,8 +13,9 @@ public:
   virtual ~ErrorTarget() = default;
   /// \param error  of the start, at most
   virtual double first(double error) = 0;
+  /// \param error  of x, at most
   /// All ranks call it together and get the same answer.
-  virtual double at(const Vector& x) = 0;
+  virtual double at(double error, const Vector& x) = 0;
 };
 
 /// Whether an error meets a target that is asked for anew where it was met.
@@ -33,7 +34,7 @@ public:
       return false;
     }
     if (!isMet_) { // else x is as good as the one that the limit is for: its certificate
-      limit_ = target_.at(x);
+      limit_ = target_.at(error, x);
       isMet_ = error <= limit_;
     }
     return isMet_;

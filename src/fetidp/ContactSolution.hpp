@@ -29,6 +29,7 @@ struct ContactSolution {
   /// Energy norm of the difference to the solution of the discrete problem, at most; NaN where there is no
   /// preconditioner to measure it by.
   double algebraicError = 0;
+  bool isEstimated = false; ///< ErrorBalance::estimate was last asked about this solution
 
   double energy = 0;       ///< ½uᵀKu − fᵀu
   double contactForce = 0; ///< Σ λ_I

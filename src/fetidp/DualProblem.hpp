@@ -27,7 +27,8 @@ struct DualSolution {
   /// vanishes.
   double reference = 0;
   double errorTarget = 0; ///< with an ErrorBalance: the algebraic error that was small enough; else 0
-  double equilibrium = 0; ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes
+  bool isEstimated = false; ///< the last answer of ErrorBalance::estimate was for this λ
+  double equilibrium = 0;   ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes
   qp::SolveReport report;
 };
 

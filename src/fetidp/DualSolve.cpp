@@ -29,31 +29,43 @@ namespace {
 
 using decomposition::DecomposedProblem;
 
-/// A fraction of the discretisation error, of the displacements that go with an iterate.
+/// A fraction of the discretisation error η, of the displacements that go with an iterate. An algebraic error e blurs η by no
+/// more than about its own size: a look with e ≤ η/2 is enough.
 class BalancedTarget final : public qp::ErrorTarget {
 public:
   /// Keeps references. \param complete  makes λ of an iterate
   BalancedTarget(const DualProblem& dual, const ErrorBalance& balance, std::function<void(Vector&)> complete)
-      : dual_(dual), balance_(balance), complete_(std::move(complete)) {}
+      : dual_(dual), balance_(balance), complete_(std::move(complete)),
+        lookedAt_(dual.problem().multiplierMap) {}
 
-  /// A first look at the discretisation error when the algebraic one has fallen so far that it hardly blurs it.
   double first(double error) override {
-    constexpr double share = 0.01; // discretisation errors are per cents of the solution
-    return balance_.expected > 0 ? balance_.fraction * balance_.expected : share * error;
+    return balance_.expected > 0 ? balance_.fraction * balance_.expected : balance_.firstLook * error;
   }
-  double at(const Vector& x) override {
-    Vector lambda(x, Teuchos::Copy);
-    complete_(lambda);
-    last_ = balance_.fraction * balance_.estimate(displacementOf(dual_, lambda));
+  double at(double error, const Vector& x) override {
+    if (isClear_)
+      return last_;
+    lookedAt_.assign(x);
+    complete_(lookedAt_);
+    const double mesh = balance_.estimate(displacementOf(dual_, lookedAt_));
+    isClear_ = error <= 0.5 * mesh;
+    last_ = balance_.fraction * (isClear_ && error > balance_.fraction * mesh ? mesh - error : mesh);
     return last_;
   }
   [[nodiscard]] double last() const { return last_; }
+  /// Whether the last look was at this λ, but for round-off. Collective.
+  [[nodiscard]] bool hasSeen(const Vector& lambda) const {
+    Vector difference(lambda, Teuchos::Copy);
+    difference.update(-1.0, lookedAt_, 1.0);
+    return last_ > 0 && difference.normInf() <= 1e-9 * lambda.normInf();
+  }
 
 private:
   const DualProblem& dual_;
   const ErrorBalance& balance_;
   std::function<void(Vector&)> complete_;
+  Vector lookedAt_; ///< λ
   double last_ = 0;
+  bool isClear_ = false;
 };
 
 /// Shows λ where the iteration has μ = λ − λ̃.
@@ -136,6 +148,7 @@ private:
                const std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>& always);
   void refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications);
   void completeJumps(Vector& lambda) const;
+  DualSolution finished();
   [[nodiscard]] double equilibriumReference(const Eigen::VectorXd& e) const;
 
   const DualProblem& dual_;
@@ -147,6 +160,7 @@ private:
   RightHandSide wholeRhs_; ///< d̃
   RCP<Vector> rhs_;        ///< of the iteration: d̃, Pᵀd̃ where jumps are deflated, Pd where bodies float
   DualSolution solution_;
+  std::optional<BalancedTarget> target_; ///< with a balance
 };
 
 /// λ of the iterate of the deflated problem. Collective.
@@ -175,7 +189,16 @@ DualSolution IterativeSolve::coercive() {
                                               dual_.preconditioner());
   else
     iterateInBounds();
+  return finished();
+}
+
+/// λ is there but for its deflated jumps. Collective.
+DualSolution IterativeSolve::finished() {
   completeJumps(*solution_.lambda);
+  if (target_) {
+    solution_.errorTarget = target_->last();
+    solution_.isEstimated = target_->hasSeen(*solution_.lambda);
+  }
   return std::move(solution_);
 }
 
@@ -242,13 +265,12 @@ void IterativeSolve::iterateInBounds() {
             });
     return;
   }
-  BalancedTarget target(dual_, *balance_, [this](Vector& x) { completeJumps(x); });
-  tolerances.error = &target;
+  target_.emplace(dual_, *balance_, [this](Vector& x) { completeJumps(x); });
+  tolerances.error = &*target_;
   iterate(faces, tolerances, *solution_.lambda, observer_, [&](Vector& x, const qp::MprgpParameters& mprgp) {
-    qp::ErrorRule rule(target, reference);
+    qp::ErrorRule rule(*target_, reference);
     return qp::solveBoundProblem(problem, x, rule, reference, mprgp, observer_);
   });
-  solution_.errorTarget = target.last();
 }
 
 /// e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd asks for.
@@ -280,9 +302,8 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
     mu.update(1.0, *start_, -1.0, feasible, 0.0);
   qp::SmalbeTolerances tolerances{tolerance_, solution_.reference, dual_.parameters().equilibriumTolerance,
                                   reference};
-  std::optional<BalancedTarget> target;
   if (balance_ != nullptr && !vanishes)
-    tolerances.error = &target.emplace(dual_, *balance_, [&](Vector& x) {
+    tolerances.error = &target_.emplace(dual_, *balance_, [&](Vector& x) {
       x.update(1.0, feasible, 1.0);
       completeJumps(x);
     });
@@ -310,13 +331,10 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
                   multiplier, tolerances, dual_.parameters().smalbe, mprgp, observer);
             });
   }
-  if (target)
-    solution_.errorTarget = target->last();
   solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
   const double imbalance = (space.product(*solution_.lambda) - e).norm();
   solution_.equilibrium = reference > 0 ? imbalance / reference : imbalance;
-  completeJumps(*solution_.lambda);
-  return std::move(solution_);
+  return finished();
 }
 
 /// Where there is nothing to iterate.

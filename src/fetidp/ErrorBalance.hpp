@@ -19,6 +19,9 @@ struct ErrorBalance {
   double fraction = 0.1; ///< of the discretisation error that the algebraic error may be
   double expected =
       0; ///< discretisation error as far as known before, say from a coarser mesh; 0: not at all
+  /// Where nothing is expected: the first look comes once the algebraic error has fallen to this share of the start's. Late looks
+  /// cost a few products, early ones have to be repeated.
+  double firstLook = 0.01;
 };
 
 } // namespace epafi::fetidp

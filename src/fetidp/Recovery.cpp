@@ -71,6 +71,7 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
   solution.feasibility = relative(violation, scale);
   solution.complementarity = relative(std::abs(sums[1].value()), std::abs(solution.energy));
   solution.equilibrium = dual.equilibrium;
+  solution.isEstimated = dual.isEstimated;
   solution.contactForce = sums[2].value();
   solution.activeContactNodes = static_cast<GlobalOrdinal>(sums[3].value());
 }
