@@ -93,32 +93,32 @@ Teuchos::ParameterList chosenFor(const decomposition::DecomposedProblem& problem
   return parameters;
 }
 
-/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. What goes wrong there is no matter.
-/// Collective.
-RCP<Vector> startFromCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
-                                 const RCP<const Comm>& comm, const RunOptions& options) {
+/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Before the run is set up, and without
+/// its factors: there is memory for one set of them. What goes wrong there is no matter. Collective.
+std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
+                                           const RCP<const Comm>& comm, const RunOptions& options) {
   constexpr double enough = 1e-4; // meshes differ by more
-  if (run.solver->dualProblem().algorithm() != fetidp::Algorithm::activeSets ||
+  if (run.solver->algorithmFor(run.decomposition->problem) != fetidp::Algorithm::activeSets ||
       !beginsOnCoarserMesh(run.decomposition->problem, options))
-    return Teuchos::null;
+    return std::nullopt;
   const double began = Teuchos::Time::wallTime();
   try {
     std::optional<CoarserScene> coarser = coarserScene(run.scene, run.decomposition->bodies, *comm);
     if (!coarser)
-      return Teuchos::null;
+      return std::nullopt;
     Teuchos::ParameterList parameters(solverParameters);
     parameters.set("Tolerance", enough);
     Silent silent(options.companion);
-    const SceneRun coarse = solveScene(
+    SceneRun coarse = solveScene(
         coarser->scene, parameters, comm,
         {.coarserFrom = 4 * options.coarserFrom, .companion = &silent, .bodies = &coarser->bodies});
-    const RCP<Vector> start = startFrom(coarse, run);
     run.start = {coarser->means, coarse.decomposition->problem.primalDimension,
                  coarse.solver->report().counts.hessianMultiplications, coarse.solution.energy,
                  maxOverRanks(*comm, Teuchos::Time::wallTime() - began)};
-    return start;
+    coarse.solver.reset();
+    return coarse;
   } catch (const Error&) { // on all ranks
-    return Teuchos::null;
+    return std::nullopt;
   }
 }
 
@@ -172,18 +172,19 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   RCP<const Vector> start;
   if (options.companion != nullptr)
     start = options.companion->begin(run.decomposition->problem);
+  std::optional<SceneRun> coarse;
+  if (start.is_null())
+    coarse = solveOnCoarserMesh(run, solverParameters, comm, options);
   run.solver->setup(run.decomposition->problem);
   if (options.companion != nullptr)
     options.companion->beforeIteration();
   std::optional<accuracy::ErrorEstimator> estimator;
   if (estimatesError || run.solver->isBalanced())
     estimator.emplace(run.scene, *run.decomposition);
-  if (options.coarser != nullptr) {
-    if (start.is_null())
-      start = startFrom(*options.coarser, run);
-  } else if (start.is_null()) {
-    start = startFromCoarserMesh(run, solverParameters, comm, options);
-  }
+  if (const SceneRun* const coarser = coarse ? &*coarse : options.coarser;
+      coarser != nullptr && start.is_null())
+    start = startFrom(*coarser, run);
+  coarse.reset();
   const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
   run.solution =
       run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);

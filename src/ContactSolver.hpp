@@ -81,6 +81,10 @@ public:
   [[nodiscard]] const SolverTimes& times() const { return times_; } ///< of the last set-up and solve
   /// What the iteration works on. Precondition: `setup` was called.
   [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return *dual_; }
+  /// Which `setup` will choose for the problem. Not collective.
+  [[nodiscard]] fetidp::Algorithm algorithmFor(const decomposition::DecomposedProblem& problem) const {
+    return fetidp::chosenAlgorithm(problem, dualParameters_).algorithm;
+  }
   /// That the iteration was asked for.
   [[nodiscard]] double tolerance() const { return dualParameters_.tolerance; }
   /// Whether the algebraic error is to be a fraction of the discretisation error.

@@ -29,8 +29,8 @@ SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
 }
 
 CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain,
-                                       SubdomainInterface interface, direct::Factorizer& factorizer,
-                                       const direct::SpdFactor* like)
+                                       SubdomainInterface interface, bool isShared,
+                                       direct::Factorizer& factorizer, const direct::SpdFactor* like)
     : interface_(std::move(interface)) {
   const auto& remainder = subdomain.remainderUnknowns;
   const auto& crosspoints = subdomain.crosspointUnknowns;
@@ -39,13 +39,15 @@ CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain
   remainderToCrosspoint_ = block(*subdomain.stiffness, remainder, crosspoints);
 
   const Eigen::MatrixXd rhs(remainderToCrosspoint_);
-  crosspointResponse_.resizeLike(rhs);
-  factor_->solve(rhs, crosspointResponse_); // Ψ = K_rr⁻¹ K_rc
-  boundaryResponse_ = crosspointResponse_(interface_.boundary, Eigen::all);
+  Eigen::MatrixXd response(rhs.rows(), rhs.cols());
+  factor_->solve(rhs, response); // Ψ = K_rr⁻¹ K_rc
+  boundaryResponse_ = response(interface_.boundary, Eigen::all);
   schurComplement_ = Eigen::MatrixXd(block(*subdomain.stiffness, crosspoints, crosspoints));
-  schurComplement_ -= remainderToCrosspoint_.transpose() * crosspointResponse_; // S = K_cc − K_cr Ψ
+  schurComplement_ -= remainderToCrosspoint_.transpose() * response; // S = K_cc − K_cr Ψ
   schurComplement_ =
       (0.5 * (schurComplement_ + schurComplement_.transpose())).eval(); // symmetric to the last digit
+  if (isShared)
+    crosspointResponse_ = std::move(response);
 }
 
 } // namespace epafi::fetidp

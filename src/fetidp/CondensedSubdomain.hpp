@@ -29,9 +29,10 @@ struct CondensedBoundary {
 /// Shared by all subdomains that are identical. n_r remainders, n_Δ of them in the boundary, n_c crosspoint values.
 class CondensedSubdomain {
 public:
+  /// \param isShared  whether others are identical: then Ψ is kept for all of them, else Ψ_Δ alone
   /// \param like  a factor whose ordering and symbolic part are used again where patterns agree, or null
   /// Not collective. \throws Error if the factorisation fails.
-  CondensedSubdomain(const decomposition::Subdomain& subdomain, SubdomainInterface interface,
+  CondensedSubdomain(const decomposition::Subdomain& subdomain, SubdomainInterface interface, bool isShared,
                      direct::Factorizer& factorizer, const direct::SpdFactor* like = nullptr);
 
   [[nodiscard]] const SubdomainInterface& interface() const { return interface_; }
@@ -41,7 +42,7 @@ public:
 
   /// K_rr; its kept unknowns are Δ.
   [[nodiscard]] direct::SpdFactor& factor() const { return *factor_; }
-  /// Ψ, n_r × n_c.
+  /// Ψ, n_r × n_c; empty where it is not kept.
   [[nodiscard]] const Eigen::MatrixXd& crosspointResponse() const { return crosspointResponse_; }
   /// Ψ_Δ, n_Δ × n_c.
   [[nodiscard]] const Eigen::MatrixXd& boundaryResponse() const { return boundaryResponse_; }

@@ -52,7 +52,7 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
     }
   } else {
     condensed_ = std::make_shared<const CondensedSubdomain>(
-        first, std::move(interface), factorizer,
+        first, std::move(interface), identical.isShared(), factorizer,
         previous != nullptr ? &previous->condensed_->factor() : nullptr);
   }
   for (std::size_t member = 0; member < members_.size(); ++member)
@@ -197,14 +197,21 @@ void SubdomainGroup::eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<
                                Workspace& work) const {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
   work.crosspointForces.resize(condensed_->numCrosspoints(), numMembers() * b[members_.front()].cols());
+  const Eigen::MatrixXd& response = condensed_->crosspointResponse(); // Ψ
+  const bool isKept = response.rows() == condensed_->numRemainders(); // or of no crosspoints
   for (Eigen::Index first = 0; first < work.crosspointForces.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(work.crosspointForces.cols() - first, work);
+    for (Eigen::Index j = 0; j < columns; ++j)
+      work.rhs.col(j) = columnOf(b, first + j)(like.remainderUnknowns);
+    if (!isKept)
+      condensed_->factor().solve(work.rhs, work.solution);
     for (Eigen::Index j = 0; j < columns; ++j) {
-      const auto given = columnOf(b, first + j);
       auto forces = work.crosspointForces.col(first + j);
-      work.rhs.col(j) = given(like.remainderUnknowns);
-      forces = given(like.crosspointUnknowns);
-      forces.noalias() -= condensed_->crosspointResponse().transpose() * work.rhs.col(j);
+      forces = columnOf(b, first + j)(like.crosspointUnknowns);
+      if (isKept)
+        forces.noalias() -= response.transpose() * work.rhs.col(j);
+      else
+        forces.noalias() -= condensed_->remainderToCrosspoint().transpose() * work.solution.col(j);
     }
   }
   addToCoarse(work.crosspointForces, coarse);

@@ -13,7 +13,7 @@ using decomposition::Subdomain;
 /// One subdomain by both: sparse and condensed, and dense.
 struct Compared {
   Compared(const Subdomain& subdomain, const std::string& solver)
-      : factorizer(solver), condensed(subdomain, interfaceOf(subdomain), factorizer) {
+      : factorizer(solver), condensed(subdomain, interfaceOf(subdomain), true, factorizer) {
     const Eigen::MatrixXd k(*subdomain.stiffness);
     const auto &r = subdomain.remainderUnknowns, &c = subdomain.crosspointUnknowns;
     krr = k(r, r);
