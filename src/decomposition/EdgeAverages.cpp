@@ -10,19 +10,17 @@ namespace {
 /// How many changed matrices are remembered.
 constexpr std::size_t maxKnown = 64;
 
-/// T.
-SparseMatrix basisOf(const std::vector<Average>& averages, Eigen::Index size) {
+/// N = T − I, which has entries at edges alone.
+SparseMatrix changeOf(const std::vector<Average>& averages, Eigen::Index size) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < static_cast<int>(size); ++i)
-    entries.emplace_back(i, i, 1.0);
   for (const Average& average : averages)
     for (const int other : average.others) {
       entries.emplace_back(other, average.carrier, 1.0);
       entries.emplace_back(average.carrier, other, -1.0);
     }
-  SparseMatrix basis(size, size);
-  basis.setFromTriplets(entries.begin(), entries.end());
-  return basis;
+  SparseMatrix change(size, size);
+  change.setFromTriplets(entries.begin(), entries.end());
+  return change;
 }
 
 } // namespace
@@ -133,10 +131,11 @@ std::shared_ptr<const SparseMatrix> AverageBasis::changed(const std::vector<Aver
                                   [&](const Known& k) { return k.nodal == nodal && k.averages == averages; });
   if (known != known_.end())
     return known->changed;
-  const SparseMatrix basis = basisOf(averages, nodal->rows());
-  const SparseMatrix product = SparseMatrix(basis.transpose()) * (*nodal * basis).eval();
-  const auto changed = std::make_shared<SparseMatrix>(
-      0.5 * (product + SparseMatrix(product.transpose()))); // symmetric to the last digit
+  const SparseMatrix n = changeOf(averages, nodal->rows());
+  const SparseMatrix kn = *nodal * n;
+  const SparseMatrix half = kn + 0.5 * SparseMatrix(SparseMatrix(n.transpose()) * kn); // KN + ½NᵀKN
+  const SparseMatrix change = half + SparseMatrix(half.transpose()); // symmetric to the last digit
+  const auto changed = std::make_shared<SparseMatrix>(*nodal + change);
   changed->makeCompressed();
   if (known_.size() >= maxKnown)
     known_.erase(known_.begin());

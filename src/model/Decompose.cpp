@@ -97,20 +97,24 @@ void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, 
 } // namespace
 
 void requireKernel(const SparseMatrix& k, const Eigen::MatrixXd& r, const std::string& body) {
-  for (Eigen::Index mode = 0; mode < r.cols(); ++mode)
-    for (Eigen::Index j = 0; j < k.cols(); ++j) {
-      double sum = 0, magnitude = leastMagnitude * k.coeff(j, j) * r.col(mode).lpNorm<Eigen::Infinity>();
-      for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry) { // K is symmetric: columns are rows
-        const double term = entry.value() * r(entry.row(), mode);
-        sum += term;
-        magnitude += std::abs(term);
-      }
-      if (!(std::abs(sum) <= kernelTolerance * magnitude))
-        throw Error("body '" + body + "': its stiffness does not vanish on the rigid motion number " +
-                    std::to_string(mode) + " that its supports seem to leave free (" + std::to_string(sum) +
-                    " beside terms of " + std::to_string(magnitude) +
-                    "); this is a fault of Epafi, please report the scene");
+  const Eigen::MatrixXd motions = r.transpose(); // a node's values side by side: K is read once
+  const Eigen::ArrayXd largest = motions.cwiseAbs().rowwise().maxCoeff();
+  Eigen::ArrayXd sum(r.cols()), magnitude(r.cols());
+  for (Eigen::Index j = 0; r.cols() > 0 && j < k.cols(); ++j) {
+    sum.setZero();
+    magnitude = leastMagnitude * k.coeff(j, j) * largest;
+    for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry) { // K is symmetric: columns are rows
+      const auto terms = entry.value() * motions.col(entry.row()).array();
+      sum += terms;
+      magnitude += terms.abs();
     }
+    for (Eigen::Index mode = 0; mode < r.cols(); ++mode)
+      if (!(std::abs(sum[mode]) <= kernelTolerance * magnitude[mode]))
+        throw Error("body '" + body + "': its stiffness does not vanish on the rigid motion number " +
+                    std::to_string(mode) + " that its supports seem to leave free (" +
+                    std::to_string(sum[mode]) + " beside terms of " + std::to_string(magnitude[mode]) +
+                    "); this is a fault of Epafi, please report the scene");
+  }
 }
 
 Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm, Meshes meshes) {
