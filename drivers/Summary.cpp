@@ -73,9 +73,13 @@ void describeProblem(std::ostream& text, const SceneRun& run) {
       text << "              METIS cut body '" << run.scene.bodies[b].name << "' into "
            << counted(parts, "connected part") << ", not the " << asked.parts << " asked for\n";
   }
+  const bool isChosen = std::any_of(run.scene.bodies.begin(), run.scene.bodies.end(),
+                                    [](const scene::Body& body) { return body.decomposition.cluster < 0; });
   if (const auto clusters = run.decomposition->problem.clusters.size(); clusters > run.scene.bodies.size())
     text << "  clusters    " << clusters << " of subdomains that share crosspoints, "
-         << counted(problem, "Kernel Dimension", "rigid motion") << " of them\n";
+         << counted(problem, "Kernel Dimension", "rigid motion") << " of them"
+         << (isChosen ? ": with so many subdomains and ranks faster than crosspoints of whole bodies\n"
+                      : "\n");
   const std::string floating = floatingBodies(run);
   text << "  floating    " << (floating.empty() ? "no body" : floating) << '\n';
 }

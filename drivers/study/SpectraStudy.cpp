@@ -73,7 +73,7 @@ std::vector<Row> measure(const Case& which, const char* preconditioner, const RC
   const scene::Scene scene = scene::readScene(which.scene(), which.name);
   const SceneRun run = solveScene(scene, parameters, comm);
   const fetidp::DualProblem& dual = run.solver->dualProblem();
-  const int cluster = scene.bodies.front().decomposition.cluster;
+  const int cluster = std::max(0, scene.bodies.front().decomposition.cluster);
   std::vector<Row> rows;
   for (const Part& part : parts) {
     if (cluster > 0 && !rows.empty())

@@ -5,13 +5,16 @@
 #include "epafi/fem/GmshFile.hpp"
 #include "epafi/fem/GmshReader.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/model/ClusterSize.hpp"
 #include "epafi/model/MeshFiles.hpp"
 #include "epafi/model/MeshPieces.hpp"
 
 #include <Teuchos_DefaultSerialComm.hpp>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -63,6 +66,31 @@ scene::Decomposition cutOf(const scene::Body& body, const fem::Mesh& mesh) {
     cut.parts = static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(mesh.numElements())));
   }
   return cut;
+}
+
+/// Subdomains in x, y and z of a body that is a grid of them.
+std::optional<std::array<int, 3>> gridOf(const BodyLayout& body, const scene::Decomposition& cut) {
+  if (body.partition || cut.method != scene::Decomposition::Method::grid)
+    return std::nullopt;
+  return std::array{cut.counts[0], cut.counts[1],
+                    body.mesh->structured()->dimension() == 3 ? cut.counts[2] : 1};
+}
+
+/// How many subdomains share crosspoints, where the scene leaves it open.
+void chooseClusters(int numRanks, std::vector<BodyLayout>& bodies, std::vector<scene::Decomposition>& cuts) {
+  GlobalOrdinal number = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (const auto grid = gridOf(bodies[b], cuts[b]))
+      number += GlobalOrdinal{1} * (*grid)[0] * (*grid)[1] * (*grid)[2];
+    else
+      number += bodies[b].partition ? bodies[b].partition->numParts() : cuts[b].parts;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (cuts[b].cluster < 0) {
+      const auto grid = gridOf(bodies[b], cuts[b]);
+      cuts[b].cluster = grid ? clusterSizeFor(*bodies[b].mesh->structured(), *grid, number, numRanks) : 0;
+    }
+    bodies[b].cluster = cuts[b].cluster;
+  }
 }
 
 void requireCut(const scene::Body& body, const scene::Decomposition& cut, const fem::Mesh& mesh) {
@@ -205,13 +233,16 @@ std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
   partitions.resize(meshes.size());
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes.size(); ++b) {
-      bodies.push_back({scene.bodies[b].name, std::move(meshes[b]), std::move(partitions[b]), 0});
-      cuts.emplace_back();
+      bodies.push_back({.name = scene.bodies[b].name,
+                        .mesh = std::move(meshes[b]),
+                        .partition = std::move(partitions[b])});
+      cuts.push_back(scene.bodies[b].decomposition);
       if (bodies.back().partition)
         continue;
       cuts.back() = cutOf(scene.bodies[b], *bodies.back().mesh);
       requireCut(scene.bodies[b], cuts.back(), *bodies.back().mesh);
     }
+    chooseClusters(comm.getSize(), bodies, cuts);
   });
   int firstSubdomain = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {

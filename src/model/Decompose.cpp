@@ -136,8 +136,8 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   decomposition::UnassembledProblem problem(comm, models.front()->components(),
                                             describeBodies(result.bodies, models), placesOf(models));
   std::vector<int> clusters;
-  for (const scene::Body& body : scene.bodies)
-    clusters.push_back(body.decomposition.cluster);
+  for (const BodyLayout& body : result.bodies)
+    clusters.push_back(body.cluster);
   problem.setClusterSizes(std::move(clusters));
   const Share share = shareOf(result.bodies, *comm);
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });

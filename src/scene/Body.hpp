@@ -100,7 +100,8 @@ struct Decomposition {
   Method method = Method::grid;
   std::array<int, 3> counts = {2, 2, 2}; ///< grid: subdomains in x, y and, in space, z
   int parts = 0;                         ///< metis: number of parts; 0: as many as suit
-  int cluster = 0; ///< subdomains that share crosspoints, one body's: so many; 0: all of it
+  int cluster =
+      -1; ///< subdomains that share crosspoints, one body's: so many; 0: all of it; -1: by their number
 };
 
 struct Body {

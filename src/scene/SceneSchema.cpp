@@ -212,8 +212,8 @@ ParameterList decompositionSchema() {
       list, "Cluster", cut.cluster,
       "How many subdomains of a body share crosspoints. 0: all of it (FETI-DP, one coarse problem); 1: "
       "none (FETI, a coarse space of rigid motions); else so many neighbours (hybrid), best those of a "
-      "rank.",
-      0);
+      "rank. -1: 0, but for grids of so many subdomains on so many ranks that hybrid takes less time.",
+      -1);
   return list;
 }
 

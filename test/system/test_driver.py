@@ -398,7 +398,7 @@ class RefusesWrongInput(Driver):
         (["Contact/interface", "left"], "Bodies/left/Supports/wall/Edge=right"),
         (["Grid"], "Decomposition/Grid={33,1}"),
         (["Parts"], "Decomposition/Parts=-1"),
-        (["Cluster"], "Decomposition/Cluster=-1"),
+        (["Cluster"], "Decomposition/Cluster=-2"),
         (["Method"], "Decomposition/Method=random"),
         (["Maximum Multiplications"], "Solver/MPRGP/Maximum Multiplications=0"),
         (["Tolerance"], "Solver/Tolerance=0"),
