@@ -124,7 +124,7 @@ Status ActiveSets::run(Observer* observer) {
         return *status;
       }
     } while (!chooseFace(numIdle >= caution) && // where x left Ω, where multipliers are wrong
-             !isNearlySmall());
+             !isSmall(on_.gradientNorm() / safety, on_.energy()));
     ++counts_.expansion;
   }
   copy(best_, on_.x);
