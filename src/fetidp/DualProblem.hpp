@@ -26,7 +26,7 @@ struct DualSolution {
   /// ‖d̃‖ or ‖Pd‖, with Pᵀd̃ for d̃ where jumps are deflated: what residuals are relative to; the size of its terms if it
   /// vanishes.
   double reference = 0;
-  double errorTarget = 0; ///< with an ErrorBalance: the algebraic error that was small enough; else 0
+  double errorTarget = 0;   ///< with an ErrorBalance: the algebraic error that was small enough; else 0
   bool isEstimated = false; ///< the last answer of ErrorBalance::estimate was for this λ
   double equilibrium = 0;   ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes
   qp::SolveReport report;
