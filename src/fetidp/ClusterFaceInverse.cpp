@@ -44,7 +44,7 @@ std::optional<std::vector<int>> anchorsOf(const decomposition::DecomposedProblem
 ClusterFaceInverse::ClusterFaceInverse(const NaturalCoarseSpace& space,
                                        std::shared_ptr<const KernelGram> gram, std::vector<int> anchors)
     : space_(space), gram_(std::move(gram)), anchors_(std::move(anchors)), resultant_(gram_->size()),
-      motion_(gram_->size()), work_(static_cast<Eigen::Index>(anchors_.size())) {}
+      permuted_(gram_->size()), motion_(gram_->size()), work_(static_cast<Eigen::Index>(anchors_.size())) {}
 
 void ClusterFaceInverse::setFace(const Vector& face) {
   KernelGram::Matrix matrix = gram_->onFace(face);
@@ -77,7 +77,10 @@ void ClusterFaceInverse::solveAtAnchors(double delta) {
 
 void ClusterFaceInverse::apply(std::span<const double> b, std::span<double> mu) const {
   space_.resultantOf(b, resultant_);
-  motion_ = factor_.solve(resultant_);
+  permuted_.noalias() = factor_.permutationP() * resultant_;
+  factor_.matrixL().solveInPlace(permuted_);
+  factor_.matrixU().solveInPlace(permuted_);
+  motion_.noalias() = factor_.permutationPinv() * permuted_; // N_δ⁻¹ b without any allocation
   if (!anchors_.empty()) {
     work_.noalias() = atAnchors_ * motion_(anchors_);
     motion_.noalias() += response_ * work_;

@@ -44,7 +44,7 @@ private:
   bool hasPattern_ = false;
   Eigen::MatrixXd atAnchors_; ///< (I − δEᵀN_δ⁻¹E)⁺
   Eigen::MatrixXd response_;  ///< δN_δ⁻¹E
-  mutable Eigen::VectorXd resultant_, motion_, work_;
+  mutable Eigen::VectorXd resultant_, permuted_, motion_, work_;
 };
 
 } // namespace epafi::fetidp
