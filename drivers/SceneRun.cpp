@@ -54,8 +54,9 @@ void SceneRun::correctQuantity(double effectivity, double bar) {
 
 namespace {
 
-/// The solution on a coarser mesh as λ of a run that is set up; null if that has no use for it. Collective.
-RCP<Vector> startFrom(const SceneRun& coarser, const SceneRun& run) {
+/// The solution on a coarser mesh as λ of a run that is set up; null if that has no use for it. What goes wrong is no matter: there
+/// are other starts. Collective.
+RCP<Vector> startFrom(const SceneRun& coarser, const SceneRun& run) try {
   const RCP<Vector> start =
       run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
                                                   *run.decomposition, accuracy::NodesOf::interfaces));
@@ -63,6 +64,8 @@ RCP<Vector> startFrom(const SceneRun& coarser, const SceneRun& run) {
     accuracy::transferContact(*coarser.decomposition, *coarser.solution.multiplier, *run.decomposition,
                               *start);
   return start;
+} catch (const Error&) { // on all ranks
+  return Teuchos::null;
 }
 
 /// Passes on the wish to stop, and nothing else.
@@ -181,9 +184,12 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   std::optional<accuracy::ErrorEstimator> estimator;
   if (estimatesError || run.solver->isBalanced())
     estimator.emplace(run.scene, *run.decomposition);
+  const double began = Teuchos::Time::wallTime();
   if (const SceneRun* const coarser = coarse ? &*coarse : options.coarser;
       coarser != nullptr && start.is_null())
     start = startFrom(*coarser, run);
+  if (run.start)
+    run.start->seconds += maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
   coarse.reset();
   const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
   run.solution =
