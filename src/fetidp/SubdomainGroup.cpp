@@ -197,8 +197,10 @@ void SubdomainGroup::eliminate(const std::vector<Eigen::MatrixXd>& b, std::span<
                                Workspace& work) const {
   const decomposition::Subdomain& like = (*subdomains_)[members_.front()];
   work.crosspointForces.resize(condensed_->numCrosspoints(), numMembers() * b[members_.front()].cols());
+  if (condensed_->numCrosspoints() == 0)
+    return;
   const Eigen::MatrixXd& response = condensed_->crosspointResponse(); // Ψ
-  const bool isKept = response.rows() == condensed_->numRemainders(); // or of no crosspoints
+  const bool isKept = response.size() > 0;
   for (Eigen::Index first = 0; first < work.crosspointForces.cols(); first += batch) {
     const Eigen::Index columns = prepareBatch(work.crosspointForces.cols() - first, work);
     for (Eigen::Index j = 0; j < columns; ++j)
