@@ -160,7 +160,8 @@ double allowedViolation(double tolerance) {
 } // namespace
 
 /// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the tolerance is met
-/// long before the constraints are. Goes on from there until they hold as well, or until round-off ends it.
+/// long before the constraints are. Goes on from there until they hold as well, or until round-off ends it; then closed contacts are
+/// closed in the displacements.
 void ContactSolver::tighten(fetidp::DualSolution dual, qp::Observer* observer,
                             fetidp::ContactSolution& solution) {
   const double allowed = allowedViolation(dualParameters_.tolerance);
@@ -175,6 +176,10 @@ void ContactSolver::tighten(fetidp::DualSolution dual, qp::Observer* observer,
     const fetidp::ContactSolution better = fetidp::recover(*dual_, dual);
     if (better.feasibility < violated)
       solution = better;
+  }
+  if (report_.status == qp::Status::converged && solution.feasibility > allowed) {
+    dual.lambda = solution.multiplier; // the best
+    solution = fetidp::recover(*dual_, dual, true);
   }
 }
 

@@ -39,7 +39,7 @@ bool studyScaling(const std::filesystem::path& directory, bool quick, const RCP<
 
 /// The hard cases of cases/stability.cases, each with its expected outcome: stability.csv and stability.md. Cases run on rank 0
 /// alone while the others sleep, but those that ask for a number of ranks: such run if there are as many. False if an outcome
-/// is neither as expected nor known to be otherwise.
+/// is not as expected.
 bool studyStability(const std::filesystem::path& directory, bool quick, const RCP<const Comm>& comm);
 
 /// Products with F and condition numbers where the stiffness jumps by up to 10⁶ (quick: 1 and 10⁶ on fewer subdomains), along the

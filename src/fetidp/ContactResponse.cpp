@@ -138,27 +138,38 @@ RCP<Vector> multiplierOf(const DualProblem& dual, Face& face, const DataChange& 
 
 } // namespace
 
-ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
-                                double tolerance) {
+UnknownsResponse unknownsResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
+                                  double tolerance) {
   const DecomposedProblem& problem = dual.problem();
   Face face(dual, closed);
-  ContactResponse response;
+  UnknownsResponse response;
   response.report.status = qp::Status::converged;
   response.multiplier = dual.algorithm() == Algorithm::direct
                             ? rcp(new Vector(problem.multiplierMap))
                             : multiplierOf(dual, face, change, tolerance, response.report);
   Jumps jumps(dual, change, response.multiplier.get());
+  response.unknowns = std::move(jumps.u);
+  if (problem.kernelDimension == 0)
+    return response;
   jumps.values->scale(-1.0); // ċ − Bu̇, what is left for rigid motions
-  const Eigen::VectorXd alpha =
-      problem.kernelDimension > 0 ? face.motionOf(*jumps.values) : Eigen::VectorXd();
+  const Eigen::VectorXd alpha = face.motionOf(*jumps.values);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const decomposition::Subdomain& subdomain = problem.subdomains[s];
-    const int offset = problem.kernelOffsetOf(subdomain);
     if (subdomain.kernel.cols() > 0)
-      jumps.u[s] += subdomain.kernel * alpha.segment(offset, subdomain.kernel.cols());
-    response.displacement.push_back(decomposition::atAllPositions(
-        subdomain, jumps.u[s], Eigen::VectorXd::Zero(subdomain.prescribed.size())));
+      response.unknowns[s] +=
+          subdomain.kernel * alpha.segment(problem.kernelOffsetOf(subdomain), subdomain.kernel.cols());
   }
+  return response;
+}
+
+ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
+                                double tolerance) {
+  UnknownsResponse found = unknownsResponse(dual, closed, change, tolerance);
+  ContactResponse response{{}, std::move(found.multiplier), std::move(found.report)};
+  const auto& subdomains = dual.problem().subdomains;
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    response.displacement.push_back(decomposition::atAllPositions(
+        subdomains[s], found.unknowns[s], Eigen::VectorXd::Zero(subdomains[s].prescribed.size())));
   return response;
 }
 

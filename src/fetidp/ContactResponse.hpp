@@ -31,11 +31,20 @@ struct ContactResponse {
   qp::SolveReport report;
 };
 
+/// The same in the subdomains' unknowns.
+struct UnknownsResponse {
+  SubdomainVectors unknowns; ///< u̇ of each of this rank's subdomains, n_s × 1, rigid motions too
+  RCP<Vector> multiplier;    ///< λ̇
+  qp::SolveReport report;
+};
+
 /// CG on P F_aa P, P = I − G_aᵀG_a, with M restricted to a: equilibrium is held exactly, no outer iteration. Rigid motions that
 /// closed contacts leave free are left out of u̇.
 /// \param closed     1 in the closed rows of contact, 0 in the open ones (ContactSolution::active)
 /// \param tolerance  on ‖residual‖ relative to ‖P d̃‖
 /// Collective. \throws Error, the same on all ranks, if ḟ has a resultant that the closed contacts cannot take.
+UnknownsResponse unknownsResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
+                                  double tolerance);
 ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
                                 double tolerance);
 

@@ -2,6 +2,7 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
 
 #include <Tpetra_Map.hpp>
@@ -37,6 +38,11 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   return energy.value();
 }
 
+/// λ − (c − Bu)/‖F‖ > 0
+bool isClosed(double operatorNorm, double force, double slack) {
+  return operatorNorm * force > slack;
+}
+
 /// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
 /// problem.
 void assess(const DecomposedProblem& problem, const DualSolution& dual, double operatorNorm,
@@ -57,7 +63,7 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
       continue;
     sums[1].add(force[i] * slack[i]);
     sums[2].add(force[i]);
-    active[i] = operatorNorm * force[i] > slack[i] ? 1.0 : 0.0; // λ − (c − Bu)/‖F‖ > 0
+    active[i] = isClosed(operatorNorm, force[i], slack[i]) ? 1.0 : 0.0;
     sums[3].add(active[i]);
   }
   const Comm& comm = *problem.comm;
@@ -86,6 +92,35 @@ SubdomainVectors unknownsOf(const DecomposedProblem& problem, const GeneralizedI
   return u;
 }
 
+/// Adds to u, λ and the energy what follows where the closed rows move by what they lack, so that Bu = c there. Collective.
+void settle(const DualProblem& dual, SubdomainVectors& u, ContactSolution& solution) {
+  constexpr double tolerance = 1e-8; // of what is round-off already
+  const DecomposedProblem& problem = dual.problem();
+  DataChange change;
+  for (const auto& subdomain : problem.subdomains)
+    change.load.push_back(Eigen::VectorXd::Zero(subdomain.load.size()));
+  Vector closed(problem.multiplierMap);
+  const RCP<Vector> lacking = rcp(new Vector(*solution.slack, Teuchos::Copy)); // ċ
+  {
+    const auto isHeld = closed.getDataNonConst(), gap = lacking->getDataNonConst();
+    const auto force = solution.multiplier->getData();
+    for (LocalOrdinal i = 0; i < gap.size(); ++i) {
+      const bool isContact =
+          problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact;
+      isHeld[i] = !isContact || isClosed(dual.norm().norm, force[i], gap[i]) ? 1.0 : 0.0;
+      gap[i] *= isHeld[i];
+    }
+  }
+  change.gap = lacking;
+  const UnknownsResponse response = unknownsResponse(dual, closed, change, tolerance);
+  solution.energy -=
+      accurateDot(*lacking, *solution.multiplier) + 0.5 * accurateDot(*lacking, *response.multiplier);
+  solution.multiplier->update(1.0, *response.multiplier, 1.0);
+  for (std::size_t s = 0; s < u.size(); ++s)
+    u[s] += response.unknowns[s];
+  slackOf(problem, dual.inverse(), u, *solution.slack);
+}
+
 } // namespace
 
 std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda) {
@@ -98,7 +133,7 @@ std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vecto
   return displacement;
 }
 
-ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
+ContactSolution recover(const DualProblem& dual, const DualSolution& found, bool settles) {
   const DecomposedProblem& problem = dual.problem();
   const GeneralizedInverse& inverse = dual.inverse();
   ContactSolution solution;
@@ -121,6 +156,8 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
     }
     slackOf(problem, inverse, u, *solution.slack);
   }
+  if (settles)
+    settle(dual, u, solution);
 
   double largest = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {

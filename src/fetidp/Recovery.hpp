@@ -13,8 +13,11 @@ namespace epafi::fetidp {
 std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda);
 
 /// \param found  λ of `dual` and its reference
+/// \param settles  whether what round-off leaves open of closed contacts and gluing is closed by a response of its own
+///        (ContactResponse.hpp). The last digit of λ moves a body that hardly anything holds by far more than its own last digit:
+///        u = K̄⁺(f̄ − B̄ᵀλ) has then fewer digits than the sum of what comes first and of what follows.
 /// \throws SolvabilityError if floating bodies may come to rest in more than one place (see RigidMotion.hpp).
 /// Collective.
-ContactSolution recover(const DualProblem& dual, const DualSolution& found);
+ContactSolution recover(const DualProblem& dual, const DualSolution& found, bool settles = false);
 
 } // namespace epafi::fetidp

@@ -1,6 +1,7 @@
 #include "Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/Recovery.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -139,6 +140,46 @@ TEST(RecoveryTest, EnergyIsThatOfTheSolution) {
     }
     energy = sumOverRanks(*world(), energy);
     EXPECT_NEAR(solved.solution.energy, energy, 1e-13 * std::abs(energy));
+  }
+}
+
+TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
+  for (const ContactCase& c : contactCases()) {
+    SCOPED_TRACE(c.name);
+    const Solved solved(c.scene, 1e-3); // loose: something is open
+    DualSolution found;
+    found.lambda = solved.solution.multiplier;
+    found.report.status = qp::Status::converged;
+    const DecomposedProblem& problem = solved.decomposition.problem;
+    const ContactSolution settled = recover(solved.solver.dualProblem(), found, true);
+    const Eigen::VectorXd closed = gathered(*solved.solution.active),
+                          before = gathered(*solved.solution.slack), after = gathered(*settled.slack);
+    double open = 0, left = 0;
+    for (Eigen::Index row = 0; row < closed.size(); ++row)
+      if (row >= problem.numInequalities || closed[row] > 0) {
+        open = std::max(open, std::abs(before[row]));
+        left = std::max(left, std::abs(after[row]));
+      } else {
+        EXPECT_EQ(gathered(*settled.multiplier)[row], gathered(*found.lambda)[row]) << row;
+      }
+    EXPECT_GT(open, 0);
+    EXPECT_LE(left, 1e-6 * open + 1e-15);
+
+    const DenseProblem dense = densify(problem);
+    SubdomainVectors u;
+    double energy = 0;
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+      const auto& subdomain = problem.subdomains[s];
+      u.push_back(decomposition::unknownsOf(subdomain, settled.displacement[s]));
+      energy += 0.5 * u[s].col(0).dot(*subdomain.stiffness * u[s].col(0)) - subdomain.load.dot(u[s].col(0));
+    }
+    energy = sumOverRanks(*world(), energy);
+    const Eigen::VectorXd merged = mergeValues(problem, u), lambda = gathered(*settled.multiplier);
+    const Eigen::VectorXd imbalance =
+        dense.stiffness * merged + dense.constraint.transpose() * lambda - dense.load;
+    EXPECT_LE(imbalance.norm(),
+              (c.coercive ? 1e-11 : 1e-3) * dense.load.norm()); // Gλ = e is as loose as the solution
+    EXPECT_NEAR(settled.energy, energy, (c.coercive ? 1e-12 : 1e-6) * std::abs(energy));
   }
 }
 

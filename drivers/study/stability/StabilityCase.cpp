@@ -37,7 +37,6 @@ StabilityCase trialOf(Case&& one) {
   trial.value = one.value;
   trial.variant = one.list.get("Variant", trial.variant);
   trial.ranks = static_cast<int>(one.list.get("Ranks", 0.0));
-  trial.remains = one.list.get("Known", "");
   trial.run = [one = std::move(one)](const RCP<const Comm>& comm) {
     return one.list.isSublist("Program") ? runProgram(one.list, comm) : runContact(one, comm);
   };

@@ -59,7 +59,6 @@ struct StabilityCase {
   double value = unknown;                                     ///< how hard, as a number where there is one
   std::string variant = "default";                            ///< "plain": without preconditioner
   int ranks = 0;                                              ///< how many it takes; 0: as many as there are
-  std::string remains = {}; ///< why it is known to end otherwise than expected; empty if it is not
 };
 
 /// Those of a family, or all if it is empty. Quick ones are small enough for tests.
