@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <thread>
@@ -60,6 +61,18 @@ void endForAll(MPI_Comm messages, int rank, int size, const Failure& failure) {
   MPI_Abort(MPI_COMM_WORLD, failure.code);
 }
 
+/// A process that nobody launched beside others needs no daemon of Open MPI, no search for fast networks and no X server, which take
+/// ten times as long as the rest of the start. What the user has set stays.
+void startLean() {
+  for (const char* ofLaunchers :
+       {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "SLURM_PROCID", "MPI_LOCALRANKID"})
+    if (std::getenv(ofLaunchers) != nullptr)
+      return;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_pml", "ob1", 0);
+  setenv("HWLOC_COMPONENTS", "-gl", 0);
+}
+
 int endAfter(const Failure& failure, const Comm& comm, MPI_Comm messages, double patience) {
   const int rank = comm.getRank(), size = comm.getSize();
   int code = failure.code;
@@ -104,6 +117,7 @@ int endTogether(const Comm& comm, const std::function<int()>& work, double patie
 int runMain(int argc, char** argv, const std::string& program,
             const std::function<int(const RCP<const Comm>&)>& work) {
   keepFreedMemory();
+  startLean();
   int programNameOnly = std::min(argc, 1); // Kokkos would answer --help itself
   const Tpetra::ScopeGuard scope = [&] {
     const HeldSignal held(SIGTERM); // from the threads that MPI starts: METIS must be able to hold it
