@@ -11,6 +11,7 @@ namespace epafi::qp {
 namespace {
 
 constexpr int maxRounds = 20;
+constexpr int maxWorseRounds = 6; ///< in a row, until a prediction is taken for one that cycles
 constexpr int maxFaceSteps = 30;  ///< of CG in a face
 constexpr double reduction = 0.1; ///< of the gradient in a face
 /// Multipliers as wrong as this share of the worst one come off their bounds.
@@ -38,7 +39,7 @@ bool ActiveSetPrediction::improve(Iterate& iterate, double limit, bool leavesFac
   copy(iterate.x, walker_.x);
   copy(iterate.g, walker_.g);
   double best = limit, target = 0;
-  for (int round = 0; round < maxRounds; ++round) {
+  for (int round = 0, bestRound = 0; round < maxRounds && round - bestRound <= maxWorseRounds; ++round) {
     set_.freeIndicator(walker_.x, face_);
     if (round > 0) // only the worst of these: most others only follow what the projection did
       takeBoundsOff(negligible, wrongShare);
@@ -56,6 +57,7 @@ bool ActiveSetPrediction::improve(Iterate& iterate, double limit, bool leavesFac
     objective_.gradient(work.image, walker_.g);
     if (trial.objective < best) {
       best = trial.objective;
+      bestRound = round;
       copy(walker_.x, iterate.x);
       copy(walker_.g, iterate.g);
     }

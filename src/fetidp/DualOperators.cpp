@@ -78,10 +78,13 @@ bool hasAverages(const DecomposedProblem& problem) {
 
 /// With a preconditioner, what the parameters leave open. Collective.
 qp::MprgpParameters preconditionedMprgp(const DecomposedProblem& problem, bool isCorrected,
-                                        qp::MprgpParameters mprgp) {
+                                        const DualParameters& parameters) {
+  qp::MprgpParameters mprgp = parameters.mprgp;
   if (mprgp.sufficientShare == 0)
     mprgp.sufficientShare = 0.25; // most expansions would fix one multiplier or two
-  const bool solvesFacesInFewSteps = problem.kernelDimension > 0 || (hasAverages(problem) && !isCorrected);
+  // A large penalty makes gradients across Ker G large, and beside these all of a face looks proportional.
+  const bool solvesFacesInFewSteps =
+      problem.kernelDimension > 0 ? parameters.smalbe.penalty <= 1 : hasAverages(problem) && !isCorrected;
   if (mprgp.proportioningConstant == 0 && solvesFacesInFewSteps)
     mprgp.proportioningConstant = 0.1; // steps in a wrong face are lost
   return mprgp;
@@ -159,7 +162,7 @@ DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algo
     operators.norm = qp::estimateNorm(*operators.hessian, parameters.norm);
   if (parameters.preconditioner.type != PreconditionerParameters::Type::none) {
     addPreconditioner(problem, inverse, parameters, operators);
-    operators.mprgp = preconditionedMprgp(problem, !operators.corrected.is_null(), parameters.mprgp);
+    operators.mprgp = preconditionedMprgp(problem, !operators.corrected.is_null(), parameters);
   }
   return operators;
 }
