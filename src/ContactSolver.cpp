@@ -179,7 +179,9 @@ void ContactSolver::tighten(fetidp::DualSolution dual, qp::Observer* observer,
   }
   if (report_.status == qp::Status::converged && solution.feasibility > allowed) {
     dual.lambda = solution.multiplier; // the best
-    solution = fetidp::recover(*dual_, dual, true);
+    const fetidp::ContactSolution settled = fetidp::recover(*dual_, dual, true);
+    if (settled.feasibility < solution.feasibility)
+      solution = settled;
   }
 }
 

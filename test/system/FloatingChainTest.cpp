@@ -91,7 +91,7 @@ TEST(FloatingChainTest, FlatElementsEndWithAnHonestStatus) {
   if (run.solver->report().status == qp::Status::converged) {
     EXPECT_LE(run.solution.relativeProjectedGradient, 2e-10);
   } else {
-    EXPECT_GT(run.solution.relativeProjectedGradient, 1e-10);
+    EXPECT_TRUE(run.solution.relativeProjectedGradient > 1e-10 || run.solution.feasibility > 1e-7);
   }
 }
 
