@@ -4,10 +4,11 @@
 #include "epafi/fem/MeshArrays.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cstddef>
 #include <iterator>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 namespace epafi::fem {
 namespace {
@@ -59,96 +60,63 @@ void visit(Arrays& a, const Pass& pass) {
   pass(a.groups);
 }
 
-class Packer {
+/// Passes values on in pieces: packs them where these are constant, else fills them.
+template <class Raw>
+class Packing {
 public:
-  explicit Packer(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  /// \param raw  takes bytes from a place, or puts them there: raw(place, number)
+  explicit Packing(Raw raw) : raw_(std::move(raw)) {}
   template <class Value>
-  requires std::is_trivially_copyable_v<Value>
-  void operator()(const Value& value) const { append(&value, sizeof(Value)); }
-  template <class Value>
-  void operator()(const std::vector<Value>& values) const {
-    (*this)(values.size());
-    if constexpr (std::is_trivially_copyable_v<Value>)
-      append(values.data(), values.size() * sizeof(Value));
-    else
-      for (const Value& value : values)
-        (*this)(value);
-  }
-  void operator()(const std::string& text) const { (*this)(std::vector<char>(text.begin(), text.end())); }
-  void operator()(const Surface& surface) const {
-    (*this)(surface.facetType);
-    (*this)(surface.facetNodes);
-    (*this)(surface.elements);
-  }
-  template <class Value>
-  void operator()(const std::pair<std::string, Value>& entry) const {
-    (*this)(entry.first);
-    (*this)(entry.second);
+  void operator()(Value& value) const {
+    if constexpr (std::is_trivially_copyable_v<Value>) {
+      raw_(&value, sizeof(Value));
+    } else if constexpr (requires { value.facetNodes; }) {
+      (*this)(value.facetType);
+      (*this)(value.facetNodes);
+      (*this)(value.elements);
+    } else if constexpr (requires { value.first; }) {
+      (*this)(value.first);
+      (*this)(value.second);
+    } else {
+      list(value);
+    }
   }
 
 private:
-  void append(const void* values, std::size_t size) const {
-    const std::size_t before = bytes_.size();
-    bytes_.resize(before + size);
-    if (size > 0)
-      std::memcpy(bytes_.data() + before, values, size);
-  }
-  std::vector<std::byte>& bytes_;
-};
-
-class Unpacker {
-public:
-  explicit Unpacker(const std::vector<std::byte>& bytes) : next_(bytes.data()) {}
-  template <class Value>
-  requires std::is_trivially_copyable_v<Value>
-  void operator()(Value& value) const { take(&value, sizeof(Value)); }
-  template <class Value>
-  void operator()(std::vector<Value>& values) const {
-    std::size_t size = 0;
-    (*this)(size);
-    values.resize(size);
-    if constexpr (std::is_trivially_copyable_v<Value>)
-      take(values.data(), size * sizeof(Value));
+  template <class List>
+  void list(List& values) const {
+    std::size_t size = values.size();
+    raw_(&size, sizeof(size));
+    if constexpr (!std::is_const_v<List>)
+      values.resize(size);
+    if constexpr (std::is_trivially_copyable_v<typename List::value_type>)
+      raw_(values.data(), size * sizeof(typename List::value_type));
     else
-      for (Value& value : values)
+      for (auto& value : values)
         (*this)(value);
   }
-  void operator()(std::string& text) const {
-    std::vector<char> letters;
-    (*this)(letters);
-    text.assign(letters.begin(), letters.end());
-  }
-  void operator()(Surface& surface) const {
-    (*this)(surface.facetType);
-    (*this)(surface.facetNodes);
-    (*this)(surface.elements);
-  }
-  template <class Value>
-  void operator()(std::pair<std::string, Value>& entry) const {
-    (*this)(entry.first);
-    (*this)(entry.second);
-  }
-
-private:
-  void take(void* place, std::size_t size) const {
-    if (size > 0)
-      std::memcpy(place, next_, size);
-    next_ += size;
-  }
-  mutable const std::byte* next_;
+  Raw raw_;
 };
 
 } // namespace
 
 std::vector<std::byte> PartArrays::packed() const {
   std::vector<std::byte> bytes;
-  visit(*this, Packer(bytes));
+  visit(*this, Packing([&](const void* from, std::size_t size) {
+    const auto* first = static_cast<const std::byte*>(from);
+    bytes.insert(bytes.end(), first, first + size);
+  }));
   return bytes;
 }
 
 PartArrays PartArrays::unpacked(const std::vector<std::byte>& bytes) {
   PartArrays arrays;
-  visit(arrays, Unpacker(bytes));
+  auto next = bytes.begin();
+  visit(arrays, Packing([&](void* to, std::size_t size) {
+          const auto end = next + static_cast<std::ptrdiff_t>(size);
+          std::copy(next, end, static_cast<std::byte*>(to));
+          next = end;
+        }));
   return arrays;
 }
 

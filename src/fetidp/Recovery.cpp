@@ -98,7 +98,7 @@ void settle(const DualProblem& dual, SubdomainVectors& u, ContactSolution& solut
   const DecomposedProblem& problem = dual.problem();
   DataChange change;
   for (const auto& subdomain : problem.subdomains)
-    change.load.push_back(Eigen::VectorXd::Zero(subdomain.load.size()));
+    change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
   Vector closed(problem.multiplierMap);
   const RCP<Vector> lacking = rcp(new Vector(*solution.slack, Teuchos::Copy)); // ċ
   {
@@ -116,6 +116,10 @@ void settle(const DualProblem& dual, SubdomainVectors& u, ContactSolution& solut
   solution.energy -=
       accurateDot(*lacking, *solution.multiplier) + 0.5 * accurateDot(*lacking, *response.multiplier);
   solution.multiplier->update(1.0, *response.multiplier, 1.0);
+  const auto force = solution.multiplier->getDataNonConst();
+  for (LocalOrdinal i = 0; i < force.size(); ++i)
+    if (problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact)
+      force[i] = std::max(force[i], 0.0); // in the last digit
   for (std::size_t s = 0; s < u.size(); ++s)
     u[s] += response.unknowns[s];
   slackOf(problem, dual.inverse(), u, *solution.slack);

@@ -170,7 +170,7 @@ TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
     double energy = 0;
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
       const auto& subdomain = problem.subdomains[s];
-      u.push_back(decomposition::unknownsOf(subdomain, settled.displacement[s]));
+      u.emplace_back(decomposition::unknownsOf(subdomain, settled.displacement[s]));
       energy += 0.5 * u[s].col(0).dot(*subdomain.stiffness * u[s].col(0)) - subdomain.load.dot(u[s].col(0));
     }
     energy = sumOverRanks(*world(), energy);

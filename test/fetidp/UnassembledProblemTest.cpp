@@ -1,7 +1,6 @@
 #include "../base/Refusal.hpp"
-#include "../decomposition/HandedOver.hpp"
 #include "../system/SolidScenes.hpp"
-#include "Reference.hpp"
+#include "Twice.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
@@ -26,91 +25,6 @@ namespace {
 using namespace decomposition;
 using test::expectSays;
 using test::refusal;
-
-/// Two blocks in the plane or in space: one stands in a corner, the other slides on the floor, along the wall, and is
-/// pressed against the first by its weight, which pulls it aside.
-scene::Scene twoBlocks(int dimension, const scene::Decomposition& cut) {
-  scene::Scene scene;
-  const int n = 4, depth = dimension == 3 ? n : 0;
-  scene.bodies = {test::block("held", {{0, 0, 0}, {1, 1, 1}}, {n, n, depth}, cut),
-                  test::block("floating", {{1, 0, 0}, {2, 1, 1}}, {n, n, depth}, cut)};
-  for (scene::Body& body : scene.bodies) {
-    body.supports.push_back(test::slide("bottom"));
-    if (dimension == 3)
-      body.supports.push_back(test::slide("front", 0.01));
-  }
-  scene.bodies[0].supports.push_back(test::slide("left"));
-  scene.bodies[1].loads.push_back(test::weight({-1, -2, 0}));
-  scene.contacts.push_back(test::between("joint", 0, "right", 1, "left"));
-  return scene;
-}
-
-std::vector<Case> contactCases() {
-  std::vector<Case> cases;
-  for (const bool coercive : {true, false}) {
-    const std::string kind = coercive ? "coercive " : "semicoercive ";
-    cases.push_back({kind + "grid", twoMembranes(coercive, 8, grid(2, 2))});
-    cases.push_back({kind + "strips", twoMembranes(coercive, 7, grid(3, 1))});
-    cases.push_back({kind + "whole bodies", twoMembranes(coercive, 4, grid(1, 1))});
-    cases.push_back({kind + "parts of METIS", twoMembranes(coercive, 9, metis(7))});
-  }
-  for (Case& c : cases) {
-    setHalves(c.scene.bodies[0], 4.0, -5.0);
-    setHalves(c.scene.bodies[1], -3.0, 2.0);
-  }
-  cases.push_back({"blocks in the plane, grid", twoBlocks(2, test::cutInGrid({2, 2, 1}))});
-  cases.push_back({"blocks in the plane, parts of METIS", twoBlocks(2, test::cutByMetis(3))});
-  cases.push_back({"blocks in space, grid", twoBlocks(3, test::cutInGrid({2, 2, 2}))});
-  cases.push_back({"blocks in space, parts of METIS", twoBlocks(3, test::cutByMetis(5))});
-  return cases;
-}
-
-/// A scene, solved as it is and as an application's problem.
-struct Twice {
-  Twice(const scene::Scene& scene, Supports supports)
-      : Twice(scene, supports, [&](Twice& twice) {
-          twice.handed->setContact(contactOf(scene, twice.direct.decomposition, supports));
-        }) {}
-  /// \param couple  enters what the bodies have to do with each other
-  template <class Couple>
-  Twice(const scene::Scene& scene, Supports supports, const Couple& couple)
-      : direct(scene, 1e-12), handed(handOver(scene, matricesOf(scene, supports))) {
-    couple(*this);
-    handed->complete();
-    solver = std::make_unique<ContactSolver>(toleranceOf(1e-12));
-    solver->setup(handed->problem());
-    solution = solver->solve();
-  }
-  /// Largest difference of the displacements, relative to the largest displacement. Collective.
-  [[nodiscard]] double difference() const {
-    double largest = 0, difference = 0;
-    const DecomposedProblem& problem = direct.decomposition.problem;
-    const std::vector<GlobalOrdinal> first = firstNodes(direct.decomposition);
-    for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
-      const Subdomain& subdomain = problem.subdomains[s];
-      const Eigen::VectorXd& u = direct.solution.displacement[s];
-      const std::vector<GlobalOrdinal> global = handed->globalUnknowns(s);
-      for (std::size_t position = 0; position < global.size(); ++position) {
-        if (global[position] < 0)
-          continue;
-        const GlobalOrdinal node =
-            global[position] / problem.components - first[static_cast<std::size_t>(subdomain.body)];
-        const auto place = std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), node);
-        const double expected =
-            u[(place - subdomain.nodes.begin()) * problem.components + global[position] % problem.components];
-        largest = std::max(largest, std::abs(expected));
-        difference = std::max(
-            difference, std::abs(expected - solution.displacement[s][static_cast<Eigen::Index>(position)]));
-      }
-    }
-    return maxOverRanks(*world(), difference) / maxOverRanks(*world(), largest);
-  }
-
-  Solved direct;
-  std::unique_ptr<UnassembledProblem> handed;
-  std::unique_ptr<ContactSolver> solver;
-  ContactSolution solution;
-};
 
 TEST(UnassembledProblemTest, ClustersMayBeAskedForOfSomeBodies) {
   for (const std::vector<int>& sizes : {std::vector{1, 1}, {0, 1}, {2, 0}}) {
@@ -141,7 +55,7 @@ TEST(UnassembledProblemTest, ClustersMayBeAskedForOfSomeBodies) {
 }
 
 TEST(UnassembledProblemTest, AHandedOverSceneHasTheSameAnswer) {
-  for (const Case& c : contactCases())
+  for (const Case& c : handedCases())
     for (const Supports supports : {Supports::eliminated, Supports::prescribed}) {
       SCOPED_TRACE(c.name + (supports == Supports::prescribed ? ", prescribed" : ", eliminated"));
       const Twice twice(c.scene, supports);
@@ -189,135 +103,6 @@ TEST(UnassembledProblemTest, SurfacesMeshedApartAreCoupledAsInAScene) {
       EXPECT_LE(twice.difference(), 1e-10) << dimension;
       EXPECT_EQ(twice.solution.activeContactNodes, twice.direct.solution.activeContactNodes);
     }
-}
-
-/// The solution that a solver made anew finds of the problem as it is.
-ContactSolution solvedAnew(const UnassembledProblem& handed) {
-  ContactSolver solver(toleranceOf(1e-12));
-  solver.setup(handed.problem());
-  return solver.solve();
-}
-
-void expectEqualFields(const UnassembledProblem& handed, const ContactSolution& a, const ContactSolution& b) {
-  const RCP<Vector> u = handed.unknowns(a.displacement), v = handed.unknowns(b.displacement);
-  const double size = v->normInf();
-  u->update(-1.0, *v, 1.0);
-  EXPECT_LE(u->normInf(), 1e-10 * size);
-  EXPECT_GT(size, 0);
-}
-
-/// Every second row of a contact matrix, numbered anew, with as much gap again. Collective.
-ContactMatrix everySecondRow(const ContactMatrix& contact) {
-  const CrsMatrix& all = *contact.rows;
-  const auto number = static_cast<GlobalOrdinal>(all.getGlobalNumRows() + 1) / 2;
-  std::vector<GlobalOrdinal> mine;
-  for (GlobalOrdinal row = 0; row < number; ++row)
-    if (all.getRowMap()->isNodeGlobalElement(2 * row))
-      mine.push_back(row);
-  const RCP<const Map> rows = rcp(
-      new Map(static_cast<Tpetra::global_size_t>(number), Teuchos::arrayViewFromVector(mine), 0, world()));
-  const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(rows, 8));
-  const RCP<Vector> gap = rcp(new Vector(rows));
-  for (const GlobalOrdinal row : mine) {
-    const LocalOrdinal old = all.getRowMap()->getLocalElement(2 * row);
-    CrsMatrix::local_inds_host_view_type columns;
-    CrsMatrix::values_host_view_type values;
-    all.getLocalRowView(old, columns, values);
-    for (std::size_t k = 0; k < columns.extent(0); ++k)
-      matrix->insertGlobalValues(row, Teuchos::tuple(all.getColMap()->getGlobalElement(columns(k))),
-                                 Teuchos::tuple(values(k)));
-    gap->replaceGlobalValue(row, 0.01 + 2 * contact.gap->getData()[old]);
-  }
-  matrix->fillComplete(all.getDomainMap(), rows);
-  return {matrix, gap};
-}
-
-TEST(UnassembledProblemTest, UpdatesGiveWhatASolverMadeAnewGives) {
-  for (const Case& c : contactCases()) {
-    SCOPED_TRACE(c.name);
-    Twice twice(c.scene, Supports::prescribed);
-    UnassembledProblem& handed = *twice.handed;
-    std::vector<SubdomainMatrix> matrices = matricesOf(c.scene, Supports::prescribed);
-    ContactMatrix contact = contactOf(c.scene, twice.direct.decomposition, Supports::prescribed);
-    const auto expectAsAnew = [&] {
-      const ContactSolution updated = twice.solver->solve();
-      expectEqualFields(handed, updated, solvedAnew(handed));
-      const auto anew = handOver(c.scene, matrices);
-      anew->setContact(contact);
-      anew->complete();
-      const ContactSolution expected = solvedAnew(*anew);
-      expectEqualFields(handed, updated, expected);
-      EXPECT_NEAR(updated.energy, expected.energy, 1e-9 * std::abs(expected.energy));
-    };
-
-    for (std::size_t s = 0; s < matrices.size(); ++s) { // loads and gaps take no update
-      matrices[s].load *= matrices[s].body == 0 ? 3.0 : 1.5;
-      handed.setLoad(s, matrices[s].load);
-    }
-    const RCP<Vector> gap = rcp(new Vector(contact.gap->getMap()));
-    for (Teuchos_Ordinal i = 0; i < gap->getData().size(); ++i)
-      gap->replaceLocalValue(
-          static_cast<LocalOrdinal>(i),
-          1e-3 * static_cast<double>(gap->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))));
-    contact.gap = gap;
-    handed.setGap(*gap);
-    expectAsAnew();
-
-    for (std::size_t s = 0; s < matrices.size(); ++s)
-      if (matrices[s].body == 0) {
-        matrices[s].stiffness *= 3.0;
-        handed.setMatrix(s, matrices[s].stiffness);
-      }
-    twice.solver->update();
-    expectAsAnew();
-
-    contact = everySecondRow(contact);
-    handed.setContact(contact);
-    twice.solver->update();
-    expectAsAnew();
-  }
-}
-
-TEST(UnassembledProblemTest, AnUpdateKeepsTheFactorsAndBlocksThatStillHold) {
-  Twice twice(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
-  UnassembledProblem& handed = *twice.handed;
-  DirectSolvers solvers;
-  solvers.shareIdentical = false;
-  auto inverse = std::make_shared<GeneralizedInverse>(handed.problem(), solvers);
-  const auto factors = [&] {
-    std::vector<const CondensedSubdomain*> result;
-    for (const SubdomainGroup& group : inverse->groups())
-      result.push_back(&group.condensed());
-    return result;
-  };
-  const auto blocks = [&] {
-    std::vector<std::shared_ptr<const direct::SymmetricBlock>> result;
-    for (const SubdomainGroup& group : inverse->groups())
-      result.push_back(group.boundaryStiffness(direct::SymmetricBlock::Precision::full));
-    return result;
-  };
-  const auto before = factors();
-  const auto blocksBefore = blocks();
-  const CoarseProblem* coarse = &inverse->coarseProblem();
-  inverse = std::make_shared<GeneralizedInverse>(handed.problem(), solvers, std::move(inverse));
-  EXPECT_EQ(factors(), before);
-  EXPECT_EQ(blocks(), blocksBefore);
-  EXPECT_EQ(&inverse->coarseProblem(), coarse);
-
-  const bool isFirst = world()->getRank() == 0;
-  if (isFirst)
-    handed.setMatrix(0,
-                     2.0 * matricesOf(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated)[0].stiffness);
-  else
-    matricesOf(twoMembranes(true, 8, grid(2, 2)), Supports::eliminated);
-  inverse = std::make_shared<GeneralizedInverse>(handed.problem(), solvers, std::move(inverse));
-  const auto after = factors();
-  const auto blocksAfter = blocks();
-  ASSERT_EQ(after.size(), before.size());
-  for (std::size_t s = 0; s < after.size(); ++s) {
-    EXPECT_EQ(after[s] == before[s], !(isFirst && s == 0)) << s;
-    EXPECT_EQ(blocksAfter[s] == blocksBefore[s], !(isFirst && s == 0)) << s;
-  }
 }
 
 /// What `complete` says of a problem whose first subdomain was changed, on whatever rank that is.
