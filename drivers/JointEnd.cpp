@@ -64,8 +64,8 @@ void endForAll(MPI_Comm messages, int rank, int size, const Failure& failure) {
 /// A process that nobody launched beside others needs no daemon of Open MPI, no search for fast networks and no X server, which take
 /// ten times as long as the rest of the start. What the user has set stays.
 void startLean() {
-  for (const char* ofLaunchers :
-       {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "SLURM_PROCID", "MPI_LOCALRANKID"})
+  for (const char* ofLaunchers : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_PORT",
+                                  "SLURM_PROCID", "MPI_LOCALRANKID", "FLUX_JOB_ID", "ALPS_APP_PE"})
     if (std::getenv(ofLaunchers) != nullptr)
       return;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -112,14 +113,14 @@ fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* 
   if (!dual_)
     throw Error("ContactSolver::solve was called before ContactSolver::setup; call setup first");
   const double solveStart = Teuchos::Time::wallTime();
-  const fetidp::DualSolution dual = dual_->solve(start, observer, {balance});
+  const fetidp::DualSolution dual = dual_->solve(start, observer, balance);
   report_ = dual.report;
   times_.solve = longest(*problem_->comm, solveStart);
 
   const double recoveryStart = Teuchos::Time::wallTime();
   fetidp::ContactSolution solution = fetidp::recover(*dual_, dual);
   if (!dualParameters_.isBalanced)
-    tighten(dual, observer, solution);
+    settle(dual, solution);
   solution.algebraicError = algebraicErrorOf(solution);
   confirm(solution, dual.errorTarget);
   times_.recovery = longest(*problem_->comm, recoveryStart);
@@ -148,9 +149,6 @@ double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) 
 
 namespace {
 
-/// Solves that may follow the first one, each to a tighter tolerance.
-constexpr int maxFurtherSolves = 4;
-
 /// What constraints may be violated by, relative to the largest displacement: 1000 tolerances, or what round-off leaves of
 /// differences of displacements in the worst of the problems that are solved well.
 double allowedViolation(double tolerance) {
@@ -160,29 +158,15 @@ double allowedViolation(double tolerance) {
 } // namespace
 
 /// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the tolerance is met
-/// long before the constraints are. Goes on from there until they hold as well, or until round-off ends it; then closed contacts are
-/// closed in the displacements.
-void ContactSolver::tighten(fetidp::DualSolution dual, qp::Observer* observer,
-                            fetidp::ContactSolution& solution) {
+/// long before the constraints are.
+void ContactSolver::settle(const fetidp::DualSolution& dual, fetidp::ContactSolution& solution) {
   const double allowed = allowedViolation(dualParameters_.tolerance);
-  double tightening = 1;
-  for (int further = 0; further < maxFurtherSolves && dual.report.status == qp::Status::converged &&
-                        solution.feasibility > allowed;
-       ++further) {
-    tightening *= std::max(1e-6, 0.01 * allowed / solution.feasibility);
-    const double violated = solution.feasibility;
-    dual = dual_->solve(dual.lambda.get(), observer, {nullptr, tightening});
-    qp::append(dual.report, report_);
-    const fetidp::ContactSolution better = fetidp::recover(*dual_, dual);
-    if (better.feasibility < violated)
-      solution = better;
-  }
-  if (report_.status == qp::Status::converged && solution.feasibility > allowed) {
-    dual.lambda = solution.multiplier; // the best
-    const fetidp::ContactSolution settled = fetidp::recover(*dual_, dual, true);
-    if (settled.feasibility < solution.feasibility)
-      solution = settled;
-  }
+  if (dual.report.status != qp::Status::converged || solution.feasibility <= allowed)
+    return;
+  const std::optional<fetidp::ContactSolution> settled =
+      fetidp::recoverSettled(*dual_, dual, 0.01 * allowed, report_);
+  if (settled && settled->feasibility < solution.feasibility)
+    solution = *settled;
 }
 
 /// What the iteration claims must hold for the displacements too: round-off in the subdomain solves can undo it, and

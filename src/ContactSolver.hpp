@@ -100,7 +100,7 @@ private:
   void factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier);
   void confirm(const fetidp::ContactSolution& solution, double errorTarget);
   [[nodiscard]] double algebraicErrorOf(const fetidp::ContactSolution& solution) const;
-  void tighten(fetidp::DualSolution dual, qp::Observer* observer, fetidp::ContactSolution& solution);
+  void settle(const fetidp::DualSolution& dual, fetidp::ContactSolution& solution);
   [[nodiscard]] std::string describeDualOperator() const;
   [[nodiscard]] std::string describePreconditioner() const;
   [[nodiscard]] int numAdaptiveConstraints() const;

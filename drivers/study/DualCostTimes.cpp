@@ -25,10 +25,8 @@ double secondsPerProduct(const fetidp::GeneralizedInverse& inverse,
   std::vector<AccurateSum> coarse(static_cast<std::size_t>(inverse.coarseProblem().size()));
   std::vector<fetidp::SubdomainGroup::Workspace> work(inverse.groups().size());
   return medianSeconds(*problem.comm, 0.2, [&] {
-    for (std::size_t g = 0; g < work.size(); ++g) {
-      inverse.groups()[g].gatherForces(lambda, coarse, 1, work[g]);
-      inverse.groups()[g].applyFlexibility(work[g]);
-    }
+    for (std::size_t g = 0; g < work.size(); ++g)
+      inverse.groups()[g].applyFlexibility(lambda, coarse, 1, work[g]);
   });
 }
 

@@ -90,32 +90,6 @@ void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums, double* values)
   std::transform(sums.begin(), sums.end(), values, [](const AccurateSum& sum) { return sum.value(); });
 }
 
-struct PendingSum::Request {
-  MPI_Request value = MPI_REQUEST_NULL;
-};
-
-PendingSum::PendingSum(RCP<const Comm> comm)
-    : comm_(std::move(comm)), request_(std::make_unique<Request>()) {}
-
-PendingSum::~PendingSum() = default;
-
-void PendingSum::start(std::span<AccurateSum> sums) {
-  if (comm_->getSize() > 1 && !sums.empty())
-    MPI_Iallreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), mpiObjects().sum,
-                   mpiObjects().add, rawCommunicator(*comm_), &request_->value);
-}
-
-void PendingSum::advance() {
-  int isDone = 0;
-  if (request_->value != MPI_REQUEST_NULL)
-    MPI_Test(&request_->value, &isDone, MPI_STATUS_IGNORE);
-}
-
-void PendingSum::finish() {
-  if (request_->value != MPI_REQUEST_NULL)
-    MPI_Wait(&request_->value, MPI_STATUS_IGNORE);
-}
-
 /// A message of `length` sums is one element of this type: MPI must not cut off the minimum.
 struct FusedReduction::Type {
   explicit Type(int length) {

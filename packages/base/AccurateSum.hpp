@@ -40,27 +40,6 @@ void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums);
 /// Likewise, and rounds them into as many `values`.
 void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums, double* values);
 
-/// Sums over the ranks, one after the other, that are under way while their rank does something else.
-class PendingSum {
-public:
-  explicit PendingSum(RCP<const Comm> comm); ///< Not collective.
-  PendingSum(const PendingSum&) = delete;
-  PendingSum& operator=(const PendingSum&) = delete;
-  ~PendingSum(); ///< after `finish`
-
-  /// In place: nobody touches `sums` until `finish`. Collective.
-  void start(std::span<AccurateSum> sums);
-  /// Lets MPI pass messages on; for long work between the two others, now and then. Not collective.
-  void advance();
-  /// The sums are there. Collective.
-  void finish();
-
-private:
-  struct Request;
-  RCP<const Comm> comm_;
-  std::unique_ptr<Request> request_;
-};
-
 /// Several sums and one minimum over all ranks in a single message: a CG step of MPRGP needs its dot products and the
 /// longest feasible step together. Keeps what MPI needs for its messages, so that `reduce` allocates nothing.
 class FusedReduction {

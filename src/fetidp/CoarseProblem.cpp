@@ -180,7 +180,7 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
     factor_ = direct::factorize(matrix, solvers.coarse, "the coarse problem");
   });
   if (!isOnFirst) {
-    pending_.emplace(comm_);
+    sums_.resize(static_cast<std::size_t>(factorSize_));
     return;
   }
   const auto whole = static_cast<Tpetra::global_size_t>(size_);
@@ -200,45 +200,25 @@ int CoarseProblem::placeOf(decomposition::CoarseNumber unknown) const {
 }
 
 void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
-  start(z, x.cols());
-  finish(x);
-}
-
-void CoarseProblem::start(std::span<const AccurateSum> z, Eigen::Index numColumns) const {
-  given_ = z;
   if (factorSize_ == 0)
     return;
   if (factor_) {
-    rhs_.resize(factorSize_, numColumns);
-    solution_.resize(factorSize_, numColumns);
+    rhs_.resize(factorSize_, x.cols());
+    solution_.resize(factorSize_, x.cols());
   }
   if (isOnFirst())
-    return;
+    solveOnFirst(z, x);
+  else
+    solveReplicated(z, x);
+}
+
+void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
   sums_.assign(static_cast<std::size_t>(rhs_.size()), AccurateSum());
-  for (Eigen::Index j = 0, k = 0; j < numColumns; ++j)
+  for (Eigen::Index j = 0, k = 0; j < x.cols(); ++j)
     for (const decomposition::CoarseNumber crosspoint : crosspoints_)
       sums_[static_cast<std::size_t>(j * factorSize_ + placeOf(crosspoint))] =
           z[static_cast<std::size_t>(k++)];
-  pending_->start(sums_);
-}
-
-void CoarseProblem::advance() const {
-  if (pending_)
-    pending_->advance();
-}
-
-void CoarseProblem::finish(Eigen::MatrixXd& x) const {
-  if (factorSize_ == 0)
-    return;
-  if (isOnFirst())
-    solveOnFirst(given_, x);
-  else
-    solveReplicated(x);
-}
-
-void CoarseProblem::solveReplicated(Eigen::MatrixXd& x) const {
-  pending_->finish();
-  std::transform(sums_.begin(), sums_.end(), rhs_.data(), [](const AccurateSum& sum) { return sum.value(); });
+  sumOverRanks(*comm_, sums_, rhs_.data());
   factor_->solve(rhs_, solution_);
   for (Eigen::Index j = 0; j < x.cols(); ++j)
     for (Eigen::Index i = 0; i < x.rows(); ++i)

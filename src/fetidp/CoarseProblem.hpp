@@ -22,7 +22,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,31 +43,24 @@ public:
   /// X = S_cc⁺ Σ_ranks Z, both of this rank's crosspoints, with the columns of X, one after the other in Z. One sum over
   /// the ranks if replicated, and the same digits then on any number of ranks; none if split. Collective.
   void solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
-  /// The same in steps, the first and the last collective: the sum of a replicated one is on its way between them, and `advance`, called now
-  /// and then, lets MPI pass it on. z stays as it is until then.
-  void start(std::span<const AccurateSum> z, Eigen::Index numColumns) const;
-  void advance() const;
-  void finish(Eigen::MatrixXd& x) const;
   /// Of this rank.
   [[nodiscard]] std::size_t factorBytes() const;
 
 private:
   [[nodiscard]] bool isOnFirst() const { return !import_.is_null(); }
   [[nodiscard]] int placeOf(decomposition::CoarseNumber unknown) const;
-  void solveReplicated(Eigen::MatrixXd& x) const;
+  void solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
   void solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
 
   RCP<const Comm> comm_; ///< of the ranks that work on one factor: all, or if split this one alone
   int numRanks_, size_;
   int factorSize_ = 0; ///< coarse unknowns of the factor: all, or this rank's
   std::vector<decomposition::CoarseNumber> crosspoints_;
-  std::unique_ptr<direct::SpdFactor> factor_;  ///< null where another rank has it
-  mutable std::vector<AccurateSum> sums_;      ///< work of a replicated one
-  mutable std::optional<PendingSum> pending_;  ///< of them
-  mutable std::span<const AccurateSum> given_; ///< z of a solve under way
-  mutable Eigen::MatrixXd rhs_, solution_;     ///< work
-  RCP<const Import> import_;                   ///< from rank 0 to the ranks' crosspoints, unless replicated
-  mutable RCP<MultiVector> first_, mine_;      ///< likewise
+  std::unique_ptr<direct::SpdFactor> factor_; ///< null where another rank has it
+  mutable std::vector<AccurateSum> sums_;     ///< work of a replicated one
+  mutable Eigen::MatrixXd rhs_, solution_;    ///< work
+  RCP<const Import> import_;                  ///< from rank 0 to the ranks' crosspoints, unless replicated
+  mutable RCP<MultiVector> first_, mine_;     ///< likewise
 };
 
 /// Diagonal of K̄ at some crosspoint values, before anything is eliminated: the yardstick for round-off in S_cc, which vanishes

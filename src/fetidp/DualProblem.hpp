@@ -14,12 +14,6 @@
 
 namespace epafi::fetidp {
 
-/// What a solve stops at.
-struct DualGoal {
-  const ErrorBalance* balance = nullptr; ///< if the parameters ask for balance
-  double tightening = 1;                 ///< factor on the tolerance, ≤ 1
-};
-
 /// λ and how it came about.
 struct DualSolution {
   RCP<Vector> lambda; ///< on multiplierMap, λ_I ≥ 0
@@ -47,10 +41,12 @@ public:
   /// Solves for the loads and gaps that the problem holds now.
   /// \param start  λ to start from (a warm start), or null for 0
   /// \param observer  told of every step, shown λ where it wants to look; or null
+  /// \param balance   if the parameters ask for balance
   /// \throws SolvabilityError (see Solvability.hpp; also if the iteration proves that contact rows contradict each other),
   ///         or InputError if a load or gap is not finite.
   /// Collective.
-  DualSolution solve(const Vector* start, qp::Observer* observer, const DualGoal& goal = {}) const;
+  DualSolution solve(const Vector* start, qp::Observer* observer,
+                     const ErrorBalance* balance = nullptr) const;
 
   /// λ of a guess of the displacements, to start from: Eᵀ(f − Ku), forces of contact that pull left out. Null without a
   /// preconditioner of type dirichlet, which it takes.

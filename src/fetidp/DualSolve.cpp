@@ -348,8 +348,8 @@ DualSolution solvedDirectly(const DecomposedProblem& problem) {
 
 } // namespace
 
-DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer, const DualGoal& goal) const {
-  const ErrorBalance* balance = parameters_.isBalanced ? goal.balance : nullptr;
+DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer,
+                                const ErrorBalance* balance) const {
   if (parameters_.isBalanced && balance == nullptr)
     throw InputError("the tolerance 'balanced' needs an estimate of the discretisation error, and none was "
                      "given; hand one over to solve(), or ask for a number");
@@ -359,7 +359,8 @@ DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer, con
   requireUniqueSolution(problem_, kernelEntries_);
   if (algorithm() == Algorithm::direct)
     return solvedDirectly(problem_);
-  IterativeSolve solve(*this, start, observer, balance, goal.tightening * parameters_.tolerance);
+  IterativeSolve solve(*this, start, observer, parameters_.isBalanced ? balance : nullptr,
+                       parameters_.tolerance);
   DualSolution solution = coarseSpace().is_null() ? solve.coercive() : solve.semicoercive(resultants);
   if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null())
     refuseContradiction(problem_, *solution.report.certificate);

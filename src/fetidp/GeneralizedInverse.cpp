@@ -98,14 +98,9 @@ void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<dou
                                    Workspace& work) const {
   std::fill(result.begin(), result.end(), 0.0);
   prepareColumns(numColumns, work);
-  for (std::size_t g = 0; g < groups_.size(); ++g) // z = Σ L_cᵀ Wᵀ λ
-    groups_[g].gatherForces(lambda, work.coarseForces, numColumns, work.groups[g]);
-  coarseProblem_->start(work.coarseForces, numColumns);
-  for (std::size_t g = 0; g < groups_.size(); ++g) { // (K_rr⁻¹)_ΔΔ B_Δᵀ λ, while the sum is on its way
-    groups_[g].applyFlexibility(work.groups[g]);
-    coarseProblem_->advance();
-  }
-  coarseProblem_->finish(work.coarseValues);       // x_c = S_cc⁺ z
+  for (std::size_t g = 0; g < groups_.size(); ++g) // (K_rr⁻¹)_ΔΔ B_Δᵀ λ and z = Σ L_cᵀ Wᵀ λ
+    groups_[g].applyFlexibility(lambda, work.coarseForces, numColumns, work.groups[g]);
+  coarseProblem_->solve(work.coarseForces, work.coarseValues); // x_c = S_cc⁺ z
   for (std::size_t g = 0; g < groups_.size(); ++g) // Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c
     groups_[g].applyCoupling(work.coarseValues, result, work.groups[g]);
 }

@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace epafi::fetidp {
 namespace {
@@ -38,11 +41,6 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   return energy.value();
 }
 
-/// λ − (c − Bu)/‖F‖ > 0
-bool isClosed(double operatorNorm, double force, double slack) {
-  return operatorNorm * force > slack;
-}
-
 /// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
 /// problem.
 void assess(const DecomposedProblem& problem, const DualSolution& dual, double operatorNorm,
@@ -63,7 +61,7 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
       continue;
     sums[1].add(force[i] * slack[i]);
     sums[2].add(force[i]);
-    active[i] = isClosed(operatorNorm, force[i], slack[i]) ? 1.0 : 0.0;
+    active[i] = operatorNorm * force[i] > slack[i] ? 1.0 : 0.0; // λ − (c − Bu)/‖F‖ > 0
     sums[3].add(active[i]);
   }
   const Comm& comm = *problem.comm;
@@ -92,37 +90,116 @@ SubdomainVectors unknownsOf(const DecomposedProblem& problem, const GeneralizedI
   return u;
 }
 
-/// Adds to u, λ and the energy what follows where the closed rows move by what they lack, so that Bu = c there. Collective.
-void settle(const DualProblem& dual, SubdomainVectors& u, ContactSolution& solution) {
-  constexpr double tolerance = 1e-8; // of what is round-off already
-  const DecomposedProblem& problem = dual.problem();
-  DataChange change;
-  for (const auto& subdomain : problem.subdomains)
-    change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
-  Vector closed(problem.multiplierMap);
-  const RCP<Vector> lacking = rcp(new Vector(*solution.slack, Teuchos::Copy)); // ċ
-  {
-    const auto isHeld = closed.getDataNonConst(), gap = lacking->getDataNonConst();
-    const auto force = solution.multiplier->getData();
-    for (LocalOrdinal i = 0; i < gap.size(); ++i) {
-      const bool isContact =
-          problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact;
-      isHeld[i] = !isContact || isClosed(dual.norm().norm, force[i], gap[i]) ? 1.0 : 0.0;
-      gap[i] *= isHeld[i];
-    }
+/// What is allowed, relative to the largest displacement or gap, and where products are added.
+struct Settling {
+  double allowed;
+  qp::SolveReport& report;
+};
+
+/// The rows that hold while a solution is settled: gluing, ties, and some of contact.
+class HeldRows {
+public:
+  /// Contact that pushes.
+  HeldRows(const DecomposedProblem& problem, const Vector& lambda)
+      : problem_(problem), held_(problem.multiplierMap) {
+    const auto isHeld = held_.getDataNonConst();
+    const auto force = lambda.getData();
+    for (LocalOrdinal i = 0; i < force.size(); ++i)
+      isHeld[i] = isContact(i) && !(force[i] > 0) ? 0.0 : 1.0;
   }
-  change.gap = lacking;
-  const UnknownsResponse response = unknownsResponse(dual, closed, change, tolerance);
-  solution.energy -=
-      accurateDot(*lacking, *solution.multiplier) + 0.5 * accurateDot(*lacking, *response.multiplier);
-  solution.multiplier->update(1.0, *response.multiplier, 1.0);
-  const auto force = solution.multiplier->getDataNonConst();
-  for (LocalOrdinal i = 0; i < force.size(); ++i)
-    if (problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact)
-      force[i] = std::max(force[i], 0.0); // in the last digit
+  [[nodiscard]] const Vector& indicator() const { return held_; } ///< 1 where they hold, else 0
+  /// Contacts that pull hold no longer, by more than round-off, and those that penetrate by more than `allowed` do; returns whether there
+  /// are any. Collective.
+  bool change(const Vector& lambda, const Vector& slack, double allowed) {
+    const double leastForce = -1e-9 * lambda.normInf();
+    const auto isHeld = held_.getDataNonConst();
+    const auto force = lambda.getData(), room = slack.getData();
+    bool isAny = false;
+    for (LocalOrdinal i = 0; i < force.size(); ++i)
+      if (isContact(i) && (isHeld[i] != 0 ? force[i] < leastForce : room[i] < -allowed)) {
+        isHeld[i] = 1 - isHeld[i];
+        isAny = true;
+      }
+    return holdsAnywhere(*problem_.comm, isAny);
+  }
+  /// Largest gap. Collective.
+  [[nodiscard]] double largestOpen(const Vector& slack) const {
+    Vector open(slack.getMap());
+    open.elementWiseMultiply(1.0, held_, slack, 0.0);
+    return open.normInf();
+  }
+  /// λ ≥ 0 for contact, in the last digits.
+  void clip(Vector& lambda) const {
+    const auto force = lambda.getDataNonConst();
+    for (LocalOrdinal i = 0; i < force.size(); ++i)
+      if (isContact(i))
+        force[i] = std::max(force[i], 0.0);
+  }
+
+private:
+  [[nodiscard]] bool isContact(LocalOrdinal row) const {
+    return problem_.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact;
+  }
+  const DecomposedProblem& problem_;
+  Vector held_;
+};
+
+/// One step: u, λ and the slack by what follows where the held rows move by what they lack, so that Bu = c there, and the forces of the
+/// others become loads that go away. K(u̇) = −B̄ᵀ(λ̇), so that the energy grows by −½(λ + λ_new)ᵀB̄u̇. Collective.
+void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u, ContactSolution& solution,
+                qp::SolveReport& report) {
+  constexpr double tolerance = 1e-3; // there are more steps
+  const DecomposedProblem& problem = dual.problem();
+  Vector &lambda = *solution.multiplier, &slack = *solution.slack;
+  const Vector slackBefore(slack, Teuchos::Copy), lambdaBefore(lambda, Teuchos::Copy);
+  const RCP<Vector> lacking = rcp(new Vector(problem.multiplierMap)); // ċ
+  lacking->elementWiseMultiply(1.0, held, slack, 0.0);
+  lambda.elementWiseMultiply(1.0, held, lambdaBefore, 0.0);
+  Vector dropped(lambda, Teuchos::Copy);
+  dropped.update(-1.0, lambdaBefore, 1.0); // −λ of the others
+  SubdomainVectors forces;
+  for (const auto& subdomain : problem.subdomains)
+    forces.emplace_back(Eigen::MatrixXd::Zero(subdomain.load.size(), 1));
+  MultiplierExchange exchange(dual.inverse().multiplierPlan());
+  dual.inverse().subtractForces(exchange.toSubdomains(dropped), forces);
+  const UnknownsResponse response =
+      unknownsResponse(dual, held, {{forces.begin(), forces.end()}, lacking}, tolerance);
+  qp::append(response.report, report);
+  lambda.update(1.0, *response.multiplier, 1.0);
   for (std::size_t s = 0; s < u.size(); ++s)
     u[s] += response.unknowns[s];
-  slackOf(problem, dual.inverse(), u, *solution.slack);
+  slackOf(problem, dual.inverse(), u, slack);
+  Vector moved(slackBefore, Teuchos::Copy), force(lambdaBefore, Teuchos::Copy);
+  moved.update(-1.0, slack, 1.0); // B̄u̇
+  force.update(1.0, lambda, 1.0);
+  solution.energy -= 0.5 * accurateDot(force, moved);
+}
+
+/// Steps until held rows are open by no more than is allowed, or by the round-off of u: a step is as exact as the last digits that it
+/// starts from. Then rows change until all contacts push and none penetrates; returns whether they do. Collective.
+bool settle(const DualProblem& dual, const Settling& settling, SubdomainVectors& u,
+            ContactSolution& solution) {
+  constexpr int maxSteps = 60;
+  double largest = 0; // displacement
+  for (const Eigen::MatrixXd& values : u)
+    largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
+  const double allowed =
+      settling.allowed * std::max(maxOverRanks(*dual.problem().comm, largest), dual.problem().gap->normInf());
+  HeldRows rows(dual.problem(), *solution.multiplier);
+  double open = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < maxSteps; ++step) {
+    settleRows(dual, rows.indicator(), u, solution, settling.report);
+    const double now = rows.largestOpen(*solution.slack);
+    if (now <= 0.5 * open && now > allowed) {
+      open = now;
+    } else if (rows.change(*solution.multiplier, *solution.slack, allowed)) {
+      open = std::numeric_limits<double>::infinity();
+    } else {
+      rows.clip(*solution.multiplier);
+      return true;
+    }
+  }
+  return false;
 }
 
 } // namespace
@@ -137,7 +214,11 @@ std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vecto
   return displacement;
 }
 
-ContactSolution recover(const DualProblem& dual, const DualSolution& found, bool settles) {
+namespace {
+
+/// Nothing if it cannot be settled. \param settling  null if that is not wanted
+std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolution& found,
+                                         const Settling* settling) {
   const DecomposedProblem& problem = dual.problem();
   const GeneralizedInverse& inverse = dual.inverse();
   ContactSolution solution;
@@ -160,8 +241,8 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found, bool
     }
     slackOf(problem, inverse, u, *solution.slack);
   }
-  if (settles)
-    settle(dual, u, solution);
+  if (settling != nullptr && !settle(dual, *settling, u, solution))
+    return std::nullopt;
 
   double largest = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -173,6 +254,18 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found, bool
   }
   assess(problem, found, dual.norm().norm, largest, solution);
   return solution;
+}
+
+} // namespace
+
+ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
+  return *recovered(dual, found, nullptr);
+}
+
+std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
+                                              double allowed, qp::SolveReport& report) {
+  const Settling settling{allowed, report};
+  return recovered(dual, found, &settling);
 }
 
 } // namespace epafi::fetidp

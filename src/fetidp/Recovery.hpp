@@ -6,6 +6,8 @@
 #include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
 
+#include <optional>
+
 namespace epafi::fetidp {
 
 /// K̄⁺(f̄ − B̄ᵀλ) at all positions of this rank's subdomains, components in space: u but for rigid motions of floating bodies.
@@ -13,11 +15,16 @@ namespace epafi::fetidp {
 std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda);
 
 /// \param found  λ of `dual` and its reference
-/// \param settles  whether what round-off leaves open of closed contacts and gluing is closed by a response of its own
-///        (ContactResponse.hpp). The last digit of λ moves a body that hardly anything holds by far more than its own last digit:
-///        u = K̄⁺(f̄ − B̄ᵀλ) has then fewer digits than the sum of what comes first and of what follows.
 /// \throws SolvabilityError if floating bodies may come to rest in more than one place (see RigidMotion.hpp).
 /// Collective.
-ContactSolution recover(const DualProblem& dual, const DualSolution& found, bool settles = false);
+ContactSolution recover(const DualProblem& dual, const DualSolution& found);
+
+/// The same, and what round-off leaves open of closed contacts and gluing is closed by responses of their own (ContactResponse.hpp). The last
+/// digit of λ moves a body that hardly anything holds by far more than its own last digit: u = K̄⁺(f̄ − B̄ᵀλ) has then fewer digits
+/// than the sum of what comes first and of what follows. Nothing where that does not end with contacts that all push and with none that penetrates.
+/// \param allowed  what rows may be violated by, relative to the largest displacement or gap
+/// \param report   where the products are added
+std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
+                                              double allowed, qp::SolveReport& report);
 
 } // namespace epafi::fetidp

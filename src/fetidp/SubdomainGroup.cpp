@@ -124,9 +124,10 @@ SubdomainGroup::boundaryStiffness(direct::SymmetricBlock::Precision precision) c
   return boundaryStiffness_;
 }
 
-void SubdomainGroup::gatherForces(std::span<const double> lambda, std::span<AccurateSum> coarse,
-                                  int numColumns, Workspace& work) const {
+void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse,
+                                      int numColumns, Workspace& work) const {
   work.forces.setZero(condensed_->numBoundary(), numMembers() * numColumns);
+  work.displacement.resizeLike(work.forces);
   work.crosspointForces.setZero(condensed_->numCrosspoints(), work.forces.cols());
   addTransposed(boundaryEntries_, lambda, numColumns, work.forces); // B_Δᵀ λ
   addTransposed(crosspointEntries_, lambda, numColumns, work.crosspointForces);
@@ -134,10 +135,6 @@ void SubdomainGroup::gatherForces(std::span<const double> lambda, std::span<Accu
     work.crosspointForces.col(column).noalias() -=
         condensed_->boundaryResponse().transpose() * work.forces.col(column); // Wᵀ λ
   addToCoarse(work.crosspointForces, coarse);
-}
-
-void SubdomainGroup::applyFlexibility(Workspace& work) const {
-  work.displacement.resizeLike(work.forces);
   if (isExplicit_)
     flexibility_->apply(work.forces, work.displacement);
   else

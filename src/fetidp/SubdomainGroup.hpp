@@ -81,14 +81,12 @@ public:
   [[nodiscard]] std::shared_ptr<const direct::SymmetricBlock>
   boundaryStiffness(direct::SymmetricBlock::Precision precision) const;
 
-  /// F's part, first: B_Δᵀ λ, and `coarse` += L_cᵀ Wᵀ λ.
+  /// First half of F's part: (K_rr⁻¹)_ΔΔ B_Δᵀ λ, and `coarse` += L_cᵀ Wᵀ λ.
   /// \param lambda  this rank's multipliers (ghost map) × k
   /// \param coarse  this rank's coarse unknowns × k
-  void gatherForces(std::span<const double> lambda, std::span<AccurateSum> coarse, int numColumns,
-                    Workspace& work) const;
-  /// Second, with its work space: (K_rr⁻¹)_ΔΔ B_Δᵀ λ.
-  void applyFlexibility(Workspace& work) const;
-  /// Third, likewise: result += B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c.
+  void applyFlexibility(std::span<const double> lambda, std::span<AccurateSum> coarse, int numColumns,
+                        Workspace& work) const;
+  /// Second half, with the work space of the first: result += B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ λ + W L_c x_c.
   /// \param coarse  this rank's coarse unknowns, with k columns
   /// \param result  this rank's multipliers (ghost map) × k
   void applyCoupling(const Eigen::MatrixXd& coarse, std::span<double> result, Workspace& work) const;

@@ -1,5 +1,4 @@
 #include "epafi/base/AccurateSum.hpp"
-#include "epafi/base/Collective.hpp"
 
 #include "epafi/base/Compatibility.hpp"
 
@@ -61,50 +60,23 @@ TEST(AccurateSumTest, PropagatesWhatIsNotFinite) {
   EXPECT_TRUE(std::isnan(sum.value()));
 }
 
-/// This rank's share of the terms in the second sum, and 1 in the third.
-std::vector<AccurateSum> shares(const Comm& comm, const std::vector<double>& values) {
-  std::vector<AccurateSum> sums(3);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (static_cast<int>(i) % comm.getSize() == comm.getRank())
-      sums[1].add(values[i]);
-  sums[2].add(1.0);
-  return sums;
-}
-
 TEST(AccurateSumTest, OverRanksIsTheSumOfOneRank) {
   const auto comm = Tpetra::getDefaultComm();
   const std::vector<double> values = terms(1000);
   AccurateSum alone;
   for (const double value : values)
     alone.add(value);
-  std::vector<AccurateSum> sums = shares(*comm, values);
+  std::vector<AccurateSum> sums(3);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (static_cast<int>(i) % comm->getSize() == comm->getRank())
+      sums[1].add(values[i]);
+  sums[2].add(1.0);
 
   sumOverRanks(*comm, sums);
 
   EXPECT_EQ(sums[0].value(), 0.0);
   EXPECT_EQ(sums[1].value(), alone.value());
   EXPECT_EQ(sums[2].value(), comm->getSize());
-}
-
-TEST(AccurateSumTest, OnItsWayIsTheSameSum) {
-  const auto comm = Tpetra::getDefaultComm();
-  PendingSum pending(comm);
-  for (const int number : {10, 1000, 3}) { // one after the other
-    std::vector<AccurateSum> expected = shares(*comm, terms(number)), sums = expected;
-    sumOverRanks(*comm, expected);
-
-    pending.start(sums);
-    pending.advance();
-    EXPECT_EQ(sumOverRanks(*comm, 1), comm->getSize()); // another one meanwhile
-    pending.finish();
-    pending.advance(); // nothing to do any more
-
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      EXPECT_EQ(sums[i].value(), expected[i].value()) << number << ", " << i;
-  }
-  std::vector<AccurateSum> none;
-  pending.start(none);
-  pending.finish();
 }
 
 TEST(AccurateSumTest, DotProductsAreTheSameHoweverTheVectorIsDistributed) {

@@ -114,7 +114,7 @@ TEST(DualOperatorTest, ScalesAndAddsAsTpetraOperatorsDo) {
   EXPECT_LE(relativeError(gathered(*input), x), 0);
 }
 
-TEST(DualOperatorTest, PartsOfTwoProductsMayAlternate) {
+TEST(DualOperatorTest, HalvesOfTwoProductsMayAlternate) {
   const Assembled assembled(twoMembranes(true, 4, grid(2, 2)));
   const GeneralizedInverse& inverse = *assembled.inverse;
   const std::size_t numMultipliers = numLocal(*assembled.decomposition.problem.multiplierGhostMap);
@@ -124,10 +124,8 @@ TEST(DualOperatorTest, PartsOfTwoProductsMayAlternate) {
   for (const SubdomainGroup& group : inverse.groups()) {
     SubdomainGroup::Workspace first, second;
     std::vector<double> ofOne(numMultipliers, 0.0), ofTwo(numMultipliers, 0.0);
-    group.gatherForces(one, coarse, 1, first);
-    group.gatherForces(two, coarse, 1, second);
-    group.applyFlexibility(first);
-    group.applyFlexibility(second);
+    group.applyFlexibility(one, coarse, 1, first);
+    group.applyFlexibility(two, coarse, 1, second);
     group.applyCoupling(held, ofOne, first);
     group.applyCoupling(held, ofTwo, second);
     for (std::size_t i = 0; i < numMultipliers; ++i)

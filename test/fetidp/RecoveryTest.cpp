@@ -151,7 +151,10 @@ TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
     found.lambda = solved.solution.multiplier;
     found.report.status = qp::Status::converged;
     const DecomposedProblem& problem = solved.decomposition.problem;
-    const ContactSolution settled = recover(solved.solver.dualProblem(), found, true);
+    qp::SolveReport report;
+    const auto settling = recoverSettled(solved.solver.dualProblem(), found, 1e-12, report);
+    ASSERT_TRUE(settling);
+    const ContactSolution& settled = *settling;
     const Eigen::VectorXd closed = gathered(*solved.solution.active),
                           before = gathered(*solved.solution.slack), after = gathered(*settled.slack);
     double open = 0, left = 0;
