@@ -50,9 +50,8 @@ public:
   void update();
 
   /// Solves for the loads and gaps that the problem holds now. Where the tolerance is met but the displacements violate the
-  /// constraints still, further solves follow, four at most, each from where the last one ended to a tighter tolerance; the
-  /// report counts their steps with those of the first. A solution that misses the tolerance is returned as well: ask
-  /// `report().status`.
+  /// constraints still, it is settled (fetidp/Recovery.hpp); the report counts those steps, too, which the observer is not told of. A solution that misses
+  /// the tolerance is returned as well: ask `report().status`.
   /// \param start     λ of an earlier solve to start from, or null
   /// \param observer  told of every step, shown λ where it wants to look, may end the iteration (`interrupted`); or null
   /// \param balance   with the tolerance 'balanced': who estimates the discretisation error; else null
