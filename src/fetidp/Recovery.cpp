@@ -2,6 +2,7 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
 
@@ -188,7 +189,11 @@ bool settle(const DualProblem& dual, const Settling& settling, SubdomainVectors&
   HeldRows rows(dual.problem(), *solution.multiplier);
   double open = std::numeric_limits<double>::infinity();
   for (int step = 0; step < maxSteps; ++step) {
-    settleRows(dual, rows.indicator(), u, solution, settling.report);
+    try {
+      settleRows(dual, rows.indicator(), u, solution, settling.report);
+    } catch (const Error&) { // on all ranks: the rows cannot hold the floating bodies
+      return false;
+    }
     const double now = rows.largestOpen(*solution.slack);
     if (now <= 0.5 * open && now > allowed) {
       open = now;

@@ -186,6 +186,30 @@ TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
   }
 }
 
+TEST(RecoveryTest, ClosedRowsAreFoundFromWrongOnes) {
+  for (const ContactCase& c : contactCases()) {
+    SCOPED_TRACE(c.name);
+    const Solved solved(c.scene);
+    if (solved.decomposition.problem.kernelDimension > 0) // any other λ would be out of balance
+      continue;
+    const PrimalSolution reference = solveUndecomposed(solved.decomposition);
+    for (const double push : {1e-6, -1.0}) { // all contacts, or none
+      DualSolution found;
+      found.lambda = rcp(new Vector(*solved.solution.multiplier, Teuchos::Copy));
+      found.report.status = qp::Status::converged;
+      for (double& force : found.lambda->getDataNonConst())
+        force += push * std::abs(force) + std::max(push, 0.0) * reference.force.maxCoeff();
+      qp::SolveReport report;
+      const auto settled = recoverSettled(solved.solver.dualProblem(), found, 1e-12, report);
+      ASSERT_TRUE(settled);
+      EXPECT_LE(fieldError(fieldOf(solved.decomposition, *settled), reference.field), 1e-8);
+      EXPECT_NEAR(settled->energy, reference.energy, 1e-8 * std::abs(reference.energy));
+      EXPECT_LE(relativeError(gathered(*settled->multiplier).head(reference.force.size()), reference.force),
+                1e-7);
+    }
+  }
+}
+
 TEST(RecoveryTest, ContactForcesBalanceTheLoadOfAFloatingBody) {
   for (const ContactCase& c : contactCases()) {
     SCOPED_TRACE(c.name);
