@@ -45,6 +45,7 @@ struct UnknownsResponse {
 /// Collective. \throws Error, the same on all ranks, if ḟ has a resultant that the closed contacts cannot take.
 UnknownsResponse unknownsResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
                                   double tolerance);
+/// Likewise, at all positions.
 ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
                                 double tolerance);
 
