@@ -11,8 +11,7 @@ namespace epafi::qp {
 namespace {
 
 constexpr int maxRounds = 20;
-constexpr int maxWorseRounds =
-    6; ///< in a row after the first or the best one, until a prediction is taken for one that cycles
+constexpr int maxWorseRounds = 6; ///< in a row; with more a prediction is taken for one that cycles
 constexpr int maxFaceSteps = 30;  ///< of CG in a face
 constexpr double reduction = 0.1; ///< of the gradient in a face
 /// Multipliers as wrong as this share of the worst one come off their bounds.

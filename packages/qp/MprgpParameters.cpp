@@ -20,8 +20,7 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
           "Γ: the iterate is called proportional, and stays in its face, while the chopped gradient is no "
           "longer than Γ times the free one. 0: 0.1 for FETI-DP with a preconditioner where bodies float and "
           "SMALBE's penalty is at most 1, or where none does and there are averages along edges, else 1, and "
-          "with a "
-          "preconditioner a tenth of it once a face has lasted 16 steps.",
+          "with a preconditioner a tenth of it once a face has lasted 16 steps.",
           0.0, 1e6);
   addChoice(list, "Expansion", expansions.front(),
             "Where a CG step that would leave the feasible set goes instead: the projection of the full CG "

@@ -47,7 +47,8 @@ public:
     lambda.putScalar(0.0);
     equality_.addTransposed(mu, 1.0, lambda);
     if ((space_->product(lambda) - e).norm() > roundOff * e.norm())
-      throw Error("the load has a resultant on a floating body that its closed contacts cannot take");
+      throw UnheldResultant(
+          "the load has a resultant on a floating body that its closed contacts cannot take");
   }
   /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. x becomes 0 off the face. Collective.
   [[nodiscard]] Eigen::VectorXd motionOf(Vector& x) { return space_->motionOf(equality_.fit(x)); }

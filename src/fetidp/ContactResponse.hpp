@@ -7,6 +7,7 @@
 /// Sensitivities, and the dual solutions of error estimates for quantities: by the theorem of the envelope the least energy E
 /// has −dE/ds = ḟᵀu + ċᵀλ, so that data that move with a quantity J = ḟᵀu + ċᵀλ have its dual solution as response.
 
+#include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
 #include "epafi/qp/SolveReport.hpp"
@@ -31,6 +32,12 @@ struct ContactResponse {
   qp::SolveReport report;
 };
 
+/// A load has a resultant on a floating body that its closed contacts cannot take; thrown on all ranks.
+class UnheldResultant : public Error {
+public:
+  using Error::Error;
+};
+
 /// The same in the subdomains' unknowns.
 struct UnknownsResponse {
   SubdomainVectors unknowns; ///< u̇ of each of this rank's subdomains, n_s × 1, rigid motions too
@@ -42,7 +49,7 @@ struct UnknownsResponse {
 /// closed contacts leave free are left out of u̇.
 /// \param closed     1 in the closed rows of contact, 0 in the open ones (ContactSolution::active)
 /// \param tolerance  on ‖residual‖ relative to ‖P d̃‖
-/// Collective. \throws Error, the same on all ranks, if ḟ has a resultant that the closed contacts cannot take.
+/// Collective. \throws UnheldResultant.
 UnknownsResponse unknownsResponse(const DualProblem& dual, const Vector& closed, const DataChange& change,
                                   double tolerance);
 /// Likewise, at all positions.

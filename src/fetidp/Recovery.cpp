@@ -2,7 +2,6 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
 
@@ -191,7 +190,7 @@ bool settle(const DualProblem& dual, const Settling& settling, SubdomainVectors&
   for (int step = 0; step < maxSteps; ++step) {
     try {
       settleRows(dual, rows.indicator(), u, solution, settling.report);
-    } catch (const Error&) { // on all ranks: the rows cannot hold the floating bodies
+    } catch (const UnheldResultant&) {
       return false;
     }
     const double now = rows.largestOpen(*solution.slack);
