@@ -3,14 +3,15 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/decomposition/Clusters.hpp"
 
 #include <Eigen/QR>
-#include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -24,6 +25,26 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 /// Place of a coarse unknown in the matrix.
 using PlaceOf = std::function<int(decomposition::CoarseNumber)>;
 
+/// The ranks that clusters join to this one. Whole bodies stay together: the factor of all is the same to the last digit on any
+/// number of ranks. Collective.
+RCP<const Comm> teamOf(const DecomposedProblem& problem) {
+  const RCP<const Comm>& all = problem.comm;
+  const int rank = all->getRank(), ranks = all->getSize();
+  if (ranks == 1 || problem.clusters.size() <= problem.bodies.size())
+    return all;
+  std::set<int> clusters;
+  for (const auto& subdomain : problem.subdomains)
+    clusters.insert(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
+  std::vector<decomposition::Link>
+      mine; // pieces of ranks, and of clusters, whose numbers come after those of the ranks
+  for (const int cluster : clusters)
+    mine.push_back({rank, ranks + cluster});
+  const std::vector<int> teams = decomposition::piecesOf(
+      static_cast<std::size_t>(ranks) + problem.clusters.size(), gatherOnAll(*all, mine));
+  const bool isOne = std::all_of(teams.begin(), teams.begin() + ranks, [](int team) { return team == 0; });
+  return isOne ? all : RCP<const Comm>(all->split(teams[static_cast<std::size_t>(rank)], rank));
+}
+
 /// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from;
 /// on rank 0 alone, or on all ranks of `comm`.
 SparseMatrix assemble(const DecomposedProblem& problem, const Comm& comm, int size, const PlaceOf& placeOf,
@@ -33,11 +54,14 @@ SparseMatrix assemble(const DecomposedProblem& problem, const Comm& comm, int si
     for (const std::size_t member : group.members())
       blocks[member] = &group.condensed().schurComplement();
   Triplets mine;
+  std::vector<int> places;
   for (std::size_t s = 0; s < blocks.size(); ++s) {
     const auto& indices = problem.subdomains[s].crosspointIndices;
-    for (std::size_t j = 0; j < indices.size(); ++j)
-      for (std::size_t i = 0; i < indices.size(); ++i)
-        mine.emplace_back(placeOf(indices[i]), placeOf(indices[j]),
+    places.resize(indices.size());
+    std::transform(indices.begin(), indices.end(), places.begin(), placeOf);
+    for (std::size_t j = 0; j < places.size(); ++j)
+      for (std::size_t i = 0; i < places.size(); ++i)
+        mine.emplace_back(places[i], places[j],
                           (*blocks[s])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
   const Triplets all = isOnFirst ? gatherOnFirst(comm, mine) : gatherOnAll(comm, mine);
@@ -148,25 +172,19 @@ Eigen::VectorXd crosspointDiagonal(const DecomposedProblem& problem, const Comm&
 CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const SubdomainGroup> groups,
                              std::span<const decomposition::CoarseNumber> crosspoints,
                              const DirectSolvers& solvers)
-    : comm_(problem.comm), numRanks_(comm_->getSize()),
+    : team_(teamOf(problem)), numRanks_(problem.comm->getSize()),
       size_(static_cast<int>(problem.crosspointMap->getGlobalNumElements())), factorSize_(size_),
       crosspoints_(crosspoints.begin(), crosspoints.end()) {
-  const auto mine = static_cast<GlobalOrdinal>(crosspoints_.size());
-  // Whole bodies stay together: factors of all are the same to the last digit on any number of ranks.
-  const bool hasParts = problem.clusters.size() > problem.bodies.size();
-  if (numRanks_ > 1 && hasParts && sumOverRanks(*problem.comm, mine) == size_) {
-    comm_ = rcp(new Teuchos::SerialComm<int>());
-    factorSize_ = static_cast<int>(mine);
-  }
-  const bool isOnFirst = factorSize_ > solvers.maxReplicated && comm_->getSize() > 1;
-  const bool isMine = !isOnFirst || comm_->getRank() == 0;
+  findPlaces();
+  const bool isOnFirst = factorSize_ > solvers.maxReplicated && team_->getSize() > 1;
+  const bool isMine = !isOnFirst || team_->getRank() == 0;
   const auto place = [this](decomposition::CoarseNumber unknown) { return placeOf(unknown); };
-  SparseMatrix matrix = assemble(problem, *comm_, factorSize_, place, groups, isOnFirst);
+  SparseMatrix matrix = assemble(problem, *team_, factorSize_, place, groups, isOnFirst);
   std::optional<CoarseKernel> kernel;
   Eigen::VectorXd stiffness;
   if (problem.kernelDimension > 0) {
-    kernel = gatherKernel(problem, *comm_, factorSize_, place);
-    stiffness = crosspointDiagonal(problem, *comm_, factorSize_, place);
+    kernel = gatherKernel(problem, *team_, factorSize_, place);
+    stiffness = crosspointDiagonal(problem, *team_, factorSize_, place);
   }
   collectively(*problem.comm, [&] {
     if (!isMine)
@@ -183,20 +201,33 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
     sums_.resize(static_cast<std::size_t>(factorSize_));
     return;
   }
-  const auto whole = static_cast<Tpetra::global_size_t>(size_);
-  const RCP<const Map> firstMap = rcp(new Map(whole, static_cast<std::size_t>(isMine ? size_ : 0), 0, comm_));
-  const RCP<const Map> myMap = mapInOrder({crosspoints_.begin(), crosspoints_.end()}, comm_);
+  const auto whole = static_cast<Tpetra::global_size_t>(factorSize_);
+  const RCP<const Map> firstMap =
+      rcp(new Map(whole, static_cast<std::size_t>(isMine ? factorSize_ : 0), 0, team_));
+  const RCP<const Map> myMap = mapInOrder({places_.begin(), places_.end()}, team_);
   import_ = rcp(new Import(firstMap, myMap));
   first_ = rcp(new MultiVector(firstMap, 1));
   mine_ = rcp(new MultiVector(myMap, 1));
 }
 
-/// In the factor.
+/// In the factor the team's coarse unknowns are in ascending order. Collective over the team.
+void CoarseProblem::findPlaces() {
+  if (!isSplit()) {
+    places_.assign(crosspoints_.begin(), crosspoints_.end());
+    return;
+  }
+  std::vector<decomposition::CoarseNumber> all = gatherOnAll(*team_, crosspoints_);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  factorSize_ = static_cast<int>(all.size());
+  for (const decomposition::CoarseNumber unknown : crosspoints_)
+    places_.push_back(static_cast<int>(std::lower_bound(all.begin(), all.end(), unknown) - all.begin()));
+}
+
+/// In the factor, of a crosspoint of this rank.
 int CoarseProblem::placeOf(decomposition::CoarseNumber unknown) const {
-  if (!isSplit())
-    return static_cast<int>(unknown);
-  return static_cast<int>(std::lower_bound(crosspoints_.begin(), crosspoints_.end(), unknown) -
-                          crosspoints_.begin());
+  return places_[static_cast<std::size_t>(
+      std::lower_bound(crosspoints_.begin(), crosspoints_.end(), unknown) - crosspoints_.begin())];
 }
 
 void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
@@ -215,14 +246,13 @@ void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) co
 void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
   sums_.assign(static_cast<std::size_t>(rhs_.size()), AccurateSum());
   for (Eigen::Index j = 0, k = 0; j < x.cols(); ++j)
-    for (const decomposition::CoarseNumber crosspoint : crosspoints_)
-      sums_[static_cast<std::size_t>(j * factorSize_ + placeOf(crosspoint))] =
-          z[static_cast<std::size_t>(k++)];
-  sumOverRanks(*comm_, sums_, rhs_.data());
+    for (const int place : places_)
+      sums_[static_cast<std::size_t>(j * factorSize_ + place)] = z[static_cast<std::size_t>(k++)];
+  sumOverRanks(*team_, sums_, rhs_.data());
   factor_->solve(rhs_, solution_);
   for (Eigen::Index j = 0; j < x.cols(); ++j)
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      x(i, j) = solution_(placeOf(crosspoints_[static_cast<std::size_t>(i)]), j);
+      x(i, j) = solution_(places_[static_cast<std::size_t>(i)], j);
 }
 
 void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
@@ -240,10 +270,10 @@ void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd
   first_->doExport(*mine_, *import_, Tpetra::ADD);
   if (factor_) {
     for (std::size_t j = 0; j < numColumns; ++j)
-      std::copy_n(first_->getData(j).begin(), size_, rhs_.col(static_cast<Eigen::Index>(j)).data());
+      std::copy_n(first_->getData(j).begin(), factorSize_, rhs_.col(static_cast<Eigen::Index>(j)).data());
     factor_->solve(rhs_, solution_);
     for (std::size_t j = 0; j < numColumns; ++j)
-      std::copy_n(solution_.col(static_cast<Eigen::Index>(j)).data(), size_,
+      std::copy_n(solution_.col(static_cast<Eigen::Index>(j)).data(), factorSize_,
                   first_->getDataNonConst(j).begin());
   }
   mine_->doImport(*first_, *import_, Tpetra::INSERT);

@@ -3,7 +3,8 @@
 /// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. While it is small it is the one thing of global
 /// size that every rank holds: all factorise and solve it alike, for the price of one message. A large one lies on
 /// rank 0, and the others send their shares and receive their values, by plans built once. Where bodies are of several
-/// clusters (Clusters.hpp) and no coarse unknown belongs to two ranks, each rank has the part of its own, and there are no messages.
+/// clusters (Clusters.hpp), the coarse problem falls apart: ranks whose clusters hang together are a *team* that has the part of these
+/// clusters and sums within itself; a rank that shares no cluster needs no message.
 ///
 /// Where a cluster floats, most often a whole body, S_cc is singular with the known kernel R_c (R at the crosspoints). A generalised
 /// inverse is then S_cc⁺ = (S_cc + τEEᵀ)⁻¹, where E picks as many crosspoint values of every floating cluster as
@@ -37,11 +38,13 @@ public:
 
   /// Coarse unknowns of the whole problem.
   [[nodiscard]] int size() const { return size_; }
-  /// Whether every rank has a part of its own, or all of it.
-  [[nodiscard]] bool isSplit() const { return comm_->getSize() < numRanks_; }
-  [[nodiscard]] bool isReplicated() const { return !isSplit() && !isOnFirst(); } ///< the latter
+  /// The team of this rank: all ranks, if bodies are not cut into clusters.
+  [[nodiscard]] const RCP<const Comm>& team() const { return team_; }
+  /// Whether there is more than one.
+  [[nodiscard]] bool isSplit() const { return team_->getSize() < numRanks_; }
+  [[nodiscard]] bool isReplicated() const { return !isSplit() && !isOnFirst(); } ///< on all ranks
   /// X = S_cc⁺ Σ_ranks Z, both of this rank's crosspoints, with the columns of X, one after the other in Z. One sum over
-  /// the ranks if replicated, and the same digits then on any number of ranks; none if split. Collective.
+  /// the team if each of its ranks has the factor, and the same digits then on any number of ranks. Collective over the team.
   void solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
   /// Of this rank.
   [[nodiscard]] std::size_t factorBytes() const;
@@ -49,18 +52,21 @@ public:
 private:
   [[nodiscard]] bool isOnFirst() const { return !import_.is_null(); }
   [[nodiscard]] int placeOf(decomposition::CoarseNumber unknown) const;
+  void findPlaces();
   void solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
   void solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
 
-  RCP<const Comm> comm_; ///< of the ranks that work on one factor: all, or if split this one alone
+  RCP<const Comm> team_;
   int numRanks_, size_;
-  int factorSize_ = 0; ///< coarse unknowns of the factor: all, or this rank's
+  int factorSize_; ///< coarse unknowns of the team
   std::vector<decomposition::CoarseNumber> crosspoints_;
+  std::vector<int> places_;                   ///< theirs in the team's factor
   std::unique_ptr<direct::SpdFactor> factor_; ///< null where another rank has it
   mutable std::vector<AccurateSum> sums_;     ///< work of a replicated one
   mutable Eigen::MatrixXd rhs_, solution_;    ///< work
-  RCP<const Import> import_;                  ///< from rank 0 to the ranks' crosspoints, unless replicated
-  mutable RCP<MultiVector> first_, mine_;     ///< likewise
+  RCP<const Import>
+      import_; ///< from the team's first rank to the others' crosspoints, unless each has the factor
+  mutable RCP<MultiVector> first_, mine_; ///< likewise
 };
 
 /// Diagonal of K̄ at some crosspoint values, before anything is eliminated: the yardstick for round-off in S_cc, which vanishes

@@ -25,10 +25,10 @@ Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
 }
 
 /// Coarse unknowns that rows of contact touch, and those that follow faces at their edges' ends, which are added to them; all those
-/// of the clusters that these belong to. Collective.
+/// of the clusters that these belong to. Collective over `comm`.
 /// \param clusters  of the last ones
-void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& touched, Unknowns& following,
-                  Unknowns& near, std::vector<int>& clusters) {
+void findUnknowns(const decomposition::DecomposedProblem& problem, const Comm& comm, Unknowns& touched,
+                  Unknowns& following, Unknowns& near, std::vector<int>& clusters) {
   Unknowns myTouched, myFollowing;
   std::vector<int> isTouched(problem.clusters.size(), 0); // of each cluster
   const auto clusterOf = [&problem](const decomposition::Subdomain& subdomain) {
@@ -49,13 +49,13 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
       isTouched[clusterOf(subdomain)] = 1;
     }
   }
-  touched = unionOverRanks(*problem.comm, myTouched);
-  const Unknowns ends = unionOverRanks(*problem.comm, myFollowing);
+  touched = unionOverRanks(comm, myTouched);
+  const Unknowns ends = unionOverRanks(comm, myFollowing);
   std::set_difference(ends.begin(), ends.end(), touched.begin(), touched.end(),
                       std::back_inserter(following));
   touched.insert(touched.end(), following.begin(), following.end());
   std::sort(touched.begin(), touched.end());
-  sumOverRanks(*problem.comm, std::span(isTouched));
+  sumOverRanks(comm, std::span(isTouched));
   std::map<decomposition::CoarseNumber, int> found; // the clusters of the near ones
   for (const auto& subdomain : problem.subdomains)
     if (isTouched[clusterOf(subdomain)] > 0)
@@ -68,7 +68,7 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, Unknowns& tou
   std::vector<Near> mine;
   for (const auto& [unknown, cluster] : found)
     mine.push_back({unknown, cluster});
-  for (const auto& [unknown, cluster] : gatherOnAll(*problem.comm, mine))
+  for (const auto& [unknown, cluster] : gatherOnAll(comm, mine))
     found[unknown] = cluster;
   for (const auto& [unknown, cluster] : found) {
     near.push_back(unknown);
@@ -84,9 +84,10 @@ int positionIn(const Unknowns& unknowns, decomposition::CoarseNumber unknown) {
 } // namespace
 
 ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& problem,
-                                       const GeneralizedInverse& inverse) {
+                                       const GeneralizedInverse& inverse, RCP<const Comm> comm)
+    : comm_(std::move(comm)) {
   std::vector<int> clusters;
-  findUnknowns(problem, touched_, following_, near_, clusters);
+  findUnknowns(problem, *comm_, touched_, following_, near_, clusters);
   findBlocks(clusters);
   fillBlocks(problem, inverse);
 }
@@ -140,7 +141,7 @@ void ContactCrosspoints::fillBlocks(const decomposition::DecomposedProblem& prob
       value += static_cast<std::ptrdiff_t>(block.near.size() * block.touched.size());
     }
   }
-  sumOverRanks(*problem.comm, std::span<double>(values));
+  sumOverRanks(*comm_, std::span<double>(values));
   collectively(*problem.comm, [&] {
     const double* value = values.data();
     for (Block& block : blocks_) {

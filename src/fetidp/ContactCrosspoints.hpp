@@ -20,10 +20,15 @@ namespace epafi::fetidp {
 
 class ContactCrosspoints {
 public:
-  /// Costs as many coarse solves, sixteen at once, as contact touches crosspoint values of one cluster at most. Collective.
-  ContactCrosspoints(const decomposition::DecomposedProblem& problem, const GeneralizedInverse& inverse);
+  /// Those of the clusters of so many ranks. Costs as many coarse solves, sixteen at once, as contact touches crosspoint values of one cluster
+  /// at most.
+  /// \param comm  these ranks: the team of the coarse problem (CoarseProblem.hpp), or all
+  /// Collective.
+  ContactCrosspoints(const decomposition::DecomposedProblem& problem, const GeneralizedInverse& inverse,
+                     RCP<const Comm> comm);
 
-  /// Number of the crosspoint values, n_C; the same on all ranks.
+  [[nodiscard]] const RCP<const Comm>& comm() const { return comm_; } ///< as given
+  /// Number of the crosspoint values, n_C; the same on all these ranks.
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(touched_.size()); }
   /// Number of the near ones, n_N; likewise.
   [[nodiscard]] Eigen::Index numNear() const { return static_cast<Eigen::Index>(near_.size()); }
@@ -47,11 +52,12 @@ private:
   /// Of one cluster: S_cc⁺ joins nothing else.
   struct Block {
     std::vector<int> touched, near;       ///< indices
-    Eigen::MatrixXd stiffness, extension; ///< Ŝ and X there, on every rank
+    Eigen::MatrixXd stiffness, extension; ///< Ŝ and X there, on each of the ranks
   };
   void findBlocks(const std::vector<int>& clusters);
   void fillBlocks(const decomposition::DecomposedProblem& problem, const GeneralizedInverse& inverse);
 
+  RCP<const Comm> comm_;
   std::vector<decomposition::CoarseNumber> touched_, following_,
       near_; ///< ascending; the second are among the first
   std::vector<Block> blocks_;

@@ -12,30 +12,39 @@ CrosspointMotion::CrosspointMotion(const decomposition::DecomposedProblem& probl
                                    std::shared_ptr<const GeneralizedInverse> inverse,
                                    ContactCrosspoints crosspoints, const ScaledConstraint& scaled,
                                    const RCP<const qp::DeflatedOperator>& deflated)
-    : inverse_(std::move(inverse)),
-      crosspoints_(std::move(crosspoints)), work_{MultiplierExchange(inverse_->multiplierPlan()),
-                                                  MultiplierExchange(inverse_->multiplierPlan()),
-                                                  {},
-                                                  {},
-                                                  {},
-                                                  {},
-                                                  {},
-                                                  {},
-                                                  rcp(new MultiVector(problem.multiplierMap, 1))} {
+    : inverse_(std::move(inverse)), crosspoints_(std::move(crosspoints)),
+      isLocal_(crosspoints_.comm()->getSize() < problem.comm->getSize()),
+      work_{MultiplierExchange(inverse_->multiplierPlan()),
+            MultiplierExchange(inverse_->multiplierPlan()),
+            {},
+            {},
+            {},
+            {},
+            {},
+            {},
+            rcp(new MultiVector(problem.multiplierMap, 1))} {
+  takeShares(scaled);
   takeWeights(scaled, *problem.multiplierMap);
   findFollowers();
   if (!deflated.is_null())
     constrain(problem, *deflated);
 }
 
-/// C and the shares go to the owners of their rows. Collective.
-void CrosspointMotion::takeWeights(const ScaledConstraint& scaled, const Map& map) {
+/// They go to the owners of their rows. Collective.
+void CrosspointMotion::takeShares(const ScaledConstraint& scaled) {
   MultiVector shares(inverse_->multiplierPlan()->getSourceMap(), 1);
   std::copy(scaled.boundaryShares.begin(), scaled.boundaryShares.end(), work_.output.values().begin());
   work_.output.sumToOwners(shares);
   for (const double share : shares.getData(0))
     inverseShares_.push_back(share > 0 ? 1 / share : 0.0);
+}
 
+/// C goes to the owners of its rows where they know all crosspoints. Collective.
+void CrosspointMotion::takeWeights(const ScaledConstraint& scaled, const Map& map) {
+  if (isLocal_) {
+    weights_ = scaled.atCrosspoints;
+    return;
+  }
   const Map& ghosts = *inverse_->multiplierPlan()->getTargetMap();
   struct Weight {
     GlobalOrdinal row;
@@ -111,13 +120,18 @@ void CrosspointMotion::prepareColumns(Eigen::Index numColumns) const {
 void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, MultiVector& rest) const {
   prepareColumns(static_cast<Eigen::Index>(lambda.getNumVectors()));
   u.resize(crosspoints_.size(), work_.forces.cols());
+  const std::span<const double> atSubdomains =
+      isLocal_ ? work_.input.toSubdomains(lambda) : std::span<const double>();
   for (Eigen::Index j = 0; j < u.cols(); ++j) {
-    const auto values = lambda.getData(static_cast<std::size_t>(j));
+    const auto column = static_cast<std::size_t>(j);
+    const std::size_t length = atSubdomains.size() / lambda.getNumVectors();
+    const auto owned = lambda.getData(column);
+    const double* values = isLocal_ ? atSubdomains.data() + column * length : owned.get();
     for (const ScaledConstraint::CrosspointEntry& entry : weights_)
       work_.touchedSums[static_cast<std::size_t>(entry.touched + j * u.rows())].add(entry.weight *
                                                                                     values[entry.multiplier]);
   }
-  sumOverRanks(*lambda.getMap()->getComm(), work_.touchedSums, u.data());
+  sumOverRanks(*crosspoints_.comm(), work_.touchedSums, u.data());
   if (constrained_) {
     constrained_->negativeJumps(u, rest);
   } else {
@@ -194,7 +208,6 @@ void CrosspointMotion::addForcesAtRest(const decomposition::DecomposedProblem& p
 
 /// Adds Cᵀ (Ŝ u − Jᵀy) and what the near sums begin with to y, Jᵀ by way of the near crosspoints or at once.
 void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const {
-  const Comm& comm = *y.getMap()->getComm();
   for (std::size_t j = 0; j < y.getNumVectors(); ++j) {
     const auto forces = y.getData(j);
     const auto shared = work_.shared->getDataNonConst(j);
@@ -203,20 +216,30 @@ void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const 
   }
   if (constrained_) {
     constrained_->subtractForces(*work_.shared, work_.touchedSums);
-    sumOverRanks(comm, work_.touchedSums);
+    sumOverRanks(*crosspoints_.comm(), work_.touchedSums);
     work_.forces.noalias() = constrained_->stiffness() * u;
     for (std::size_t i = 0; i < work_.touchedSums.size(); ++i)
       work_.forces.data()[i] += work_.touchedSums[i].value();
   } else {
     addForcesOfJumps();
-    sumOverRanks(comm, work_.nearSums, work_.nearForces.data());
+    sumOverRanks(*crosspoints_.comm(), work_.nearSums, work_.nearForces.data());
     crosspoints_.forcesOf(u, work_.nearForces, work_.forces);
   }
-  for (Eigen::Index j = 0; j < u.cols(); ++j) {
-    const auto values = y.getDataNonConst(static_cast<std::size_t>(j));
+  const auto addTo = [&](Eigen::Index column, double* values) {
     for (const ScaledConstraint::CrosspointEntry& entry : weights_)
-      values[entry.multiplier] += entry.weight * work_.forces(entry.touched, j);
+      values[entry.multiplier] += entry.weight * work_.forces(entry.touched, column);
+  };
+  if (isLocal_) {
+    const auto numColumns = static_cast<std::size_t>(u.cols());
+    const std::span<double> values = work_.output.zeros(numColumns);
+    for (Eigen::Index j = 0; j < u.cols(); ++j)
+      addTo(j, values.data() + static_cast<std::size_t>(j) * (values.size() / numColumns));
+    work_.output.sumToOwners(*work_.shared);
+    y.update(1.0, *work_.shared, 1.0);
+    return;
   }
+  for (Eigen::Index j = 0; j < u.cols(); ++j)
+    addTo(j, y.getDataNonConst(static_cast<std::size_t>(j)).get());
 }
 
 } // namespace epafi::fetidp

@@ -21,14 +21,15 @@ namespace epafi::fetidp {
 /// n_C crosspoint values that contact touches, n_N near ones.
 class CrosspointMotion {
 public:
-  /// Shares `inverse`. \param crosspoints  at least one; \param deflated  F with adaptive constraints, which bodies then keep
+  /// Shares `inverse`. \param deflated  F with adaptive constraints, which bodies then keep
   /// where they follow crosspoints; null without. Collective.
   CrosspointMotion(const decomposition::DecomposedProblem& problem,
                    std::shared_ptr<const GeneralizedInverse> inverse, ContactCrosspoints crosspoints,
                    const ScaledConstraint& scaled, const RCP<const qp::DeflatedOperator>& deflated);
 
-  /// u = C λ, n_C × k on every rank, and what is left for the boundaries, rest = λ − J u. Two messages, of n_C numbers a column
-  /// and to the neighbours, and a product with Ψ_Δ a subdomain and column. Collective.
+  /// u = C λ, n_C × k on every rank of the crosspoints' comm, and what is left for the boundaries, rest = λ − J u. Two messages, of n_C
+  /// numbers a column in this comm and to the neighbours, one more to these if it is not that of all ranks, and a product with Ψ_Δ a subdomain
+  /// and column. Collective.
   void split(const MultiVector& lambda, Eigen::MatrixXd& u, MultiVector& rest) const;
   /// y += Cᵀ(Ŝ u − Jᵀ y); likewise, with n_N numbers.
   void addForces(const Eigen::MatrixXd& u, MultiVector& y) const;
@@ -54,6 +55,7 @@ private:
     Eigen::MatrixXd forces;                         ///< at the touched ones, n_C × k
     RCP<MultiVector> shared;                        ///< y over the shares
   };
+  void takeShares(const ScaledConstraint& scaled);
   void takeWeights(const ScaledConstraint& scaled, const Map& map);
   void findFollowers();
   void constrain(const decomposition::DecomposedProblem& problem, const qp::DeflatedOperator& deflated);
@@ -64,8 +66,11 @@ private:
 
   std::shared_ptr<const GeneralizedInverse> inverse_;
   ContactCrosspoints crosspoints_;
-  std::optional<ConstrainedCrosspoints> constrained_;      ///< where there are adaptive constraints
-  std::vector<ScaledConstraint::CrosspointEntry> weights_; ///< C, of the rows of this rank, row by row
+  std::optional<ConstrainedCrosspoints> constrained_; ///< where there are adaptive constraints
+  bool
+      isLocal_; ///< whether the crosspoints are those of some ranks, whose subdomains then have C's rows, not the rows' owners
+  std::vector<ScaledConstraint::CrosspointEntry>
+      weights_; ///< C, row by row: of rows on the ghost map if local, else of this rank's
   std::vector<double> inverseShares_; ///< of the rows of this rank: 1/Σ b_i B_D,i over the boundary
   std::vector<Follower> followers_;
   mutable Workspace work_;

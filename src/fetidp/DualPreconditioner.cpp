@@ -1,5 +1,7 @@
 #include "epafi/fetidp/DualPreconditioner.hpp"
 
+#include "epafi/base/Collective.hpp"
+
 #include <utility>
 
 namespace epafi::fetidp {
@@ -10,11 +12,13 @@ DualPreconditioner::DualPreconditioner(const decomposition::DecomposedProblem& p
                                        const RCP<const qp::DeflatedOperator>& deflated)
     : SymmetricOperator(problem.multiplierMap), inverse_(std::move(inverse)),
       rest_(rcp(new MultiVector(problem.multiplierMap, 1))) {
-  ContactCrosspoints crosspoints(problem, *inverse_);
+  // Adaptive constraints join all clusters.
+  ContactCrosspoints crosspoints(problem, *inverse_,
+                                 deflated.is_null() ? inverse_->coarseProblem().team() : problem.comm);
   ScaledConstraint scaled =
       scaleConstraint(problem, crosspoints, parameters.scaling, inverse_->multiplierPlan());
   boundary_.emplace(problem, inverse_, scaled, parameters);
-  if (crosspoints.size() > 0)
+  if (holdsAnywhere(*problem.comm, crosspoints.size() > 0))
     motion_.emplace(problem, inverse_, std::move(crosspoints), scaled, deflated);
   untouched_ = std::move(scaled.untouched);
 }

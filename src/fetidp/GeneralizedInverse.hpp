@@ -65,7 +65,7 @@ public:
   /// result = this rank's part of B̄ u (on the ghost map × k). Not collective.
   void constraint(const SubdomainVectors& u, std::span<double> result) const;
 
-  /// S_cc⁺ of unit forces, at this rank's coarse unknowns. \param unknowns  where they act, for each column; the same on every rank
+  /// S_cc⁺ of unit forces, at this rank's coarse unknowns. \param unknowns  where they act, for each column; the same on every rank of a team (CoarseProblem.hpp)
   /// Collective.
   [[nodiscard]] Eigen::MatrixXd
   coarseColumns(std::span<const std::vector<decomposition::CoarseNumber>> unknowns) const;

@@ -14,7 +14,7 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
                                  PreconditionerParameters::Scaling scaling, const RCP<const Import>& plan) {
   // B has an entry for one copy of each crosspoint value that contact touches, whose own stiffness may be far from that of all.
   const Eigen::VectorXd atCrosspoints =
-      crosspointDiagonal(problem, *problem.comm, crosspoints.size(),
+      crosspointDiagonal(problem, *crosspoints.comm(), crosspoints.size(),
                          [&](GlobalOrdinal unknown) { return crosspoints.indexOf(unknown); });
   const auto weightOf = [&](const Subdomain& subdomain, int unknown) { // δ
     if (scaling == PreconditionerParameters::Scaling::multiplicity)

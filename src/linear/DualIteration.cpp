@@ -75,7 +75,7 @@ private:
 PrimalResidual::PrimalResidual(const UnassembledOperator& k, const fetidp::GeneralizedInverse& inverse,
                                fetidp::PreconditionerParameters::Scaling scaling)
     : k_(k), exchange_(inverse.multiplierPlan()), residual_(rcp(new MultiVector(k.getRangeMap(), 1))) {
-  const fetidp::ContactCrosspoints none(k.problem(), inverse);
+  const fetidp::ContactCrosspoints none(k.problem(), inverse, k.problem().comm);
   weights_ =
       std::move(fetidp::scaleConstraint(k.problem(), none, scaling, inverse.multiplierPlan()).boundary);
 }

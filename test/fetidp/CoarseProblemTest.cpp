@@ -1,3 +1,4 @@
+#include "Preconditioned.hpp"
 #include "Reference.hpp"
 
 #include "epafi/fetidp/DualOperator.hpp"
@@ -38,6 +39,30 @@ TEST(CoarseProblemTest, EachRankHasThePartOfItsClusters) {
     return matrixOf(DualOperator(std::make_shared<GeneralizedInverse>(d.problem, DirectSolvers())));
   };
   EXPECT_LE(relativeError(f(decomposition), f(alone)), 1e-13);
+}
+
+/// A body that is one cluster beside one of four: on four ranks two share the first, and two have two of the others each.
+TEST(CoarseProblemTest, RanksThatShareAClusterAreATeam) {
+  const int ranks = world()->getSize(), rank = world()->getRank();
+  for (const bool coercive : {true, false}) {
+    scene::Scene scene = twoMembranes(coercive, 12, grid(4, 4));
+    scene.bodies[1].decomposition.cluster = 4;
+    const Preconditioned together(scene), alone(scene, {}, thisRankOnly());
+    const CoarseProblem& coarse = together.inverse->coarseProblem();
+    const int expected = ranks == 4 && rank >= 2 ? 1 : (ranks + 1) / 2;
+    EXPECT_EQ(coarse.team()->getSize(), ranks == 3 ? 3 : expected);
+    EXPECT_EQ(coarse.isSplit(), ranks == 2 || ranks == 4);
+    EXPECT_LE(relativeError(matrixOf(together.f), matrixOf(alone.f)), 1e-13);
+    EXPECT_LE(relativeError(matrixOf(together.m), matrixOf(alone.m)), 1e-12);
+    for (const int maxReplicated : {0, 1000}) { // on the team's first rank, or on each
+      DirectSolvers solvers;
+      solvers.maxReplicated = maxReplicated;
+      const auto inverse = std::make_shared<GeneralizedInverse>(together.problem, solvers);
+      EXPECT_LE(relativeError(matrixOf(DualOperator(inverse)), matrixOf(alone.f)), 1e-13);
+      EXPECT_EQ(inverse->coarseProblem().factorBytes() > 0,
+                maxReplicated > 0 || coarse.team()->getRank() == 0);
+    }
+  }
 }
 
 TEST(CoarseProblemTest, TakesManyColumnsOnOneRankAsOnAll) {

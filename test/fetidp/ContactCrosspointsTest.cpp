@@ -20,7 +20,7 @@ using Indices = std::vector<Eigen::Index>;
 struct Crosspoints {
   explicit Crosspoints(const scene::Scene& scene)
       : decomposition(decompose(scene, world())), problem(decomposition.problem),
-        inverse(problem, DirectSolvers()), found(problem, inverse) {
+        inverse(problem, DirectSolvers()), found(problem, inverse, problem.comm) {
     const auto n = static_cast<Eigen::Index>(problem.crosspointMap->getGlobalNumElements());
     stiffness = Eigen::MatrixXd::Zero(n, n);
     isTouched = isNear = Eigen::VectorXd::Zero(n);
@@ -225,7 +225,7 @@ TEST(ContactCrosspointsTest, AreTheSameToTheLastDigitOnAnyNumberOfRanks) {
     const Crosspoints together(c.scene);
     const auto decomposition = decompose(c.scene, thisRankOnly());
     GeneralizedInverse inverse(decomposition.problem, DirectSolvers());
-    const ContactCrosspoints alone(decomposition.problem, inverse);
+    const ContactCrosspoints alone(decomposition.problem, inverse, decomposition.problem.comm);
     ASSERT_EQ(together.found.size(), alone.size());
     const double allowed = c.scene.bodies.front().decomposition.cluster > 0 ? 1e-13 : 0;
     EXPECT_LE((together.found.stiffness() - alone.stiffness()).norm(), allowed * alone.stiffness().norm());

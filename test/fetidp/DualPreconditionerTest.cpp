@@ -58,7 +58,7 @@ TEST(DualPreconditionerTest, InSinglePrecisionItIsSymmetricPositiveDefiniteToSix
 class DensePreconditioner {
 public:
   DensePreconditioner(const Preconditioned& p, const PreconditionerParameters& parameters)
-      : problem_(p.problem), parameters_(parameters), crosspoints_(problem_, *p.inverse),
+      : problem_(p.problem), parameters_(parameters), crosspoints_(problem_, *p.inverse, problem_.comm),
         diagonal_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.crosspointMap->getGlobalNumElements()))),
         totals_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.dualDimension()))) {
