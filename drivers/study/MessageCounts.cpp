@@ -23,8 +23,15 @@ extern "C" {
 
 int MPI_Allreduce(const void* sendbuf, void* recvbuf, int count, MPI_Datatype datatype, MPI_Op op,
                   MPI_Comm comm) {
-  ++counts.reductions;
-  counts.reductionBytes += bytesOf(count, datatype);
+  int ranks = 0, all = 0;
+  MPI_Comm_size(comm, &ranks);
+  MPI_Comm_size(MPI_COMM_WORLD, &all);
+  if (ranks == all) {
+    ++counts.reductions;
+    counts.reductionBytes += bytesOf(count, datatype);
+  } else if (ranks > 1) {
+    ++counts.teamReductions;
+  }
   return PMPI_Allreduce(sendbuf, recvbuf, count, datatype, op, comm);
 }
 
@@ -59,7 +66,7 @@ MessageCounts messageCounts() {
 
 MessageCounts operator-(const MessageCounts& a, const MessageCounts& b) {
   return {a.messages - b.messages, a.bytes - b.bytes, a.reductions - b.reductions,
-          a.reductionBytes - b.reductionBytes};
+          a.reductionBytes - b.reductionBytes, a.teamReductions - b.teamReductions};
 }
 
 } // namespace epafi::drivers

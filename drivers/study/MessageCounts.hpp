@@ -11,7 +11,8 @@ namespace epafi::drivers {
 /// MPI, so its bytes are those of the result.
 struct MessageCounts {
   std::int64_t messages = 0, bytes = 0;
-  std::int64_t reductions = 0, reductionBytes = 0;
+  std::int64_t reductions = 0, reductionBytes = 0; ///< over all ranks
+  std::int64_t teamReductions = 0;                 ///< over some
 };
 
 /// Not collective.

@@ -42,17 +42,19 @@ public:
     if (record.kind == qp::StepKind::conjugateGradient) {
       number_.push_back(static_cast<double>(ofStep.reductions));
       bytes_.push_back(static_cast<double>(ofStep.reductionBytes));
+      inTeams_.push_back(static_cast<double>(ofStep.teamReductions));
     }
     last_ = now;
   }
   void addTo(Row& row) const {
     row["reductions_per_step"] = number_.empty() ? notMeasured : median(number_);
     row["reduction_bytes_per_step"] = bytes_.empty() ? notMeasured : median(bytes_);
+    row["team_reductions_per_step"] = inTeams_.empty() ? notMeasured : median(inTeams_);
   }
 
 private:
   MessageCounts last_;
-  std::vector<double> number_, bytes_;
+  std::vector<double> number_, bytes_, inTeams_;
 };
 
 /// Times of one run after the other.

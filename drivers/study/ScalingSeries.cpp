@@ -59,7 +59,7 @@ std::vector<Row> runsOnRanks(const ScalingSizes& sizes, int ranks) {
     const bool isBlocks = problem == std::string("blocks");
     const int side = isBlocks ? sizes.blocks : sizes.strongSubdomains;
     const int ofBody = isBlocks ? side * side * side : side * side;
-    for (const int cluster : {0, 1, 2 * ofBody / ranks}) {
+    for (const int cluster : {0, 1, 2 * ofBody / ranks, 8 * ofBody / ranks}) { // a rank's, four ranks'
       Row row = scalingRun(problem, side, isBlocks ? sizes.blocksElements : sizes.ranksElements, ranks);
       row["cluster"] = cluster < ofBody ? cluster : 0; // of the whole body
       if (isBlocks)

@@ -23,6 +23,7 @@ namespace epafi::drivers {
 ///   base_bytes                     held before the run: program and libraries
 ///   unknowns, multipliers          primal and dual dimension
 ///   reduction_bytes_per_apply      of one rank; reduction_bytes_per_step of a conjugate gradient step
+///   team_reductions_per_step       among ranks that share clusters (CoarseProblem.hpp)
 Table scalingTable();
 
 /// A run by its settings, with the shared form of F and the Dirichlet preconditioner.

@@ -89,6 +89,11 @@ TEST(MessageCountsTest, CountsSumsOverTheRanks) {
     EXPECT_EQ(counts.reductions, 1);
     EXPECT_EQ(counts.reductionBytes, 8);
   }
+  const auto half = comm->split(comm->getRank() % 2, 0);
+  sumOverRanks(*half, 1.0);
+  const MessageCounts ofTeam = messageCounts() - before - counts;
+  EXPECT_EQ(ofTeam.reductions, comm->getSize() == 1 ? 1 : 0);
+  EXPECT_EQ(ofTeam.teamReductions, half->getSize() > 1 ? 1 : 0);
 }
 
 /// Ten subdomains have ten crosspoints and as many motions; factors cost as their size.
