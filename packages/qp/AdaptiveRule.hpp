@@ -22,7 +22,7 @@ public:
   AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance,
                double forcing)
       : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
-        residual_(equality_->numEntries()) {
+        residual_(equality_->numEntries()), weighed_(residual_.size()) {
     if (tolerances.error != nullptr)
       watch_.emplace(*tolerances.error);
   }
@@ -36,7 +36,7 @@ public:
 
   bool isSatisfied(const GradientNorms& gradient, std::span<const AccurateSum> sums) override {
     const double projectedGradient = gradient.euclidean;
-    residualNorm_ = equality_->finishResidual(sums, residual_);
+    residualNorm_ = equality_->finishResidual(sums, residual_, weighed_);
     const bool isRough = watch_ && equality_->isReplicated();
     const double constraint =
         isRough ? std::max(worthRestoring, tolerances_.constraint) : tolerances_.constraint;
@@ -62,6 +62,8 @@ public:
   }
   [[nodiscard]] double residualNorm() const { return residualNorm_; }
   [[nodiscard]] std::span<const double> residual() const { return residual_; }
+  /// Of W(Bx − c), what it adds to multipliers.
+  [[nodiscard]] std::span<const double> weighedResidual() const { return weighed_; }
   void reduceBalance(double factor) { balance_ *= factor; }
   void startInnerLoop() { steps_ = 0; }
 
@@ -69,7 +71,7 @@ private:
   RCP<const EqualityConstraint> equality_;
   SmalbeTolerances tolerances_;
   double balance_, forcing_;
-  std::vector<double> residual_;
+  std::vector<double> residual_, weighed_;
   double residualNorm_ = 0;
   std::optional<ErrorWatch> watch_;
   const Vector* x_ = nullptr; ///< of the measurement at hand

@@ -58,8 +58,8 @@ public:
     }
     sumOverRanks(*face.getMap()->getComm(), sums);
     for (std::size_t j = 0; j < size_; ++j)
-      equality_.finishProduct(std::span(sums).subspan(j * size_, size_),
-                              std::span(gram).subspan(j * size_, size_));
+      ReplicatedEquality::finishProduct(std::span(sums).subspan(j * size_, size_),
+                                        std::span(gram).subspan(j * size_, size_));
     inverse_ = pseudoInverse(std::move(gram), static_cast<int>(size_));
   }
 
@@ -83,17 +83,29 @@ std::unique_ptr<FaceInverse> ReplicatedEquality::faceInverse(const RCP<const Map
   return std::make_unique<DenseFaceInverse>(*this, map);
 }
 
-void ReplicatedEquality::finishProduct(std::span<const AccurateSum> sums, std::span<double> bx) const {
+void EqualityConstraint::weigh(std::span<const double> r, std::span<double> mu) const {
+  std::copy(r.begin(), r.end(), mu.begin());
+}
+
+double EqualityConstraint::normOf(std::span<const double> r) const {
+  std::vector<double> mu(r.size());
+  weigh(r, mu);
+  return std::sqrt(std::max(0.0, dot(mu, r)));
+}
+
+void ReplicatedEquality::finishProduct(std::span<const AccurateSum> sums, std::span<double> bx) {
   for (std::size_t k = 0; k < bx.size(); ++k)
     bx[k] = sums[k].value();
 }
 
-double ReplicatedEquality::finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const {
+double ReplicatedEquality::finishResidual(std::span<const AccurateSum> sums, std::span<double> r,
+                                          std::span<double> weighed) const {
   finishProduct(sums, r);
   const std::span<const double> c = rightHandSide();
   for (std::size_t k = 0; k < c.size(); ++k)
     r[k] -= c[k];
-  return std::sqrt(dot(r, r));
+  weigh(r, weighed);
+  return std::sqrt(std::max(0.0, dot(weighed, r))); // max: of round-off
 }
 
 void ReplicatedEquality::product(const Vector& x, std::span<double> bx) const {
@@ -103,10 +115,10 @@ void ReplicatedEquality::product(const Vector& x, std::span<double> bx) const {
   finishProduct(sums_, bx);
 }
 
-double ReplicatedEquality::dot(std::span<const double> a, std::span<const double> b) const {
+double ReplicatedEquality::dot(std::span<const double> mu, std::span<const double> r) const {
   double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k)
-    sum += a[k] * b[k];
+  for (std::size_t k = 0; k < mu.size(); ++k)
+    sum += mu[k] * r[k];
   return sum;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// The equality constraint Bx = c as SMALBE sees it. Residuals r = Bx − c and multipliers μ are spans of the entries
-/// that this rank keeps.
+/// that this rank keeps. Residuals are measured by a weight W, symmetric positive definite: ‖r‖ = (rᵀWr)^½, and Wr is what they add to
+/// multipliers.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Types.hpp"
@@ -21,7 +22,7 @@ public:
   [[nodiscard]] virtual std::size_t numEntries() const = 0;
   /// Whether these are all rows, the same on every rank.
   [[nodiscard]] virtual bool isReplicated() const = 0;
-  /// Over-estimate of ‖B‖.
+  /// Over-estimate of ‖W^½B‖.
   [[nodiscard]] virtual double norm() const = 0;
 
   /// r = Bx − c in two halves around a sum over the ranks that the caller makes anyway. The first adds this rank's
@@ -29,8 +30,9 @@ public:
   [[nodiscard]] virtual int numSums() const = 0;
   /// \param sums  numSums() of them
   virtual void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const = 0;
-  /// The second fills r and returns ‖r‖. Precondition: `addLocalSums` was called last with the same x. Not collective.
-  virtual double finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const = 0;
+  /// The second fills r and Wr, and returns ‖r‖. Precondition: `addLocalSums` was called last with the same x. Collective.
+  virtual double finishResidual(std::span<const AccurateSum> sums, std::span<double> r,
+                                std::span<double> weighed) const = 0;
 
   /// Bx. Collective.
   virtual void product(const Vector& x, std::span<double> bx) const = 0;
@@ -40,12 +42,16 @@ public:
   [[nodiscard]] virtual bool isHomogeneous() const { return true; }
   /// This rank's entries of c; empty if c = 0.
   [[nodiscard]] virtual std::span<const double> rightHandSide() const { return {}; }
-  /// aᵀb over all rows. Collective.
-  [[nodiscard]] virtual double dot(std::span<const double> a, std::span<const double> b) const = 0;
+  /// μᵀr over all rows. Collective.
+  [[nodiscard]] virtual double dot(std::span<const double> mu, std::span<const double> r) const = 0;
+  /// μ = Wr, W = I if nothing else is said. Collective.
+  virtual void weigh(std::span<const double> r, std::span<double> mu) const;
+  /// ‖r‖. Collective.
+  [[nodiscard]] double normOf(std::span<const double> r) const;
 };
 
-/// A few rows, known on every rank, that are orthonormal: BBᵀ = I. A product takes part in the messages that a solver
-/// sends anyway.
+/// A few rows, known on every rank, with W = (BBᵀ)⁻¹, so that BᵀWB is a projector: I if they are orthonormal. A product takes part in the
+/// messages that a solver sends anyway.
 class ReplicatedEquality : public EqualityConstraint {
 public:
   /// Number of rows.
@@ -54,9 +60,9 @@ public:
   /// ranks. All ranks call it together.
   virtual void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const = 0;
   /// bx = Bx from the sums over the ranks. Both have size() entries. Not collective.
-  virtual void finishProduct(std::span<const AccurateSum> sums, std::span<double> bx) const;
-  /// For faces; by default dense, with k² numbers in a message a face and k³ operations on every rank. It may keep a reference to this.
-  /// Not collective.
+  static void finishProduct(std::span<const AccurateSum> sums, std::span<double> bx);
+  /// For faces; by default of orthonormal rows, dense, with k² numbers in a message a face and k³ operations on every rank. It may keep a
+  /// reference to this. Collective.
   [[nodiscard]] virtual std::unique_ptr<FaceInverse> faceInverse(const RCP<const Map>& map) const;
 
   [[nodiscard]] std::size_t numEntries() const final { return static_cast<std::size_t>(size()); }
@@ -64,9 +70,10 @@ public:
   [[nodiscard]] double norm() const final { return 1; }
   [[nodiscard]] int numSums() const final { return size(); }
   void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const final { addLocalProduct(x, sums); }
-  double finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const final;
+  double finishResidual(std::span<const AccurateSum> sums, std::span<double> r,
+                        std::span<double> weighed) const final;
   void product(const Vector& x, std::span<double> bx) const final;
-  [[nodiscard]] double dot(std::span<const double> a, std::span<const double> b) const final;
+  [[nodiscard]] double dot(std::span<const double> mu, std::span<const double> r) const final;
 
 private:
   mutable std::vector<AccurateSum> sums_; ///< work space of `product`

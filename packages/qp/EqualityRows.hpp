@@ -82,9 +82,11 @@ public:
       sums[0].add(r[i] * r[i]);
     }
   }
-  double finishResidual(std::span<const AccurateSum> sums, std::span<double> r) const override {
+  double finishResidual(std::span<const AccurateSum> sums, std::span<double> r,
+                        std::span<double> weighed) const override {
     const auto values = localData(rows_);
     std::copy(values.begin(), values.end(), r.begin());
+    std::copy(values.begin(), values.end(), weighed.begin());
     return std::sqrt(sums[0].value());
   }
   void product(const Vector& x, std::span<double> bx) const override {
@@ -98,10 +100,10 @@ public:
     b_->apply(rows_, transposed_, Teuchos::TRANS);
     y.update(scale_ * factor, transposed_, 1.0);
   }
-  [[nodiscard]] double dot(std::span<const double> a, std::span<const double> b) const override {
+  [[nodiscard]] double dot(std::span<const double> mu, std::span<const double> r) const override {
     AccurateSum sum;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      sum.add(a[i] * b[i]);
+    for (std::size_t i = 0; i < mu.size(); ++i)
+      sum.add(mu[i] * r[i]);
     sumOverRanks(*rows_.getMap()->getComm(), {&sum, 1});
     return sum.value();
   }

@@ -38,7 +38,7 @@ void FaceEquality::addLocalSums(const Vector& x, std::span<AccurateSum> sums) co
 
 void FaceEquality::finish(std::span<const AccurateSum> sums, std::span<double> bx) const {
   if (numRows_ > 0)
-    equality_->finishProduct(sums, bx);
+    ReplicatedEquality::finishProduct(sums, bx);
 }
 
 void FaceEquality::multiplierOf(std::span<const double> b, std::span<double> mu) const {

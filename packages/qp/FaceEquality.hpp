@@ -32,14 +32,18 @@ public:
   void project(Vector& x);
   /// μ with B_Fᵀμ nearest to x on the face, of those the shortest; x becomes 0 off the face. Valid until the next call. Likewise.
   [[nodiscard]] std::span<const double> fit(Vector& x);
-  /// μ = (B_F B_Fᵀ)⁺ b. Not collective.
+  /// μ = (B_F B_Fᵀ)⁺ b. Collective.
   void multiplierOf(std::span<const double> b, std::span<double> mu) const;
   /// y += factor · B_Fᵀμ; y becomes 0 off the face. Not collective.
   void addTransposed(std::span<const double> mu, double factor, Vector& y) const;
   /// y += factor · Bᵀμ, off the face too. Not collective.
   void addWholeTransposed(std::span<const double> mu, double factor, Vector& y) const;
-  /// Bx − c. Collective.
+  /// r = Bx − c. Collective.
   void residual(const Vector& x, std::span<double> r) const;
+  /// ‖r‖. Collective.
+  [[nodiscard]] double normOf(std::span<const double> r) const {
+    return numRows_ == 0 ? 0 : equality_->normOf(r);
+  }
 
 private:
   RCP<const ReplicatedEquality> equality_;

@@ -5,7 +5,6 @@
 #include <Tpetra_Map.hpp>
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace epafi::qp {
@@ -45,7 +44,7 @@ void FaceIteration::enter(bool isOrigin) {
   equality_.addTransposed(multiplier_, -1.0, p_);
   addScaled(1.0, p_, x);
   equality_.residual(x, rows_);
-  residual_ = std::sqrt(std::inner_product(rows_.begin(), rows_.end(), rows_.begin(), 0.0));
+  residual_ = equality_.normOf(rows_);
   if (isOrigin && residual_ == 0) { // and so it has stayed: no product
     image_.putScalar(0.0);
     f_ = objective_.constant();

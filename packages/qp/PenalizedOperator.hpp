@@ -1,6 +1,6 @@
 #pragma once
 
-/// A + ρBᵀB, the Hessian of the augmented Lagrangian; with A absent, BᵀB alone.
+/// A + ρBᵀWB, the Hessian of the augmented Lagrangian (W: EqualityConstraint.hpp); with A absent, BᵀWB alone.
 
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
@@ -20,7 +20,7 @@ public:
   PenalizedOperator(RCP<const Operator> a, RCP<const Map> map, RCP<const EqualityConstraint> b,
                     double penalty)
       : SymmetricOperator(std::move(map)), a_(std::move(a)), b_(std::move(b)), penalty_(penalty),
-        bx_(b_->numEntries()) {}
+        bx_(b_->numEntries()), weighed_(bx_.size()) {}
 
   void setPenalty(double penalty) { penalty_ = penalty; }
 
@@ -32,14 +32,15 @@ private:
       a_->apply(x, y);
     forEachColumn(x, y, [&](const Vector& in, Vector& out) {
       b_->product(in, bx_);
-      b_->addTransposedProduct(bx_, penalty_, out);
+      b_->weigh(bx_, weighed_);
+      b_->addTransposedProduct(weighed_, penalty_, out);
     });
   }
 
   RCP<const Operator> a_;
   RCP<const EqualityConstraint> b_;
   double penalty_;
-  mutable std::vector<double> bx_;
+  mutable std::vector<double> bx_, weighed_; ///< Bx, WBx
 };
 
 } // namespace epafi::qp

@@ -184,7 +184,7 @@ void QpSolver::Run::iterate() {
     return;
   }
   const EqualityConstraint& b = *equality.constraint;
-  const double c = b.isHomogeneous() ? 0.0 : std::sqrt(b.dot(b.rightHandSide(), b.rightHandSide()));
+  const double c = b.isHomogeneous() ? 0.0 : b.normOf(b.rightHandSide());
   SmalbeTolerances tolerances;
   tolerances.gradient =
       reference > 0 ? std::max(solver.tolerance_, solver.absoluteTolerance_ / reference) : 0.0;

@@ -15,13 +15,13 @@
 namespace epafi::qp {
 namespace {
 
-/// I + τ(A/‖A‖ + BᵀB/‖B‖²).
+/// I + τ(A/‖A‖ + BᵀWB/‖B‖²).
 class PenalizedIdentity final : public SymmetricOperator {
 public:
   PenalizedIdentity(RCP<const Operator> a, double operatorNorm, RCP<const EqualityConstraint> equality)
       : SymmetricOperator(a->getDomainMap()), a_(std::move(a)),
         scale_(operatorNorm > 0 ? 1 / operatorNorm : 0.0), equality_(std::move(equality)),
-        bx_(equality_.is_null() ? 0 : equality_->numEntries()) {}
+        bx_(equality_.is_null() ? 0 : equality_->numEntries()), weighed_(bx_.size()) {}
   void setPenalty(double penalty) { penalty_ = penalty; }
 
 private:
@@ -31,7 +31,8 @@ private:
       out.scale(penalty_ * scale_);
       if (!equality_.is_null()) {
         equality_->product(in, bx_);
-        equality_->addTransposedProduct(bx_, penalty_ / (equality_->norm() * equality_->norm()), out);
+        equality_->weigh(bx_, weighed_);
+        equality_->addTransposedProduct(weighed_, penalty_ / (equality_->norm() * equality_->norm()), out);
       }
       out.update(1.0, in, 1.0);
     });
@@ -40,7 +41,7 @@ private:
   RCP<const Operator> a_;
   double scale_, penalty_ = 0; ///< 1/‖A‖, τ
   RCP<const EqualityConstraint> equality_;
-  mutable std::vector<double> bx_;
+  mutable std::vector<double> bx_, weighed_;
 };
 
 /// How far d, made of length 1, is from Ad = 0 and Bd = 0: the larger of ‖Ad‖/‖A‖ and ‖Bd‖/‖B‖; infinity where d leads
@@ -59,7 +60,7 @@ double defect(const Operator& a, double operatorNorm, const Vector& target,
   if (equality != nullptr) {
     std::vector<double> bd(equality->numEntries());
     equality->product(d, bd);
-    largest = std::max(largest, std::sqrt(equality->dot(bd, bd)) / equality->norm());
+    largest = std::max(largest, equality->normOf(bd) / equality->norm());
   }
   return largest;
 }

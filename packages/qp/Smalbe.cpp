@@ -27,11 +27,13 @@ public:
   explicit CreepingResidual(const EqualityConstraint& equality)
       : equality_(equality), last_(equality.numEntries(), 0.0) {}
 
-  /// How many steps one is to stand for. Collective.
-  double factor(std::span<const double> residual, double norm, double lastNorm) {
+  /// How many steps one is to stand for. \param weighed  W times the residual
+  /// Collective.
+  double factor(std::span<const double> residual, std::span<const double> weighed, double norm,
+                double lastNorm) {
     constexpr int patience = 4;
     constexpr double longest = 1e8;
-    const double alignment = equality_.dot(residual, last_) / (norm * lastNorm);
+    const double alignment = equality_.dot(weighed, last_) / (norm * lastNorm);
     last_.assign(residual.begin(), residual.end());
     numAligned_ = norm > 0.5 * lastNorm && alignment > 0.99 ? numAligned_ + 1 : 0;
     if (numAligned_ < patience)
@@ -97,6 +99,7 @@ private:
   const EqualityConstraint& equality_;
   double penalty_; ///< ρ
   std::vector<double>& multiplier_;
+  std::vector<double> weighedRhs_; ///< Wc; empty if c = 0
   RCP<PenalizedOperator> hessian_;
   AdaptiveRule rule_;
   Mprgp inner_;
@@ -121,27 +124,30 @@ OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<
       inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
       work_(problem.hessian->getDomainMap()), creep_(equality_) {
   multiplier_.assign(equality_.numEntries(), 0.0);
+  weighedRhs_.resize(equality_.rightHandSide().size());
+  if (!equality_.isHomogeneous())
+    equality_.weigh(equality_.rightHandSide(), weighedRhs_);
 }
 
-/// ‖A + ρBᵀB‖ at most.
+/// ‖A + ρBᵀWB‖ at most.
 double OuterIteration::normOfLagrangian() const {
   return problem_.operatorNorm + penalty_ * equality_.norm() * equality_.norm();
 }
 
-/// −μᵀc + ρ/2‖c‖².
+/// −μᵀc + ρ/2 cᵀWc.
 double OuterIteration::constantOfLagrangian() const {
   const auto c = equality_.rightHandSide();
-  return equality_.isHomogeneous() ? 0.0
-                                   : 0.5 * penalty_ * equality_.dot(c, c) - equality_.dot(multiplier_, c);
+  return equality_.isHomogeneous()
+             ? 0.0
+             : 0.5 * penalty_ * equality_.dot(weighedRhs_, c) - equality_.dot(multiplier_, c);
 }
 
-/// b − Bᵀμ + ρBᵀc.
+/// b − Bᵀμ + ρBᵀWc.
 void OuterIteration::linearTermOfLagrangian(Vector& b) const {
   b.assign(*problem_.linearTerm);
   std::vector<double> combined(multiplier_);
-  const auto c = equality_.rightHandSide();
-  for (std::size_t i = 0; i < c.size(); ++i)
-    combined[i] -= penalty_ * c[i];
+  for (std::size_t i = 0; i < weighedRhs_.size(); ++i)
+    combined[i] -= penalty_ * weighedRhs_[i];
   equality_.addTransposedProduct(combined, -1.0, b);
 }
 
@@ -169,7 +175,7 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
       continue;
     }
     const Progress now{inner_.objective(), rule_.residualNorm()};
-    updateMultiplier(previous); // μ ← μ + ρ(Bx − c), or further
+    updateMultiplier(previous); // μ ← μ + ρW(Bx − c), or further
     adapt(previous, now);
     previous = now;
     ++inner_.counts().outer;
@@ -228,8 +234,8 @@ void OuterIteration::startMultiplier() {
 void OuterIteration::growPenalty() {
   const double growth = (parameters_.penaltyGrowth - 1) * penalty_;
   const double residual = rule_.residualNorm();
-  Vector change(work_.getMap()); // of the gradient: growth · Bᵀ(Bx − c)
-  equality_.addTransposedProduct(rule_.residual(), growth, change);
+  Vector change(work_.getMap()); // of the gradient: growth · BᵀW(Bx − c)
+  equality_.addTransposedProduct(rule_.weighedResidual(), growth, change);
   penalty_ += growth;
   hessian_->setPenalty(penalty_);
   linearTermOfLagrangian(work_);
@@ -237,22 +243,23 @@ void OuterIteration::growPenalty() {
                        normOfLagrangian());
 }
 
-/// μ may go further than the paper's step ρ(Bx − c), to where `creep_` foresees it or where the inner solution x does not notice:
+/// μ may go further than the paper's step ρW(Bx − c), to where `creep_` foresees it or where the inner solution x does not notice:
 /// while every entry that the shift touches is held at its bound, x stays the minimiser and L grows linearly in μ, until
 /// the first multiplier there changes its sign.
 void OuterIteration::updateMultiplier(const Progress& previous) {
   const double residual = rule_.residualNorm();
   work_.putScalar(0.0);
-  equality_.addTransposedProduct(rule_.residual(), penalty_ * inner_.gradientScale(), work_);
+  equality_.addTransposedProduct(rule_.weighedResidual(), penalty_ * inner_.gradientScale(), work_);
   const double longest =
       minOverRanks(*work_.getMap()->getComm(),
                    problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
-  const double step = std::max({1.0, std::isfinite(longest) ? longest : 1.0,
-                                creep_.factor(rule_.residual(), residual, previous.residual)});
+  const double step =
+      std::max({1.0, std::isfinite(longest) ? longest : 1.0,
+                creep_.factor(rule_.residual(), rule_.weighedResidual(), residual, previous.residual)});
   work_.scale(step / inner_.gradientScale());
   inner_.shiftLinearTerm(work_, step * penalty_ * residual * residual);
   for (std::size_t i = 0; i < multiplier_.size(); ++i)
-    multiplier_[i] += step * penalty_ * rule_.residual()[i];
+    multiplier_[i] += step * penalty_ * rule_.weighedResidual()[i];
 }
 
 /// The certificate: Bx = c to round-off and a fresh gradient; if it fails the iteration goes on.
@@ -284,8 +291,8 @@ SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vecto
                     "Iterations' or the tolerance";
   report.relativeProjectedGradient = relativeTo(tolerances.gradientReference, solver.projectedGradient());
   for (std::size_t i = 0; i < multiplier.size();
-       ++i) // the gradient is that of L: μ + ρ(Bx − c) is what it belongs to
-    multiplier[i] += outer.penalty() * outer.rule().residual()[i];
+       ++i) // the gradient is that of L: μ + ρW(Bx − c) is what it belongs to
+    multiplier[i] += outer.penalty() * outer.rule().weighedResidual()[i];
   report.relativeConstraintResidual = relativeTo(tolerances.constraintReference, outer.rule().residualNorm());
   return report;
 }

@@ -40,18 +40,21 @@ public:
   /// The shortest λ on the face with G̃_a λ = ẽ. Collective. \throws Error if there is none.
   void balance(const Eigen::VectorXd& resultants, Vector& lambda) {
     constexpr double roundOff = 1e-9;
-    const Eigen::VectorXd e = space_->normalized(resultants);
-    const auto size = static_cast<std::size_t>(e.size());
+    const auto size = static_cast<std::size_t>(resultants.size());
     std::vector<double> mu(size);
-    equality_.multiplierOf({e.data(), size}, mu);
+    equality_.multiplierOf({resultants.data(), size}, mu);
     lambda.putScalar(0.0);
     equality_.addTransposed(mu, 1.0, lambda);
-    if ((space_->product(lambda) - e).norm() > roundOff * e.norm())
+    const Eigen::VectorXd rest = space_->product(lambda) - resultants;
+    if (space_->normOf(rest) > roundOff * space_->normOf(resultants))
       throw UnheldResultant(
           "the load has a resultant on a floating body that its closed contacts cannot take");
   }
   /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. x becomes 0 off the face. Collective.
-  [[nodiscard]] Eigen::VectorXd motionOf(Vector& x) { return space_->motionOf(equality_.fit(x)); }
+  [[nodiscard]] Eigen::VectorXd motionOf(Vector& x) {
+    const std::span<const double> alpha = equality_.fit(x);
+    return Eigen::Map<const Eigen::VectorXd>(alpha.data(), static_cast<Eigen::Index>(alpha.size()));
+  }
 
 private:
   RCP<const NaturalCoarseSpace> space_;

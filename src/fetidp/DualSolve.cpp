@@ -149,7 +149,7 @@ private:
   void refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications);
   void completeJumps(Vector& lambda) const;
   DualSolution finished();
-  [[nodiscard]] double equilibriumReference(const Eigen::VectorXd& e) const;
+  [[nodiscard]] double equilibriumReference(double resultant) const;
 
   const DualProblem& dual_;
   const DecomposedProblem& problem_;
@@ -273,27 +273,26 @@ void IterativeSolve::iterateInBounds() {
   });
 }
 
-/// e vanishes where a balanced load is held by contacts on both sides: then forces are measured by what Pd asks for.
-double IterativeSolve::equilibriumReference(const Eigen::VectorXd& e) const {
-  const double largest = dual_.coarseSpace()->normalized(kernelLoadMagnitude(problem_)).norm();
-  if (e.norm() > resultantTolerance * largest)
-    return e.norm();
+/// Resultants vanish where a balanced load is held by contacts on both sides: then forces are measured by what Pd asks for.
+double IterativeSolve::equilibriumReference(double resultant) const {
+  const double largest = dual_.coarseSpace()->normOf(kernelLoadMagnitude(problem_));
+  if (resultant > resultantTolerance * largest)
+    return resultant;
   return dual_.norm().norm > 0 ? solution_.reference / dual_.norm().norm : 0.0;
 }
 
-/// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, Gμ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
+/// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, G̃μ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
 DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
   const NaturalCoarseSpace& space = *dual_.coarseSpace();
-  const Eigen::VectorXd e = space.normalized(resultants);
-  Vector feasible(problem_.multiplierMap); // λ̃ = Gᵀe
-  space.feasiblePoint(e, feasible);
+  Vector feasible(problem_.multiplierMap); // λ̃ with G̃λ̃ = ẽ
+  space.feasiblePoint(resultants, feasible);
   const RCP<Vector> whole = wholeRhs_.values;
   if (rhs_ == whole)
     rhs_ = rcp(new Vector(*whole, Teuchos::Copy));
   dual_.operators().flexibility()->apply(feasible, *rhs_, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
   space.project(*rhs_);                                                                  // Pd
   const bool vanishes = setReference();
-  const double reference = equilibriumReference(e);
+  const double reference = equilibriumReference(space.normOf(resultants));
 
   const RCP<Vector> lower = lowerBounds(problem_);
   lower->update(-1.0, feasible, 1.0); // −λ̃_I
@@ -332,7 +331,8 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
             });
   }
   solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
-  const double imbalance = (space.product(*solution_.lambda) - e).norm();
+  const Eigen::VectorXd rest = space.product(*solution_.lambda) - resultants;
+  const double imbalance = space.normOf(rest);
   solution_.equilibrium = reference > 0 ? imbalance / reference : imbalance;
   return finished();
 }

@@ -79,31 +79,27 @@ KernelGram::KernelGram(const decomposition::DecomposedProblem& problem,
       terms_.push_back({placeIn(contact_, pair), row.front().row, value});
     });
   });
+  for (const std::int64_t pair : contact_)
+    if (pair % size_ == pair / size_) // a row that joins two modes has a term with each alone
+      contactModes_.push_back(static_cast<int>(pair / size_));
+}
+
+/// Of all ranks, over the rows of contact that count. Collective.
+template <class Counts>
+std::vector<AccurateSum> KernelGram::sumsOf(const Counts& counts) const {
+  std::vector<AccurateSum> sums(contact_.size());
+  for (const Term& term : terms_)
+    if (counts(term.row))
+      sums[term.pair].add(term.value);
+  sumOverRanks(*comm_, sums);
+  return sums;
 }
 
 KernelGram::Matrix KernelGram::whole() const {
-  std::vector<AccurateSum> sums(contact_.size());
-  for (const Term& term : terms_)
-    sums[term.pair].add(term.value);
-  sumOverRanks(*comm_, sums);
-  return matrixOf(sums);
-}
-
-KernelGram::Matrix KernelGram::onFace(const Vector& face) const {
-  std::vector<AccurateSum> sums(contact_.size());
-  const auto isFree = qp::localData(face);
-  for (const Term& term : terms_)
-    if (isFree[static_cast<std::size_t>(term.row)] != 0)
-      sums[term.pair].add(term.value);
-  sumOverRanks(*comm_, sums);
-  return matrixOf(sums);
-}
-
-/// With the whole diagonal, and entries that happen to be 0.
-KernelGram::Matrix KernelGram::matrixOf(const std::vector<AccurateSum>& contact) const {
+  const std::vector<AccurateSum> contact = sumsOf([](int) { return true; });
   using Triplet = Eigen::Triplet<double>;
   std::vector<Triplet> triplets;
-  triplets.reserve(fixed_.size() + contact_.size() + static_cast<std::size_t>(size_));
+  triplets.reserve(fixed_.size() + contact_.size());
   const auto add = [&](const Pairs& pairs, const std::vector<AccurateSum>& sums) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
       triplets.emplace_back(static_cast<int>(pairs[i] % size_), static_cast<int>(pairs[i] / size_),
@@ -111,10 +107,25 @@ KernelGram::Matrix KernelGram::matrixOf(const std::vector<AccurateSum>& contact)
   };
   add(fixed_, ofFixed_);
   add(contact_, contact);
-  for (int mode = 0; mode < size_; ++mode)
-    triplets.emplace_back(mode, mode, 0.0);
   Matrix matrix(size_, size_);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+Eigen::MatrixXd KernelGram::offFace(const Vector& face) const {
+  const auto isFree = qp::localData(face);
+  const std::vector<AccurateSum> sums =
+      sumsOf([&](int row) { return isFree[static_cast<std::size_t>(row)] == 0; });
+  const auto placeOf = [this](std::int64_t mode) {
+    return std::lower_bound(contactModes_.begin(), contactModes_.end(), mode) - contactModes_.begin();
+  };
+  const auto n = static_cast<Eigen::Index>(contactModes_.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < contact_.size(); ++i) {
+    const auto row = placeOf(contact_[i] % size_), column = placeOf(contact_[i] / size_);
+    matrix(row, column) = sums[i].value();
+    matrix(column, row) = sums[i].value();
+  }
   return matrix;
 }
 

@@ -1,62 +1,60 @@
 #pragma once
 
-/// Equilibrium of the floating clusters of subdomains, most often whole bodies: G̃ and ẽ (KernelConstraint.hpp) made orthonormal, G = T̃ G̃ with
-/// GGᵀ = I, e = T̃ ẽ; the projectors Q = GᵀG on Im Gᵀ and P = I − Q on Ker G; the feasible λ̃ = Gᵀe.
-///
-/// T̃ = L⁻¹Π of the sparse Cholesky factorisation ΠG̃G̃ᵀΠᵀ = LLᵀ (KernelGram.hpp), with a permutation Π that keeps L sparse; on every rank.
+/// Equilibrium of the floating clusters of subdomains, most often whole bodies: G̃λ = ẽ (KernelConstraint.hpp), a row a motion. The paper's
+/// G = T̃G̃ with GGᵀ = I is not formed: what it is needed for is
+///   Q = GᵀG = G̃ᵀN⁻¹G̃,  P = I − Q,  ‖G̃λ − ẽ‖ = ‖Gλ − e‖ in the metric of N⁻¹,  N = G̃G̃ᵀ (GramInverse.hpp),
+/// and multipliers of G̃'s rows are the motions α of the clusters: G̃ᵀα.
 
+#include "epafi/fetidp/GramInverse.hpp"
 #include "epafi/fetidp/KernelGram.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace epafi::fetidp {
 
+/// B = G̃, W = N⁻¹; ẽ is left to the caller.
 class NaturalCoarseSpace final : public qp::ReplicatedEquality {
 public:
   /// \param entries  see kernelConstraint
   /// Precondition: G̃ has full row rank (see Solvability.hpp, which says so in the user's words). Collective.
   /// \throws Error if it has not.
-  NaturalCoarseSpace(const decomposition::DecomposedProblem& problem, std::vector<KernelEntry> entries);
+  NaturalCoarseSpace(const decomposition::DecomposedProblem& problem, std::vector<KernelEntry> entries,
+                     GramInverse::Form form = GramInverse::Form::automatic);
 
   [[nodiscard]] int size() const override { return gram_->size(); }
   void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const override;
-  void finishProduct(std::span<const AccurateSum> sums, std::span<double> gx) const override;
   void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override;
-  /// Dense where whole bodies float, sparse where clusters do (ClusterFaceInverse.hpp).
+  void weigh(std::span<const double> r, std::span<double> mu) const override { inverse_->apply(r, mu); }
   [[nodiscard]] std::unique_ptr<qp::FaceInverse> faceInverse(const RCP<const Map>& map) const override;
 
+  using qp::ReplicatedEquality::normOf;
   using qp::ReplicatedEquality::product;
-  /// Gx on every rank, valid until the next call. Collective.
+  /// G̃x on every rank, valid until the next call. Collective.
   [[nodiscard]] const Eigen::VectorXd& product(const Vector& x) const;
-  /// x ← Px = x − Gᵀ(Gx). One message of k numbers. Collective.
+  /// ‖r‖ in the metric of N⁻¹. Collective.
+  [[nodiscard]] double normOf(const Eigen::VectorXd& r) const {
+    return normOf(std::span<const double>(r.data(), static_cast<std::size_t>(r.size())));
+  }
+  /// x ← Px = x − G̃ᵀN⁻¹(G̃x). One message of k numbers, and what N⁻¹ takes. Collective.
   void project(Vector& x) const;
-  /// e = T̃ ẽ. Not collective.
-  [[nodiscard]] Eigen::VectorXd normalized(const Eigen::VectorXd& kernelLoad) const;
-  /// The motion α = T̃ᵀμ of the clusters that μ stands for: Gᵀμ = G̃ᵀα. Not collective.
-  [[nodiscard]] Eigen::VectorXd motionOf(std::span<const double> mu) const;
-  /// T̃⁻¹e, what `normalized` makes e of. Not collective.
-  void resultantOf(std::span<const double> e, Eigen::VectorXd& kernelLoad) const;
-  /// T̃⁻ᵀα, what `motionOf` makes α of. Not collective.
-  void multiplierOf(const Eigen::VectorXd& motion, std::span<double> mu) const;
-  /// λ̃ = Gᵀe, the shortest λ with Gλ = e. Not collective.
-  void feasiblePoint(const Eigen::VectorXd& e, Vector& lambda) const;
+  /// λ̃ = G̃ᵀN⁻¹ẽ, the shortest λ with G̃λ = ẽ. Collective.
+  void feasiblePoint(const Eigen::VectorXd& resultants, Vector& lambda) const;
+  /// Of N⁻¹, on this rank.
+  [[nodiscard]] const GramInverse& gramInverse() const { return *inverse_; }
 
 private:
   RCP<const Comm> comm_;
   std::vector<KernelEntry> entries_;
   std::shared_ptr<const KernelGram> gram_;
-  KernelGram::Matrix lower_;                       ///< L
-  Eigen::PermutationMatrix<Eigen::Dynamic> order_; ///< Π
-  std::optional<std::vector<int>> anchors_;        ///< see ClusterFaceInverse.hpp
+  std::shared_ptr<const GramInverse> inverse_;
+  mutable std::shared_ptr<const Eigen::MatrixXd> contactFactor_; ///< of the first face inverse; see there
   mutable std::vector<AccurateSum> sums_;
-  mutable Eigen::VectorXd work_, product_;
+  mutable Eigen::VectorXd product_, motion_;
 };
 
 } // namespace epafi::fetidp

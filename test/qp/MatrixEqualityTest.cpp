@@ -48,8 +48,8 @@ double residualOf(const PreparedEquality& prepared, const Vector& x) {
   std::vector<AccurateSum> sums(static_cast<std::size_t>(prepared.constraint->numSums()));
   prepared.constraint->addLocalSums(x, sums);
   sumOverRanks(*x.getMap()->getComm(), sums);
-  std::vector<double> r(prepared.constraint->numEntries());
-  return prepared.constraint->finishResidual(sums, r);
+  std::vector<double> r(prepared.constraint->numEntries()), weighed(r.size());
+  return prepared.constraint->finishResidual(sums, r, weighed);
 }
 
 void expectOrthonormal(const PreparedEquality& prepared, int n, double tolerance) {

@@ -1,0 +1,57 @@
+#include "epafi/fetidp/GramInverse.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <algorithm>
+
+namespace epafi::fetidp {
+
+GramInverse::GramInverse(const decomposition::DecomposedProblem& problem, const KernelGram& gram, Form form)
+    : comm_(problem.comm), size_(gram.size()), factor_(std::in_place, gram.whole()) {
+  if (factor_->info() != Eigen::Success)
+    throw Error(
+        "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
+  if (form == Form::automatic) {
+    const bool hasParts = problem.clusters.size() > problem.bodies.size();
+    const double ranks = comm_->getSize(), k = size_,
+                 ofFactor = 2.0 * static_cast<double>(bytes()), // down and up
+        ofRows = sizeof(double) * k * k / ranks;
+    form = ranks > 1 && hasParts && ofRows < ofFactor ? Form::spread : Form::sparse;
+  }
+  if (form == Form::spread)
+    spread();
+}
+
+void GramInverse::spread() {
+  const int ranks = comm_->getSize(), rank = comm_->getRank();
+  const auto begin = [&](int r) { return static_cast<int>(GlobalOrdinal{r} * size_ / ranks); };
+  for (int r = 0; r < ranks; ++r)
+    counts_.push_back(begin(r + 1) - begin(r));
+  rows_.resize(size_, counts_[static_cast<std::size_t>(rank)]);
+  for (Eigen::Index j = 0; j < rows_.cols(); ++j)
+    rows_.col(j) = factor_->solve(Eigen::VectorXd::Unit(size_, begin(rank) + j));
+  factor_.reset();
+}
+
+void GramInverse::apply(std::span<const double> b, std::span<double> alpha) const {
+  const Eigen::Map<const Eigen::VectorXd> given(b.data(), size_);
+  if (isSpread()) {
+    work_.noalias() = rows_.transpose() * given;
+    gatherOnAll<double>(*comm_, {work_.data(), static_cast<std::size_t>(work_.size())}, counts_, alpha);
+    return;
+  }
+  work_.noalias() = factor_->permutationP() * given;
+  factor_->matrixL().solveInPlace(work_);
+  factor_->matrixU().solveInPlace(work_);
+  Eigen::Map<Eigen::VectorXd>(alpha.data(), size_).noalias() = factor_->permutationPinv() * work_;
+}
+
+std::size_t GramInverse::bytes() const {
+  if (isSpread())
+    return static_cast<std::size_t>(rows_.size()) * sizeof(double);
+  return static_cast<std::size_t>(factor_->matrixL().nestedExpression().nonZeros()) *
+         (sizeof(double) + sizeof(int));
+}
+
+} // namespace epafi::fetidp
