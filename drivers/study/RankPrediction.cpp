@@ -12,18 +12,27 @@
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Teuchos_Time.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace epafi::drivers {
 namespace {
 
 constexpr int elementsOfCoarse = 4; ///< H/h, of no importance for the coarse problem
 constexpr double secondsOfSolves = 0.1;
-/// A step's sums over the ranks, as counted (scaling.csv): scalar products, and contact at crosspoints in the preconditioner, whose
-/// bytes are those of each side that a subdomain has in contact, in the plane and in space.
+/// A step's sums over the ranks, as counted (scaling.csv): scalar products, which motions of clusters go along with, and contact at
+/// crosspoints in the preconditioner, whose bytes are those of each side that a subdomain has in contact, in the plane and in space.
 constexpr double scalarSums = 2, contactSums = 2;
 constexpr double contactBytesInPlane = 350, contactBytesInSpace = 1100;
-constexpr double exchanges = 4;   ///< a step: to the subdomains and back, for F and for its preconditioner
+/// Products with N⁻¹ a step: two projections on a face (KernelFaceInverse).
+constexpr double gramProducts = 4;
+/// Crosspoint values that follow the borders of a cluster of sᵈ subdomains (fetidp/ContactCrosspoints.hpp): so many times s or s²; 1392 were
+/// counted in 16 corner clusters of 4³, which have borders on half of their sides.
+constexpr double borderInPlane = 4, borderInSpace = 10.5;
+constexpr double exchanges = 4; ///< a step: to the subdomains and back, for F and for its preconditioner
+constexpr double clusterExchanges = 2; ///< and for crosspoints at the borders of clusters
+constexpr double mostClusterRanks = 1024;
 constexpr double bytesOfSum = 16; ///< of an AccurateSum
 
 int dimensionOf(const std::string& problem) {
@@ -54,13 +63,14 @@ Row timeCrosspoints(const std::string& problem, const model::Decomposition& cut,
 }
 
 Row timeMotions(const std::string& problem, const model::Decomposition& cut, const Comm& alone) {
-  const fetidp::KernelGram gram(cut.problem, fetidp::kernelConstraint(cut.problem));
+  const Eigen::SparseMatrix<double> gram =
+      fetidp::kernelGram(cut.problem, fetidp::kernelConstraint(cut.problem));
   const double begin = Teuchos::Time::wallTime();
-  const Eigen::SimplicialLLT<fetidp::KernelGram::Matrix> factor(gram.whole());
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(gram);
   const double setup = Teuchos::Time::wallTime() - begin;
-  Eigen::VectorXd x = Eigen::VectorXd::Ones(gram.size());
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(gram.rows());
   const auto nonZeros = static_cast<double>(factor.matrixL().nestedExpression().nonZeros());
-  return coarseRow(problem, "motions", cut, gram.size(), setup,
+  return coarseRow(problem, "motions", cut, static_cast<int>(gram.rows()), setup,
                    medianSeconds(alone, secondsOfSolves,
                                  [&] {
                                    factor.matrixL().solveInPlace(x);
@@ -98,6 +108,7 @@ private:
 /// What a step takes beside its local work.
 struct CoarseStep {
   double unknowns = 0, sum = 0, solve = 0, bytes = 0;
+  double clusterRanks = 0; ///< ranks that share a cluster
 };
 
 class Model {
@@ -109,13 +120,18 @@ public:
   [[nodiscard]] Row step(const std::string& method, double subdomains, double ranks) const {
     const double own = subdomains * local_.secondsPerSubdomain;
     const CoarseStep coarse = coarseStep(method, subdomains, ranks);
-    const double neighbours = ranks > 1 ? neighbourSeconds(subdomains) : 0;
-    const double reductions = ranks > 1 ? reductionSeconds(subdomains, ranks) : 0;
+    const bool hasClusters = method != "feti-dp";
+    const double neighbours =
+        ranks > 1 ? (exchanges + (hasClusters ? clusterExchanges : 0)) * exchangeSeconds(subdomains) : 0;
+    const double reductions = ranks > 1 ? scalarSums * std::ceil(std::log2(ranks)) * network_.latency +
+                                              (hasClusters ? 0 : contactSeconds(subdomains, ranks))
+                                        : 0;
     const double total = own + neighbours + reductions + coarse.sum + coarse.solve;
     return {{"problem", local_.problem},
             {"method", method},
             {"subdomains_a_rank", subdomains},
             {"ranks", ranks},
+            {"cluster_ranks", coarse.clusterRanks},
             {"coarse_unknowns", coarse.unknowns},
             {"local_seconds", own},
             {"neighbour_seconds", neighbours},
@@ -130,44 +146,68 @@ public:
 
 private:
   /// Of the multipliers on its sides a rank owns half: those it sends, the others it sends back.
-  [[nodiscard]] double neighbourSeconds(double subdomains) const {
+  [[nodiscard]] double exchangeSeconds(double subdomains) const {
     const double components = dimension_ == 3 ? 3 : 1,
                  onSide = std::pow(std::pow(subdomains, 1.0 / dimension_) * (local_.elementsPerSide - 1),
                                    dimension_ - 1);
-    return exchanges * (2 * dimension_ * network_.latency +
-                        sizeof(double) * components * dimension_ * onSide / network_.bandwidth);
+    return 2 * dimension_ * network_.latency +
+           sizeof(double) * components * dimension_ * onSide / network_.bandwidth;
   }
-  /// Of the scalar products, and of contact along a half of the problem's middle.
-  [[nodiscard]] double reductionSeconds(double subdomains, double ranks) const {
-    const double sides = std::pow(subdomains * ranks / 2, (dimension_ - 1.0) / dimension_),
-                 bytes = sides * (dimension_ == 3 ? contactBytesInSpace : contactBytesInPlane);
-    return scalarSums * std::ceil(std::log2(ranks)) * network_.latency +
-           contactSums * sumSeconds(ranks, bytes / contactSums);
+  /// Of contact along a half of the problem's middle.
+  [[nodiscard]] double contactSeconds(double subdomains, double ranks) const {
+    const double bytes =
+        onSection(subdomains * ranks / 2) * (dimension_ == 3 ? contactBytesInSpace : contactBytesInPlane);
+    return contactSums * sumSeconds(ranks, bytes / contactSums);
   }
+  /// Of n in a square or cube, those along a side or on a face.
+  [[nodiscard]] double onSection(double n) const { return std::pow(n, (dimension_ - 1.0) / dimension_); }
   [[nodiscard]] double sumSeconds(double ranks, double bytes) const {
     return ranks > 1 ? 2 * std::ceil(std::log2(ranks)) * network_.latency + 2 * bytes / network_.bandwidth
                      : 0;
   }
   [[nodiscard]] CoarseStep coarseStep(const std::string& method, double subdomains, double ranks) const {
-    const double crosspoints = crosspoints_.perSubdomain() * subdomains;
     if (method == "feti-dp") {
-      const double n = crosspoints * ranks;
+      const double n = crosspoints_.perSubdomain() * subdomains * ranks;
       return {n, sumSeconds(ranks, bytesOfSum * n), crosspoints_.seconds(n),
-              crosspoints_.bytes(n) + bytesOfSum * n};
+              crosspoints_.bytes(n) + bytesOfSum * n, ranks};
     }
-    const double modes = dimension_ == 3 ? 6 : 1,
-                 k = modes * (method == "feti-1" ? subdomains * ranks : ranks);
-    CoarseStep step{k, sumSeconds(ranks, bytesOfSum * k), motions_.seconds(k),
-                    motions_.bytes(k) + bytesOfSum * k};
-    if (method ==
-        "hybrid-spread") { // the small vectors go to all once, each rank has the rows of its motions
-      step.sum = std::ceil(std::log2(ranks)) * network_.latency + sizeof(double) * k / network_.bandwidth;
-      step.solve = sizeof(double) * modes * k / local_.stream;
-      step.bytes = sizeof(double) * (modes + 2) * k;
+    if (method == "feti-1")
+      return projection(subdomains * ranks, ranks, false);
+    std::optional<CoarseStep> best;
+    for (double inCluster = 1; inCluster <= std::min(ranks, mostClusterRanks); inCluster *= 2) {
+      CoarseStep step = projection(ranks / inCluster, ranks, method == "hybrid-spread");
+      addCluster(subdomains * inCluster, inCluster, step);
+      if (!best || step.sum + step.solve < best->sum + best->solve)
+        best = step;
     }
-    if (method != "feti-1")
-      step.solve += crosspoints_.seconds(crosspoints);
+    return *best;
+  }
+  /// P of so many clusters on faces, whose motions go along with the scalar products.
+  [[nodiscard]] CoarseStep projection(double clusters, double ranks, bool isSpread) const {
+    const double modes = dimension_ == 3 ? 6 : 1, k = modes * clusters,
+                 inContact = 2 * modes * onSection(clusters / 2);
+    CoarseStep step{k, scalarSums * 2 * bytesOfSum * k / network_.bandwidth,
+                    2 * sizeof(double) * inContact * inContact / local_.stream,
+                    bytesOfSum * k + 2 * sizeof(double) * inContact * inContact};
+    if (isSpread) { // a gathering and the rank's rows
+      step.sum += gramProducts *
+                  (std::ceil(std::log2(ranks)) * network_.latency + sizeof(double) * k / network_.bandwidth);
+      step.solve += gramProducts * sizeof(double) * k * k / ranks / local_.stream;
+      step.bytes += sizeof(double) * k * k / ranks;
+    } else {
+      step.solve += gramProducts * motions_.seconds(k);
+      step.bytes += motions_.bytes(k);
+    }
     return step;
+  }
+  /// The coarse problem of a cluster, and how it follows the cluster's borders: each of its ranks does all of it.
+  void addCluster(double subdomains, double ranks, CoarseStep& step) const {
+    const double n = crosspoints_.perSubdomain() * subdomains,
+                 border = (dimension_ == 3 ? borderInSpace : borderInPlane) * onSection(subdomains);
+    step.clusterRanks = ranks;
+    step.sum += 2 * sumSeconds(ranks, bytesOfSum * n) + sumSeconds(ranks, bytesOfSum * border);
+    step.solve += crosspoints_.seconds(n) + sizeof(double) * (2 * n + border) * border / local_.stream;
+    step.bytes += crosspoints_.bytes(n) + sizeof(double) * (n + border) * border + bytesOfSum * n;
   }
 
   LocalWork local_;
@@ -202,9 +242,10 @@ LocalWork LocalWork::of(const Row& run) {
 }
 
 Table predictedTable() {
-  return Table("problem,method,subdomains_a_rank,ranks,coarse_unknowns,local_seconds,neighbour_seconds,"
-               "reduction_seconds,"
-               "coarse_sum_seconds,coarse_solve_seconds,total_seconds,efficiency,coarse_share,bytes_a_rank");
+  return Table(
+      "problem,method,subdomains_a_rank,ranks,cluster_ranks,coarse_unknowns,local_seconds,neighbour_seconds,"
+      "reduction_seconds,"
+      "coarse_sum_seconds,coarse_solve_seconds,total_seconds,efficiency,coarse_share,bytes_a_rank");
 }
 
 Table predictSteps(const LocalWork& local, const Table& coarse, const std::vector<double>& subdomainsPerRank,

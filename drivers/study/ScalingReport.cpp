@@ -207,13 +207,14 @@ std::string predictionReport(const Table& steps) {
   std::string text = heading(
       "Predicted: one iteration with " + count(subdomainsARank) + " subdomains a rank, latency " +
           inUnits(network.latency, micro) + " µs, " + inUnits(network.bandwidth, giga) + " GB/s a rank:",
-      "problem | method | ranks | coarse unknowns | local µs | neighbours µs | scalar products µs | coarse "
+      "problem | method | ranks | ranks a cluster | coarse unknowns | local µs | neighbours µs | scalar "
+      "products µs | coarse "
       "sum µs "
       "| coarse solve µs | iteration µs | efficiency | coarse share | coarse MB a rank");
   for (const Row& step : steps.rows)
     if (step.number("subdomains_a_rank") == subdomainsARank)
       text += line({{step.text("problem"), step.text("method")},
-                    numbers(step, {"ranks", "coarse_unknowns"}, 0),
+                    numbers(step, {"ranks", "cluster_ranks", "coarse_unknowns"}, 0),
                     numbers(step,
                             {"local_seconds", "neighbour_seconds", "reduction_seconds", "coarse_sum_seconds",
                              "coarse_solve_seconds", "total_seconds"},

@@ -7,8 +7,9 @@
 
 namespace epafi::fetidp {
 
-GramInverse::GramInverse(const decomposition::DecomposedProblem& problem, const KernelGram& gram, Form form)
-    : comm_(problem.comm), size_(gram.size()), factor_(std::in_place, gram.whole()) {
+GramInverse::GramInverse(const decomposition::DecomposedProblem& problem,
+                         const Eigen::SparseMatrix<double>& gram, Form form)
+    : comm_(problem.comm), size_(static_cast<int>(gram.rows())), factor_(std::in_place, gram) {
   if (factor_->info() != Eigen::Success)
     throw Error(
         "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");

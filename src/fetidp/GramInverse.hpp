@@ -5,7 +5,7 @@
 ///   spread  a share of the rows of N⁻¹ on each rank, dense: 8k²/P bytes on P ranks, k/P dot products and a gathering of k numbers.
 /// Many clusters on few ranks are cheaper sparse; a few on each of many ranks, spread. The sparse factor makes the rows, and goes.
 
-#include "epafi/fetidp/KernelGram.hpp"
+#include "epafi/decomposition/DecomposedProblem.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -20,26 +20,27 @@ namespace epafi::fetidp {
 class GramInverse {
 public:
   enum class Form { automatic, sparse, spread };
+  /// \param gram  N, lower triangle, the same on all ranks
   /// \param form  automatic: what a product reads least of; sparse on one rank, and where all clusters are whole bodies, whose numbers are to be
   ///              the same to the last digit on any number of ranks
   /// Collective. \throws Error, the same on all ranks, if N is not positive definite: then G̃ has not full row rank.
-  GramInverse(const decomposition::DecomposedProblem& problem, const KernelGram& gram,
+  GramInverse(const decomposition::DecomposedProblem& problem, const Eigen::SparseMatrix<double>& gram,
               Form form = Form::automatic);
 
+  [[nodiscard]] int size() const { return size_; } ///< k
   /// α = N⁻¹b. Spread: one message. Collective.
   void apply(std::span<const double> b, std::span<double> alpha) const;
   [[nodiscard]] bool isSpread() const { return !factor_; }
   [[nodiscard]] std::size_t bytes() const; ///< of this rank
 
 private:
-  using Factor = Eigen::SimplicialLLT<KernelGram::Matrix>;
   void spread();
 
   RCP<const Comm> comm_;
   int size_;
-  std::optional<Factor> factor_; ///< sparse
-  std::vector<int> counts_;      ///< spread: rows of each rank
-  Eigen::MatrixXd rows_;         ///< likewise: this rank's, as columns
+  std::optional<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> factor_; ///< sparse
+  std::vector<int> counts_;                                                 ///< spread: rows of each rank
+  Eigen::MatrixXd rows_; ///< likewise: this rank's, as columns
   mutable Eigen::VectorXd work_;
 };
 

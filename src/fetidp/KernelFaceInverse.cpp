@@ -38,11 +38,11 @@ Eigen::MatrixXd generalizedInverse(const Eigen::MatrixXd& w, const Eigen::Matrix
 
 } // namespace
 
-Eigen::MatrixXd contactFactor(const KernelGram& gram, const GramInverse& inverse) {
-  const std::vector<int>& modes = gram.contactModes();
+Eigen::MatrixXd contactFactor(const ContactGram& gram, const GramInverse& inverse) {
+  const std::vector<int>& modes = gram.modes();
   const auto n = static_cast<Eigen::Index>(modes.size());
   Eigen::MatrixXd flexibility(n, n); // EᵀN⁻¹E
-  std::vector<double> unit(static_cast<std::size_t>(gram.size())), motion(unit.size());
+  std::vector<double> unit(static_cast<std::size_t>(inverse.size())), motion(unit.size());
   for (Eigen::Index j = 0; j < n; ++j) {
     double& force = unit[static_cast<std::size_t>(modes[static_cast<std::size_t>(j)])];
     force = 1;
@@ -58,11 +58,11 @@ Eigen::MatrixXd contactFactor(const KernelGram& gram, const GramInverse& inverse
   return factor.matrixL();
 }
 
-KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const KernelGram> gram,
+KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const ContactGram> gram,
                                      std::shared_ptr<const GramInverse> inverse,
                                      std::shared_ptr<const Eigen::MatrixXd> lower)
     : gram_(std::move(gram)), inverse_(std::move(inverse)), lower_(std::move(lower)),
-      resultant_(static_cast<std::size_t>(gram_->size())), atContact_(lower_->rows()) {}
+      resultant_(static_cast<std::size_t>(inverse_->size())), atContact_(lower_->rows()) {}
 
 void KernelFaceInverse::setFace(const Vector& face) {
   const Eigen::MatrixXd missing = gram_->offFace(face); // D
@@ -88,7 +88,7 @@ void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) c
   inverse_->apply(b, mu);
   if (isWhole_)
     return;
-  const std::vector<int>& modes = gram_->contactModes();
+  const std::vector<int>& modes = gram_->modes();
   for (std::size_t i = 0; i < modes.size(); ++i)
     atContact_[static_cast<Eigen::Index>(i)] = mu[static_cast<std::size_t>(modes[i])];
   reaction_.noalias() = change_ * atContact_;

@@ -20,22 +20,22 @@
 namespace epafi::fetidp {
 
 /// L. n products with N⁻¹. Collective. \throws Error if N is not positive definite.
-Eigen::MatrixXd contactFactor(const KernelGram& gram, const GramInverse& inverse);
+Eigen::MatrixXd contactFactor(const ContactGram& gram, const GramInverse& inverse);
 
 class KernelFaceInverse final : public qp::FaceInverse {
 public:
   /// Shares all. \param lower  see contactFactor
   /// Not collective.
-  KernelFaceInverse(std::shared_ptr<const KernelGram> gram, std::shared_ptr<const GramInverse> inverse,
+  KernelFaceInverse(std::shared_ptr<const ContactGram> gram, std::shared_ptr<const GramInverse> inverse,
                     std::shared_ptr<const Eigen::MatrixXd> lower);
 
-  /// n³ operations on every rank; one message (KernelGram). Collective.
+  /// n³ operations on every rank; one message (ContactGram). Collective.
   void setFace(const Vector& face) override;
   /// Two products with N⁻¹, one where no row has left. Collective.
   void apply(std::span<const double> b, std::span<double> mu) const override;
 
 private:
-  std::shared_ptr<const KernelGram> gram_;
+  std::shared_ptr<const ContactGram> gram_;
   std::shared_ptr<const GramInverse> inverse_;
   std::shared_ptr<const Eigen::MatrixXd> lower_; ///< L
   bool isWhole_ = true;                          ///< D = 0

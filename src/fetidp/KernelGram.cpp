@@ -31,9 +31,10 @@ void forEachPair(std::span<const KernelEntry> row, int size, const Body& body) {
         body(static_cast<std::int64_t>(b.mode) * size + a.mode, a.value * b.value);
 }
 
-void sortOnce(Pairs& pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+template <class Values>
+void sortOnce(Values& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 std::size_t placeIn(const Pairs& pairs, std::int64_t pair) {
@@ -58,73 +59,61 @@ Pairs pairsOf(const Comm& comm, const std::vector<KernelEntry>& entries, int siz
 
 } // namespace
 
-KernelGram::KernelGram(const decomposition::DecomposedProblem& problem,
-                       const std::vector<KernelEntry>& entries)
-    : comm_(problem.comm), size_(problem.kernelDimension) {
-  std::vector<KernelEntry> fixed, contact;
-  for (const KernelEntry& entry : entries)
-    (problem.kindOf(decomposition::OwnedMultiplier(entry.row)) == decomposition::RowKind::contact ? contact
-                                                                                                  : fixed)
-        .push_back(entry);
-  fixed_ = pairsOf(*comm_, fixed, size_);
-  contact_ = pairsOf(*comm_, contact, size_);
-  ofFixed_.assign(fixed_.size(), AccurateSum());
-  forEachRow(fixed, [&](std::span<const KernelEntry> row) {
-    forEachPair(row, size_,
-                [&](std::int64_t pair, double value) { ofFixed_[placeIn(fixed_, pair)].add(value); });
+Eigen::SparseMatrix<double> kernelGram(const decomposition::DecomposedProblem& problem,
+                                       const std::vector<KernelEntry>& entries) {
+  const int size = problem.kernelDimension;
+  const Pairs pairs = pairsOf(*problem.comm, entries, size);
+  std::vector<AccurateSum> sums(pairs.size());
+  forEachRow(entries, [&](std::span<const KernelEntry> row) {
+    forEachPair(row, size, [&](std::int64_t pair, double value) { sums[placeIn(pairs, pair)].add(value); });
   });
-  sumOverRanks(*comm_, ofFixed_);
-  forEachRow(contact, [&](std::span<const KernelEntry> row) {
-    forEachPair(row, size_, [&](std::int64_t pair, double value) {
-      terms_.push_back({placeIn(contact_, pair), row.front().row, value});
-    });
-  });
-  for (const std::int64_t pair : contact_)
-    if (pair % size_ == pair / size_) // a row that joins two modes has a term with each alone
-      contactModes_.push_back(static_cast<int>(pair / size_));
-}
-
-/// Of all ranks, over the rows of contact that count. Collective.
-template <class Counts>
-std::vector<AccurateSum> KernelGram::sumsOf(const Counts& counts) const {
-  std::vector<AccurateSum> sums(contact_.size());
-  for (const Term& term : terms_)
-    if (counts(term.row))
-      sums[term.pair].add(term.value);
-  sumOverRanks(*comm_, sums);
-  return sums;
-}
-
-KernelGram::Matrix KernelGram::whole() const {
-  const std::vector<AccurateSum> contact = sumsOf([](int) { return true; });
-  using Triplet = Eigen::Triplet<double>;
-  std::vector<Triplet> triplets;
-  triplets.reserve(fixed_.size() + contact_.size());
-  const auto add = [&](const Pairs& pairs, const std::vector<AccurateSum>& sums) {
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      triplets.emplace_back(static_cast<int>(pairs[i] % size_), static_cast<int>(pairs[i] / size_),
-                            sums[i].value());
-  };
-  add(fixed_, ofFixed_);
-  add(contact_, contact);
-  Matrix matrix(size_, size_);
+  sumOverRanks(*problem.comm, sums);
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    triplets.emplace_back(static_cast<int>(pairs[i] % size), static_cast<int>(pairs[i] / size),
+                          sums[i].value());
+  Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   return matrix;
 }
 
-Eigen::MatrixXd KernelGram::offFace(const Vector& face) const {
+ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
+                         const std::vector<KernelEntry>& entries)
+    : comm_(problem.comm) {
+  std::vector<KernelEntry> contact;
+  for (const KernelEntry& entry : entries)
+    if (problem.kindOf(decomposition::OwnedMultiplier(entry.row)) == decomposition::RowKind::contact) {
+      contact.push_back(entry);
+      modes_.push_back(entry.mode);
+    }
+  sortOnce(modes_);
+  modes_ = gatherOnAll(*comm_, modes_);
+  sortOnce(modes_);
+  for (KernelEntry& entry : contact)
+    entry.mode =
+        static_cast<int>(std::lower_bound(modes_.begin(), modes_.end(), entry.mode) - modes_.begin());
+  const int size = static_cast<int>(modes_.size());
+  pairs_ = pairsOf(*comm_, contact, size);
+  forEachRow(contact, [&](std::span<const KernelEntry> row) {
+    forEachPair(row, size, [&](std::int64_t pair, double value) {
+      terms_.push_back({placeIn(pairs_, pair), row.front().row, value});
+    });
+  });
+}
+
+Eigen::MatrixXd ContactGram::offFace(const Vector& face) const {
   const auto isFree = qp::localData(face);
-  const std::vector<AccurateSum> sums =
-      sumsOf([&](int row) { return isFree[static_cast<std::size_t>(row)] == 0; });
-  const auto placeOf = [this](std::int64_t mode) {
-    return std::lower_bound(contactModes_.begin(), contactModes_.end(), mode) - contactModes_.begin();
-  };
-  const auto n = static_cast<Eigen::Index>(contactModes_.size());
+  std::vector<AccurateSum> sums(pairs_.size());
+  for (const Term& term : terms_)
+    if (isFree[static_cast<std::size_t>(term.row)] == 0)
+      sums[term.pair].add(term.value);
+  sumOverRanks(*comm_, sums);
+  const auto n = static_cast<Eigen::Index>(modes_.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t i = 0; i < contact_.size(); ++i) {
-    const auto row = placeOf(contact_[i] % size_), column = placeOf(contact_[i] / size_);
-    matrix(row, column) = sums[i].value();
-    matrix(column, row) = sums[i].value();
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    matrix(pairs_[i] % n, pairs_[i] / n) = sums[i].value();
+    matrix(pairs_[i] / n, pairs_[i] % n) = sums[i].value();
   }
   return matrix;
 }

@@ -21,8 +21,8 @@ std::span<double> entriesOf(Eigen::VectorXd& x) {
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,
                                        std::vector<KernelEntry> entries, GramInverse::Form form)
     : comm_(problem.comm), entries_(std::move(entries)),
-      gram_(std::make_shared<const KernelGram>(problem, entries_)),
-      inverse_(std::make_shared<const GramInverse>(problem, *gram_, form)),
+      inverse_(std::make_shared<const GramInverse>(problem, kernelGram(problem, entries_), form)),
+      contactGram_(std::make_shared<const ContactGram>(problem, entries_)),
       sums_(static_cast<std::size_t>(problem.kernelDimension)), product_(problem.kernelDimension),
       motion_(problem.kernelDimension) {}
 
@@ -60,8 +60,8 @@ void NaturalCoarseSpace::feasiblePoint(const Eigen::VectorXd& resultants, Vector
 
 std::unique_ptr<qp::FaceInverse> NaturalCoarseSpace::faceInverse(const RCP<const Map>& /*map*/) const {
   if (!contactFactor_)
-    contactFactor_ = std::make_shared<const Eigen::MatrixXd>(contactFactor(*gram_, *inverse_));
-  return std::make_unique<KernelFaceInverse>(gram_, inverse_, contactFactor_);
+    contactFactor_ = std::make_shared<const Eigen::MatrixXd>(contactFactor(*contactGram_, *inverse_));
+  return std::make_unique<KernelFaceInverse>(contactGram_, inverse_, contactFactor_);
 }
 
 } // namespace epafi::fetidp

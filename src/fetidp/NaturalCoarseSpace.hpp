@@ -26,7 +26,7 @@ public:
   NaturalCoarseSpace(const decomposition::DecomposedProblem& problem, std::vector<KernelEntry> entries,
                      GramInverse::Form form = GramInverse::Form::automatic);
 
-  [[nodiscard]] int size() const override { return gram_->size(); }
+  [[nodiscard]] int size() const override { return inverse_->size(); }
   void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const override;
   void addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const override;
   void weigh(std::span<const double> r, std::span<double> mu) const override { inverse_->apply(r, mu); }
@@ -50,8 +50,8 @@ public:
 private:
   RCP<const Comm> comm_;
   std::vector<KernelEntry> entries_;
-  std::shared_ptr<const KernelGram> gram_;
   std::shared_ptr<const GramInverse> inverse_;
+  std::shared_ptr<const ContactGram> contactGram_;
   mutable std::shared_ptr<const Eigen::MatrixXd> contactFactor_; ///< of the first face inverse; see there
   mutable std::vector<AccurateSum> sums_;
   mutable Eigen::VectorXd product_, motion_;

@@ -262,7 +262,20 @@ std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
 
 Share shareOf(const std::vector<BodyLayout>& bodies, int rank, int ranks) {
   const GlobalOrdinal number = bodies.back().firstSubdomain + bodies.back().partition->numParts();
-  const auto first = [&](GlobalOrdinal r) { return static_cast<int>(r * number / ranks); };
+  // The first rank whose even share begins at a subdomain or behind.
+  const auto firstRankAt = [&](GlobalOrdinal subdomain) { return (subdomain * ranks + number - 1) / number; };
+  const auto first = [&](GlobalOrdinal r) {
+    const GlobalOrdinal even = r * number / ranks;
+    for (const BodyLayout& body : bodies)
+      if (const GlobalOrdinal inBody = even - body.firstSubdomain, parts = body.partition->numParts();
+          body.cluster > 1 && inBody >= 0 && inBody < parts) {
+        const GlobalOrdinal inCluster = inBody % body.cluster, begin = even - inCluster,
+                            size = std::min<GlobalOrdinal>(body.cluster, parts - (inBody - inCluster)),
+                            before = firstRankAt(begin), sharers = firstRankAt(begin + size) - before;
+        return static_cast<int>(begin + (r - before) * size / sharers);
+      }
+    return static_cast<int>(even);
+  };
   return {first(rank), first(rank + 1)};
 }
 

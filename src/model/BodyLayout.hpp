@@ -40,7 +40,8 @@ std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
                                   std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm,
                                   std::vector<std::shared_ptr<const Partition>> partitions = {});
 
-/// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P).
+/// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P), but that it begins with a cluster, where there are clusters, or
+/// shares one evenly with the others that would begin in it.
 struct Share {
   int begin = 0, end = 0; ///< this rank's numbers
 };

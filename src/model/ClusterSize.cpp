@@ -11,12 +11,11 @@ int clusterSizeFor(const fem::StructuredMesh& mesh, std::array<int, 3> counts, G
   const GlobalOrdinal pays = isInSpace ? 10'000 : 1'000'000, fewest = isInSpace ? 27 : 16, most = 64;
   if (numRanks < 2 || numSubdomains * numRanks < pays)
     return 0;
-  const GlobalOrdinal largest = std::min(most, numSubdomains / numRanks);
   std::array<double, 3> step{}; // from centre to centre
   for (std::size_t d = 0; d < step.size(); ++d)
     step[d] = mesh.elementSize()[d] * mesh.elements()[d] / counts[d];
   const auto size = [&] { return GlobalOrdinal{1} * counts[0] * counts[1] * counts[2]; };
-  while (size() > largest) {
+  while (size() > most) {
     std::size_t widest = 0;
     for (std::size_t d = 1; d < step.size(); ++d)
       if ((counts[d] - 1) * step[d] > (counts[widest] - 1) * step[widest] * (1 + 1e-9))

@@ -16,7 +16,7 @@ namespace epafi::model {
 /// \param counts  subdomains of the body in x, y and z, a grid; 1 in z in the plane
 /// \param numSubdomains  N, of all bodies
 /// \returns the number of subdomains in a block that halving the body again and again along its longest side leaves (GroupedPartition
-///          numbers its parts that way); 0 for all of them: where P or N is too small, where there is no such block of a useful size, and
+///          numbers its parts that way), whether a rank has so many or several share them; 0 for all of them: where P or N is too small, where there is no such block of a useful size, and
 ///          for bodies that are no grids, whose clusters can take several times the products.
 /// Not collective.
 int clusterSizeFor(const fem::StructuredMesh& mesh, std::array<int, 3> counts, GlobalOrdinal numSubdomains,
