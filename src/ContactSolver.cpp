@@ -113,6 +113,8 @@ fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* 
   if (!dual_)
     throw Error("ContactSolver::solve was called before ContactSolver::setup; call setup first");
   const double solveStart = Teuchos::Time::wallTime();
+  qp::Interruption interruption(dualParameters_.mprgp.timeLimit);
+  interruption.setObserver(observer);
   const fetidp::DualSolution dual = dual_->solve(start, observer, balance);
   report_ = dual.report;
   times_.solve = longest(*problem_->comm, solveStart);
@@ -120,7 +122,7 @@ fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* 
   const double recoveryStart = Teuchos::Time::wallTime();
   fetidp::ContactSolution solution = fetidp::recover(*dual_, dual);
   if (!dualParameters_.isBalanced)
-    settle(dual, solution);
+    settle(dual, interruption, solution);
   solution.algebraicError = algebraicErrorOf(solution);
   confirm(solution, dual.errorTarget);
   times_.recovery = longest(*problem_->comm, recoveryStart);
@@ -159,12 +161,13 @@ double allowedViolation(double tolerance) {
 
 /// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the tolerance is met
 /// long before the constraints are.
-void ContactSolver::settle(const fetidp::DualSolution& dual, fetidp::ContactSolution& solution) {
+void ContactSolver::settle(const fetidp::DualSolution& dual, const qp::Interruption& interruption,
+                           fetidp::ContactSolution& solution) {
   const double allowed = allowedViolation(dualParameters_.tolerance);
   if (dual.report.status != qp::Status::converged || solution.feasibility <= allowed)
     return;
   const std::optional<fetidp::ContactSolution> settled =
-      fetidp::recoverSettled(*dual_, dual, 0.01 * allowed, report_);
+      fetidp::recoverSettled(*dual_, dual, 0.01 * allowed, report_, interruption);
   if (settled && settled->feasibility < solution.feasibility)
     solution = *settled;
 }

@@ -13,6 +13,7 @@
 #include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
+#include "epafi/qp/Interruption.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 
@@ -50,7 +51,7 @@ public:
   void update();
 
   /// Solves for the loads and gaps that the problem holds now. Where the tolerance is met but the displacements violate the
-  /// constraints still, it is settled (fetidp/Recovery.hpp); the report counts those steps, too, which the observer is not told of. A solution that misses
+  /// constraints still, it is settled (fetidp/Recovery.hpp); the report counts those steps, too, which the observer is not told of, but may end. A solution that misses
   /// the tolerance is returned as well: ask `report().status`.
   /// \param start     λ of an earlier solve to start from, or null
   /// \param observer  told of every step, shown λ where it wants to look, may end the iteration (`interrupted`); or null
@@ -99,7 +100,8 @@ private:
   void factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier);
   void confirm(const fetidp::ContactSolution& solution, double errorTarget);
   [[nodiscard]] double algebraicErrorOf(const fetidp::ContactSolution& solution) const;
-  void settle(const fetidp::DualSolution& dual, fetidp::ContactSolution& solution);
+  void settle(const fetidp::DualSolution& dual, const qp::Interruption& interruption,
+              fetidp::ContactSolution& solution);
   [[nodiscard]] std::string describeDualOperator() const;
   [[nodiscard]] std::string describePreconditioner() const;
   [[nodiscard]] int numAdaptiveConstraints() const;

@@ -35,6 +35,12 @@ int MPI_Allreduce(const void* sendbuf, void* recvbuf, int count, MPI_Datatype da
   return PMPI_Allreduce(sendbuf, recvbuf, count, datatype, op, comm);
 }
 
+int MPI_Allgatherv(const void* sendbuf, int sendcount, MPI_Datatype sendtype, void* recvbuf,
+                   const int recvcounts[], const int displs[], MPI_Datatype recvtype, MPI_Comm comm) {
+  ++counts.gatherings;
+  return PMPI_Allgatherv(sendbuf, sendcount, sendtype, recvbuf, recvcounts, displs, recvtype, comm);
+}
+
 int MPI_Send(const void* buf, int count, MPI_Datatype datatype, int dest, int tag, MPI_Comm comm) {
   countMessage(count, datatype);
   return PMPI_Send(buf, count, datatype, dest, tag, comm);
@@ -65,8 +71,12 @@ MessageCounts messageCounts() {
 }
 
 MessageCounts operator-(const MessageCounts& a, const MessageCounts& b) {
-  return {a.messages - b.messages, a.bytes - b.bytes, a.reductions - b.reductions,
-          a.reductionBytes - b.reductionBytes, a.teamReductions - b.teamReductions};
+  return {a.messages - b.messages,
+          a.bytes - b.bytes,
+          a.reductions - b.reductions,
+          a.reductionBytes - b.reductionBytes,
+          a.teamReductions - b.teamReductions,
+          a.gatherings - b.gatherings};
 }
 
 } // namespace epafi::drivers

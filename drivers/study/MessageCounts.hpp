@@ -13,6 +13,7 @@ struct MessageCounts {
   std::int64_t messages = 0, bytes = 0;
   std::int64_t reductions = 0, reductionBytes = 0; ///< over all ranks
   std::int64_t teamReductions = 0;                 ///< over some
+  std::int64_t gatherings = 0;                     ///< of values of all ranks on all
 };
 
 /// Not collective.

@@ -25,8 +25,8 @@ constexpr double secondsOfSolves = 0.1;
 /// crosspoints in the preconditioner, whose bytes are those of each side that a subdomain has in contact, in the plane and in space.
 constexpr double scalarSums = 2, contactSums = 2;
 constexpr double contactBytesInPlane = 350, contactBytesInSpace = 1100;
-/// Products with N⁻¹ a step: two projections on a face (KernelFaceInverse).
-constexpr double gramProducts = 4;
+/// Products with N⁻¹ and with K a step: two projections on a face (KernelFaceInverse).
+constexpr double gramProducts = 4, faceProducts = 2;
 /// Crosspoint values that follow the borders of a cluster of sᵈ subdomains (fetidp/ContactCrosspoints.hpp): so many times s or s²; 1392 were
 /// counted in 16 corner clusters of 4³, which have borders on half of their sides.
 constexpr double borderInPlane = 4, borderInSpace = 10.5;
@@ -186,17 +186,17 @@ private:
   [[nodiscard]] CoarseStep projection(double clusters, double ranks, bool isSpread) const {
     const double modes = dimension_ == 3 ? 6 : 1, k = modes * clusters,
                  inContact = 2 * modes * onSection(clusters / 2);
-    CoarseStep step{k, scalarSums * 2 * bytesOfSum * k / network_.bandwidth,
-                    2 * sizeof(double) * inContact * inContact / local_.stream,
-                    bytesOfSum * k + 2 * sizeof(double) * inContact * inContact};
-    if (isSpread) { // a gathering and the rank's rows
-      step.sum += gramProducts *
-                  (std::ceil(std::log2(ranks)) * network_.latency + sizeof(double) * k / network_.bandwidth);
-      step.solve += gramProducts * sizeof(double) * k * k / ranks / local_.stream;
-      step.bytes += sizeof(double) * k * k / ranks;
+    const double faceBytes = sizeof(double) * inContact * inContact;
+    CoarseStep step{k, scalarSums * 2 * bytesOfSum * k / network_.bandwidth, 0, bytesOfSum * k + faceBytes};
+    if (isSpread) { // gatherings and the rank's rows
+      step.sum += (gramProducts + faceProducts) * std::ceil(std::log2(ranks)) * network_.latency +
+                  sizeof(double) * (gramProducts * k + faceProducts * inContact) / network_.bandwidth;
+      step.solve +=
+          (gramProducts * sizeof(double) * k * k + faceProducts * faceBytes) / ranks / local_.stream;
+      step.bytes += (sizeof(double) * k * k + faceBytes) / ranks;
     } else {
-      step.solve += gramProducts * motions_.seconds(k);
-      step.bytes += motions_.bytes(k);
+      step.solve += gramProducts * motions_.seconds(k) + faceProducts * faceBytes / local_.stream;
+      step.bytes += motions_.bytes(k) + faceBytes;
     }
     return step;
   }

@@ -43,6 +43,7 @@ public:
       number_.push_back(static_cast<double>(ofStep.reductions));
       bytes_.push_back(static_cast<double>(ofStep.reductionBytes));
       inTeams_.push_back(static_cast<double>(ofStep.teamReductions));
+      gatherings_.push_back(static_cast<double>(ofStep.gatherings));
     }
     last_ = now;
   }
@@ -50,11 +51,12 @@ public:
     row["reductions_per_step"] = number_.empty() ? notMeasured : median(number_);
     row["reduction_bytes_per_step"] = bytes_.empty() ? notMeasured : median(bytes_);
     row["team_reductions_per_step"] = inTeams_.empty() ? notMeasured : median(inTeams_);
+    row["gatherings_per_step"] = gatherings_.empty() ? notMeasured : median(gatherings_);
   }
 
 private:
   MessageCounts last_;
-  std::vector<double> number_, bytes_, inTeams_;
+  std::vector<double> number_, bytes_, inTeams_, gatherings_;
 };
 
 /// Times of one run after the other.

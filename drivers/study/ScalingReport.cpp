@@ -142,7 +142,8 @@ std::string methodsReport(const Table& table, const ScalingSizes& sizes) {
   std::string text =
       heading("Methods on ranks:",
               "problem | ranks | 1/H | subdomains a cluster | products with F | total ms | messages a "
-              "product | bytes sent a product | sums a step | bytes summed a step | sums in teams a step");
+              "product | bytes sent a product | sums a step | bytes summed a step | gatherings a step | sums "
+              "in teams a step");
   for (const char* problem : {"coercive", "blocks"})
     for (const Row& row : table.rows) {
       const bool isBlocks = problem == std::string("blocks");
@@ -158,7 +159,7 @@ std::string methodsReport(const Table& table, const ScalingSizes& sizes) {
                     numbers(row, {"total_seconds"}, milli),
                     numbers(row,
                             {"messages_per_apply", "bytes_sent_per_apply", "reductions_per_step",
-                             "reduction_bytes_per_step", "team_reductions_per_step"},
+                             "reduction_bytes_per_step", "gatherings_per_step", "team_reductions_per_step"},
                             0)});
     }
   return text;

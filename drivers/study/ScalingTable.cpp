@@ -14,7 +14,7 @@ Table scalingTable() {
       "stream_bytes_per_second,precision,messages_per_apply,bytes_sent_per_apply,coarse_unknowns,"
       "reductions_per_step,factor_bytes,explicit_setup_seconds,payoff_products,energy,preconditioner_seconds,"
       "preconditioner_bytes,problem_bytes,base_bytes,unknowns,multipliers,reduction_bytes_per_apply,cluster,"
-      "reduction_bytes_per_step,team_reductions_per_step",
+      "reduction_bytes_per_step,team_reductions_per_step,gatherings_per_step",
       10);
 }
 

@@ -24,6 +24,7 @@ namespace epafi::drivers {
 ///   unknowns, multipliers          primal and dual dimension
 ///   reduction_bytes_per_apply      of one rank; reduction_bytes_per_step of a conjugate gradient step
 ///   team_reductions_per_step       among ranks that share clusters (CoarseProblem.hpp)
+///   gatherings_per_step            of values of all ranks on all
 Table scalingTable();
 
 /// A run by its settings, with the shared form of F and the Dirichlet preconditioner.

@@ -109,6 +109,9 @@ void gatherOnAll(const Comm& comm, std::span<const Value> mine, std::span<const 
   detail::gather(comm, mine.data(), counts, sizeof(Value), true, all.data());
 }
 
+/// How many of so many rows each rank takes, in the order of the ranks, as even as can be. Not collective.
+std::vector<int> evenShares(int number, int ranks);
+
 /// The same on rank 0 alone; empty on the others. Collective.
 template <class Values>
 auto gatherOnFirst(const Comm& comm, const Values& values) {

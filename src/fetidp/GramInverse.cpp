@@ -3,7 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 
-#include <algorithm>
+#include <numeric>
 
 namespace epafi::fetidp {
 
@@ -25,13 +25,12 @@ GramInverse::GramInverse(const decomposition::DecomposedProblem& problem,
 }
 
 void GramInverse::spread() {
-  const int ranks = comm_->getSize(), rank = comm_->getRank();
-  const auto begin = [&](int r) { return static_cast<int>(GlobalOrdinal{r} * size_ / ranks); };
-  for (int r = 0; r < ranks; ++r)
-    counts_.push_back(begin(r + 1) - begin(r));
-  rows_.resize(size_, counts_[static_cast<std::size_t>(rank)]);
+  counts_ = evenShares(size_, comm_->getSize());
+  const auto mine = counts_.begin() + comm_->getRank();
+  const int first = std::accumulate(counts_.begin(), mine, 0);
+  rows_.resize(size_, *mine);
   for (Eigen::Index j = 0; j < rows_.cols(); ++j)
-    rows_.col(j) = factor_->solve(Eigen::VectorXd::Unit(size_, begin(rank) + j));
+    rows_.col(j) = factor_->solve(Eigen::VectorXd::Unit(size_, first + j));
   factor_.reset();
 }
 

@@ -27,7 +27,8 @@ public:
   GramInverse(const decomposition::DecomposedProblem& problem, const Eigen::SparseMatrix<double>& gram,
               Form form = Form::automatic);
 
-  [[nodiscard]] int size() const { return size_; } ///< k
+  [[nodiscard]] int size() const { return size_; }                    ///< k
+  [[nodiscard]] const RCP<const Comm>& comm() const { return comm_; } ///< all ranks
   /// α = N⁻¹b. Spread: one message. Collective.
   void apply(std::span<const double> b, std::span<double> alpha) const;
   [[nodiscard]] bool isSpread() const { return !factor_; }

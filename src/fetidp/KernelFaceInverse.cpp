@@ -1,5 +1,6 @@
 #include "epafi/fetidp/KernelFaceInverse.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <Eigen/Cholesky>
@@ -7,6 +8,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -61,8 +63,13 @@ Eigen::MatrixXd contactFactor(const ContactGram& gram, const GramInverse& invers
 KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const ContactGram> gram,
                                      std::shared_ptr<const GramInverse> inverse,
                                      std::shared_ptr<const Eigen::MatrixXd> lower)
-    : gram_(std::move(gram)), inverse_(std::move(inverse)), lower_(std::move(lower)),
-      resultant_(static_cast<std::size_t>(inverse_->size())), atContact_(lower_->rows()) {}
+    : gram_(std::move(gram)), inverse_(std::move(inverse)), lower_(std::move(lower)), comm_(inverse_->comm()),
+      resultant_(static_cast<std::size_t>(inverse_->size())), atContact_(lower_->rows()),
+      reaction_(lower_->rows()) {
+  const int n = static_cast<int>(lower_->rows());
+  counts_ = inverse_->isSpread() ? evenShares(n, comm_->getSize())
+                                 : std::vector<int>(static_cast<std::size_t>(comm_->getSize()), n);
+}
 
 void KernelFaceInverse::setFace(const Vector& face) {
   const Eigen::MatrixXd missing = gram_->offFace(face); // D
@@ -81,7 +88,9 @@ void KernelFaceInverse::setFace(const Vector& face) {
       isHeld ? Eigen::MatrixXd(factor.solve(identity)) : generalizedInverse(w, *lower_);
   const auto upper = lower_->transpose().triangularView<Eigen::Upper>();
   const Eigen::MatrixXd half = upper.solve(inverse - identity); // L⁻ᵀ(W⁻ − I)
-  change_ = upper.solve(half.transpose());
+  const auto mine = counts_.begin() + comm_->getRank();
+  const int first = inverse_->isSpread() ? std::accumulate(counts_.begin(), mine, 0) : 0;
+  change_ = upper.solve(half.middleRows(first, *mine).transpose()); // K = Kᵀ
 }
 
 void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) const {
@@ -91,7 +100,13 @@ void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) c
   const std::vector<int>& modes = gram_->modes();
   for (std::size_t i = 0; i < modes.size(); ++i)
     atContact_[static_cast<Eigen::Index>(i)] = mu[static_cast<std::size_t>(modes[i])];
-  reaction_.noalias() = change_ * atContact_;
+  if (inverse_->isSpread()) {
+    share_.noalias() = change_.transpose() * atContact_;
+    gatherOnAll<double>(*comm_, {share_.data(), static_cast<std::size_t>(share_.size())}, counts_,
+                        {reaction_.data(), modes.size()});
+  } else {
+    reaction_.noalias() = change_.transpose() * atContact_;
+  }
   std::copy(b.begin(), b.end(), resultant_.begin());
   for (std::size_t i = 0; i < modes.size(); ++i)
     resultant_[static_cast<std::size_t>(modes[i])] += reaction_[static_cast<Eigen::Index>(i)];

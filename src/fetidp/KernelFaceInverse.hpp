@@ -31,7 +31,7 @@ public:
 
   /// n³ operations on every rank; one message (ContactGram). Collective.
   void setFace(const Vector& face) override;
-  /// Two products with N⁻¹, one where no row has left. Collective.
+  /// Two products with N⁻¹ and one with K, whose rows are spread where those of N⁻¹ are; a product with N⁻¹ where no row has left. Collective.
   void apply(std::span<const double> b, std::span<double> mu) const override;
 
 private:
@@ -39,9 +39,12 @@ private:
   std::shared_ptr<const GramInverse> inverse_;
   std::shared_ptr<const Eigen::MatrixXd> lower_; ///< L
   bool isWhole_ = true;                          ///< D = 0
-  Eigen::MatrixXd change_;                       ///< K
+  RCP<const Comm> comm_;
+  std::vector<int> counts_; ///< rows of K that each rank has
+  Eigen::MatrixXd change_;  ///< this rank's rows of K, as columns
   mutable std::vector<double> resultant_;
-  mutable Eigen::VectorXd atContact_, reaction_; ///< work: Eᵀ of a motion; K times it
+  mutable Eigen::VectorXd atContact_, reaction_,
+      share_; ///< work: Eᵀ of a motion; K times it, and this rank's rows of that
 };
 
 } // namespace epafi::fetidp

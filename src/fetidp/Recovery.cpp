@@ -90,10 +90,23 @@ SubdomainVectors unknownsOf(const DecomposedProblem& problem, const GeneralizedI
   return u;
 }
 
-/// What is allowed, relative to the largest displacement or gap, and where products are added.
+/// What is allowed, relative to the largest displacement or gap, where products are added, and who may want an end.
 struct Settling {
   double allowed;
   qp::SolveReport& report;
+  const qp::Interruption& interruption;
+
+  /// Whether somebody wants it; the report then says so. Collective.
+  [[nodiscard]] bool isUnwanted(const Comm& comm) const {
+    for (const auto& [isAsked, status] : {std::pair(interruption.isWanted(), qp::Status::interrupted),
+                                          {interruption.timeIsUp(), qp::Status::timeLimit}})
+      if (holdsAnywhere(comm, isAsked)) {
+        report.status = status;
+        report.reason = qp::explain(status);
+        return true;
+      }
+    return false;
+  }
 };
 
 /// The rows that hold while a solution is settled: gluing, ties, and some of contact.
@@ -187,7 +200,7 @@ bool settle(const DualProblem& dual, const Settling& settling, SubdomainVectors&
       settling.allowed * std::max(maxOverRanks(*dual.problem().comm, largest), dual.problem().gap->normInf());
   HeldRows rows(dual.problem(), *solution.multiplier);
   double open = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < maxSteps; ++step) {
+  for (int step = 0; step < maxSteps && !settling.isUnwanted(*dual.problem().comm); ++step) {
     try {
       settleRows(dual, rows.indicator(), u, solution, settling.report);
     } catch (const UnheldResultant&) {
@@ -267,8 +280,9 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
 }
 
 std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
-                                              double allowed, qp::SolveReport& report) {
-  const Settling settling{allowed, report};
+                                              double allowed, qp::SolveReport& report,
+                                              const qp::Interruption& interruption) {
+  const Settling settling{allowed, report, interruption};
   return recovered(dual, found, &settling);
 }
 

@@ -5,6 +5,7 @@
 
 #include "epafi/fetidp/ContactSolution.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
+#include "epafi/qp/Interruption.hpp"
 
 #include <optional>
 
@@ -23,8 +24,10 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found);
 /// digit of λ moves a body that hardly anything holds by far more than its own last digit: u = K̄⁺(f̄ − B̄ᵀλ) has then fewer digits
 /// than the sum of what comes first and of what follows. Nothing where that does not end with contacts that all push and with none that penetrates.
 /// \param allowed  what rows may be violated by, relative to the largest displacement or gap
-/// \param report   where the products are added
+/// \param report        where the products are added, and the status of an end before its time
+/// \param interruption  asked between the responses
 std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
-                                              double allowed, qp::SolveReport& report);
+                                              double allowed, qp::SolveReport& report,
+                                              const qp::Interruption& interruption);
 
 } // namespace epafi::fetidp

@@ -152,7 +152,8 @@ TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
     found.report.status = qp::Status::converged;
     const DecomposedProblem& problem = solved.decomposition.problem;
     qp::SolveReport report;
-    const auto settling = recoverSettled(solved.solver.dualProblem(), found, 1e-12, report);
+    const auto settling =
+        recoverSettled(solved.solver.dualProblem(), found, 1e-12, report, qp::Interruption(0));
     ASSERT_TRUE(settling);
     const ContactSolution& settled = *settling;
     const Eigen::VectorXd closed = gathered(*solved.solution.active),
@@ -200,13 +201,37 @@ TEST(RecoveryTest, ClosedRowsAreFoundFromWrongOnes) {
       for (double& force : found.lambda->getDataNonConst())
         force += push * std::abs(force) + std::max(push, 0.0) * reference.force.maxCoeff();
       qp::SolveReport report;
-      const auto settled = recoverSettled(solved.solver.dualProblem(), found, 1e-12, report);
+      const auto settled =
+          recoverSettled(solved.solver.dualProblem(), found, 1e-12, report, qp::Interruption(0));
       ASSERT_TRUE(settled);
       EXPECT_LE(fieldError(fieldOf(solved.decomposition, *settled), reference.field), 1e-8);
       EXPECT_NEAR(settled->energy, reference.energy, 1e-8 * std::abs(reference.energy));
       EXPECT_LE(relativeError(gathered(*settled->multiplier).head(reference.force.size()), reference.force),
                 1e-7);
     }
+  }
+}
+
+/// A wish of the last rank, or the time limit, ends it on all.
+TEST(RecoveryTest, SettlingEndsWhereOneRankWantsIt) {
+  class OnLastRank final : public qp::Observer {
+  public:
+    void step(const qp::StepRecord& /*record*/) override {}
+    [[nodiscard]] bool wantsToStop() override { return world()->getRank() == world()->getSize() - 1; }
+  };
+  const Solved solved(contactCases().front().scene, 1e-3);
+  DualSolution found;
+  found.lambda = solved.solution.multiplier;
+  found.report.status = qp::Status::converged;
+  OnLastRank observer;
+  qp::Interruption wanted(0), late(1e-9);
+  wanted.setObserver(&observer);
+  for (const auto& [interruption, status] :
+       {std::pair(&wanted, qp::Status::interrupted), {&late, qp::Status::timeLimit}}) {
+    qp::SolveReport report;
+    EXPECT_FALSE(recoverSettled(solved.solver.dualProblem(), found, 1e-12, report, *interruption));
+    EXPECT_EQ(report.status, status);
+    EXPECT_EQ(report.counts.hessianMultiplications, 0);
   }
 }
 
