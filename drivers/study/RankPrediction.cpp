@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace epafi::drivers {
 namespace {
@@ -32,7 +33,8 @@ constexpr double gramProducts = 4, faceProducts = 2;
 constexpr double borderInPlane = 4, borderInSpace = 10.5;
 constexpr double exchanges = 4; ///< a step: to the subdomains and back, for F and for its preconditioner
 constexpr double clusterExchanges = 2; ///< and for crosspoints at the borders of clusters
-constexpr double mostClusterRanks = 1024;
+constexpr double mostClusterRanks = 1024,
+                 mostBytes = 2e8; ///< of clusters that are looked at, and of what a rank may hold
 constexpr double bytesOfSum = 16; ///< of an AccurateSum
 
 int dimensionOf(const std::string& problem) {
@@ -177,7 +179,8 @@ private:
     for (double inCluster = 1; inCluster <= std::min(ranks, mostClusterRanks); inCluster *= 2) {
       CoarseStep step = projection(ranks / inCluster, ranks, method == "hybrid-spread");
       addCluster(subdomains * inCluster, inCluster, step);
-      if (!best || step.sum + step.solve < best->sum + best->solve)
+      const auto rank = [](const CoarseStep& s) { return std::pair(s.bytes > mostBytes, s.sum + s.solve); };
+      if (!best || rank(step) < rank(*best))
         best = step;
     }
     return *best;

@@ -36,7 +36,7 @@ struct LocalWork {
 Table predictedTable();
 
 /// Weak scaling: 1/h grows with the ranks, each of which has a square or cube of subdomains and a neighbour on every side. Methods:
-/// feti-dp; feti-1, whose clusters are subdomains; hybrid, whose clusters are those of one rank or of as many as is fastest (cluster_ranks), every rank
+/// feti-dp; feti-1, whose clusters are subdomains; hybrid, whose clusters are those of one rank or of as many as is fastest within 200 MB a rank (cluster_ranks), every rank
 /// with the factor of G̃G̃ᵀ; hybrid-spread, with rows of its inverse on each rank (fetidp/GramInverse.hpp). Sizes of coarse
 /// problems are extrapolated as c nᵃ through the two largest of `coarse`, and read as fast as the largest.
 /// Columns of scaling_prediction.csv; bytes_a_rank: of the coarse problem on every rank. Precondition: two rows of each kind in

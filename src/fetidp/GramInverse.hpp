@@ -21,7 +21,7 @@ class GramInverse {
 public:
   enum class Form { automatic, sparse, spread };
   /// \param gram  N, lower triangle, the same on all ranks
-  /// \param form  automatic: what a product reads least of; sparse on one rank, and where all clusters are whole bodies, whose numbers are to be
+  /// \param form  automatic: what takes least, by the bytes that a product reads and its message; sparse on one rank, and where all clusters are whole bodies, whose numbers are to be
   ///              the same to the last digit on any number of ranks
   /// Collective. \throws Error, the same on all ranks, if N is not positive definite: then G̃ has not full row rank.
   GramInverse(const decomposition::DecomposedProblem& problem, const Eigen::SparseMatrix<double>& gram,
