@@ -2,45 +2,60 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace epafi::fetidp {
 namespace {
 
-/// W⁻ where W has eigenvalues that are 0: the pseudo-inverse, changed by motions V = L U, U the null space, until they are at rest at the
-/// modes where V is best conditioned.
-Eigen::MatrixXd generalizedInverse(const Eigen::MatrixXd& w, const Eigen::MatrixXd& lower) {
+/// C of S = CCᵀ. \throws Error if S is not positive definite.
+Eigen::MatrixXd factorOf(const Eigen::MatrixXd& stiffness) {
+  std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(stiffness);
+  if (!lower)
+    throw Error(
+        "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
+  return *std::move(lower);
+}
+
+/// K = S S_F⁻ S − S where S_F may be singular. With S = CCᵀ, W = C⁻¹S_F C⁻ᵀ has eigenvalues between 0 and 1, U those at 0, and
+/// K = C(W⁻ − I)Cᵀ; the pseudo-inverse of W is changed by motions V = C⁻ᵀU until they are at rest at the modes where V is best
+/// conditioned.
+Eigen::MatrixXd changeWithFreeMotions(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& onFace) {
   constexpr double roundOff = 1e-12; // beside 1
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(w);
-  if (modes.info() != Eigen::Success)
-    throw Error("the motions of floating bodies on a face could not be decomposed");
-  const Eigen::Index n = w.rows();
-  Eigen::Index numFree = 0; // ascending eigenvalues
-  while (numFree < n && !(modes.eigenvalues()[numFree] > roundOff))
-    ++numFree;
-  const auto held = modes.eigenvectors().rightCols(n - numFree);
-  const Eigen::MatrixXd pseudo =
-      held * modes.eigenvalues().tail(n - numFree).cwiseInverse().asDiagonal() * held.transpose();
-  if (numFree == 0)
-    return pseudo;
-  const Eigen::MatrixXd u = modes.eigenvectors().leftCols(numFree), v = lower * u;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(v.transpose());
-  const Eigen::VectorXi anchors = qr.colsPermutation().indices().head(numFree);
-  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(n, n) -
-                               u * v(anchors, Eigen::all).partialPivLu().solve(lower(anchors, Eigen::all));
-  return rest * pseudo * rest.transpose();
+  const Eigen::Index n = stiffness.rows();
+  const Eigen::MatrixXd lower = factorOf(stiffness);
+  const auto c = lower.triangularView<Eigen::Lower>();
+  const Eigen::MatrixXd half = c.solve(onFace),                            // C⁻¹S_F
+      w = c.solve(half.transpose()),                                       // C⁻¹S_F C⁻ᵀ
+      upperInverse = c.transpose().solve(Eigen::MatrixXd::Identity(n, n)); // C⁻ᵀ
+  const direct::SymmetricEigen modes = direct::eigenOf(0.5 * (w + w.transpose()));
+  const Eigen::Index numFree = modes.numUpTo(roundOff);
+  const auto held = modes.vectors.rightCols(n - numFree);
+  Eigen::MatrixXd inverse =
+      held * modes.values.tail(n - numFree).cwiseInverse().asDiagonal() * held.transpose();
+  if (numFree > 0) {
+    const Eigen::MatrixXd u = modes.vectors.leftCols(numFree), v = upperInverse * u;
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(v.transpose());
+    const Eigen::VectorXi anchors = qr.colsPermutation().indices().head(numFree);
+    const Eigen::MatrixXd rest =
+        Eigen::MatrixXd::Identity(n, n) -
+        u * v(anchors, Eigen::all).partialPivLu().solve(upperInverse(anchors, Eigen::all));
+    inverse = rest * inverse * rest.transpose();
+  }
+  inverse.diagonal().array() -= 1;
+  return lower * inverse * lower.transpose();
 }
 
 } // namespace
 
-Eigen::MatrixXd contactFactor(const ContactGram& gram, const GramInverse& inverse) {
+ContactStiffness::ContactStiffness(const ContactGram& gram, const GramInverse& inverse) {
   const std::vector<int>& modes = gram.modes();
   const auto n = static_cast<Eigen::Index>(modes.size());
   Eigen::MatrixXd flexibility(n, n); // EᵀN⁻¹E
@@ -53,22 +68,24 @@ Eigen::MatrixXd contactFactor(const ContactGram& gram, const GramInverse& invers
     for (Eigen::Index i = 0; i < n; ++i)
       flexibility(i, j) = motion[static_cast<std::size_t>(modes[static_cast<std::size_t>(i)])];
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(0.5 * (flexibility + flexibility.transpose()));
-  if (factor.info() != Eigen::Success)
-    throw Error(
-        "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
-  return factor.matrixL();
+  if (n == 0)
+    return;
+  matrix = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
+  pivots = factorOf(matrix).diagonal().cwiseAbs2();
 }
 
 KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const ContactGram> gram,
                                      std::shared_ptr<const GramInverse> inverse,
-                                     std::shared_ptr<const Eigen::MatrixXd> lower)
-    : gram_(std::move(gram)), inverse_(std::move(inverse)), lower_(std::move(lower)), comm_(inverse_->comm()),
-      resultant_(static_cast<std::size_t>(inverse_->size())), atContact_(lower_->rows()),
-      reaction_(lower_->rows()) {
-  const int n = static_cast<int>(lower_->rows());
-  counts_ = inverse_->isSpread() ? evenShares(n, comm_->getSize())
-                                 : std::vector<int>(static_cast<std::size_t>(comm_->getSize()), n);
+                                     std::shared_ptr<const ContactStiffness> stiffness)
+    : gram_(std::move(gram)), inverse_(std::move(inverse)), stiffness_(std::move(stiffness)),
+      resultant_(static_cast<std::size_t>(inverse_->size())), atContact_(stiffness_->pivots.size()),
+      reaction_(atContact_.size()) {
+  const int n = static_cast<int>(atContact_.size()), ranks = inverse_->comm()->getSize();
+  counts_ =
+      inverse_->isSpread() ? evenShares(n, ranks) : std::vector<int>(static_cast<std::size_t>(ranks), n);
+  first_ = inverse_->isSpread()
+               ? std::accumulate(counts_.begin(), counts_.begin() + inverse_->comm()->getRank(), 0)
+               : 0;
 }
 
 void KernelFaceInverse::setFace(const Vector& face) {
@@ -76,21 +93,18 @@ void KernelFaceInverse::setFace(const Vector& face) {
   isWhole_ = missing.isZero(0);
   if (isWhole_)
     return;
-  const Eigen::Index n = missing.rows();
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
-  Eigen::MatrixXd w = identity - lower_->transpose() * missing * *lower_;
-  w = (0.5 * (w + w.transpose())).eval();
-  constexpr double wellHeld = 1e-6; // a pivot so large leaves no doubt that W is regular
-  const Eigen::LLT<Eigen::MatrixXd> factor(w);
-  const bool isHeld =
-      factor.info() == Eigen::Success && factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > wellHeld;
-  const Eigen::MatrixXd inverse =
-      isHeld ? Eigen::MatrixXd(factor.solve(identity)) : generalizedInverse(w, *lower_);
-  const auto upper = lower_->transpose().triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd half = upper.solve(inverse - identity); // L⁻ᵀ(W⁻ − I)
-  const auto mine = counts_.begin() + comm_->getRank();
-  const int first = inverse_->isSpread() ? std::accumulate(counts_.begin(), mine, 0) : 0;
-  change_ = upper.solve(half.middleRows(first, *mine).transpose()); // K = Kᵀ
+  const Eigen::Index mine = counts_[static_cast<std::size_t>(inverse_->comm()->getRank())];
+  const Eigen::MatrixXd& stiffness = stiffness_->matrix;
+  const Eigen::MatrixXd onFace = stiffness - missing; // S_F
+  constexpr double wellHeld = 1e-6; // pivots so large beside those of S leave no doubt that S_F is regular
+  const std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(onFace);
+  if (lower && (lower->diagonal().cwiseAbs2().array() > wellHeld * stiffness_->pivots.array()).all()) {
+    const auto c = lower->triangularView<Eigen::Lower>();
+    const Eigen::MatrixXd half = c.solve(missing.middleCols(first_, mine));
+    change_.noalias() = stiffness * c.transpose().solve(half); // S S_F⁻¹ D
+  } else {
+    change_ = changeWithFreeMotions(stiffness, onFace).middleCols(first_, mine);
+  }
 }
 
 void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) const {
@@ -102,7 +116,7 @@ void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) c
     atContact_[static_cast<Eigen::Index>(i)] = mu[static_cast<std::size_t>(modes[i])];
   if (inverse_->isSpread()) {
     share_.noalias() = change_.transpose() * atContact_;
-    gatherOnAll<double>(*comm_, {share_.data(), static_cast<std::size_t>(share_.size())}, counts_,
+    gatherOnAll<double>(*inverse_->comm(), {share_.data(), static_cast<std::size_t>(share_.size())}, counts_,
                         {reaction_.data(), modes.size()});
   } else {
     reaction_.noalias() = change_.transpose() * atContact_;

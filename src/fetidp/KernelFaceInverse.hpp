@@ -3,10 +3,10 @@
 /// N_F⁻ of N_F = G̃ZG̃ᵀ on a face: Z = 1 where multipliers may move, 0 elsewhere. Only rows of contact leave faces, and so, with E the n of k modes
 /// that contact touches,
 ///   N_F = N − E D Eᵀ,   D = Σ gᵢgᵢᵀ over the rows off the face (KernelGram.hpp).
-/// The Schur complement of N on these modes is S = (EᵀN⁻¹E)⁻¹ = L⁻ᵀL⁻¹, that of N_F is S − D, and
-///   N_F⁻ = N⁻¹ + N⁻¹E K EᵀN⁻¹,   K = L⁻ᵀ (W⁻ − I) L⁻¹,   W = I − LᵀDL,
-/// W with eigenvalues in [0,1]: 0 for motions that the face leaves free, in which case W⁻ is chosen so that these are at rest at as many modes.
-/// Everything else is N's alone, once for all faces.
+/// The Schur complement of N on these modes is S = (EᵀN⁻¹E)⁻¹, that of N_F is S_F = S − D, and
+///   N_F⁻ = N⁻¹ + N⁻¹E K EᵀN⁻¹,   K = S S_F⁻ S − S = S S_F⁻¹ D.
+/// Where the face leaves motions free S_F is singular: the last form does not hold then, and S_F⁻ is chosen so that these motions are at rest at as
+/// many modes. N⁻¹ and S are the same for all faces.
 
 #include "epafi/fetidp/GramInverse.hpp"
 #include "epafi/fetidp/KernelGram.hpp"
@@ -19,17 +19,22 @@
 
 namespace epafi::fetidp {
 
-/// L. n products with N⁻¹. Collective. \throws Error if N is not positive definite.
-Eigen::MatrixXd contactFactor(const ContactGram& gram, const GramInverse& inverse);
+/// S on every rank, n × n.
+struct ContactStiffness {
+  /// n products with N⁻¹. Collective. \throws Error if N is not positive definite.
+  ContactStiffness(const ContactGram& gram, const GramInverse& inverse);
+
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd pivots; ///< of its Cholesky factorisation
+};
 
 class KernelFaceInverse final : public qp::FaceInverse {
 public:
-  /// Shares all. \param lower  see contactFactor
-  /// Not collective.
+  /// Shares all. Not collective.
   KernelFaceInverse(std::shared_ptr<const ContactGram> gram, std::shared_ptr<const GramInverse> inverse,
-                    std::shared_ptr<const Eigen::MatrixXd> lower);
+                    std::shared_ptr<const ContactStiffness> stiffness);
 
-  /// n³ operations on every rank; one message (ContactGram). Collective.
+  /// n³/3 operations on every rank, and its share of 4n³; some 30n³ where motions are free. One message (ContactGram). Collective.
   void setFace(const Vector& face) override;
   /// Two products with N⁻¹ and one with K, whose rows are spread where those of N⁻¹ are; a product with N⁻¹ where no row has left. Collective.
   void apply(std::span<const double> b, std::span<double> mu) const override;
@@ -37,14 +42,14 @@ public:
 private:
   std::shared_ptr<const ContactGram> gram_;
   std::shared_ptr<const GramInverse> inverse_;
-  std::shared_ptr<const Eigen::MatrixXd> lower_; ///< L
-  bool isWhole_ = true;                          ///< D = 0
-  RCP<const Comm> comm_;
-  std::vector<int> counts_; ///< rows of K that each rank has
-  Eigen::MatrixXd change_;  ///< this rank's rows of K, as columns
+  std::shared_ptr<const ContactStiffness> stiffness_; ///< S
+  bool isWhole_ = true;                               ///< D = 0
+  std::vector<int> counts_;                           ///< rows of K that each rank has
+  int first_;                                         ///< the first of this rank's
+  Eigen::MatrixXd change_;                            ///< this rank's rows of K, as columns
   mutable std::vector<double> resultant_;
-  mutable Eigen::VectorXd atContact_, reaction_,
-      share_; ///< work: Eᵀ of a motion; K times it, and this rank's rows of that
+  /// Work: Eᵀ of a motion; K times it, and this rank's rows of that.
+  mutable Eigen::VectorXd atContact_, reaction_, share_;
 };
 
 } // namespace epafi::fetidp

@@ -59,9 +59,9 @@ void NaturalCoarseSpace::feasiblePoint(const Eigen::VectorXd& resultants, Vector
 }
 
 std::unique_ptr<qp::FaceInverse> NaturalCoarseSpace::faceInverse(const RCP<const Map>& /*map*/) const {
-  if (!contactFactor_)
-    contactFactor_ = std::make_shared<const Eigen::MatrixXd>(contactFactor(*contactGram_, *inverse_));
-  return std::make_unique<KernelFaceInverse>(contactGram_, inverse_, contactFactor_);
+  if (!contactStiffness_)
+    contactStiffness_ = std::make_shared<const ContactStiffness>(*contactGram_, *inverse_);
+  return std::make_unique<KernelFaceInverse>(contactGram_, inverse_, contactStiffness_);
 }
 
 } // namespace epafi::fetidp

@@ -17,6 +17,8 @@
 
 namespace epafi::fetidp {
 
+struct ContactStiffness;
+
 /// B = G̃, W = N⁻¹; ẽ is left to the caller.
 class NaturalCoarseSpace final : public qp::ReplicatedEquality {
 public:
@@ -52,7 +54,7 @@ private:
   std::vector<KernelEntry> entries_;
   std::shared_ptr<const GramInverse> inverse_;
   std::shared_ptr<const ContactGram> contactGram_;
-  mutable std::shared_ptr<const Eigen::MatrixXd> contactFactor_; ///< of the first face inverse; see there
+  mutable std::shared_ptr<const ContactStiffness> contactStiffness_; ///< of the first face inverse on
   mutable std::vector<AccurateSum> sums_;
   mutable Eigen::VectorXd product_, motion_;
 };
