@@ -90,7 +90,7 @@ void EqualityConstraint::weigh(std::span<const double> r, std::span<double> mu) 
 double EqualityConstraint::normOf(std::span<const double> r) const {
   std::vector<double> mu(r.size());
   weigh(r, mu);
-  return std::sqrt(std::max(0.0, dot(mu, r)));
+  return std::sqrt(std::max(dot(mu, r), 0.0)); // so NaN stays
 }
 
 void ReplicatedEquality::finishProduct(std::span<const AccurateSum> sums, std::span<double> bx) {
@@ -105,7 +105,7 @@ double ReplicatedEquality::finishResidual(std::span<const AccurateSum> sums, std
   for (std::size_t k = 0; k < c.size(); ++k)
     r[k] -= c[k];
   weigh(r, weighed);
-  return std::sqrt(std::max(0.0, dot(weighed, r))); // max: of round-off
+  return std::sqrt(std::max(dot(weighed, r), 0.0)); // of round-off; so NaN stays
 }
 
 void ReplicatedEquality::product(const Vector& x, std::span<double> bx) const {

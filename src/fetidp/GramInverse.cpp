@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 
 #include <numeric>
+#include <utility>
 
 namespace epafi::fetidp {
 namespace {
@@ -12,9 +13,10 @@ constexpr double gatheringBytes = 1.5e5; ///< that are read while a small gather
 
 } // namespace
 
-GramInverse::GramInverse(const decomposition::DecomposedProblem& problem,
-                         const Eigen::SparseMatrix<double>& gram, Form form)
-    : comm_(problem.comm), size_(static_cast<int>(gram.rows())), factor_(std::in_place, gram) {
+GramInverse::GramInverse(const decomposition::DecomposedProblem& problem, Eigen::SparseMatrix<double> gram,
+                         Form form)
+    : comm_(problem.comm), size_(static_cast<int>(gram.rows())), gram_(std::move(gram)),
+      factor_(std::in_place, gram_) {
   if (factor_->info() != Eigen::Success)
     throw Error(
         "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");

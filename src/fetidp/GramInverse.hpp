@@ -24,13 +24,15 @@ public:
   /// \param form  automatic: what takes least, by the bytes that a product reads and its message; sparse on one rank, and where all clusters are whole bodies, whose numbers are to be
   ///              the same to the last digit on any number of ranks
   /// Collective. \throws Error, the same on all ranks, if N is not positive definite: then G̃ has not full row rank.
-  GramInverse(const decomposition::DecomposedProblem& problem, const Eigen::SparseMatrix<double>& gram,
+  GramInverse(const decomposition::DecomposedProblem& problem, Eigen::SparseMatrix<double> gram,
               Form form = Form::automatic);
 
   [[nodiscard]] int size() const { return size_; }                    ///< k
   [[nodiscard]] const RCP<const Comm>& comm() const { return comm_; } ///< all ranks
   /// α = N⁻¹b. Spread: one message. Collective.
   void apply(std::span<const double> b, std::span<double> alpha) const;
+  /// N, lower triangle, on every rank.
+  [[nodiscard]] const Eigen::SparseMatrix<double>& gram() const { return gram_; }
   [[nodiscard]] bool isSpread() const { return !factor_; }
   [[nodiscard]] std::size_t bytes() const; ///< of this rank
 
@@ -39,6 +41,7 @@ private:
 
   RCP<const Comm> comm_;
   int size_;
+  Eigen::SparseMatrix<double> gram_;
   std::optional<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> factor_; ///< sparse
   std::vector<int> counts_;                                                 ///< spread: rows of each rank
   Eigen::MatrixXd rows_; ///< likewise: this rank's, as columns

@@ -4,9 +4,6 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -24,33 +21,10 @@ Eigen::MatrixXd factorOf(const Eigen::MatrixXd& stiffness) {
   return *std::move(lower);
 }
 
-/// K = S S_F⁻ S − S where S_F may be singular. With S = CCᵀ, W = C⁻¹S_F C⁻ᵀ has eigenvalues between 0 and 1, U those at 0, and
-/// K = C(W⁻ − I)Cᵀ; the pseudo-inverse of W is changed by motions V = C⁻ᵀU until they are at rest at the modes where V is best
-/// conditioned.
-Eigen::MatrixXd changeWithFreeMotions(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& onFace) {
-  constexpr double roundOff = 1e-12; // beside 1
-  const Eigen::Index n = stiffness.rows();
-  const Eigen::MatrixXd lower = factorOf(stiffness);
-  const auto c = lower.triangularView<Eigen::Lower>();
-  const Eigen::MatrixXd half = c.solve(onFace),                            // C⁻¹S_F
-      w = c.solve(half.transpose()),                                       // C⁻¹S_F C⁻ᵀ
-      upperInverse = c.transpose().solve(Eigen::MatrixXd::Identity(n, n)); // C⁻ᵀ
-  const direct::SymmetricEigen modes = direct::eigenOf(0.5 * (w + w.transpose()));
-  const Eigen::Index numFree = modes.numUpTo(roundOff);
-  const auto held = modes.vectors.rightCols(n - numFree);
-  Eigen::MatrixXd inverse =
-      held * modes.values.tail(n - numFree).cwiseInverse().asDiagonal() * held.transpose();
-  if (numFree > 0) {
-    const Eigen::MatrixXd u = modes.vectors.leftCols(numFree), v = upperInverse * u;
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(v.transpose());
-    const Eigen::VectorXi anchors = qr.colsPermutation().indices().head(numFree);
-    const Eigen::MatrixXd rest =
-        Eigen::MatrixXd::Identity(n, n) -
-        u * v(anchors, Eigen::all).partialPivLu().solve(upperInverse(anchors, Eigen::all));
-    inverse = rest * inverse * rest.transpose();
-  }
-  inverse.diagonal().array() -= 1;
-  return lower * inverse * lower.transpose();
+/// How often what is lost where so small a share of S is left has to be refined.
+int refinementsFor(double share) {
+  constexpr double wellHeld = 1e-2, held = 1e-7;
+  return share > wellHeld ? 0 : share > held ? 1 : 3;
 }
 
 } // namespace
@@ -78,49 +52,107 @@ KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const ContactGram> gram,
                                      std::shared_ptr<const GramInverse> inverse,
                                      std::shared_ptr<const ContactStiffness> stiffness)
     : gram_(std::move(gram)), inverse_(std::move(inverse)), stiffness_(std::move(stiffness)),
-      resultant_(static_cast<std::size_t>(inverse_->size())), atContact_(stiffness_->pivots.size()),
-      reaction_(atContact_.size()) {
+      resultant_(static_cast<std::size_t>(inverse_->size())), residual_(resultant_.size()),
+      correction_(resultant_.size()), atContact_(stiffness_->pivots.size()), reaction_(atContact_.size()),
+      onFace_(atContact_.size()) {
   const int n = static_cast<int>(atContact_.size()), ranks = inverse_->comm()->getSize();
-  counts_ =
-      inverse_->isSpread() ? evenShares(n, ranks) : std::vector<int>(static_cast<std::size_t>(ranks), n);
-  first_ = inverse_->isSpread()
-               ? std::accumulate(counts_.begin(), counts_.begin() + inverse_->comm()->getRank(), 0)
-               : 0;
+  if (inverse_->isSpread())
+    counts_ = evenShares(n, ranks);
 }
 
 void KernelFaceInverse::setFace(const Vector& face) {
-  const Eigen::MatrixXd missing = gram_->offFace(face); // D
+  Eigen::MatrixXd missing = gram_->offFace(face); // D
   isWhole_ = missing.isZero(0);
   if (isWhole_)
     return;
-  const Eigen::Index mine = counts_[static_cast<std::size_t>(inverse_->comm()->getRank())];
+  missing_ = missing.sparseView();
   const Eigen::MatrixXd& stiffness = stiffness_->matrix;
-  const Eigen::MatrixXd onFace = stiffness - missing; // S_F
-  constexpr double wellHeld = 1e-6; // pivots so large beside those of S leave no doubt that S_F is regular
-  const std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(onFace);
-  if (lower && (lower->diagonal().cwiseAbs2().array() > wellHeld * stiffness_->pivots.array()).all()) {
-    const auto c = lower->triangularView<Eigen::Lower>();
-    const Eigen::MatrixXd half = c.solve(missing.middleCols(first_, mine));
-    change_.noalias() = stiffness * c.transpose().solve(half); // S S_F⁻¹ D
-  } else {
-    change_ = changeWithFreeMotions(stiffness, onFace).middleCols(first_, mine);
+  const std::vector<int>& anchors = gram_->anchors();
+  const auto numAnchors = static_cast<Eigen::Index>(anchors.size());
+  const double delta = stiffness.diagonal().mean();
+  for (const int anchor : anchors)
+    missing(anchor, anchor) -= delta;     // D − δAAᵀ
+  lower_ = factorOf(stiffness - missing); // of S_δ
+  response_.setZero(stiffness.rows(), numAnchors);
+  for (Eigen::Index i = 0; i < numAnchors; ++i)
+    response_(anchors[static_cast<std::size_t>(i)], i) = delta;
+  solveInPlace(response_);
+  const direct::SymmetricEigen modes =
+      direct::eigenOf(Eigen::MatrixXd::Identity(numAnchors, numAnchors) - response_(anchors, Eigen::all));
+  constexpr double roundOff = 1e-12; // beside 1
+  const Eigen::Index numFree = modes.numUpTo(roundOff), numHeld = numAnchors - numFree;
+  const auto held = modes.vectors.rightCols(numHeld);
+  atAnchors_ = held * modes.values.tail(numHeld).cwiseInverse().asDiagonal() * held.transpose();
+  double share = (lower_.diagonal().cwiseAbs2().array() / stiffness_->pivots.array()).minCoeff();
+  if (numHeld > 0)
+    share = std::min(share, modes.values[numFree]);
+  numRefinements_ = refinementsFor(share);
+  if (inverse_->isSpread())
+    makeRows(missing, delta);
+}
+
+/// X ← S_δ⁻¹X.
+void KernelFaceInverse::solveInPlace(Eigen::Ref<Eigen::MatrixXd> x) const {
+  const auto c = lower_.triangularView<Eigen::Lower>();
+  c.solveInPlace(x);
+  c.transpose().solveInPlace(x);
+}
+
+/// This rank's rows of K = S S_δ⁻¹(D − δAAᵀ) + δS S_δ⁻¹A (I − δAᵀS_δ⁻¹A)⁺ AᵀS_δ⁻¹S.
+void KernelFaceInverse::makeRows(const Eigen::MatrixXd& missing, double delta) {
+  const auto rank = static_cast<std::size_t>(inverse_->comm()->getRank());
+  const int first = std::accumulate(counts_.begin(), counts_.begin() + inverse_->comm()->getRank(), 0);
+  Eigen::MatrixXd columns = missing.middleCols(first, counts_[rank]);
+  solveInPlace(columns);
+  rows_.noalias() = stiffness_->matrix * columns;
+  const Eigen::MatrixXd forces = stiffness_->matrix * response_;
+  rows_.noalias() += forces * (atAnchors_ / delta) * forces.middleRows(first, counts_[rank]).transpose();
+}
+
+/// reaction = K times the motion at contact.
+void KernelFaceInverse::react() const {
+  if (inverse_->isSpread()) {
+    share_.noalias() = rows_.transpose() * atContact_;
+    gatherOnAll<double>(*inverse_->comm(), {share_.data(), static_cast<std::size_t>(share_.size())}, counts_,
+                        {reaction_.data(), static_cast<std::size_t>(reaction_.size())});
+    return;
   }
+  reaction_.noalias() = stiffness_->matrix.selfadjointView<Eigen::Lower>() * atContact_;
+  onFace_ = reaction_;
+  solveInPlace(onFace_);
+  share_ = onFace_(gram_->anchors());
+  held_.noalias() = atAnchors_ * share_;
+  onFace_.noalias() += response_ * held_; // S_F⁻ S times the motion
+  reaction_ *= -1;
+  reaction_.noalias() += stiffness_->matrix.selfadjointView<Eigen::Lower>() * onFace_;
 }
 
 void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) const {
-  inverse_->apply(b, mu);
-  if (isWhole_)
+  if (isWhole_) {
+    inverse_->apply(b, mu);
     return;
+  }
+  applyOnce(b, mu);
+  const auto size = static_cast<Eigen::Index>(mu.size());
+  Eigen::Map<Eigen::VectorXd> found(mu.data(), size), residual(residual_.data(), size);
+  const std::vector<int>& modes = gram_->modes();
+  for (int step = 0; step < numRefinements_; ++step) {
+    residual = Eigen::Map<const Eigen::VectorXd>(b.data(), size);
+    residual.noalias() -= inverse_->gram().selfadjointView<Eigen::Lower>() * found;
+    atContact_ = found(modes);
+    reaction_.noalias() = missing_ * atContact_;
+    residual(modes) += reaction_; // b − N_F μ
+    applyOnce(residual_, correction_);
+    found += Eigen::Map<const Eigen::VectorXd>(correction_.data(), size);
+  }
+}
+
+void KernelFaceInverse::applyOnce(std::span<const double> b, std::span<double> mu) const {
+  inverse_->apply(b, mu);
   const std::vector<int>& modes = gram_->modes();
   for (std::size_t i = 0; i < modes.size(); ++i)
     atContact_[static_cast<Eigen::Index>(i)] = mu[static_cast<std::size_t>(modes[i])];
-  if (inverse_->isSpread()) {
-    share_.noalias() = change_.transpose() * atContact_;
-    gatherOnAll<double>(*inverse_->comm(), {share_.data(), static_cast<std::size_t>(share_.size())}, counts_,
-                        {reaction_.data(), modes.size()});
-  } else {
-    reaction_.noalias() = change_.transpose() * atContact_;
-  }
+  react();
   std::copy(b.begin(), b.end(), resultant_.begin());
   for (std::size_t i = 0; i < modes.size(); ++i)
     resultant_[static_cast<std::size_t>(modes[i])] += reaction_[static_cast<Eigen::Index>(i)];

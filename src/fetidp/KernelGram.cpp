@@ -4,6 +4,8 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/qp/LocalData.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <span>
 
@@ -57,6 +59,35 @@ Pairs pairsOf(const Comm& comm, const std::vector<KernelEntry>& entries, int siz
   return pairs;
 }
 
+/// See ContactGram. Not collective.
+std::vector<int> anchorsAmong(const std::vector<int>& modes,
+                              const decomposition::DecomposedProblem& problem) {
+  std::vector<std::vector<int>> found(problem.bodies.size());               // of each body
+  std::vector<std::vector<Eigen::VectorXd>> motions(problem.bodies.size()); // of the body there
+  for (const decomposition::Cluster& cluster : problem.clusters)
+    for (int mode = 0; mode < cluster.kernelDimension; ++mode) {
+      const auto place = std::lower_bound(modes.begin(), modes.end(), cluster.kernelOffset + mode);
+      if (place == modes.end() || *place != cluster.kernelOffset + mode)
+        continue;
+      const auto body = static_cast<std::size_t>(cluster.body);
+      found[body].push_back(static_cast<int>(place - modes.begin()));
+      motions[body].emplace_back(cluster.ofBody.row(mode).transpose());
+    }
+  std::vector<int> anchors;
+  for (std::size_t body = 0; body < found.size(); ++body) {
+    const Eigen::Index dimension = found[body].empty() ? 0 : motions[body].front().size();
+    if (dimension == 0)
+      continue;
+    Eigen::MatrixXd columns(dimension, static_cast<Eigen::Index>(found[body].size()));
+    for (std::size_t i = 0; i < found[body].size(); ++i)
+      columns.col(static_cast<Eigen::Index>(i)) = motions[body][i];
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+    for (Eigen::Index i = 0; i < qr.rank(); ++i)
+      anchors.push_back(found[body][static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
+  }
+  return anchors;
+}
+
 } // namespace
 
 Eigen::SparseMatrix<double> kernelGram(const decomposition::DecomposedProblem& problem,
@@ -90,6 +121,7 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
   sortOnce(modes_);
   modes_ = gatherOnAll(*comm_, modes_);
   sortOnce(modes_);
+  anchors_ = anchorsAmong(modes_, problem);
   for (KernelEntry& entry : contact)
     entry.mode =
         static_cast<int>(std::lower_bound(modes_.begin(), modes_.end(), entry.mode) - modes_.begin());

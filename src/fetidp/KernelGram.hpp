@@ -23,6 +23,8 @@ public:
   ContactGram(const decomposition::DecomposedProblem& problem, const std::vector<KernelEntry>& entries);
 
   [[nodiscard]] const std::vector<int>& modes() const { return modes_; } ///< ascending
+  /// Which of these modes hold the bodies: no motion of a body leaves all its *anchors* at rest. Indices into modes().
+  [[nodiscard]] const std::vector<int>& anchors() const { return anchors_; }
   /// Σ gᵢgᵢᵀ over the rows of contact off a face, gᵢ a column of G̃ at these modes, n × n: what N lacks there. The same on every rank.
   /// \param face  1 where multipliers may move, else 0; rows of gluing and ties always may
   /// One message of the number of pairs of modes that contact joins. Collective.
@@ -37,7 +39,7 @@ private:
   };
 
   RCP<const Comm> comm_;
-  std::vector<int> modes_;
+  std::vector<int> modes_, anchors_;
   std::vector<std::int64_t> pairs_; ///< places in the n × n matrix, column by column, of the lower triangle
   std::vector<Term> terms_;         ///< this rank's
 };
