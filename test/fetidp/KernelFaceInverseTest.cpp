@@ -97,6 +97,51 @@ TEST(KernelFaceInverseTest, IsAGeneralisedInverseOnEveryFace) {
   EXPECT_GE(numSingular, 3); // nothing closed under a floating body
 }
 
+/// A beam of many clusters, each with three motions, on another: where few contacts are left what holds the face is tiny beside what holds the whole.
+TEST(KernelFaceInverseTest, KeepsItsDigitsWhereFewContactsHoldManyClusters) {
+  scene::Scene scene = twoMembranes(false, 2, clustered(grid(32, 1), 1));
+  for (scene::Body& body : scene.bodies) {
+    body.physics = scene::Physics::planeStrain;
+    body.mesh.elements = {64, 2, 0};
+    body.supports.clear();
+  }
+  scene.bodies[0].mesh.box = scene::rectangle(0, 32, 0, 1);
+  scene.bodies[1].mesh.box = scene::rectangle(0, 32, 1, 2);
+  scene.bodies[0].supports = {{"foot", "bottom", {0.0, 0.0}}};
+  scene.bodies[1].supports = {{"stop", "left", {0.0, std::nullopt}}};
+  scene.contacts = {{"joint", 0, "top", 1, "bottom", {}, 0.0}};
+  for (const auto form : {GramInverse::Form::sparse, GramInverse::Form::spread}) {
+    const Cut cut(scene, form);
+    ASSERT_GT(cut.space.size(), 90);
+    Vector face(cut.problem.multiplierMap);
+    int numClosed = 0;
+    for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(numLocal(*cut.problem.multiplierMap)); ++row) {
+      const bool isContact =
+          cut.problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact;
+      const GlobalOrdinal number = cut.problem.multiplierMap->getGlobalElement(row);
+      const bool isClosed = isContact && (number == 3 || number == 4); // next to each other, near one end
+      numClosed += isClosed ? 1 : 0;
+      face.replaceLocalValue(row, !isContact || isClosed ? 1.0 : 0.0);
+    }
+    ASSERT_EQ(sumOverRanks(*world(), numClosed), 2);
+    const auto inverse = cut.space.faceInverse(cut.problem.multiplierMap);
+    inverse->setFace(face);
+    const RCP<Vector> x =
+        spread(cut.problem.multiplierMap,
+               randomVector(static_cast<Eigen::Index>(cut.problem.multiplierMap->getGlobalNumElements()), 7));
+    x->elementWiseMultiply(1.0, face, *x, 0.0);
+    const Eigen::VectorXd before = cut.space.product(*x);
+    Eigen::VectorXd alpha(before.size());
+    const auto size = static_cast<std::size_t>(before.size());
+    inverse->apply({before.data(), size}, {alpha.data(), size});
+    Vector image(cut.problem.multiplierMap);
+    cut.space.addTransposedProduct({alpha.data(), size}, 1.0, image);
+    image.elementWiseMultiply(1.0, face, image, 0.0);
+    x->update(-1.0, image, 1.0); // P_F x
+    EXPECT_LE(cut.space.product(*x).norm(), 1e-12 * before.norm());
+  }
+}
+
 /// Where nothing asks for it no body moves: a body that is one cluster not at all, the clusters of one not at as many modes as it has.
 TEST(KernelFaceInverseTest, LeavesBodiesThatAreFreeAtRest) {
   for (const bool isWhole : {true, false}) {
