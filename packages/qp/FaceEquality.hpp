@@ -30,9 +30,9 @@ public:
   void finish(std::span<const AccurateSum> sums, std::span<double> bx) const;
   /// x ← P_F x. One message of k numbers. Collective.
   void project(Vector& x);
-  /// μ with B_Fᵀμ nearest to x on the face, of those the shortest; x becomes 0 off the face. Valid until the next call. Likewise.
+  /// μ with B_Fᵀμ nearest to x on the face, one of these if there are several (FaceInverse.hpp); x becomes 0 off the face. Valid until the next call. Likewise.
   [[nodiscard]] std::span<const double> fit(Vector& x);
-  /// μ = (B_F B_Fᵀ)⁺ b. Collective.
+  /// μ = (B_F B_Fᵀ)⁻ b. Collective.
   void multiplierOf(std::span<const double> b, std::span<double> mu) const;
   /// y += factor · B_Fᵀμ; y becomes 0 off the face. Not collective.
   void addTransposed(std::span<const double> mu, double factor, Vector& y) const;
@@ -49,7 +49,7 @@ private:
   RCP<const ReplicatedEquality> equality_;
   int numRows_;
   const Vector* face_ = nullptr;
-  std::unique_ptr<FaceInverse> inverse_;     ///< (B_F B_Fᵀ)⁺; null without rows
+  std::unique_ptr<FaceInverse> inverse_;     ///< (B_F B_Fᵀ)⁻; null without rows
   std::vector<double> product_, multiplier_; ///< work, k
 };
 

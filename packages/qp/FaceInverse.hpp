@@ -14,7 +14,7 @@ public:
   virtual ~FaceInverse() = default;
   /// From now on the face is where `face` is 1, not 0. Collective.
   virtual void setFace(const Vector& face) = 0;
-  /// μ = N⁻ b; 0 is what it chooses of motions that the face leaves free. Collective.
+  /// μ = N⁻ b; motions that the face leaves free are at rest where it says. Collective.
   virtual void apply(std::span<const double> b, std::span<double> mu) const = 0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. While it is small it is the one thing of global
-/// size that every rank holds: all factorise and solve it alike, for the price of one message. A large one lies on
+/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. While it is small every rank
+/// holds it: all factorise and solve it alike, for the price of one message. A large one lies on
 /// rank 0, and the others send their shares and receive their values, by plans built once. Where bodies are of several
 /// clusters (Clusters.hpp), the coarse problem falls apart: ranks whose clusters hang together are a *team* that has the part of these
 /// clusters and sums within itself; a rank that shares no cluster needs no message.
