@@ -13,10 +13,9 @@ constexpr double gatheringBytes = 1.5e5; ///< that are read while a small gather
 
 } // namespace
 
-GramInverse::GramInverse(const decomposition::DecomposedProblem& problem, Eigen::SparseMatrix<double> gram,
-                         Form form)
-    : comm_(problem.comm), size_(static_cast<int>(gram.rows())), gram_(std::move(gram)),
-      factor_(std::in_place, gram_) {
+GramInverse::GramInverse(const decomposition::DecomposedProblem& problem,
+                         const Eigen::SparseMatrix<double>& gram, Form form)
+    : comm_(problem.comm), size_(static_cast<int>(gram.rows())), gram_(gram), factor_(std::in_place, gram_) {
   if (factor_->info() != Eigen::Success)
     throw Error(
         "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");

@@ -24,7 +24,7 @@ public:
   /// \param form  automatic: what takes least, by the bytes that a product reads and its message; sparse on one rank, and where all clusters are whole bodies, whose numbers are to be
   ///              the same to the last digit on any number of ranks
   /// Collective. \throws Error, the same on all ranks, if N is not positive definite: then G̃ has not full row rank.
-  GramInverse(const decomposition::DecomposedProblem& problem, Eigen::SparseMatrix<double> gram,
+  GramInverse(const decomposition::DecomposedProblem& problem, const Eigen::SparseMatrix<double>& gram,
               Form form = Form::automatic);
 
   [[nodiscard]] int size() const { return size_; }                    ///< k

@@ -60,6 +60,14 @@ KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const ContactGram> gram,
     counts_ = evenShares(n, ranks);
 }
 
+/// X ← S_δ⁻¹X.
+template <class Matrix>
+void KernelFaceInverse::solveInPlace(Matrix& x) const {
+  const auto c = lower_.triangularView<Eigen::Lower>();
+  c.solveInPlace(x);
+  c.transpose().solveInPlace(x);
+}
+
 void KernelFaceInverse::setFace(const Vector& face) {
   Eigen::MatrixXd missing = gram_->offFace(face); // D
   isWhole_ = missing.isZero(0);
@@ -89,13 +97,6 @@ void KernelFaceInverse::setFace(const Vector& face) {
   numRefinements_ = refinementsFor(share);
   if (inverse_->isSpread())
     makeRows(missing, delta);
-}
-
-/// X ← S_δ⁻¹X.
-void KernelFaceInverse::solveInPlace(Eigen::Ref<Eigen::MatrixXd> x) const {
-  const auto c = lower_.triangularView<Eigen::Lower>();
-  c.solveInPlace(x);
-  c.transpose().solveInPlace(x);
 }
 
 /// This rank's rows of K = S S_δ⁻¹(D − δAAᵀ) + δS S_δ⁻¹A (I − δAᵀS_δ⁻¹A)⁺ AᵀS_δ⁻¹S.

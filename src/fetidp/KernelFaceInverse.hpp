@@ -44,7 +44,8 @@ public:
   void apply(std::span<const double> b, std::span<double> mu) const override;
 
 private:
-  void solveInPlace(Eigen::Ref<Eigen::MatrixXd> x) const;
+  template <class Matrix>
+  void solveInPlace(Matrix& x) const;
   void makeRows(const Eigen::MatrixXd& missing, double delta);
   void react() const;
   void applyOnce(std::span<const double> b, std::span<double> mu) const;
