@@ -124,14 +124,6 @@ void gather(const Comm& comm, const void* mine, std::span<const int> counts, std
 }
 
 } // namespace detail
-
-std::vector<int> evenShares(int number, int ranks) {
-  std::vector<int> shares;
-  for (GlobalOrdinal rank = 0; rank < ranks; ++rank)
-    shares.push_back(static_cast<int>((rank + 1) * number / ranks - rank * number / ranks));
-  return shares;
-}
-
 GlobalOrdinal sumBefore(const Comm& comm, GlobalOrdinal mine) {
   if (comm.getSize() == 1)
     return 0;

@@ -101,17 +101,6 @@ auto gatherOnAll(const Comm& comm, const Values& values) {
   return detail::gathered(comm, values, true);
 }
 
-/// The same where every rank knows how many values each has, in one message and into `all`, which has room for them. Collective.
-template <class Value>
-void gatherOnAll(const Comm& comm, std::span<const Value> mine, std::span<const int> counts,
-                 std::span<Value> all) {
-  static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
-  detail::gather(comm, mine.data(), counts, sizeof(Value), true, all.data());
-}
-
-/// How many of so many rows each rank takes, in the order of the ranks, as even as can be. Not collective.
-std::vector<int> evenShares(int number, int ranks);
-
 /// The same on rank 0 alone; empty on the others. Collective.
 template <class Values>
 auto gatherOnFirst(const Comm& comm, const Values& values) {

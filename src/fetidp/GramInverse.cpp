@@ -1,9 +1,7 @@
 #include "epafi/fetidp/GramInverse.hpp"
 
-#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 
-#include <numeric>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -15,7 +13,8 @@ constexpr double gatheringBytes = 1.5e5; ///< that are read while a small gather
 
 GramInverse::GramInverse(const decomposition::DecomposedProblem& problem,
                          const Eigen::SparseMatrix<double>& gram, Form form)
-    : comm_(problem.comm), size_(static_cast<int>(gram.rows())), gram_(gram), factor_(std::in_place, gram_) {
+    : comm_(problem.comm), size_(static_cast<int>(gram.rows())), gram_(gram), factor_(std::in_place, gram_),
+      shares_(comm_, size_) {
   if (factor_->info() != Eigen::Success)
     throw Error(
         "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
@@ -31,12 +30,12 @@ GramInverse::GramInverse(const decomposition::DecomposedProblem& problem,
 }
 
 void GramInverse::spread() {
-  counts_ = evenShares(size_, comm_->getSize());
-  const auto mine = counts_.begin() + comm_->getRank();
-  const int first = std::accumulate(counts_.begin(), mine, 0);
-  rows_.resize(size_, *mine);
+  gram_ = Eigen::SparseMatrix<double>(gram_.selfadjointView<Eigen::Lower>())
+              .middleCols(shares_.first(), shares_.size())
+              .eval();
+  rows_.resize(size_, shares_.size());
   for (Eigen::Index j = 0; j < rows_.cols(); ++j)
-    rows_.col(j) = factor_->solve(Eigen::VectorXd::Unit(size_, first + j));
+    rows_.col(j) = factor_->solve(Eigen::VectorXd::Unit(size_, shares_.first() + j));
   factor_.reset();
 }
 
@@ -44,13 +43,23 @@ void GramInverse::apply(std::span<const double> b, std::span<double> alpha) cons
   const Eigen::Map<const Eigen::VectorXd> given(b.data(), size_);
   if (isSpread()) {
     work_.noalias() = rows_.transpose() * given;
-    gatherOnAll<double>(*comm_, {work_.data(), static_cast<std::size_t>(work_.size())}, counts_, alpha);
+    shares_.gather({work_.data(), static_cast<std::size_t>(work_.size())}, alpha);
     return;
   }
   work_.noalias() = factor_->permutationP() * given;
   factor_->matrixL().solveInPlace(work_);
   factor_->matrixU().solveInPlace(work_);
   Eigen::Map<Eigen::VectorXd>(alpha.data(), size_).noalias() = factor_->permutationPinv() * work_;
+}
+
+void GramInverse::multiply(std::span<const double> alpha, std::span<double> b) const {
+  const Eigen::Map<const Eigen::VectorXd> given(alpha.data(), size_);
+  if (isSpread()) {
+    work_.noalias() = gram_.transpose() * given;
+    shares_.gather({work_.data(), static_cast<std::size_t>(work_.size())}, b);
+  } else {
+    Eigen::Map<Eigen::VectorXd>(b.data(), size_).noalias() = gram_.selfadjointView<Eigen::Lower>() * given;
+  }
 }
 
 std::size_t GramInverse::bytes() const {

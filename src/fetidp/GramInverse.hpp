@@ -5,6 +5,7 @@
 ///   spread  a share of the rows of N⁻¹ on each rank, dense: 8k²/P bytes on P ranks, k/P dot products and a gathering of k numbers.
 /// Many clusters on few ranks are cheaper sparse; a few on each of many ranks, spread. The sparse factor makes the rows, and goes.
 
+#include "epafi/base/EvenShares.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
 #include <Eigen/Core>
@@ -13,7 +14,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace epafi::fetidp {
 
@@ -31,8 +31,8 @@ public:
   [[nodiscard]] const RCP<const Comm>& comm() const { return comm_; } ///< all ranks
   /// α = N⁻¹b. Spread: one message. Collective.
   void apply(std::span<const double> b, std::span<double> alpha) const;
-  /// N, lower triangle, on every rank.
-  [[nodiscard]] const Eigen::SparseMatrix<double>& gram() const { return gram_; }
+  /// b = Nα. Spread: one message. Collective.
+  void multiply(std::span<const double> alpha, std::span<double> b) const;
   [[nodiscard]] bool isSpread() const { return !factor_; }
   [[nodiscard]] std::size_t bytes() const; ///< of this rank
 
@@ -41,9 +41,9 @@ private:
 
   RCP<const Comm> comm_;
   int size_;
-  Eigen::SparseMatrix<double> gram_;
+  Eigen::SparseMatrix<double> gram_; ///< N, lower triangle; spread: this rank's columns
   std::optional<Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>> factor_; ///< sparse
-  std::vector<int> counts_;                                                 ///< spread: rows of each rank
+  EvenShares shares_;                                                       ///< spread: of the rows
   Eigen::MatrixXd rows_; ///< likewise: this rank's, as columns
   mutable Eigen::VectorXd work_;
 };

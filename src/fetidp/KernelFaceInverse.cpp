@@ -1,11 +1,9 @@
 #include "epafi/fetidp/KernelFaceInverse.hpp"
 
-#include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -16,8 +14,7 @@ namespace {
 Eigen::MatrixXd factorOf(const Eigen::MatrixXd& stiffness) {
   std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(stiffness);
   if (!lower)
-    throw Error(
-        "the rows of G are linearly dependent: some rigid motion of the floating bodies meets no contact");
+    throw Error("contact and gluing hold the motions of the clusters of subdomains no better than round-off");
   return *std::move(lower);
 }
 
@@ -52,13 +49,10 @@ KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const ContactGram> gram,
                                      std::shared_ptr<const GramInverse> inverse,
                                      std::shared_ptr<const ContactStiffness> stiffness)
     : gram_(std::move(gram)), inverse_(std::move(inverse)), stiffness_(std::move(stiffness)),
+      shares_(inverse_->comm(), static_cast<int>(stiffness_->pivots.size())),
       resultant_(static_cast<std::size_t>(inverse_->size())), residual_(resultant_.size()),
       correction_(resultant_.size()), atContact_(stiffness_->pivots.size()), reaction_(atContact_.size()),
-      onFace_(atContact_.size()) {
-  const int n = static_cast<int>(atContact_.size()), ranks = inverse_->comm()->getSize();
-  if (inverse_->isSpread())
-    counts_ = evenShares(n, ranks);
-}
+      onFace_(atContact_.size()) {}
 
 /// X ← S_δ⁻¹X.
 template <class Matrix>
@@ -101,21 +95,20 @@ void KernelFaceInverse::setFace(const Vector& face) {
 
 /// This rank's rows of K = S S_δ⁻¹(D − δAAᵀ) + δS S_δ⁻¹A (I − δAᵀS_δ⁻¹A)⁺ AᵀS_δ⁻¹S.
 void KernelFaceInverse::makeRows(const Eigen::MatrixXd& missing, double delta) {
-  const auto rank = static_cast<std::size_t>(inverse_->comm()->getRank());
-  const int first = std::accumulate(counts_.begin(), counts_.begin() + inverse_->comm()->getRank(), 0);
-  Eigen::MatrixXd columns = missing.middleCols(first, counts_[rank]);
+  Eigen::MatrixXd columns = missing.middleCols(shares_.first(), shares_.size());
   solveInPlace(columns);
   rows_.noalias() = stiffness_->matrix * columns;
   const Eigen::MatrixXd forces = stiffness_->matrix * response_;
-  rows_.noalias() += forces * (atAnchors_ / delta) * forces.middleRows(first, counts_[rank]).transpose();
+  rows_.noalias() +=
+      forces * (atAnchors_ / delta) * forces.middleRows(shares_.first(), shares_.size()).transpose();
 }
 
 /// reaction = K times the motion at contact.
 void KernelFaceInverse::react() const {
   if (inverse_->isSpread()) {
     share_.noalias() = rows_.transpose() * atContact_;
-    gatherOnAll<double>(*inverse_->comm(), {share_.data(), static_cast<std::size_t>(share_.size())}, counts_,
-                        {reaction_.data(), static_cast<std::size_t>(reaction_.size())});
+    shares_.gather({share_.data(), static_cast<std::size_t>(share_.size())},
+                   {reaction_.data(), static_cast<std::size_t>(reaction_.size())});
     return;
   }
   reaction_.noalias() = stiffness_->matrix.selfadjointView<Eigen::Lower>() * atContact_;
@@ -138,8 +131,8 @@ void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) c
   Eigen::Map<Eigen::VectorXd> found(mu.data(), size), residual(residual_.data(), size);
   const std::vector<int>& modes = gram_->modes();
   for (int step = 0; step < numRefinements_; ++step) {
-    residual = Eigen::Map<const Eigen::VectorXd>(b.data(), size);
-    residual.noalias() -= inverse_->gram().selfadjointView<Eigen::Lower>() * found;
+    inverse_->multiply(mu, residual_);
+    residual = Eigen::Map<const Eigen::VectorXd>(b.data(), size) - residual;
     atContact_ = found(modes);
     reaction_.noalias() = missing_ * atContact_;
     residual(modes) += reaction_; // b − N_F μ

@@ -58,8 +58,8 @@ private:
   Eigen::MatrixXd lower_;                             ///< Cholesky factor of S_δ
   Eigen::MatrixXd response_, atAnchors_;              ///< δS_δ⁻¹A and (I − δAᵀS_δ⁻¹A)⁺
   int numRefinements_ = 0;
-  std::vector<int> counts_; ///< if spread, rows of K that each rank has
-  Eigen::MatrixXd rows_;    ///< if spread, this rank's, as columns
+  EvenShares shares_;    ///< of the rows of K, if spread
+  Eigen::MatrixXd rows_; ///< if spread, this rank's, as columns
   mutable std::vector<double> resultant_, residual_, correction_;
   mutable Eigen::VectorXd atContact_, reaction_, onFace_, share_,
       held_; ///< work: Eᵀ of a motion, K times it, and on the way

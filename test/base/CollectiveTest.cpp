@@ -5,9 +5,7 @@
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>
 
-#include <algorithm>
 #include <new>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -153,23 +151,6 @@ TEST_F(CollectiveTest, GathersUnevenPiecesInTheOrderOfTheRanks) {
     expected.insert(expected.end(), static_cast<std::size_t>(rank), rank);
   EXPECT_EQ(gatherOnAll(*comm, mine), expected);
   EXPECT_EQ(gatherOnFirst(*comm, mine), comm->getRank() == 0 ? expected : std::vector<double>());
-}
-
-TEST_F(CollectiveTest, GathersEvenSharesWithoutAskingForTheirSizes) {
-  for (const int number : {0, 1, 7, 12}) {
-    const std::vector<int> shares = evenShares(number, comm->getSize());
-    ASSERT_EQ(shares.size(), static_cast<std::size_t>(comm->getSize()));
-    EXPECT_EQ(std::accumulate(shares.begin(), shares.end(), 0), number);
-    EXPECT_LE(*std::max_element(shares.begin(), shares.end()),
-              *std::min_element(shares.begin(), shares.end()) + 1);
-    const auto mine = shares.begin() + comm->getRank();
-    std::vector<int> values(static_cast<std::size_t>(*mine)), all(static_cast<std::size_t>(number), -1),
-        expected(all);
-    std::iota(values.begin(), values.end(), std::accumulate(shares.begin(), mine, 0));
-    std::iota(expected.begin(), expected.end(), 0);
-    gatherOnAll<int>(*comm, values, shares, all);
-    EXPECT_EQ(all, expected);
-  }
 }
 
 /// What two ranks may tell each other: an index and a value.
