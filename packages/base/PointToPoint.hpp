@@ -47,4 +47,17 @@ exchange(const Comm& comm, const std::map<int, std::vector<Value>>& outgoing, co
   return received;
 }
 
+/// The ranks that name this one among those that they send to: a byte between any two. Collective.
+std::set<int> sendersTo(const Comm& comm, const std::set<int>& receivers);
+
+/// The same exchange where a rank knows only whom it sends to. Collective.
+template <class Value>
+std::map<int, std::vector<Value>> deliver(const Comm& comm,
+                                          const std::map<int, std::vector<Value>>& outgoing) {
+  std::set<int> receivers;
+  for (const auto& [rank, values] : outgoing)
+    receivers.insert(rank);
+  return exchange(comm, outgoing, sendersTo(comm, receivers));
+}
+
 } // namespace epafi

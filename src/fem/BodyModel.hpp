@@ -31,6 +31,8 @@ public:
   BodyModel(const scene::Body& body, const Mesh& mesh);
 
   [[nodiscard]] const Mesh& mesh() const { return body_.mesh; } ///< that of the body
+  /// Of a piece of a mesh, what the scene names and the piece does not have, as sentences: wrong if all pieces say the same.
+  [[nodiscard]] const std::vector<std::string>& lacking() const { return body_.lacking(); }
   /// Where its unknowns are.
   [[nodiscard]] const UnknownMap& unknowns() const { return unknowns_; }
   /// Unknowns a node.

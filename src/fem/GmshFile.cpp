@@ -317,6 +317,15 @@ std::vector<std::string> GmshFile::groupNames() const {
   return namesOf(contents_.groups);
 }
 
+bool GmshFile::hasElements(const std::string& group) const {
+  return std::any_of(contents_.elements.begin(), contents_.elements.end(), [&](const GmshBlock& block) {
+    return group.empty() ||
+           std::any_of(contents_.groups.begin(), contents_.groups.end(), [&](const GmshGroup& known) {
+             return known.name == group && holds(known, block.entity);
+           });
+  });
+}
+
 UnstructuredMesh GmshFile::body(const std::string& group, int order) const {
   MeshArrays arrays = BodyMaker(contents_, group).make();
   if (order == 0 || order == orderOf(arrays.cellType))
@@ -325,6 +334,23 @@ UnstructuredMesh GmshFile::body(const std::string& group, int order) const {
     return UnstructuredMesh(linearised(std::move(arrays)));
   const UnstructuredMesh sound(arrays); // what is wrong with it is said in terms of the file
   return UnstructuredMesh(completed(std::move(arrays), false));
+}
+
+void GmshFile::visitFacets(
+    const std::function<void(const std::string&, std::span<const GlobalOrdinal>)>& visit) const {
+  std::vector<GlobalOrdinal> tags;
+  for (const GmshGroup& surface : contents_.surfaces)
+    for (const GmshBlock& block : contents_.facets) {
+      if (!holds(surface, block.entity))
+        continue;
+      const auto count = index(numNodesOfGmsh(block.type));
+      for (std::size_t i = 0; i < block.nodes.size(); i += count) {
+        tags.clear();
+        for (const LocalOrdinal node : std::span(block.nodes).subspan(i, numCornersOfGmsh(block.type)))
+          tags.push_back(contents_.nodeTags[index(node)]);
+        visit(surface.name, tags);
+      }
+    }
 }
 
 } // namespace epafi::fem

@@ -6,12 +6,17 @@
 /// d − 1 as far as they bound it, its element groups the other groups of dimension d as far as they lie in it. Groups without
 /// a name are called by their number.
 ///
-/// Nothing is collective: every rank that makes an object holds the whole file. Meant for meshes of a body or a few, not for
-/// ones that only many ranks can hold: a million hexahedra take 330 MB while they are read (by Gmsh 500), of which the object keeps 80, and
+/// Nothing is collective: every rank that makes an object holds the whole file. A mesh that only many ranks can hold is read
+/// from a file for each part (model/SplitFiles.hpp). A million hexahedra take 330 MB while they are read (by Gmsh 500), of which the object keeps 80, and
 /// each body made of them 140 (tetrahedra: 130, 35 and 70).
 
 #include "epafi/fem/MshReader.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace epafi::fem {
 
@@ -35,6 +40,15 @@ public:
   /// \param order  of the mesh, 1 or 2, whatever the file has (MeshOrder.hpp); 0: as the file has it. Elements of 8 and 20 nodes
   ///               become those of 9 and 27
   [[nodiscard]] UnstructuredMesh body(const std::string& group, int order = 0) const;
+
+  /// Whether there is anything that body() would make a mesh of.
+  [[nodiscard]] bool hasElements(const std::string& group) const;
+  /// Into how many files the whole mesh was cut; 0: the file does not say.
+  [[nodiscard]] GlobalOrdinal numPartitions() const { return contents_.numPartitions; }
+  /// Calls visit(surface, corners) for each facet of each named surface of any body: the surface's name, and the numbers that the
+  /// corners have in the file.
+  void
+  visitFacets(const std::function<void(const std::string&, std::span<const GlobalOrdinal>)>& visit) const;
 
 private:
   GmshContents contents_;

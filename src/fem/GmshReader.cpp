@@ -3,6 +3,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/MshReader.hpp"
+#include "epafi/scene/Body.hpp"
 
 #include <dlfcn.h>
 #include <gmshc.h>
@@ -270,6 +271,11 @@ void checkFile(const std::string& file) {
   if (path.extension() != ".msh" && path.extension() != ".geo")
     throw InputError("The mesh file " + inQuotes(file) +
                      " is of an unknown kind; its name must end in .msh or .geo");
+  if (scene::isSplit(file))
+    throw InputError(
+        "The mesh files " + inQuotes(file) +
+        " are read by parts, but here one mesh is needed that a rank reads whole, as where it is refined "
+        "or a point in it is looked for; name one file");
   if (!fs::is_regular_file(path))
     throw InputError("There is no mesh file " + inQuotes(file) + "; check its name and the folder");
   std::ifstream stream(path, std::ios::binary);

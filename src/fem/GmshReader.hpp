@@ -11,7 +11,7 @@
 
 namespace epafi::fem {
 
-/// Text that readMsh() takes. A .geo is meshed unless it makes elements itself. Throws InputError if there is no such file, it
+/// Text that readMsh() takes; not of several files (scene::isSplit()). A .geo is meshed unless it makes elements itself. Throws InputError if there is no such file, it
 /// cannot be read, Gmsh refuses it or makes elements of it that are of order 3 or more; Error if Gmsh is needed and cannot be loaded, or
 /// the folder cannot be made.
 ///

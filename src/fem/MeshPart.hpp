@@ -7,7 +7,6 @@
 #include "epafi/fem/MeshTopology.hpp"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -16,7 +15,7 @@
 
 namespace epafi::fem {
 
-/// What a piece consists of, as it travels between ranks.
+/// What a piece consists of.
 struct PartArrays {
   CellType cellType = CellType::triangle;
   GlobalOrdinal numNodes = 0, numElements = 0; ///< of the whole body
@@ -29,25 +28,6 @@ struct PartArrays {
   std::vector<std::uint8_t> isOnBoundary;      ///< of the held nodes
   std::vector<std::pair<std::string, Surface>> surfaces;                  ///< whole
   std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> groups; ///< as far as held, ascending
-
-  /// All of it in bytes, and back.
-  [[nodiscard]] std::vector<std::byte> packed() const;
-  static PartArrays unpacked(const std::vector<std::byte>& bytes);
-};
-
-/// Cuts pieces out of a mesh.
-class MeshCutter {
-public:
-  /// Keeps the reference. O(n).
-  explicit MeshCutter(const Mesh& mesh);
-  /// The piece around some elements. O(m log m), m of the piece.
-  [[nodiscard]] PartArrays around(std::vector<GlobalOrdinal> elements) const;
-
-private:
-  const Mesh& mesh_;
-  PartArrays common_;                          ///< what all pieces have alike
-  std::vector<GlobalOrdinal> cornerNumbers_;   ///< of all nodes
-  std::vector<GlobalOrdinal> surfaceElements_; ///< at any surface, ascending
 };
 
 /// Every query may be asked of held nodes and elements. Of nodes of the own elements it has the same answer as of the whole mesh;

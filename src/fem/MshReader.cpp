@@ -139,6 +139,7 @@ GmshContents Contents::make() {
     throw InputError("The mesh file " + inQuotes(contents_.file) +
                      " holds no elements of dimension 2 or 3; mesh its surfaces or volumes, and save all of "
                      "them or those in physical groups");
+  contents_.numPartitions = records_.numPartitions;
   contents_.groups = groupsOf(d);
   contents_.surfaces = groupsOf(d - 1);
   for (int lower = d - 2; lower >= 0; --lower)

@@ -28,7 +28,8 @@ struct GmshGroup {
 /// What a mesh file holds, as arrays.
 struct GmshContents {
   std::string file;
-  int dimension = 0; ///< d: the highest of any element, 2 or 3
+  int dimension = 0;               ///< d: the highest of any element, 2 or 3
+  GlobalOrdinal numPartitions = 0; ///< into which the whole mesh was cut; 0: the file does not say
   std::vector<Point> points;
   std::vector<GlobalOrdinal> nodeTags; ///< ascending, none twice
   /// Geometric entity inside which each node lies: its dimension and number. Format 2.2 says neither: −1 and 0.

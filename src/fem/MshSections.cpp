@@ -120,17 +120,21 @@ int dimensionIn(MshScanner& file) {
   return dimension;
 }
 
-/// Number, perhaps parent and partitions, extent, groups and, but for points, boundary.
+/// Number, perhaps parent and partitions, extent, groups and, but for points, boundary. Where partitions touch, entities of lower
+/// dimension than their parent have the numbers of its groups, in which they are not.
 void readEntity(MshScanner& file, MshRecords& records, std::size_t dimension, bool isPartitioned) {
   const int entity = file.integer();
+  bool isInGroups = true;
   if (isPartitioned) {
-    skipIntegers(file, 2);
+    isInGroups = file.integer() == static_cast<int>(dimension);
+    skipIntegers(file, 1);
     skipIntegers(file, file.count("partitions", 4, 1));
   }
   skipReals(file, dimension == 0 ? 3 : 6);
   const LocalOrdinal numGroups = file.count("physical groups", 4, 1);
   for (LocalOrdinal g = 0; g < numGroups; ++g)
-    records.groupEntities[dimension][groupOfTag(file, file.integer())].push_back(entity);
+    if (const int group = groupOfTag(file, file.integer()); isInGroups)
+      records.groupEntities[dimension][group].push_back(entity);
   if (dimension > 0)
     skipIntegers(file, file.count("boundary entities", 4, 1));
 }
@@ -191,7 +195,7 @@ void readElements2(MshScanner& file, MshRecords& records) {
 
 void readEntities4(MshScanner& file, MshRecords& records, bool isPartitioned) {
   if (isPartitioned) {
-    (void)file.whole();
+    records.numPartitions = file.whole();
     skipIntegers(file, 2 * GlobalOrdinal{file.count("ghost entities", 8, 2)});
   }
   std::array<LocalOrdinal, 4> numbers{};

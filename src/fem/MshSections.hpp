@@ -24,7 +24,8 @@ struct MshBlock {
 struct MshRecords {
   std::map<std::pair<int, int>, std::string> groupNames;        ///< by dimension and number
   std::array<std::map<int, std::vector<int>>, 4> groupEntities; ///< of each dimension: by the group's number
-  std::vector<GlobalOrdinal> nodeTags;                          ///< ≥ 0
+  GlobalOrdinal numPartitions = 0;     ///< of the whole mesh; 0: the file does not say
+  std::vector<GlobalOrdinal> nodeTags; ///< ≥ 0
   std::vector<Point> points;
   std::vector<std::array<int, 2>> nodeEntities; ///< dimension and number
   std::array<std::vector<MshBlock>, 4> blocks;  ///< of each dimension

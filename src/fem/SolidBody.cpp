@@ -19,6 +19,13 @@ void requireName(const SolidBody& body, const std::string& user, const std::stri
 
 } // namespace
 
+void SolidBody::lack(const std::string& what) const {
+  const InputError error = refusal(what);
+  if (mesh.part() == nullptr)
+    throw error;
+  lacking_->push_back(error.what());
+}
+
 Surface SolidBody::surfaceOf(const std::string& user, const std::string& surface) const {
   requireName(*this, user, "surface", surface, mesh.surfaceNames());
   return mesh.surface(surface);

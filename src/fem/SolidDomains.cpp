@@ -1,6 +1,7 @@
 #include "epafi/fem/SolidDomains.hpp"
 
 #include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/fem/MeshPart.hpp"
 
 #include <algorithm>
 
@@ -46,14 +47,17 @@ SolidDomain::SolidDomain(const SolidBody& body, const std::string& user, const s
                                                     : rangeIn(*mesh, d, box.lower[d], box.upper[d]);
       isEmpty = isEmpty || ranges_[d][0] == ranges_[d][1];
     }
-  } else if (body.mesh.part() == nullptr) { // a piece need not meet it
+  } else if (const MeshPart* part = body.mesh.part()) {
+    isEmpty = std::none_of(part->elements().begin(), part->elements().end(),
+                           [&](GlobalOrdinal element) { return contains(body, element); });
+  } else {
     GlobalOrdinal element = 0;
     while (element < body.mesh.numElements() && !contains(body, element))
       ++element;
     isEmpty = element == body.mesh.numElements();
   }
   if (isEmpty && !isMembraneOnRectangle(body.body))
-    throw body.refusal(user + ": no element has its centre in its box");
+    body.lack(user + ": no element has its centre in its box");
 }
 
 bool SolidDomain::contains(const SolidBody& body, GlobalOrdinal element) const {

@@ -30,6 +30,8 @@ std::array<double, 3> segmentLoad(double a, double b, double low, double high, i
 /// The node that lies at the point of a load; nothing where a piece of a mesh does not hold it.
 std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
   const Mesh& mesh = body.mesh;
+  const std::string nothing =
+      "no node lies at the point " + text(load.point) + " of load '" + load.name + "'";
   GlobalOrdinal nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   const int dimension = dimensionOf(mesh.cellType());
@@ -47,6 +49,10 @@ std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoa
       nearest = node;
     }
   }
+  if (numHeld == 0) {
+    body.lack(nothing);
+    return std::nullopt;
+  }
   std::vector<GlobalOrdinal> elements;
   mesh.nodeElements(nearest, elements);
   std::vector<Point> points;
@@ -54,13 +60,11 @@ std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoa
   double edge = 0;
   for (std::size_t d = 0; d < 3; ++d)
     edge = std::max(edge, std::abs(points[1][d] - points[0][d]));
-  const bool isThere = std::sqrt(least) <= 1e-6 * edge;
-  if (!isThere && mesh.part() != nullptr)
-    return std::nullopt;
-  if (!isThere)
-    throw body.refusal("no node lies at the point " + text(load.point) + " of load '" + load.name +
-                       "'; the nearest one is at " + text(mesh.point(nearest)));
-  return nearest;
+  if (std::sqrt(least) <= 1e-6 * edge)
+    return nearest;
+  body.lack(mesh.part() != nullptr ? nothing
+                                   : nothing + "; the nearest one is at " + text(mesh.point(nearest)));
+  return std::nullopt;
 }
 
 } // namespace

@@ -25,7 +25,7 @@ struct BodyLayout {
 /// How the meshes of files and geometries lie on several ranks; structured meshes are numbers alone.
 enum class Meshes {
   whole, ///< all on each rank: for what looks at elements anywhere, as refinement does
-  pieces ///< rank 0 reads, checks and cuts them, and keeps as little of them as the others (MeshPieces.hpp)
+  pieces ///< rank 0 reads, checks and cuts them, or each rank some of several files (SplitFiles.hpp); all keep their own (MeshPieces.hpp)
 };
 
 /// Meshes the bodies and cuts them: the same parts in both forms and on any number of ranks. Collective. \throws InputError, the
@@ -39,6 +39,9 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
                                   std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm,
                                   std::vector<std::shared_ptr<const Partition>> partitions = {});
+
+/// How many parts METIS makes of a mesh where the scene leaves it open.
+int partsFor(const scene::Body& body, const fem::Mesh& mesh);
 
 /// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P), but that it begins with a cluster, where there are clusters, or
 /// shares one evenly with the others that would begin in it.

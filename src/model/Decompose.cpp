@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -94,6 +96,20 @@ void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, 
   }
 }
 
+/// What no rank's piece of a mesh has. Collective. \throws InputError
+void requireNothingLacking(const Models& models, const Comm& comm) {
+  std::string text;
+  for (const auto& model : models)
+    for (const std::string& sentence : model->lacking())
+      text += sentence + '\n';
+  const std::vector<char> all = gatherOnAll(comm, text);
+  std::istringstream lines(std::string(all.begin(), all.end()));
+  std::map<std::string, int> ranks; // that lack it
+  for (std::string sentence; std::getline(lines, sentence);)
+    if (++ranks[sentence] == comm.getSize())
+      throw InputError(sentence);
+}
+
 } // namespace
 
 void requireKernel(const SparseMatrix& k, const Eigen::MatrixXd& r, const std::string& body) {
@@ -129,6 +145,9 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   collectively(*comm, [&] {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       models.push_back(makeModel(scene.bodies[b], *result.bodies[b].mesh));
+  });
+  requireNothingLacking(models, *comm);
+  collectively(*comm, [&] {
     SceneContacts all = layoutContacts(scene, result.bodies, supportedNodes(models));
     result.contacts = std::move(all.contacts);
     result.ties = std::move(all.ties);

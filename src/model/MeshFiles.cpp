@@ -9,9 +9,8 @@
 #include <utility>
 
 namespace epafi::model {
-namespace {
 
-/// Rank 0's text on all ranks, in messages whose length an int counts. Collective.
+/// In messages whose length an int counts.
 void broadcastText(const Comm& comm, std::string& text) {
   auto size = static_cast<long long>(text.size());
   Teuchos::broadcast(comm, 0, 1, &size);
@@ -20,8 +19,6 @@ void broadcastText(const Comm& comm, std::string& text) {
   for (long long first = 0; first < size; first += longest)
     Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), text.data() + first);
 }
-
-} // namespace
 
 fem::GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
                              const Comm& comm) {

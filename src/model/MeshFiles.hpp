@@ -10,6 +10,9 @@
 
 namespace epafi::model {
 
+/// Rank 0's text on all ranks, however long. Collective.
+void broadcastText(const Comm& comm, std::string& text);
+
 /// Rank 0 makes the text of a file (of a geometry, by meshing it) and hands it to the others: they all have the same mesh,
 /// whatever Gmsh does on their machines. \param file  its name, for errors. Collective. \throws what `makeText` throws, and
 /// readMsh(), the same on all ranks.

@@ -1,76 +1,296 @@
 #include "epafi/model/MeshPieces.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/base/PointToPoint.hpp"
+#include "epafi/decomposition/Clusters.hpp"
 #include "epafi/fem/MeshPart.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace epafi::model {
 namespace {
 
-/// A rank's piece, as it is sent.
-struct Piece {
-  std::vector<std::byte> mesh;
-  std::vector<int> parts; ///< of the held elements
-};
+using Keys = std::vector<GlobalOrdinal>;
 
-Piece pieceOf(const BodyLayout& whole, const fem::MeshCutter& cutter, Share own) {
-  std::vector<GlobalOrdinal> elements;
-  for (int part = own.begin; part < own.end; ++part) {
-    const std::vector<GlobalOrdinal> more = whole.partition->elementsOf(part);
-    elements.insert(elements.end(), more.begin(), more.end());
-  }
-  const fem::PartArrays arrays = cutter.around(std::move(elements));
-  Piece piece{arrays.packed(), {}};
-  for (const GlobalOrdinal element : arrays.elements)
-    piece.parts.push_back(whole.partition->partOf(element));
-  return piece;
+std::size_t index(GlobalOrdinal number) {
+  return static_cast<std::size_t>(number);
 }
 
-/// From rank 0 to a rank.
-template <class Value>
-void send(const Comm& comm, int rank, std::vector<Value>& values) {
-  std::map<int, std::vector<Value>> outgoing;
-  if (comm.getRank() == 0)
-    outgoing.emplace(rank, std::move(values));
-  auto received = exchange(comm, outgoing, comm.getRank() == rank ? std::set<int>{0} : std::set<int>{});
-  if (comm.getRank() == rank)
-    values = std::move(received.at(0));
+void sortEach(Keys& keys) {
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+/// A facet of a surface as the rank finds it that has its element.
+struct FoundFacet {
+  int surface = 0, place = 0; ///< of its name; among the element's facets
+  GlobalOrdinal element = 0;
+  std::array<GlobalOrdinal, fem::mostFacetNodes> nodes{}; ///< their keys, outwards
+
+  [[nodiscard]] auto order() const { return std::tuple(surface, element, place); }
+};
+
+class PieceMaker {
+public:
+  /// Takes the elements of its own parts.
+  PieceMaker(LooseMesh loose, Share own, const Comm& comm);
+
+  /// Sets the partition as well.
+  fem::PartArrays make(std::shared_ptr<const Partition>& partition);
+
+private:
+  [[nodiscard]] bool isOwn(std::size_t place) const {
+    const int part = held_.part(place);
+    return own_.begin <= part && part < own_.end;
+  }
+  [[nodiscard]] std::size_t placeOf(GlobalOrdinal key) const {
+    return static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
+  }
+  void lookThrough();
+  void takeOwn();
+  void takeAround();
+  void markBoundary();
+  void requireJoined() const;
+  void findFacet(const NamedFacet& facet);
+  void takeSurfaces();
+  fem::PartArrays arrays() const;
+
+  LooseMesh loose_;
+  Share own_;
+  const Comm& comm_;
+  NodeDirectory directory_;
+  LooseElements& held_;
+  Keys keys_;                                 ///< of the nodes of the held elements, ascending
+  std::vector<LocalOrdinal> cells_;           ///< nodes of the held elements by their places in `keys_`
+  std::optional<fem::MeshTopology> topology_; ///< of these
+  std::vector<FoundFacet> facets_;            ///< of all named surfaces
+};
+
+PieceMaker::PieceMaker(LooseMesh loose, Share own, const Comm& comm)
+    : loose_(std::move(loose)), own_(own), comm_(comm), directory_(comm, loose_.nodes),
+      held_(loose_.elements) {
+  loose_.nodes = {};
+}
+
+fem::PartArrays PieceMaker::make(std::shared_ptr<const Partition>& partition) {
+  takeOwn();
+  takeAround();
+  collectively(comm_, [&] { lookThrough(); });
+  markBoundary();
+  requireJoined();
+  takeSurfaces();
+  collectively(comm_, [&] { lookThrough(); });
+  fem::PartArrays result = arrays();
+  HeldElements held{own_.begin, own_.end, result.elements, {}};
+  for (std::size_t e = 0; e < held_.size(); ++e)
+    held.parts.push_back(held_.part(e));
+  partition = std::make_shared<const HeldPartition>(loose_.numParts, std::move(held));
+  return result;
+}
+
+/// Numbers the nodes of the held elements, and finds these at the nodes.
+void PieceMaker::lookThrough() {
+  keys_.clear();
+  for (std::size_t e = 0; e < held_.size(); ++e)
+    keys_.insert(keys_.end(), held_.nodes(e).begin(), held_.nodes(e).end());
+  cells_.resize(keys_.size());
+  sortEach(keys_);
+  auto next = cells_.begin();
+  for (std::size_t e = 0; e < held_.size(); ++e)
+    for (const GlobalOrdinal key : held_.nodes(e))
+      *next++ = static_cast<LocalOrdinal>(placeOf(key));
+  topology_.emplace(loose_.cellType, static_cast<LocalOrdinal>(keys_.size()), cells_);
+}
+
+void PieceMaker::takeOwn() {
+  const std::vector<int> ends = gatherOnAll(comm_, std::array{own_.end});
+  std::map<int, Keys> outgoing;
+  for (std::size_t e = 0; e < held_.size(); ++e) {
+    const auto owner = std::upper_bound(ends.begin(), ends.end(), held_.part(e)) - ends.begin();
+    const auto record = held_.record(e);
+    Keys& message = outgoing[static_cast<int>(owner)];
+    message.insert(message.end(), record.begin(), record.end());
+  }
+  held_ = held_.none();
+  for (const auto& [rank, records] : deliver(comm_, outgoing))
+    held_.append(records);
+}
+
+/// Ranks that share nodes hand each other their elements there.
+void PieceMaker::takeAround() {
+  collectively(comm_, [&] { lookThrough(); });
+  std::map<int, Keys> outgoing;
+  std::set<int> senders;
+  for (const auto& [rank, shared] : directory_.shared(keys_)) {
+    Keys& message = outgoing[rank];
+    senders.insert(rank);
+    std::vector<LocalOrdinal> touching;
+    for (const GlobalOrdinal key : shared)
+      for (const LocalOrdinal element : topology_->elementsOf(static_cast<LocalOrdinal>(placeOf(key))))
+        touching.push_back(element);
+    std::sort(touching.begin(), touching.end());
+    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    for (const LocalOrdinal element : touching) {
+      const auto record = held_.record(index(element));
+      message.insert(message.end(), record.begin(), record.end());
+    }
+  }
+  for (const auto& [rank, records] : exchange(comm_, outgoing, senders))
+    held_.append(records);
+  collectively(comm_, [&] { held_.sort(); });
+}
+
+/// All facets at the own elements' nodes are here.
+void PieceMaker::markBoundary() {
+  Keys onBoundary;
+  for (std::size_t e = 0; e < held_.size(); ++e)
+    if (isOwn(e))
+      for (const GlobalOrdinal key : held_.nodes(e))
+        if (topology_->isOnBoundary(static_cast<LocalOrdinal>(placeOf(key))))
+          onBoundary.push_back(key);
+  sortEach(onBoundary);
+  directory_.markBoundary(onBoundary);
+}
+
+void PieceMaker::requireJoined() const {
+  std::vector<decomposition::Link> links;
+  collectively(comm_, [&] {
+    if (topology_->crowdedFacet())
+      throw InputError("three of its elements share a facet; mesh anew");
+    std::set<std::pair<int, int>> pairs;
+    for (std::size_t e = 0; e < held_.size(); ++e)
+      for (std::size_t f = 0; isOwn(e) && f < facetsOf(loose_.cellType).size(); ++f)
+        if (const LocalOrdinal other = topology_->across(static_cast<LocalOrdinal>(e), f);
+            other >= 0 && held_.part(index(other)) > held_.part(e))
+          pairs.emplace(held_.part(e), held_.part(index(other)));
+    for (const auto& [part, other] : pairs)
+      links.push_back({part, other});
+  });
+  const std::vector<int> pieces = decomposition::piecesOf(index(loose_.numParts), gatherOnAll(comm_, links));
+  const auto strays = pieces.size() - index(std::count(pieces.begin(), pieces.end(), 0));
+  if (strays > 0)
+    throw InputError(std::to_string(strays) + " of its " + std::to_string(pieces.size()) +
+                     " parts are not joined with the others in whole " +
+                     (dimensionOf(loose_.cellType) == 2 ? "edges" : "faces") +
+                     "; make each piece a body of its own, or join the pieces in the mesh");
+}
+
+/// Of an own element, if any has it.
+void PieceMaker::findFacet(const NamedFacet& facet) {
+  const std::size_t first = placeOf(facet.corners[0]);
+  if (first == keys_.size() || keys_[first] != facet.corners[0])
+    return;
+  const auto facets = facetsOf(loose_.cellType);
+  const int perFacet = numCornersOf(facetTypeOf(loose_.cellType));
+  if (std::count_if(facet.corners.begin(), facet.corners.end(), [](auto key) { return key >= 0; }) !=
+      perFacet)
+    return;
+  const auto isCorner = [&](GlobalOrdinal key) {
+    return std::find(facet.corners.begin(), facet.corners.end(), key) != facet.corners.end();
+  };
+  for (const LocalOrdinal element : topology_->elementsOf(static_cast<LocalOrdinal>(first))) {
+    const auto nodes = held_.nodes(index(element));
+    for (std::size_t f = 0; isOwn(index(element)) && f < facets.size(); ++f) {
+      if (!std::all_of(facets[f].begin(), facets[f].begin() + perFacet,
+                       [&](int node) { return isCorner(nodes[index(node)]); }))
+        continue;
+      if (topology_->across(element, f) >= 0)
+        throw InputError("the surface '" + loose_.surfaces[index(facet.surface)] +
+                         "' has a facet with node " + std::to_string(facet.corners[0]) +
+                         ", which lies inside the body; a surface belongs to the boundary, so take this part "
+                         "out of the physical group");
+      FoundFacet& found = facets_.emplace_back();
+      found = {facet.surface, static_cast<int>(f), held_.number(index(element)), {}};
+      std::transform(facets[f].begin(), facets[f].end(), found.nodes.begin(),
+                     [&](int node) { return nodes[index(node)]; });
+    }
+  }
+}
+
+/// All surfaces, and the elements at them.
+void PieceMaker::takeSurfaces() {
+  const std::vector<NamedFacet> facets = gatherOnAll(comm_, loose_.facets);
+  loose_.facets = {};
+  Keys records;
+  collectively(comm_, [&] {
+    for (const NamedFacet& facet : facets)
+      findFacet(facet);
+    Keys at;
+    for (const FoundFacet& facet : facets_)
+      at.push_back(facet.element);
+    sortEach(at);
+    for (std::size_t e = 0, next = 0; e < held_.size() && next < at.size(); ++e)
+      if (held_.number(e) == at[next]) {
+        records.insert(records.end(), held_.record(e).begin(), held_.record(e).end());
+        ++next;
+      }
+  });
+  facets_ = gatherOnAll(comm_, facets_);
+  held_.append(gatherOnAll(comm_, records));
+  collectively(comm_, [&] {
+    held_.sort();
+    std::sort(facets_.begin(), facets_.end(),
+              [](const FoundFacet& a, const FoundFacet& b) { return a.order() < b.order(); });
+    facets_.erase(
+        std::unique(facets_.begin(), facets_.end(),
+                    [](const FoundFacet& a, const FoundFacet& b) { return a.order() == b.order(); }),
+        facets_.end());
+  });
+}
+
+fem::PartArrays PieceMaker::arrays() const {
+  fem::PartArrays part;
+  part.cellType = loose_.cellType;
+  part.numNodes = directory_.numNodes();
+  part.numCorners = directory_.numCorners();
+  part.box = directory_.box();
+  part.cells = cells_;
+  std::vector<int> isUsed(loose_.groups.size(), 0); // group by group
+  GlobalOrdinal numOwn = 0;
+  for (std::size_t e = 0; e < held_.size(); ++e) {
+    part.elements.push_back(held_.number(e));
+    numOwn += isOwn(e) ? 1 : 0;
+    for (std::size_t g = 0; g < isUsed.size(); ++g)
+      isUsed[g] |= held_.isIn(e, g) ? 1 : 0;
+  }
+  part.numElements = sumOverRanks(comm_, numOwn);
+  sumOverRanks(comm_, std::span<int>(isUsed));
+  for (const NodeDirectory::Entry& node : directory_.find(keys_)) {
+    part.nodes.push_back(node.number);
+    part.points.push_back(node.point);
+    part.cornerNumbers.push_back(node.corner);
+    part.isOnBoundary.push_back(node.isOnBoundary ? 1 : 0);
+  }
+  for (std::size_t g = 0; g < isUsed.size(); ++g) {
+    if (isUsed[g] == 0)
+      continue;
+    auto& group = part.groups.emplace_back(loose_.groups[g], Keys()).second;
+    for (std::size_t e = 0; e < held_.size(); ++e)
+      if (held_.isIn(e, g))
+        group.push_back(held_.number(e));
+  }
+  const auto perFacet = index(nodesPerFacet(loose_.cellType));
+  for (std::size_t f = 0; f < facets_.size(); ++f) {
+    if (f == 0 || facets_[f].surface != facets_[f - 1].surface)
+      part.surfaces.emplace_back(loose_.surfaces[index(facets_[f].surface)],
+                                 fem::Surface{facetTypeOf(loose_.cellType), {}, {}});
+    fem::Surface& surface = part.surfaces.back().second;
+    surface.elements.push_back(facets_[f].element);
+    for (const GlobalOrdinal key : std::span(facets_[f].nodes).first(perFacet))
+      surface.facetNodes.push_back(part.nodes[placeOf(key)]);
+  }
+  return part;
 }
 
 } // namespace
 
-void dealOut(const BodyLayout* whole, const std::function<Share(int rank)>& partsOf, const Comm& comm,
-             BodyLayout& piece) {
-  std::optional<fem::MeshCutter> cutter;
-  Piece own;
-  for (int rank = comm.getSize() - 1; rank >= 0; --rank) { // rank 0 keeps the last one
-    Piece next;
-    collectively(comm, [&] { // none is to wait for what cannot be cut
-      if (whole == nullptr)
-        return;
-      if (!cutter)
-        cutter.emplace(*whole->mesh);
-      next = pieceOf(*whole, *cutter, partsOf(rank));
-    });
-    if (rank > 0) {
-      send(comm, rank, next.mesh);
-      send(comm, rank, next.parts);
-    }
-    if (comm.getRank() == rank)
-      own = std::move(next);
-  }
-  collectively(comm, [&] {
-    fem::PartArrays arrays = fem::PartArrays::unpacked(own.mesh);
-    own.mesh = {};
-    const Share parts = partsOf(comm.getRank());
-    piece.partition = std::make_shared<const HeldPartition>(
-        piece.partition->numParts(),
-        HeldElements{parts.begin, parts.end, arrays.elements, std::move(own.parts)});
-    piece.mesh = std::make_unique<const fem::MeshPart>(std::move(arrays));
-  });
+void dealOut(LooseMesh loose, Share own, const Comm& comm, BodyLayout& piece) {
+  PieceMaker maker(std::move(loose), own, comm);
+  piece.mesh = std::make_unique<const fem::MeshPart>(maker.make(piece.partition));
 }
 
 } // namespace epafi::model

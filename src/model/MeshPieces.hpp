@@ -1,19 +1,19 @@
 #pragma once
 
-/// Deals out a body that rank 0 has whole, so that afterwards each rank holds its own subdomains' elements, those around their
-/// nodes and those at the mesh's named surfaces (fem/MeshPart.hpp).
+/// Deals out a body's elements, so that afterwards each rank holds those of its own subdomains, those around their nodes and
+/// those at the mesh's named surfaces (fem/MeshPart.hpp), whoever had them before. No rank holds more of the whole body than its
+/// named surfaces and which parts touch.
 
 #include "epafi/model/BodyLayout.hpp"
-
-#include <functional>
+#include "epafi/model/LooseMesh.hpp"
 
 namespace epafi::model {
 
-/// \param whole    the body, on rank 0; null on the others
-/// \param partsOf  the parts of a rank, the same function on all ranks
-/// \param piece    gets this rank's mesh and partition
-/// Rank 0 cuts and sends one piece after the other. Collective.
-void dealOut(const BodyLayout* whole, const std::function<Share(int rank)>& partsOf, const Comm& comm,
-             BodyLayout& piece);
+/// \param loose  the body's elements, on any ranks
+/// \param own    this rank's parts; they ascend with the ranks
+/// \param piece  gets this rank's mesh and partition
+/// Collective. \throws InputError, the same on all ranks, if a named facet lies inside the body, more than two elements share a
+/// facet, or parts hang on others by less than facets.
+void dealOut(LooseMesh loose, Share own, const Comm& comm, BodyLayout& piece);
 
 } // namespace epafi::model

@@ -40,11 +40,15 @@ DualGraph dualGraphOf(const fem::Mesh& mesh) {
   return graph;
 }
 
-/// METIS would refuse in words of its own. \throws InputError
-void requireConnected(const fem::Mesh& mesh) {
-  const auto pieces = fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
+std::vector<std::vector<GlobalOrdinal>> piecesOf(const fem::Mesh& mesh) {
+  return fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
     mesh.elementNeighbours(element, found);
   });
+}
+
+/// METIS would refuse in words of its own. \throws InputError
+void requireConnected(const fem::Mesh& mesh) {
+  const auto pieces = piecesOf(mesh);
   if (pieces.size() > 1)
     throw InputError("only " + std::to_string(pieces.front().size()) + " of its " +
                      std::to_string(mesh.numElements()) + " elements are joined with each other in whole " +
@@ -53,15 +57,14 @@ void requireConnected(const fem::Mesh& mesh) {
                      "own, or join the parts in the mesh");
 }
 
-/// METIS on the dual graph of the mesh; the part of every element.
-std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts) {
-  requireConnected(mesh);
+/// METIS on the dual graph of the mesh; the part of every element. \param isConnected  the mesh is, and each part is to be
+std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts, bool isConnected) {
   DualGraph graph = dualGraphOf(mesh);
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_NUMBERING] = 0;
   options[METIS_OPTION_SEED] = 1;
-  options[METIS_OPTION_CONTIG] = 1;
+  options[METIS_OPTION_CONTIG] = isConnected ? 1 : 0;
   auto numVertices = static_cast<idx_t>(mesh.numElements());
   idx_t numConstraints = 1, numParts = parts, cut = 0;
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
@@ -102,14 +105,20 @@ std::map<int, std::size_t> largestPieces(const std::vector<int>& part,
   return largest;
 }
 
+/// Those of all parts, by their lowest elements.
+std::vector<std::vector<GlobalOrdinal>> piecesOf(const fem::Mesh& mesh, const std::vector<int>& part) {
+  const auto partOf = [&](GlobalOrdinal element) { return part[static_cast<std::size_t>(element)]; };
+  return fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
+    mesh.elementNeighbours(element, found);
+    std::erase_if(found, [&](GlobalOrdinal other) { return partOf(other) != partOf(element); });
+  });
+}
+
 /// Moves the first piece that is not the largest of its part and has neighbours to the part with which it shares most
 /// facets, the lowest of equals. Returns false if there is no such piece.
 bool moveStray(const fem::Mesh& mesh, std::vector<int>& part) {
   const auto partOf = [&](GlobalOrdinal element) -> int& { return part[static_cast<std::size_t>(element)]; };
-  const auto pieces = fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
-    mesh.elementNeighbours(element, found);
-    std::erase_if(found, [&](GlobalOrdinal other) { return partOf(other) != partOf(element); });
-  });
+  const auto pieces = piecesOf(mesh, part);
   const std::map<int, std::size_t> largest = largestPieces(part, pieces);
   std::vector<GlobalOrdinal> adjacent;
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
@@ -254,7 +263,8 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
     if (comm.getRank() != 0)
       return;
     if (parts > 1) {
-      part_ = cutByMetis(mesh, parts);
+      requireConnected(mesh);
+      part_ = cutByMetis(mesh, parts, true);
       makeConnected(mesh, part_);
     }
     numParts_ = renumber(part_);
@@ -276,6 +286,28 @@ std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
   const auto p = static_cast<std::size_t>(part);
   const std::span<const int> members(members_.data() + start_[p], members_.data() + start_[p + 1]);
   return {members.begin(), members.end()};
+}
+
+std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts) {
+  requireCut(mesh, parts);
+  const bool isConnected = piecesOf(mesh).size() == 1;
+  std::vector<int> part(static_cast<std::size_t>(mesh.numElements()), 0);
+  if (parts > 1) {
+    part = cutByMetis(mesh, parts, isConnected);
+    makeConnected(mesh, part);
+  }
+  auto pieces = piecesOf(mesh, part);
+  std::stable_sort(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
+    return part[static_cast<std::size_t>(a.front())] < part[static_cast<std::size_t>(b.front())];
+  });
+  HeldElements held{0, static_cast<int>(pieces.size()), {}, {}};
+  held.elements.resize(part.size());
+  std::iota(held.elements.begin(), held.elements.end(), GlobalOrdinal{0});
+  held.parts.resize(part.size());
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+    for (const GlobalOrdinal element : pieces[piece])
+      held.parts[static_cast<std::size_t>(element)] = static_cast<int>(piece);
+  return std::make_unique<const HeldPartition>(static_cast<int>(pieces.size()), std::move(held));
 }
 
 HeldPartition::HeldPartition(int numParts, HeldElements held)

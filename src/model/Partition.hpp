@@ -80,6 +80,10 @@ private:
   std::vector<int> order_, number_; ///< old numbers of the parts, and new ones
 };
 
+/// Cuts a mesh that need not hang together, on one rank: METIS' parts, those that do not hang together each as several. \param parts
+/// as many at least; no more than elements. Not collective. \throws InputError if METIS refuses.
+std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts);
+
 /// Elements that a rank holds, and their parts.
 struct HeldElements {
   int begin = 0, end = 0;              ///< the rank's own parts

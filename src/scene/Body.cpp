@@ -37,6 +37,10 @@ bool isMembraneOnRectangle(const Body& body) {
   return body.physics == Physics::membrane && body.mesh.file.empty();
 }
 
+bool isSplit(const std::string& file) {
+  return file.find('*', file.rfind('/') + 1) != std::string::npos; // npos + 1 is 0
+}
+
 Box rectangle(double x0, double x1, double y0, double y1) {
   Box box;
   box.lower = {x0, y0, box.lower[2]};

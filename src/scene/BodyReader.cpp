@@ -58,6 +58,12 @@ MeshSource readMesh(const ListReader& list, int dimension) {
     if (!source.file.ends_with(".geo"))
       list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
     source.refinements = list.integer("Mesh Refinements");
+    if (isSplit(source.file)) {
+      if (!source.file.ends_with(".msh"))
+        list.refuseValue(
+            "Mesh", "several files hold a mesh by parts only as Gmsh saves it, so the name must end in .msh");
+      list.refuseGiven({"Mesh Refinements"}, "a mesh in several files is read as it is; refine it in Gmsh");
+    }
     source.group = list.word("Group");
     source.order = list.has("Order") || source.file.ends_with(".geo") ? list.integer("Order") : 0;
     return source;

@@ -47,7 +47,10 @@ void describeMesh(ParameterList& list) {
       counts);
   list.set("Mesh", "",
            "A file of Gmsh (.msh 2.2 or 4.1, or .geo, which is meshed then) instead; relative to the scene's "
-           "directory. Triangles, quadrilaterals, tetrahedra or hexahedra, linear or quadratic.");
+           "directory. Triangles, quadrilaterals, tetrahedra or hexahedra, linear or quadratic. A name with "
+           "* (press_*.msh) "
+           "stands for the files that Gmsh saves of a partitioned mesh (gmsh -part 64 -part_split); ranks "
+           "read them side by side.");
   addInteger(
       list, "Order", bestOrder,
       "Order of the elements: linear or quadratic. Of a mesh file (.msh) its own order counts if none is "
@@ -206,7 +209,8 @@ ParameterList decompositionSchema() {
   addInteger(
       list, "Parts", cut.parts,
       "With the method metis: number of subdomains of each body; 0: one for every 4000 unknowns in the "
-      "plane, for every 1000 in space.",
+      "plane, for every 1000 in space. Of a mesh in several files each is cut by itself, into one part at "
+      "least.",
       0);
   addInteger(
       list, "Cluster", cut.cluster,

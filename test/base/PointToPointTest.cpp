@@ -52,6 +52,21 @@ TEST(PointToPointTest, RanksMayHaveNothingToSayToEachOther) {
     EXPECT_TRUE(received.empty());
 }
 
+TEST(PointToPointTest, ReceiversNeedNotKnowWhoSends) {
+  const auto comm = Tpetra::getDefaultComm();
+  const int here = comm->getRank(), size = comm->getSize();
+  std::map<int, std::vector<int>> outgoing; // to itself and every other rank below
+  for (int rank = here; rank >= 0; rank -= 2)
+    outgoing[rank] = std::vector<int>(static_cast<std::size_t>(here), rank);
+
+  const auto received = deliver(*comm, outgoing);
+
+  std::size_t number = 0;
+  for (int rank = here; rank < size; rank += 2, ++number)
+    EXPECT_EQ(received.at(rank), std::vector<int>(static_cast<std::size_t>(rank), here)) << rank;
+  EXPECT_EQ(received.size(), number);
+}
+
 TEST(PointToPointTest, IndicesTravelAsWhatTheyAreAndMessagesInTheirOrder) {
   const auto comm = Tpetra::getDefaultComm();
   const int here = comm->getRank(), size = comm->getSize(), next = (here + 1) % size,

@@ -258,6 +258,20 @@ TEST(SolidReaderTest, RefusesAMeshSizeForAMeshThatIsThere) {
   expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh Size Factor\"", ".geo"});
 }
 
+TEST(SolidReaderTest, MeshesInSeveralFilesAreThoseOfGmshAndNotRefined) {
+  EXPECT_TRUE(scene::isSplit("meshes/press_*.msh"));
+  EXPECT_TRUE(scene::isSplit("press_*.msh"));
+  EXPECT_FALSE(scene::isSplit("a*b/press.msh"));
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  cube.remove("Box");
+  cube.remove("Elements");
+  cube.set("Mesh", "cube_*.geo");
+  expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh\"", "must end in .msh"});
+  cube.set("Mesh", "cube_*.msh").set("Mesh Refinements", 1);
+  expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh Refinements\"", "read as it is"});
+}
+
 TEST(SolidReaderTest, ElementsAreOfOrderOneOrTwo) {
   ParameterList list = cubeOnFloor();
   ParameterList& cube = bodyOf(list, "cube");

@@ -2,7 +2,7 @@
 """test_memory.py EPAFI MPIRUN [FLAG...] NUMBER_FLAG: what a rank holds of a scene whose mesh comes from a file falls as ranks
 become more. In space factors are most of it, in the plane meshes.
 
-test_memory.py --squares N DIR: writes the membranes with 4 N² triangles, DIR/scene.xml and scene.msh.
+test_memory.py --squares N DIR [FILE]: writes the membranes with 4 N² triangles, DIR/scene.xml and FILE, scene.msh or "scene_*.msh".
 """
 
 import json
@@ -54,21 +54,30 @@ def block(n, file):
 
 def squares(n, file):
     """Two unit squares side by side, of 2 n² triangles each and with nodes of their own, in binary; their left and right edges are
-    surfaces."""
-    j, i = numpy.divmod(numpy.arange((n + 1)**2), n + 1)
-    nodes, elements = [], []
+    surfaces. Where the file's name has a *, eight files, each with some rows of both."""
+    if "*" not in file.name:
+        rows_of_squares(n, range(n), file)
+        return
+    for part in range(8):
+        rows_of_squares(n, range(part * n // 8, (part + 1) * n // 8), file.with_name(file.name.replace("*", str(part + 1))))
+
+
+def rows_of_squares(n, rows, file):
+    j, i = numpy.divmod(numpy.arange(rows.start * (n + 1), (rows.stop + 1) * (n + 1)), n + 1)
+    nodes, numbers, elements = [], [], []
     for square in (0, 1):
         nodes.append(numpy.column_stack([square + i / n, j / n, 0 * i]))
         first = 1 + square * (n + 1)**2
-        a = first + numpy.arange((n + 1)**2)[(i < n) & (j < n)]
+        numbers.append(first + i + (n + 1) * j)
+        a = numbers[-1][(i < n) & (j < rows.stop)]
         corners = numpy.vstack([numpy.column_stack([a, a + 1, a + n + 2]), numpy.column_stack([a, a + n + 2, a + n + 1])])
         elements.append((2, 1 + square, corners))
         for edge in (0, 1):
-            a = first + edge * n + (n + 1) * numpy.arange(n)
+            a = first + edge * n + (n + 1) * numpy.array(rows)
             elements.append((1, 3 + 2 * square + edge, numpy.column_stack([a, a + n + 1])))
     names = ['2 1 "left"', '2 2 "right"', '1 3 "start of left"', '1 4 "end of left"', '1 5 "start of right"', '1 6 "end of right"']
-    points = numpy.empty(2 * (n + 1)**2, [("number", "<i4"), ("point", "<f8", 3)])
-    points["number"], points["point"] = 1 + numpy.arange(len(points)), numpy.vstack(nodes)
+    points = numpy.empty(2 * len(i), [("number", "<i4"), ("point", "<f8", 3)])
+    points["number"], points["point"] = numpy.concatenate(numbers), numpy.vstack(nodes)
     with open(file, "wb") as stream:
         stream.write(b"$MeshFormat\n2.2 1 8\n\x01\0\0\0\n$EndMeshFormat\n")
         stream.write("\n".join(["$PhysicalNames", "6", *names, "$EndPhysicalNames", "$Nodes", str(len(points)), ""]).encode())
@@ -77,9 +86,9 @@ def squares(n, file):
         stream.write(f"\n$EndNodes\n$Elements\n{number}\n".encode())
         for kind, tag, corners in elements:
             numpy.array([kind, len(corners), 2], "<i4").tofile(stream)
-            numbers = numpy.arange(number - len(corners) + 1, number + 1)
+            tags = numpy.arange(number - len(corners) + 1, number + 1)
             number -= len(corners)
-            numpy.column_stack([numbers, numpy.full((len(corners), 2), tag), corners]).astype("<i4").tofile(stream)
+            numpy.column_stack([tags, numpy.full((len(corners), 2), tag), corners]).astype("<i4").tofile(stream)
         stream.write(b"\n$EndElements\n")
 
 
@@ -119,12 +128,12 @@ def membranes(mesh):
 
 
 class Memory(unittest.TestCase):
-    def run_on(self, ranks, mesh, n, scene):
+    def run_on(self, ranks, mesh, n, scene, file="scene.msh"):
         """(peak of each rank in kB, energy)"""
         with tempfile.TemporaryDirectory() as folder:
             place = pathlib.Path(folder)
-            mesh(n, place / "scene.msh")
-            (place / "scene.xml").write_text(scene("scene.msh"), encoding="ascii")
+            mesh(n, place / file)
+            (place / "scene.xml").write_text(scene(file), encoding="ascii")
             run = subprocess.run([*LAUNCHER, str(ranks), sys.executable, __file__, "--measured", folder, EPAFI, place / "scene.xml",
                                   "--quiet", "--report", place / "report.xml"],
                                  capture_output=True, text=True, timeout=LIMIT, check=False)
@@ -154,6 +163,11 @@ class Memory(unittest.TestCase):
         print(f"membranes, 8 ranks: data of each {data} kB, of one rank {whole - libraries[0]} kB", flush=True)
         self.assertLessEqual(max(data[1:]), LEAST_OF_MESHES_ON_8 * (whole - libraries[0]), (data, whole))
         self.assertLessEqual(abs(same - energy), 1e-6 * abs(energy))
+        peaks, same = self.run_on(8, squares, 400, membranes, "scene_*.msh")
+        data = [peak - libraries[rank] for rank, peak in enumerate(peaks)]
+        print(f"from eight files: {data} kB", flush=True)
+        self.assertLessEqual(max(data), LEAST_OF_MESHES_ON_8 * (whole - libraries[0]), (data, whole)) # the first, too
+        self.assertLessEqual(abs(same - energy), 1e-6 * abs(energy))
 
 
 if __name__ == "__main__":
@@ -162,8 +176,9 @@ if __name__ == "__main__":
     if sys.argv[1] == "--squares":
         PLACE = pathlib.Path(sys.argv[3])
         PLACE.mkdir(parents=True, exist_ok=True)
-        squares(int(sys.argv[2]), PLACE / "scene.msh")
-        (PLACE / "scene.xml").write_text(membranes("scene.msh"), encoding="ascii")
+        FILE = sys.argv[4] if len(sys.argv) > 4 else "scene.msh"
+        squares(int(sys.argv[2]), PLACE / FILE)
+        (PLACE / "scene.xml").write_text(membranes(FILE), encoding="ascii")
         sys.exit()
     EPAFI, *LAUNCHER = sys.argv[1:]
     unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,181 @@
+#include "epafi/model/LooseMesh.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace epafi::model {
+namespace {
+
+constexpr std::size_t groupsEach = 32; ///< bits of a number that stand for groups
+constexpr std::size_t groupsAt = 2;    ///< where they stand in a record
+
+/// The names of all ranks, in alphabetical order, none twice. Names are single lines. Collective.
+std::vector<std::string> allNames(const Comm& comm, const std::set<std::string>& own) {
+  std::string text;
+  for (const std::string& name : own)
+    text += name + '\n';
+  const std::vector<char> all = gatherOnAll(comm, text);
+  std::istringstream lines(std::string(all.begin(), all.end()));
+  std::set<std::string> names;
+  for (std::string name; std::getline(lines, name);)
+    names.insert(name);
+  return {names.begin(), names.end()};
+}
+
+std::size_t placeOf(const std::string& name, const std::vector<std::string>& names) {
+  return static_cast<std::size_t>(std::lower_bound(names.begin(), names.end(), name) - names.begin());
+}
+
+/// Collective.
+fem::CellType commonType(std::span<const MeshShare> shares, const Comm& comm) {
+  constexpr int none = -1;
+  int least = std::numeric_limits<int>::max(), most = none;
+  for (const MeshShare& share : shares) {
+    least = std::min(least, static_cast<int>(share.mesh->cellType()));
+    most = std::max(most, static_cast<int>(share.mesh->cellType()));
+  }
+  least = minOverRanks(comm, least);
+  most = maxOverRanks(comm, most);
+  if (most == none)
+    throw InputError(
+        "there are no elements of it in any of its mesh files; name its group as they do, or mesh it");
+  const auto a = static_cast<fem::CellType>(least), b = static_cast<fem::CellType>(most);
+  if (a != b)
+    throw InputError(std::string("its mesh files hold ") + toString(a) + "s and " + toString(b) +
+                     "s; a body is made of one kind of elements");
+  return a;
+}
+
+/// Takes shares in.
+class Collector {
+public:
+  Collector(LooseMesh& loose, GlobalOrdinal nextElement, int nextPart)
+      : loose_(loose), nextElement_(nextElement), nextPart_(nextPart) {}
+  void add(const MeshShare& share);
+
+private:
+  void addElements(const MeshShare& share);
+
+  LooseMesh& loose_;
+  GlobalOrdinal nextElement_; ///< of the body
+  int nextPart_;
+};
+
+void Collector::add(const MeshShare& share) {
+  const std::size_t first = loose_.elements.size();
+  addElements(share);
+  for (const std::string& name : share.mesh->groupNames())
+    for (const GlobalOrdinal element : share.mesh->group(name))
+      loose_.elements.setIn(first + static_cast<std::size_t>(element), placeOf(name, loose_.groups));
+  nextElement_ += share.mesh->numElements();
+  nextPart_ += share.partition->numParts();
+}
+
+void Collector::addElements(const MeshShare& share) {
+  const fem::Mesh& mesh = *share.mesh;
+  const auto corners = static_cast<std::size_t>(numCornersOf(mesh.cellType()));
+  std::vector<bool> isCorner(static_cast<std::size_t>(mesh.numNodes()), false);
+  std::vector<GlobalOrdinal> keys;
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    const fem::ElementNodes nodes(mesh, element);
+    keys.clear();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      keys.push_back(share.keyOf(nodes[i]));
+      if (i < corners)
+        isCorner[static_cast<std::size_t>(nodes[i])] = true;
+    }
+    loose_.elements.add(nextElement_ + element, nextPart_ + share.partition->partOf(element), keys);
+  }
+  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+    loose_.nodes.push_back({share.keyOf(node), mesh.point(node), isCorner[static_cast<std::size_t>(node)]});
+}
+
+} // namespace
+
+void FacetList::add(const std::string& surface, std::span<const GlobalOrdinal> corners) {
+  if (names.empty() || names.back() != surface)
+    names.push_back(surface);
+  NamedFacet& facet = facets.emplace_back();
+  facet.surface = static_cast<int>(names.size()) - 1;
+  facet.corners.fill(-1);
+  std::copy(corners.begin(), corners.end(), facet.corners.begin());
+}
+
+LooseElements::LooseElements(std::size_t numGroups, std::size_t numNodes)
+    : nodesAt_(groupsAt + (numGroups + groupsEach - 1) / groupsEach), width_(nodesAt_ + numNodes) {}
+
+LooseElements LooseElements::none() const {
+  LooseElements elements(0, 0);
+  elements.nodesAt_ = nodesAt_;
+  elements.width_ = width_;
+  return elements;
+}
+
+void LooseElements::add(GlobalOrdinal number, int part, std::span<const GlobalOrdinal> nodes) {
+  values_.push_back(number);
+  values_.push_back(part);
+  values_.insert(values_.end(), nodesAt_ - groupsAt, 0);
+  values_.insert(values_.end(), nodes.begin(), nodes.end());
+}
+
+void LooseElements::setIn(std::size_t place, std::size_t group) {
+  values_[place * width_ + groupsAt + group / groupsEach] |= GlobalOrdinal{1} << (group % groupsEach);
+}
+
+bool LooseElements::isIn(std::size_t place, std::size_t group) const {
+  return (record(place)[groupsAt + group / groupsEach] >> (group % groupsEach) & 1) != 0;
+}
+
+void LooseElements::append(std::span<const GlobalOrdinal> records) {
+  values_.insert(values_.end(), records.begin(), records.end());
+}
+
+void LooseElements::sort() {
+  std::vector<std::size_t> order(size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return number(a) < number(b); });
+  order.erase(std::unique(order.begin(), order.end(),
+                          [&](std::size_t a, std::size_t b) { return number(a) == number(b); }),
+              order.end());
+  std::vector<GlobalOrdinal> sorted;
+  sorted.reserve(order.size() * width_);
+  for (const std::size_t place : order)
+    sorted.insert(sorted.end(), record(place).begin(), record(place).end());
+  values_ = std::move(sorted);
+}
+
+LooseMesh looseMeshOf(std::span<const MeshShare> shares, const FacetList& facets, const Comm& comm) {
+  LooseMesh loose;
+  loose.cellType = commonType(shares, comm);
+  std::set<std::string> groups;
+  GlobalOrdinal numElements = 0, numParts = 0;
+  for (const MeshShare& share : shares) {
+    for (const std::string& name : share.mesh->groupNames())
+      groups.insert(name);
+    numElements += share.mesh->numElements();
+    numParts += share.partition->numParts();
+  }
+  loose.groups = allNames(comm, groups);
+  loose.surfaces = allNames(comm, {facets.names.begin(), facets.names.end()});
+  loose.numParts = static_cast<int>(sumOverRanks(comm, numParts));
+  const GlobalOrdinal firstElement = sumBefore(comm, numElements), firstPart = sumBefore(comm, numParts);
+  collectively(comm, [&] {
+    loose.elements = LooseElements(loose.groups.size(), static_cast<std::size_t>(numNodesOf(loose.cellType)));
+    Collector collector(loose, firstElement, static_cast<int>(firstPart));
+    for (const MeshShare& share : shares)
+      collector.add(share);
+    for (NamedFacet facet : facets.facets) {
+      const std::string& name = facets.names[static_cast<std::size_t>(facet.surface)];
+      facet.surface = static_cast<int>(placeOf(name, loose.surfaces));
+      loose.facets.push_back(facet);
+    }
+  });
+  return loose;
+}
+
+} // namespace epafi::model
