@@ -55,6 +55,12 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
   bool hasQuadratic = false, isCoarser = false;
   for (std::size_t b = 0; b < number; ++b)
     hasQuadratic = hasQuadratic || isQuadratic(b);
+  const bool areSimplices = std::all_of(
+      fine.begin(), fine.end(), [](const model::BodyLayout& body) { return isOfSimplices(*body.mesh); });
+  if (!(hasQuadratic && areSimplices) && // others are read once more, and whole
+      std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [](const scene::Body& body) { return scene::isSplit(body.mesh.file); }))
+    return std::nullopt;
   if (!hasQuadratic) {
     for (scene::Body& body : coarser.scene.bodies)
       isCoarser = halve(body, dimensionOf(body.physics)) || isCoarser;
@@ -70,8 +76,6 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
     if (isQuadratic(b))
       mergeParts(coarser.scene.bodies[b].decomposition, dimensionOf(scene.bodies[b].physics) == 2 ? 4 : 8);
   }
-  const bool areSimplices = std::all_of(
-      fine.begin(), fine.end(), [](const model::BodyLayout& body) { return isOfSimplices(*body.mesh); });
   if (!areSimplices) {
     coarser.bodies = model::layoutBodies(coarser.scene, comm);
     return coarser;

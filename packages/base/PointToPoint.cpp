@@ -1,10 +1,8 @@
 #include "epafi/base/PointToPoint.hpp"
 
-#include "epafi/base/Errors.hpp"
 #include "epafi/base/RawCommunicator.hpp"
 
-#include <limits>
-#include <string>
+#include <algorithm>
 
 namespace epafi {
 namespace detail {
@@ -15,26 +13,29 @@ constexpr int tag = 7301;
 } // namespace
 
 void exchange(const Comm& comm, std::span<const Message> outgoing, const std::set<int>& senders,
-              const std::function<std::byte*(int, std::size_t)>& place) {
+              const std::function<std::byte*(int, std::size_t, std::size_t)>& place, std::size_t longest) {
   if (outgoing.empty() && senders.empty())
     return;
   const MPI_Comm raw = rawCommunicator(comm);
+  std::vector<MPI_Request> requests;
   for (const Message& message : outgoing)
-    if (message.bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-      throw Error("a message of " + std::to_string(message.bytes.size()) + " bytes to rank " +
-                  std::to_string(message.rank) +
-                  " is longer than MPI can send; spread the run over more ranks");
-  std::vector<MPI_Request> requests(outgoing.size());
-  for (std::size_t i = 0; i < outgoing.size(); ++i)
-    MPI_Isend(outgoing[i].bytes.data(), static_cast<int>(outgoing[i].bytes.size()), MPI_BYTE,
-              outgoing[i].rank, tag, raw, &requests[i]);
+    for (std::size_t from = 0; from <= message.bytes.size();
+         from += longest) { // the last piece is shorter than the others
+      const auto piece = message.bytes.subspan(from).first(std::min(longest, message.bytes.size() - from));
+      MPI_Isend(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, message.rank, tag, raw,
+                &requests.emplace_back());
+    }
   for (const int rank : senders) {
-    MPI_Status status;
+    std::size_t from = 0;
     int length = 0;
-    MPI_Probe(rank, tag, raw, &status);
-    MPI_Get_count(&status, MPI_BYTE, &length);
-    MPI_Recv(place(rank, static_cast<std::size_t>(length)), length, MPI_BYTE, rank, tag, raw,
-             MPI_STATUS_IGNORE);
+    do {
+      MPI_Status status;
+      MPI_Probe(rank, tag, raw, &status);
+      MPI_Get_count(&status, MPI_BYTE, &length);
+      MPI_Recv(place(rank, from, static_cast<std::size_t>(length)), length, MPI_BYTE, rank, tag, raw,
+               MPI_STATUS_IGNORE);
+      from += static_cast<std::size_t>(length);
+    } while (static_cast<std::size_t>(length) == longest);
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }

@@ -21,9 +21,11 @@ struct Message {
   std::span<const std::byte> bytes;
 };
 
-/// Calls place(rank, bytes) for each message of a sender, in the order of the ranks, and has it received where that says.
+/// Calls place(rank, from, bytes) for each piece of each sender's message, in the order of the ranks, and has it received where that
+/// says. \param longest  bytes of a piece, less than MPI can count; a message is several where it is longer. The same on all ranks
 void exchange(const Comm& comm, std::span<const Message> outgoing, const std::set<int>& senders,
-              const std::function<std::byte*(int, std::size_t)>& place);
+              const std::function<std::byte*(int, std::size_t, std::size_t)>& place,
+              std::size_t longest = std::size_t{1} << 30);
 
 } // namespace detail
 
@@ -39,25 +41,34 @@ exchange(const Comm& comm, const std::map<int, std::vector<Value>>& outgoing, co
   for (const auto& [rank, values] : outgoing)
     messages.push_back({rank, std::as_bytes(std::span(values))});
   std::map<int, std::vector<Value>> received;
-  detail::exchange(comm, messages, senders, [&](int rank, std::size_t bytes) {
+  detail::exchange(comm, messages, senders, [&](int rank, std::size_t from, std::size_t bytes) {
     std::vector<Value>& values = received[rank];
-    values.resize(bytes / sizeof(Value));
-    return reinterpret_cast<std::byte*>(values.data());
+    values.resize((from + bytes + sizeof(Value) - 1) / sizeof(Value));
+    return reinterpret_cast<std::byte*>(values.data()) + from;
   });
   return received;
+}
+
+/// The ranks that messages go to or come from.
+template <class Messages>
+std::set<int> ranksOf(const Messages& messages) {
+  std::set<int> ranks;
+  for (const auto& [rank, message] : messages)
+    ranks.insert(rank);
+  return ranks;
 }
 
 /// The ranks that name this one among those that they send to: a byte between any two. Collective.
 std::set<int> sendersTo(const Comm& comm, const std::set<int>& receivers);
 
-/// The same exchange where a rank knows only whom it sends to. Collective.
+/// The same exchange where a rank knows only whom it sends to. What it has for itself stays where it is. Collective.
 template <class Value>
-std::map<int, std::vector<Value>> deliver(const Comm& comm,
-                                          const std::map<int, std::vector<Value>>& outgoing) {
-  std::set<int> receivers;
-  for (const auto& [rank, values] : outgoing)
-    receivers.insert(rank);
-  return exchange(comm, outgoing, sendersTo(comm, receivers));
+std::map<int, std::vector<Value>> deliver(const Comm& comm, std::map<int, std::vector<Value>> outgoing) {
+  auto own = outgoing.extract(comm.getRank());
+  auto received = exchange(comm, outgoing, sendersTo(comm, ranksOf(outgoing)));
+  if (!own.empty())
+    received.insert(std::move(own));
+  return received;
 }
 
 } // namespace epafi

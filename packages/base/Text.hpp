@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace epafi {
 
@@ -27,5 +29,15 @@ std::string text(const Point& point, int digits = 6) {
 
 /// "name", with the quotes.
 std::string inQuotes(const std::string& text);
+
+/// Words, none of which has a line break, in lines of their own, and back.
+template <class Words>
+std::string asLines(const Words& words) {
+  std::string text;
+  for (const std::string& word : words)
+    text += word + '\n';
+  return text;
+}
+std::vector<std::string> linesOf(std::string_view text); ///< see asLines()
 
 } // namespace epafi

@@ -25,7 +25,7 @@ void requireDimension(const SolidBody& body) {
 /// cannot. \throws InputError if an elastic body is not joined in facets, or a membrane not even in nodes. Linear in the number
 /// of elements.
 void requireJoined(const SolidBody& body) {
-  if (body.isCongruent() || body.mesh.part() != nullptr) // a piece's body has been looked at whole
+  if (body.isCongruent() || body.mesh.part() != nullptr) // whoever dealt out the pieces has looked
     return;
   const Mesh& mesh = body.mesh;
   const bool isMembrane = body.components() == 1;

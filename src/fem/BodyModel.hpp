@@ -31,8 +31,8 @@ public:
   BodyModel(const scene::Body& body, const Mesh& mesh);
 
   [[nodiscard]] const Mesh& mesh() const { return body_.mesh; } ///< that of the body
-  /// Of a piece of a mesh, what the scene names and the piece does not have, as sentences: wrong if all pieces say the same.
-  [[nodiscard]] const std::vector<std::string>& lacking() const { return body_.lacking(); }
+  /// Of a piece of a mesh, what the scene names: one piece at least has to have it.
+  [[nodiscard]] const std::vector<SolidBody::Need>& needs() const { return body_.needs(); }
   /// Where its unknowns are.
   [[nodiscard]] const UnknownMap& unknowns() const { return unknowns_; }
   /// Unknowns a node.

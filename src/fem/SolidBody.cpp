@@ -19,11 +19,11 @@ void requireName(const SolidBody& body, const std::string& user, const std::stri
 
 } // namespace
 
-void SolidBody::lack(const std::string& what) const {
-  const InputError error = refusal(what);
-  if (mesh.part() == nullptr)
-    throw error;
-  lacking_->push_back(error.what());
+void SolidBody::require(bool isMet, const std::string& why) const {
+  if (mesh.part() != nullptr)
+    needs_->push_back({isMet, refusal(why).what()});
+  else if (!isMet)
+    throw refusal(why);
 }
 
 Surface SolidBody::surfaceOf(const std::string& user, const std::string& surface) const {

@@ -28,10 +28,15 @@ struct SolidBody {
   [[nodiscard]] InputError refusal(const std::string& what) const {
     return InputError("body '" + body.name + "': " + what);
   }
-  /// Refuses the body for what it has no element or node for; of a piece it is wrong only if all pieces lack it, and is noted.
-  void lack(const std::string& what) const;
-  /// What was noted, whole sentences.
-  [[nodiscard]] const std::vector<std::string>& lacking() const { return *lacking_; }
+  /// Something that the scene names of a body, and its mesh should have.
+  struct Need {
+    bool isMet;
+    std::string refusal; ///< a whole sentence
+  };
+  /// Refuses the body for what it has no element or node for; of a piece it is noted, since another piece may have it.
+  void require(bool isMet, const std::string& why) const;
+  /// What was noted; the same needs in the same order of all pieces.
+  [[nodiscard]] const std::vector<Need>& needs() const { return *needs_; }
   /// \throws InputError if the mesh has no such surface. \param user  who asks, such as "support 'floor'"
   [[nodiscard]] Surface surfaceOf(const std::string& user, const std::string& surface) const;
   /// Ascending. \throws InputError if the mesh has no such group.
@@ -40,7 +45,7 @@ struct SolidBody {
   void cornersOf(GlobalOrdinal element, std::vector<Point>& points) const;
 
 private:
-  std::shared_ptr<std::vector<std::string>> lacking_ = std::make_shared<std::vector<std::string>>();
+  std::shared_ptr<std::vector<Need>> needs_ = std::make_shared<std::vector<Need>>();
 };
 
 } // namespace epafi::fem

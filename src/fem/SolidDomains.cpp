@@ -56,8 +56,8 @@ SolidDomain::SolidDomain(const SolidBody& body, const std::string& user, const s
       ++element;
     isEmpty = element == body.mesh.numElements();
   }
-  if (isEmpty && !isMembraneOnRectangle(body.body))
-    body.lack(user + ": no element has its centre in its box");
+  if (!isMembraneOnRectangle(body.body))
+    body.require(!isEmpty, user + ": no element has its centre in its box");
 }
 
 bool SolidDomain::contains(const SolidBody& body, GlobalOrdinal element) const {

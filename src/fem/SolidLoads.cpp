@@ -50,7 +50,7 @@ std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoa
     }
   }
   if (numHeld == 0) {
-    body.lack(nothing);
+    body.require(false, nothing);
     return std::nullopt;
   }
   std::vector<GlobalOrdinal> elements;
@@ -60,10 +60,10 @@ std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoa
   double edge = 0;
   for (std::size_t d = 0; d < 3; ++d)
     edge = std::max(edge, std::abs(points[1][d] - points[0][d]));
-  if (std::sqrt(least) <= 1e-6 * edge)
+  const bool isThere = std::sqrt(least) <= 1e-6 * edge, isPiece = mesh.part() != nullptr;
+  body.require(isThere, isPiece ? nothing : nothing + "; the nearest one is at " + text(mesh.point(nearest)));
+  if (isThere)
     return nearest;
-  body.lack(mesh.part() != nullptr ? nothing
-                                   : nothing + "; the nearest one is at " + text(mesh.point(nearest)));
   return std::nullopt;
 }
 

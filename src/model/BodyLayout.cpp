@@ -194,7 +194,7 @@ LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
         facets.add(name, surface.facet(f).first(static_cast<std::size_t>(numCornersOf(surface.facetType))));
     }
   });
-  return looseMeshOf(shares, facets, comm);
+  return looseMeshOf(shares, std::make_shared<const FacetList>(gathered(facets, comm)), comm);
 }
 
 using LooseMeshes = std::vector<std::optional<LooseMesh>>; ///< of each body, if it comes from files

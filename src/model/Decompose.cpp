@@ -10,9 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -96,18 +94,18 @@ void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, 
   }
 }
 
-/// What no rank's piece of a mesh has. Collective. \throws InputError
-void requireNothingLacking(const Models& models, const Comm& comm) {
-  std::string text;
+/// Some rank's piece of a mesh has to have what the scene names. Collective. \throws InputError
+void requireNeedsMet(const Models& models, const Comm& comm) {
+  std::vector<int> isMet;
   for (const auto& model : models)
-    for (const std::string& sentence : model->lacking())
-      text += sentence + '\n';
-  const std::vector<char> all = gatherOnAll(comm, text);
-  std::istringstream lines(std::string(all.begin(), all.end()));
-  std::map<std::string, int> ranks; // that lack it
-  for (std::string sentence; std::getline(lines, sentence);)
-    if (++ranks[sentence] == comm.getSize())
-      throw InputError(sentence);
+    for (const auto& need : model->needs())
+      isMet.push_back(need.isMet ? 1 : 0);
+  sumOverRanks(comm, std::span(isMet));
+  auto next = isMet.begin();
+  for (const auto& model : models)
+    for (const auto& need : model->needs())
+      if (*next++ == 0)
+        throw InputError(need.refusal);
 }
 
 } // namespace
@@ -146,7 +144,7 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       models.push_back(makeModel(scene.bodies[b], *result.bodies[b].mesh));
   });
-  requireNothingLacking(models, *comm);
+  requireNeedsMet(models, *comm);
   collectively(*comm, [&] {
     SceneContacts all = layoutContacts(scene, result.bodies, supportedNodes(models));
     result.contacts = std::move(all.contacts);

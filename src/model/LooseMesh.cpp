@@ -2,30 +2,18 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
-#include <set>
-#include <sstream>
+#include <utility>
 
 namespace epafi::model {
 namespace {
 
 constexpr std::size_t groupsEach = 32; ///< bits of a number that stand for groups
 constexpr std::size_t groupsAt = 2;    ///< where they stand in a record
-
-/// The names of all ranks, in alphabetical order, none twice. Names are single lines. Collective.
-std::vector<std::string> allNames(const Comm& comm, const std::set<std::string>& own) {
-  std::string text;
-  for (const std::string& name : own)
-    text += name + '\n';
-  const std::vector<char> all = gatherOnAll(comm, text);
-  std::istringstream lines(std::string(all.begin(), all.end()));
-  std::set<std::string> names;
-  for (std::string name; std::getline(lines, name);)
-    names.insert(name);
-  return {names.begin(), names.end()};
-}
 
 std::size_t placeOf(const std::string& name, const std::vector<std::string>& names) {
   return static_cast<std::size_t>(std::lower_bound(names.begin(), names.end(), name) - names.begin());
@@ -42,8 +30,7 @@ fem::CellType commonType(std::span<const MeshShare> shares, const Comm& comm) {
   least = minOverRanks(comm, least);
   most = maxOverRanks(comm, most);
   if (most == none)
-    throw InputError(
-        "there are no elements of it in any of its mesh files; name its group as they do, or mesh it");
+    throw InputError("there are no elements of it in any of its mesh files");
   const auto a = static_cast<fem::CellType>(least), b = static_cast<fem::CellType>(most);
   if (a != b)
     throw InputError(std::string("its mesh files hold ") + toString(a) + "s and " + toString(b) +
@@ -97,6 +84,23 @@ void Collector::addElements(const MeshShare& share) {
 
 } // namespace
 
+std::vector<std::string> allNames(const std::set<std::string>& own, const Comm& comm) {
+  const std::vector<char> all = gatherOnAll(comm, asLines(own));
+  const std::vector<std::string> lines = linesOf({all.data(), all.size()});
+  const std::set<std::string> names(lines.begin(), lines.end());
+  return {names.begin(), names.end()};
+}
+
+FacetList gathered(const FacetList& own, const Comm& comm) {
+  FacetList all;
+  all.names = allNames({own.names.begin(), own.names.end()}, comm);
+  std::vector<NamedFacet> renamed(own.facets);
+  for (NamedFacet& facet : renamed)
+    facet.surface = static_cast<int>(placeOf(own.names[static_cast<std::size_t>(facet.surface)], all.names));
+  all.facets = gatherOnAll(comm, renamed);
+  return all;
+}
+
 void FacetList::add(const std::string& surface, std::span<const GlobalOrdinal> corners) {
   if (names.empty() || names.back() != surface)
     names.push_back(surface);
@@ -149,31 +153,30 @@ void LooseElements::sort() {
   values_ = std::move(sorted);
 }
 
-LooseMesh looseMeshOf(std::span<const MeshShare> shares, const FacetList& facets, const Comm& comm) {
+LooseMesh looseMeshOf(std::span<const MeshShare> shares, std::shared_ptr<const FacetList> facets,
+                      const Comm& comm) {
   LooseMesh loose;
+  loose.facets = std::move(facets);
   loose.cellType = commonType(shares, comm);
   std::set<std::string> groups;
-  GlobalOrdinal numElements = 0, numParts = 0;
+  GlobalOrdinal numElements = 0, numNodes = 0, numParts = 0;
   for (const MeshShare& share : shares) {
     for (const std::string& name : share.mesh->groupNames())
       groups.insert(name);
     numElements += share.mesh->numElements();
+    numNodes += share.mesh->numNodes();
     numParts += share.partition->numParts();
   }
-  loose.groups = allNames(comm, groups);
-  loose.surfaces = allNames(comm, {facets.names.begin(), facets.names.end()});
+  loose.groups = allNames(groups, comm);
   loose.numParts = static_cast<int>(sumOverRanks(comm, numParts));
   const GlobalOrdinal firstElement = sumBefore(comm, numElements), firstPart = sumBefore(comm, numParts);
   collectively(comm, [&] {
     loose.elements = LooseElements(loose.groups.size(), static_cast<std::size_t>(numNodesOf(loose.cellType)));
+    loose.elements.reserve(static_cast<std::size_t>(numElements));
+    loose.nodes.reserve(static_cast<std::size_t>(numNodes));
     Collector collector(loose, firstElement, static_cast<int>(firstPart));
     for (const MeshShare& share : shares)
       collector.add(share);
-    for (NamedFacet facet : facets.facets) {
-      const std::string& name = facets.names[static_cast<std::size_t>(facet.surface)];
-      facet.surface = static_cast<int>(placeOf(name, loose.surfaces));
-      loose.facets.push_back(facet);
-    }
   });
   return loose;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The elements of a body before they are dealt out: each on any one rank, as it came from a file or from rank 0.
+/// The elements of a body before they are dealt out: each on the rank that read it.
 
 #include "epafi/fem/Cell.hpp"
 #include "epafi/model/NodeDirectory.hpp"
@@ -8,6 +8,8 @@
 
 #include <array>
 #include <functional>
+#include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +24,7 @@ public:
 
   /// Of the same form, without elements.
   [[nodiscard]] LooseElements none() const;
+  void reserve(std::size_t number) { values_.reserve(number * width_); } ///< of elements
   /// Of no group yet. \param nodes  their keys
   void add(GlobalOrdinal number, int part, std::span<const GlobalOrdinal> nodes);
   void setIn(std::size_t place, std::size_t group); ///< the element at a place is in a group
@@ -53,23 +56,30 @@ struct NamedFacet {
   std::array<GlobalOrdinal, fem::mostFacetCorners> corners{};
 };
 
-/// Facets with the names of the surfaces that they belong to.
+/// Facets and the names of the surfaces that they belong to.
 struct FacetList {
-  std::vector<std::string> names; ///< one may come several times
+  std::vector<std::string> names;
   std::vector<NamedFacet> facets;
 
-  void add(const std::string& surface,
-           std::span<const GlobalOrdinal> corners); ///< \param corners  their keys
+  /// \param corners  their keys
+  void add(const std::string& surface, std::span<const GlobalOrdinal> corners);
 };
+
+/// Those of all ranks, on all ranks, names in alphabetical order and none twice. Collective.
+FacetList gathered(const FacetList& own, const Comm& comm);
+
+/// The names of all ranks, in alphabetical order, none twice. Collective.
+std::vector<std::string> allNames(const std::set<std::string>& own, const Comm& comm);
 
 struct LooseMesh {
   fem::CellType cellType = fem::CellType::triangle; ///< the same on all ranks
   int numParts = 0;                                 ///< of the whole body, on all ranks
   std::vector<std::string> groups;                  ///< names, the same on all ranks
-  std::vector<std::string> surfaces;                ///< likewise; there may be some of other bodies
-  LooseElements elements{0, 3};                     ///< this rank's; no element is on two
-  std::vector<NodeDirectory::Node> nodes;           ///< of these elements, each once or more often
-  std::vector<NamedFacet> facets; ///< each on one rank or several; there may be some of other bodies
+
+  LooseElements elements{0, 3};           ///< this rank's; no element is on two
+  std::vector<NodeDirectory::Node> nodes; ///< of these elements, each once or more often
+  /// Of all ranks, each once or more often; there may be some of other bodies.
+  std::shared_ptr<const FacetList> facets;
 };
 
 /// What one rank has of a body: all of it or a file's share, and the way it is cut.
@@ -80,9 +90,9 @@ struct MeshShare {
   std::function<GlobalOrdinal(GlobalOrdinal node)> keyOf;
 };
 
-/// Numbers elements and parts through all shares of all ranks, in this order.
-/// \param facets  of named surfaces, in place of the shares' own
+/// Numbers elements and parts through all shares of all ranks, in this order. \param facets  of named surfaces; see gathered()
 /// Collective. \throws InputError, the same on all ranks, if no rank has an element, or they are not of one kind.
-LooseMesh looseMeshOf(std::span<const MeshShare> shares, const FacetList& facets, const Comm& comm);
+LooseMesh looseMeshOf(std::span<const MeshShare> shares, std::shared_ptr<const FacetList> facets,
+                      const Comm& comm);
 
 } // namespace epafi::model

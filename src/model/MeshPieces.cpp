@@ -7,8 +7,10 @@
 #include "epafi/fem/MeshPart.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace epafi::model {
@@ -20,7 +22,8 @@ std::size_t index(GlobalOrdinal number) {
   return static_cast<std::size_t>(number);
 }
 
-void sortEach(Keys& keys) {
+template <class Number>
+void sortEach(std::vector<Number>& keys) {
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
@@ -50,10 +53,12 @@ private:
   [[nodiscard]] std::size_t placeOf(GlobalOrdinal key) const {
     return static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
   }
+  void numberNodes();
   void lookThrough();
   void takeOwn();
   void takeAround();
   void markBoundary();
+  void requireWhole(std::size_t element, std::size_t facet, std::size_t other) const;
   void requireJoined() const;
   void findFacet(const NamedFacet& facet);
   void takeSurfaces();
@@ -71,10 +76,8 @@ private:
 };
 
 PieceMaker::PieceMaker(LooseMesh loose, Share own, const Comm& comm)
-    : loose_(std::move(loose)), own_(own), comm_(comm), directory_(comm, loose_.nodes),
-      held_(loose_.elements) {
-  loose_.nodes = {};
-}
+    : loose_(std::move(loose)), own_(own), comm_(comm), directory_(comm, std::move(loose_.nodes)),
+      held_(loose_.elements) {}
 
 fem::PartArrays PieceMaker::make(std::shared_ptr<const Partition>& partition) {
   takeOwn();
@@ -83,7 +86,8 @@ fem::PartArrays PieceMaker::make(std::shared_ptr<const Partition>& partition) {
   markBoundary();
   requireJoined();
   takeSurfaces();
-  collectively(comm_, [&] { lookThrough(); });
+  topology_.reset();
+  collectively(comm_, [&] { numberNodes(); });
   fem::PartArrays result = arrays();
   HeldElements held{own_.begin, own_.end, result.elements, {}};
   for (std::size_t e = 0; e < held_.size(); ++e)
@@ -92,17 +96,22 @@ fem::PartArrays PieceMaker::make(std::shared_ptr<const Partition>& partition) {
   return result;
 }
 
-/// Numbers the nodes of the held elements, and finds these at the nodes.
-void PieceMaker::lookThrough() {
+/// Of the held elements.
+void PieceMaker::numberNodes() {
   keys_.clear();
   for (std::size_t e = 0; e < held_.size(); ++e)
     keys_.insert(keys_.end(), held_.nodes(e).begin(), held_.nodes(e).end());
   cells_.resize(keys_.size());
   sortEach(keys_);
+  keys_.shrink_to_fit();
   auto next = cells_.begin();
   for (std::size_t e = 0; e < held_.size(); ++e)
     for (const GlobalOrdinal key : held_.nodes(e))
       *next++ = static_cast<LocalOrdinal>(placeOf(key));
+}
+
+void PieceMaker::lookThrough() {
+  numberNodes();
   topology_.emplace(loose_.cellType, static_cast<LocalOrdinal>(keys_.size()), cells_);
 }
 
@@ -116,7 +125,7 @@ void PieceMaker::takeOwn() {
     message.insert(message.end(), record.begin(), record.end());
   }
   held_ = held_.none();
-  for (const auto& [rank, records] : deliver(comm_, outgoing))
+  for (const auto& [rank, records] : deliver(comm_, std::move(outgoing)))
     held_.append(records);
 }
 
@@ -132,8 +141,7 @@ void PieceMaker::takeAround() {
     for (const GlobalOrdinal key : shared)
       for (const LocalOrdinal element : topology_->elementsOf(static_cast<LocalOrdinal>(placeOf(key))))
         touching.push_back(element);
-    std::sort(touching.begin(), touching.end());
-    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    sortEach(touching);
     for (const LocalOrdinal element : touching) {
       const auto record = held_.record(index(element));
       message.insert(message.end(), record.begin(), record.end());
@@ -156,20 +164,37 @@ void PieceMaker::markBoundary() {
   directory_.markBoundary(onBoundary);
 }
 
+/// Two elements that share the corners of a facet share all its nodes.
+void PieceMaker::requireWhole(std::size_t element, std::size_t facet, std::size_t other) const {
+  const auto nodes = held_.nodes(element), others = held_.nodes(other);
+  for (const int place : facetsOf(loose_.cellType)[facet])
+    if (std::find(others.begin(), others.end(), nodes[index(place)]) == others.end())
+      throw InputError("two elements share the corners of a facet, but not node " +
+                       std::to_string(nodes[index(place)]) +
+                       " between them, so that the body is cut there; mesh anew");
+}
+
 void PieceMaker::requireJoined() const {
   std::vector<decomposition::Link> links;
   collectively(comm_, [&] {
-    if (topology_->crowdedFacet())
-      throw InputError("three of its elements share a facet; mesh anew");
+    if (const auto& crowd = topology_->crowdedFacet())
+      throw InputError("three of its elements share a facet, one of them with node " +
+                       std::to_string(held_.nodes(index(crowd->front())).front()) +
+                       "; mesh anew, and let no two files hold the same elements");
     std::set<std::pair<int, int>> pairs;
     for (std::size_t e = 0; e < held_.size(); ++e)
-      for (std::size_t f = 0; isOwn(e) && f < facetsOf(loose_.cellType).size(); ++f)
-        if (const LocalOrdinal other = topology_->across(static_cast<LocalOrdinal>(e), f);
-            other >= 0 && held_.part(index(other)) > held_.part(e))
+      for (std::size_t f = 0; isOwn(e) && f < facetsOf(loose_.cellType).size(); ++f) {
+        const LocalOrdinal other = topology_->across(static_cast<LocalOrdinal>(e), f);
+        if (other < 0)
+          continue;
+        requireWhole(e, f, index(other));
+        if (held_.part(index(other)) > held_.part(e))
           pairs.emplace(held_.part(e), held_.part(index(other)));
+      }
     for (const auto& [part, other] : pairs)
       links.push_back({part, other});
   });
+
   const std::vector<int> pieces = decomposition::piecesOf(index(loose_.numParts), gatherOnAll(comm_, links));
   const auto strays = pieces.size() - index(std::count(pieces.begin(), pieces.end(), 0));
   if (strays > 0)
@@ -199,7 +224,7 @@ void PieceMaker::findFacet(const NamedFacet& facet) {
                        [&](int node) { return isCorner(nodes[index(node)]); }))
         continue;
       if (topology_->across(element, f) >= 0)
-        throw InputError("the surface '" + loose_.surfaces[index(facet.surface)] +
+        throw InputError("the surface '" + loose_.facets->names[index(facet.surface)] +
                          "' has a facet with node " + std::to_string(facet.corners[0]) +
                          ", which lies inside the body; a surface belongs to the boundary, so take this part "
                          "out of the physical group");
@@ -213,11 +238,9 @@ void PieceMaker::findFacet(const NamedFacet& facet) {
 
 /// All surfaces, and the elements at them.
 void PieceMaker::takeSurfaces() {
-  const std::vector<NamedFacet> facets = gatherOnAll(comm_, loose_.facets);
-  loose_.facets = {};
   Keys records;
   collectively(comm_, [&] {
-    for (const NamedFacet& facet : facets)
+    for (const NamedFacet& facet : loose_.facets->facets)
       findFacet(facet);
     Keys at;
     for (const FoundFacet& facet : facets_)
@@ -276,7 +299,7 @@ fem::PartArrays PieceMaker::arrays() const {
   const auto perFacet = index(nodesPerFacet(loose_.cellType));
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     if (f == 0 || facets_[f].surface != facets_[f - 1].surface)
-      part.surfaces.emplace_back(loose_.surfaces[index(facets_[f].surface)],
+      part.surfaces.emplace_back(loose_.facets->names[index(facets_[f].surface)],
                                  fem::Surface{facetTypeOf(loose_.cellType), {}, {}});
     fem::Surface& surface = part.surfaces.back().second;
     surface.elements.push_back(facets_[f].element);
@@ -289,8 +312,8 @@ fem::PartArrays PieceMaker::arrays() const {
 } // namespace
 
 void dealOut(LooseMesh loose, Share own, const Comm& comm, BodyLayout& piece) {
-  PieceMaker maker(std::move(loose), own, comm);
-  piece.mesh = std::make_unique<const fem::MeshPart>(maker.make(piece.partition));
+  fem::PartArrays arrays = PieceMaker(std::move(loose), own, comm).make(piece.partition);
+  collectively(comm, [&] { piece.mesh = std::make_unique<const fem::MeshPart>(std::move(arrays)); });
 }
 
 } // namespace epafi::model

@@ -6,33 +6,27 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 #include <string>
+#include <utility>
 
 namespace epafi::model {
-namespace {
-
-template <class Messages>
-std::set<int> ranksOf(const Messages& messages) {
-  std::set<int> ranks;
-  for (const auto& [rank, message] : messages)
-    ranks.insert(rank);
-  return ranks;
-}
-
-} // namespace
-
-NodeDirectory::NodeDirectory(const Comm& comm, const std::vector<Node>& nodes) : comm_(comm) {
-  GlobalOrdinal last = 0;
-  for (const Node& node : nodes)
+NodeDirectory::NodeDirectory(const Comm& comm, std::vector<Node> nodes) : comm_(comm) {
+  GlobalOrdinal first = std::numeric_limits<GlobalOrdinal>::max(), last = 0;
+  for (const Node& node : nodes) {
+    first = std::min(first, node.key);
     last = std::max(last, node.key);
-  keysEach_ = maxOverRanks(comm, last) / comm.getSize() + 1;
+  }
+  firstKey_ = minOverRanks(comm, first);
+  keysEach_ = (maxOverRanks(comm, last) - firstKey_) / comm.getSize() + 1;
   std::map<int, std::vector<Node>> outgoing;
   for (const Node& node : nodes)
     outgoing[homeOf(node.key)].push_back(node);
+  nodes = {};
   std::vector<Node> kept;
-  for (const auto& [rank, some] : deliver(comm, outgoing))
+  for (auto& [rank, some] : deliver(comm, std::move(outgoing))) {
     kept.insert(kept.end(), some.begin(), some.end());
+    some = {};
+  }
   collectively(comm, [&] { keep(std::move(kept)); });
   number();
 }
@@ -48,7 +42,7 @@ void NodeDirectory::keep(std::vector<Node> nodes) {
                        " different places; they are not parts of one mesh, so save them all anew");
     }
     if (node.isCorner)
-      entries_.back().corner = 0;
+      entries_.back().corner = 0; // number() numbers them
   }
 }
 

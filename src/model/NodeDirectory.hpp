@@ -1,6 +1,7 @@
 #pragma once
 
-/// Which ranks have a node, and what is known of it, where no rank has all nodes: each is kept by the rank that its key tells.
+/// Which ranks have a node, and what is known of it, where no rank has all nodes: each is kept by the rank that its key tells, equal ranges
+/// of keys by each.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/Mesh.hpp"
@@ -29,7 +30,7 @@ public:
 
   /// Takes in and numbers the nodes that the ranks have, each as often as it comes. Keeps the reference. Collective. \throws InputError,
   /// the same on all ranks, if one lies at two places.
-  NodeDirectory(const Comm& comm, const std::vector<Node>& nodes);
+  NodeDirectory(const Comm& comm, std::vector<Node> nodes);
 
   [[nodiscard]] GlobalOrdinal numNodes() const { return numNodes_; }
   [[nodiscard]] GlobalOrdinal numCorners() const { return numCorners_; }
@@ -45,13 +46,16 @@ public:
 
 private:
   using Keys = std::map<int, std::vector<GlobalOrdinal>>; ///< by rank
-  [[nodiscard]] int homeOf(GlobalOrdinal key) const { return static_cast<int>(key / keysEach_); }
+  [[nodiscard]] int homeOf(GlobalOrdinal key) const {
+    return static_cast<int>((key - firstKey_) / keysEach_);
+  }
   [[nodiscard]] Keys byHome(const std::vector<GlobalOrdinal>& keys) const;
   [[nodiscard]] std::size_t placeOf(GlobalOrdinal key) const;
   void keep(std::vector<Node> nodes);
   void number();
 
   const Comm& comm_;
+  GlobalOrdinal firstKey_ = 0;      ///< of all nodes
   GlobalOrdinal keysEach_ = 1;      ///< a rank keeps as many keys in turn
   std::vector<GlobalOrdinal> keys_; ///< of the kept nodes, ascending
   std::vector<Entry> entries_;      ///< likewise

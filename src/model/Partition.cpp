@@ -9,6 +9,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <limits>
 #include <map>
@@ -20,35 +21,31 @@
 namespace epafi::model {
 namespace {
 
-/// Neighbours of all elements, as METIS wants them.
+/// Neighbours of some elements, as METIS wants them.
 struct DualGraph {
   std::vector<idx_t> start, neighbours;
 };
 
-DualGraph dualGraphOf(const fem::Mesh& mesh) {
+/// \param elements  all or a piece of the mesh
+DualGraph dualGraphOf(const fem::Mesh& mesh, std::span<const GlobalOrdinal> elements) {
+  std::vector<idx_t> place(static_cast<std::size_t>(mesh.numElements()));
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    place[static_cast<std::size_t>(elements[i])] = static_cast<idx_t>(i);
   DualGraph graph{{0}, {}};
-  graph.start.reserve(static_cast<std::size_t>(mesh.numElements()) + 1);
-  graph.neighbours.reserve(fem::facetsOf(mesh.cellType()).size() *
-                           static_cast<std::size_t>(mesh.numElements()));
+  graph.start.reserve(elements.size() + 1);
+  graph.neighbours.reserve(fem::facetsOf(mesh.cellType()).size() * elements.size());
   std::vector<GlobalOrdinal> adjacent;
-  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+  for (const GlobalOrdinal element : elements) {
     mesh.elementNeighbours(element, adjacent);
     for (const GlobalOrdinal other : adjacent)
-      graph.neighbours.push_back(static_cast<idx_t>(other));
+      graph.neighbours.push_back(place[static_cast<std::size_t>(other)]);
     graph.start.push_back(static_cast<idx_t>(graph.neighbours.size()));
   }
   return graph;
 }
 
-std::vector<std::vector<GlobalOrdinal>> piecesOf(const fem::Mesh& mesh) {
-  return fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
-    mesh.elementNeighbours(element, found);
-  });
-}
-
 /// METIS would refuse in words of its own. \throws InputError
-void requireConnected(const fem::Mesh& mesh) {
-  const auto pieces = piecesOf(mesh);
+void requireConnected(const fem::Mesh& mesh, const std::vector<std::vector<GlobalOrdinal>>& pieces) {
   if (pieces.size() > 1)
     throw InputError("only " + std::to_string(pieces.front().size()) + " of its " +
                      std::to_string(mesh.numElements()) + " elements are joined with each other in whole " +
@@ -57,15 +54,15 @@ void requireConnected(const fem::Mesh& mesh) {
                      "own, or join the parts in the mesh");
 }
 
-/// METIS on the dual graph of the mesh; the part of every element. \param isConnected  the mesh is, and each part is to be
-std::vector<int> cutByMetis(const fem::Mesh& mesh, int parts, bool isConnected) {
-  DualGraph graph = dualGraphOf(mesh);
+/// METIS on the dual graph of a piece of the mesh; the part of each of its elements.
+std::vector<int> cutByMetis(const fem::Mesh& mesh, std::span<const GlobalOrdinal> elements, int parts) {
+  DualGraph graph = dualGraphOf(mesh, elements);
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_NUMBERING] = 0;
   options[METIS_OPTION_SEED] = 1;
-  options[METIS_OPTION_CONTIG] = isConnected ? 1 : 0;
-  auto numVertices = static_cast<idx_t>(mesh.numElements());
+  options[METIS_OPTION_CONTIG] = 1;
+  auto numVertices = static_cast<idx_t>(elements.size());
   idx_t numConstraints = 1, numParts = parts, cut = 0;
   std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
   // METIS takes a SIGTERM from outside for a failure of its own, and jumps out of whatever it interrupts.
@@ -263,8 +260,10 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
     if (comm.getRank() != 0)
       return;
     if (parts > 1) {
-      requireConnected(mesh);
-      part_ = cutByMetis(mesh, parts, true);
+      auto pieces = piecesOf(mesh, part_);
+      requireConnected(mesh, pieces);
+      std::sort(pieces.front().begin(), pieces.front().end());
+      part_ = cutByMetis(mesh, pieces.front(), parts);
       makeConnected(mesh, part_);
     }
     numParts_ = renumber(part_);
@@ -290,24 +289,24 @@ std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
 
 std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts) {
   requireCut(mesh, parts);
-  const bool isConnected = piecesOf(mesh).size() == 1;
   std::vector<int> part(static_cast<std::size_t>(mesh.numElements()), 0);
-  if (parts > 1) {
-    part = cutByMetis(mesh, parts, isConnected);
-    makeConnected(mesh, part);
+  int first = 0; // part of the piece
+  for (std::vector<GlobalOrdinal>& piece : piecesOf(mesh, part)) {
+    std::sort(piece.begin(), piece.end());
+    const double share = static_cast<double>(piece.size()) / static_cast<double>(part.size());
+    const int wanted = std::max(1, static_cast<int>(std::round(share * parts)));
+    std::vector<int> cut(piece.size(), 0);
+    if (wanted > 1)
+      cut = cutByMetis(mesh, piece, wanted);
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      part[static_cast<std::size_t>(piece[i])] = first + cut[i];
+    first += wanted;
   }
-  auto pieces = piecesOf(mesh, part);
-  std::stable_sort(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
-    return part[static_cast<std::size_t>(a.front())] < part[static_cast<std::size_t>(b.front())];
-  });
-  HeldElements held{0, static_cast<int>(pieces.size()), {}, {}};
-  held.elements.resize(part.size());
+  makeConnected(mesh, part);
+  const int number = renumber(part);
+  HeldElements held{0, number, std::vector<GlobalOrdinal>(part.size()), std::move(part)};
   std::iota(held.elements.begin(), held.elements.end(), GlobalOrdinal{0});
-  held.parts.resize(part.size());
-  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
-    for (const GlobalOrdinal element : pieces[piece])
-      held.parts[static_cast<std::size_t>(element)] = static_cast<int>(piece);
-  return std::make_unique<const HeldPartition>(static_cast<int>(pieces.size()), std::move(held));
+  return std::make_unique<const HeldPartition>(number, std::move(held));
 }
 
 HeldPartition::HeldPartition(int numParts, HeldElements held)

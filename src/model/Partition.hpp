@@ -80,8 +80,7 @@ private:
   std::vector<int> order_, number_; ///< old numbers of the parts, and new ones
 };
 
-/// Cuts a mesh that need not hang together, on one rank: METIS' parts, those that do not hang together each as several. \param parts
-/// as many at least; no more than elements. Not collective. \throws InputError if METIS refuses.
+/// Cuts a mesh that need not hang together, on one rank: each piece by METIS, into its share of the parts, one at least. Not collective. \throws InputError if METIS refuses.
 std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts);
 
 /// Elements that a rank holds, and their parts.
@@ -91,7 +90,7 @@ struct HeldElements {
   std::vector<int> parts;              ///< of each
 };
 
-/// What one rank knows of a partition that rank 0 made.
+/// What one rank knows of a partition.
 class HeldPartition final : public Partition {
 public:
   HeldPartition(int numParts, HeldElements held); ///< numParts: of the whole body

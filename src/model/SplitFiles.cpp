@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <sstream>
+#include <set>
 #include <utility>
 
 namespace epafi::model {
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files that a name with one or more * stands for, by the numbers in them. \throws InputError if there are none
+/// The files that a name with a * stands for, by the numbers in them. \throws InputError if there are none
 std::vector<std::string> filesLike(const std::string& pattern) {
   const fs::path path(pattern);
   const std::string name = path.filename().string();
@@ -45,15 +45,10 @@ std::vector<std::string> agreedFiles(const std::string& pattern, const Comm& com
   std::string text;
   collectively(comm, [&] {
     if (comm.getRank() == 0)
-      for (const std::string& file : filesLike(pattern))
-        text += file + '\n';
+      text = asLines(filesLike(pattern));
   });
   broadcastText(comm, text);
-  std::istringstream lines(text);
-  std::vector<std::string> files;
-  for (std::string file; std::getline(lines, file);)
-    files.push_back(file);
-  return files;
+  return linesOf(text);
 }
 
 /// A body's share in a file.
@@ -68,25 +63,30 @@ public:
   SplitReader(std::span<const scene::Body* const> bodies, std::vector<std::string> files)
       : bodies_(bodies), files_(std::move(files)), shares_(bodies.size()) {}
 
-  void read(std::size_t number); ///< one of the files
+  void read(std::size_t number);                                    ///< one of the files
+  [[nodiscard]] const FacetList& facets() const { return facets_; } ///< of all bodies
   /// What was read of a body, cut. Collective.
-  LooseMesh take(std::size_t body, const Comm& comm);
+  LooseMesh take(std::size_t body, std::shared_ptr<const FacetList> facets, const Comm& comm);
 
 private:
   void requireAll(const fem::GmshFile& file) const;
   [[nodiscard]] static fem::UnstructuredMesh meshOf(const scene::Body& body, const fem::GmshFile& file);
+  void requireElements(const scene::Body& body, GlobalOrdinal all, const Comm& comm) const;
   void cut(std::size_t body, GlobalOrdinal before, GlobalOrdinal all);
 
   std::span<const scene::Body* const> bodies_;
   std::vector<std::string> files_;
   std::vector<std::vector<FileShare>> shares_; ///< of each body
   FacetList facets_;
+  std::set<std::string> groups_; ///< of the files that were read
 };
 
 void SplitReader::read(std::size_t number) {
   const std::string& name = files_[number];
   const fem::GmshFile file(fem::readMsh(name, fem::textOfMeshFile(name)));
   requireAll(file);
+  const std::vector<std::string> groups = file.groupNames();
+  groups_.insert(groups.begin(), groups.end());
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     if (file.hasElements(bodies_[b]->mesh.group))
       shares_[b].push_back({meshOf(*bodies_[b], file), nullptr});
@@ -122,31 +122,44 @@ void SplitReader::cut(std::size_t body, GlobalOrdinal before, GlobalOrdinal all)
     const GlobalOrdinal here = share.mesh.numElements(), behind = before + here;
     const GlobalOrdinal parts = how.parts == 0 ? partsFor(*bodies_[body], share.mesh)
                                                : behind * how.parts / all - before * how.parts / all;
-    share.partition = cutPieces(share.mesh, static_cast<int>(std::clamp<GlobalOrdinal>(parts, 1, here)));
-    if (how.cluster > 1)
-      share.partition = std::make_shared<const GroupedPartition>(share.partition, share.mesh, how.cluster);
+    share.partition = cutPieces(share.mesh, static_cast<int>(std::max<GlobalOrdinal>(parts, 1)));
+    constexpr int single = 1; // neighbours follow each other, whatever run they fall into
+    share.partition = std::make_shared<const GroupedPartition>(share.partition, share.mesh, single);
     before = behind;
   }
 }
 
-LooseMesh SplitReader::take(std::size_t body, const Comm& comm) {
+/// Collective.
+void SplitReader::requireElements(const scene::Body& body, GlobalOrdinal all, const Comm& comm) const {
+  if (all == 0) {
+    std::string known;
+    for (const std::string& group : allNames(groups_, comm))
+      known += (known.empty() ? "'" : ", '") + group + "'";
+    throw InputError("body '" + body.name + "': none of the files " + inQuotes(body.mesh.file) +
+                     " has elements of a physical group " + inQuotes(body.mesh.group) + "; they have " +
+                     (known.empty() ? "no groups" : known));
+  }
+  if (body.decomposition.parts > all)
+    throw InputError("body '" + body.name + "' has " + std::to_string(all) +
+                     " elements and cannot be cut into " + std::to_string(body.decomposition.parts) +
+                     " parts; choose between 1 and " + std::to_string(all));
+}
+
+LooseMesh SplitReader::take(std::size_t body, std::shared_ptr<const FacetList> facets, const Comm& comm) {
   std::vector<FileShare>& own = shares_[body];
   GlobalOrdinal numElements = 0;
   for (const FileShare& share : own)
     numElements += share.mesh.numElements();
   const GlobalOrdinal before = sumBefore(comm, numElements), all = sumOverRanks(comm, numElements);
+  requireElements(*bodies_[body], all, comm);
+  collectively(comm, [&] { cut(body, before, all); });
   std::vector<MeshShare> shares;
-  try {
-    collectively(comm, [&] { cut(body, before, all); });
-    for (const FileShare& share : own)
-      shares.push_back({&share.mesh, share.partition.get(),
-                        [&mesh = share.mesh](GlobalOrdinal node) { return mesh.nodeTag(node); }});
-    LooseMesh loose = looseMeshOf(shares, facets_, comm);
-    own.clear();
-    return loose;
-  } catch (const InputError& error) { // the same on all ranks
-    throw InputError("body '" + bodies_[body]->name + "': " + error.what());
-  }
+  for (const FileShare& share : own)
+    shares.push_back({&share.mesh, share.partition.get(),
+                      [&mesh = share.mesh](GlobalOrdinal node) { return mesh.nodeTag(node); }});
+  LooseMesh loose = looseMeshOf(shares, std::move(facets), comm);
+  own.clear();
+  return loose;
 }
 
 } // namespace
@@ -160,9 +173,10 @@ std::vector<LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies
     for (std::size_t f = rank * number / ranks; f < (rank + 1) * number / ranks; ++f)
       reader.read(f);
   });
+  const auto facets = std::make_shared<const FacetList>(gathered(reader.facets(), comm));
   std::vector<LooseMesh> meshes;
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    meshes.push_back(reader.take(b, comm));
+    meshes.push_back(reader.take(b, facets, comm));
   return meshes;
 }
 

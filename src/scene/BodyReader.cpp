@@ -62,6 +62,8 @@ MeshSource readMesh(const ListReader& list, int dimension) {
       if (!source.file.ends_with(".msh"))
         list.refuseValue(
             "Mesh", "several files hold a mesh by parts only as Gmsh saves it, so the name must end in .msh");
+      if (source.file.find('*') != source.file.rfind('*'))
+        list.refuseValue("Mesh", "there may be one * in it, which stands for the number of a file");
       list.refuseGiven({"Mesh Refinements"}, "a mesh in several files is read as it is; refine it in Gmsh");
     }
     source.group = list.word("Group");

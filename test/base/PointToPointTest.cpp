@@ -67,6 +67,27 @@ TEST(PointToPointTest, ReceiversNeedNotKnowWhoSends) {
   EXPECT_EQ(received.size(), number);
 }
 
+TEST(PointToPointTest, LongMessagesGoInPieces) {
+  const auto comm = Tpetra::getDefaultComm();
+  const int here = comm->getRank(), size = comm->getSize(), next = (here + 1) % size,
+            last = (here + size - 1) % size;
+  constexpr std::size_t longest = 16;
+  for (const std::size_t bytes : {0U, 7U, 16U, 17U, 32U, 50U}) { // some of them whole pieces
+    const std::vector<std::byte> sent(bytes, static_cast<std::byte>(here + 1));
+    std::vector<std::byte> received;
+    const detail::Message message{next, sent};
+    detail::exchange(
+        *comm, std::span(&message, 1), {last},
+        [&](int, std::size_t from, std::size_t more) {
+          EXPECT_EQ(from, received.size());
+          received.resize(from + more);
+          return received.data() + from;
+        },
+        longest);
+    EXPECT_EQ(received, std::vector<std::byte>(bytes, static_cast<std::byte>(last + 1)));
+  }
+}
+
 TEST(PointToPointTest, IndicesTravelAsWhatTheyAreAndMessagesInTheirOrder) {
   const auto comm = Tpetra::getDefaultComm();
   const int here = comm->getRank(), size = comm->getSize(), next = (here + 1) % size,

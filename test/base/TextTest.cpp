@@ -17,4 +17,10 @@ TEST(TextTest, WritesNumbersPointsAndNames) {
   EXPECT_EQ(inQuotes("left"), "\"left\"");
 }
 
+TEST(TextTest, WordsComeBackFromTheirLines) {
+  const std::vector<std::string> words{"a b", "", "c"};
+  EXPECT_EQ(linesOf(asLines(words)), words);
+  EXPECT_TRUE(linesOf("").empty());
+}
+
 } // namespace

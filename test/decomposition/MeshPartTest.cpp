@@ -68,8 +68,7 @@ model::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
   loose.cellType = mesh.cellType();
   loose.numParts = columns.grid().numParts();
   loose.groups = {"every one", "none", "odd"};
-  loose.surfaces = mesh.surfaceNames();
-  std::sort(loose.surfaces.begin(), loose.surfaces.end());
+
   loose.elements = model::LooseElements(3, static_cast<std::size_t>(mesh.nodesPerElement()));
   const auto isHere = [](GlobalOrdinal element) {
     return element % world()->getSize() == world()->getRank();
@@ -88,19 +87,20 @@ model::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
     if (element % 2 == 1)
       loose.elements.setIn(loose.elements.size() - 1, 2);
   }
-  for (std::size_t s = 0; s < loose.surfaces.size(); ++s) {
-    const Surface surface = mesh.surface(loose.surfaces[s]);
+  model::FacetList own;
+  for (const std::string& name : mesh.surfaceNames()) {
+    const Surface surface = mesh.surface(name);
     for (std::size_t f = 0; f < surface.numFacets(); ++f) {
       if (!isHere(surface.elements[f]))
         continue;
-      model::NamedFacet& facet = loose.facets.emplace_back();
-      facet.surface = static_cast<int>(s);
-      facet.corners.fill(-1);
-      for (int i = 0; i < numCornersOf(surface.facetType); ++i)
-        facet.corners[static_cast<std::size_t>(i)] = keyOf(surface.facet(f)[static_cast<std::size_t>(i)]);
-      std::swap(facet.corners[0], facet.corners[1]); // any order will do
+      Numbers corners;
+      for (int i = numCornersOf(surface.facetType) - 1; i >= 0; --i) // any order will do
+        corners.push_back(keyOf(surface.facet(f)[static_cast<std::size_t>(i)]));
+      own.add(name, corners);
     }
   }
+  loose.facets = std::make_shared<const model::FacetList>(gathered(own, *world()));
+
   return loose;
 }
 
@@ -209,6 +209,14 @@ protected:
   Columns columns_{whole_};
   BodyLayout body_;
 
+  /// One more in the surface "bottom".
+  model::LooseMesh withFacet(const Numbers& corners) const {
+    model::LooseMesh loose = scattered(whole_, columns_);
+    model::FacetList facets = *loose.facets;
+    facets.add("bottom", corners);
+    loose.facets = std::make_shared<const model::FacetList>(gathered(facets, *world()));
+    return loose;
+  }
   void expectRefused(model::LooseMesh loose, const std::string& words) {
     try {
       dealOut(std::move(loose), columns_.own(), *world(), body_);
@@ -233,19 +241,17 @@ TEST_F(DealtMeshTest, APieceIsAskedForNothingThatItDoesNotHold) {
 }
 
 TEST_F(DealtMeshTest, FacetsInsideAreRefused) {
-  model::LooseMesh loose = scattered(whole_, columns_);
-  loose.facets.push_back({0, {keyOf(5 + 41 * 3), keyOf(5 + 41 * 4), -1, -1}});
-  expectRefused(std::move(loose), "lies inside the body");
+  expectRefused(withFacet({keyOf(5 + 41 * 3), keyOf(5 + 41 * 4)}), "lies inside the body");
 }
 
 TEST_F(DealtMeshTest, FacetsOfOtherBodiesDoNotMatter) {
-  model::LooseMesh loose = scattered(whole_, columns_);
-  loose.facets.push_back({0, {1, 2, -1, -1}});                      // nodes that it does not have
-  loose.facets.push_back({0, {keyOf(0), keyOf(1), keyOf(41), -1}}); // no facet of its own
-  loose.facets.push_back({0, {keyOf(0), keyOf(41 * 20), -1, -1}});  // likewise
-  loose.facets.push_back(loose.facets.front());                     // and one that comes twice
-  dealOut(std::move(loose), columns_.own(), *world(), body_);
-  expectSameSurfaces(*body_.mesh, whole_);
+  for (const Numbers& corners : {Numbers{1, 2},                          // nodes that it does not have
+                                 Numbers{keyOf(0), keyOf(1), keyOf(41)}, // of another kind
+                                 Numbers{keyOf(0), keyOf(41 * 20)},      // none of its own
+                                 Numbers{keyOf(0), keyOf(1)}}) {         // and one that comes twice
+    dealOut(withFacet(corners), columns_.own(), *world(), body_);
+    expectSameSurfaces(*body_.mesh, whole_);
+  }
 }
 
 TEST_F(DealtMeshTest, ThreeElementsAtAFacetAreRefused) {
@@ -256,6 +262,29 @@ TEST_F(DealtMeshTest, ThreeElementsAtAFacetAreRefused) {
       loose.elements.add(whole_.numElements() + more, 0, keys);
   }
   expectRefused(std::move(loose), "share a facet");
+}
+
+TEST_F(DealtMeshTest, ElementsThatShareTheCornersOfAFacetAloneAreRefused) {
+  const StructuredMesh quadratic({{0, 0, 0}, {1, 1, 0}}, {9, 4, 0}, 2);
+  const Columns columns(quadratic);
+  model::LooseMesh loose = scattered(quadratic, columns), torn = loose;
+  torn.elements = model::LooseElements(3, 9);
+  const GlobalOrdinal between = 2 + 19, other = keyOf(quadratic.numNodes()); // on the edge of two elements
+  for (std::size_t e = 0; e < loose.elements.size(); ++e) {
+    Numbers nodes(loose.elements.nodes(e).begin(), loose.elements.nodes(e).end());
+    if (loose.elements.number(e) == 1) {
+      std::replace(nodes.begin(), nodes.end(), keyOf(between), other);
+      torn.nodes.push_back({other, quadratic.point(between), false});
+    }
+    torn.elements.add(loose.elements.number(e), loose.elements.part(e), nodes);
+  }
+  try {
+    dealOut(std::move(torn), columns.own(), *world(), body_);
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("share the corners of a facet, but not node"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(DealtMeshTest, PartsThatAreNotJoinedInFacetsAreRefused) {

@@ -11,6 +11,8 @@
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 namespace epafi::decomposition {
 namespace {
 
@@ -34,7 +36,7 @@ Physical Surface("top") = Surface In BoundingBox{-1, -1, 0.99, 3, 2, 1.01};
 class SplitFilesTest : public testing::TestWithParam<std::tuple<int, int, std::string>> {
 protected:
   std::string path(const std::string& name) const { return folder() + '/' + name; }
-  const std::string& folder() const { return *folderOfFirst_; }
+  const std::string& folder() const { return folderOfFirst_; }
 
   /// A geometry, meshed and saved as whole.msh and as part_1.msh …
   void mesh(const std::string& geometry, int order, int files, const std::string& more) const {
@@ -94,7 +96,7 @@ protected:
 
 private:
   MeshFolder own_;
-  std::optional<std::string> folderOfFirst_ = [this] {
+  std::string folderOfFirst_ = [this] {
     const std::vector<char> name =
         gatherOnAll(*world(), world()->getRank() == 0 ? own_.path(".") : std::string());
     return std::string(name.begin(), name.end());
@@ -185,6 +187,27 @@ TEST_P(SplitFilesTest, GiveTheSameSubdomainsOnAnyNumberOfRanks) {
   EXPECT_EQ(here.problem.kernelDimension, alone.problem.kernelDimension);
 }
 
+TEST_P(SplitFilesTest, StandBesideBodiesOfOneFileAndBoxes) {
+  const auto [order, files, format] = GetParam();
+  mesh(boxes, order, files, format);
+  scene::Scene mixed = sceneOf("part_*.msh"), ofOneFile = sceneOf("whole.msh");
+  mixed.bodies[1].mesh.file = path("whole.msh");
+  for (scene::Scene* scene : {&mixed, &ofOneFile}) {
+    scene::Body box = body("box", "", "");
+    box.mesh.box = {{3, 0, 0}, {4, 1, 1}};
+    box.mesh.elements = {2, 3, 4};
+    box.mesh.order = order;
+    scene->bodies.insert(scene->bodies.begin(), box);
+    for (int* number : {&scene->contacts[0].first, &scene->contacts[0].second})
+      ++*number;
+  }
+  const Decomposition all = decompose(mixed, world(), Meshes::pieces);
+  const std::vector<double> a = works(mixed, all.bodies),
+                            b = works(ofOneFile, layoutBodies(ofOneFile, *world(), Meshes::pieces));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_NEAR(a[i], b[i], 1e-12 * std::abs(b[0])) << i;
+}
+
 constexpr const char* inText = "Mesh.MshFileVersion = 4.1; Mesh.Binary = 0;\n";
 /// Format 2.2 has no elements in two groups.
 constexpr const char* withGroup =
@@ -233,7 +256,11 @@ TEST_P(RefusedSplitFilesTest, WhatNoPieceHasIsRefused) {
   expectRefused(scene, "no element has its centre in its box");
   scene = sceneOf("part_*.msh");
   scene.bodies[1].mesh.group = "middle";
-  expectRefused(scene, "body 'right': there are no elements of it");
+  expectRefused(scene, "body 'right': none of the files ");
+  expectRefused(scene, "they have 'left', 'right'");
+  scene.bodies[1].mesh.group = "right";
+  scene.bodies[1].decomposition.parts = 1000000;
+  expectRefused(scene, "cannot be cut into 1000000 parts");
   scene = sceneOf("part_*.msh");
   scene.bodies[0].supports[0].surface = "ceiling";
   expectRefused(scene, "names the surface 'ceiling'");
@@ -253,7 +280,7 @@ TEST_P(RefusedSplitFilesTest, PiecesThatAreNotJoinedAreRefused) {
   scene::Scene scene = sceneOf("part_*.msh");
   scene.bodies = {body("left", path("part_*.msh"), "")};
   scene.contacts.clear();
-  expectRefused(scene, "body 'left': ");
+  expectRefused(scene, "parts are not joined with the others");
 }
 
 TEST_P(RefusedSplitFilesTest, MeshesThatEachRankWantsWholeAreRefused) {

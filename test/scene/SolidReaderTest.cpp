@@ -268,6 +268,8 @@ TEST(SolidReaderTest, MeshesInSeveralFilesAreThoseOfGmshAndNotRefined) {
   cube.remove("Elements");
   cube.set("Mesh", "cube_*.geo");
   expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh\"", "must end in .msh"});
+  cube.set("Mesh", "cube_*_*.msh");
+  expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh\"", "one *"});
   cube.set("Mesh", "cube_*.msh").set("Mesh Refinements", 1);
   expectSays(refusal([&] { scene::readScene(list, "a.xml"); }), {"\"Mesh Refinements\"", "read as it is"});
 }
