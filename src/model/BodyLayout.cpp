@@ -6,11 +6,8 @@
 #include "epafi/fem/GmshReader.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/model/ClusterSize.hpp"
+#include "epafi/model/LayoutInPieces.hpp"
 #include "epafi/model/MeshFiles.hpp"
-#include "epafi/model/MeshPieces.hpp"
-#include "epafi/model/SplitFiles.hpp"
-
-#include <Teuchos_DefaultSerialComm.hpp>
 
 #include <algorithm>
 #include <array>
@@ -117,7 +114,7 @@ std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, const MeshFil
   if (!source.file.empty())
     return std::make_unique<const fem::UnstructuredMesh>(
         files.at(keyOf(source)).body(source.group, source.order));
-  return std::make_unique<const fem::StructuredMesh>(source.box, source.elements, source.order);
+  return structuredMesh(source);
 }
 
 /// Whether two bodies are meshed and cut alike: their partitions are the same.
@@ -130,18 +127,13 @@ bool areCutAlike(const fem::Mesh& a, const scene::Decomposition& cut, const fem:
                                                            : cut.counts == other.counts;
 }
 
-/// Of a body in errors.
-std::string inBody(const scene::Body& body, const InputError& error) {
-  return "body '" + body.name + "': " + error.what();
-}
-
 /// Collective.
 std::shared_ptr<const Partition> cutByMetis(const scene::Body& body, int parts, const fem::Mesh& mesh,
                                             const Comm& comm) {
   try {
     return std::make_shared<const GraphPartition>(mesh, parts, comm);
   } catch (const InputError& error) { // the same on all ranks
-    throw InputError(inBody(body, error));
+    throw InputError("body '" + body.name + "': " + error.what());
   }
 }
 
@@ -168,111 +160,13 @@ void requireSameComponents(const scene::Scene& scene) {
           " unknowns a node; all bodies of a scene must have the same physics or the same dimension");
 }
 
-bool isFromFile(const scene::Body& body) {
-  return !body.mesh.file.empty();
-}
-
-bool isFromOneFile(const scene::Body& body) {
-  return isFromFile(body) && !scene::isSplit(body.mesh.file);
-}
-
-bool isFromFiles(const scene::Body& body) {
-  return isFromFile(body) && scene::isSplit(body.mesh.file);
-}
-
-/// All of it on one rank, numbers of nodes for keys; nothing on the others. Collective.
-LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
-  std::vector<MeshShare> shares;
-  FacetList facets;
-  collectively(comm, [&] {
-    if (whole == nullptr)
-      return;
-    shares.push_back({whole->mesh.get(), whole->partition.get(), [](GlobalOrdinal node) { return node; }});
-    for (const std::string& name : whole->mesh->surfaceNames()) {
-      const fem::Surface surface = whole->mesh->surface(name);
-      for (std::size_t f = 0; f < surface.numFacets(); ++f)
-        facets.add(name, surface.facet(f).first(static_cast<std::size_t>(numCornersOf(surface.facetType))));
-    }
-  });
-  return looseMeshOf(shares, std::make_shared<const FacetList>(gathered(facets, comm)), comm);
-}
-
-using LooseMeshes = std::vector<std::optional<LooseMesh>>; ///< of each body, if it comes from files
-
-/// Rank 0 makes a scene of the bodies that come from one file each, as a single rank would, and looks at them whole. Collective.
-void readOnFirst(const scene::Scene& scene, const Comm& comm, LooseMeshes& meshes) {
-  scene::Scene fromFiles(scene);
-  std::erase_if(fromFiles.bodies, [](const scene::Body& body) { return !isFromOneFile(body); });
-  std::vector<BodyLayout> whole; // on rank 0
-  collectively(comm, [&] {
-    if (comm.getRank() != 0 || fromFiles.bodies.empty())
-      return;
-    whole = layoutBodies(fromFiles, Teuchos::SerialComm<int>());
-    for (std::size_t b = 0; b < whole.size(); ++b)
-      makeModel(fromFiles.bodies[b], *whole[b].mesh); // says what is wrong
-  });
-  for (std::size_t b = 0, next = 0; b < meshes.size(); ++b)
-    if (isFromOneFile(scene.bodies[b])) {
-      meshes[b] = looseMeshOf(whole.empty() ? nullptr : &whole[next], comm);
-      if (!whole.empty())
-        whole[next] = {};
-      ++next;
-    }
-}
-
-/// Each rank its files. Collective.
-void readOnAll(const scene::Scene& scene, const Comm& comm, LooseMeshes& meshes) {
-  std::map<std::string, std::vector<std::size_t>> bodiesIn;
-  for (std::size_t b = 0; b < meshes.size(); ++b)
-    if (isFromFiles(scene.bodies[b]))
-      bodiesIn[scene.bodies[b].mesh.file].push_back(b);
-  for (const auto& [files, numbers] : bodiesIn) {
-    std::vector<const scene::Body*> bodies;
-    for (const std::size_t b : numbers)
-      bodies.push_back(&scene.bodies[b]);
-    std::vector<LooseMesh> read = readSplitFiles(bodies, comm);
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      meshes[numbers[i]] = std::move(read[i]);
-  }
-}
-
-/// Bodies whose meshes come from files, read and dealt out. Collective.
-std::vector<BodyLayout> layoutInPieces(const scene::Scene& scene, const Comm& comm) {
-  LooseMeshes loose(scene.bodies.size());
-  readOnFirst(scene, comm, loose);
-  readOnAll(scene, comm, loose);
-  std::vector<std::unique_ptr<const fem::Mesh>> meshes(scene.bodies.size());
-  std::vector<std::shared_ptr<const Partition>> partitions(scene.bodies.size());
-  collectively(comm, [&] {
-    for (std::size_t b = 0; b < meshes.size(); ++b)
-      if (loose[b])
-        partitions[b] = std::make_shared<const HeldPartition>(loose[b]->numParts, HeldElements{});
-      else
-        meshes[b] = makeMesh(scene.bodies[b], {});
-  });
-  std::vector<BodyLayout> bodies = cutBodies(scene, std::move(meshes), comm, std::move(partitions));
-  const Share share = shareOf(bodies, comm);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!loose[b])
-      continue;
-    const int first = bodies[b].firstSubdomain, number = bodies[b].partition->numParts();
-    const Share own{std::clamp(share.begin - first, 0, number), std::clamp(share.end - first, 0, number)};
-    try {
-      dealOut(std::move(*loose[b]), own, comm, bodies[b]);
-    } catch (const InputError& error) { // the same on all ranks
-      throw InputError(inBody(scene.bodies[b], error));
-    }
-    loose[b].reset();
-  }
-  return bodies;
-}
-
 } // namespace
 
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm, Meshes meshes) {
   std::vector<std::unique_ptr<const fem::Mesh>> made;
   collectively(comm, [&] { requireSameComponents(scene); });
-  const bool areSplit = std::any_of(scene.bodies.begin(), scene.bodies.end(), isFromFiles);
+  const bool areSplit = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                    [](const scene::Body& body) { return scene::isSplit(body.mesh.file); });
   if (meshes == Meshes::pieces && (areSplit || comm.getSize() > 1))
     return layoutInPieces(scene, comm);
   const MeshFiles files = readMeshFiles(scene, comm);
@@ -281,6 +175,10 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
       made.push_back(makeMesh(body, files));
   });
   return cutBodies(scene, std::move(made), comm);
+}
+
+std::unique_ptr<const fem::Mesh> structuredMesh(const scene::MeshSource& source) {
+  return std::make_unique<const fem::StructuredMesh>(source.box, source.elements, source.order);
 }
 
 int partsFor(const scene::Body& body, const fem::Mesh& mesh) {

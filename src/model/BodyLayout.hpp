@@ -40,6 +40,9 @@ std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
                                   std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm,
                                   std::vector<std::shared_ptr<const Partition>> partitions = {});
 
+/// The mesh of a body that has no file.
+std::unique_ptr<const fem::Mesh> structuredMesh(const scene::MeshSource& source);
+
 /// How many parts METIS makes of a mesh where the scene leaves it open.
 int partsFor(const scene::Body& body, const fem::Mesh& mesh);
 
