@@ -4,6 +4,8 @@
 
 #include "epafi/base/Types.hpp"
 
+#include <Teuchos_Comm.hpp>
+
 #include <cstddef>
 #include <functional>
 #include <map>
