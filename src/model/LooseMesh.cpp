@@ -21,16 +21,13 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& nam
 
 /// Collective.
 fem::CellType commonType(std::span<const MeshShare> shares, const Comm& comm) {
-  constexpr int none = -1;
-  int least = std::numeric_limits<int>::max(), most = none;
+  int least = std::numeric_limits<int>::max(), most = -1;
   for (const MeshShare& share : shares) {
     least = std::min(least, static_cast<int>(share.mesh->cellType()));
     most = std::max(most, static_cast<int>(share.mesh->cellType()));
   }
   least = minOverRanks(comm, least);
   most = maxOverRanks(comm, most);
-  if (most == none)
-    throw InputError("there are no elements of it in any of its mesh files");
   const auto a = static_cast<fem::CellType>(least), b = static_cast<fem::CellType>(most);
   if (a != b)
     throw InputError(std::string("its mesh files hold ") + toString(a) + "s and " + toString(b) +

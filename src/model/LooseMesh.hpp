@@ -91,7 +91,7 @@ struct MeshShare {
 };
 
 /// Numbers elements and parts through all shares of all ranks, in this order. \param facets  of named surfaces; see gathered()
-/// Collective. \throws InputError, the same on all ranks, if no rank has an element, or they are not of one kind.
+/// Precondition: some rank has elements. Collective. \throws InputError, the same on all ranks, if they are not of one kind.
 LooseMesh looseMeshOf(std::span<const MeshShare> shares, std::shared_ptr<const FacetList> facets,
                       const Comm& comm);
 

@@ -135,14 +135,13 @@ void SplitReader::requireElements(const scene::Body& body, GlobalOrdinal all, co
     std::string known;
     for (const std::string& group : allNames(groups_, comm))
       known += (known.empty() ? "'" : ", '") + group + "'";
-    throw InputError("body '" + body.name + "': none of the files " + inQuotes(body.mesh.file) +
-                     " has elements of a physical group " + inQuotes(body.mesh.group) + "; they have " +
-                     (known.empty() ? "no groups" : known));
+    throw InputError("none of the files " + inQuotes(body.mesh.file) + " has elements of a physical group " +
+                     inQuotes(body.mesh.group) + "; they have " + (known.empty() ? "no groups" : known));
   }
   if (body.decomposition.parts > all)
-    throw InputError("body '" + body.name + "' has " + std::to_string(all) +
-                     " elements and cannot be cut into " + std::to_string(body.decomposition.parts) +
-                     " parts; choose between 1 and " + std::to_string(all));
+    throw InputError("it has " + std::to_string(all) + " elements and cannot be cut into " +
+                     std::to_string(body.decomposition.parts) + " parts; choose between 1 and " +
+                     std::to_string(all));
 }
 
 LooseMesh SplitReader::take(std::size_t body, std::shared_ptr<const FacetList> facets, const Comm& comm) {
@@ -176,7 +175,11 @@ std::vector<LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies
   const auto facets = std::make_shared<const FacetList>(gathered(reader.facets(), comm));
   std::vector<LooseMesh> meshes;
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    meshes.push_back(reader.take(b, facets, comm));
+    try {
+      meshes.push_back(reader.take(b, facets, comm));
+    } catch (const InputError& error) { // the same on all ranks
+      throw InputError("body '" + bodies[b]->name + "': " + error.what());
+    }
   return meshes;
 }
 

@@ -260,6 +260,7 @@ TEST_P(RefusedSplitFilesTest, WhatNoPieceHasIsRefused) {
   expectRefused(scene, "they have 'left', 'right'");
   scene.bodies[1].mesh.group = "right";
   scene.bodies[1].decomposition.parts = 1000000;
+  expectRefused(scene, "body 'right': it has ");
   expectRefused(scene, "cannot be cut into 1000000 parts");
   scene = sceneOf("part_*.msh");
   scene.bodies[0].supports[0].surface = "ceiling";
