@@ -18,9 +18,6 @@ constexpr int maxFaces = 300;
 constexpr int patience = 24;      ///< faces in a row with no smaller gradient to begin with
 constexpr int caution = 4;        ///< from so many of them on one bound is released at a time
 constexpr int maxFaceSteps = 200; ///< of CG before the face is looked at again
-/// Of ‖Zg‖ and of (gᵀMg)^½ before the face is looked at. Of both: the energy alone can be that of one direction which M overrates,
-/// gone after a step; the norm alone, that of one which hardly moves x. Less, and wrong decisions are paid by further faces.
-constexpr double reduction = 0.1;
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
 constexpr double safety = 0.5;
 constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
@@ -59,6 +56,7 @@ private:
   Vector best_;                 ///< the point with the least gradient on entering a face
   Vector inside_, next_, work_; ///< x projected; the next face
   FusedReduction reduction_;
+  double faceReduction_;
   double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled
   long long numActive_ = 0;
   bool isAtOrigin_ = false; ///< where the method starts
@@ -71,7 +69,8 @@ ActiveSets::ActiveSets(const ActiveSetProblem& problem, const Vector& start, con
       tolerances_(tolerances), interruption_(limits.timeLimit),
       on_(objective_, problem.preconditioner, problem.equality, interruption_, counts_),
       best_(start, Teuchos::Copy), inside_(objective_.map()), next_(objective_.map()),
-      work_(objective_.map()), reduction_(objective_.map()->getComm(), 3) {
+      work_(objective_.map()), reduction_(objective_.map()->getComm(), 3),
+      faceReduction_(problem.faceReduction) {
   objective_.setLinearTerm(*problem.linearTerm, 0);
   if (tolerances.error != nullptr)
     watch_.emplace(*tolerances.error);
@@ -138,7 +137,8 @@ bool ActiveSets::holdsEquality() const {
 
 /// CG until ‖Zg‖ and (gᵀMg)^½ have fallen to a share of themselves, or are small enough.
 std::optional<Status> ActiveSets::minimise() {
-  const double goal = reduction * reduction * on_.energy(), most = reduction * on_.gradientNorm();
+  const double goal = faceReduction_ * faceReduction_ * on_.energy(),
+               most = faceReduction_ * on_.gradientNorm();
   for (int step = 0; (on_.energy() > goal || on_.gradientNorm() > most) && !isNearlySmall(); ++step) {
     if (on_.wish())
       return on_.wish();

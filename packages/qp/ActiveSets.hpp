@@ -23,6 +23,10 @@ struct ActiveSetProblem {
   RCP<const ReplicatedEquality> equality; ///< Bx = c; null for none
   RCP<const Operator> preconditioner;     ///< M ≈ A⁻¹, or null; used as P_F M P_F
   double operatorNorm = 1;                ///< ‖A‖ on Ker B, about
+  /// What CG takes ‖Zg‖ and (gᵀMg)^½ down to before a face is looked at, a share of them where it was entered. Of both: the energy alone can be
+  /// that of one direction which M overrates, gone after a step; the norm alone, that of one which hardly moves x. Less, and wrong decisions are
+  /// paid by further faces.
+  double faceReduction = 0.1;
 };
 
 /// \param x     in: start; out: the last point, in Ω

@@ -8,6 +8,10 @@
 /// invert B D⁻¹ Bᵀ at each node, or lose the lower bound of their spectrum (Klawonn, Widlund, *Comm. Pure Appl. Math.* 54
 /// (2001), section 4; orthonormal rows with equal weights: Dostál, Kozubek, Sadowská, Vondrák, *Scalable Algorithms for
 /// Contact Problems*).
+///
+/// Between clusters (Clusters.hpp) a row b is multiplied by (b D⁻¹bᵀ)^−½, over its mean of all these rows, so that all have the same length in D⁻¹.
+/// Forces between clusters are then projected to equilibrium by P as in FETI with the scaling Q = diag (B D⁻¹Bᵀ)⁻¹, which knows of jumps of the
+/// stiffness (Farhat, Chen, Mandel, Roux, *Comput. Methods Appl. Mech. Engrg.* 167 (1998); Klawonn, Widlund, as above).
 
 #include "epafi/decomposition/Crosspoints.hpp"
 
@@ -26,10 +30,12 @@ struct GluingRows {
   GlobalOrdinal numRows = 0;            ///< of the whole problem
 };
 
+/// \param clusterOf  of each subdomain of the whole problem
 /// \param stiffness  K^s of each subdomain in the basis in which the rows act
 /// \param firstRow   number of the first one
 /// Collective.
 GluingRows gluingRows(const Substructures& all, const SharedNodes& shared, const Crosspoints& crosspoints,
+                      std::span<const int> clusterOf,
                       std::span<const std::shared_ptr<const SparseMatrix>> stiffness, GlobalOrdinal firstRow);
 
 } // namespace epafi::decomposition

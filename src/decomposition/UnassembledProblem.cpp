@@ -296,8 +296,8 @@ void UnassembledProblem::attach() {
   std::vector<std::shared_ptr<const SparseMatrix>> stiffness;
   for (const Subdomain& subdomain : problem_.subdomains)
     stiffness.push_back(subdomain.stiffness);
-  const GluingRows gluing =
-      gluingRows(view(), shared_, *crosspoints_, stiffness, problem_.numInequalities + problem_.numTies);
+  const GluingRows gluing = gluingRows(view(), shared_, *crosspoints_, problem_.clusterOf, stiffness,
+                                       problem_.numInequalities + problem_.numTies);
   Constraints constraints = joinRows(rows, ownContact, gluing, comm_);
   problem_.numEqualities = problem_.numTies + gluing.numRows;
   problem_.multiplierMap = constraints.multiplierMap;

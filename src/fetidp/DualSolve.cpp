@@ -321,14 +321,16 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
   } else {
     const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lower));
     const double norm = dual_.norm().norm;
-    iterate({dual_.operators().flexibility(), rhs_, set, dual_.coarseSpace(),
-             dual_.operators().facePreconditioner, norm},
-            tolerances, mu, observer, [&](Vector& x, const qp::MprgpParameters& mprgp) {
-              std::vector<double> multiplier;
-              return qp::solveEqualityBoundProblem(
-                  {dual_.hessian(), rhs_, set, dual_.coarseSpace(), dual_.preconditioner(), norm}, x,
-                  multiplier, tolerances, dual_.parameters().smalbe, mprgp, observer);
-            });
+    qp::ActiveSetProblem faces{dual_.operators().flexibility(),      rhs_, set, dual_.coarseSpace(),
+                               dual_.operators().facePreconditioner, norm};
+    if (problem_.clusters.size() > problem_.bodies.size() && problem_.components > 1)
+      faces.faceReduction = 0.02; // a new face disturbs the forces between clusters, and these the contact
+    iterate(faces, tolerances, mu, observer, [&](Vector& x, const qp::MprgpParameters& mprgp) {
+      std::vector<double> multiplier;
+      return qp::solveEqualityBoundProblem(
+          {dual_.hessian(), rhs_, set, dual_.coarseSpace(), dual_.preconditioner(), norm}, x, multiplier,
+          tolerances, dual_.parameters().smalbe, mprgp, observer);
+    });
   }
   solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
   const Eigen::VectorXd rest = space.product(*solution_.lambda) - resultants;

@@ -3,6 +3,8 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -10,9 +12,9 @@
 namespace epafi::fetidp {
 namespace {
 
-/// An entry of B_E: row of the joint, place in Δ, value, and the value over δ.
+/// An entry of B_E: row of the joint, unknown and its place in Δ, value, and the value over δ.
 struct Entry {
-  Eigen::Index row, place;
+  Eigen::Index row, unknown, place;
   double coefficient, weighted;
 };
 
@@ -27,8 +29,9 @@ std::vector<Entry> entriesOf(const decomposition::Subdomain& subdomain, const Su
       const double delta = scaling == PreconditionerParameters::Scaling::stiffness
                                ? subdomain.stiffness->coeff(entry.unknown, entry.unknown)
                                : 1.0;
-      entries.push_back({found->second, interface.positionOf[static_cast<std::size_t>(entry.unknown)],
-                         entry.coefficient, entry.coefficient / delta});
+      entries.push_back({found->second, entry.unknown,
+                         interface.positionOf[static_cast<std::size_t>(entry.unknown)], entry.coefficient,
+                         entry.coefficient / delta});
     }
   return entries;
 }
@@ -58,6 +61,7 @@ void forEachTable(Part& part, const Action& action) {
   action(part.crosspointDiagonal);
   action(part.weightedStiffness);
   action(part.weights);
+  action(part.motions);
 }
 
 /// Far below what any threshold asks for, and above the round-off of S but where stiffness jumps by orders of magnitude.
@@ -93,20 +97,33 @@ Eigen::MatrixXd crosspointFlexibility(const std::vector<JointPart>& parts) {
   return modes * eigen.values.cwiseMax(spring).cwiseInverse().asDiagonal() * modes.transpose();
 }
 
+/// Orthonormal columns that span those of a matrix, but for its round-off.
+Eigen::MatrixXd spanOf(const Eigen::MatrixXd& columns) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
+  qr.setThreshold(1e-8);
+  qr.compute(columns);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  basis.applyOnTheLeft(qr.householderQ());
+  return basis;
+}
+
 } // namespace
 
-JointPart::JointPart(int number, Eigen::Index numRows, Eigen::Index numCrosspoints)
-    : subdomain(number), crosspoints(static_cast<std::size_t>(numCrosspoints)),
+JointPart::JointPart(int number, int ofCluster, Eigen::Index numRows, Eigen::Index numCrosspoints,
+                     Eigen::Index numMotions)
+    : subdomain(number), cluster(ofCluster), crosspoints(static_cast<std::size_t>(numCrosspoints)),
       flexibility(Eigen::MatrixXd::Zero(numRows, numRows)),
       response(Eigen::MatrixXd::Zero(numRows, numCrosspoints)),
       crosspointStiffness(Eigen::MatrixXd::Zero(numCrosspoints, numCrosspoints)),
       crosspointDiagonal(Eigen::VectorXd::Zero(numCrosspoints)),
-      weightedStiffness(Eigen::MatrixXd::Zero(numRows, numRows)), weights(Eigen::VectorXd::Zero(numRows)) {}
+      weightedStiffness(Eigen::MatrixXd::Zero(numRows, numRows)), weights(Eigen::VectorXd::Zero(numRows)),
+      motions(Eigen::MatrixXd::Zero(numRows, numMotions)) {}
 
-JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdomain& condensed,
+JointPart partOf(const decomposition::Subdomain& subdomain, int cluster, const CondensedSubdomain& condensed,
                  const CondensedBoundary& boundary, std::span<const int> rows,
                  PreconditionerParameters::Scaling scaling) {
-  JointPart part(subdomain.number, static_cast<Eigen::Index>(rows.size()), condensed.numCrosspoints());
+  JointPart part(subdomain.number, cluster, static_cast<Eigen::Index>(rows.size()),
+                 condensed.numCrosspoints(), subdomain.kernel.cols());
   part.crosspoints = subdomain.crosspointIndices;
   part.crosspointStiffness = condensed.schurComplement();
   part.crosspointDiagonal = subdomain.stiffness->diagonal()(subdomain.crosspointUnknowns);
@@ -114,6 +131,7 @@ JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdo
   for (const Entry& b : entries) {
     part.response.row(b.row) += b.coefficient * condensed.boundaryResponse().row(b.place);
     part.weights[b.row] += b.coefficient * b.weighted;
+    part.motions.row(b.row) += b.coefficient * subdomain.kernel.row(b.unknown);
     for (const Entry& a : entries) {
       part.flexibility(a.row, b.row) +=
           a.coefficient * b.coefficient * boundary.flexibility(a.place, b.place);
@@ -124,15 +142,15 @@ JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdo
 }
 
 void pack(GlobalOrdinal firstRow, const JointPart& part, std::vector<std::byte>& message) {
-  put(message,
-      std::array<GlobalOrdinal, 4>{firstRow, part.subdomain, part.response.rows(), part.response.cols()});
+  put(message, std::array<GlobalOrdinal, 6>{firstRow, part.subdomain, part.cluster, part.response.rows(),
+                                            part.response.cols(), part.motions.cols()});
   forEachTable(part, [&](const auto& table) { put(message, table); });
 }
 
 std::pair<GlobalOrdinal, JointPart> unpack(std::span<const std::byte>& message) {
-  std::array<GlobalOrdinal, 4> head{};
+  std::array<GlobalOrdinal, 6> head{};
   take(message, head);
-  JointPart part(static_cast<int>(head[1]), head[2], head[3]);
+  JointPart part(static_cast<int>(head[1]), static_cast<int>(head[2]), head[3], head[4], head[5]);
   forEachTable(part, [&](auto& table) { take(message, table); });
   return {head[0], std::move(part)};
 }
@@ -151,7 +169,25 @@ JointStiffness joined(const std::vector<JointPart>& parts) {
   return joint;
 }
 
-OverratedJumps overratedJumps(const JointStiffness& joint, double threshold) {
+Eigen::MatrixXd motionsOf(const std::vector<JointPart>& parts) {
+  std::map<int, Eigen::MatrixXd> ofCluster;
+  for (const JointPart& part : parts)
+    if (const auto [motions, isNew] = ofCluster.try_emplace(part.cluster, part.motions); !isNew)
+      motions->second += part.motions;
+  Eigen::Index numMotions = 0;
+  for (const auto& [cluster, motions] : ofCluster)
+    numMotions += ofCluster.size() > 1 ? motions.cols() : 0;
+  Eigen::MatrixXd all(parts.front().weights.size(), numMotions);
+  Eigen::Index column = 0;
+  for (const auto& [cluster, motions] : ofCluster)
+    if (numMotions > 0) {
+      all.middleCols(column, motions.cols()) = motions;
+      column += motions.cols();
+    }
+  return all;
+}
+
+OverratedJumps overratedJumps(const JointStiffness& joint, double threshold, const Eigen::MatrixXd& motions) {
   const std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(joint.preconditioner); // M_E = LLᵀ
   if (!lower)
     throw Error(
@@ -159,15 +195,25 @@ OverratedJumps overratedJumps(const JointStiffness& joint, double threshold) {
         "very flat elements and very large jumps of stiffness, or set Adaptive Constraints/Use to 'no'");
   const Eigen::MatrixXd product =
       lower->transpose() * joint.flexibility * *lower; // LᵀF_E L x = ω x, y = F_E L x, M_E y = ω L x
-  const Eigen::MatrixXd symmetric = 0.5 * (product + product.transpose());
+  Eigen::MatrixXd symmetric = 0.5 * (product + product.transpose());
+  if (motions.cols() > 0) { // Gu = 0
+    const Eigen::MatrixXd held = spanOf(lower->transpose() * motions);
+    symmetric -= (held * (held.transpose() * symmetric)).eval();
+    symmetric -= ((symmetric * held) * held.transpose()).eval();
+  }
   const Eigen::Index size = symmetric.rows();
   if (direct::choleskyFactor(threshold * Eigen::MatrixXd::Identity(size, size) - symmetric))
     return {Eigen::VectorXd(0), Eigen::MatrixXd(size, 0), Eigen::MatrixXd(size, 0)}; // all ω are below it
   const direct::SymmetricEigen eigen = direct::eigenOf(symmetric);
   const Eigen::Index number = size - eigen.numUpTo(threshold);
   const Eigen::MatrixXd x = eigen.vectors.rightCols(number).rowwise().reverse();
+  Eigen::MatrixXd forces = *lower * x;
+  if (motions.cols() > 0) { // to the last digit
+    const Eigen::MatrixXd held = spanOf(motions);
+    forces -= held * (held.transpose() * forces);
+  }
   return {eigen.values.tail(number).reverse(), lower->transpose().triangularView<Eigen::Upper>().solve(x),
-          *lower * x};
+          std::move(forces)};
 }
 
 } // namespace epafi::fetidp

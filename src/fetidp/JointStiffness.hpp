@@ -22,9 +22,11 @@ namespace epafi::fetidp {
 
 /// What one subdomain contributes to a joint of n_E rows; n_c crosspoint values.
 struct JointPart {
-  JointPart(int number, Eigen::Index numRows, Eigen::Index numCrosspoints); ///< all 0
+  JointPart(int number, int ofCluster, Eigen::Index numRows, Eigen::Index numCrosspoints,
+            Eigen::Index numMotions); ///< all 0
 
   int subdomain;                                        ///< its number
+  int cluster;                                          ///< likewise
   std::vector<decomposition::CoarseNumber> crosspoints; ///< coarse index of each crosspoint value
   Eigen::MatrixXd flexibility;                          ///< B_E S_ΔΔ⁻¹ B_Eᵀ, n_E × n_E
   Eigen::MatrixXd response;                             ///< B_E Ψ_Δ, n_E × n_c
@@ -32,10 +34,12 @@ struct JointPart {
   Eigen::VectorXd crosspointDiagonal;                   ///< diag K_cc, n_c
   Eigen::MatrixXd weightedStiffness; ///< B_E D⁻¹ S_ΔΔ D⁻¹ B_Eᵀ, n_E × n_E, D the weights of the scaling
   Eigen::VectorXd weights;           ///< Σ b²/δ of each row, n_E
+  Eigen::MatrixXd motions;           ///< B_E R, n_E × the rigid motions of its cluster
 };
 
-/// \param rows  the joint's rows, local indices in multiplierGhostMap; the subdomain must touch each. Not collective.
-JointPart partOf(const decomposition::Subdomain& subdomain, const CondensedSubdomain& condensed,
+/// \param cluster  of the subdomain
+/// \param rows     the joint's rows, local indices in multiplierGhostMap; the subdomain must touch each. Not collective.
+JointPart partOf(const decomposition::Subdomain& subdomain, int cluster, const CondensedSubdomain& condensed,
                  const CondensedBoundary& boundary, std::span<const int> rows,
                  PreconditionerParameters::Scaling scaling);
 
@@ -53,6 +57,10 @@ struct JointStiffness {
 /// stiffness there, or of the size of round-off, hold the crosspoints, so that F_E is just large. Not collective.
 JointStiffness joined(const std::vector<JointPart>& parts);
 
+/// The joint's rows of Gᵀ, n_E × the rigid motions of its clusters; no column where all subdomains are of one cluster, whose motions jump
+/// nowhere. Not collective.
+Eigen::MatrixXd motionsOf(const std::vector<JointPart>& parts);
+
 /// Jumps that M overrates: all y with M_E y = ω F_E⁻¹ y, ω > threshold, made of length 1 in M_E, and u = M_E y. A constraint
 /// uᵀB_E w = 0 takes y out of the iteration, and with all of them yᵀM_E y ≤ threshold · yᵀF_E⁻¹y for what is left.
 struct OverratedJumps {
@@ -61,8 +69,10 @@ struct OverratedJumps {
   Eigen::MatrixXd forces; ///< u = M_E y, likewise
 };
 
+/// \param motions  columns to which u is to be orthogonal, n_E × any number: the eigenproblem is that of such u
 /// Costs n_E³/3 operations for a joint without any, about 10 n_E³ for others. \throws Error if M_E is not positive definite.
 /// Not collective.
-OverratedJumps overratedJumps(const JointStiffness& joint, double threshold);
+OverratedJumps overratedJumps(const JointStiffness& joint, double threshold,
+                              const Eigen::MatrixXd& motions = {});
 
 } // namespace epafi::fetidp

@@ -106,18 +106,9 @@ std::vector<Joint> jointsOf(const DecomposedProblem& problem, const Import& plan
   const std::vector<std::vector<int>> subdomains = subdomainsOfRows(problem, plan);
   const Map& ghosts = *plan.getTargetMap();
   std::map<std::vector<int>, std::vector<int>> rowsOf;
-  const auto clusterOf = [&problem](int number) {
-    return problem.clusterOf[static_cast<std::size_t>(number)];
-  };
-  const auto gluesClusters = [&](const std::vector<int>& numbers) {
-    return kind == RowKind::gluing && std::any_of(numbers.begin(), numbers.end(), [&](int number) {
-             return clusterOf(number) != clusterOf(numbers.front());
-           });
-  };
   for (std::size_t row = 0; row < subdomains.size(); ++row)
     if (problem.kindOf(decomposition::TouchedMultiplier(static_cast<LocalOrdinal>(row))) == kind &&
-        !subdomains[row].empty() && subdomains[row].back() < problem.numSubdomains &&
-        !gluesClusters(subdomains[row]))
+        !subdomains[row].empty() && subdomains[row].back() < problem.numSubdomains)
       rowsOf[subdomains[row]].push_back(static_cast<int>(row));
   const auto before = [&ghosts](int a, int b) {
     return ghosts.getGlobalElement(a) < ghosts.getGlobalElement(b);

@@ -2,8 +2,8 @@
 
 /// Which subdomains the rows of B join. All rows of gluing that join the same ones form a *joint*: in the plane an edge
 /// between two subdomains of a body; in space a face, or the part of an edge where the same three or more meet. So do the
-/// rows of contact between the same subdomains of two bodies, or between one and an obstacle. Rows that touch crosspoint values,
-/// or glue clusters (Clusters.hpp), whose rigid motions G takes care of, are in none.
+/// rows of contact between the same subdomains of two bodies, or between one and an obstacle. Rows that touch crosspoint values
+/// are in none.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 

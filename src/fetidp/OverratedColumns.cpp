@@ -101,7 +101,8 @@ void forEachPart(const DecomposedProblem& problem, GeneralizedInverse& inverse,
       if (boundary.stiffness.size() == 0)
         boundary = group.condensedBoundary();
       for (const std::size_t j : found->second)
-        action(j, partOf(subdomain, group.condensed(), boundary, joints[j].rows, scaling));
+        action(j, partOf(subdomain, problem.clusterOf[static_cast<std::size_t>(subdomain.number)],
+                         group.condensed(), boundary, joints[j].rows, scaling));
     }
   }
 }
@@ -192,7 +193,9 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, Generali
       if (parts[j].empty())
         continue;
       ++columns.numJoints;
-      jumps[j] = overratedJumps(joined(parts[j]), parameters.threshold);
+      // Motions of clusters are left to G.
+      jumps[j] = overratedJumps(joined(parts[j]), parameters.threshold,
+                                kind == RowKind::gluing ? motionsOf(parts[j]) : Eigen::MatrixXd());
       for (Eigen::Index k = 0; k < jumps[j].ratios.size(); ++k)
         mine.push_back({jumps[j].ratios[k], firstRowOf(joints[j], problem), k});
     }

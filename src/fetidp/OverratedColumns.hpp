@@ -40,8 +40,8 @@ OverratedColumns findOverratedColumns(const decomposition::DecomposedProblem& pr
 
 /// U beside A: the columns themselves, or M times them. Costs a product with A for each, and with M, 32 at once.
 ///
-/// Columns of gluing have no entries in rows of contact, so that bounds are not touched, and rigid motions keep bodies glued,
-/// so that GU = 0 and GP = G: λ = Pμ + U(UᵀFU)⁻¹Uᵀd̃ is in equilibrium if μ is, and PᵀFP is the dual operator of the
+/// Columns of gluing have no entries in rows of contact, so that bounds are not touched. Rigid motions of a cluster keep it glued, and between
+/// clusters columns are chosen in equilibrium, so that GU = 0 and GP = G: λ = Pμ + U(UᵀFU)⁻¹Uᵀd̃ is in equilibrium if μ is, and PᵀFP is the dual operator of the
 /// displacements with UᵀBu = 0 (Klawonn, Rheinbach, *ZAMM* 92 (2012)).
 /// \param plan  from multiplierMap to multiplierGhostMap
 /// \param m     null: the columns themselves

@@ -5,12 +5,14 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 
+#include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace epafi::decomposition {
 namespace {
@@ -128,6 +130,42 @@ TEST(ClustersTest, TheirMotionsCostNothingAndAmongThemAreThoseOfTheBodies) {
     for (GlobalOrdinal row = p.numInequalities; row < p.dualDimension(); ++row)
       for (int mode = 0; mode < p.numRigidModes(); ++mode)
         EXPECT_NEAR(jumps[static_cast<std::size_t>(row * p.numRigidModes() + mode)], 0, 1e-9) << row;
+  }
+}
+
+/// Σ b²/δ of each row of gluing over its entries, δ = diag K^s. Collective.
+std::map<GlobalOrdinal, double> lengthsOfRows(const DecomposedProblem& problem) {
+  struct Square {
+    GlobalOrdinal row;
+    double value;
+  };
+  std::vector<Square> mine;
+  for (const Subdomain& s : problem.subdomains)
+    for (const auto& entry : s.constraint)
+      if (problem.kindOf(TouchedMultiplier(entry.multiplier)) == RowKind::gluing)
+        mine.push_back(
+            {problem.multiplierGhostMap->getGlobalElement(entry.multiplier),
+             entry.coefficient * entry.coefficient / s.stiffness->coeff(entry.unknown, entry.unknown)});
+  std::map<GlobalOrdinal, double> lengths;
+  for (const Square& square : gatherOnAll(*problem.comm, mine))
+    lengths[square.row] += square.value;
+  return lengths;
+}
+
+TEST(ClustersTest, RowsBetweenThemAreOfOneLengthHoweverTheStiffnessJumps) {
+  for (const auto& [cut, isEach] :
+       {std::pair(clustered(grid(3, 3), 1), true), {clustered(grid(3, 2), 2), false}}) {
+    scene::Scene scene = oneBody(12, 12, cut, {{"wall", "left", {0.0}}});
+    scene.bodies[0].regions = {{"stiff", scene::rectangle(0.2, 0.6, 0.1, 0.9), "", {1e5}}};
+    const Decomposition cutScene = decompose(scene, world());
+    const std::map<GlobalOrdinal, double> lengths = lengthsOfRows(cutScene.problem);
+    ASSERT_GT(lengths.size(), 20U);
+    const auto [least, largest] = std::minmax_element(
+        lengths.begin(), lengths.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (isEach)
+      EXPECT_LE(largest->second, (1 + 1e-12) * least->second);
+    else // within a cluster entries are 1 and −1
+      EXPECT_GE(largest->second, 1e3 * least->second);
   }
 }
 

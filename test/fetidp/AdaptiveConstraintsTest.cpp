@@ -46,6 +46,13 @@ scene::Scene oneBodyWithChannels(double jump, const scene::Decomposition& cut) {
   return scene;
 }
 
+/// Without the channels upwards, with which those along make one stiff grid of each subdomain.
+scene::Scene withoutUpwards(scene::Scene scene) {
+  for (scene::Body& body : scene.bodies)
+    std::erase_if(body.regions, [](const auto& region) { return region.name == "upwards"; });
+  return scene;
+}
+
 /// F, M and what deflation makes of F.
 struct Deflated : Preconditioned {
   Deflated(const scene::Scene& scene, const AdaptiveConstraintParameters& parameters,
@@ -107,10 +114,29 @@ TEST(AdaptiveConstraintsTest, FUIsFWithoutWhatUStandsFor) {
 }
 
 TEST(AdaptiveConstraintsTest, UTouchesNeitherContactNorEquilibrium) {
-  const Deflated d(channels(false, 1e3, grid(2, 2)), {Use::yes, 3});
-  const Eigen::MatrixXd u = d.columns();
-  EXPECT_EQ(u.topRows(static_cast<Eigen::Index>(d.problem.numInequalities)).norm(), 0);
-  EXPECT_LE((kernelRows(d.problem).transpose() * u).norm(), 1e-12 * u.norm());
+  for (const auto& cut :
+       {grid(2, 2), clustered(grid(4, 1), 1), clustered(grid(4, 2), 2), clustered(metis(6), 2)}) {
+    SCOPED_TRACE(testing::Message() << cut.counts[0] << ' ' << cut.counts[1] << ' ' << cut.cluster);
+    const scene::Scene all = channels(false, 1e3, cut);
+    const Deflated d(cut.cluster > 0 ? withoutUpwards(all) : all, {Use::yes, 3});
+    const Eigen::MatrixXd u = d.columns();
+    ASSERT_GT(u.cols(), 0);
+    EXPECT_EQ(u.topRows(static_cast<Eigen::Index>(d.problem.numInequalities)).norm(), 0);
+    EXPECT_LE((kernelRows(d.problem).transpose() * u).norm(), 1e-12 * u.norm());
+  }
+}
+
+/// Joints of several clusters are looked at like others, but for the motions of these, which G takes care of.
+TEST(AdaptiveConstraintsTest, ChannelsThroughClustersCostNothing) {
+  for (const auto& cut : {clustered(grid(3, 1), 1), clustered(grid(4, 2), 1)}) {
+    SCOPED_TRACE(testing::Message() << cut.counts[0] << ' ' << cut.counts[1]);
+    const auto largest = [&](double jump, double threshold) {
+      const Deflated d(withoutUpwards(oneBodyWithChannels(jump, cut)), {Use::yes, threshold}, thisRankOnly());
+      return spectrum(d, d.m).maxCoeff();
+    };
+    EXPECT_LE(largest(1e6, 6), 2 * largest(1, 6));
+    EXPECT_GE(largest(1e6, 1e12), 1e3);
+  }
 }
 
 TEST(AdaptiveConstraintsTest, TheSpectrumOfGluingIsBoundedByTheThreshold) {

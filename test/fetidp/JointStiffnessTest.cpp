@@ -22,7 +22,8 @@ std::vector<JointPart> partsOf(const Preconditioned& p, const Joint& joint,
       for (const std::size_t member : group.members())
         if (p.problem.subdomains[member].number == number)
           parts.push_back(partOf(
-              p.problem.subdomains[member], group.condensed(),
+              p.problem.subdomains[member], p.problem.clusterOf[static_cast<std::size_t>(number)],
+              group.condensed(),
               {group.condensed().factor().schurComplement(), group.condensed().factor().inverseOfKept()},
               joint.rows, scaling));
   return parts;
@@ -152,12 +153,14 @@ TEST(JointStiffnessTest, PartsSurviveAMessage) {
     const auto [firstRow, received] = unpack(rest);
     EXPECT_EQ(firstRow, number++);
     EXPECT_EQ(received.subdomain, part.subdomain);
+    EXPECT_EQ(received.cluster, part.cluster);
     EXPECT_EQ(received.crosspoints, part.crosspoints);
     EXPECT_EQ(received.flexibility, part.flexibility);
     EXPECT_EQ(received.response, part.response);
     EXPECT_EQ(received.crosspointStiffness, part.crosspointStiffness);
     EXPECT_EQ(received.crosspointDiagonal, part.crosspointDiagonal);
     EXPECT_EQ(received.weightedStiffness, part.weightedStiffness);
+    EXPECT_EQ(received.motions, part.motions);
     EXPECT_EQ(received.weights, part.weights);
   }
   EXPECT_TRUE(rest.empty());
