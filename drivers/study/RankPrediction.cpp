@@ -66,7 +66,7 @@ Row timeCrosspoints(const std::string& problem, const model::Decomposition& cut,
 
 Row timeMotions(const std::string& problem, const model::Decomposition& cut, const Comm& alone) {
   const Eigen::SparseMatrix<double> gram =
-      fetidp::kernelGram(cut.problem, fetidp::kernelConstraint(cut.problem));
+      fetidp::kernelGram(cut.problem, fetidp::kernelConstraint(cut.problem), RankGroups(cut.problem.comm, 1));
   const double begin = Teuchos::Time::wallTime();
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(gram);
   const double setup = Teuchos::Time::wallTime() - begin;

@@ -19,11 +19,11 @@ EvenShares::EvenShares(RCP<const Comm> comm, int number) : comm_(std::move(comm)
 }
 
 int EvenShares::first() const {
-  return offsets_[static_cast<std::size_t>(comm_->getRank())];
+  return first(comm_->getRank());
 }
 
 int EvenShares::size() const {
-  return counts_[static_cast<std::size_t>(comm_->getRank())];
+  return size(comm_->getRank());
 }
 
 void EvenShares::gather(std::span<const double> mine, std::span<double> all) const {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace epafi::fetidp {
 namespace {
@@ -43,8 +44,8 @@ std::size_t placeIn(const Pairs& pairs, std::int64_t pair) {
   return static_cast<std::size_t>(std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin());
 }
 
-/// All pairs of the rows, of all ranks. Collective.
-Pairs pairsOf(const Comm& comm, const std::vector<KernelEntry>& entries, int size) {
+/// The pairs of this rank's rows, ascending. Not collective.
+Pairs pairsOf(const std::vector<KernelEntry>& entries, int size) {
   Pairs pairs;
   std::span<const KernelEntry> last; // neighbours in a face join the same modes
   const auto haveSameMode = [](const KernelEntry& a, const KernelEntry& b) { return a.mode == b.mode; };
@@ -54,9 +55,41 @@ Pairs pairsOf(const Comm& comm, const std::vector<KernelEntry>& entries, int siz
     last = row;
   });
   sortOnce(pairs);
-  pairs = gatherOnAll(comm, pairs);
-  sortOnce(pairs);
   return pairs;
+}
+
+/// What rows add to an entry.
+struct GramTerm {
+  std::int64_t pair;
+  AccurateSum sum;
+};
+using GramTerms = std::vector<GramTerm>;
+
+/// This rank's, ascending by pairs. Not collective.
+GramTerms termsOf(const std::vector<KernelEntry>& entries, int size) {
+  const Pairs pairs = pairsOf(entries, size);
+  GramTerms terms;
+  for (const std::int64_t pair : pairs)
+    terms.push_back({pair, {}});
+  forEachRow(entries, [&](std::span<const KernelEntry> row) {
+    forEachPair(row, size,
+                [&](std::int64_t pair, double value) { terms[placeIn(pairs, pair)].sum.add(value); });
+  });
+  return terms;
+}
+
+/// Those of several ranks, one for each pair.
+GramTerms merged(GramTerms terms) {
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const GramTerm& a, const GramTerm& b) { return a.pair < b.pair; });
+  std::size_t size = 0;
+  for (const GramTerm& term : terms)
+    if (size > 0 && terms[size - 1].pair == term.pair)
+      terms[size - 1].sum.add(term.sum);
+    else
+      terms[size++] = term;
+  terms.resize(size);
+  return terms;
 }
 
 /// See ContactGram. Not collective.
@@ -91,20 +124,18 @@ std::vector<int> anchorsAmong(const std::vector<int>& modes,
 } // namespace
 
 Eigen::SparseMatrix<double> kernelGram(const decomposition::DecomposedProblem& problem,
-                                       const std::vector<KernelEntry>& entries) {
+                                       const std::vector<KernelEntry>& entries, const RankGroups& groups) {
   const int size = problem.kernelDimension;
-  const Pairs pairs = pairsOf(*problem.comm, entries, size);
-  std::vector<AccurateSum> sums(pairs.size());
-  forEachRow(entries, [&](std::span<const KernelEntry> row) {
-    forEachPair(row, size, [&](std::int64_t pair, double value) { sums[placeIn(pairs, pair)].add(value); });
-  });
-  sumOverRanks(*problem.comm, sums);
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    triplets.emplace_back(static_cast<int>(pairs[i] % size), static_cast<int>(pairs[i] / size),
-                          sums[i].value());
   Eigen::SparseMatrix<double> matrix(size, size);
+  GramTerms terms = gatherOnFirst(*groups.group(), termsOf(entries, size));
+  if (!groups.leads())
+    return matrix;
+  terms = merged(gatherOnAll(*groups.leaders(), merged(std::move(terms))));
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(terms.size());
+  for (const GramTerm& term : terms)
+    triplets.emplace_back(static_cast<int>(term.pair % size), static_cast<int>(term.pair / size),
+                          term.sum.value());
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   return matrix;
 }
@@ -126,7 +157,8 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
     entry.mode =
         static_cast<int>(std::lower_bound(modes_.begin(), modes_.end(), entry.mode) - modes_.begin());
   const int size = static_cast<int>(modes_.size());
-  pairs_ = pairsOf(*comm_, contact, size);
+  pairs_ = gatherOnAll(*comm_, pairsOf(contact, size));
+  sortOnce(pairs_);
   forEachRow(contact, [&](std::span<const KernelEntry> row) {
     forEachPair(row, size, [&](std::int64_t pair, double value) {
       terms_.push_back({placeIn(pairs_, pair), row.front().row, value});

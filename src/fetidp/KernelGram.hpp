@@ -2,6 +2,7 @@
 
 /// N = G̃G̃ᵀ, k × k and sparse: a row of B touches few clusters, and so a cluster of subdomains meets its neighbours alone.
 
+#include "epafi/base/RankGroups.hpp"
 #include "epafi/fetidp/KernelConstraint.hpp"
 
 #include <Eigen/SparseCore>
@@ -11,10 +12,11 @@
 
 namespace epafi::fetidp {
 
-/// N, lower triangle, the same on every rank to the last digit. \param entries  see kernelConstraint
+/// N, lower triangle, the same to the last digit on all ranks that lead a group; without entries on the others.
+/// \param entries  see kernelConstraint
 /// Collective.
 Eigen::SparseMatrix<double> kernelGram(const decomposition::DecomposedProblem& problem,
-                                       const std::vector<KernelEntry>& entries);
+                                       const std::vector<KernelEntry>& entries, const RankGroups& groups);
 
 /// What rows of contact add to N, at the n modes that they touch.
 class ContactGram {

@@ -21,7 +21,7 @@ std::span<double> entriesOf(Eigen::VectorXd& x) {
 NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& problem,
                                        std::vector<KernelEntry> entries, GramInverse::Form form)
     : comm_(problem.comm), entries_(std::move(entries)),
-      inverse_(std::make_shared<const GramInverse>(problem, kernelGram(problem, entries_), form)),
+      inverse_(std::make_shared<const GramInverse>(problem, entries_, form)),
       contactGram_(std::make_shared<const ContactGram>(problem, entries_)),
       sums_(static_cast<std::size_t>(problem.kernelDimension)), product_(problem.kernelDimension),
       motion_(problem.kernelDimension) {}

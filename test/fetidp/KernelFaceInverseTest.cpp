@@ -163,7 +163,12 @@ TEST(KernelGramTest, IsTheProductOfTheRowsOnAnyNumberOfRanks) {
   for (const ContactCase& c : cutCases()) {
     SCOPED_TRACE(c.name);
     const Cut cut(c.scene);
-    const Eigen::MatrixXd gram(kernelGram(cut.problem, cut.entries));
+    const int ranks = cut.problem.comm->getSize();
+    const Eigen::MatrixXd gram(kernelGram(cut.problem, cut.entries, RankGroups(cut.problem.comm, ranks)));
+    const RankGroups half(cut.problem.comm, (ranks + 1) / 2);
+    const Eigen::MatrixXd ofLeaders(kernelGram(cut.problem, cut.entries, half));
+    EXPECT_EQ((ofLeaders - (half.leads() ? gram : Eigen::MatrixXd::Zero(gram.rows(), gram.cols()))).norm(),
+              0);
     const ContactGram contact(cut.problem, cut.entries);
     const DenseProblem dense = densify(cut.problem);
     const Eigen::MatrixXd gt = dense.constraint * dense.kernel; // G̃ᵀ
@@ -171,7 +176,8 @@ TEST(KernelGramTest, IsTheProductOfTheRowsOnAnyNumberOfRanks) {
       return Eigen::MatrixXd(m.triangularView<Eigen::Lower>());
     };
     const auto cutAlone = decompose(c.scene, thisRankOnly());
-    const Eigen::MatrixXd alone(kernelGram(cutAlone.problem, kernelConstraint(cutAlone.problem)));
+    const Eigen::MatrixXd alone(
+        kernelGram(cutAlone.problem, kernelConstraint(cutAlone.problem), RankGroups(thisRankOnly(), 1)));
     EXPECT_LE((gram - alone).norm(), 1e-14 * gt.squaredNorm());
     for (const RCP<Vector>& face : faces(cut.problem)) {
       const Eigen::VectorXd isOff = Eigen::VectorXd::Ones(gt.rows()) - gathered(*face);
