@@ -52,6 +52,8 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
   CoarserScene coarser{scene, {}, {}};
   const auto isQuadratic = [&](std::size_t b) { return fem::orderOf(fine[b].mesh->cellType()) == 2; };
   const std::size_t number = fine.size();
+  for (scene::Body& body : coarser.scene.bodies)
+    body.decomposition.cluster = scene::Decomposition().cluster; // few subdomains fit few clusters
   bool hasQuadratic = false, isCoarser = false;
   for (std::size_t b = 0; b < number; ++b)
     hasQuadratic = hasQuadratic || isQuadratic(b);
