@@ -52,11 +52,6 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
   CoarserScene coarser{scene, {}, {}};
   const auto isQuadratic = [&](std::size_t b) { return fem::orderOf(fine[b].mesh->cellType()) == 2; };
   const std::size_t number = fine.size();
-  // Few subdomains are few clusters; but what is dealt out stays cut as it is.
-  if (std::none_of(fine.begin(), fine.end(),
-                   [](const model::BodyLayout& body) { return body.mesh->part() != nullptr; }))
-    for (scene::Body& body : coarser.scene.bodies)
-      body.decomposition.cluster = scene::Decomposition().cluster;
   bool hasQuadratic = false, isCoarser = false;
   for (std::size_t b = 0; b < number; ++b)
     hasQuadratic = hasQuadratic || isQuadratic(b);
@@ -94,7 +89,8 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
         meshes.push_back(piece->ofOrder1());
       else
         meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(arraysOf(simplicesOf(*body.mesh), 1)));
-      partitions.push_back(piece != nullptr ? body.partition : nullptr);
+      partitions.push_back(piece != nullptr ? body.partition
+                                            : nullptr); // what is dealt out stays cut as it is
     }
   });
   coarser.bodies = model::cutBodies(coarser.scene, std::move(meshes), comm, std::move(partitions));

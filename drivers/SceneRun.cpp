@@ -109,6 +109,9 @@ std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::Paramet
     std::optional<CoarserScene> coarser = coarserScene(run.scene, run.decomposition->bodies, *comm);
     if (!coarser)
       return std::nullopt;
+    for (scene::Body& body :
+         coarser->scene.bodies) // so few unknowns need no clusters; ranks keep the subdomains that they have
+      body.decomposition.cluster = std::min(body.decomposition.cluster, 0);
     Teuchos::ParameterList parameters(solverParameters);
     parameters.set("Tolerance", enough);
     Silent silent(options.companion);

@@ -153,8 +153,10 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   decomposition::UnassembledProblem problem(comm, models.front()->components(),
                                             describeBodies(result.bodies, models), placesOf(models));
   std::vector<int> clusters;
-  for (const BodyLayout& body : result.bodies)
-    clusters.push_back(body.cluster);
+  for (std::size_t b = 0; b < result.bodies.size(); ++b) {
+    const int asked = scene.bodies[b].decomposition.cluster;
+    clusters.push_back(asked >= 0 ? asked : result.bodies[b].cluster);
+  }
   problem.setClusterSizes(std::move(clusters));
   const Share share = shareOf(result.bodies, *comm);
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
