@@ -125,15 +125,21 @@ private:
           result_.elsewhere.push_back(row);
         else if (link == copy.order)
           result_.owned.push_back(row);
-        const double size =
-            isBetween_[copy.node] ? std::sqrt(stiffness_.ofRow(copy.node, link, c) / mean_) : 1.0;
-        result_.rows[s].push_back({row++, unknowns[c], size * coefficient(c)});
+        result_.rows[s].push_back({row++, unknowns[c], size(copy.node, link, c) * coefficient(c)});
       }
   }
 
   /// δ_i / Σ δ_j over the copies up to the link's, i the copy.
   [[nodiscard]] double share(const SharedNodes::Copy& copy, std::size_t link, std::size_t component) const {
     return stiffness_.at(copy.node, copy.order, component) / stiffness_.upTo(copy.node, link, component);
+  }
+
+  /// Whether a row is one between clusters. What has no stiffness is for the factorisations to refuse.
+  [[nodiscard]] bool hasSize(std::size_t node, std::size_t link, std::size_t component) const {
+    return isBetween_[node] && stiffness_.ofRow(node, link, component) > 0;
+  }
+  [[nodiscard]] double size(std::size_t node, std::size_t link, std::size_t component) const {
+    return hasSize(node, link, component) ? std::sqrt(stiffness_.ofRow(node, link, component) / mean_) : 1.0;
   }
 
   /// Of the stiffness of all rows between clusters the geometric mean, the same on any number of ranks. Collective.
@@ -144,7 +150,7 @@ private:
         const std::size_t slot = shared_.slot(copy.node, copy.order);
         const std::span<const int> unknowns = all_.unknownsAt(s, copy.place);
         for (std::size_t c = 0; c < unknowns.size(); ++c)
-          if (isBetween_[copy.node] && links_[slot] >= 0 && unknowns[c] >= 0) {
+          if (links_[slot] >= 0 && unknowns[c] >= 0 && hasSize(copy.node, copy.order, c)) {
             sums[0].add(std::log(stiffness_.ofRow(copy.node, copy.order, c)));
             sums[1].add(1.0);
           }

@@ -106,6 +106,36 @@ TEST(JointStiffnessTest, OverratedJumpsAreThoseAboveTheThreshold) {
   EXPECT_EQ(overratedJumps(joint, 51).forces.rows(), 4);
 }
 
+TEST(JointStiffnessTest, ForcesThatMotionsForbidAreLeftOut) {
+  const JointStiffness joint{Eigen::Vector4d(5, 50, 2, 7.5).asDiagonal(),
+                             Eigen::Vector4d(1, 1, 1, 4).asDiagonal()}; // ω = 5, 50, 2, 30
+  Eigen::MatrixXd motions(4, 2);
+  motions << 0, 0, 1, 2, 0, 0, 0, 0; // one motion twice
+  const OverratedJumps jumps = overratedJumps(joint, 10, motions);
+  ASSERT_EQ(jumps.ratios.size(), 1);
+  EXPECT_NEAR(jumps.ratios[0], 30, 1e-12);
+  motions << 0, 1, 1, 0, 0, 0, 0, 1;
+  const OverratedJumps mixed = overratedJumps(joint, 9, motions); // u = (2, 0, 0, −2) is left of 5 and 30
+  ASSERT_EQ(mixed.ratios.size(), 1);
+  EXPECT_NEAR(mixed.ratios[0], (4 * 5 + 30) / 5.0, 1e-12);
+  EXPECT_LE((motions.transpose() * mixed.forces).norm(), 1e-15);
+}
+
+TEST(JointStiffnessTest, MotionsJumpBetweenClustersAlone) {
+  for (const int size : {0, 1, 2}) {
+    scene::Scene scene = elasticBar(4, 1);
+    scene.bodies[0].decomposition.cluster = size;
+    const Preconditioned p(scene, {}, thisRankOnly());
+    const Eigen::MatrixXd rows = kernelRows(p.problem); // G̃ᵀ
+    for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing)) {
+      const Eigen::MatrixXd motions = motionsOf(partsOf(p, joint)),
+                            expected = rows(globalRows(p, joint), Eigen::all);
+      EXPECT_NEAR(motions.norm(), expected.norm(), 1e-12 * (1 + expected.norm()));
+      EXPECT_EQ(motions.cols() > 0, expected.norm() > 1e-12);
+    }
+  }
+}
+
 TEST(JointStiffnessTest, RefusesAPreconditionerThatIsNotPositive) {
   const JointStiffness joint{Eigen::Vector2d(1, 1).asDiagonal(), Eigen::Vector2d(1, -1).asDiagonal()};
   EXPECT_THROW(overratedJumps(joint, 10), Error);
