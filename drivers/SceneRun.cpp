@@ -6,11 +6,13 @@
 #include "epafi/accuracy/Transfer.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/model/ClusterSize.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace epafi::drivers {
@@ -96,6 +98,16 @@ Teuchos::ParameterList chosenFor(const decomposition::DecomposedProblem& problem
   return parameters;
 }
 
+/// A few subdomains need no clusters, which cost products. Ranks keep the subdomains that they have. Not collective.
+void joinClusters(CoarserScene& coarser, int numRanks) {
+  GlobalOrdinal number = 0;
+  for (const model::BodyLayout& body : coarser.bodies)
+    number += body.partition->numParts();
+  for (scene::Body& body : coarser.scene.bodies)
+    if (!model::clustersPay(scene::dimensionOf(body.physics), number, numRanks))
+      body.decomposition.cluster = 0;
+}
+
 /// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Before the run is set up, and without
 /// its factors: there is memory for one set of them. What goes wrong there is no matter. Collective.
 std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
@@ -109,9 +121,7 @@ std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::Paramet
     std::optional<CoarserScene> coarser = coarserScene(run.scene, run.decomposition->bodies, *comm);
     if (!coarser)
       return std::nullopt;
-    for (scene::Body& body :
-         coarser->scene.bodies) // so few unknowns need no clusters; ranks keep the subdomains that they have
-      body.decomposition.cluster = std::min(body.decomposition.cluster, 0);
+    joinClusters(*coarser, comm->getSize());
     Teuchos::ParameterList parameters(solverParameters);
     parameters.set("Tolerance", enough);
     Silent silent(options.companion);

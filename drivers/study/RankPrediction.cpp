@@ -3,6 +3,7 @@
 #include "Median.hpp"
 #include "ScalingScene.hpp"
 
+#include "epafi/base/RankGroups.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/fetidp/KernelConstraint.hpp"
 #include "epafi/fetidp/KernelGram.hpp"

@@ -4,6 +4,7 @@
 
 #include "epafi/base/Types.hpp"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -9,7 +9,7 @@ namespace epafi {
 /// Consecutive ranks in groups as large as each other, or larger by one. The first rank of a group *leads* it.
 class RankGroups {
 public:
-  /// \param number  of the groups, at least one; of as many as ranks each rank leads itself. Collective.
+  /// \param number  of the groups, from one to as many as ranks, each of which then leads itself. Collective.
   RankGroups(const RCP<const Comm>& comm, int number);
 
   [[nodiscard]] int number() const { return number_; }

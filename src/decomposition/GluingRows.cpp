@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace epafi::decomposition {
 namespace {
@@ -38,6 +39,7 @@ std::vector<GlobalOrdinal> numberLinks(const Substructures& all, const SharedNod
   return rows;
 }
 
+/// Whether a node's rows have weights, shares of copies in means: those of nodes with two copies are u_0 − u_1 = 0.
 bool hasMeans(const SharedNodes& shared, std::size_t node) {
   return shared.subdomainsAt(node).size() > 2;
 }
@@ -54,7 +56,7 @@ std::vector<bool> nodesBetweenClusters(const SharedNodes& shared, std::span<cons
   return between;
 }
 
-/// δ = diag K^s of all copies at shared nodes, component by component; of nodes whose rows have weights.
+/// δ = diag K^s of all copies at nodes whose rows have weights or sizes, component by component.
 class NodalStiffness {
 public:
   /// Collective.
@@ -134,12 +136,16 @@ private:
     return stiffness_.at(copy.node, copy.order, component) / stiffness_.upTo(copy.node, link, component);
   }
 
-  /// Whether a row is one between clusters. What has no stiffness is for the factorisations to refuse.
+  /// Whether a row is one between clusters, of things with stiffness: what has none is for the factorisations to refuse.
   [[nodiscard]] bool hasSize(std::size_t node, std::size_t link, std::size_t component) const {
-    return isBetween_[node] && stiffness_.ofRow(node, link, component) > 0;
+    const double stiffness = isBetween_[node] ? stiffness_.ofRow(node, link, component) : 0.0;
+    return stiffness > 0 && std::isfinite(stiffness);
   }
+  /// What it is multiplied by; 1 for other rows. Beyond 10^±3 digits of P are lost.
   [[nodiscard]] double size(std::size_t node, std::size_t link, std::size_t component) const {
-    return hasSize(node, link, component) ? std::sqrt(stiffness_.ofRow(node, link, component) / mean_) : 1.0;
+    return hasSize(node, link, component)
+               ? std::sqrt(std::clamp(stiffness_.ofRow(node, link, component) / mean_, 1e-6, 1e6))
+               : 1.0;
   }
 
   /// Of the stiffness of all rows between clusters the geometric mean, the same on any number of ranks. Collective.

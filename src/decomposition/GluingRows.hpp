@@ -9,8 +9,8 @@
 /// (2001), section 4; orthonormal rows with equal weights: Dostál, Kozubek, Sadowská, Vondrák, *Scalable Algorithms for
 /// Contact Problems*).
 ///
-/// Between clusters (Clusters.hpp) a row b is multiplied by (b D⁻¹bᵀ)^−½, over its mean of all these rows, so that all have the same length in D⁻¹.
-/// Forces between clusters are then projected to equilibrium by P as in FETI with the scaling Q = diag (B D⁻¹Bᵀ)⁻¹, which knows of jumps of the
+/// Between clusters (Clusters.hpp) a row b is multiplied by its size, (b D⁻¹bᵀ)^−½ over the geometric mean of all these rows, so that all have the same length in
+/// D⁻¹. P, orthogonal in their multipliers, is then the projector with the scaling Q = (b D⁻¹bᵀ)⁻¹ of those of rows that are not multiplied, which knows of jumps of the
 /// stiffness (Farhat, Chen, Mandel, Roux, *Comput. Methods Appl. Mech. Engrg.* 167 (1998); Klawonn, Widlund, as above).
 
 #include "epafi/decomposition/Crosspoints.hpp"

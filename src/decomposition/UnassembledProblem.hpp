@@ -102,7 +102,8 @@ public:
 
   /// f^s in the order of SubdomainMatrix::unknowns.
   void setLoad(std::size_t subdomain, const Eigen::VectorXd& load);
-  /// K^s with the pattern it had, in the order of SubdomainMatrix::unknowns. Supports must leave the same motions free.
+  /// K^s with the pattern it had, in the order of SubdomainMatrix::unknowns. Supports must leave the same motions free. The weights of gluing rows stay
+  /// those of the old matrices until setContact.
   void setMatrix(std::size_t subdomain, const SparseMatrix& stiffness);
   /// c on the row map of the contact matrix.
   void setGap(const Vector& gap);

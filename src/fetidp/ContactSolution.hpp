@@ -16,12 +16,13 @@ struct ContactSolution {
   std::vector<Eigen::VectorXd> displacement;
   RCP<Vector>
       multiplier; ///< λ on multiplierMap; a positive λ_I is the force that pushes the bodies apart at a node
-  RCP<Vector> slack; ///< c − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E
+  RCP<Vector>
+      slack; ///< c − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E, times the row's size between clusters
   RCP<Vector> active; ///< 1 where contact is closed, 0 elsewhere, on multiplierMap
 
   // How accurate it is, recomputed from u and λ alone; all relative, without units.
   double relativeProjectedGradient = 0;
-  double feasibility = 0;     ///< largest violation of Bu ≤ c, relative to the largest |u| and |c|
+  double feasibility = 0;     ///< largest penetration or jump, relative to the largest |u| and |c|
   double complementarity = 0; ///< |λ_Iᵀ(c − Bu)| relative to the energy
   double equilibrium =
       0; ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes (0 without floating bodies)

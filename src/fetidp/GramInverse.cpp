@@ -5,8 +5,12 @@
 #include "epafi/base/PointToPoint.hpp"
 #include "epafi/fetidp/KernelGram.hpp"
 
+#include <Eigen/SparseCore>
+#include <Teuchos_Comm.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -25,15 +29,38 @@ Triplets entriesOf(const Eigen::SparseMatrix<double>& matrix) {
   return entries;
 }
 
-/// What the leader of a group makes for each of its ranks, one after the other.
+/// What the leader of a group makes for each of its ranks, one after the other; nothing more from the one on that fails, which all are told of.
+/// Collective over `comm`.
 template <class Value, class Make>
-std::vector<Value> ofLeader(const RankGroups& groups, const Make& make) {
+std::vector<Value> ofLeader(const Comm& comm, const RankGroups& groups, const Make& make) {
   const Comm& group = *groups.group();
-  if (!groups.leads())
-    return exchange(group, std::map<int, std::vector<Value>>(), {0}).at(0);
-  for (int rank = 1; rank < group.getSize(); ++rank)
-    exchange(group, std::map<int, std::vector<Value>>{{rank, make(rank)}}, {});
-  return make(0);
+  std::exception_ptr failure;
+  const auto made = [&](int rank) -> std::vector<Value> {
+    try {
+      return failure ? std::vector<Value>() : make(rank);
+    } catch (const std::exception&) {
+      failure = std::current_exception();
+      return {};
+    }
+  };
+  std::vector<Value> mine;
+  if (groups.leads()) {
+    mine = made(0);
+    for (int rank = 1; rank < group.getSize(); ++rank)
+      exchange(group, std::map<int, std::vector<Value>>{{rank, made(rank)}}, {});
+  } else {
+    mine = std::move(exchange(group, std::map<int, std::vector<Value>>(), {0}).at(0));
+  }
+  collectively(comm, [&] {
+    if (failure)
+      std::rethrow_exception(failure);
+  });
+  return mine;
+}
+
+/// How many of P ranks have N and its factor while rows are made: √P, or one of sixteen if these are more, so that none makes more than 16 ranks' rows.
+int numLeaders(int ranks) {
+  return std::max(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(ranks)))), ranks / 16);
 }
 
 } // namespace
@@ -44,9 +71,7 @@ GramInverse::GramInverse(const decomposition::DecomposedProblem& problem,
   if (form == Form::automatic && (comm_->getSize() == 1 || problem.clusters.size() <= problem.bodies.size()))
     form = Form::sparse;
   const int ranks = comm_->getSize();
-  const RankGroups groups(comm_, form == Form::sparse
-                                     ? ranks
-                                     : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(ranks)))));
+  const RankGroups groups(comm_, form == Form::sparse ? ranks : numLeaders(ranks));
   gram_ = kernelGram(problem, entries, groups);
   collectively(*comm_, [&] {
     if (!groups.leads())
@@ -77,11 +102,11 @@ void GramInverse::spread(const RankGroups& groups) {
   const auto columnsOf = [&](int rank) { // of the group
     return std::pair(shares_.first(here + rank), shares_.size(here + rank));
   };
-  const Triplets mine = ofLeader<Eigen::Triplet<double>>(groups, [&](int rank) {
+  const Triplets mine = ofLeader<Eigen::Triplet<double>>(*comm_, groups, [&](int rank) {
     const auto [first, number] = columnsOf(rank);
     return entriesOf(all.middleCols(first, number));
   });
-  const std::vector<double> rows = ofLeader<double>(groups, [&](int rank) {
+  const std::vector<double> rows = ofLeader<double>(*comm_, groups, [&](int rank) {
     const auto [first, number] = columnsOf(rank);
     std::vector<double> columns(static_cast<std::size_t>(size_) * static_cast<std::size_t>(number));
     for (int j = 0; j < number; ++j)
@@ -100,11 +125,13 @@ void GramInverse::share(const RankGroups& groups) {
   if (groups.number() == comm_->getSize())
     return;
   const Triplets entries =
-      ofLeader<Eigen::Triplet<double>>(groups, [this](int /*rank*/) { return entriesOf(gram_); });
-  if (factor_)
-    return;
-  gram_.setFromTriplets(entries.begin(), entries.end());
-  factor_.emplace(gram_);
+      ofLeader<Eigen::Triplet<double>>(*comm_, groups, [this](int /*rank*/) { return entriesOf(gram_); });
+  collectively(*comm_, [&] {
+    if (factor_)
+      return;
+    gram_.setFromTriplets(entries.begin(), entries.end());
+    factor_.emplace(gram_);
+  });
 }
 
 void GramInverse::apply(std::span<const double> b, std::span<double> alpha) const {

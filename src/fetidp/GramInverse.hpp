@@ -3,8 +3,8 @@
 /// N⁻¹ of N = G̃G̃ᵀ (KernelGram.hpp), the coarse problem of P, for small vectors that every rank has. In one of two forms:
 ///   sparse  a Cholesky factor on every rank, which each solves with: nothing to send, but of the whole problem's size;
 ///   spread  a share of the rows of N⁻¹ on each rank, dense: 8k²/P bytes on P ranks, k/P dot products and a gathering of k numbers.
-/// Many clusters on few ranks are cheaper sparse; a few on each of many ranks, spread. Rows are made by √P ranks, which alone have N and its factor
-/// for that time, each for as many of its neighbours.
+/// Many clusters on few ranks are cheaper sparse; a few on each of many ranks, spread. Rows are made by √P ranks, or one of sixteen if these are more, which
+/// alone have N and its factor for that time, each for its neighbours.
 
 #include "epafi/base/EvenShares.hpp"
 #include "epafi/base/RankGroups.hpp"

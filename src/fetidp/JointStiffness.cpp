@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 namespace epafi::fetidp {
 namespace {
@@ -51,7 +52,7 @@ void take(std::span<const std::byte>& message, Values& values) {
   message = message.subspan(bytes.size());
 }
 
-/// All of a part but its number.
+/// All of a part but its numbers.
 template <class Part, class Action>
 void forEachTable(Part& part, const Action& action) {
   action(part.crosspoints);
@@ -67,9 +68,9 @@ void forEachTable(Part& part, const Action& action) {
 /// Far below what any threshold asks for, and above the round-off of S but where stiffness jumps by orders of magnitude.
 constexpr double leastSpring = 1e-12;
 
-/// What the subdomains' crosspoints, merged, add to the flexibility: H C⁻¹ Hᵀ with H = Σ B_E Ψ_Δ L_c, C = Σ L_cᵀ S L_c; motions
+/// What the subdomains' crosspoints, merged, add to the flexibility: R Rᵀ = H C⁻¹ Hᵀ with H = Σ B_E Ψ_Δ L_c, C = Σ L_cᵀ S L_c; motions
 /// without stiffness meet a spring.
-Eigen::MatrixXd crosspointFlexibility(const std::vector<JointPart>& parts) {
+Eigen::MatrixXd crosspointResponse(const std::vector<JointPart>& parts) {
   std::map<GlobalOrdinal, Eigen::Index> placeOf;
   for (const JointPart& part : parts)
     for (const decomposition::CoarseNumber crosspoint : part.crosspoints)
@@ -89,20 +90,29 @@ Eigen::MatrixXd crosspointFlexibility(const std::vector<JointPart>& parts) {
     diagonal(places) += part.crosspointDiagonal;
   }
   if (size == 0)
-    return Eigen::MatrixXd::Zero(response.rows(), response.rows());
+    return response;
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   const direct::SymmetricEigen eigen = direct::eigenOf(scale.asDiagonal() * stiffness * scale.asDiagonal());
   const double spring = std::max(leastSpring, -10 * eigen.values[0]); // what is negative is round-off
-  const Eigen::MatrixXd modes = response * scale.asDiagonal() * eigen.vectors;
-  return modes * eigen.values.cwiseMax(spring).cwiseInverse().asDiagonal() * modes.transpose();
+  return response * scale.asDiagonal() * eigen.vectors *
+         eigen.values.cwiseMax(spring).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Orthonormal columns that span those of a matrix, but for its round-off.
+/// Orthonormal columns that span those of a matrix, whatever their lengths, but for round-off.
 Eigen::MatrixXd spanOf(const Eigen::MatrixXd& columns) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
   qr.setThreshold(1e-8);
-  qr.compute(columns);
+  qr.compute(columns.colwise().normalized());
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  basis.applyOnTheLeft(qr.householderQ());
+  return basis;
+}
+
+/// Orthonormal columns that span what the given ones, of full rank, are orthogonal to.
+Eigen::MatrixXd complementOf(const Eigen::MatrixXd& columns) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  Eigen::MatrixXd basis =
+      Eigen::MatrixXd::Identity(columns.rows(), columns.rows()).rightCols(columns.rows() - columns.cols());
   basis.applyOnTheLeft(qr.householderQ());
   return basis;
 }
@@ -156,11 +166,12 @@ std::pair<GlobalOrdinal, JointPart> unpack(std::span<const std::byte>& message) 
 }
 
 JointStiffness joined(const std::vector<JointPart>& parts) {
-  JointStiffness joint{crosspointFlexibility(parts),
-                       Eigen::MatrixXd::Zero(parts.front().weights.size(), parts.front().weights.size())};
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(parts.front().weights.size());
+  const Eigen::Index size = parts.front().weights.size();
+  JointStiffness joint{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, size),
+                       crosspointResponse(parts)};
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(size);
   for (const JointPart& part : parts) {
-    joint.flexibility += part.flexibility;
+    joint.ofBoundaries += part.flexibility;
     joint.preconditioner += part.weightedStiffness;
     weights += part.weights;
   }
@@ -193,27 +204,25 @@ OverratedJumps overratedJumps(const JointStiffness& joint, double threshold, con
     throw Error(
         "the preconditioner of an interface is not positive definite: round-off has grown too large; avoid "
         "very flat elements and very large jumps of stiffness, or set Adaptive Constraints/Use to 'no'");
-  const Eigen::MatrixXd product =
-      lower->transpose() * joint.flexibility * *lower; // LᵀF_E L x = ω x, y = F_E L x, M_E y = ω L x
-  Eigen::MatrixXd symmetric = 0.5 * (product + product.transpose());
-  if (motions.cols() > 0) { // Gu = 0
-    const Eigen::MatrixXd held = spanOf(lower->transpose() * motions);
-    symmetric -= (held * (held.transpose() * symmetric)).eval();
-    symmetric -= ((symmetric * held) * held.transpose()).eval();
+  Eigen::MatrixXd basis = *lower, held(lower->rows(), 0); // of u = L x, and of what it is orthogonal to
+  if (motions.cols() > 0) {
+    held = spanOf(motions);
+    basis = *lower * complementOf(lower->transpose() * held); // before springs come in, which are large there
   }
-  const Eigen::Index size = symmetric.rows();
-  if (direct::choleskyFactor(threshold * Eigen::MatrixXd::Identity(size, size) - symmetric))
-    return {Eigen::VectorXd(0), Eigen::MatrixXd(size, 0), Eigen::MatrixXd(size, 0)}; // all ω are below it
+  Eigen::MatrixXd product =
+      basis.transpose() * joint.ofBoundaries * basis; // LᵀF_E L x = ω x, y = F_E L x, M_E y = ω L x
+  const Eigen::MatrixXd atCrosspoints = joint.response.transpose() * basis;
+  product += atCrosspoints.transpose() * atCrosspoints;
+  const Eigen::MatrixXd symmetric = 0.5 * (product + product.transpose());
+  const Eigen::Index rows = basis.rows(), size = basis.cols();
+  if (size == 0 || direct::choleskyFactor(threshold * Eigen::MatrixXd::Identity(size, size) - symmetric))
+    return {Eigen::VectorXd(0), Eigen::MatrixXd(rows, 0), Eigen::MatrixXd(rows, 0)}; // all ω are below it
   const direct::SymmetricEigen eigen = direct::eigenOf(symmetric);
   const Eigen::Index number = size - eigen.numUpTo(threshold);
-  const Eigen::MatrixXd x = eigen.vectors.rightCols(number).rowwise().reverse();
-  Eigen::MatrixXd forces = *lower * x;
-  if (motions.cols() > 0) { // to the last digit
-    const Eigen::MatrixXd held = spanOf(motions);
-    forces -= held * (held.transpose() * forces);
-  }
-  return {eigen.values.tail(number).reverse(), lower->transpose().triangularView<Eigen::Upper>().solve(x),
-          std::move(forces)};
+  Eigen::MatrixXd forces = basis * eigen.vectors.rightCols(number).rowwise().reverse();
+  forces -= held * (held.transpose() * forces); // round-off of the basis
+  const auto c = lower->triangularView<Eigen::Lower>();
+  return {eigen.values.tail(number).reverse(), c.transpose().solve(c.solve(forces)), std::move(forces)};
 }
 
 } // namespace epafi::fetidp

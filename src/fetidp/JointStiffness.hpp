@@ -26,7 +26,7 @@ struct JointPart {
             Eigen::Index numMotions); ///< all 0
 
   int subdomain;                                        ///< its number
-  int cluster;                                          ///< likewise
+  int cluster;                                          ///< that of its cluster
   std::vector<decomposition::CoarseNumber> crosspoints; ///< coarse index of each crosspoint value
   Eigen::MatrixXd flexibility;                          ///< B_E S_ΔΔ⁻¹ B_Eᵀ, n_E × n_E
   Eigen::MatrixXd response;                             ///< B_E Ψ_Δ, n_E × n_c
@@ -48,9 +48,13 @@ void pack(GlobalOrdinal firstRow, const JointPart& part, std::vector<std::byte>&
 /// Takes first row and part off the front of `message`.
 std::pair<GlobalOrdinal, JointPart> unpack(std::span<const std::byte>& message);
 
-/// F_E and M_E, n_E × n_E, symmetric positive definite.
+/// F_E = `ofBoundaries` + R Rᵀ and M_E, n_E × n_E, symmetric positive definite.
 struct JointStiffness {
-  Eigen::MatrixXd flexibility, preconditioner;
+  Eigen::MatrixXd ofBoundaries;   ///< Σ B_E S_ΔΔ⁻¹ B_Eᵀ
+  Eigen::MatrixXd preconditioner; ///< M_E
+  Eigen::MatrixXd response;       ///< R: how the joint follows its crosspoints, n_E × any number
+
+  [[nodiscard]] Eigen::MatrixXd flexibility() const { return ofBoundaries + response * response.transpose(); }
 };
 
 /// Adds the parts up in the order given. Where the subdomains are a mechanism F_E is infinite: springs of 10⁻¹² times the

@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
+#include "epafi/fetidp/SharedRows.hpp"
 
 #include <Tpetra_Map.hpp>
 
@@ -42,11 +43,11 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
 }
 
 /// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
-/// problem.
-void assess(const DecomposedProblem& problem, const DualSolution& dual, double operatorNorm,
-            double largestValue, ContactSolution& solution) {
+/// problem. \param sizes  see sizesOfRows
+void assess(const DecomposedProblem& problem, const Vector& sizes, const DualSolution& dual,
+            double operatorNorm, double largestValue, ContactSolution& solution) {
   const auto force = solution.multiplier->getData(), slack = solution.slack->getData();
-  const auto gap = problem.gap->getData();
+  const auto gap = problem.gap->getData(), size = sizes.getData();
   const auto active = solution.active->getDataNonConst();
   AccurateSum sums[4]; // ‖g^P‖², λᵀg, force, active nodes
   double violation = 0, largestGap = 0;
@@ -55,7 +56,7 @@ void assess(const DecomposedProblem& problem, const DualSolution& dual, double o
         problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact;
     const double projected = isContact && !(force[i] > 0) ? std::min(slack[i], 0.0) : slack[i];
     sums[0].add(projected * projected);
-    violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]));
+    violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]) / size[i]);
     largestGap = std::max(largestGap, std::abs(gap[i]));
     if (!isContact)
       continue;
@@ -112,9 +113,9 @@ struct Settling {
 /// The rows that hold while a solution is settled: gluing, ties, and some of contact.
 class HeldRows {
 public:
-  /// Contact that pushes.
-  HeldRows(const DecomposedProblem& problem, const Vector& lambda)
-      : problem_(problem), held_(problem.multiplierMap) {
+  /// Contact that pushes. Keeps references. \param sizes  see sizesOfRows
+  HeldRows(const DecomposedProblem& problem, const Vector& sizes, const Vector& lambda)
+      : problem_(problem), sizes_(sizes), held_(problem.multiplierMap) {
     const auto isHeld = held_.getDataNonConst();
     const auto force = lambda.getData();
     for (LocalOrdinal i = 0; i < force.size(); ++i)
@@ -137,9 +138,11 @@ public:
   }
   /// Largest gap. Collective.
   [[nodiscard]] double largestOpen(const Vector& slack) const {
-    Vector open(slack.getMap());
-    open.elementWiseMultiply(1.0, held_, slack, 0.0);
-    return open.normInf();
+    double largest = 0;
+    const auto isHeld = held_.getData(), jump = slack.getData(), size = sizes_.getData();
+    for (LocalOrdinal i = 0; i < jump.size(); ++i)
+      largest = std::max(largest, isHeld[i] * std::abs(jump[i]) / size[i]);
+    return maxOverRanks(*problem_.comm, largest);
   }
   /// λ ≥ 0 for contact, in the last digits.
   void clip(Vector& lambda) const {
@@ -154,6 +157,7 @@ private:
     return problem_.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact;
   }
   const DecomposedProblem& problem_;
+  const Vector& sizes_;
   Vector held_;
 };
 
@@ -190,7 +194,7 @@ void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u
 
 /// Steps until held rows are open by no more than is allowed, or by the round-off of u: a step is as exact as the last digits that it
 /// starts from. Then rows change until all contacts push and none penetrates; returns whether they do. Collective.
-bool settle(const DualProblem& dual, const Settling& settling, SubdomainVectors& u,
+bool settle(const DualProblem& dual, const Settling& settling, const Vector& sizes, SubdomainVectors& u,
             ContactSolution& solution) {
   constexpr int maxSteps = 60;
   double largest = 0; // displacement
@@ -198,7 +202,7 @@ bool settle(const DualProblem& dual, const Settling& settling, SubdomainVectors&
     largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
   const double allowed =
       settling.allowed * std::max(maxOverRanks(*dual.problem().comm, largest), dual.problem().gap->normInf());
-  HeldRows rows(dual.problem(), *solution.multiplier);
+  HeldRows rows(dual.problem(), sizes, *solution.multiplier);
   double open = std::numeric_limits<double>::infinity();
   for (int step = 0; step < maxSteps && !settling.isUnwanted(*dual.problem().comm); ++step) {
     try {
@@ -258,7 +262,8 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
     }
     slackOf(problem, inverse, u, *solution.slack);
   }
-  if (settling != nullptr && !settle(dual, *settling, u, solution))
+  const RCP<const Vector> sizes = sizesOfRows(problem, *inverse.multiplierPlan());
+  if (settling != nullptr && !settle(dual, *settling, *sizes, u, solution))
     return std::nullopt;
 
   double largest = 0;
@@ -269,7 +274,7 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
     if (solution.displacement.back().size() > 0)
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
   }
-  assess(problem, found, dual.norm().norm, largest, solution);
+  assess(problem, *sizes, found, dual.norm().norm, largest, solution);
   return solution;
 }
 

@@ -3,7 +3,10 @@
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Vector.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -51,6 +54,24 @@ OwnEntries ownEntries(const decomposition::DecomposedProblem& problem, const Imp
     if (isDependent(ownHere[row], allHere[row]))
       result.dependent.push_back(static_cast<LocalOrdinal>(row));
   return result;
+}
+
+RCP<Vector> sizesOfRows(const decomposition::DecomposedProblem& problem, const Import& plan) {
+  Vector touched(problem.multiplierGhostMap);
+  RCP<Vector> sizes = rcp(new Vector(problem.multiplierMap));
+  {
+    const auto largest = touched.getDataNonConst();
+    for (const decomposition::Subdomain& subdomain : problem.subdomains)
+      for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
+        largest[entry.multiplier] = std::max(largest[entry.multiplier], std::abs(entry.coefficient));
+  }
+  sizes->doExport(touched, plan, Tpetra::ABSMAX);
+  const auto values = sizes->getDataNonConst();
+  for (LocalOrdinal row = 0; row < values.size(); ++row)
+    if (values[row] == 0 ||
+        problem.kindOf(decomposition::OwnedMultiplier(row)) != decomposition::RowKind::gluing)
+      values[row] = 1;
+  return sizes;
 }
 
 ShiftedPreconditioner::ShiftedPreconditioner(RCP<const Operator> m, std::vector<LocalOrdinal> rows,

@@ -31,6 +31,10 @@ struct OwnEntries {
 /// Collective.
 OwnEntries ownEntries(const decomposition::DecomposedProblem& problem, const Import& plan);
 
+/// By how much rows count jumps, n_λ: the largest |b| of a row of gluing, which is 1 but between clusters (GluingRows.hpp); 1 for other rows. \param plan  likewise
+/// Collective.
+RCP<Vector> sizesOfRows(const decomposition::DecomposedProblem& problem, const Import& plan);
+
 /// M + σI on some rows, M elsewhere; symmetric positive definite if M is semidefinite, with a kernel on those rows alone.
 class ShiftedPreconditioner final : public SymmetricOperator {
 public:

@@ -4,10 +4,13 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/MultiplierExchange.hpp"
 #include "epafi/fetidp/ProblemChecks.hpp"
+#include "epafi/fetidp/SharedRows.hpp"
 #include "epafi/linear/NodalBasis.hpp"
 #include "epafi/qp/StartVector.hpp"
 
+#include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <cmath>
 #include <string>
@@ -41,6 +44,14 @@ void requireNoJump(const DecomposedProblem& problem, const GlobalUnknowns& unkno
       jumps[static_cast<std::size_t>(entry.multiplier)] += entry.coefficient * u[s](entry.unknown);
   MultiVector owned(problem.multiplierMap, 1);
   exchange.sumToOwners(owned);
+  const RCP<const Vector> sizes =
+      fetidp::sizesOfRows(problem, Import(problem.multiplierMap, problem.multiplierGhostMap));
+  {
+    const auto jump = owned.getDataNonConst(0);
+    const auto size = sizes->getData();
+    for (LocalOrdinal row = 0; row < jump.size(); ++row)
+      jump[row] /= size[row];
+  }
   const auto total = exchange.toSubdomains(owned);
   collectively(*problem.comm, [&] {
     for (std::size_t s = 0; s < u.size(); ++s)

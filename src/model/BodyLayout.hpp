@@ -19,7 +19,7 @@ struct BodyLayout {
   std::unique_ptr<const fem::Mesh> mesh;
   std::shared_ptr<const Partition> partition; ///< bodies that are meshed and cut alike share one
   int firstSubdomain = 0;                     ///< number of its part 0 in the whole problem
-  int cluster = 0;                            ///< parts that share crosspoints; 0: all
+  int cluster = 0; ///< parts that a rank, or several, get together, and that share crosspoints; 0: all
 };
 
 /// How the meshes of files and geometries lie on several ranks; structured meshes are numbers alone.

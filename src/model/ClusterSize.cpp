@@ -5,12 +5,16 @@
 
 namespace epafi::model {
 
+bool clustersPay(int dimension, GlobalOrdinal numSubdomains, int numRanks) {
+  const GlobalOrdinal least = dimension == 3 ? 10'000 : 1'000'000;
+  return numRanks > 1 && numSubdomains * numRanks >= least;
+}
+
 int clusterSizeFor(const fem::StructuredMesh& mesh, std::array<int, 3> counts, GlobalOrdinal numSubdomains,
                    int numRanks) {
-  const bool isInSpace = mesh.dimension() == 3;
-  const GlobalOrdinal pays = isInSpace ? 10'000 : 1'000'000, fewest = isInSpace ? 27 : 16, most = 64;
-  if (numRanks < 2 || numSubdomains * numRanks < pays)
+  if (!clustersPay(mesh.dimension(), numSubdomains, numRanks))
     return 0;
+  const GlobalOrdinal fewest = mesh.dimension() == 3 ? 27 : 16, most = 64;
   std::array<double, 3> step{}; // from centre to centre
   for (std::size_t d = 0; d < step.size(); ++d)
     step[d] = mesh.elementSize()[d] * mesh.elements()[d] / counts[d];

@@ -27,7 +27,8 @@ struct Decomposition {
 Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm,
                         Meshes meshes = Meshes::whole);
 
-/// The same of bodies that are meshed and cut already, on all ranks alike.
+/// The same of bodies that are meshed and cut already, on all ranks alike. Where the scene says how many parts share crosspoints, that holds instead of
+/// BodyLayout::cluster, by which they were dealt out.
 Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodies,
                         const RCP<const Comm>& comm);
 
