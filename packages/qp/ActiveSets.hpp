@@ -24,8 +24,8 @@ struct ActiveSetProblem {
   RCP<const Operator> preconditioner;     ///< M ≈ A⁻¹, or null; used as P_F M P_F
   double operatorNorm = 1;                ///< ‖A‖ on Ker B, about
   /// What CG takes ‖Zg‖ and (gᵀMg)^½ down to before a face is looked at, a share of them where it was entered. Of both: the energy alone can be
-  /// that of one direction which M overrates, gone after a step; the norm alone, that of one which hardly moves x. Less, and wrong decisions are
-  /// paid by further faces.
+  /// that of one direction which M overrates, gone after a step; the norm alone, that of one which hardly moves x. With less reduction wrong
+  /// decisions are paid by further faces, with more right ones by steps.
   double faceReduction = 0.1;
 };
 

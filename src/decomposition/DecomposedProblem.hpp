@@ -6,7 +6,7 @@
 /// An application that enters B itself may use any rows, those of gluing of full rank: answers are the same, and MPRGP and
 /// SMALBE converge with any of them. The preconditioner, though, is made for rows that are orthogonal in D⁻¹, D the diagonals
 /// of the K^s: copies of a node glued each to the mean of those before it, Σ δ_i u_i / Σ δ_i, δ = diag K^s (GluingRows.hpp),
-/// and contact acting on the mean of all copies (ContactRows.hpp). Where rows share copies otherwise, as in chains
+/// and contact acting on the mean of all copies (ContactRows.hpp); P, between clusters, for rows that are equally long in D⁻¹. Where rows share copies otherwise, as in chains
 /// u_1 = u_2 = u_3, or where contact acts on one of several copies, it is still symmetric positive definite, but eigenvalues
 /// of MF below 1 appear and products with F grow in number (from 20 to 36 in space, two blocks of 2 × 2 × 2 subdomains).
 

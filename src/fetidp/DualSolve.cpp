@@ -88,6 +88,9 @@ private:
   Vector sum_;
 };
 
+/// A new face disturbs the forces between clusters, and these the contact. Membranes' contact hardly feels it.
+constexpr double reductionWithClusters = 0.02;
+
 /// A right-hand side, and what it is the difference of.
 struct RightHandSide {
   RCP<Vector> values;
@@ -324,7 +327,7 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
     qp::ActiveSetProblem faces{dual_.operators().flexibility(),      rhs_, set, dual_.coarseSpace(),
                                dual_.operators().facePreconditioner, norm};
     if (problem_.clusters.size() > problem_.bodies.size() && problem_.components > 1)
-      faces.faceReduction = 0.02; // a new face disturbs the forces between clusters, and these the contact
+      faces.faceReduction = reductionWithClusters;
     iterate(faces, tolerances, mu, observer, [&](Vector& x, const qp::MprgpParameters& mprgp) {
       std::vector<double> multiplier;
       return qp::solveEqualityBoundProblem(

@@ -68,6 +68,21 @@ TEST(ClustersTest, EachIsARunOfSubdomainsOfOneBodyNoLongerThanAskedFor) {
   }
 }
 
+/// As the start on a coarser mesh has it: whole bodies on ranks that were given clusters.
+TEST(ClustersTest, TheSceneSaysWhatSharesCrosspointsAndTheLayoutWhatRanksHave) {
+  scene::Scene scene = twoMembranes(true, 12, clustered(grid(3, 4), 4));
+  const auto dealtOut = decompose(scene, world());
+  std::vector<BodyLayout> layout = layoutBodies(scene, *world());
+  for (scene::Body& body : scene.bodies)
+    body.decomposition.cluster = 0;
+  const auto joined = decompose(scene, std::move(layout), world());
+  EXPECT_EQ(dealtOut.problem.clusters.size(), 6U);
+  EXPECT_EQ(joined.problem.clusters.size(), 2U);
+  ASSERT_EQ(joined.problem.subdomains.size(), dealtOut.problem.subdomains.size());
+  for (std::size_t s = 0; s < joined.problem.subdomains.size(); ++s)
+    EXPECT_EQ(joined.problem.subdomains[s].number, dealtOut.problem.subdomains[s].number);
+}
+
 TEST(ClustersTest, NoCrosspointBelongsToTwo) {
   for (const Case& c : clusteredCases(true)) {
     SCOPED_TRACE(c.name);

@@ -16,6 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Problem : test::EqualityProblem {
   Eigen::MatrixXd m{}; ///< preconditioner, or empty
+  double faceReduction = 0.1;
 };
 
 struct Answer {
@@ -30,6 +31,7 @@ Answer solve(const Problem& problem, double tolerance, const Eigen::VectorXd& fa
   given.hessian = rcp(new test::DenseOperator(map, problem.a));
   given.linearTerm = test::makeVector(map, problem.b);
   given.set = rcp(new qp::Box(test::makeVector(map, problem.lower)));
+  given.faceReduction = problem.faceReduction;
   if (problem.g.rows() > 0)
     given.equality = rcp(new test::DenseEquality(map, problem.g));
   if (problem.m.size() > 0)
@@ -144,6 +146,25 @@ TEST(ActiveSetsTest, NeedsLessFromNearby) {
   EXPECT_EQ(again.report.status, Status::converged);
   EXPECT_LT(again.report.counts.hessianMultiplications, first.report.counts.hessianMultiplications);
   EXPECT_LT((again.x - first.x).norm(), 1e-6);
+}
+
+TEST(ActiveSetsTest, LooksAtFewerFacesTheFurtherEachIsSolved) {
+  int early = 0, late = 0; // faces
+  std::mt19937 random(7);
+  for (int problemNumber = 0; problemNumber < 40; ++problemNumber) {
+    Problem problem{test::randomProblem(30, 1, 100, random)};
+    problem.faceReduction = 0.5;
+    const Answer soon = solve(problem, 1e-8);
+    problem.faceReduction = 1e-6;
+    const Answer thorough = solve(problem, 1e-8);
+    if (soon.report.status != Status::converged || thorough.report.status != Status::converged)
+      continue;
+    EXPECT_LE((soon.x - thorough.x).norm(), 1e-5 * thorough.x.norm()) << problemNumber;
+    early += soon.report.counts.expansion;
+    late += thorough.report.counts.expansion;
+  }
+  EXPECT_GT(late, 0);
+  EXPECT_LT(1.2 * late, early);
 }
 
 TEST(ActiveSetsTest, EndsInTheSetWhereAFaceCannotHoldTheEquality) {
