@@ -12,12 +12,18 @@
 namespace epafi::drivers {
 namespace {
 
+using accuracy::LoopResult;
 using accuracy::MeshResult;
 
-void report(AccurateRun& result, double target) {
-  Teuchos::ParameterList& list = result.run.report;
-  for (std::size_t i = 0; i < result.loop.meshes.size(); ++i) {
-    const MeshResult& mesh = result.loop.meshes[i];
+void correct(SceneRun& run, const MeshResult& mesh) {
+  run.correctEstimate(mesh.effectivity);
+  if (mesh.quantity)
+    run.correctQuantity(mesh.effectivity, mesh.quantity->discretisation);
+}
+
+void enterMeshes(Teuchos::ParameterList& list, const std::vector<MeshResult>& meshes) {
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const MeshResult& mesh = meshes[i];
     Teuchos::ParameterList& level = list.sublist("Levels").sublist("level " + std::to_string(i));
     if (mesh.quantity)
       level.set("Quantity", mesh.quantity->value)
@@ -31,45 +37,48 @@ void report(AccurateRun& result, double target) {
         .set("Effectivity", mesh.effectivity)
         .set("Seconds", mesh.seconds);
   }
+}
+
+/// \param status  what the run ends with, or that it goes on
+void report(SceneRun& run, const LoopResult& loop, double target, const std::string& status) {
+  Teuchos::ParameterList& list = run.report;
+  enterMeshes(list, loop.meshes);
   list.sublist("Accuracy").set("Target", target);
-  if (!result.loop.choice.empty())
-    list.sublist("Accuracy").set("Choice of Order", result.loop.choice);
-  const std::string status = result.isInterrupted ? "Interrupted" : "TargetMissed";
-  const std::string what = result.loop.meshes.back().quantity
-                               ? "the error bar of the " + result.run.quantity->name
-                               : "the estimated error";
+  if (!loop.choice.empty())
+    list.sublist("Accuracy").set("Choice of Order", loop.choice);
+  const MeshResult& last = loop.meshes.back();
   std::ostringstream reason;
   reason.precision(3);
-  if (result.loop.isMet) {
-    reason << what << " is " << 100 * result.loop.meshes.back().relative() << " %, at most the "
-           << 100 * target << " % that was asked for";
-    list.sublist("Status")
-        .set("Converged", true)
-        .set("Status", std::string("Converged"))
-        .set("Reason", reason.str());
-    return;
-  }
-  reason << what << " is " << 100 * result.loop.meshes.back().relative() << " %, and " << 100 * target
-         << " % was asked for: " << result.loop.reason;
-  if (result.loop.isEndless)
+  reason << (last.quantity ? "the error bar of the " + run.quantity->name : "the estimated error") << " is "
+         << 100 * last.relative() << " %, ";
+  if (loop.isMet)
+    reason << "at most the " << 100 * target << " % that was asked for";
+  else
+    reason << "and " << 100 * target << " % was asked for: " << loop.reason;
+  if (loop.isEndless)
     reason << "; round the edge, or ask for the force";
-  list.sublist("Status").set("Converged", false).set("Status", status).set("Reason", reason.str());
+  list.sublist("Status").set("Converged", loop.isMet).set("Status", status).set("Reason", reason.str());
 }
 
 } // namespace
 
 AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                           const AccuracyParameters& accuracy, const RCP<const Comm>& comm,
-                          RunCompanion* companion, const std::function<void(const MeshResult&)>& tell) {
+                          RunCompanion* companion,
+                          const std::function<void(const MeshResult&, SceneRun&)>& tell) {
   const bool isLocal = accuracy.refinement == AccuracyParameters::Refinement::local;
   const std::unique_ptr<SceneLevels> levels = levelsOf(scene, solverParameters, accuracy, comm, companion);
   AccurateRun result;
-  std::vector<MeshResult> done;
+  LoopResult soFar;
+  soFar.reason = "the run went on with the next mesh; if it is not under way any more it was killed";
   const auto note = [&](const MeshResult& mesh) {
-    done.push_back(mesh);
-    done.back().elements = {};
+    soFar.meshes.push_back(mesh);
+    soFar.meshes.back().elements = {};
+    SceneRun& run = levels->run();
+    correct(run, mesh);
+    report(run, soFar, accuracy.target, "Running");
     if (tell)
-      tell(mesh);
+      tell(mesh, run);
   };
   try {
     result.loop = refineToTarget(*levels,
@@ -81,26 +90,25 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
                                   .order = isLocal ? accuracy.order : 1},
                                  note);
   } catch (const Interrupted&) {
-    if (done.empty())
+    if (soFar.meshes.empty())
       throw;
-    result.loop.meshes = std::move(done);
+    result.loop.meshes = std::move(soFar.meshes);
     result.loop.reason =
         "a signal came before the next mesh was solved on; the results are those of the last complete one";
     result.isInterrupted = true;
   } catch (const Error& error) { // on all ranks; what was reached is not thrown away
-    if (done.empty())
+    if (soFar.meshes.empty())
       throw;
-    result.loop.meshes = std::move(done);
+    result.loop.meshes = std::move(soFar.meshes);
     result.loop.reason = std::string("the next mesh failed: ") + error.what();
   }
   result.run = std::move(levels->run());
   if (result.run.solver->report().status == qp::Status::interrupted) // on the first mesh
     result.isInterrupted = true;
-  const MeshResult& last = result.loop.meshes.back();
-  result.run.correctEstimate(last.effectivity);
-  if (last.quantity)
-    result.run.correctQuantity(last.effectivity, last.quantity->discretisation);
-  report(result, accuracy.target);
+  report(result.run, result.loop, accuracy.target,
+         result.loop.isMet      ? "Converged"
+         : result.isInterrupted ? "Interrupted"
+                                : "TargetMissed");
   return result;
 }
 

@@ -22,11 +22,12 @@ struct AccurateRun {
 /// Refines the scene until the estimated relative error is at most the target, or no finer mesh is allowed. Its report gets
 /// the list Levels, and the status says whether the target is met.
 /// \param solverParameters  the list Solver; its tolerance is 'balanced' unless it gives one
-/// \param tell              is told of every mesh; may be empty
+/// \param tell              is told of every mesh before the next one is made, with its run, whose report says what is reached
+///                          so far, with the status Running; may be empty
 /// Precondition: accuracy.target > 0. Collective. \throws as solveScene.
 AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                           const AccuracyParameters& accuracy, const RCP<const Comm>& comm,
                           RunCompanion* companion,
-                          const std::function<void(const accuracy::MeshResult&)>& tell);
+                          const std::function<void(const accuracy::MeshResult&, SceneRun&)>& tell);
 
 } // namespace epafi::drivers

@@ -6,6 +6,8 @@
 #include "RunWatch.hpp"
 #include "SceneRun.hpp"
 
+#include "epafi/output/FileSet.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,13 +17,43 @@ namespace epafi::drivers {
 /// DIR/report.xml and the file of --report, as far as they were asked for; not twice the same.
 std::vector<std::filesystem::path> reportsOf(const Options& options);
 
-struct WrittenFiles {
-  std::string lines;                 ///< for people: what was written where
-  std::vector<std::string> failures; ///< sentences about what could not be written
-};
+/// Writes what was asked for: checkpoint, history, fields, reports, the smallest first. A file that cannot be written does not keep
+/// the others from it. All methods are collective; what they note is the same on all ranks.
+class RunFiles {
+public:
+  /// \param started  wall time at the start of the run
+  RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started);
 
-/// Writes what was asked for: checkpoint, history, fields, reports, the smallest first; enters Time/Output and Time/Total in
-/// the run's report. A file that cannot be written does not keep the others from it. Collective; the same on all ranks.
-WrittenFiles writeFiles(const Options& options, const RunWatch& watch, SceneRun& run, const Comm& comm);
+  /// The files of a mesh of several, in place of those of the mesh before: all, with a report that says that the run goes on, or
+  /// none, and the run goes on without, of which rank 0 tells once. They are put in place together, between a report that says so
+  /// and the one that is to stay.
+  void writeMesh(SceneRun& run);
+  /// Those of a run that is over; of its last mesh, if that has them, the reports alone. Enters Time/Output, that of all meshes, and
+  /// Time/Total in the run's report, as writeMesh() does.
+  void finish(SceneRun& run);
+
+  [[nodiscard]] const std::string& lines() const { return lines_; } ///< for people: what was written where
+  /// Sentences about what could not be written, by finish().
+  [[nodiscard]] const std::vector<std::string>& failures() const { return failures_; }
+
+private:
+  template <class Work>
+  void attempt(const std::filesystem::path& file, const Work& work);
+  void publish(output::FileSet& files);
+  void prepare(SceneRun& run, output::FileSet& files);
+  void prepareFields(SceneRun& run, output::FileSet& files);
+  void enterTimes(SceneRun& run);
+  void announce(const SceneRun& run);
+
+  const Options& options_;
+  const RunWatch& watch_;
+  RCP<const Comm> comm_;
+  double started_, began_ = 0; ///< wall time: of the run, of the work at hand
+  double output_ = 0;          ///< seconds that all before it took
+  double lastMesh_;            ///< wall time at which its files were there
+  bool hasMesh_ = false, isOfThisMesh_ = false, hasComplained_ = false;
+  std::string lines_;
+  std::vector<std::string> failures_;
+};
 
 } // namespace epafi::drivers

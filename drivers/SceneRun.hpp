@@ -55,11 +55,12 @@ struct SceneRun {
   std::unique_ptr<ContactSolver> solver;
   fetidp::ContactSolution solution;
   std::optional<accuracy::ErrorEstimate> error; ///< if asked for
+  double effectivity = 1;                       ///< what it was divided by
   std::optional<Quantity> quantity;             ///< likewise
   std::optional<CoarserStart> start;            ///< if there was one
   output::Evaluation evaluation;
   Teuchos::ParameterList report; ///< complete but for Time/Output and Time/Total
-  double started = 0;            ///< wall time at the start
+  double started = 0;            ///< wall time at its start
 
   /// Both errors together relative to the energy norm. Precondition: `error`.
   [[nodiscard]] double relativeError() const;

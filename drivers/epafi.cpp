@@ -64,7 +64,7 @@ bool print(const std::string& text) {
 
 /// On the scene's own mesh, or on finer ones until the error is small enough.
 SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& list,
-                      const RCP<const Comm>& comm, RunWatch& watch, bool speaks) {
+                      const RCP<const Comm>& comm, RunWatch& watch, RunFiles& files, bool speaks) {
   const auto accuracy = AccuracyParameters::from(list.sublist("Accuracy"));
   const Teuchos::ParameterList& solver = list.sublist("Solver");
   if (accuracy.target == 0)
@@ -75,8 +75,9 @@ SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& l
                        .companion = &watch,
                        .meshes = model::Meshes::pieces});
   watch.expectSeries();
-  const auto tell = [speaks](const accuracy::MeshResult& mesh) {
-    if (speaks)
+  const auto tell = [&](const accuracy::MeshResult& mesh, SceneRun& run) {
+    files.writeMesh(run);
+    if (speaks) // of a mesh whose files are there
       std::cout << describe(mesh) << std::flush;
   };
   SceneRun run = std::move(solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
@@ -109,15 +110,15 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
               << std::flush;
 
   RunWatch watch(options, comm);
-  SceneRun run = solveAsAsked(scene, list, comm, watch, speaks);
-  run.started = start;
+  RunFiles files(options, watch, comm, start);
+  SceneRun run = solveAsAsked(scene, list, comm, watch, files, speaks);
   const bool isInterrupted = run.report.sublist("Status").get<std::string>("Status") == "Interrupted";
   const std::string signal = isInterrupted ? watch.signal() : "";
-  const WrittenFiles files = writeFiles(options, watch, run, *comm);
-  bool isComplete = run.report.sublist("Status").get<bool>("Converged") && files.failures.empty();
-  if (speaks && !print(summary(run) + files.lines + (isInterrupted ? farewell(signal, watch) : "")))
+  files.finish(run);
+  bool isComplete = run.report.sublist("Status").get<bool>("Converged") && files.failures().empty();
+  if (speaks && !print(summary(run) + files.lines() + (isInterrupted ? farewell(signal, watch) : "")))
     isComplete = false;
-  for (const std::string& failure : files.failures)
+  for (const std::string& failure : files.failures())
     if (comm->getRank() == 0)
       std::cerr << "epafi: " << failure << '\n';
   return isComplete ? solved : notConverged;

@@ -53,15 +53,18 @@ void prepareOnThisRank(const fs::path& file) {
                      std::strerror(reason) + ". Name a directory that can be written to.");
 }
 
-/// The text is on the disk then, not only on its way there. \param called  how errors call the file
-void writeOnThisRank(const fs::path& file, const std::string& text, const fs::path& called) {
+/// \param called  how errors call the file
+void writeOnThisRank(const fs::path& file, const std::string& text, const fs::path& called, bool syncs) {
   std::ofstream stream(file, std::ios::binary);
   stream << text;
   stream.close();
-  const int descriptor = stream ? ::open(file.c_str(), O_WRONLY | O_CLOEXEC) : -1;
-  const int reason = descriptor >= 0 && ::fsync(descriptor) == 0 ? 0 : errno;
-  if (descriptor >= 0)
-    ::close(descriptor);
+  int reason = stream ? 0 : errno;
+  if (stream && syncs) {
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+    reason = descriptor >= 0 && ::fsync(descriptor) == 0 ? 0 : errno;
+    if (descriptor >= 0)
+      ::close(descriptor);
+  }
   if (reason != 0)
     throw Error("File '" + called.string() + "' could not be written: " + std::strerror(reason) +
                 ". Check the free space and the permissions of its directory.");
@@ -108,7 +111,7 @@ fs::path temporaryBeside(const fs::path& file, const Comm& comm) {
 void createForAll(const fs::path& temporary, const Comm& comm) {
   collectively(comm, [&] {
     if (comm.getRank() == 0)
-      writeOnThisRank(temporary, "", temporary);
+      writeOnThisRank(temporary, "", temporary, false);
   });
   collectively(comm, [&] {
     std::error_code error;
@@ -142,21 +145,26 @@ void publish(const fs::path& temporary, const fs::path& file, const Comm& comm) 
   });
 }
 
-void writeTextFile(const fs::path& file, const std::function<std::string()>& text, const Comm& comm) {
+fs::path writeTemporary(const fs::path& file, const std::function<std::string()>& text, bool syncs,
+                        const Comm& comm) {
   prepareTarget(file, comm);
-  const fs::path temporary = temporaryBeside(file, comm);
+  fs::path temporary = temporaryBeside(file, comm);
   collectively(comm, [&] {
     if (comm.getRank() != 0)
       return;
     try {
-      writeOnThisRank(temporary, text(), file);
+      writeOnThisRank(temporary, text(), file, syncs);
     } catch (...) {
       std::error_code ignored;
       fs::remove(temporary, ignored);
       throw;
     }
   });
-  publish(temporary, file, comm);
+  return temporary;
+}
+
+void writeTextFile(const fs::path& file, const std::function<std::string()>& text, const Comm& comm) {
+  publish(writeTemporary(file, text, true, comm), file, comm);
 }
 
 } // namespace epafi::output

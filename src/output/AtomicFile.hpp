@@ -35,6 +35,11 @@ void reserveSpace(const std::filesystem::path& temporary, std::uintmax_t bytes,
 /// fails. Collective. \throws Error naming the file.
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& file, const Comm& comm);
 
+/// Writes what is to become `file`, a text or any bytes, under a temporary name, which it returns. As writeTextFile.
+/// \param syncs  whether it is on the disk then, not only on its way there
+std::filesystem::path writeTemporary(const std::filesystem::path& file,
+                                     const std::function<std::string()>& text, bool syncs, const Comm& comm);
+
 /// Writes a text file (or any bytes) from rank 0, through prepareTarget, a temporary and publish. It is on the disk then, not
 /// only on its way there.
 ///

@@ -1,7 +1,6 @@
 #include "epafi/output/FieldWriter.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/ContactFields.hpp"
 #include "epafi/output/Hdf5File.hpp"
@@ -200,6 +199,15 @@ std::vector<std::string> safeNames(const std::vector<std::string>& names) {
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history) {
+  FileSet own(solved.decomposition.problem.comm);
+  FieldFiles files = writeFields(directory, name, solved, evaluation, history, own);
+  own.publish();
+  return files;
+}
+
+FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
+                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history,
+                       FileSet& together) {
   if (name.empty() || name.find('/') != std::string::npos) // the same on all ranks
     throw InputError("'" + name + "' is no name for an output file; it must not be empty nor contain '/'.");
   const model::Decomposition& decomposition = solved.decomposition;
@@ -228,9 +236,11 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
     grids.push_back(putTie(file, "/tied/" + tieGroups[t], decomposition.ties[t].name,
                            gatherTieFields(solved, decomposition.ties[t])));
   putHistory(file, history, *problem.comm);
-  file.close();
-  writeTextFile(
-      files.xdmf, [&] { return xdmfDocument(name + ".h5", grids); }, *problem.comm);
+  FileSet both(problem.comm, together.syncs());
+  both.add(file.complete(), files.hdf5);
+  both.write(
+      files.xdmf, [&] { return xdmfDocument(name + ".h5", grids); }, FileSet::Older::goesFirst);
+  together.take(both);
   return files;
 }
 

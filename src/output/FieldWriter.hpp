@@ -3,6 +3,7 @@
 /// The solution of a scene as files that other programs open.
 
 #include "epafi/output/Evaluation.hpp"
+#include "epafi/output/FileSet.hpp"
 #include "epafi/qp/SolveReport.hpp"
 
 #include <filesystem>
@@ -17,7 +18,8 @@ struct FieldFiles {
   std::filesystem::path xdmf;
 };
 
-/// Writes `directory`/`name`.h5 and `directory`/`name`.xdmf; creates the directory, replaces older files.
+/// Writes `directory`/`name`.h5 and `directory`/`name`.xdmf; creates the directory, replaces older files. An XDMF file is never
+/// beside an HDF5 file of another call: the older one goes before that is replaced, the new one comes after it.
 ///
 /// Datasets (lengths, deflections, forces and stresses in the scene's units; each body's nodes appear once):
 ///  - `/bodies/<body>/points` n×3, `cells` n_e×nodes of a cell (int64, node numbers in the order of fem/Cell.hpp, which is VTK's),
@@ -44,6 +46,10 @@ struct FieldFiles {
 ///             Error if writing fails; then no incomplete file is left.
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history);
+/// The same, for files that get their names with others of `together`, of which there is none if it throws.
+FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
+                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history,
+                       FileSet& together);
 
 /// Names that are safe in HDF5 and XDMF paths, one for each name, all different: letters, digits, '_', '-',
 /// '.' and anything beyond ASCII stay, every other character ('/', ':', blanks, quotes, …) becomes '_'. A

@@ -304,7 +304,7 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, lon
   writeAttribute(object, name, H5T_NATIVE_LLONG, &value);
 }
 
-void Hdf5File::close() {
+std::filesystem::path Hdf5File::complete() {
   const QuietHdf5 quiet;
   together([&] {
     try {
@@ -315,7 +315,11 @@ void Hdf5File::close() {
       throw;
     }
   });
-  publish(temporary_, path_, *comm_);
+  return temporary_;
+}
+
+void Hdf5File::close() {
+  publish(complete(), path_, *comm_);
 }
 
 } // namespace epafi::output

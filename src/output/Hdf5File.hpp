@@ -49,6 +49,9 @@ public:
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, long long value);
 
+  /// Completes the file, and returns the temporary name that it has; whoever calls it gives it the other one, or removes it.
+  /// Nothing may be written afterwards. \throws Error; the file is not there then.
+  std::filesystem::path complete();
   /// Completes the file and gives it its name. Nothing may be written afterwards. \throws Error; the file is
   /// not there then.
   void close();

@@ -36,9 +36,17 @@ void writeReport(const Teuchos::ParameterList& report, const std::filesystem::pa
       file, [&] { return xmlOf(report); }, comm);
 }
 
+void writeReport(const Teuchos::ParameterList& report, const std::filesystem::path& file, FileSet& together) {
+  together.write(file, [&] { return xmlOf(report); });
+}
+
 void writeHistory(const qp::History& history, const std::filesystem::path& file, const Comm& comm) {
   writeTextFile(
       file, [&] { return tableOf(history); }, comm);
+}
+
+void writeHistory(const qp::History& history, const std::filesystem::path& file, FileSet& together) {
+  together.write(file, [&] { return tableOf(history); });
 }
 
 } // namespace epafi::output

@@ -5,6 +5,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/FieldWriter.hpp"
+#include "epafi/output/FileSet.hpp"
 #include "epafi/output/Report.hpp"
 #include "epafi/output/Slab.hpp"
 
@@ -51,6 +52,40 @@ TEST_F(FilesTest, FailureLeavesTheOlderFileAsItWas) {
                Error);
   EXPECT_EQ(directory.content(), Names{"text.txt"});
   EXPECT_EQ(contentOf(file), "older");
+}
+
+TEST_F(FilesTest, SetHasNoNamesBeforeAllOfItIsThere) {
+  const auto text = [] { return std::string("new"); };
+  const auto first = directory.path() / "first", last = directory.path() / "last";
+  writeTextFile(
+      first, [] { return std::string("older"); }, *comm);
+  {
+    FileSet files(comm), part(comm);
+    files.write(first, text);
+    part.write(last, text);
+    files.take(part);
+    EXPECT_EQ(contentOf(first), "older");
+    EXPECT_EQ(directory.content().count("last"), 0U);
+    files.publish();
+    EXPECT_EQ(contentOf(first) + contentOf(last), "newnew");
+    files.write(first, [] { return std::string("given up"); });
+  }
+  EXPECT_EQ(directory.content(), (Names{"first", "last"}));
+  EXPECT_EQ(contentOf(first), "new");
+}
+
+TEST_F(FilesTest, SetTakesAwayWhatMeansNothingWithoutTheOthers) {
+  const auto text = [] { return std::string("text"); };
+  const auto data = directory.path() / "data", about = directory.path() / "about";
+  writeTextFile(about, text, *comm);
+  FileSet files(comm, false);
+  files.write(data, text);
+  files.write(about, text, FileSet::Older::goesFirst);
+  comm->barrier();
+  if (comm->getRank() == 0) // so that the first cannot be put in place
+    std::filesystem::create_directory(data);
+  EXPECT_THROW(files.publish(), Error);
+  EXPECT_EQ(directory.content(), Names{"data"}) << "the other text would be beside data that it is not about";
 }
 
 TEST_F(FilesTest, MissingDirectoriesAreMade) {
