@@ -149,11 +149,13 @@ void RunFiles::announce(const SceneRun& run) {
       "Reason",
       std::string("the files of this mesh are being put in place: each is complete, and of this mesh or "
                   "older; where none puts them there any more the run was killed just then"));
+  output::FileSet files(comm_, false); // for less than a millisecond
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
-      output::writeReport(report, file, *comm_);
+      output::writeReport(report, file, files);
       return std::string();
     });
+  publish(files);
 }
 
 void RunFiles::writeMesh(SceneRun& run) {

@@ -32,15 +32,15 @@ double SceneRun::relativeError() const {
   return whole > 0 ? absolute / whole : 0;
 }
 
-void SceneRun::correctEstimate(double by) {
-  effectivity *= by;
-  error->discretisation /= by;
+void SceneRun::correctEstimate(double effectivity) {
+  correction *= effectivity;
+  error->discretisation /= effectivity;
   for (std::vector<double>& elements : error->elements)
     for (double& squared : elements)
-      squared /= by * by;
+      squared /= effectivity * effectivity;
   for (std::vector<double>& cells : evaluation.errors)
     for (double& cell : cells)
-      cell /= by;
+      cell /= effectivity;
   report.sublist("Accuracy")
       .set("Discretisation Error", error->discretisation)
       .set("Relative Error", relativeError())
@@ -162,7 +162,7 @@ fetidp::ErrorBalance balanceOf(const SceneRun& run, std::optional<accuracy::Erro
   balance.firstLook =
       0.2 * balance.fraction * guess; // without any coupling the energy is some times the solution's
   if (options.coarser != nullptr && options.coarser->error) // of linear elements it is halved at best
-    balance.expected = 0.5 * options.coarser->error->discretisation * options.coarser->effectivity;
+    balance.expected = 0.5 * options.coarser->error->discretisation * options.coarser->correction;
   else if (run.start)
     balance.expected = guess * std::sqrt(2 * std::abs(run.start->energy));
   return balance;

@@ -55,7 +55,7 @@ struct SceneRun {
   std::unique_ptr<ContactSolver> solver;
   fetidp::ContactSolution solution;
   std::optional<accuracy::ErrorEstimate> error; ///< if asked for
-  double effectivity = 1;                       ///< what it was divided by
+  double correction = 1;                        ///< what it was divided by
   std::optional<Quantity> quantity;             ///< likewise
   std::optional<CoarserStart> start;            ///< if there was one
   output::Evaluation evaluation;

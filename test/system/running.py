@@ -148,7 +148,7 @@ class Run(unittest.TestCase):
         """All that is there under its final name is complete and of the mesh that the report tells of, unless that says that others
         were just being put in place. Returns the report, if there is one."""
         names = self.assert_complete(directory, name)
-        fields = directory / f"{name}.h5", {}
+        fields = directory / f"{name}.h5"
         if f"{name}.xdmf" in names:
             with h5py.File(fields) as file:
                 for item in xml.etree.ElementTree.parse(directory / f"{name}.xdmf").iter("DataItem"):
