@@ -121,7 +121,7 @@ class Run(unittest.TestCase):
         """What is there under its final name is complete. Returns the names."""
         names = set()
         for file in directory.iterdir():
-            if file.name.startswith(".") and file.name.endswith(".partial"):
+            if file.name.startswith(".") and ".partial" in file.name:
                 continue
             names.add(file.name)
             if file.suffix == ".h5":

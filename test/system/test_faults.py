@@ -110,6 +110,11 @@ class OneRankFails(Run):
         self.assertEqual(len(said(ended.stderr)), 1, ended.stderr)
         self.assertTrue("memory" in said(ended.stderr)[0], ended.stderr)
 
+    def test_processes_that_nobody_launched_share_no_directory(self):
+        """One that ends would take it away from one that starts."""
+        ended = run(PROGRAM, scene("coercive"), "--output", self.place / "out", env={**os.environ, "TMPDIR": "/proc/none"})
+        self.assertEqual((ended.returncode, ended.stderr), (SOLVED, ""))
+
 
 class Disks(Run):
     def assert_results_are_printed(self, ended, *files):
