@@ -79,13 +79,17 @@ class Driver(unittest.TestCase):
 
 
 def coarse(file):
-    """What makes a scene with mesh files small."""
+    """What makes a scene with mesh files, or with many elements in space, small."""
     bodies = xml.etree.ElementTree.parse(file).getroot().find("ParameterList[@name='Bodies']")
     words = []
     for body in bodies:
-        if body.find("Parameter[@name='Mesh']") is not None:
-            factor = 8 if body.find("Parameter[@name='Physics']").get("value") == "elasticity 3-D" else 4
-            words += ["--set", f"Bodies/{body.get('name')}/Mesh Size Factor={factor}"]
+        values = {parameter.get("name"): parameter.get("value") for parameter in body.findall("Parameter")}
+        is_space = values.get("Physics") == "elasticity 3-D"
+        if "Mesh" in values:
+            words += ["--set", f"Bodies/{body.get('name')}/Mesh Size Factor={8 if is_space else 4}"]
+        elif is_space:
+            halved = ",".join(str(int(number) // 2) for number in values["Elements"].strip("{}").split(","))
+            words += ["--set", f"Bodies/{body.get('name')}/Elements={{{halved}}}"]
     return words
 
 

@@ -153,17 +153,32 @@ class Disks(Run):
         self.assertEqual({file.name for file in directory.iterdir()}, {"checkpoint.epafi", "history.csv", "report.xml"})
         self.assertEqual(report_of(directory)["Status"]["Converged"], "true")
 
-    def test_a_full_file_system(self):
+    def disk(self, size):
+        """A file system of so many bytes, if the test may mount one."""
         disk = self.place / "disk"
         disk.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "none", disk], capture_output=True, check=False)
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", disk], capture_output=True, check=False)
         if mounted.returncode != 0:
             self.skipTest("no file system can be mounted here: " + mounted.stderr.decode().strip())
         self.addCleanup(lambda: subprocess.run(["umount", disk], check=True))
+        return disk
+
+    def test_a_full_file_system(self):
+        disk = self.disk("64k")
         for ranks in (1, 2):
             ended = run(PROGRAM, scene("coercive"), "--output", disk, ranks=ranks)
             self.assert_results_are_printed(ended, disk / "coercive.h5")
             self.assert_complete(disk, "coercive")
+
+    def test_a_mesh_whose_fields_have_no_room_leaves_those_of_a_mesh_before(self):
+        disk = self.disk("400k")
+        ended = run(PROGRAM, scene("coercive"), "--accuracy", "0.05%", "--output", disk)
+        self.assertEqual(ended.returncode, FAILED, ended.stdout + ended.stderr)
+        on_the_way, at_the_end = said(ended.stderr)
+        self.assertIn("goes on without files of this mesh", on_the_way)
+        self.assertIn("coercive.h5 is not written", at_the_end)
+        self.assertLessEqual({"coercive.h5", "coercive.xdmf", "report.xml"}, self.assert_complete(disk, "coercive"))
+        self.assertIn("not all files of this mesh could be written", report_of(disk)["Status"]["Reason"])
 
     def test_a_directory_that_goes_during_the_run(self):
         """A file has taken its place when it comes to writing."""
