@@ -1,6 +1,7 @@
 #include "SceneRun.hpp"
 
 #include "CoarserScene.hpp"
+#include "RowWords.hpp"
 
 #include "epafi/accuracy/ContactTransfer.hpp"
 #include "epafi/accuracy/Transfer.hpp"
@@ -192,7 +193,14 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   std::optional<SceneRun> coarse;
   if (start.is_null())
     coarse = solveOnCoarserMesh(run, solverParameters, comm, options);
-  run.solver->setup(run.decomposition->problem);
+  const auto inWords = [&run](const auto& work) {
+    try {
+      return work();
+    } catch (const fetidp::ContradictionError& error) { // on all ranks
+      throw inWordsOf(*run.decomposition, error);
+    }
+  };
+  inWords([&] { run.solver->setup(run.decomposition->problem); });
   if (options.companion != nullptr)
     options.companion->beforeIteration();
   std::optional<accuracy::ErrorEstimator> estimator;
@@ -206,8 +214,9 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
     run.start->seconds += maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
   coarse.reset();
   const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
-  run.solution =
-      run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
+  run.solution = inWords([&] {
+    return run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
+  });
   const double solved = Teuchos::Time::wallTime();
   if (!estimatesError)
     run.error.reset(); // the iteration's last look, if it took one

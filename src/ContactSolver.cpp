@@ -186,6 +186,8 @@ void ContactSolver::confirm(const fetidp::ContactSolution& solution, double erro
     reason << "recomputed from the solution the projected gradient is " << solution.relativeProjectedGradient;
   else if (!dualParameters_.isBalanced && solution.feasibility > allowedViolation(tolerance))
     reason << "constraints are violated by " << solution.feasibility << " of the largest displacement";
+  else if (solution.equilibrium > 2 * dualParameters_.equilibriumTolerance)
+    reason << "floating bodies are out of balance by " << solution.equilibrium << " of the loads on them";
   else
     return;
   report_.status = qp::Status::stagnated;

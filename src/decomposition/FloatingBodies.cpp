@@ -18,6 +18,8 @@ namespace {
 constexpr double freeUpTo = 1e-9;
 /// Likewise for a first look.
 constexpr double nearlyFreeUpTo = 1e-6;
+/// Parts of a combination of motions, in weighted length.
+constexpr double roundOff = 1e-13;
 /// Motions of the near-kernel that others make up, in weighted length.
 constexpr double dependent = 1e-10;
 
@@ -91,7 +93,14 @@ Eigen::MatrixXd freeCombinations(const Eigen::MatrixXd& size, const Eigen::Matri
     return basis;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * force * basis);
   const auto numFree = (eigen.eigenvalues().array() <= bound * bound).count(); // ascending
-  return basis * eigen.eigenvectors().leftCols(numFree);
+  Eigen::MatrixXd free = basis * eigen.eigenvectors().leftCols(numFree);
+  // A motion along x has no part along y: what is round-off beside the rest of a combination would couple what nothing couples.
+  const Eigen::VectorXd lengths = size.diagonal().cwiseMax(0.0).cwiseSqrt();
+  for (Eigen::Index m = 0; m < free.cols(); ++m) {
+    const Eigen::ArrayXd parts = (lengths.asDiagonal() * free.col(m)).array().abs();
+    free.col(m) = (parts <= roundOff * parts.maxCoeff()).select(0.0, free.col(m));
+  }
+  return free;
 }
 
 std::vector<Eigen::MatrixXd> freeCombinations(const std::vector<Motions>& motions, const Comm& comm,

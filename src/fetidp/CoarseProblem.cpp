@@ -133,21 +133,35 @@ std::vector<int> fixingUnknowns(const DecomposedProblem& problem, const CoarseKe
   return fixed;
 }
 
-/// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness at the crosspoints of the same cluster:
-/// round-off of its stiff parts reaches its soft ones. Not collective; the same on all ranks.
-void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel, const Eigen::VectorXd& stiffness) {
+/// Largest stiffness of each cluster with subdomains on the ranks of `comm`. Collective over it.
+std::map<int, double> largestStiffness(const DecomposedProblem& problem, const Comm& comm) {
+  struct OfCluster {
+    int cluster;
+    double stiffness;
+  };
+  std::vector<OfCluster> mine;
+  for (const auto& subdomain : problem.subdomains)
+    if (subdomain.stiffness->rows() > 0)
+      mine.push_back({problem.clusterOf[static_cast<std::size_t>(subdomain.number)],
+                      Eigen::VectorXd(subdomain.stiffness->diagonal()).maxCoeff()});
+  std::map<int, double> largest;
+  for (const auto& [cluster, value] : gatherOnAll(comm, mine))
+    largest[cluster] = std::max(largest[cluster], value);
+  return largest;
+}
+
+/// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness of the same cluster: round-off of its stiff parts
+/// reaches its soft ones, wherever the crosspoints are. Not collective; the same on all ranks.
+void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel,
+                   const std::map<int, double>& stiffness) {
   if (kernel.modes.size() == 0)
     return;
   const Eigen::MatrixXd forces = matrix * kernel.modes; // S_cc joins no two clusters
   const double largestMode = kernel.modes.cwiseAbs().maxCoeff();
-  std::map<int, double> stiffnessOf;
-  for (std::size_t i = 0; i < kernel.cluster.size(); ++i) {
-    double& largest = stiffnessOf[kernel.cluster[i]];
-    largest = std::max(largest, stiffness[static_cast<Eigen::Index>(i)]);
-  }
   for (std::size_t i = 0; i < kernel.cluster.size(); ++i) {
     const double force = forces.row(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>();
-    if (!(force <= 1e-8 * stiffnessOf[kernel.cluster[i]] * largestMode)) // also NaN
+    const auto found = stiffness.find(kernel.cluster[i]);
+    if (found != stiffness.end() && !(force <= 1e-8 * found->second * largestMode)) // also NaN
       throw Error("the rigid modes of the floating bodies are no kernel of the coarse problem; check "
                   "stiffness and kernel");
   }
@@ -182,7 +196,9 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
   SparseMatrix matrix = assemble(problem, *team_, factorSize_, place, groups, isOnFirst);
   std::optional<CoarseKernel> kernel;
   Eigen::VectorXd stiffness;
+  std::map<int, double> largest;
   if (problem.kernelDimension > 0) {
+    largest = largestStiffness(problem, *team_);
     kernel = gatherKernel(problem, *team_, factorSize_, place);
     stiffness = crosspointDiagonal(problem, *team_, factorSize_, place);
   }
@@ -190,7 +206,7 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
     if (!isMine)
       return;
     if (kernel) {
-      requireKernel(matrix, *kernel, stiffness);
+      requireKernel(matrix, *kernel, largest);
       for (const int unknown : fixingUnknowns(problem, *kernel))
         matrix.coeffRef(unknown, unknown) += stiffness[unknown]; // τ
     }

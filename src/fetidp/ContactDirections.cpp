@@ -19,21 +19,6 @@ bool isTied(const decomposition::DecomposedProblem& problem, int row) {
   return problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::tied;
 }
 
-Eigen::VectorXd modeLengths(const decomposition::DecomposedProblem& problem) {
-  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(problem.numRigidModes());
-  for (const auto& subdomain : problem.subdomains) {
-    const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
-    const Eigen::MatrixXd modes = subdomain.kernel * problem.clusterAt(subdomain).ofBody;
-    for (Eigen::Index mode = 0; mode < modes.cols() && modes.rows() > 0; ++mode)
-      lengths[offset + mode] = std::max(lengths[offset + mode], modes.col(mode).lpNorm<Eigen::Infinity>());
-  }
-  for (double& length : lengths) {
-    length = maxOverRanks(*problem.comm, length);
-    length = length > 0 ? length : 1.0;
-  }
-  return lengths;
-}
-
 void DistinctDirections::add(const Eigen::VectorXd& direction, double value) {
   const double norm = direction.norm();
   if (!(norm > 0))
@@ -75,19 +60,10 @@ Eigen::VectorXd DistinctDirections::values() const {
   return all().row(dimension_);
 }
 
-std::map<int, Eigen::VectorXd> contactRows(const std::vector<KernelEntry>& entries,
-                                           const Eigen::VectorXd& lengths) {
-  std::map<int, Eigen::VectorXd> rows;
-  for (const KernelEntry& entry : entries)
-    rows.try_emplace(entry.row, Eigen::VectorXd::Zero(lengths.size())).first->second[entry.mode] +=
-        entry.value / lengths[entry.mode];
-  return rows;
-}
-
 Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,
-                                  const std::vector<KernelEntry>& entries, const Eigen::VectorXd& lengths) {
+                                  const std::map<int, Eigen::VectorXd>& rows) {
   DistinctDirections directions(problem.numRigidModes());
-  for (const auto& [row, vector] : contactRows(entries, lengths)) {
+  for (const auto& [row, vector] : rows) {
     directions.add(vector, 0.0);
     if (isTied(problem, row))
       directions.add(-vector, 0.0);

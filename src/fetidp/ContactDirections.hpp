@@ -3,7 +3,6 @@
 /// In which directions contact hinders the rigid motions of the floating bodies: the columns of G̃, without repetitions.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
 #include <Eigen/Core>
 
@@ -14,10 +13,6 @@ namespace epafi::fetidp {
 
 /// Whether this rank's row (local index in multiplierMap) holds both ways.
 bool isTied(const decomposition::DecomposedProblem& problem, int row);
-
-/// Largest entry of each mode of the bodies: by how much it moves a node at most, and with which motions are measured in lengths, whatever
-/// the modes' scaling is. 1 for a mode without entries. Collective.
-Eigen::VectorXd modeLengths(const decomposition::DecomposedProblem& problem);
 
 /// Directions of length 1 in k dimensions, each with a number; those that agree to 1e-9 are one, with the least number.
 class DistinctDirections {
@@ -42,14 +37,10 @@ private:
       known_; ///< direction and number, by the rounded direction
 };
 
-/// This rank's rows of G̃ᵀ of whole bodies, with modes of the given lengths: by local index in multiplierMap.
-std::map<int, Eigen::VectorXd> contactRows(const std::vector<KernelEntry>& entries,
-                                           const Eigen::VectorXd& lengths);
-
-/// The directions of all contacts, of ties both, k × (as many as differ): 𝒪(n log n) in the number of rows.
-/// \param entries  see kernelConstraintOfBodies
+/// The directions in which rows hinder motions, of ties both, k × (as many as differ): 𝒪(n log n) in the number of rows.
+/// \param rows  see ProblemScales::hinderingRows
 /// Collective.
 Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,
-                                  const std::vector<KernelEntry>& entries, const Eigen::VectorXd& lengths);
+                                  const std::map<int, Eigen::VectorXd>& rows);
 
 } // namespace epafi::fetidp

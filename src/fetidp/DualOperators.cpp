@@ -1,6 +1,8 @@
 #include "epafi/fetidp/DualOperators.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/Contradictions.hpp"
 #include "epafi/fetidp/OverratedColumns.hpp"
 #include "epafi/fetidp/ProjectedOperator.hpp"
 #include "epafi/fetidp/ProjectedPreconditioner.hpp"
@@ -46,6 +48,16 @@ RCP<const CorrectedPreconditioner> correctedPreconditioner(const DecomposedProbl
   return rcp(new CorrectedPreconditioner(
       operators.preconditioner,
       spaceOf(columns, *inverse.multiplierPlan(), *operators.flexibility(), operators.preconditioner.get())));
+}
+
+/// G. What supports and ties hold is out of balance and contradicts itself at once, most often: the cause is told. Collective.
+RCP<const NaturalCoarseSpace> coarseSpace(const DecomposedProblem& problem,
+                                          const std::vector<KernelEntry>& entries) try {
+  requireContactForEveryMotion(problem, entries);
+  return rcp(new NaturalCoarseSpace(problem, entries));
+} catch (const Error&) { // on all ranks
+  requireFeasibleGaps(problem);
+  throw;
 }
 
 /// M, or PMP + ρ⁻¹Q for the penalty ρ that SMALBE starts with.
@@ -154,8 +166,7 @@ DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algo
   operators.deflated = deflatedOperator(problem, *inverse, operators.f, parameters);
   operators.hessian = operators.flexibility();
   if (problem.kernelDimension > 0) {
-    requireContactForEveryMotion(problem, kernelEntries);
-    operators.coarseSpace = rcp(new NaturalCoarseSpace(problem, kernelEntries));
+    operators.coarseSpace = coarseSpace(problem, kernelEntries);
     operators.hessian = rcp(new ProjectedOperator(operators.flexibility(), operators.coarseSpace));
   }
   if (algorithm != Algorithm::conjugateGradient || parameters.isBalanced)

@@ -3,6 +3,8 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/Balancing.hpp"
+#include "epafi/fetidp/Contradictions.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
 #include "epafi/fetidp/ProblemChecks.hpp"
 #include "epafi/fetidp/Recovery.hpp"
@@ -152,7 +154,6 @@ private:
   void refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications);
   void completeJumps(Vector& lambda) const;
   DualSolution finished();
-  [[nodiscard]] double equilibriumReference(double resultant) const;
 
   const DualProblem& dual_;
   const DecomposedProblem& problem_;
@@ -276,14 +277,6 @@ void IterativeSolve::iterateInBounds() {
   });
 }
 
-/// Resultants vanish where a balanced load is held by contacts on both sides: then forces are measured by what Pd asks for.
-double IterativeSolve::equilibriumReference(double resultant) const {
-  const double largest = dual_.coarseSpace()->normOf(kernelLoadMagnitude(problem_));
-  if (resultant > resultantTolerance * largest)
-    return resultant;
-  return dual_.norm().norm > 0 ? solution_.reference / dual_.norm().norm : 0.0;
-}
-
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, G̃μ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
 DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
   const NaturalCoarseSpace& space = *dual_.coarseSpace();
@@ -295,7 +288,8 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
   dual_.operators().flexibility()->apply(feasible, *rhs_, Teuchos::NO_TRANS, -1.0, 1.0); // d = d̃ − Fλ̃
   space.project(*rhs_);                                                                  // Pd
   const bool vanishes = setReference();
-  const double reference = equilibriumReference(space.normOf(resultants));
+  const double reference =
+      equilibriumReference(problem_, space, resultants, solution_.reference, dual_.norm().norm);
 
   const RCP<Vector> lower = lowerBounds(problem_);
   lower->update(-1.0, feasible, 1.0); // −λ̃_I
@@ -336,8 +330,8 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
     });
   }
   solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
-  const Eigen::VectorXd rest = space.product(*solution_.lambda) - resultants;
-  const double imbalance = space.normOf(rest);
+  const double imbalance = balance(problem_, space, resultants,
+                                   dual_.parameters().equilibriumTolerance * reference, *solution_.lambda);
   solution_.equilibrium = reference > 0 ? imbalance / reference : imbalance;
   return finished();
 }

@@ -2,9 +2,11 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/Balancing.hpp"
 #include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
 #include "epafi/fetidp/SharedRows.hpp"
+#include "epafi/fetidp/Solvability.hpp"
 
 #include <Tpetra_Map.hpp>
 
@@ -237,6 +239,19 @@ std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vecto
 
 namespace {
 
+/// Collective.
+RestCheck restCheck(const DualProblem& dual, const DualSolution& found) {
+  const DecomposedProblem& problem = dual.problem();
+  if (found.report.status != qp::Status::converged || dual.coarseSpace().is_null() ||
+      !contactsOppose(problem, dual.kernelEntries()))
+    return {};
+  const DualParameters& parameters = dual.parameters();
+  const double norm = dual.norm().norm,
+               reference = equilibriumReference(problem, *dual.coarseSpace(), kernelLoad(problem),
+                                                found.reference, norm);
+  return {true, std::max(parameters.equilibriumTolerance, parameters.tolerance) * reference, norm};
+}
+
 /// Nothing if it cannot be settled. \param settling  null if that is not wanted
 std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolution& found,
                                          const Settling* settling) {
@@ -251,8 +266,9 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
   slackOf(problem, inverse, u, *solution.slack);
   solution.energy = energyOf(problem, u);
   if (problem.kernelDimension > 0) {
-    const Eigen::VectorXd alpha = rigidMotion(problem, dual.kernelEntries(), *found.lambda, *solution.slack,
-                                              found.report.status == qp::Status::converged);
+    const RestCheck check = restCheck(dual, found);
+    const Eigen::VectorXd alpha =
+        rigidMotion(problem, dual.kernelEntries(), *found.lambda, *solution.slack, check);
     solution.energy -= kernelLoad(problem).dot(alpha);
     for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
       const auto& subdomain = problem.subdomains[s];

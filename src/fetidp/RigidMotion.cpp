@@ -6,6 +6,7 @@
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 #include "epafi/fetidp/ContactDirections.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
+#include "epafi/fetidp/ProblemScales.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
@@ -14,6 +15,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,17 +26,15 @@ namespace {
 using decomposition::DecomposedProblem;
 using Rows = std::map<int, Eigen::VectorXd>; // of G̃ᵀ, this rank's, by local index
 
-constexpr double roundOff = 1e-12; ///< of the largest eigenvalue
-
-/// [G̃_A G̃_Aᵀ, G̃_A slack_A] of the rows A that carry force. Collective.
-Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda,
-                                const Vector& slack) {
+/// [G̃_A G̃_Aᵀ, G̃_A slack_A] of the rows A that hold. Collective.
+Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& rows,
+                                const std::set<int>& holding, const Vector& slack) {
   const Eigen::Index k = problem.numRigidModes();
-  const auto force = lambda.getData(), gap = slack.getData();
+  const auto gap = slack.getData();
   Eigen::MatrixXd normal(k, k + 1);
   std::vector<AccurateSum> sums(static_cast<std::size_t>(normal.size()));
   for (const auto& [row, vector] : rows)
-    if (force[row] > 0 || isTied(problem, row))
+    if (holding.contains(row))
       for (Eigen::Index i = 0; i < k; ++i)
         for (Eigen::Index j = 0; j <= k; ++j)
           sums[static_cast<std::size_t>(i + k * j)].add(vector[i] * (j < k ? vector[j] : gap[row]));
@@ -88,7 +88,9 @@ std::optional<Eigen::VectorXd> looseMotion(const Eigen::MatrixXd& directions, co
       return std::nullopt;
     const Eigen::MatrixXd excluding = met(Eigen::all, found.excluding);
     const direct::SymmetricEigen spectrum = direct::eigenOf(excluding * excluding.transpose());
-    open = (open * spectrum.vectors.leftCols(spectrum.numUpTo(roundOff * spectrum.values.maxCoeff()))).eval();
+    open = (open *
+            spectrum.vectors.leftCols(spectrum.numUpTo(ProblemScales::roundOff * spectrum.values.maxCoeff())))
+               .eval();
   }
   return std::nullopt;
 }
@@ -138,25 +140,42 @@ Eigen::VectorXd fittedClusters(const DecomposedProblem& problem, const std::vect
   return factor.solve(alpha);
 }
 
-/// The same of whole bodies. \param entries  see kernelConstraintOfBodies
-Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
-                               const Vector& lambda, const Vector& slack, bool isSolved) {
-  const Eigen::Index k = problem.numRigidModes();
-  const Eigen::VectorXd lengths = modeLengths(problem);
-  const Rows rows = contactRows(entries, lengths);
-  const Eigen::MatrixXd normal = normalEquations(problem, rows, lambda, slack);
-  const direct::SymmetricEigen spectrum = direct::eigenOf(normal.leftCols(k));
-  const Eigen::Index numOpen = spectrum.numUpTo(roundOff * spectrum.values.maxCoeff());
-  const Eigen::MatrixXd open = spectrum.vectors.leftCols(numOpen); // what the forces leave open
-  const Eigen::MatrixXd held = spectrum.vectors.rightCols(k - numOpen);
-  Eigen::VectorXd alpha =
-      held * (held.transpose() * normal.col(k)).cwiseQuotient(spectrum.values.tail(k - numOpen));
-  const double length = slack.normInf();
-  if (numOpen == 0 || length == 0)
-    return alpha.cwiseQuotient(lengths);
+/// How far whole bodies move until the rows close that hold.
+struct Closing {
+  Eigen::VectorXd alpha; ///< k, measured by the problem's scales
+  Eigen::MatrixXd open;  ///< motions that these leave open, as columns
+};
 
+/// Collective.
+Closing closing(const DecomposedProblem& problem, const Rows& rows, const std::set<int>& holding,
+                const Vector& slack) {
+  const Eigen::Index k = problem.numRigidModes();
+  const Eigen::MatrixXd normal = normalEquations(problem, rows, holding, slack);
+  const direct::SymmetricEigen spectrum = direct::eigenOf(normal.leftCols(k));
+  const Eigen::Index numOpen = spectrum.numUpTo(ProblemScales::roundOff * spectrum.values.maxCoeff());
+  const Eigen::MatrixXd held = spectrum.vectors.rightCols(k - numOpen);
+  return {held * (held.transpose() * normal.col(k)).cwiseQuotient(spectrum.values.tail(k - numOpen)),
+          spectrum.vectors.leftCols(numOpen)};
+}
+
+/// Drops rows whose force is none: those that close less than their gap, where one of the two is 0 in a solution, and those that are none beside the others. Returns
+/// whether there are any. Collective.
+bool dropIdleRows(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda,
+                  const Vector& slack, const RestCheck& check, const Eigen::VectorXd& alpha,
+                  std::set<int>& holding) {
+  const auto force = lambda.getData(), gap = slack.getData();
+  const auto dropped = std::erase_if(holding, [&](int row) {
+    return !isTied(problem, row) && (force[row] <= check.leastForce ||
+                                     check.flexibility * force[row] <= gap[row] - rows.at(row).dot(alpha));
+  });
+  return holdsAnywhere(*problem.comm, dropped > 0);
+}
+
+/// What is left to contacts beside those that hold, directions of length 1 and the room along them. Collective.
+DistinctDirections roomOf(const DecomposedProblem& problem, const Rows& rows, const Vector& slack,
+                          const Eigen::VectorXd& alpha, double length) {
   const auto gap = slack.getData();
-  DistinctDirections contacts(k);
+  DistinctDirections contacts(problem.numRigidModes());
   for (const auto& [row, vector] : rows) {
     const double room = (gap[row] - vector.dot(alpha)) / length;
     contacts.add(vector, room);
@@ -164,26 +183,47 @@ Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vect
       contacts.add(-vector, -room);
   }
   contacts.gather(*problem.comm);
+  return contacts;
+}
+
+/// The same of whole bodies. \param entries  see kernelConstraintOfBodies
+Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
+                               const Vector& lambda, const Vector& slack, const RestCheck& check) {
+  const ProblemScales scales(problem);
+  const Rows rows = scales.hinderingRows(entries);
+  const auto force = lambda.getData();
+  std::set<int> holding;
+  for (const auto& [row, vector] : rows)
+    if (force[row] > 0 || isTied(problem, row))
+      holding.insert(row);
+  Closing found = closing(problem, rows, holding, slack);
+  if (check.isWanted && dropIdleRows(problem, rows, lambda, slack, check, found.alpha, holding))
+    found = closing(problem, rows, holding, slack);
+  Eigen::VectorXd& alpha = found.alpha;
+  const double length = slack.normInf();
+  if (found.open.cols() == 0 || length == 0)
+    return alpha.cwiseQuotient(scales.motions());
+  const DistinctDirections contacts = roomOf(problem, rows, slack, alpha, length);
   const Eigen::MatrixXd directions = contacts.matrix();
   const Eigen::VectorXd room = contacts.values();
-  if (isSolved)
-    if (const auto loose = looseMotion(directions, room, open)) {
-      const MotionWords words = wordsOf(problem, loose->cwiseQuotient(lengths));
+  if (check.isWanted)
+    if (const auto loose = looseMotion(directions, room, found.open)) {
+      const MotionWords words = wordsOf(problem, loose->cwiseQuotient(scales.motions()));
       throw SolvabilityError(SolvabilityError::Kind::notUnique,
                              "not unique: no contact force holds " + words.bodies +
                                  ", which may come to rest anywhere between its contacts" +
                                  (words.motion.empty() ? "" : " (free to " + words.motion + ")") +
                                  "; add a load or a support");
     }
-  if (const Shortest further = shortest(open.transpose() * directions, room); further.x)
-    alpha += length * (open * *further.x);
-  return alpha.cwiseQuotient(lengths);
+  if (const Shortest further = shortest(found.open.transpose() * directions, room); further.x)
+    alpha += length * (found.open * *further.x);
+  return alpha.cwiseQuotient(scales.motions());
 }
 
 } // namespace
 
 Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
-                            const Vector& lambda, const Vector& slack, bool isSolved) {
+                            const Vector& lambda, const Vector& slack, const RestCheck& check) {
   Eigen::VectorXd alpha = fittedClusters(problem, entries, slack);
   if (problem.numRigidModes() == 0)
     return alpha;
@@ -194,7 +234,7 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<
       values[entry.row] -= entry.value * alpha[entry.mode];
   }
   const Eigen::VectorXd motion =
-      motionOfBodies(problem, kernelConstraintOfBodies(problem, entries), lambda, left, isSolved);
+      motionOfBodies(problem, kernelConstraintOfBodies(problem, entries), lambda, left, check);
   for (const decomposition::Cluster& cluster : problem.clusters)
     alpha.segment(cluster.kernelOffset, cluster.kernelDimension) +=
         cluster.ofBody * motion.segment(problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset,

@@ -5,6 +5,7 @@
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 #include "epafi/fetidp/ContactDirections.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
+#include "epafi/fetidp/ProblemScales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,50 +33,51 @@ std::string along(const MotionWords& words, const std::string& before) {
   return words.motion.empty() ? "" : before + words.motion;
 }
 
-/// Loads and contacts as rigid motions of the bodies meet them, measured by the modes' lengths.
+/// Loads and contacts as rigid motions of the bodies meet them, measured by the problem's scales.
 struct RigidBalance {
   const DecomposedProblem& problem;
-  Eigen::VectorXd lengths;    ///< of the modes, k
+  ProblemScales scales;
   Eigen::MatrixXd directions; ///< of the contacts, k × (as many as differ)
   Eigen::VectorXd load;       ///< ẽ
-  Eigen::VectorXd magnitudes; ///< the same if nothing cancelled
 
   /// \param entries  see kernelConstraint
   /// Collective.
   RigidBalance(const DecomposedProblem& given, const std::vector<KernelEntry>& entries)
-      : problem(given), lengths(modeLengths(given)),
-        directions(contactDirections(given, kernelConstraintOfBodies(given, entries), lengths)),
-        load(onBodies(given, kernelLoad(given)).cwiseQuotient(lengths)),
-        magnitudes(magnitudesOnBodies(given).cwiseQuotient(lengths)) {}
+      : problem(given), scales(given),
+        directions(contactDirections(given, scales.hinderingRows(kernelConstraintOfBodies(given, entries)))),
+        load(onBodies(given, kernelLoad(given)).cwiseQuotient(scales.motions())) {}
 
   /// Of a motion that is measured as the others are.
   [[nodiscard]] MotionWords words(const Eigen::VectorXd& motion) const {
-    return wordsOf(problem, motion.cwiseQuotient(lengths));
+    return wordsOf(problem, motion.cwiseQuotient(scales.motions()));
   }
 };
 
 /// ẽᵀα must vanish for a motion α that nothing hinders in either direction, G̃ᵀα = 0, and even then α is undetermined.
 void refuseFreeMotion(const RigidBalance& balance) {
-  // What contacts hinder by less than this share, in the root mean square, they do not: it is round-off of their normals.
-  constexpr double hindered = 1e-6;
   const direct::SymmetricEigen spectrum =
       direct::eigenOf(balance.directions * balance.directions.transpose() /
                       static_cast<double>(std::max<Eigen::Index>(balance.directions.cols(), 1)));
-  const Eigen::MatrixXd free = spectrum.vectors.leftCols(spectrum.numUpTo(hindered * hindered));
+  const Eigen::MatrixXd free = spectrum.vectors.leftCols(
+      spectrum.numUpTo(ProblemScales::hindered * ProblemScales::hindered)); // in the root mean square
   if (free.cols() == 0)
     return;
-  const Eigen::VectorXd motion = free * (free.transpose() * balance.load);
-  if (motion.norm() > resultantTolerance * balance.magnitudes.norm()) {
+  const Eigen::VectorXd pulls = free.transpose() * balance.load;
+  const Eigen::VectorXd motion = free * pulls;
+  if ((pulls.array().abs() >
+       ProblemScales::resultant * (free.transpose().cwiseAbs() * balance.scales.loads()).array())
+          .any()) {
     const MotionWords words = balance.words(motion);
     refuse(Kind::noSolution, words.bodies,
            " can move without meeting a support or a contact, and the load moves it (resultant ",
            motion.norm(), along(words, " to "), "); add a support or a contact pair");
   }
-  refuse(Kind::notUnique, abilitiesOf(balance.problem, balance.lengths.cwiseInverse().asDiagonal() * free),
+  refuse(Kind::notUnique,
+         abilitiesOf(balance.problem, balance.scales.motions().cwiseInverse().asDiagonal() * free),
          " without meeting a support or a contact; add a support or a contact pair");
 }
 
-/// Is ẽ in the cone of the directions? With each body's modes measured by the load on it (by that of the least loaded
+/// Is ẽ in the cone of the directions? With each body's modes measured by the loads on it (by those of the least loaded
 /// one where a body carries none) and the directions of length 1 again: neither changes the answer, but a heavy body
 /// does not hide a light one.
 struct ScaledCone {
@@ -83,14 +85,10 @@ struct ScaledCone {
   Eigen::MatrixXd directions; ///< k × (as many as differ)
   Eigen::VectorXd resultant;  ///< k
 
-  explicit ScaledCone(const RigidBalance& balance) : unit(Eigen::VectorXd::Zero(balance.load.size())) {
+  explicit ScaledCone(const RigidBalance& balance) : unit(balance.scales.loads()) {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& body : balance.problem.bodies)
-      if (body.kernelDimension > 0) {
-        const double load = balance.magnitudes.segment(body.kernelOffset, body.kernelDimension).maxCoeff();
-        unit.segment(body.kernelOffset, body.kernelDimension).setConstant(load);
-        least = load > 0 ? std::min(least, load) : least;
-      }
+    for (const double load : unit)
+      least = load > 0 ? std::min(least, load) : least;
     for (double& value : unit)
       value = value > 0 ? value : std::isfinite(least) ? least : 1.0;
     directions = (unit.cwiseInverse().asDiagonal() * balance.directions).colwise().normalized();
@@ -102,7 +100,7 @@ struct ScaledCone {
   [[nodiscard]] Eigen::VectorXd imbalance(const Eigen::VectorXd& target) const {
     const direct::NonNegativeSolution forces = direct::nonNegativeLeastSquares(directions, target);
     const Eigen::ArrayXd passing = (directions.cwiseAbs() * forces.x).array();
-    return (forces.residual.array().abs() <= resultantTolerance + 1e-12 * passing)
+    return (forces.residual.array().abs() <= ProblemScales::resultant + ProblemScales::roundOff * passing)
         .select(0.0, forces.residual.array());
   }
 };
@@ -117,26 +115,32 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
 
   const ScaledCone cone(balance);
   const Eigen::VectorXd pulled = cone.imbalance(cone.resultant);
-  if (pulled.norm() > 0) {
-    const Eigen::VectorXd motion = pulled.cwiseQuotient(cone.unit); // allowed, and driven by the load
-    refuse(Kind::noSolution, "the load pulls ", balance.words(pulled).bodies,
-           " away from its contacts (resultant ", balance.load.dot(motion) / motion.norm(),
-           " along a motion that no contact hinders", along(balance.words(motion), ": "),
-           "); turn the load or add a support");
-  }
 
   // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
   const Eigen::VectorXd mean = cone.directions.rowwise().mean();
-  if (mean.norm() <= 1e-12)
+  if (mean.norm() <= ProblemScales::roundOff)
     return; // the contacts oppose each other: any resultant is balanced
-  const bool isLoaded = balance.magnitudes.sum() > 0;
+  const bool isLoaded = balance.scales.loads().sum() > 0;
   const Eigen::VectorXd from = isLoaded ? cone.resultant : Eigen::VectorXd::Zero(mean.size());
-  const Eigen::VectorXd loose = cone.imbalance(from - (isLoaded ? 10 * resultantTolerance : 1.0) * mean);
+  const Eigen::VectorXd loose =
+      cone.imbalance(from - (isLoaded ? 10 * ProblemScales::resultant : 1.0) * mean);
   if (loose.norm() > 0)
     refuse(Kind::notUnique, "the load does not press ", balance.words(loose).bodies,
            " onto its contacts (zero resultant",
            along(balance.words(loose.cwiseQuotient(cone.unit)), " along a motion that no contact hinders: "),
            "), so that it may come to rest anywhere; add a load or a support");
+}
+
+bool contactsOppose(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
+  if (problem.numRigidModes() == 0)
+    return false;
+  const RigidBalance balance(problem, entries);
+  Eigen::MatrixXd means(balance.directions.rows() + 1,
+                        balance.directions.cols()); // do they have 0 among them?
+  means << balance.directions, Eigen::RowVectorXd::Ones(means.cols());
+  const auto nearest =
+      direct::nonNegativeLeastSquares(means, Eigen::VectorXd::Unit(means.rows(), means.rows() - 1));
+  return nearest.residual.norm() <= ProblemScales::hindered;
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {

@@ -13,19 +13,22 @@
 
 namespace epafi::fetidp {
 
-/// A body's resultant smaller than this part of the total load on it counts as zero.
-inline constexpr double resultantTolerance = 1e-9;
-
 /// Throws SolvabilityError, the same on all ranks, that names the body and the reason if
 ///  - a rigid motion of the floating bodies meets no contact at all (no solution, or not unique),
 ///  - the load pulls, turns or tips a floating body off its contacts (no solution),
 ///  - the load on it has no resultant against its contacts, or against a motion that they do not hinder, such as one that
 ///    acts exactly above the edge of the base (not unique).
 /// Bodies whose modes are known as motions in space (Body::motions) are said to slide or turn, with direction and axis.
+/// What is small is so beside the problem's scales (ProblemScales.hpp).
 /// \param entries  this rank's rows of G̃ᵀ, see kernelConstraint
 /// Collective.
 void requireUniqueSolution(const decomposition::DecomposedProblem& problem,
                            const std::vector<KernelEntry>& entries);
+
+/// Whether some contacts oppose each other: then they may leave room, whatever the loads, and their forces alone tell (RigidMotion.hpp).
+/// \param entries  likewise
+/// Collective.
+bool contactsOppose(const decomposition::DecomposedProblem& problem, const std::vector<KernelEntry>& entries);
 
 /// What can be said before any load is known: throws SolvabilityError (not unique) if a rigid motion of the
 /// floating bodies meets no contact at all. Collective.

@@ -2,8 +2,8 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/fetidp/Contradictions.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
-#include "epafi/fetidp/ProblemChecks.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 
 #include <Tpetra_Vector.hpp>

@@ -1,0 +1,218 @@
+#include "epafi/fetidp/Contradictions.hpp"
+
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Columns.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/fetidp/ProblemScales.hpp"
+#include "epafi/fetidp/RowProducts.hpp"
+#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/Box.hpp"
+#include "epafi/qp/NormEstimate.hpp"
+#include "epafi/qp/RecessionDirection.hpp"
+
+#include <Tpetra_Map.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::DecomposedProblem;
+using decomposition::OwnedMultiplier;
+using decomposition::RowKind;
+
+/// Displacements may be so many times what overlaps: more, and only what is round-off in a row could make room.
+constexpr double reach = 1e3;
+
+/// By how much u = 0 violates a row.
+double violationOf(const DecomposedProblem& problem, LocalOrdinal row, double gap) {
+  return problem.kindOf(OwnedMultiplier(row)) == RowKind::contact ? std::max(-gap, 0.0) : std::abs(gap);
+}
+
+/// Tells of the rows that d weighs most. Collective. \throws ContradictionError
+[[noreturn]] void refuse(const DecomposedProblem& problem, const Vector& d, double overlap) {
+  constexpr double worthAWord = 0.1;
+  struct Weighed {
+    GlobalOrdinal row;
+    double weight;
+  };
+  std::vector<Weighed> rows;
+  const auto weight = d.getData();
+  double most = 0;
+  for (LocalOrdinal row = 0; row < weight.size(); ++row)
+    if (problem.kindOf(OwnedMultiplier(row)) != RowKind::gluing) {
+      rows.push_back({problem.multiplierMap->getGlobalElement(row), std::abs(weight[row])});
+      most = std::max(most, rows.back().weight);
+    }
+  most = maxOverRanks(*problem.comm, most);
+  std::erase_if(rows, [&](const Weighed& each) { return !(each.weight >= worthAWord * most); });
+  rows = gatherOnAll(*problem.comm, rows);
+  std::sort(rows.begin(), rows.end(), [](const Weighed& a, const Weighed& b) {
+    return a.weight > b.weight || (a.weight == b.weight && a.row < b.row);
+  });
+  std::vector<GlobalOrdinal> numbers;
+  std::vector<std::string> names;
+  for (const Weighed& each : rows) {
+    numbers.push_back(each.row);
+    names.push_back((each.row < problem.numInequalities ? "contact row " : "tied row ") +
+                    std::to_string(each.row));
+  }
+  throw ContradictionError(std::move(numbers), overlap, std::move(names));
+}
+
+/// SBBᵀS, S = diag(1/‖b‖): rows of length 1.
+class RowGram final : public SymmetricOperator {
+public:
+  RowGram(const RowProducts& products, const Vector& inverseNorms)
+      : SymmetricOperator(inverseNorms.getMap()), products_(products), inverseNorms_(inverseNorms),
+        scaled_(inverseNorms.getMap()) {}
+
+private:
+  void multiply(const MultiVector& x, MultiVector& y) const override {
+    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
+      scaled_.elementWiseMultiply(1.0, inverseNorms_, in, 0.0);
+      products_.gram(scaled_, out);
+      scaled_.assign(out);
+      out.elementWiseMultiply(1.0, inverseNorms_, scaled_, 0.0);
+    });
+  }
+  const RowProducts& products_;
+  const Vector& inverseNorms_;
+  mutable Vector scaled_;
+};
+
+/// Whether rows with these gaps, made of length 1, can hold by displacements within reach. Collective.
+/// \param overlap  what reach is measured by
+/// \returns what proves that they cannot, or null
+RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProducts& products,
+                                const Vector& inverseNorms, const RCP<const Vector>& target, double overlap) {
+  constexpr int patience = 1000;
+  const RCP<const Operator> gram = rcp(new RowGram(products, inverseNorms));
+  const double norm = qp::estimateNorm(*gram, {}).norm;
+  Vector lower(problem.multiplierMap);
+  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(lower.getLocalLength()); ++row)
+    if (problem.kindOf(OwnedMultiplier(row)) != RowKind::contact)
+      lower.replaceLocalValue(row, -std::numeric_limits<double>::infinity());
+  const RCP<const qp::Box> set = rcp(new qp::Box(rcp(new Vector(lower, Teuchos::Copy))));
+  Vector d(problem.multiplierMap);
+  qp::MprgpParameters parameters;
+  parameters.maxMultiplications = patience;
+  const qp::SolveReport report = qp::solveBoundProblem({gram, target, set, Teuchos::null, norm}, d,
+                                                       {0.0, 1.0, 1e-3 * overlap}, parameters);
+  const auto inRows = [&](const Vector& scaled) {
+    const RCP<Vector> result = rcp(new Vector(problem.multiplierMap));
+    result->elementWiseMultiply(1.0, inverseNorms, scaled, 0.0);
+    return result;
+  };
+  if (report.status == qp::Status::converged) {
+    const RCP<Vector> proof = inRows(d);
+    double largest = 0;
+    for (const Eigen::VectorXd& u : products.forces(*proof))
+      largest = u.size() > 0 ? std::max(largest, u.lpNorm<Eigen::Infinity>()) : largest;
+    return maxOverRanks(*problem.comm, largest) > reach * overlap ? proof : Teuchos::null;
+  }
+  const RCP<Vector> direction =
+      qp::findRecessionDirection(gram, norm, *target, *set, Teuchos::null, patience).direction;
+  return direction.is_null() ? Teuchos::null : inRows(*direction);
+}
+
+/// "a, b and c", each once.
+std::string listed(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+  return list;
+}
+
+} // namespace
+
+ContradictionError::ContradictionError(std::vector<GlobalOrdinal> rows, double overlap,
+                                       std::vector<std::string> names, const std::string& place)
+    : SolvabilityError(Kind::noSolution,
+                       "no solution: supports and " + listed(std::move(names)) + " contradict each other" +
+                           (place.empty() ? "" : " at " + place) +
+                           ", no displacement satisfies them all: what they hold is off by " + text(overlap) +
+                           "; change a gap, an obstacle, a support or a joint"),
+      rows_(std::move(rows)), overlap_(overlap) {}
+
+void requireFeasibleGaps(const DecomposedProblem& problem) {
+  const Comm& comm = *problem.comm;
+  const auto gaps = problem.gap->getData();
+  double overlap = 0;
+  for (LocalOrdinal row = 0; row < gaps.size(); ++row)
+    overlap = std::max(overlap, violationOf(problem, row, gaps[row]));
+  overlap = maxOverRanks(comm, overlap);
+  // Gaps are differences of prescribed values: what is round-off of these does not overlap.
+  const double roundOff = ProblemScales::roundOff * ProblemScales(problem).length();
+  if (overlap <= roundOff)
+    return;
+  const RowProducts products(problem);
+  const RCP<Vector> inverseNorms = products.norms(), target = rcp(new Vector(problem.multiplierMap));
+  Vector held(problem.multiplierMap);
+  double worst = 0; // of the rows of length 1
+  {
+    const auto inverse = inverseNorms->getDataNonConst(), isHeld = held.getDataNonConst(),
+               rhs = target->getDataNonConst();
+    for (LocalOrdinal row = 0; row < gaps.size(); ++row) {
+      const double violation = violationOf(problem, row, gaps[row]), norm = inverse[row];
+      if (norm == 0 && violation > roundOff)
+        isHeld[row] = violation;
+      inverse[row] = norm > 0 ? 1 / norm : 0;
+      rhs[row] = -gaps[row] * inverse[row];
+      worst = std::max(worst, violation * inverse[row]);
+    }
+  }
+  if (held.normInf() > 0)
+    refuse(problem, held, held.normInf());
+  const double scale = maxOverRanks(comm, worst);
+  {
+    const auto rhs = target->getDataNonConst();
+    for (double& value : rhs) // what is farther away does not come into it
+      value = std::max(value, -reach * scale);
+  }
+  if (const RCP<Vector> proof = provedContradiction(problem, products, *inverseNorms, target, scale);
+      !proof.is_null())
+    refuseContradiction(problem, *proof);
+}
+
+void refuseContradiction(const DecomposedProblem& problem, const Vector& d) {
+  constexpr double small = 1e-3 / reach;
+  const Comm& comm = *problem.comm;
+  const RowProducts products(problem);
+  const auto largestOf = [&](bool isMagnitude) {
+    double largest = 0;
+    for (const Eigen::VectorXd& force : products.forces(d, isMagnitude))
+      largest = force.size() > 0 ? std::max(largest, force.lpNorm<Eigen::Infinity>()) : largest;
+    return maxOverRanks(comm, largest);
+  };
+  const double left = largestOf(false), terms = largestOf(true);
+  AccurateSum gaps[2]; // cᵀd and the size of its terms
+  double tension = 0, heaviest = 0;
+  const auto mine = d.getData(), gap = problem.gap->getData();
+  for (LocalOrdinal row = 0; row < mine.size(); ++row) {
+    gaps[0].add(gap[row] * mine[row]);
+    gaps[1].add(std::abs(gap[row] * mine[row]));
+    const RowKind kind = problem.kindOf(OwnedMultiplier(row));
+    if (kind == RowKind::contact)
+      tension = std::max(tension, -mine[row]);
+    if (kind != RowKind::gluing)
+      heaviest = std::max(heaviest, std::abs(mine[row]));
+  }
+  sumOverRanks(comm, gaps);
+  tension = maxOverRanks(comm, tension);
+  heaviest = maxOverRanks(comm, heaviest);
+  if (terms > 0 && left <= small * terms && tension <= small * d.normInf() &&
+      gaps[0].value() < -small * gaps[1].value())
+    refuse(problem, d, -gaps[0].value() / heaviest);
+}
+
+} // namespace epafi::fetidp

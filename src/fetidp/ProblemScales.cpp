@@ -1,0 +1,99 @@
+#include "epafi/fetidp/ProblemScales.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/fetidp/MultiplierExchange.hpp"
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace epafi::fetidp {
+
+using decomposition::DecomposedProblem;
+
+ProblemScales::ProblemScales(const DecomposedProblem& problem) {
+  measureMotions(problem);
+  measureLoads(problem);
+  measureRows(problem);
+}
+
+void ProblemScales::measureMotions(const DecomposedProblem& problem) {
+  motions_.setZero(problem.numRigidModes());
+  for (const auto& subdomain : problem.subdomains) {
+    const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
+    const Eigen::MatrixXd modes = subdomain.kernel * problem.clusterAt(subdomain).ofBody;
+    for (Eigen::Index mode = 0; mode < modes.cols() && modes.rows() > 0; ++mode)
+      motions_[offset + mode] = std::max(motions_[offset + mode], modes.col(mode).lpNorm<Eigen::Infinity>());
+  }
+  for (double& length : motions_) {
+    length = maxOverRanks(*problem.comm, length);
+    length = length > 0 ? length : 1.0;
+  }
+}
+
+void ProblemScales::measureLoads(const DecomposedProblem& problem) {
+  // Forces of prescribed displacements are sums that cancel where these move a body as a whole, or across them.
+  constexpr double left = 1e-5; // times `resultant`: some round-off of the terms
+  const std::size_t numClusters = problem.clusters.size();
+  std::vector<double> sums(numClusters, 0.0), largest(numClusters + 1, 0.0);
+  std::vector<double> modes(static_cast<std::size_t>(problem.kernelDimension), 0.0);
+  for (const auto& subdomain : problem.subdomains) {
+    const auto cluster =
+        static_cast<std::size_t>(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
+    sums[cluster] += subdomain.load.lpNorm<1>();
+    const double prescribed =
+        subdomain.prescribed.size() > 0 ? subdomain.prescribed.lpNorm<Eigen::Infinity>() : 0.0;
+    if (prescribed > 0 && subdomain.stiffness->rows() > 0)
+      largest[cluster] = std::max(
+          largest[cluster], left * prescribed * Eigen::VectorXd(subdomain.stiffness->diagonal()).maxCoeff());
+    largest.back() = std::max(largest.back(), prescribed);
+    for (Eigen::Index mode = 0; mode < subdomain.kernel.cols() && subdomain.kernel.rows() > 0; ++mode) {
+      double& size = modes[static_cast<std::size_t>(problem.kernelOffsetOf(subdomain) + mode)];
+      size = std::max(size, subdomain.kernel.col(mode).lpNorm<Eigen::Infinity>());
+    }
+  }
+  sumOverRanks(*problem.comm, std::span<double>(sums));
+  for (auto* values : {&largest, &modes})
+    for (double& value : *values)
+      value = maxOverRanks(*problem.comm, value);
+  length_ = std::max(largest.back(), problem.gap->normInf());
+  loads_.setZero(problem.numRigidModes());
+  resultants_.setZero(problem.kernelDimension);
+  for (std::size_t c = 0; c < numClusters; ++c) {
+    const decomposition::Cluster& cluster = problem.clusters[c];
+    const double load = std::max(sums[c], largest[c]);
+    const auto& body = problem.bodies[static_cast<std::size_t>(cluster.body)];
+    loads_.segment(body.kernelOffset, body.kernelDimension).array() += load;
+    for (int mode = cluster.kernelOffset; mode < cluster.kernelOffset + cluster.kernelDimension; ++mode)
+      resultants_[mode] = load * modes[static_cast<std::size_t>(mode)];
+  }
+  // What supports take is no load here; what is left of it in other directions is round-off.
+  if (const double heaviest = loads_.size() > 0 ? loads_.maxCoeff() : 0.0; heaviest > 0)
+    loads_ = (loads_.array() > roundOff * heaviest).select(loads_, 0.0);
+}
+
+void ProblemScales::measureRows(const DecomposedProblem& problem) {
+  MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
+  const std::span<double> sizes = exchange.zeros();
+  for (const auto& subdomain : problem.subdomains)
+    for (const auto& entry : subdomain.constraint)
+      sizes[static_cast<std::size_t>(entry.multiplier)] += std::abs(entry.coefficient);
+  Vector owned(problem.multiplierMap);
+  exchange.sumToOwners(owned);
+  const auto values = owned.getData();
+  rowSizes_.assign(values.begin(), values.end());
+}
+
+std::map<int, Eigen::VectorXd> ProblemScales::hinderingRows(const std::vector<KernelEntry>& entries) const {
+  std::map<int, Eigen::VectorXd> rows;
+  for (const KernelEntry& entry : entries)
+    rows.try_emplace(entry.row, Eigen::VectorXd::Zero(motions_.size())).first->second[entry.mode] +=
+        entry.value / motions_[entry.mode];
+  std::erase_if(rows, [this](const auto& row) { return !hinders(row.first, row.second); });
+  return rows;
+}
+
+} // namespace epafi::fetidp
