@@ -67,6 +67,33 @@ double violationOf(const DecomposedProblem& problem, LocalOrdinal row, double ga
   throw ContradictionError(std::move(numbers), overlap, std::move(names));
 }
 
+/// By how much rows are violated that no displacement can help: those without an unknown, and those that are much shorter than others and far more
+/// violated for their length, whose unknowns are there by round-off of weights. \param norms  of rows
+/// Collective.
+Vector heldRows(const DecomposedProblem& problem, const Vector& norms, double roundOff) {
+  const auto gaps = problem.gap->getData(), norm = norms.getData();
+  AccurateSum sums[2]; // violation and length of violated rows
+  double longest = 0;
+  for (LocalOrdinal row = 0; row < gaps.size(); ++row)
+    if (problem.kindOf(OwnedMultiplier(row)) != RowKind::gluing) {
+      longest = std::max(longest, norm[row]);
+      if (const double violation = violationOf(problem, row, gaps[row]); violation > roundOff) {
+        sums[0].add(violation);
+        sums[1].add(norm[row]);
+      }
+    }
+  sumOverRanks(*problem.comm, sums);
+  longest = maxOverRanks(*problem.comm, longest);
+  Vector held(problem.multiplierMap);
+  for (LocalOrdinal row = 0; row < gaps.size(); ++row)
+    if (const double violation = violationOf(problem, row, gaps[row]);
+        violation > roundOff &&
+        (norm[row] == 0 ||
+         (reach * norm[row] < longest && violation * sums[1].value() > reach * sums[0].value() * norm[row])))
+      held.replaceLocalValue(row, violation);
+  return held;
+}
+
 /// SBBᵀS, S = diag(1/‖b‖): rows of length 1.
 class RowGram final : public SymmetricOperator {
 public:
@@ -145,41 +172,32 @@ ContradictionError::ContradictionError(std::vector<GlobalOrdinal> rows, double o
       rows_(std::move(rows)), overlap_(overlap) {}
 
 void requireFeasibleGaps(const DecomposedProblem& problem) {
-  const Comm& comm = *problem.comm;
   const auto gaps = problem.gap->getData();
   double overlap = 0;
   for (LocalOrdinal row = 0; row < gaps.size(); ++row)
     overlap = std::max(overlap, violationOf(problem, row, gaps[row]));
-  overlap = maxOverRanks(comm, overlap);
   // Gaps are differences of prescribed values: what is round-off of these does not overlap.
   const double roundOff = ProblemScales::roundOff * ProblemScales(problem).length();
-  if (overlap <= roundOff)
+  if (!holdsAnywhere(*problem.comm, overlap > roundOff))
     return;
   const RowProducts products(problem);
   const RCP<Vector> inverseNorms = products.norms(), target = rcp(new Vector(problem.multiplierMap));
-  Vector held(problem.multiplierMap);
+  const Vector held = heldRows(problem, *inverseNorms, roundOff);
+  if (const double most = held.normInf(); most > 0)
+    refuse(problem, held, most);
   double worst = 0; // of the rows of length 1
   {
-    const auto inverse = inverseNorms->getDataNonConst(), isHeld = held.getDataNonConst(),
-               rhs = target->getDataNonConst();
+    const auto inverse = inverseNorms->getDataNonConst(), rhs = target->getDataNonConst();
     for (LocalOrdinal row = 0; row < gaps.size(); ++row) {
-      const double violation = violationOf(problem, row, gaps[row]), norm = inverse[row];
-      if (norm == 0 && violation > roundOff)
-        isHeld[row] = violation;
-      inverse[row] = norm > 0 ? 1 / norm : 0;
+      inverse[row] = inverse[row] > 0 ? 1 / inverse[row] : 0;
       rhs[row] = -gaps[row] * inverse[row];
-      worst = std::max(worst, violation * inverse[row]);
+      worst = std::max(worst, violationOf(problem, row, gaps[row]) * inverse[row]);
     }
-  }
-  if (held.normInf() > 0)
-    refuse(problem, held, held.normInf());
-  const double scale = maxOverRanks(comm, worst);
-  {
-    const auto rhs = target->getDataNonConst();
+    worst = maxOverRanks(*problem.comm, worst);
     for (double& value : rhs) // what is farther away does not come into it
-      value = std::max(value, -reach * scale);
+      value = std::max(value, -reach * worst);
   }
-  if (const RCP<Vector> proof = provedContradiction(problem, products, *inverseNorms, target, scale);
+  if (const RCP<Vector> proof = provedContradiction(problem, products, *inverseNorms, target, worst);
       !proof.is_null())
     refuseContradiction(problem, *proof);
 }

@@ -60,19 +60,26 @@ void ProblemScales::measureLoads(const DecomposedProblem& problem) {
     for (double& value : *values)
       value = maxOverRanks(*problem.comm, value);
   length_ = std::max(largest.back(), problem.gap->normInf());
-  loads_.setZero(problem.numRigidModes());
   resultants_.setZero(problem.kernelDimension);
+  std::vector<double> ofBodies(problem.bodies.size(), 0.0);
   for (std::size_t c = 0; c < numClusters; ++c) {
     const decomposition::Cluster& cluster = problem.clusters[c];
     const double load = std::max(sums[c], largest[c]);
-    const auto& body = problem.bodies[static_cast<std::size_t>(cluster.body)];
-    loads_.segment(body.kernelOffset, body.kernelDimension).array() += load;
+    ofBodies[static_cast<std::size_t>(cluster.body)] += load;
     for (int mode = cluster.kernelOffset; mode < cluster.kernelOffset + cluster.kernelDimension; ++mode)
       resultants_[mode] = load * modes[static_cast<std::size_t>(mode)];
   }
   // What supports take is no load here; what is left of it in other directions is round-off.
-  if (const double heaviest = loads_.size() > 0 ? loads_.maxCoeff() : 0.0; heaviest > 0)
-    loads_ = (loads_.array() > roundOff * heaviest).select(loads_, 0.0);
+  double heaviest = 0;
+  for (const double load : ofBodies)
+    heaviest = std::max(heaviest, load);
+  double least = heaviest;
+  for (const double load : ofBodies)
+    least = load > roundOff * heaviest ? std::min(least, load) : least;
+  loads_.setZero(problem.numRigidModes());
+  for (std::size_t b = 0; b < ofBodies.size(); ++b)
+    loads_.segment(problem.bodies[b].kernelOffset, problem.bodies[b].kernelDimension)
+        .setConstant(std::max(ofBodies[b], least));
 }
 
 void ProblemScales::measureRows(const DecomposedProblem& problem) {

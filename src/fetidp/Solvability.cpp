@@ -8,8 +8,6 @@
 #include "epafi/fetidp/ProblemScales.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 
@@ -77,20 +75,15 @@ void refuseFreeMotion(const RigidBalance& balance) {
          " without meeting a support or a contact; add a support or a contact pair");
 }
 
-/// Is ẽ in the cone of the directions? With each body's modes measured by the loads on it (by those of the least loaded
-/// one where a body carries none) and the directions of length 1 again: neither changes the answer, but a heavy body
-/// does not hide a light one.
+/// Is ẽ in the cone of the directions? With each body's modes measured by the loads on it and the directions of length 1 again:
+/// neither changes the answer, but a heavy body does not hide a light one.
 struct ScaledCone {
   Eigen::VectorXd unit;       ///< by which a mode's resultant is divided
   Eigen::MatrixXd directions; ///< k × (as many as differ)
   Eigen::VectorXd resultant;  ///< k
 
   explicit ScaledCone(const RigidBalance& balance) : unit(balance.scales.loads()) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const double load : unit)
-      least = load > 0 ? std::min(least, load) : least;
-    for (double& value : unit)
-      value = value > 0 ? value : std::isfinite(least) ? least : 1.0;
+    unit = (unit.array() > 0).select(unit, 1.0);
     directions = (unit.cwiseInverse().asDiagonal() * balance.directions).colwise().normalized();
     resultant = balance.load.cwiseQuotient(unit);
   }
@@ -115,6 +108,13 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
 
   const ScaledCone cone(balance);
   const Eigen::VectorXd pulled = cone.imbalance(cone.resultant);
+  if (pulled.norm() > 0) {
+    const Eigen::VectorXd motion = pulled.cwiseQuotient(cone.unit); // allowed, and driven by the load
+    refuse(Kind::noSolution, "the load pulls ", balance.words(pulled).bodies,
+           " away from its contacts (resultant ", balance.load.dot(motion) / motion.norm(),
+           " along a motion that no contact hinders", along(balance.words(motion), ": "),
+           "); turn the load or add a support");
+  }
 
   // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
   const Eigen::VectorXd mean = cone.directions.rowwise().mean();
