@@ -47,7 +47,7 @@ fetidp::ContradictionError inWordsOf(const model::Decomposition& decomposition,
   const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(first.layout.firstBody)].mesh;
   const fem::Point point = mesh.point(first.node);
   const auto dimension = static_cast<std::size_t>(fem::dimensionOf(mesh.cellType()));
-  return {error.rows(), error.overlap(), std::move(names), text(std::span(point.data(), dimension))};
+  return {error.rows(), error.misfit(), std::move(names), text(std::span(point.data(), dimension))};
 }
 
 } // namespace epafi::drivers

@@ -64,7 +64,11 @@ double violationOf(const DecomposedProblem& problem, LocalOrdinal row, double ga
     names.push_back((each.row < problem.numInequalities ? "contact row " : "tied row ") +
                     std::to_string(each.row));
   }
-  throw ContradictionError(std::move(numbers), overlap, std::move(names));
+  const bool isTied = std::any_of(numbers.begin(), numbers.end(),
+                                  [&](GlobalOrdinal row) { return row >= problem.numInequalities; });
+  throw ContradictionError(std::move(numbers),
+                           (isTied ? "what they hold is apart by " : "they overlap by ") + text(overlap),
+                           std::move(names));
 }
 
 /// By how much rows are violated that no displacement can help: those without an unknown, and those that are much shorter than others and far more
@@ -150,10 +154,15 @@ RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProdu
   return direction.is_null() ? Teuchos::null : inRows(*direction);
 }
 
-/// "a, b and c", each once.
+/// "a, b and c", each once, of many the first ones.
 std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t most = 4;
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
+  if (names.size() > most) {
+    names[most - 1] = std::to_string(names.size() - most + 1) + " more";
+    names.resize(most);
+  }
   std::string list;
   for (std::size_t i = 0; i < names.size(); ++i)
     list += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
@@ -162,14 +171,13 @@ std::string listed(std::vector<std::string> names) {
 
 } // namespace
 
-ContradictionError::ContradictionError(std::vector<GlobalOrdinal> rows, double overlap,
+ContradictionError::ContradictionError(std::vector<GlobalOrdinal> rows, std::string misfit,
                                        std::vector<std::string> names, const std::string& place)
     : SolvabilityError(Kind::noSolution,
                        "no solution: supports and " + listed(std::move(names)) + " contradict each other" +
-                           (place.empty() ? "" : " at " + place) +
-                           ", no displacement satisfies them all: what they hold is off by " + text(overlap) +
-                           "; change a gap, an obstacle, a support or a joint"),
-      rows_(std::move(rows)), overlap_(overlap) {}
+                           (place.empty() ? "" : " at " + place) + ", no displacement satisfies them all, " +
+                           misfit + "; change a gap, an obstacle, a support or a joint"),
+      rows_(std::move(rows)), misfit_(std::move(misfit)) {}
 
 void requireFeasibleGaps(const DecomposedProblem& problem) {
   const auto gaps = problem.gap->getData();

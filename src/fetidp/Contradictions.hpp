@@ -15,17 +15,17 @@ namespace epafi::fetidp {
 class ContradictionError : public SolvabilityError {
 public:
   /// \param rows     numbers of those that take part, of contact and ties; the one that weighs most is the first
-  /// \param overlap  by how much they are off
-  /// \param names    of them, for the sentence; each is said once
+  /// \param misfit   by how much: "they overlap by 0.01"
+  /// \param names    of them, for the sentence, which says each once, and a few
   /// \param place    of the first; empty: unknown
-  ContradictionError(std::vector<GlobalOrdinal> rows, double overlap, std::vector<std::string> names,
+  ContradictionError(std::vector<GlobalOrdinal> rows, std::string misfit, std::vector<std::string> names,
                      const std::string& place = "");
   [[nodiscard]] const std::vector<GlobalOrdinal>& rows() const { return rows_; }
-  [[nodiscard]] double overlap() const { return overlap_; }
+  [[nodiscard]] const std::string& misfit() const { return misfit_; }
 
 private:
   std::vector<GlobalOrdinal> rows_;
-  double overlap_;
+  std::string misfit_;
 };
 
 /// Throws ContradictionError, the same on all ranks, if B_I u ≤ c_I, B_T u = c_T, B_E u = 0 contradict each other, or can only be met
