@@ -183,8 +183,14 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
     const auto makeText = [&, &name = geometry] {
       return fem::textOfGeometry(name, factor, fem::SizeField(std::move(sizes)));
     };
-    const fem::GmshFile mesh = model::meshOnAllRanks(geometry, makeText, comm);
+    std::string text = model::textOnAllRanks(makeText, comm);
+    if (text.empty()) { // bisected as what a mesh file has
+      for (const std::size_t b : bodies)
+        isRemeshed_[b] = false;
+      continue;
+    }
     collectively(comm, [&] {
+      const fem::GmshFile mesh(fem::readMsh(geometry, std::move(text)));
       for (const std::size_t b : bodies) {
         SimplexMesh finer = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
         ancestors[b] = elementsAround(finer, meshes_[b]);

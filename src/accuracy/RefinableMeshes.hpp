@@ -4,7 +4,7 @@
 ///
 /// What is on a rectangle or box, or comes from a mesh file, is bisected; a geometry (.geo) is meshed anew by Gmsh, with the
 /// sizes that are wanted, so that new nodes lie on it; unless it says itself how many elements lie along its edges, in rows of
-/// quadrilaterals say: then it is bisected too, on the arcs of its first mesh. Surfaces and groups are those of the scene.
+/// quadrilaterals say, or its shape is that of a mesh (STL): then it is bisected too, on the arcs of its first mesh. Surfaces and groups are those of the scene.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/SimplexMesh.hpp"

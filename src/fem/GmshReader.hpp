@@ -3,7 +3,8 @@
 /// The text of mesh files: .msh as it is, geometries (.geo), which are programs that Gmsh runs, as Gmsh meshes and saves them.
 ///
 /// Gmsh's library is loaded when first used: it brings some eighty other libraries along, which a program without
-/// geometries need not wait for. It saves into a folder of its own under TMPDIR (else /tmp), which is removed at once.
+/// geometries need not wait for. It works in a copy of the process (ChildProcess.hpp), which alone ends where a geometry or Gmsh's own mistake ends
+/// it, and saves into a folder under TMPDIR (else /tmp), which is removed at once.
 
 #include "epafi/fem/SizeField.hpp"
 
@@ -25,7 +26,8 @@ std::string textOfMeshFile(const std::string& file, double meshSizeFactor = 1, i
                            int order = 0);
 
 /// Of a geometry, meshed anew in triangles or tetrahedra of order 2: with these sizes, whatever it says of sizes. Numbers of
-/// elements that it gives itself stay (Gmsh's own kernel keeps transfinite curves, layers and quadrilaterals). The same otherwise. \param meshSizeFactor  that the geometry can read
+/// elements that it gives itself stay (Gmsh's own kernel keeps transfinite curves, layers and quadrilaterals). Empty if its shape is a mesh itself, as that of STL and other merged files
+/// is: then it cannot be meshed anew. The same otherwise. \param meshSizeFactor  that the geometry can read
 std::string textOfGeometry(const std::string& file, double meshSizeFactor, const SizeField& sizes);
 
 } // namespace epafi::fem

@@ -20,14 +20,19 @@ void broadcastText(const Comm& comm, std::string& text) {
     Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), text.data() + first);
 }
 
-fem::GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
-                             const Comm& comm) {
+std::string textOnAllRanks(const std::function<std::string()>& makeText, const Comm& comm) {
   std::string text;
   collectively(comm, [&] {
     if (comm.getRank() == 0)
       text = makeText();
   });
   broadcastText(comm, text);
+  return text;
+}
+
+fem::GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
+                             const Comm& comm) {
+  std::string text = textOnAllRanks(makeText, comm);
   std::optional<fem::GmshFile> mesh;
   collectively(comm, [&] { mesh.emplace(fem::readMsh(file, std::move(text))); });
   return std::move(*mesh);

@@ -1,0 +1,104 @@
+#include "epafi/fem/ChildProcess.hpp"
+
+#include "epafi/base/Errors.hpp"
+
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <fcntl.h>
+
+namespace epafi::fem {
+namespace {
+
+// What the copy says first when it is done; then the error's text.
+constexpr char done = 'd', wrongInput = 'i', failed = 'f';
+
+[[noreturn]] void leave() noexcept {
+  ::_exit(EXIT_FAILURE); // no function that this process has registered for its own end is called
+}
+
+void say(int pipe, char what, const std::string& text) {
+  const std::string message = what + text.substr(0, 4000); // a pipe holds it, read or not
+  if (::write(pipe, message.data(), message.size()) < 0)
+    leave();
+}
+
+[[noreturn]] void workAndLeave(const std::function<void()>& work, int pipe, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent)
+    leave();
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) // no stack traces of message passing
+    std::signal(signal, SIG_DFL);
+  const rlimit none{0, 0};
+  ::setrlimit(RLIMIT_CORE, &none);
+  std::set_terminate(leave);
+  std::atexit(leave); // called first
+  try {
+    work();
+    say(pipe, done, "");
+  } catch (const InputError& error) {
+    say(pipe, wrongInput, error.what());
+  } catch (const std::exception& error) {
+    say(pipe, failed, error.what());
+  }
+  leave();
+}
+
+std::string readAll(int pipe) {
+  std::string text;
+  std::array<char, 4096> part{};
+  for (;;) {
+    const ssize_t size = ::read(pipe, part.data(), part.size());
+    if (size > 0)
+      text.append(part.data(), static_cast<std::size_t>(size));
+    else if (size == 0 || errno != EINTR)
+      return text;
+  }
+}
+
+/// "by signal 11 (Segmentation fault)"
+std::string endOf(pid_t child) {
+  int status = 0;
+  pid_t ended = 0;
+  do
+    ended = ::waitpid(child, &status, 0);
+  while (ended < 0 && errno == EINTR);
+  if (ended != child || !WIFSIGNALED(status))
+    return "of its own accord";
+  const int signal = WTERMSIG(status);
+  return "by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ')';
+}
+
+} // namespace
+
+void inChildProcess(const std::function<void()>& work, const std::string& name, const std::string& remedy) {
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
+    throw Error(name + " cannot begin: " + std::strerror(errno) + "; close files or end other programs");
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child == 0)
+    workAndLeave(work, pipe[1], parent);
+  const int reason = errno;
+  ::close(pipe[1]);
+  const std::string message = child > 0 ? readAll(pipe[0]) : "";
+  ::close(pipe[0]);
+  if (child < 0)
+    throw Error(name + " cannot begin: " + std::strerror(reason) + "; free memory or end other programs");
+  const std::string end = endOf(child);
+  if (message.empty())
+    throw InputError(name + " ended " + end + "; " + remedy);
+  if (message.front() == wrongInput)
+    throw InputError(message.substr(1));
+  if (message.front() == failed)
+    throw Error(message.substr(1));
+}
+
+} // namespace epafi::fem
