@@ -3,8 +3,10 @@
 #include "RunWatch.hpp"
 #include "SceneLevels.hpp"
 
+#include "epafi/accuracy/Doubts.hpp"
 #include "epafi/base/Collective.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -67,6 +69,8 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
                           RunCompanion* companion,
                           const std::function<void(const MeshResult&, SceneRun&)>& tell) {
   const bool isLocal = accuracy.refinement == AccuracyParameters::Refinement::local;
+  const bool locks = std::any_of(scene.bodies.begin(), scene.bodies.end(), accuracy::locks);
+  const int order = accuracy.order == 0 && locks ? 2 : accuracy.order; // estimates of order 1 know too little
   const std::unique_ptr<SceneLevels> levels = levelsOf(scene, solverParameters, accuracy, comm, companion);
   AccurateRun result;
   LoopResult soFar;
@@ -87,7 +91,7 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
                                   .maxUnknowns = accuracy.maxUnknowns,
                                   .maxSeconds = accuracy.maxSeconds,
                                   .maxBytes = minOverRanks(*comm, accuracy.maxBytes),
-                                  .order = isLocal ? accuracy.order : 1},
+                                  .order = isLocal ? order : 1},
                                  note);
   } catch (const Interrupted&) {
     if (soFar.meshes.empty())

@@ -4,10 +4,12 @@
 #include "RowWords.hpp"
 
 #include "epafi/accuracy/ContactTransfer.hpp"
+#include "epafi/accuracy/Doubts.hpp"
 #include "epafi/accuracy/Transfer.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/model/ClusterSize.hpp"
+#include "epafi/output/Slab.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -150,6 +152,23 @@ double guessedError(const SceneRun& run) {
   return std::pow(nodes, -1.0 / scene::dimensionOf(bodies.front().physics));
 }
 
+/// Of each contact: the most by which a closed node has changed its gap. Collective.
+std::vector<double> closingOf(const SceneRun& run) {
+  std::vector<double> closing;
+  const Comm& comm = *run.decomposition->problem.comm;
+  for (std::size_t c = 0; c < run.decomposition->contacts.size(); ++c) {
+    const contact::ContactLayout& layout = run.decomposition->contacts[c];
+    const output::ContactState& state = run.evaluation.contacts[c];
+    const auto first = static_cast<std::size_t>(output::evenShare(layout.numRows(), comm).first);
+    double most = 0;
+    for (std::size_t i = 0; i < state.gap.size(); ++i)
+      if (state.force[i] > 0)
+        most = std::max(most, std::abs(layout.gaps[first + i] - state.gap[i]));
+    closing.push_back(maxOverRanks(comm, most));
+  }
+  return closing;
+}
+
 /// How far the iteration has to go. `looked` becomes the last estimate. Keeps references.
 fetidp::ErrorBalance balanceOf(const SceneRun& run, std::optional<accuracy::ErrorEstimator>& estimator,
                                std::optional<accuracy::ErrorEstimate>& looked, const RunOptions& options) {
@@ -239,6 +258,8 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
         .set("Discretisation Error", run.error->discretisation)
         .set("Relative Error", run.relativeError());
   }
+  if (const std::string text = accuracy::doubts(run.scene, *run.decomposition, closingOf(run)); !text.empty())
+    run.report.sublist("Accuracy").set("Doubts", text);
   if (run.start) {
     run.report.sublist("Start")
         .set("Mesh", run.start->means)

@@ -155,6 +155,8 @@ void describeAccuracy(std::ostream& text, const SceneRun& run) {
     text << ", equilibrium " << scientific(accuracy, "Equilibrium", 2);
   if (run.error)
     describeError(text, run);
+  if (accuracy.isParameter("Doubts"))
+    text << "\n  doubts      " << accuracy.get<std::string>("Doubts");
   if (run.quantity)
     describeQuantity(text, *run.quantity);
   if (accuracy.isParameter("Choice of Order"))
@@ -169,6 +171,19 @@ void describeAccuracy(std::ostream& text, const SceneRun& run) {
 std::string rounded(const ParameterList& list, const char* name) {
   std::ostringstream text;
   text << std::setprecision(5) << list.get<double>(name);
+  return text.str();
+}
+
+/// ", resultant 256.76" where it is another thing than the sum of the nodes' forces: these turn with the surface, and their
+/// resultant is what a load holds.
+std::string resultantOf(const ParameterList& contact) {
+  constexpr double alike = 0.02;
+  const auto& force = contact.get<Teuchos::Array<double>>("Resultant");
+  const double sum = contact.get<double>("Force"), resultant = std::hypot(force[0], force[1], force[2]);
+  if (std::abs(sum - resultant) <= alike * std::abs(sum))
+    return "";
+  std::ostringstream text;
+  text << std::setprecision(5) << ", resultant " << resultant;
   return text.str();
 }
 
@@ -197,7 +212,7 @@ void describeResults(std::ostream& text, const SceneRun& run) {
     describeEach(text, run.report.sublist("Contact"), "contact", [&](const ParameterList& contact) {
       text << count(contact, "Active Nodes") << " of " << counted(contact, "Candidates", "node")
            << " closed, area " << rounded(contact, "Contact Area") << ", force " << rounded(contact, "Force")
-           << ", largest pressure " << rounded(contact, "Largest Pressure");
+           << resultantOf(contact) << ", largest pressure " << rounded(contact, "Largest Pressure");
       if (contact.isParameter("Largest Penetration"))
         text << ", penetration " << rounded(contact, "Largest Penetration");
       if (contact.isParameter("Coupling"))

@@ -74,10 +74,9 @@ std::string textOf(const std::string& path, const std::string& file) {
   return text;
 }
 
-/// What Gmsh saves of a file; nothing if `run` saves nothing.
-std::optional<std::string>
-textOfGmsh(const std::string& file, double meshSizeFactor,
-           const std::function<void(const GmshSession&, const std::string&)>& run) {
+/// What Gmsh saves of a file; empty if `run` saves nothing.
+std::string textOfGmsh(const std::string& file, double meshSizeFactor,
+                       const std::function<void(const GmshSession&, const std::string&)>& run) {
   loadGmsh();
   const TemporaryFolder folder; // removed by this process, however the other one ends
   inChildProcess(

@@ -17,6 +17,10 @@ constexpr double shapeTolerance = 1e-10;
 /// Nodes nearer than this, in diameters of the body, are at the same place.
 constexpr double placeTolerance = 1e-10;
 
+/// What to do about elements that are too large for what they lie in.
+const std::string finer =
+    "mesh with smaller elements (of a .geo file by its sizes or a \"Mesh Size Factor\" below 1)";
+
 std::size_t index(LocalOrdinal number) {
   return static_cast<std::size_t>(number);
 }
@@ -113,12 +117,14 @@ void Checker::checkPoints() {
 void Checker::checkShapes() const {
   LocalOrdinal first = -1;
   ElementShape bad;
-  LocalOrdinal others = 0; // inverted as well
+  LocalOrdinal others = 0, numSound = 0; // inverted as well, and not
   for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e) {
     const ElementShape own = shape(e);
     const double none = shapeTolerance * std::pow(own.diameter, dimension_);
-    if (own.leastJacobian > none)
+    if (own.leastJacobian > none) {
+      ++numSound;
       continue;
+    }
     if (first < 0) {
       first = e;
       bad = own;
@@ -136,12 +142,14 @@ void Checker::checkShapes() const {
   const std::string more = others == 0   ? " is"
                            : others == 1 ? " and another one are"
                                          : " and " + std::to_string(others) + " others are";
-  refuse(
-      element(first) + more + " inverted (" + (dimension_ == 2 ? "area " : "volume ") + text(bad.measure) +
-      "); " +
-      (dimension_ == 2
-           ? "number nodes counter-clockwise, in a .geo file by turning the curve loop of the surface round"
-           : "number the nodes of these elements the other way round, as Gmsh does, or mesh anew"));
+  const std::string renumber =
+      dimension_ == 2
+          ? "number nodes counter-clockwise, in a .geo file by turning the curve loop of the surface round"
+          : "number the nodes of these elements the other way round, as Gmsh does, or mesh anew";
+  refuse(element(first) + more + " inverted (" + (dimension_ == 2 ? "area " : "volume ") + text(bad.measure) +
+         ") near " + place(nodes(first)[0]) + "; " +
+         (numSound > 0 ? "where the mesh is too coarse for a thin wall, " + finer + "; else " : "") +
+         renumber);
 }
 
 void Checker::refuseShape(LocalOrdinal first, const ElementShape& bad) const {
@@ -150,7 +158,9 @@ void Checker::refuseShape(LocalOrdinal first, const ElementShape& bad) const {
            (dimension_ == 2 ? "area" : "volume") + " is 0; move its nodes, or mesh anew");
   refuse(element(first) + " is folded " +
          (bad.corner < 0 ? std::string("inside") : "at " + node(nodes(first)[index(bad.corner)])) +
-         ": its Jacobian is not positive there; move its nodes, or mesh anew");
+         ": its Jacobian is not positive there; move its nodes, or, where the mesh is too coarse for the "
+         "shape, " +
+         finer);
 }
 
 void Checker::checkPlaces(const PointTree& tree) const {
@@ -162,16 +172,17 @@ void Checker::checkPlaces(const PointTree& tree) const {
     if (found.size() < 2)
       continue;
     std::sort(found.begin(), found.end());
-    refuse(node(found[0]) + " and " + node(found[1]) + " are both at " + place(found[0]) +
-           ", so that the body is cut there; merge them (in a .geo file \"Coherence Mesh;\" after meshing)");
+    refuse(
+        node(found[0]) + " and " + node(found[1]) + " are both at " + place(found[0]) +
+        ", so that the body is cut there; merge them (in a .geo file \"Coherence Mesh;\" after meshing). If "
+        "the cut "
+        "is meant, as where parts or a crack's lips meet, make a body of each side, by physical groups, and "
+        "tie them where they hold together");
   }
 }
 
 void Checker::refuseCopies(LocalOrdinal a, LocalOrdinal b) const {
-  refuse(element(a) + " and " + element(b) +
-         " have the same nodes; list an element once (Gmsh writes it once per physical group in format 2.2, "
-         "so save "
-         "overlapping groups in format 4.1)");
+  refuse(element(a) + " and " + element(b) + " have the same nodes; list an element once");
 }
 
 void Checker::checkSharing() const {
@@ -218,11 +229,13 @@ void Checker::checkSharing() const {
 
 void Checker::checkHangingNodes(const PointTree& tree) const {
   if (const auto hanging = findHangingNode(mesh_, topology_, tree))
-    refuse(node(hanging->node) + " at " + place(hanging->node) + " lies on the boundary of " +
-           element(hanging->element) +
-           " without belonging to it (a hanging node); let the elements there share all their nodes, in a "
-           ".geo file "
-           "by \"Coherence;\" or BooleanFragments before meshing");
+    refuse(
+        node(hanging->node) + " at " + place(hanging->node) + " lies on the boundary of " +
+        element(hanging->element) +
+        " without belonging to it (a hanging node). If these are parts of an assembly, as those of a STEP "
+        "file, "
+        "make a body of each, by physical groups, and tie them or let them touch; parts of one body should "
+        "share all their nodes there, in a .geo file by \"Coherence;\" or BooleanFragments before meshing");
 }
 
 } // namespace

@@ -57,6 +57,10 @@ MshRecords Reader::read() {
 void Reader::readSection(const std::string& section) {
   static const std::set<std::string> known{"MeshFormat", "PhysicalNames",   "Entities", "PartitionedEntities",
                                            "Nodes",      "ParametricNodes", "Elements"};
+  if (section == "NOD" || section == "ELM")
+    file_.refuse("the section $" + section +
+                 " is of format 1, which is not read; save the file in format 4.1 or 2.2 (gmsh -format msh41 "
+                 "-save)");
   const std::string end = "$End" + section;
   if (!known.contains(section)) {
     if (!file_.skipBehind('\n' + end))

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 namespace epafi::fem {
 namespace {
@@ -49,6 +50,12 @@ T MshScanner::fromText(std::string_view text, const char* kind) const {
   const char* const end = text.data() + text.size();
   T value{};
   const auto [stop, error] = std::from_chars(text.data() + (text.starts_with('+') ? 1 : 0), end, value);
+  if (error == std::errc::result_out_of_range && stop == end)
+    refuse("the number " + shortened(std::string(text)) +
+           " is too large or too small to be read; number and measure things otherwise");
+  if (std::is_floating_point_v<T> && stop != end && (*stop == 'D' || *stop == 'd'))
+    refuse("the exponent of \"" + shortened(std::string(text)) +
+           "\" is written with Fortran's D; write it with E");
   if (error != std::errc() || stop != end)
     refuse("here should be " + std::string(kind) + ", not " +
            (text.empty() ? "the end of the file" : '"' + shortened(std::string(text)) + '"') +
@@ -69,6 +76,10 @@ T MshScanner::fromBytes() {
 
 int MshScanner::integer() {
   return isBinary_ ? fromBytes<std::int32_t>() : fromText<int>(word(), "a whole number");
+}
+
+GlobalOrdinal MshScanner::tag() {
+  return isBinary_ ? fromBytes<std::int32_t>() : fromText<GlobalOrdinal>(word(), "a whole number");
 }
 
 GlobalOrdinal MshScanner::whole() {

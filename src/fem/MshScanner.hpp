@@ -26,6 +26,7 @@ public:
   bool skipBehind(std::string_view text);
 
   int integer();         ///< binary: four bytes
+  GlobalOrdinal tag();   ///< binary: four bytes; as text it may be larger, as Gmsh's own numbers are
   GlobalOrdinal whole(); ///< binary: eight bytes without sign, not above the largest GlobalOrdinal
   double real();
   /// How many things follow, a whole(): no more than the rest of the file can hold.

@@ -1,6 +1,7 @@
 #include "epafi/fem/MshSections.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/fem/MshCopies.hpp"
 
 #include <cstdlib>
 #include <limits>
@@ -163,7 +164,7 @@ void readPhysicalNames(MshScanner& file, MshRecords& records) {
 void readNodes2(MshScanner& file, MshRecords& records, bool isParametric) {
   const LocalOrdinal number = file.countInLine("nodes", 28, 4);
   for (LocalOrdinal n = 0; n < number; ++n) {
-    addNode(file, file.integer(), {-1, 0}, records);
+    addNode(file, file.tag(), {-1, 0}, records);
     addPoint(file, records);
     if (!isParametric)
       continue;
@@ -177,20 +178,23 @@ void readElements2(MshScanner& file, MshRecords& records) {
   const LocalOrdinal number = file.countInLine("elements", 8, 4);
   std::map<std::pair<int, int>, std::size_t> places;
   for (LocalOrdinal e = 0; e < number;) {
-    int tag = file.isBinary() ? 0 : file.integer(); // in binary it stands behind the header
+    GlobalOrdinal tag = file.isBinary() ? 0 : file.tag(); // in binary it stands behind the header
     const Header header = headerOf(file, number - e);
     for (int i = 0; i < header.numElements; ++i, ++e) {
       if (file.isBinary())
-        tag = file.integer();
+        tag = file.tag();
       const int group = header.numTags > 0 ? file.integer() : 0;
       skipIntegers(file, header.numTags - 1); // entity and partitions
       const int numNodes = numNodesOf(file, header.type, tag);
       MshBlock& block = blockOf(header.type, groupOfTag(file, group), places, records);
       block.block.tags.push_back(tag);
       for (int node = 0; node < numNodes; ++node)
-        block.nodes.push_back(checkedTag(file, file.integer()));
+        block.nodes.push_back(checkedTag(file, file.tag()));
     }
   }
+  auto numEntities = static_cast<int>(places.size());
+  for (const std::size_t dimension : {2, 3})
+    joinCopies(records.blocks[dimension], records.groupEntities[dimension], numEntities);
 }
 
 void readEntities4(MshScanner& file, MshRecords& records, bool isPartitioned) {

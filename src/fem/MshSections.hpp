@@ -34,7 +34,7 @@ struct MshRecords {
 /// In both formats: numbers and names of physical groups.
 void readPhysicalNames(MshScanner& file, MshRecords& records);
 
-/// Format 2.2. It has no entities: here the elements of one kind and group are one, with a number of its own.
+/// Format 2.2. It has no entities: here the elements of one kind and group, or of the same groups, are one, with a number of its own.
 /// \param isParametric  whether the section is $ParametricNodes
 void readNodes2(MshScanner& file, MshRecords& records, bool isParametric);
 void readElements2(MshScanner& file, MshRecords& records);

@@ -275,14 +275,15 @@ Decomposition readDecomposition(const ListReader& list, const Body& body) {
     if (!isStructured)
       list.refuseValue("Method", "body \"" + body.name + "\" has a mesh file; cut it by \"metis\"");
     cut.method = Decomposition::Method::grid;
-    if (const int dimension = dimensionOf(body); list.has("Grid") || dimension == 2)
-      cut.counts = list.counts("Grid", dimension);
-    else
-      for (std::size_t d = 0; d < 3; ++d)
-        cut.counts[d] = std::min(cut.counts[d], elements[d]);
-    for (std::size_t d = 0; d < 3; ++d)
-      if (cut.counts[d] > std::max(elements[d], 1))
+    const bool isGiven = list.has("Grid");
+    if (isGiven)
+      cut.counts = list.counts("Grid", dimensionOf(body));
+    for (std::size_t d = 0; d < 3; ++d) {
+      const int most = std::max(elements[d], 1);
+      if (isGiven && cut.counts[d] > most)
         list.refuseValue("Grid", tooMany);
+      cut.counts[d] = std::min(cut.counts[d], most);
+    }
   } else {
     cut.method = Decomposition::Method::metis;
     cut.parts = list.integer("Parts");

@@ -204,7 +204,7 @@ ParameterList decompositionSchema() {
   addArray(
       list, "Grid", Array<int>(cut.counts.begin(), cut.counts.begin() + 2),
       "With the method grid: number of subdomains {nx, ny} in x and y of each body, in space {nx, ny, nz} "
-      "(if not given {2, 2, 2}).",
+      "(if not given {2, 2, 2}, or as many as there are elements).",
       counts);
   addInteger(
       list, "Parts", cut.parts,

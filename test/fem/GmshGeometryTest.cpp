@@ -203,5 +203,29 @@ Physical Curve("rim") = {1};
     EXPECT_NEAR(vectorOf(round.point(node)).norm(), 2, 1e-9); // new nodes lie on the circle
 }
 
+/// Drawn in millimetres, saved in metres, as is what is asked of sizes.
+TEST_F(GmshGeometryTest, KeepsTheScaleOfAGeometry) {
+  const std::string plate = folder.write("plate.geo", R"(
+Mesh.ScalingFactor = 0.001;
+Point(1) = {0, 0, 0, 50}; Point(2) = {200, 0, 0, 50}; Point(3) = {200, 100, 0, 50}; Point(4) = {0, 100, 0, 50};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+)");
+  EXPECT_NEAR(measureOf(GmshFile(plate).body("")), 0.02, 1e-15);
+  const std::vector<Point> corners{{0, 0, 0}, {0.4, 0, 0}, {0, 0.4, 0}};
+  const SizeField sizes({2, corners, {0.02, 0.02, 0.02}});
+  const UnstructuredMesh fine = GmshFile(readMsh(plate, textOfGeometry(plate, 1, sizes))).body("");
+  EXPECT_NEAR(measureOf(fine), 0.02, 1e-15);
+  EXPECT_NEAR(static_cast<double>(fine.numElements()), 0.02 / (0.02 * 0.02 * 0.433), 40); // equilateral ones
+}
+
+/// Shapes that are meshes are not meshed anew: without their triangles nothing is left.
+TEST_F(GmshGeometryTest, LeavesShapesThatAreMeshesAsTheyAre) {
+  const std::string plate = folder.write("plate.msh", test::plate41),
+                    merged = folder.write("merged.geo", "Merge \"plate.msh\";\n");
+  EXPECT_EQ(GmshFile(merged).body("").numElements(), 2);
+  EXPECT_EQ(textOfGeometry(merged, 1, SizeField({2, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {1, 1, 1}})), "");
+}
+
 } // namespace
 } // namespace epafi::fem

@@ -163,7 +163,7 @@ TEST_F(MshReaderTest, RefusesPromisesThatTheFileCannotKeep) {
   expectMshRefused(replaced(plate22, "$Nodes\n7", "$Nodes\n2000000000"),
                    {"promises 2000000000 nodes", "at most"});
   expectMshRefused(replaced(plate22, "$Nodes\n7", "$Nodes\n-7"), {"promises -7 nodes"});
-  expectMshRefused(replaced(plate22, "$Elements\n4", "$Elements\n99999999999999999999"), {"a whole number"});
+  expectMshRefused(replaced(plate22, "$Elements\n4", "$Elements\n99999999999999999999"), {"too large"});
   expectMshRefused(replaced(plate41, "$Nodes\n4 7 1 9", "$Nodes\n4 8 1 9"), {"7 nodes, but should hold 8"});
   expectMshRefused(replaced(plate41, "$Elements\n3 3", "$Elements\n3 2"), {"3 elements, but should hold 2"});
   expectMshRefused(replaced(plate41, "1 1 0 2\n1\n4", "5 1 0 2\n1\n4"), {"no dimension 5"});
@@ -181,6 +181,30 @@ TEST_F(MshReaderTest, RefusesElementsThatCannotBe) {
   expectMshRefused(replaced(plate41, "2 2 3 1\n3", "1 2 3 1\n3"), {"element 3", "dimension 1", "kind has 2"});
   expectMshRefused(head41 + nodes41, {"no elements of dimension 2 or 3"});
   expectMshRefused(head41 + elements41, {"node 1, but no such node"});
+}
+
+/// As Gmsh writes groups that overlap in format 2.2: one element of two groups, whatever order its nodes are in.
+TEST_F(MshReaderTest, ReadsElementsListedOncePerGroupAsOne) {
+  const std::string text = replaced(replaced(plate22, "$Elements\n4", "$Elements\n5"), "3 3 2 3 2 2 3 6 5",
+                                    "3 3 2 3 2 2 3 6 5\n7 3 2 2 2 3 6 5 2");
+  const GmshFile file(readMsh("plate.msh", text));
+  const UnstructuredMesh all = file.body(""), west = file.body("west"), right = file.body("right");
+  EXPECT_EQ(all.numElements(), 2);
+  EXPECT_EQ(all.group("west").size(), 2U);
+  EXPECT_EQ(all.group("right").size(), 1U);
+  EXPECT_EQ(west.numElements(), 2);
+  EXPECT_EQ(west.group("right").size(), 1U);
+  EXPECT_EQ(right.numElements(), 1);
+}
+
+TEST_F(MshReaderTest, ReadsNumbersAsLargeAsGmshAllows) {
+  std::string text = plate22;
+  for (const auto& [small, large] : {std::pair{"6 2 1 0\n", "5000000006 2 1 0\n"},
+                                     {"3 3 2 3 2 2 3 6 5", "6000000003 3 2 3 2 2 3 5000000006 5"}})
+    text = replaced(text, small, large);
+  const GmshContents contents = readMsh("plate.msh", text);
+  EXPECT_EQ(contents.nodeTags.back(), 5000000006);
+  EXPECT_EQ(GmshFile(contents).body("").numElements(), 2);
 }
 
 } // namespace
