@@ -215,7 +215,7 @@ MeshResult SceneLevels::resultOf(const SceneRun& run) {
   // Short of its tolerance an iteration may still be good enough for a mesh: its error is known, and counts.
   const qp::SolveReport& report = run.solver->report();
   if (report.status == qp::Status::interrupted ||
-      (report.status != qp::Status::converged && !(result.algebraic <= result.discretisation)))
+      (report.status != qp::Status::converged && !(result.algebraic <= run.error->toBalance())))
     result.failure = report.reason;
   else if (run.quantity)
     result.failure = run.quantity->failure;

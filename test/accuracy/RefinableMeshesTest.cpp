@@ -293,6 +293,34 @@ Physical Curve("outer") = {2};
   }
 }
 
+/// Its shape is a mesh, without which there is nothing that could be meshed anew.
+TEST_F(RefinableMeshesTest, AGeometryThatMergesAMeshIsBisected) {
+  (void)geometry("base.msh", R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+$EndNodes
+$Elements
+2
+1 2 2 7 1 1 2 3
+2 2 2 7 1 1 3 4
+$EndElements
+)");
+  RefinableMeshes meshes(
+      membraneOn(geometry("merged.geo", "Merge \"base.msh\";\nPhysical Surface(\"plate\") = {1};\n"),
+                 {"plate"}),
+      *comm);
+  const std::vector<Ancestors> ancestors = meshes.refine(halvings(meshes, everywhereOnce), *comm);
+  EXPECT_EQ(ancestors[0].size(), 8U);
+  EXPECT_NEAR(measureOf(*bodiesOf(meshes, 1)[0].mesh), 1, roundOff);
+  EXPECT_FALSE(meshes.areRemeshed());
+}
+
 TEST_F(RefinableMeshesTest, AllRanksAreToldOfAFileThatCannotBeMeshed) {
   const std::string bad = geometry("bad.geo", "Point(1) = {0, 0, 0};\nLine(1) = {1, 2};\n");
   for (const std::string& file : {bad, std::string("none.geo"), std::string("none.msh")})

@@ -124,8 +124,8 @@ TEST_F(GmshRefusalsTest, RefusesSurfacesInsideTheBodyOrWithoutIt) {
 }
 
 TEST_F(GmshRefusalsTest, SaysWhatIsWrongWithNumbersAndFormats) {
-  expectRefused(replaced(plate22, "4 0 1 0", "4 0 1.0D+00 0"), {"line 14", "1.0D+00", "Fortran's D"});
-  expectRefused(replaced(plate22, "4 0 1 0", "40000000000000000000 0 1 0"), {"line 14", "too large"});
+  expectRefused(replaced(plate22, "4 0 1 0", "4 0 1.0D+00 0"), {"line 15", "1.0D+00", "Fortran's D"});
+  expectRefused(replaced(plate22, "4 0 1 0", "40000000000000000000 0 1 0"), {"line 15", "too large"});
   expectRefused("$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n", {"format 1", "4.1 or 2.2"});
 }
 

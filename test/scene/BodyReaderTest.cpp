@@ -220,6 +220,16 @@ TEST(BodyReaderTest, RefusesMoreSubdomainsThanElements) {
   expectSays(sceneRefusal(metis), {"\"Parts\"", "is 17", "body \"left\" has only {4, 4} elements"});
 }
 
+TEST(BodyReaderTest, CutsTheDefaultGridDownToTheElementsThatThereAre) {
+  for (const auto& [elements, grid] : {std::pair{counts({1, 1}), std::array{1, 1, 1}},
+                                       {counts({1, 4}), std::array{1, 2, 1}},
+                                       {counts({3, 1}), std::array{2, 1, 1}}}) {
+    ParameterList list = twoBodies();
+    bodyOf(list, "right").set("Elements", elements);
+    EXPECT_EQ(scene::readScene(list, "a.xml").bodies[1].decomposition.counts, grid);
+  }
+}
+
 TEST(BodyReaderTest, RefusesCountsOfSubdomainsBelowOne) {
   const auto grid = [](ParameterList& list) { list.sublist("Decomposition").set("Grid", counts({0, 2})); };
   expectSays(sceneRefusal(grid), {"\"Grid\"", "{0, 2}", "at least 1"});

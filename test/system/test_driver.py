@@ -2,6 +2,7 @@
 """test_driver.py EPAFI SOURCE_DIR MPIRUN ARGUMENTS...: the program as its users meet it: exit codes, messages, files; on one
 rank and on several, always within a time limit, so that a rank that waits for ever is a failure."""
 
+import os
 import pathlib
 import re
 import subprocess
@@ -268,6 +269,112 @@ class RefusesWrongInput(Driver):
         for ranks in (1, 3):
             for option in ("--output", "--report"):
                 self.expect(WRONG_INPUT, [str(blocked)], scene("coercive"), option, blocked / "out", ranks=ranks)
+
+
+PLATE = """
+Point(1) = {0, 0, 0, 0.5}; Point(2) = {2, 0, 0, 0.5}; Point(3) = {2, 1, 0, 0.5}; Point(4) = {0, 1, 0, 0.5};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Physical Surface("part") = {1}; Physical Curve("foot") = {1}; Physical Curve("side") = {4};
+"""
+SLAB = """
+Merge "slab.stl";
+ClassifySurfaces{40*Pi/180, 1, 1, Pi};
+CreateGeometry;
+s() = Surface{:}; Surface Loop(1) = s(); Volume(1) = {1}; Physical Volume("part") = {1};
+Mesh.MeshSizeMax = 0.7;
+e = 1e-3;
+f() = Surface In BoundingBox {-e, -e, -e, 1 + e, 1 + e, e}; Physical Surface("foot") = {f()};
+l() = Surface In BoundingBox {-e, -e, -e, e, 1 + e, 0.5 + e}; Physical Surface("side") = {l()};
+"""
+ON_A_FLOOR = """<ParameterList name="Epafi">
+  <ParameterList name="Bodies"><ParameterList name="part">
+    <Parameter name="Physics" type="string" value="{physics}"/>
+    <Parameter name="Mesh" type="string" value="part.geo"/>
+    <Parameter name="Young's Modulus" type="double" value="1000"/>
+    <Parameter name="Poisson's Ratio" type="double" value="0.3"/>
+    <ParameterList name="Supports"><ParameterList name="side">
+      <Parameter name="Surface" type="string" value="side"/>{held}
+    </ParameterList></ParameterList>
+    <ParameterList name="Loads"><ParameterList name="load">
+      <Parameter name="Box" type="Array(double)" value="{box}"/>
+      <Parameter name="Force" type="Array(double)" value="{force}"/>
+    </ParameterList></ParameterList>
+  </ParameterList></ParameterList>
+  <ParameterList name="Obstacles"><ParameterList name="floor">
+    <Parameter name="Kind" type="string" value="plane"/>
+    <Parameter name="Point" type="Array(double)" value="{point}"/>
+    <Parameter name="Normal" type="Array(double)" value="{normal}"/>
+  </ParameterList></ParameterList>
+  <ParameterList name="Contact"><ParameterList name="foot">
+    <Parameter name="First Body" type="string" value="part"/>
+    <Parameter name="First Surface" type="string" value="foot"/>
+    <Parameter name="Obstacle" type="string" value="floor"/>
+  </ParameterList></ParameterList>
+</ParameterList>
+"""
+
+
+class OutlivesGmsh(Driver):
+    """Geometries are programs of Gmsh's; what goes wrong in them ends Gmsh alone."""
+
+    def setUp(self):
+        super().setUp()
+        self.own = self.place / "temporary"
+        self.own.mkdir()
+        before = os.environ.get("TMPDIR")
+        os.environ["TMPDIR"] = str(self.own)
+        self.addCleanup(lambda: os.environ.update(TMPDIR=before) if before else os.environ.pop("TMPDIR"))
+
+    def on_a_floor(self, geometry, is_solid=False):
+        (self.place / "part.geo").write_text(geometry, encoding="utf-8")
+        words = {"physics": "elasticity 3-D", "box": "{0.5, 1, 0.5, 1, 0, 0.5}", "force": "{0, 0, -50}",
+                 "point": "{0, 0, 0}", "normal": "{0, 0, 1}"} if is_solid else {
+                     "physics": "plane strain", "box": "{1, 2, 0, 1}", "force": "{0, -8}", "point": "{0, 0}",
+                     "normal": "{0, 1}"}
+        words["held"] = "".join(f'<Parameter name="{axis}" type="double" value="0"/>'
+                                for axis in ("XYZ" if is_solid else "X"))
+        scene_file = self.place / "part.xml"
+        scene_file.write_text(ON_A_FLOOR.format(**words), encoding="utf-8")
+        return scene_file
+
+    def test_mistakes_of_geometries_are_wrong_input_and_leave_no_files(self):
+        for words, change in ((["part.geo", "Gmsh says"], ("{1, 2, 3, 4}", "{1, 2, 3}")),
+                              (["part.geo", "of its own accord"], ("Physical Surface", "Mesh 2; Exit; Physical Surface"))):
+            for ranks in (1, 2):
+                self.expect(WRONG_INPUT, words, self.on_a_floor(PLATE.replace(*change)), ranks=ranks)
+                self.assertEqual([path for path in self.own.iterdir() if path.match("epafi-??????")], [])
+
+    def test_a_mesh_that_fails_on_the_way_to_a_target_leaves_the_last_one(self):
+        mark, out, report = self.place / "mark", self.place / "out", self.place / "report.xml"
+        once = f'If (FileExists("{mark}")) Exit; EndIf Printf("seen") > "{mark}";'
+        for ranks in (1, 2):
+            mark.unlink(missing_ok=True)
+            run = epafi(self.on_a_floor(PLATE + once + "\n"), "--accuracy", "0.5 %", "--output", out, "--report", report,
+                        ranks=ranks)
+            self.assertEqual(run.returncode, NOT_CONVERGED, run.stdout + run.stderr)
+            self.assertIn("the next mesh failed: Gmsh, at work on", read_report(report)["Status"]["Reason"])
+            self.assertTrue((out / "part.h5").exists())
+
+    def test_a_part_from_an_stl_file_is_refined_as_a_mesh_file_is(self):
+        corners = [(x, y, z) for z in (0, 0.5) for y in (0, 1) for x in (0, 1)]
+        faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        with open(self.place / "slab.stl", "w", encoding="utf-8") as file:
+            print("solid slab", file=file)
+            for a, b, c, d in faces:
+                for triangle in ((a, b, c), (a, c, d)):
+                    print("facet normal 0 0 0\nouter loop", file=file)
+                    for corner in triangle:
+                        print("vertex", *corners[corner], file=file)
+                    print("endloop\nendfacet", file=file)
+            print("endsolid slab", file=file)
+        run = epafi(self.on_a_floor(SLAB, is_solid=True), "--accuracy", "15 %", "--set", "Accuracy/Order=1",
+                    "--set", "Accuracy/Maximum Levels=3", "--quiet", "--report", self.place / "report.xml")
+        self.assertIn(run.returncode, (SOLVED, NOT_CONVERGED), run.stderr)
+        levels = [part.find("Parameter[@name='Primal Dimension']").get("value") for part in
+                  xml.etree.ElementTree.parse(self.place / "report.xml").getroot().find("ParameterList[@name='Levels']")]
+        self.assertEqual(len(levels), 3)
+        self.assertLess(int(levels[1]), int(levels[2]))
 
 
 class RefusesProblemsWithoutASolution(Driver):
