@@ -93,6 +93,8 @@ AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterLis
                                   .maxBytes = minOverRanks(*comm, accuracy.maxBytes),
                                   .order = isLocal ? order : 1},
                                  note);
+    if (isLocal && order != accuracy.order)
+      result.loop.choice = "order 2, as linear elements lock where Poisson's ratio is near 0.5";
   } catch (const Interrupted&) {
     if (soFar.meshes.empty())
       throw;
