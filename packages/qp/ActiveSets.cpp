@@ -1,5 +1,6 @@
 #include "epafi/qp/ActiveSets.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/qp/FaceIteration.hpp"
 #include "epafi/qp/LocalData.hpp"
 #include "epafi/qp/StoppingRule.hpp"
@@ -22,6 +23,10 @@ constexpr int maxFaceSteps = 200; ///< of CG before the face is looked at again
 constexpr double safety = 0.5;
 constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
 constexpr double roundOff = 1e-13;        ///< of x that leaves Ω by it
+constexpr double negligibleExit = 1e-3;   ///< of what the tolerance asks for, likewise
+/// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that nearly depend on each other: their
+/// forces are out of all proportion, and what one face makes of them the next does not undo.
+constexpr double runaway = 1e3;
 
 class ActiveSets {
 public:
@@ -38,6 +43,7 @@ private:
   [[nodiscard]] bool isEndless();
   [[nodiscard]] bool isNearlySmall() const;
   bool chooseFace(bool isCautious);
+  bool balance();
   bool isSolved();
   [[nodiscard]] bool isSmall(double gradient, double energy);
   [[nodiscard]] bool holdsEquality() const;
@@ -99,20 +105,30 @@ void ActiveSets::chooseFirstFace(const ActiveSetProblem& problem) {
 
 Status ActiveSets::run(Observer* observer) {
   interruption_.setObserver(observer);
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), highest = 0, largest = 0;
   int numIdle = 0;
   for (int faces = 0; faces < maxFaces && numIdle <= patience; ++faces) {
+    copy(on_.x, inside_);
     on_.enter(isAtOrigin_ && faces == 0); // Bx = c, g afresh
     gradient_ = on_.gradientNorm();
     record(faces == 0 ? StepKind::start : StepKind::expansion);
     if (!std::isfinite(gradient_))
       return Status::notFinite;
-    if (!holdsEquality())
-      break;
+    if (!holdsEquality()) {
+      if (!balance())
+        break;
+      continue;
+    }
     if (isSolved())
       return Status::converged;
     numIdle = gradient_ < 0.9 * least ? 0 : numIdle + 1;
-    if (gradient_ < least) {
+    if (std::isinf(least)) {
+      highest = on_.objective();
+      largest = runaway * std::max(gradient_, tolerances_.gradientReference * objective_.scale());
+    }
+    if (gradient_ > largest)
+      break;
+    if (gradient_ < least && on_.objective() <= highest) {
       least = gradient_;
       copy(on_.x, best_);
     }
@@ -133,6 +149,32 @@ Status ActiveSets::run(Observer* observer) {
 /// Whether the face can hold Bx = c.
 bool ActiveSets::holdsEquality() const {
   return on_.constraintResidual() <= tolerances_.constraint * tolerances_.constraintReference;
+}
+
+/// Where the face cannot hold Bx = c, lets those move that first stop the motion which is left: along it the multipliers of bounds fall. False if
+/// nothing stops it.
+bool ActiveSets::balance() {
+  constexpr double hindering = 1e-9; // beside what hinders it most
+  on_.unbalanced(work_);
+  const double least = hindering * work_.normInf();
+  const auto change = localData(work_), on = localData(on_.face), g = localData(on_.gradient());
+  const auto distance = [&](std::size_t i) {
+    return on[i] == 0 && change[i] < -least ? std::max(g[i], 0.0) / -change[i]
+                                            : std::numeric_limits<double>::infinity();
+  };
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < on.size(); ++i)
+    first = std::min(first, distance(i));
+  first = minOverRanks(*work_.getMap()->getComm(), first);
+  if (!std::isfinite(first))
+    return false;
+  const auto next = localDataNonConst(next_);
+  for (std::size_t i = 0; i < on.size(); ++i)
+    next[i] = on[i] != 0 || distance(i) <= (1 + hindering) * first ? 1 : 0;
+  copy(next_, on_.face);
+  copy(inside_, on_.x);
+  ++counts_.expansion;
+  return true;
 }
 
 /// CG until ‖Zg‖ and (gᵀMg)^½ have fallen to a share of themselves, or are small enough.

@@ -34,7 +34,8 @@ FaceIteration::FaceIteration(ScaledObjective& objective, RCP<const Operator> m,
       equality_(equality, objective.map()), interruption_(interruption), counts_(counts), g_(objective.map()),
       r_(objective.map()), z_(objective.map()), p_(objective.map()), image_(objective.map()),
       reduction_(objective.map()->getComm(), numOwnSums + equality_.numRows()),
-      rows_(static_cast<std::size_t>(equality_.numRows())), multiplier_(rows_.size()) {}
+      rows_(static_cast<std::size_t>(equality_.numRows())), multiplier_(rows_.size()),
+      missing_(rows_.size()) {}
 
 void FaceIteration::enter(bool isOrigin) {
   equality_.setFace(face);
@@ -43,8 +44,8 @@ void FaceIteration::enter(bool isOrigin) {
   p_.putScalar(0.0);
   equality_.addTransposed(multiplier_, -1.0, p_);
   addScaled(1.0, p_, x);
-  equality_.residual(x, rows_);
-  residual_ = equality_.normOf(rows_);
+  equality_.residual(x, missing_);
+  residual_ = equality_.normOf(missing_);
   if (isOrigin && residual_ == 0) { // and so it has stayed: no product
     image_.putScalar(0.0);
     f_ = objective_.constant();
@@ -57,6 +58,17 @@ void FaceIteration::enter(bool isOrigin) {
   equality_.addWholeTransposed(equality_.fit(r_), -1.0, g_);
   curvature_ = 0;
   precondition();
+}
+
+/// As Bx − c = (I − N N⁻)r for some r, with N = B_F B_Fᵀ, ν = (I − N⁻N)(Bx − c) has νᵀ(Bx − c) = ‖Bx − c‖² and Nν = 0.
+void FaceIteration::unbalanced(Vector& change) {
+  change.putScalar(0.0);
+  equality_.addTransposed(missing_, 1.0, change);
+  const std::span<const double> held = equality_.fit(change); // N⁻N(Bx − c)
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    rows_[i] = missing_[i] - held[i];
+  change.putScalar(0.0);
+  equality_.addWholeTransposed(rows_, 1.0, change);
 }
 
 /// z = P_F M Zg, gᵀz, zᵀAp, ‖Zg‖, in one message. As Zg is in Ker B, gᵀz is that of M Zg.

@@ -31,6 +31,10 @@ public:
   /// face has no minimum or round-off allows no better one. Collective.
   std::optional<Status> step();
 
+  /// Bᵀν of a ν with B_Fᵀν = 0 along which what of Bx − c the face cannot take away, found on entering it, is largest: μ + tν leaves g on the face as it is.
+  /// Two messages of k numbers. Collective.
+  void unbalanced(Vector& change);
+
   /// The direction of the last step, against which x moves where its slope is positive.
   [[nodiscard]] const Vector& direction() const { return p_; }
   [[nodiscard]] double slope() const { return slope_; }           ///< gᵀ of it
@@ -62,6 +66,7 @@ private:
   Vector p_, image_; ///< direction and A times it
   FusedReduction reduction_;
   std::vector<double> rows_, multiplier_; ///< work, k
+  std::vector<double> missing_;           ///< Bx − c where the face was entered, k
   double f_ = 0, gradient_ = 0, energy_ = 0, residual_ = 0;
   double timesImage_ = 0; ///< zᵀAp
   double slope_ = 0;      ///< gᵀp
