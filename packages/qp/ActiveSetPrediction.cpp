@@ -1,9 +1,14 @@
 #include "epafi/qp/ActiveSetPrediction.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/qp/LocalData.hpp"
 
+#include <Tpetra_Map.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -16,8 +21,26 @@ constexpr int maxFaceSteps = 30;  ///< of CG in a face
 constexpr double reduction = 0.1; ///< of the gradient in a face
 /// Multipliers as wrong as this share of the worst one come off their bounds.
 constexpr double wrongShare = 0.1;
+/// Less than this share of what a prediction has gained so far is no progress, but may be the last digits of a cycle.
+constexpr double progress = 0.1;
 constexpr double leastCurvature = 1e-12; ///< pᵀAp beside ‖A‖ pᵀp
-constexpr int longestPause = 64;         ///< expansions after predictions that failed
+constexpr int mostDoublings = 6;         ///< of the pause after predictions that did not settle
+
+/// A number that tells faces from each other, the same on all ranks. Collective, one message.
+double fingerprintOf(const Vector& face) {
+  constexpr std::uint64_t mask = (std::uint64_t(1) << 40) - 1; // sums over the ranks are exact
+  const auto isFree = localData(face);
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < isFree.size(); ++i)
+    if (isFree[i] != 0) { // splitmix64 of the entry's number
+      auto bits = static_cast<std::uint64_t>(face.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))) +
+                  0x9e3779b97f4a7c15U;
+      bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9U;
+      bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebU;
+      sum += bits ^ (bits >> 31);
+    }
+  return sumOverRanks(*face.getMap()->getComm(), static_cast<double>(sum & mask));
+}
 
 } // namespace
 
@@ -30,8 +53,8 @@ ActiveSetPrediction::ActiveSetPrediction(ScaledObjective& objective, const Conve
       interruption_(interruption), counts_(counts), walker_(objective.map()), face_(objective.map()),
       wrong_(objective.map()) {}
 
-bool ActiveSetPrediction::isDue() {
-  return !isGivenUp_ && pause_-- <= 0;
+bool ActiveSetPrediction::isDue() const {
+  return !isGivenUp_ && counts_.hessianMultiplications >= due_;
 }
 
 bool ActiveSetPrediction::improve(Iterate& iterate, double limit, bool leavesFace, double negligible,
@@ -39,12 +62,19 @@ bool ActiveSetPrediction::improve(Iterate& iterate, double limit, bool leavesFac
   copy(iterate.x, walker_.x);
   copy(iterate.g, walker_.g);
   double best = limit, target = 0;
+  const int began = counts_.hessianMultiplications;
+  bool isSettled = false;
+  std::array<double, maxRounds> faces{};
   for (int round = 0, bestRound = 0; round < maxRounds && round - bestRound <= maxWorseRounds; ++round) {
     set_.freeIndicator(walker_.x, face_);
     if (round > 0) // only the worst of these: most others only follow what the projection did
       takeBoundsOff(negligible, wrongShare);
     else if (leavesFace)
       takeBoundsOff(negligible, 0);
+    const auto known = faces.begin() + round;
+    *known = fingerprintOf(face_);
+    if (std::find(faces.begin(), known, *known) != known) // from there on it goes in circles
+      break;
     if (!minimiseOnFace(target, work)) {
       isGivenUp_ = true;
       break;
@@ -56,23 +86,25 @@ bool ActiveSetPrediction::improve(Iterate& iterate, double limit, bool leavesFac
     std::swap(walker_.x, work.trial);
     objective_.gradient(work.image, walker_.g);
     if (trial.objective < best) {
+      if (best - trial.objective > progress * (limit - best))
+        bestRound = round;
       best = trial.objective;
-      bestRound = round;
       copy(walker_.x, iterate.x);
       copy(walker_.g, iterate.g);
     }
-    const bool isInside = !(trial.squared > 0);
-    if (isInside || !std::isfinite(trial.objective) || objective_.isSpent())
+    isSettled = !(trial.squared > 0); // inside of the set
+    if (isSettled || !std::isfinite(trial.objective) || objective_.isSpent())
       break;
   }
+  const int now = counts_.hessianMultiplications;
+  failures_ = best < limit ? 0 : failures_ + 1;
+  due_ = isSettled ? now : now + ((now - began) << std::min(failures_, mostDoublings));
   if (best < limit) {
     iterate.f = best;
     iterate.isFresh = true;
-    failures_ = 0;
     return true;
   }
   ++counts_.safeguards;
-  pause_ = std::min(1 << std::min(failures_++, 6), longestPause);
   return false;
 }
 

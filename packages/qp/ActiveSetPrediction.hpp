@@ -34,15 +34,16 @@ struct StepVectors {
 };
 
 /// Four vectors, and two more without a preconditioner. One product a CG step in a face and a round, 10 to 150 in all, 3
-/// messages each; allocates nothing but at first.
+/// messages each, and one a round; allocates nothing but at first.
 class ActiveSetPrediction {
 public:
   /// Keeps references. \param preconditioner  null for none
   ActiveSetPrediction(ScaledObjective& objective, const ConvexSet& set, FacePreconditioner* preconditioner,
                       const Interruption& interruption, StepCounts& counts);
 
-  /// Whether it is time for a prediction: not in the pause after one that failed, nor after it was given up.
-  [[nodiscard]] bool isDue();
+  /// Whether it is time for a prediction: not after it was given up, nor until steps have taken as many products as one that did not settle
+  /// within the set, more of them after failures in a row, so that predictions cost no more than all the rest.
+  [[nodiscard]] bool isDue() const;
   /// To be called where projections fail: takes predictions up again.
   void resume() { isGivenUp_ = false; }
   /// Makes `iterate` the best point of a prediction if its objective is below `limit`. Gives predictions up on a face
@@ -63,10 +64,11 @@ private:
   FacePreconditioner& preconditioner_;
   const Interruption& interruption_;
   StepCounts& counts_;
-  Iterate walker_;               ///< where the method stands; may leave the set
-  Vector face_;                  ///< 1 where the walker may move, else 0
-  Vector wrong_;                 ///< multipliers of the wrong sign
-  int pause_ = 0, failures_ = 0; ///< expansions until the next prediction; failures in a row
+  Iterate walker_;   ///< where the method stands; may leave the set
+  Vector face_;      ///< 1 where the walker may move, else 0
+  Vector wrong_;     ///< multipliers of the wrong sign
+  int due_ = 0;      ///< how many products are to be spent before the next prediction
+  int failures_ = 0; ///< predictions in a row that found nothing better
   bool isGivenUp_ = false;
 };
 

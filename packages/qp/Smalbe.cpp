@@ -243,7 +243,7 @@ void OuterIteration::growPenalty() {
                        normOfLagrangian());
 }
 
-/// μ may go further than the paper's step ρW(Bx − c), to where `creep_` foresees it or where the inner solution x does not notice:
+/// μ may go further than the paper's step ρW(Bx − c), to where `creep_` foresees it, as long as bounds hold what they hold, or where the inner solution x does not notice:
 /// while every entry that the shift touches is held at its bound, x stays the minimiser and L grows linearly in μ, until
 /// the first multiplier there changes its sign.
 void OuterIteration::updateMultiplier(const Progress& previous) {
@@ -253,9 +253,17 @@ void OuterIteration::updateMultiplier(const Progress& previous) {
   const double longest =
       minOverRanks(*work_.getMap()->getComm(),
                    problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
-  const double step =
-      std::max({1.0, std::isfinite(longest) ? longest : 1.0,
-                creep_.factor(rule_.residual(), rule_.weighedResidual(), residual, previous.residual)});
+  double foreseen = creep_.factor(rule_.residual(), rule_.weighedResidual(), residual, previous.residual);
+  if (foreseen > 1) { // the face serves them no better only until a bound lets go
+    Vector held(work_.getMap());
+    problem_.set->freeIndicator(inner_.solution(), held);
+    held.elementWiseMultiply(-1.0, held, work_, 0.0);
+    held.update(1.0, work_, 1.0);
+    foreseen = minOverRanks(*work_.getMap()->getComm(),
+                            std::min(foreseen, problem_.set->longestMultiplierStep(
+                                                   inner_.solution(), inner_.scaledGradient(), held)));
+  }
+  const double step = std::max({1.0, std::isfinite(longest) ? longest : 1.0, foreseen});
   work_.scale(step / inner_.gradientScale());
   inner_.shiftLinearTerm(work_, step * penalty_ * residual * residual);
   for (std::size_t i = 0; i < multiplier_.size(); ++i)
