@@ -148,9 +148,11 @@ public:
 private:
   bool setReference();
   void iterateInBounds();
+  using Method = std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>;
   void iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
-               qp::Observer* observer,
-               const std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>& always);
+               qp::Observer* observer, const Method& always);
+  void goOn(const Method& method, Vector& x, int most);
+  [[nodiscard]] bool isToGoOn() const;
   void refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications);
   void completeJumps(Vector& lambda) const;
   DualSolution finished();
@@ -164,7 +166,8 @@ private:
   RightHandSide wholeRhs_; ///< d̃
   RCP<Vector> rhs_;        ///< of the iteration: d̃, Pᵀd̃ where jumps are deflated, Pd where bodies float
   DualSolution solution_;
-  std::optional<BalancedTarget> target_; ///< with a balance
+  std::optional<BalancedTarget> target_;     ///< with a balance
+  double began_ = Teuchos::Time::wallTime(); ///< seconds
 };
 
 /// λ of the iterate of the deflated problem. Collective.
@@ -218,40 +221,57 @@ void IterativeSolve::refuseIfContradictory(const qp::ActiveSetProblem& faces, in
     refuseContradiction(problem_, *found.direction);
 }
 
-/// Active sets where they were chosen; where not, and from their best point on where their faces do not settle, what always gets
-/// there.
-void IterativeSolve::iterate(
-    const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
-    qp::Observer* observer,
-    const std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>& always) {
-  using Status = qp::Status;
+/// Goes on with a method from x; reports, counts and limits run through. Collective.
+/// \param most  products of it
+void IterativeSolve::goOn(const Method& method, Vector& x, int most) {
   qp::MprgpParameters limits = dual_.operators().mprgp;
-  if (dual_.algorithm() != Algorithm::activeSets) {
-    solution_.report = always(x, limits);
-    return;
+  qp::SolveReport& report = solution_.report;
+  limits.maxMultiplications =
+      std::max(1, std::min(most, limits.maxMultiplications - report.counts.hessianMultiplications));
+  if (limits.timeLimit > 0)
+    limits.timeLimit = std::max(1e-9, limits.timeLimit - (Teuchos::Time::wallTime() - began_));
+  qp::SolveReport further = method(x, limits);
+  qp::append(further, report);
+  further.counts = report.counts;
+  further.history = std::move(report.history);
+  report = std::move(further);
+}
+
+/// Whether there are products left after a method that has used up its own.
+bool IterativeSolve::isToGoOn() const {
+  return solution_.report.status == qp::Status::maxIterations &&
+         solution_.report.counts.hessianMultiplications < dual_.operators().mprgp.maxMultiplications;
+}
+
+/// What was chosen first. MPRGP gives way to active sets after so many products that these would most likely be there, and active sets where
+/// their faces do not settle to what always gets there.
+/// \param always  MPRGP, or SMALBE
+void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances,
+                             Vector& x, qp::Observer* observer, const Method& always) {
+  using Status = qp::Status;
+  constexpr int patience = 300, endless = std::numeric_limits<int>::max();
+  const bool isByFaces = dual_.algorithm() == Algorithm::activeSets;
+  if (!isByFaces) {
+    goOn(always, x, faces.preconditioner.is_null() ? endless : patience);
+    if (!isToGoOn())
+      return;
   }
-  const double began = Teuchos::Time::wallTime();
   Vector closed(x.getMap()); // all contact, where neither a start nor M knows better
   closed.putScalar(1.0);
-  const bool isUnknown =
-      start_ == nullptr && (faces.preconditioner.is_null() || dual_.operators().hasDependentRows);
-  solution_.report =
-      qp::solveByActiveSets(faces, x, isUnknown ? &closed : nullptr, tolerances, limits, observer);
+  const bool isUnknown = isByFaces && start_ == nullptr &&
+                         (faces.preconditioner.is_null() || dual_.operators().hasDependentRows);
+  goOn(
+      [&](Vector& from, const qp::MprgpParameters& limits) {
+        return qp::solveByActiveSets(faces, from, isUnknown ? &closed : nullptr, tolerances, limits,
+                                     observer);
+      },
+      x, endless);
   const Status status = solution_.report.status;
-  if (status == Status::converged || status == Status::maxIterations || status == Status::timeLimit ||
-      status == Status::interrupted)
-    return;
   if (status == Status::unbounded)
-    refuseIfContradictory(faces, limits.maxMultiplications - solution_.report.counts.hessianMultiplications);
-  limits.maxMultiplications =
-      std::max(1, limits.maxMultiplications - solution_.report.counts.hessianMultiplications);
-  if (limits.timeLimit > 0)
-    limits.timeLimit = std::max(1e-9, limits.timeLimit - (Teuchos::Time::wallTime() - began));
-  qp::SolveReport further = always(x, limits);
-  qp::append(further, solution_.report);
-  further.counts = solution_.report.counts;
-  further.history = std::move(solution_.report.history);
-  solution_.report = std::move(further);
+    refuseIfContradictory(faces, dual_.operators().mprgp.maxMultiplications -
+                                     solution_.report.counts.hessianMultiplications);
+  if (status == Status::unbounded || status == Status::stagnated || status == Status::notFinite)
+    goOn(always, x, endless);
 }
 
 /// MPRGP, or active sets; without contact it is CG, step by step.

@@ -78,6 +78,22 @@ TEST(ActiveSetExpansionTest, ItsIterationEndsWhereItIsToldTo) {
   }
 }
 
+/// With a preconditioner that knows little of the problem a face takes many steps, and predictions go in circles.
+TEST(ActiveSetExpansionTest, CostsLittleWherePredictionsFail) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const DenseProgram program = mixedProgram(60, 40, 700 + seed);
+    QpCall call{withTolerance(1e-9)};
+    call.parameters.sublist("MPRGP").set("Expansion", std::string("projected CG"));
+    const int plain = solveQp(program, call).products;
+    call.parameters.sublist("MPRGP").set("Expansion", std::string("active set"));
+    const QpAnswer answer = solveQp(program, call);
+    EXPECT_EQ(whyNoSolution(program, answer, 1e-9), "");
+    std::printf("%u: %d %d\n", seed, plain, answer.products);
+    EXPECT_LE(answer.products, 3 * plain + 100);
+  }
+}
+
 /// As long as projected CG does well nothing is predicted, and without a preconditioner at no time.
 TEST(ActiveSetExpansionTest, AutoIsProjectedCgWhereThatDoesWell) {
   int same = 0;

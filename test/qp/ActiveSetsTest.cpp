@@ -85,6 +85,41 @@ TEST(ActiveSetsTest, TellsADirectionWithoutEndFromOneThatBoundsEnd) {
   }
 }
 
+/// x₀ = 0, x₁ = x₂. With x₁ and x₂ on their bounds nothing can make them equal: x₁, whose bound is the lower one, has to move.
+TEST(ActiveSetsTest, AFaceThatCannotHoldTheRowsTakesInWhatStopsTheMotionThatIsLeft) {
+  const double root = std::sqrt(0.5);
+  const Problem problem{Eigen::Matrix3d::Identity(),
+                        (Eigen::MatrixXd(2, 3) << 1, 0, 0, 0, root, -root).finished(),
+                        Eigen::Vector3d(0, -3, -3), Eigen::Vector3d(-1, -1, -0.5)};
+
+  const Answer answer = solve(problem, 1e-10, Eigen::Vector3d(1, 0, 0), {}, problem.lower);
+
+  EXPECT_EQ(answer.report.status, Status::converged);
+  EXPECT_LE((answer.x - Eigen::Vector3d(0, -0.5, -0.5)).norm(), 1e-12);
+}
+
+/// Entries that nearly depend on each other may get forces out of all proportion: from there no other method finds back.
+TEST(ActiveSetsTest, WhereFacesDoNotSettleThePointIsNoWorseThanTheStart) {
+  std::mt19937 random(7);
+  int numLeft = 0;
+  for (int problemNumber = 0; problemNumber < 60; ++problemNumber) {
+    SCOPED_TRACE(problemNumber);
+    Problem problem{test::randomProblem(16, 1, 10, random)};
+    problem.g.resize(0, 16);
+    problem.lower = Eigen::VectorXd::Zero(16);
+    for (int i = 0; i < 6; ++i) { // entry i + 8 acts as entry i does, but for 10⁻⁵
+      problem.a.row(i + 8) = problem.a.row(i);
+      problem.a.col(i + 8) = problem.a.col(i);
+      problem.a(i + 8, i + 8) = problem.a(i, i) * (1 + 1e-10);
+    }
+    const Answer answer = solve(problem, 1e-10, Eigen::VectorXd::Ones(16));
+    EXPECT_GE(answer.x.minCoeff(), 0.0);
+    EXPECT_LE(0.5 * answer.x.dot(problem.a * answer.x) - problem.b.dot(answer.x), 1e-12);
+    numLeft += answer.report.status == Status::converged ? 0 : 1;
+  }
+  EXPECT_GT(numLeft, 0) << "no problem was hard enough";
+}
+
 TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
   std::mt19937 random(1);
   int numSettled = 0;
