@@ -24,9 +24,10 @@ constexpr double safety = 0.5;
 constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
 constexpr double roundOff = 1e-13;        ///< of x that leaves Ω by it
 constexpr double negligibleExit = 1e-3;   ///< of what the tolerance asks for, likewise
-/// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that nearly depend on each other: their
-/// forces are out of all proportion, and what one face makes of them the next does not undo.
+/// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that nearly depend on each other, with forces
+/// out of all proportion. The faces that follow may make up for it; where it happens again and again they do not.
 constexpr double runaway = 1e3;
+constexpr int mostRunaways = 1;
 
 class ActiveSets {
 public:
@@ -106,7 +107,8 @@ void ActiveSets::chooseFirstFace(const ActiveSetProblem& problem) {
 Status ActiveSets::run(Observer* observer) {
   interruption_.setObserver(observer);
   double least = std::numeric_limits<double>::infinity(), highest = 0, largest = 0;
-  int numIdle = 0;
+  int numIdle = 0, numRunaways = 0;
+  bool isRunaway = false;
   for (int faces = 0; faces < maxFaces && numIdle <= patience; ++faces) {
     copy(on_.x, inside_);
     on_.enter(isAtOrigin_ && faces == 0); // Bx = c, g afresh
@@ -126,7 +128,9 @@ Status ActiveSets::run(Observer* observer) {
       highest = on_.objective();
       largest = runaway * std::max(gradient_, tolerances_.gradientReference * objective_.scale());
     }
-    if (gradient_ > largest)
+    numRunaways += gradient_ > largest && !isRunaway ? 1 : 0;
+    isRunaway = gradient_ > largest;
+    if (numRunaways > mostRunaways)
       break;
     if (gradient_ < least && on_.objective() <= highest) {
       least = gradient_;

@@ -89,7 +89,6 @@ TEST(ActiveSetExpansionTest, CostsLittleWherePredictionsFail) {
     call.parameters.sublist("MPRGP").set("Expansion", std::string("active set"));
     const QpAnswer answer = solveQp(program, call);
     EXPECT_EQ(whyNoSolution(program, answer, 1e-9), "");
-    std::printf("%u: %d %d\n", seed, plain, answer.products);
     EXPECT_LE(answer.products, 3 * plain + 100);
   }
 }
