@@ -202,6 +202,22 @@ void describeEach(std::ostream& text, const ParameterList& lists, const std::str
     text << "              and " << number - most << " more in the report\n";
 }
 
+/// What a user should know of a contact or joint beside its numbers.
+void addNotes(std::ostream& text, const ParameterList& list) {
+  constexpr double balanced = 1e-3;
+  const std::string indent = "\n                ";
+  if (list.isParameter("Note"))
+    text << indent << list.get<std::string>("Note");
+  if (list.isParameter("Bent Nodes"))
+    text << indent << "a surface bends sharply at " << counted(list, "Bent Nodes", "contact node")
+         << " more than one face of which meets the other side; the normal there is their mean: give the "
+            "faces "
+            "contacts of their own";
+  if (list.isParameter("Moment Imbalance") && list.get<double>("Moment Imbalance") > balanced)
+    text << indent << "the forces on both sides are out of balance by "
+         << percent(list.get<double>("Moment Imbalance")) << " in moment: they do not lie across each other";
+}
+
 void describeResults(std::ostream& text, const SceneRun& run) {
   if (run.report.isSublist("Body"))
     describeEach(text, run.report.sublist("Body"), "body", [&](const ParameterList& body) {
@@ -217,6 +233,7 @@ void describeResults(std::ostream& text, const SceneRun& run) {
         text << ", penetration " << rounded(contact, "Largest Penetration");
       if (contact.isParameter("Coupling"))
         text << "; " << contact.get<std::string>("Coupling");
+      addNotes(text, contact);
     });
   if (run.report.isSublist("Tied"))
     describeEach(text, run.report.sublist("Tied"), "tied", [&](const ParameterList& tie) {
@@ -224,6 +241,7 @@ void describeResults(std::ostream& text, const SceneRun& run) {
       text << counted(tie, "Nodes", "node") << ", force " << std::setprecision(5)
            << std::hypot(force[0], force[1], force[2]) << ", largest traction "
            << rounded(tie, "Largest Traction") << "; " << tie.get<std::string>("Coupling");
+      addNotes(text, tie);
     });
 }
 

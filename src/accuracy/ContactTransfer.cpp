@@ -54,7 +54,7 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
     const std::vector<fem::Point> places = placesOf(to, fine);
     for (std::size_t row = 0; row < places.size(); ++row) {
       const LocalOrdinal local = map.getLocalElement(fine.firstRow + static_cast<GlobalOrdinal>(row));
-      if (local < 0)
+      if (local < 0 || fine.portion(row) == 0)
         continue;
       const double nearest = pressure[static_cast<std::size_t>(tree.nearest(places[row]))];
       values[local] = std::max(0.0, nearest) * fine.areas[row];

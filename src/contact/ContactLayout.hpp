@@ -4,6 +4,8 @@
 
 #include "epafi/base/Types.hpp"
 
+#include <Eigen/Core>
+
 #include <string>
 #include <vector>
 
@@ -15,11 +17,20 @@ struct NodeShare {
   double weight;
 };
 
+/// What a node is moved by in a row: a force on it.
+struct NodeForce {
+  GlobalOrdinal node;
+  Eigen::Vector3d force;
+};
+
 /// A contact: one inequality, a *row*, for each of some nodes of the first body's surface,
 ///   dᵀ(u_first − u_second) ≤ gap,
 /// d the direction in which the second body, or an obstacle, lies (1 for membranes), u_first and u_second values at nodes or
 /// means of some. Of a tied joint = takes the place of ≤, and a node has a row for each component. It is whole on every rank: of the size
 /// of the surfaces that may touch.
+///
+/// Contacts between the same bodies whose surfaces go on in each other share rows, as if their surfaces were one: each has a layout with
+/// all of these, and `portions` say what of a row's force and area is its own.
 struct ContactLayout {
   std::string name;
   int number = 0;             ///< of the contact, as the caller counts
@@ -27,7 +38,12 @@ struct ContactLayout {
   GlobalOrdinal firstRow = 0; ///< multiplier index of its first row
   int firstBody = 0;          ///< the one whose nodes have the rows
   std::string firstSurface;   ///< the surface of it
-  int secondBody = -1;        ///< −1: an obstacle, which does not move
+  /// All whose nodes have the rows, `firstSurface` among them, and those of the second body that they face.
+  std::vector<std::string> firstSurfaces, secondSurfaces;
+  std::vector<double> portions; ///< of each row, from 0 to 1, by area; empty: all of all
+  bool hasOwnRows = true;       ///< false: its rows are those of a contact before it
+  std::string note;             ///< what a user should know of it; perhaps empty
+  int secondBody = -1;          ///< −1: an obstacle, which does not move
   std::vector<GlobalOrdinal> firstNodes;
   /// What moves a row on the first surface: by mortars nodes around; empty: its own node alone.
   std::vector<std::vector<NodeShare>> firstShares;
@@ -37,6 +53,12 @@ struct ContactLayout {
   std::vector<double> gaps;       ///< before supports are taken into account
   std::vector<double>
       areas; ///< share of the first surface (in the plane: of its length) on which a row's force acts
+  /// Of areas what each of the united contacts has; empty: there is one alone.
+  std::vector<std::vector<double>> areasOfParts;
+  /// What a row takes of the second body beside `secondNodes`, to be subtracted like these: forces that add up to none, and balance the
+  /// moment of the others (RigidLinks.hpp). Empty: nothing.
+  std::vector<std::vector<NodeForce>> secondLevers;
+  GlobalOrdinal numBent = 0; ///< rows where a surface bends sharply, and has a mean normal
   /// Places of rows, with weights.
   struct Share {
     std::size_t node;
@@ -53,6 +75,16 @@ struct ContactLayout {
 
   /// Number of inequalities.
   [[nodiscard]] GlobalOrdinal numRows() const { return static_cast<GlobalOrdinal>(firstNodes.size()); }
+  /// What of a row's force and area is the contact's.
+  [[nodiscard]] double portion(std::size_t row) const { return portions.empty() ? 1.0 : portions[row]; }
+  /// Places of rows of which it has a part, ascending.
+  [[nodiscard]] std::vector<std::size_t> ownRows() const {
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < firstNodes.size(); ++row)
+      if (portion(row) > 0)
+        rows.push_back(row);
+    return rows;
+  }
   /// action(node of the first surface, weight) for what moves the row of a place.
   template <class Action>
   void forEachFirst(std::size_t place, const Action& action) const {

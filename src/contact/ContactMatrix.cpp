@@ -26,22 +26,19 @@ struct Row {
   std::vector<double> coefficients;
 };
 
-/// d in the unknowns of a node: its components, or Qᵀd where the node has a frame Q.
-Eigen::Vector3d directionAt(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns,
-                            int body, GlobalOrdinal node) {
+Eigen::Vector3d directionAt(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns) {
   const auto components = static_cast<std::size_t>(unknowns.components);
   Eigen::Vector3d direction(0, 0, 0);
   for (std::size_t c = 0; c < components; ++c)
     direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];
-  if (const Eigen::Matrix3d* frame = unknowns.frame(body, node))
-    direction = frame->transpose() * direction;
   return direction;
 }
 
-/// Enters one side of a node's row, times a factor.
-void enter(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns, int body,
-           GlobalOrdinal node, double factor, Row& row) {
-  const Eigen::Vector3d direction = directionAt(contact, place, unknowns, body, node);
+/// Enters a node along d, times a factor, in its unknowns: its components, or Qᵀd where it has a frame Q.
+void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, GlobalOrdinal node,
+           double factor, Row& row) {
+  if (const Eigen::Matrix3d* frame = unknowns.frame(body, node))
+    direction = frame->transpose() * direction;
   double free = 0;
   for (int c = 0; c < unknowns.components; ++c)
     if (!unknowns.isHeld(body, node, c))
@@ -58,19 +55,24 @@ void enter(const ContactLayout& contact, std::size_t place, const NodeUnknowns& 
 std::vector<Row> ownRows(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns) {
   std::vector<Row> rows;
   for (const ContactLayout& contact : contacts)
-    for (std::size_t place = 0; place < contact.firstNodes.size(); ++place) {
+    for (std::size_t place = 0; contact.hasOwnRows && place < contact.firstNodes.size(); ++place) {
       if (!unknowns.isMine(contact.firstBody, contact.firstNodes[place]))
         continue;
       Row& row = rows.emplace_back(Row{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
       contact.forEachShare(place, [&](std::size_t node, double weight) {
+        const Eigen::Vector3d direction = directionAt(contact, node, unknowns);
         row.gap += weight * contact.gaps[node];
         contact.forEachFirst(node, [&](const NodeShare& share) {
-          enter(contact, node, unknowns, contact.firstBody, share.node, weight * share.weight, row);
+          enter(direction, unknowns, contact.firstBody, share.node, weight * share.weight, row);
         });
         if (contact.secondBody >= 0)
           for (const NodeShare& share : contact.secondNodes[node])
-            enter(contact, node, unknowns, contact.secondBody, share.node, -weight * share.weight, row);
+            enter(direction, unknowns, contact.secondBody, share.node, -weight * share.weight, row);
       });
+      if (!contact.secondLevers.empty())
+        for (const NodeForce& lever : contact.secondLevers[place])
+          if (const double size = lever.force.norm(); size > 0)
+            enter(lever.force / size, unknowns, contact.secondBody, lever.node, -size, row);
     }
   return rows;
 }

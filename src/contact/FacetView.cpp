@@ -108,14 +108,14 @@ std::optional<FacetView::Sight> FacetView::at(const Eigen::Vector2d& seen, const
       xi -= change;
       if (change.norm() <= 1e-10 || // the next one would be 1e-20
           (isAffine_ && step == 0)) {
-        const Eigen::Matrix<double, 3, dim> tangents = points_ * Shape::gradients(xi).transpose();
+        const Eigen::Matrix<double, 3, dim> tangents = relative * Shape::gradients(xi).transpose();
         double size = 0;
         if constexpr (dim == 1)
           size = tangents.norm();
         else
           size = tangents.col(0).cross(tangents.col(1)).norm();
         const auto values = Shape::values(xi);
-        return Sight{values, points_ * values, size / std::abs(determinant)};
+        return Sight{values, relative * values, size / std::abs(determinant)};
       }
     }
     return std::nullopt;

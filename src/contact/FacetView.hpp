@@ -50,8 +50,8 @@ public:
   /// What lies at a point of the plane.
   struct Sight {
     FacetValues values;
-    Eigen::Vector3d place;
-    double slope; ///< area of the facet over that of the plane
+    Eigen::Vector3d place; ///< from the plane's origin
+    double slope;          ///< area of the facet over that of the plane
   };
   /// Newton's method; nothing where it does not settle: the facet is folded, as one sees it.
   [[nodiscard]] std::optional<Sight> at(const Eigen::Vector2d& seen, const ViewPlane& plane) const;

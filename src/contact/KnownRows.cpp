@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 namespace epafi::contact {
@@ -13,41 +15,44 @@ namespace {
 /// Directions, and gaps beside the nodes' spacing, that agree to this are the same.
 constexpr double same = 1e-9;
 
-/// The rows of a contact at some places.
-ContactLayout selected(const ContactLayout& contact, const std::vector<std::size_t>& places) {
-  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
-  ContactLayout result = contact;
-  result.firstNodes.clear();
-  result.firstShares.clear();
-  result.secondNodes.clear();
-  result.directions.clear();
-  result.gaps.clear();
-  result.areas.clear();
-  for (const std::size_t place : places) {
-    result.firstNodes.push_back(contact.firstNodes[place]);
-    if (!contact.firstShares.empty())
-      result.firstShares.push_back(contact.firstShares[place]);
-    if (!contact.secondNodes.empty())
-      result.secondNodes.push_back(contact.secondNodes[place]);
-    for (std::size_t c = 0; c < components; ++c)
-      result.directions.push_back(contact.directions[place * components + c]);
-    result.gaps.push_back(contact.gaps[place]);
-    result.areas.push_back(contact.areas[place]);
-  }
-  return result;
+/// Mean distance of nodes. Areas of single ones may be 0.
+double spacingOf(const ContactLayout& contact) {
+  const double area = std::accumulate(contact.areas.begin(), contact.areas.end(), 0.0) /
+                      static_cast<double>(contact.areas.size());
+  return contact.directions.size() == 3 * contact.firstNodes.size() ? std::sqrt(area) : area;
 }
 
 } // namespace
+
+void keepRows(ContactLayout& contact, const std::vector<std::size_t>& places) {
+  const std::size_t components =
+      contact.directions.size() / std::max<std::size_t>(1, contact.firstNodes.size());
+  const auto keep = [&](auto& values, std::size_t perRow) {
+    if (values.empty())
+      return;
+    std::remove_reference_t<decltype(values)> kept;
+    for (const std::size_t place : places)
+      for (std::size_t c = 0; c < perRow; ++c)
+        kept.push_back(values[place * perRow + c]);
+    values = std::move(kept);
+  };
+  keep(contact.directions, components);
+  keep(contact.firstNodes, 1);
+  keep(contact.firstShares, 1);
+  keep(contact.secondNodes, 1);
+  keep(contact.gaps, 1);
+  keep(contact.areas, 1);
+  for (std::vector<double>& areas : contact.areasOfParts)
+    keep(areas, 1);
+}
 
 KnownRows::Entry KnownRows::entryOf(const ContactLayout& contact, std::size_t place) {
   const std::size_t components = contact.directions.size() / contact.firstNodes.size();
   Place from{contact.firstBody, contact.firstNodes[place]},
       to{contact.secondBody, contact.secondBody < 0 ? 0 : contact.secondNodes[place].front().node};
-  Row row{contact.name, {0, 0, 0}, contact.gaps[place], contact.areas[place]};
+  Row row{contact.name, contact.number, 0, {0, 0, 0}, contact.gaps[place], 0};
   for (std::size_t c = 0; c < components; ++c)
     row.direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];
-  if (components == 3)
-    row.spacing = std::sqrt(row.spacing);
   if (contact.secondBody >= 0 && to < from) { // the same row, seen from the other side
     std::swap(from, to);
     row.direction = -row.direction;
@@ -72,12 +77,15 @@ void KnownRows::requireRoom(const Entry& entry, Iterator first, Iterator last) {
   }
 }
 
-void KnownRows::dropFrom(ContactLayout& contact) {
+std::vector<KnownRows::Dropped> KnownRows::dropFrom(ContactLayout& contact) {
+  std::vector<Dropped> dropped;
   std::vector<std::size_t> kept;
   std::vector<Entry> added;
   std::string repeated;
+  const double spacing = spacingOf(contact);
   for (std::size_t place = 0; place < contact.firstNodes.size(); ++place) {
     Entry entry = entryOf(contact, place);
+    entry.second.spacing = spacing;
     const auto [first, last] = rows_.equal_range(entry.first);
     const auto known = std::find_if(first, last, [&](const auto& other) {
       return (other.second.direction - entry.second.direction).norm() <= same &&
@@ -86,8 +94,10 @@ void KnownRows::dropFrom(ContactLayout& contact) {
     requireRoom(entry, first, last);
     if (known != last) {
       repeated = known->second.contact;
+      dropped.push_back({known->second.number, known->second.place, contact.areas[place]});
       continue;
     }
+    entry.second.place = static_cast<GlobalOrdinal>(kept.size());
     kept.push_back(place);
     added.push_back(std::move(entry));
   }
@@ -96,7 +106,8 @@ void KnownRows::dropFrom(ContactLayout& contact) {
                      "' does not say: the same nodes, directions and gaps; remove one of them");
   rows_.insert(added.begin(), added.end());
   if (kept.size() < contact.firstNodes.size())
-    contact = selected(contact, kept);
+    keepRows(contact, kept);
+  return dropped;
 }
 
 } // namespace epafi::contact

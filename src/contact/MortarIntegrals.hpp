@@ -8,12 +8,12 @@
 /// other straight facets, and with an error that a finer mesh takes away for curved ones (Puso, *Int. J. Numer. Meth. Engng* 59
 /// (2004); Popp, Gitterle, Gee, Wall, *ibid.* 83 (2010)).
 
+#include "epafi/contact/ContactTerms.hpp"
 #include "epafi/contact/SurfaceNodes.hpp"
 #include "epafi/fem/Mesh.hpp"
 
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace epafi::contact {
@@ -23,6 +23,8 @@ struct MortarFacet {
   std::size_t facet = 0;  ///< of the first surface
   double whole = 0;       ///< area of all of it
   double area = 0;        ///< of what is covered
+  double cosine = 1;      ///< of the angle between its normal and that of the facet which it faces best
+  double deepest = 0;     ///< largest overlap
   Eigen::VectorXd shares; ///< ∫N
   Eigen::MatrixXd mass;   ///< ∫NNᵀ
   /// With a facet of the second surface, N² its shape functions.
@@ -41,18 +43,12 @@ struct PlacedSurface {
   const NodePoints& pointAt;
 };
 
-/// What surfaces are to be integrated over, and the contact's name for messages.
-struct MortarTerms {
-  std::string name;
-  int dimension = 3;   ///< of space
-  double distance = 0; ///< facets farther apart than this do not meet; may be infinite
-};
-
 /// The facets of the first surface that are covered somewhere, ascending. A facet that several layers of the other surface lie
-/// across meets the nearest one. Overlaps deeper than the facets' size are no contact: what lies there is the other's far side.
+/// across meets the nearest one. Overlaps may be deeper than facets are large where they are so around, from facet to facet, or
+/// where no facets of the two surfaces are nearer; else what lies there is the other's far side.
 /// Not collective. \throws InputError if nothing is covered, with the reason: the surfaces face away from each other, are
-/// farther apart than `distance`, overlap deeper than an element, or miss each other; or if a facet is folded.
-std::vector<MortarFacet> mortarIntegrals(const MortarTerms& terms, const PlacedSurface& first,
+/// farther apart than `distance`, overlap deeper than a body is thick, or miss each other; or if a facet is folded.
+std::vector<MortarFacet> mortarIntegrals(const ContactTerms& terms, const PlacedSurface& first,
                                          const PlacedSurface& second);
 
 } // namespace epafi::contact

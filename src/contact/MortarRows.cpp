@@ -1,8 +1,10 @@
 #include "epafi/contact/MortarRows.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/contact/FacingFaces.hpp"
 #include "epafi/contact/MortarIntegrals.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
+#include "epafi/contact/RowAreas.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 
 #include <Eigen/Cholesky>
@@ -34,7 +36,7 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 /// What a row takes of both sides.
 struct Row {
   std::size_t place; ///< of its node, in SurfaceNodes
-  double area;
+  double area;       ///< ∫N̂
   std::vector<NodeShare> first, second;
 };
 
@@ -43,16 +45,18 @@ class RowMaker {
 public:
   RowMaker(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second)
       : first_(first), second_(second), nodes_(surfaceNodes(first.pointAt, first.surface)),
-        basis_(dualBasis(first.surface.facetType)),
-        facets_(mortarIntegrals({terms.name, terms.dimension, terms.distance}, first, second)) {
+        basis_(dualBasis(first.surface.facetType)), facets_(mortarIntegrals(terms, first, second)) {
     measureCoverage();
+    isBent_ = faceOtherSide(facets_, nodes_);
   }
 
   [[nodiscard]] const SurfaceNodes& nodes() const { return nodes_; }
+  /// Whether a node's normal is the mean of several faces.
+  [[nodiscard]] bool isBent(std::size_t place) const { return isBent_[place] != 0; }
   /// \param isHeld  of places of nodes
-  [[nodiscard]] std::vector<Row> rows(const std::function<bool(std::size_t)>& isHeld) const;
-  /// The mean place of one side of a row.
-  [[nodiscard]] static Vector3d placeOf(const NodePoints& pointAt, const std::vector<NodeShare>& shares);
+  [[nodiscard]] std::vector<Row> rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const;
+  /// From the mean place of a row's first side to that of its second.
+  [[nodiscard]] Vector3d apart(const Row& row) const;
 
 private:
   using Sums = std::vector<std::map<GlobalOrdinal, double>>;
@@ -62,8 +66,9 @@ private:
   [[nodiscard]] std::vector<std::size_t>
   representatives(const std::function<bool(std::size_t)>& isHeld) const;
   void spread(std::vector<std::size_t>& representative) const;
-  void add(const MortarFacet& facet, const std::vector<std::size_t>& representative, VectorXd& areas,
-           Sums& first, Sums& second) const;
+  void add(const MortarFacet& facet, const std::vector<std::size_t>& representative,
+           VectorXd& integralsOfRows, RowAreas& areas, Sums& first, Sums& second) const;
+  [[nodiscard]] Vector3d relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const Row& row) const;
   void balanceMoment(Row& row) const;
 
   const PlacedSurface &first_, &second_;
@@ -71,6 +76,7 @@ private:
   MatrixXd basis_; ///< N̂ = T N of a facet
   std::vector<MortarFacet> facets_;
   std::vector<double> coverage_; ///< of each node's N̂, the covered share
+  std::vector<char> isBent_;
 };
 
 std::vector<std::size_t> RowMaker::placesOf(std::size_t facet) const {
@@ -153,8 +159,8 @@ void RowMaker::spread(std::vector<std::size_t>& representative) const {
 }
 
 /// The parts of the rows of one facet: P = A S T, ψ = P N, with S adding up the N̂ that have one multiplier.
-void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& representative, VectorXd& areas,
-                   Sums& first, Sums& second) const {
+void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& representative,
+                   VectorXd& integralsOfRows, RowAreas& areas, Sums& first, Sums& second) const {
   const std::vector<std::size_t> places = placesOf(facet.facet);
   std::vector<std::size_t> rows;
   for (const std::size_t k : places)
@@ -181,7 +187,8 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
   const auto nodes = first_.surface.facet(facet.facet);
   for (Eigen::Index r = 0; r < numRows; ++r) {
     const std::size_t row = rows[static_cast<std::size_t>(r)];
-    areas[static_cast<Eigen::Index>(row)] += integrals[r];
+    integralsOfRows[static_cast<Eigen::Index>(row)] += integrals[r];
+    areas.add(facet.facet, row, integrals[r]);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       first[row][nodes[a]] += own(r, static_cast<Eigen::Index>(a));
   }
@@ -194,18 +201,18 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
   }
 }
 
-std::vector<Row> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld) const {
+std::vector<Row> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const {
   const std::vector<std::size_t> representative = representatives(isHeld);
   const std::size_t n = nodes_.nodes.size();
-  VectorXd areas = VectorXd::Zero(static_cast<Eigen::Index>(n));
+  VectorXd integrals = VectorXd::Zero(static_cast<Eigen::Index>(n));
   Sums first(n), second(n);
   for (const MortarFacet& facet : facets_)
-    add(facet, representative, areas, first, second);
+    add(facet, representative, integrals, areas, first, second);
   std::vector<Row> rows;
   for (std::size_t k = 0; k < n; ++k) {
     if (first[k].empty())
       continue;
-    Row& row = rows.emplace_back(Row{k, areas[static_cast<Eigen::Index>(k)], {}, {}});
+    Row& row = rows.emplace_back(Row{k, integrals[static_cast<Eigen::Index>(k)], {}, {}});
     for (const auto& [sums, shares] : {std::pair(&first[k], &row.first), std::pair(&second[k], &row.second)})
       for (const auto& [node, weight] : *sums)
         if (std::abs(weight) > roundOff * row.area)
@@ -215,25 +222,30 @@ std::vector<Row> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld) 
   return rows;
 }
 
-Vector3d RowMaker::placeOf(const NodePoints& pointAt, const std::vector<NodeShare>& shares) {
-  Vector3d place(0, 0, 0);
-  for (const NodeShare& share : shares) {
-    const fem::Point x = pointAt(share.node);
-    place += share.weight * Vector3d(x[0], x[1], x[2]);
-  }
-  return place;
+/// Places relative to the row's node: far from the origin coordinates have lost the digits that sums of theirs would need.
+Vector3d RowMaker::relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const Row& row) const {
+  const fem::Point x = pointAt(node);
+  return Vector3d(x[0], x[1], x[2]) - nodes_.points[row.place];
+}
+
+Vector3d RowMaker::apart(const Row& row) const {
+  Vector3d apart(0, 0, 0);
+  for (const NodeShare& share : row.second)
+    apart += share.weight * relativePlace(second_.pointAt, share.node, row);
+  for (const NodeShare& share : row.first)
+    apart -= share.weight * relativePlace(first_.pointAt, share.node, row);
+  return apart;
 }
 
 /// Adds δ_l = cᵀ(x_l − x̄) to the second side's shares, which changes no force, so that its place lies across the first one's.
 void RowMaker::balanceMoment(Row& row) const {
   const Vector3d normal = nodes_.normals[row.place];
   const auto across = [&](const Vector3d& x) -> Vector3d { return x - normal.dot(x) * normal; };
-  const Vector3d off = across(placeOf(second_.pointAt, row.second) - placeOf(first_.pointAt, row.first));
+  const Vector3d off = across(apart(row));
   std::vector<Vector3d> places;
   Vector3d mean(0, 0, 0);
   for (const NodeShare& share : row.second) {
-    const fem::Point x = second_.pointAt(share.node);
-    places.emplace_back(across({x[0], x[1], x[2]}));
+    places.emplace_back(across(relativePlace(second_.pointAt, share.node, row)));
     mean += places.back() / static_cast<double>(row.second.size());
   }
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
@@ -250,29 +262,30 @@ void RowMaker::balanceMoment(Row& row) const {
     row.second[l].weight -= change.dot(places[l]);
 }
 
-void enter(const Row& row, const SurfaceNodes& nodes, const Vector3d& direction, int components, double gap,
-           ContactLayout& layout) {
+void enter(const Row& row, const SurfaceNodes& nodes, const RowAreas& areas, const Vector3d& direction,
+           int components, double gap, ContactLayout& layout) {
   layout.firstNodes.push_back(nodes.nodes[row.place]);
   layout.firstShares.push_back(row.first);
   layout.secondNodes.push_back(row.second);
   for (int c = 0; c < components; ++c)
     layout.directions.push_back(direction[c]);
   layout.gaps.push_back(gap);
-  layout.areas.push_back(row.area);
+  areas.enter(row.place, layout);
 }
 
 void requireRows(const ContactTerms& terms, const ContactLayout& layout) {
   if (layout.firstNodes.empty())
     throw InputError(
-        "contact '" + terms.name + "': supports hold every node of the surface '" + terms.firstSurface +
+        "contact '" + terms.name + "': supports or ties hold every node of the surface '" +
+        terms.firstSurface +
         "' that meets the other one, so that none can carry a force; let the other side carry the "
         "multipliers, or remove the contact");
 }
 
 } // namespace
 
-ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first,
-                           const PlacedSurface& second) {
+ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
+                           const std::function<bool(GlobalOrdinal)>& isTied) {
   const RowMaker maker(terms, first, second);
   const SurfaceNodes& nodes = maker.nodes();
   const auto directionAt = [&](std::size_t place) -> Vector3d {
@@ -281,12 +294,13 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   ContactLayout layout;
   layout.name = terms.name;
   layout.isDual = first.surface.facetType == fem::CellType::triangle6;
-  for (const Row& row : maker.rows([](std::size_t) { return false; })) {
+  RowAreas areas(terms, nodes.nodes.size());
+  for (const Row& row : maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, areas)) {
     double gap = terms.gap;
     if (terms.components > 1)
-      gap += nodes.normals[row.place].dot(RowMaker::placeOf(second.pointAt, row.second) -
-                                          RowMaker::placeOf(first.pointAt, row.first));
-    enter(row, nodes, directionAt(row.place), terms.components, gap, layout);
+      gap += nodes.normals[row.place].dot(maker.apart(row));
+    enter(row, nodes, areas, directionAt(row.place), terms.components, gap, layout);
+    layout.numBent += terms.components > 1 && maker.isBent(row.place) ? 1 : 0;
   }
   requireRows(terms, layout);
   smoothRows(first.surface, layout);
@@ -301,10 +315,14 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
   layout.name = terms.name;
   for (int c = 0; c < terms.components; ++c) {
     const Vector3d axis = axes.col(c);
-    for (const Row& row : maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); }))
-      enter(row, nodes, axis, terms.components, 0.0, layout);
+    RowAreas areas(terms, nodes.nodes.size());
+    for (const Row& row :
+         maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); }, areas))
+      enter(row, nodes, areas, axis, terms.components, 0.0, layout);
   }
   requireRows(terms, layout);
+  layout.isDual = first.surface.facetType == fem::CellType::triangle6;
+  smoothRows(first.surface, layout);
   return layout;
 }
 

@@ -34,8 +34,9 @@ using HeldNodes = std::function<bool(GlobalOrdinal node, const Eigen::Vector3d& 
 
 /// The rows u¹ − u² along the first surface's normals; bodies and `firstRow` are left to the caller. \throws InputError as
 /// mortarIntegrals() does, or if no node is left to have a row. Not collective.
-ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first,
-                           const PlacedSurface& second);
+/// \param isTied  nodes of the first surface that a tied joint holds to the second body; they get no multiplier
+ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
+                           const std::function<bool(GlobalOrdinal)>& isTied = {});
 
 /// The rows u¹ − u² = 0, `components` for each node, along axes (columns) that are the same for all, best such that supports
 /// hold nodes along them; likewise.

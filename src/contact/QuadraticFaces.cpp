@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -10,6 +11,9 @@ namespace {
 
 using Weights = std::map<std::pair<std::size_t, std::size_t>, double>; ///< W_kb
 using Shares = std::vector<std::vector<ContactLayout::Share>>;
+
+/// Areas below this share of the mean are round-off.
+constexpr double roundOff = 1e-9;
 
 double alphaOf(fem::CellType facet) {
   return facet == fem::CellType::triangle6 ? 1.0 / 6 : 0.15;
@@ -79,12 +83,9 @@ Shares dualCombinations(const Weights& weights, double alpha, std::size_t numRow
   return combinations;
 }
 
-/// W, 0 entries left out.
-Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
-  std::map<GlobalOrdinal, std::ptrdiff_t> rowOf;
-  for (std::size_t row = 0; row < contact.firstNodes.size(); ++row)
-    rowOf.emplace(contact.firstNodes[row], static_cast<std::ptrdiff_t>(row));
-  Weights weights;
+/// Adds W of some rows, 0 entries left out.
+void addWeights(const fem::Surface& surface, const std::map<GlobalOrdinal, std::ptrdiff_t>& rowOf,
+                Weights& weights) {
   FacetWeights facets(surface.facetType, weights);
   std::vector<std::ptrdiff_t> rows;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
@@ -95,6 +96,20 @@ Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
     }
     facets.add(rows);
   }
+}
+
+/// W; of tied joints, whose nodes come once for each component, of each of these.
+Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
+  Weights weights;
+  std::map<GlobalOrdinal, std::ptrdiff_t> rowOf;
+  for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
+    if (rowOf.contains(contact.firstNodes[row])) {
+      addWeights(surface, rowOf, weights);
+      rowOf.clear();
+    }
+    rowOf.emplace(contact.firstNodes[row], static_cast<std::ptrdiff_t>(row));
+  }
+  addWeights(surface, rowOf, weights);
   return weights;
 }
 
@@ -134,10 +149,24 @@ void adaptRows(const fem::Surface& surface, ContactLayout& contact) {
     return;
   contact.isDual = true;
   contact.combinations = dualCombinations(weights, alphaOf(surface.facetType), contact.firstNodes.size());
-  std::vector<double> areas(contact.areas.size(), 0.0);
-  for (const auto& [place, weight] : weights)
-    areas[place.first] += weight * contact.areas[place.second];
-  contact.areas = std::move(areas);
+  const auto combine = [&](std::vector<double>& values) {
+    std::vector<double> sums(values.size(), 0.0);
+    for (const auto& [place, weight] : weights)
+      sums[place.first] += weight * values[place.second];
+    values = std::move(sums);
+  };
+  combine(contact.areas);
+  for (std::vector<double>& areas : contact.areasOfParts)
+    combine(areas);
+  // A corner none of whose middles has a row has ∫N = 0, which nothing may be divided by: as much as others have, then.
+  const double mean = std::accumulate(contact.areas.begin(), contact.areas.end(), 0.0) /
+                      static_cast<double>(contact.areas.size());
+  for (std::size_t row = 0; row < contact.areas.size(); ++row)
+    if (!(contact.areas[row] > roundOff * mean)) {
+      contact.areas[row] = mean;
+      for (std::vector<double>& areas : contact.areasOfParts)
+        areas[row] = mean / static_cast<double>(contact.areasOfParts.size());
+    }
 }
 
 } // namespace epafi::contact

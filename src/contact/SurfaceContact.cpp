@@ -1,6 +1,7 @@
 #include "epafi/contact/SurfaceContact.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/contact/RigidLinks.hpp"
 
 #include <Teuchos_Comm.hpp>
 
@@ -43,7 +44,10 @@ CoupledSurfaces contactBetween(const ContactTerms& terms, const PlacedSurface& f
 CoupledSurfaces tieBetween(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second,
                            const RCP<const Comm>& comm, const HeldNodes& isHeld) {
   ContactLayout layout;
-  collectively(*comm, [&] { layout = tieByMortar(terms, first, second, isHeld); });
+  collectively(*comm, [&] {
+    layout = tieByMortar(terms, first, second, isHeld);
+    linkRigidly(first, second, layout);
+  });
   return asMatrix(terms, std::move(layout), comm);
 }
 

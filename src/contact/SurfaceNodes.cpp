@@ -88,6 +88,16 @@ void forEachFacet(const NodePoints& pointAt, const fem::Surface& surface, bool c
   }
 }
 
+/// Adds a facet's normal to that of the face which it continues, or begins one.
+void addTo(std::vector<Eigen::Vector3d>& faces, const Eigen::Vector3d& normal) {
+  for (Eigen::Vector3d& face : faces)
+    if (face.dot(normal) >= sharpBend * face.norm() * normal.norm()) {
+      face += normal;
+      return;
+    }
+  faces.push_back(normal);
+}
+
 } // namespace
 
 SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface, int order) {
@@ -108,27 +118,34 @@ SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface
   result.normals.assign(result.nodes.size(), Eigen::Vector3d::Zero());
   result.areas.assign(result.nodes.size(), 0.0);
   result.spacings.assign(result.nodes.size(), 0.0);
+  result.faces.resize(result.nodes.size());
+  result.numCorners = numCornersOf(facetType);
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> areas(static_cast<std::size_t>(numNodesOf(facetType)));
   forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto& points, const auto& shares) {
     fem::nodalNormals(facetType, points, normals);
     fem::nodalShares(facetType, points, areas);
-    auto& corners = result.facets.emplace_back();
-    for (int c = 0; c < numCornersOf(facetType); ++c)
-      corners.push_back(placeOf.at(nodes[static_cast<std::size_t>(c)]));
+    auto& facet = result.facets.emplace_back();
+    facet.shares = areas;
+    facet.normal = fem::areaVector(facetType, points).normalized();
     const double even = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const std::size_t place = placeOf.at(nodes[a]);
+      facet.nodes.push_back(place);
       if (complete)
         result.shares[place] = shares[a];
       result.points[place] = Eigen::Vector3d(points[a][0], points[a][1], points[a][2]);
       result.normals[place] += normals[a];
+      addTo(result.faces[place], normals[a]);
       result.areas[place] += areas[a];
       result.spacings[place] += even;
     }
   });
   for (Eigen::Vector3d& normal : result.normals)
     normal.normalize();
+  for (std::vector<Eigen::Vector3d>& faces : result.faces)
+    if (faces.size() == 1)
+      faces.clear();
   if (dimensionOf(facetType) == 2)
     for (double& spacing : result.spacings)
       spacing = std::sqrt(spacing);

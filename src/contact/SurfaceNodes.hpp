@@ -24,9 +24,22 @@ struct SurfaceNodes {
       normals; ///< outwards, of length 1: the mean of the facets' normals there by area
   std::vector<double>
       areas; ///< ∫N_a: what of the area (in the plane: length) a node has, so that an even pressure p gives forces p · area
-  std::vector<double> spacings;                 ///< of the nodes around each
-  std::vector<std::vector<std::size_t>> facets; ///< places of the corners of each
+  std::vector<double> spacings; ///< of the nodes around each
+  /// What a facet has to do with its nodes.
+  struct Facet {
+    std::vector<std::size_t> nodes; ///< places, corners first
+    std::vector<double> shares;     ///< ∫N of each
+    Eigen::Vector3d normal;         ///< of length 1
+  };
+  std::vector<Facet> facets;
+  int numCorners = 2; ///< of each facet
+  /// Where a surface bends sharply, Σ of the facets' normals by area of each face that meets there, any two of which are
+  /// more than `sharpBend` apart; empty where it does not: `normals` says all.
+  std::vector<std::vector<Eigen::Vector3d>> faces;
 };
+
+/// Cosine of the angle beyond which facets at a node belong to different faces: 30 degrees.
+constexpr double sharpBend = 0.86602540378443865;
 
 /// \param order  2: of facets of order 1 also the points where those of order 2 would have nodes, between the corners, with
 ///               numbers beyond those of the surface; 0: that of the surface

@@ -1,15 +1,24 @@
 #include "epafi/model/SceneContacts.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/contact/ContactSearch.hpp"
 #include "epafi/contact/KnownRows.hpp"
-#include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
+#include "epafi/contact/UnitedSurface.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/fem/HookesLaw.hpp"
+#include "epafi/model/ContactCoupler.hpp"
+#include "epafi/model/ContactGroups.hpp"
 #include "epafi/model/ContactSurfaces.hpp"
+#include "epafi/model/TiedNodes.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -17,40 +26,6 @@ namespace epafi::model {
 namespace {
 
 using contact::ContactLayout;
-
-/// A side of a contact.
-struct Side {
-  int body;
-  std::string surface;
-};
-
-contact::NodePoints pointsOf(const BodyLayout& body) {
-  return [mesh = body.mesh.get()](GlobalOrdinal node) { return mesh->point(node); };
-}
-
-/// The nodes of a side. \param order  of the facets between them, at least
-contact::SurfaceNodes nodesOf(const scene::SurfaceContact& contact, const BodyLayout& body,
-                              const std::string& surface, int order) {
-  return contact::surfaceNodes(pointsOf(body), surfaceOf(contact, body, surface), order);
-}
-
-/// Whether nodes along two edges of structured meshes meet in order.
-bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies) {
-  const auto numElements = [&](int body, const std::string& edge) {
-    const fem::StructuredMesh* mesh = bodies[static_cast<std::size_t>(body)].mesh->structured();
-    return mesh == nullptr ? 0 : mesh->elements()[edge == "left" || edge == "right" ? 1 : 0];
-  };
-  const auto number = numElements(terms.first, terms.firstSurface);
-  return number > 0 && number == numElements(terms.second, terms.secondSurface);
-}
-
-contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
-  using Kind = contact::Obstacle::Kind;
-  return {obstacle.kind == scene::Obstacle::Kind::plane ? Kind::plane : Kind::sphere,
-          {obstacle.point[0], obstacle.point[1], obstacle.point[2]},
-          {obstacle.normal[0], obstacle.normal[1], obstacle.normal[2]},
-          obstacle.radius};
-}
 
 /// Throws if the scene names bodies that are not there, or what it says of edges does not hold.
 void requireSound(const scene::Scene& scene, std::size_t number) {
@@ -70,66 +45,46 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
                      fault->objection);
 }
 
+/// ∫N̂ of a row, of all or of a part of the surface; ∫N of a node may be 0.
+double areaAt(const ContactLayout& layout, const std::vector<double>& areas, std::size_t row) {
+  if (layout.isDual || layout.smoothed.empty())
+    return areas[row];
+  double area = 0;
+  for (const ContactLayout::Share& share : layout.smoothed[row])
+    area += share.weight * areas[share.node];
+  return area;
+}
+
+/// One layout for each contact of a group, with its parts of the rows.
+std::vector<ContactLayout> partsOf(const ContactLayout& whole, const ContactGroup& group) {
+  std::vector<ContactLayout> layouts;
+  for (std::size_t part = 0; part < group.numbers.size(); ++part) {
+    ContactLayout& layout = layouts.emplace_back(whole);
+    layout.number = static_cast<int>(group.numbers[part]);
+    if (group.numbers.size() == 1)
+      continue;
+    layout.name = group.terms[part].name;
+    layout.firstSurface = whole.firstSurfaces[part];
+    layout.hasOwnRows = part == 0;
+    layout.portions.clear();
+    for (std::size_t row = 0; row < whole.areas.size(); ++row)
+      layout.portions.push_back(areaAt(whole, whole.areasOfParts[part], row) /
+                                areaAt(whole, whole.areas, row));
+    std::string others;
+    for (std::size_t other = 0; other < group.terms.size(); ++other)
+      if (other != part)
+        others += (others.empty() ? "'" : ", '") + group.terms[other].name + "'";
+    layout.means += ", with " + others + " as one surface";
+  }
+  return layouts;
+}
+
 } // namespace
 
 ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
                             int components, const SupportedNodes& supported) {
-  using Coupling = scene::SurfaceContact::Coupling;
-  const auto layoutOf = [&](const Side& side) -> const BodyLayout& {
-    return bodies[static_cast<std::size_t>(side.body)];
-  };
-  const auto orderOf = [&](const Side& side) { return fem::orderOf(layoutOf(side).mesh->cellType()); };
-  const auto finish = [&](ContactLayout layout, const Side& first, const Side& second, std::string means) {
-    layout.firstBody = first.body;
-    layout.firstSurface = first.surface;
-    layout.secondBody = second.body;
-    layout.means = std::move(means);
-    return layout;
-  };
-  const auto axesOf = [&](const Side& side) -> Eigen::Matrix3d {
-    if (!supported.axes)
-      return Eigen::Matrix3d::Identity();
-    return supported.axes(side.body, surfaceOf(terms, layoutOf(side), side.surface));
-  };
-  const bool isTied = terms.kind == scene::SurfaceContact::Kind::tied;
-  Side first{terms.first, terms.firstSurface}, second{terms.second, terms.secondSurface};
-  contact::ContactTerms asked{terms.name, first.surface, dimensionOf(layoutOf(first).mesh->cellType()),
-                              components, terms.gap,     terms.distance};
-  if (second.body < 0)
-    return finish(
-        meetObstacle(asked, nodesOf(terms, layoutOf(first), first.surface, 0), obstacleOf(terms.obstacle)),
-        first, second, "nodes of '" + layoutOf(first).name + "'");
-  if (terms.coupling != Coupling::mortar) {
-    Side finer = first, other = second;
-    if (orderOf(first) < orderOf(second)) // the side with more nodes has the rows
-      std::swap(finer, other);
-    const int order = orderOf(finer);
-    asked.firstSurface = finer.surface;
-    asked.sense = finer.body == first.body ? 1 : -1;
-    asked.coincide = components == 1 && order == orderOf(other) && haveEqualEdges(terms, bodies);
-    const contact::SurfaceNodes nodes = nodesOf(terms, layoutOf(finer), finer.surface, order),
-                                facing = nodesOf(terms, layoutOf(other), other.surface, order);
-    if (terms.coupling == Coupling::nodes || areAlike(asked, nodes, facing)) {
-      const contact::FacingNodes pairs = facingNodes(asked, nodes, facing);
-      return finish(isTied ? tieSurface(asked, nodes, facing, pairs, axesOf(finer))
-                           : meetSurface(asked, nodes, facing, pairs),
-                    finer, other, "pairs of nodes");
-    }
-  }
-  asked.sense = terms.multipliers == scene::SurfaceContact::Side::second ? -1 : 1;
-  if (asked.sense < 0)
-    std::swap(first, second);
-  asked.firstSurface = first.surface;
-  const fem::Surface carrier = surfaceOf(terms, layoutOf(first), first.surface),
-                     facing = surfaceOf(terms, layoutOf(second), second.surface);
-  const contact::NodePoints ownPoints = pointsOf(layoutOf(first)), otherPoints = pointsOf(layoutOf(second));
-  const contact::PlacedSurface own{carrier, ownPoints}, other{facing, otherPoints};
-  const auto held = [&](GlobalOrdinal node, const Eigen::Vector3d& direction) {
-    return supported.isHeld && supported.isHeld(first.body, node, direction);
-  };
-  return finish(isTied ? tieByMortar(asked, own, other, held, axesOf(first))
-                       : meetByMortar(asked, own, other),
-                first, second, "mortars on '" + layoutOf(first).name + "'");
+  const ContactGroup group{{0}, {terms}, true};
+  return Coupler(group, bodies, components, supported, nullptr).layout();
 }
 
 SupportedNodes supportedNodes(const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
@@ -168,39 +123,126 @@ SupportedNodes supportedNodes(const std::vector<std::unique_ptr<fem::BodyModel>>
   return result;
 }
 
-SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
-                             const SupportedNodes& supported) {
-  SceneContacts all;
-  contact::KnownRows known;
-  for (std::size_t number = 0; number < scene.contacts.size(); ++number) {
-    requireSound(scene, number);
-    scene::SurfaceContact terms = scene.contacts[number];
-    const int components = componentsOf(scene.bodies[static_cast<std::size_t>(terms.first)].physics);
-    std::string why = ", as asked";
-    if (terms.second >= 0 && terms.multipliers == scene::SurfaceContact::Side::automatic)
-      why = chooseSide(scene, bodies, terms);
-    ContactLayout contact = layoutContact(terms, bodies, components, supported);
-    contact.number = static_cast<int>(number);
-    const bool hasMortars = !contact.firstShares.empty();
-    if (hasMortars)
-      contact.means += why;
-    if (terms.kind == scene::SurfaceContact::Kind::tied) {
-      all.ties.push_back(std::move(contact));
+namespace {
+
+/// What the layouts of a scene need beside supports.
+SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
+                          const std::vector<BodyLayout>& bodies) {
+  supported.thicknesses = [&](int body, const fem::Surface& surface) {
+    const scene::Body& solid = scene.bodies[static_cast<std::size_t>(body)];
+    std::vector<double> thicknesses;
+    if (solid.regions.empty() || solid.physics == scene::Physics::membrane ||
+        solid.physics == scene::Physics::elasticity3d)
+      return thicknesses;
+    const fem::BodyModel model(solid, *bodies[static_cast<std::size_t>(body)].mesh);
+    for (const GlobalOrdinal element : surface.elements)
+      thicknesses.push_back(fem::thicknessOf(solid.physics, model.materialOf(element)));
+    return thicknesses;
+  };
+  auto boxes = std::make_shared<std::map<int, std::array<fem::Point, 2>>>();
+  supported.extent = [&, boxes](int body, const Eigen::Vector3d& direction) {
+    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(body)].mesh;
+    if (mesh.part() != nullptr) // nobody has it all
+      return std::numeric_limits<double>::infinity();
+    const auto [entry, isNew] = boxes->try_emplace(body);
+    if (isNew) {
+      std::vector<fem::Point> points;
+      for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+        points.push_back(mesh.point(node));
+      entry->second = fem::boxOf(points);
+    }
+    double extent = 0;
+    for (std::size_t d = 0; d < 3; ++d)
+      extent +=
+          std::abs(direction[static_cast<Eigen::Index>(d)]) * (entry->second[1][d] - entry->second[0][d]);
+    return extent;
+  };
+  return supported;
+}
+
+/// Numbers rows, contact after contact; those that share rows have the first one's numbers.
+void numberRows(const std::vector<ContactGroup>& groups, std::vector<ContactLayout>& layouts) {
+  std::sort(layouts.begin(), layouts.end(),
+            [](const ContactLayout& a, const ContactLayout& b) { return a.number < b.number; });
+  std::map<int, GlobalOrdinal> firstRows;
+  GlobalOrdinal firstRow = 0;
+  for (ContactLayout& layout : layouts) {
+    if (layout.hasOwnRows) {
+      firstRows[layout.number] = layout.firstRow = firstRow;
+      firstRow += layout.numRows();
       continue;
     }
-    known.dropFrom(contact);
-    const fem::Surface surface =
-        bodies[static_cast<std::size_t>(contact.firstBody)].mesh->surface(contact.firstSurface);
-    hasMortars ? contact::smoothRows(surface, contact) : contact::adaptRows(surface, contact);
-    all.contacts.push_back(std::move(contact));
+    for (const ContactGroup& group : groups)
+      if (std::find(group.numbers.begin(), group.numbers.end(), static_cast<std::size_t>(layout.number)) !=
+          group.numbers.end())
+        layout.firstRow = firstRows.at(static_cast<int>(group.numbers.front()));
   }
-  for (auto* layouts : {&all.contacts, &all.ties}) {
-    GlobalOrdinal firstRow = 0;
-    for (ContactLayout& contact : *layouts) {
-      contact.firstRow = firstRow;
-      firstRow += contact.numRows();
+}
+
+/// The areas of rows that were left out count with those of earlier contacts that say the same.
+void addDropped(const std::vector<contact::KnownRows::Dropped>& dropped, ContactLayout& contact,
+                std::vector<ContactLayout>& earlier) {
+  std::string names;
+  for (const contact::KnownRows::Dropped& row : dropped)
+    for (ContactLayout& other : earlier)
+      if (other.number == row.contact) {
+        other.areas[static_cast<std::size_t>(row.row)] += row.area;
+        names = "'" + other.name + "'";
+      }
+  if (!dropped.empty())
+    contact.note = std::to_string(dropped.size()) +
+                   (dropped.size() == 1 ? " more node counts" : " more nodes count") + " with contact " +
+                   names + ", which says the same there";
+}
+
+} // namespace
+
+SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
+                             const SupportedNodes& supports) {
+  for (std::size_t number = 0; number < scene.contacts.size(); ++number)
+    requireSound(scene, number);
+  const SupportedNodes supported = withBodies(supports, scene, bodies);
+  std::vector<ContactGroup> groups = contactGroups(scene, bodies);
+  SceneContacts all;
+  contact::KnownRows known;
+  const auto layOut = [&](ContactGroup& group, const TiedNodes* tied) {
+    scene::SurfaceContact& terms = group.terms.front();
+    std::string why = ", as asked";
+    if (terms.second >= 0 && terms.multipliers == scene::SurfaceContact::Side::automatic) {
+      why = ", the first one";
+      terms.multipliers = scene::SurfaceContact::Side::first;
+      if (group.mayEitherCarry) {
+        terms.multipliers = scene::SurfaceContact::Side::automatic;
+        why = chooseSide(scene, bodies, terms);
+      }
     }
+    const int components = componentsOf(scene.bodies[static_cast<std::size_t>(terms.first)].physics);
+    ContactLayout layout = Coupler(group, bodies, components, supported, tied).layout();
+    layout.number = static_cast<int>(group.numbers.front());
+    if (!layout.firstShares.empty())
+      layout.means += why;
+    return layout;
+  };
+  const auto enter = [](std::vector<ContactLayout> parts, std::vector<ContactLayout>& layouts) {
+    std::move(parts.begin(), parts.end(), std::back_inserter(layouts));
+  };
+  for (ContactGroup& group : groups)
+    if (group.terms.front().kind == scene::SurfaceContact::Kind::tied)
+      enter(partsOf(layOut(group, nullptr), group), all.ties);
+  const TiedNodes tied(all.ties);
+  for (ContactGroup& group : groups) {
+    if (group.terms.front().kind == scene::SurfaceContact::Kind::tied)
+      continue;
+    ContactLayout layout = layOut(group, &tied);
+    addDropped(known.dropFrom(layout), layout, all.contacts);
+    const fem::Surface surface =
+        contact::unite(*bodies[static_cast<std::size_t>(layout.firstBody)].mesh, layout.firstSurfaces)
+            .surface;
+    layout.firstShares.empty() ? contact::adaptRows(surface, layout) : contact::smoothRows(surface, layout);
+    enter(partsOf(layout, group), all.contacts);
   }
+  numberRows(groups, all.contacts);
+  numberRows(groups, all.ties);
   return all;
 }
 

@@ -21,12 +21,16 @@ struct SceneContacts {
   std::vector<contact::ContactLayout> contacts, ties;
 };
 
-/// What contacts have to know of supports; empty functions: there are none.
+/// What contacts have to know of supports and bodies; empty functions: nothing.
 struct SupportedNodes {
   /// Whether they hold a node of a body in a direction.
   std::function<bool(int body, GlobalOrdinal node, const Eigen::Vector3d& direction)> isHeld;
   /// Axes (columns) along which they hold the nodes of a surface: the frame of that which is held most.
   std::function<Eigen::Matrix3d(int body, const fem::Surface& surface)> axes;
+  /// Thicknesses of a plane body at the facets of a surface; empty if it is the same everywhere.
+  std::function<std::vector<double>(int body, const fem::Surface& surface)> thicknesses;
+  /// Extent of a body along a direction.
+  std::function<double(int body, const Eigen::Vector3d& direction)> extent;
 };
 
 /// Those of a scene; keeps a reference. Not collective.

@@ -7,6 +7,7 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -28,12 +29,22 @@ void fillFacets(const SolvedScene& solved, int contact, ContactFields& fields) {
   if (!solved.isAlongEdges(contact)) {
     const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
     const fem::Surface surface = mesh.surface(layout.firstSurface);
-    corners = completeFacets(layout, surface);
+    const std::vector<long long> all = completeFacets(layout, surface);
+    const std::vector<std::size_t> own = layout.ownRows();
+    const auto perFacet = static_cast<std::ptrdiff_t>(surface.nodesPerFacet());
+    for (auto begin = all.begin(); begin != all.end(); begin += perFacet) {
+      if (std::any_of(begin, begin + perFacet,
+                      [&](long long row) { return layout.portion(static_cast<std::size_t>(row)) == 0; }))
+        continue;
+      for (auto row = begin; row != begin + perFacet; ++row)
+        corners.push_back(std::lower_bound(own.begin(), own.end(), static_cast<std::size_t>(*row)) -
+                          own.begin());
+    }
     if (!corners.empty())
       fields.facetType = surface.facetType;
   }
   if (corners.empty()) {
-    corners.resize(layout.firstNodes.size());
+    corners.resize(static_cast<std::size_t>(fields.numRows));
     std::iota(corners.begin(), corners.end(), 0LL);
   }
   const int perFacet = fields.nodesPerFacet();
@@ -94,12 +105,13 @@ ContactFields gatherContactFields(const SolvedScene& solved, int contact, const 
   const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
 
   ContactFields fields;
-  fields.numRows = layout.numRows();
-  fields.rows = evenShare(layout.numRows(), *problem.comm);
+  const std::vector<std::size_t> own = layout.ownRows();
+  fields.numRows = static_cast<GlobalOrdinal>(own.size());
+  fields.rows = evenShare(fields.numRows, *problem.comm);
   std::vector<GlobalOrdinal> multipliers;
   for (GlobalOrdinal k = fields.rows.first; k < fields.rows.first + fields.rows.count; ++k) {
-    const auto row = static_cast<std::size_t>(k);
-    multipliers.push_back(layout.firstRow + k);
+    const std::size_t row = own[static_cast<std::size_t>(k)];
+    multipliers.push_back(layout.firstRow + static_cast<GlobalOrdinal>(row));
     const fem::Point point = mesh.point(layout.firstNodes[row]);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
     const std::array<double, 3> normal = directionOf(layout, row);

@@ -13,7 +13,7 @@
 
 namespace epafi::output {
 
-/// n rows, one a contact node, in the order of ContactLayout::firstNodes; m facets.
+/// n rows, one a contact node, in the order of ContactLayout::ownRows; m facets.
 struct ContactFields {
   GlobalOrdinal numRows = 0;  ///< n
   RowRange rows;              ///< this rank's rows

@@ -2,8 +2,6 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Maps.hpp"
-#include "epafi/fem/BodyModel.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/output/Slab.hpp"
@@ -26,31 +24,6 @@ constexpr int latticeSteps = 8;
 
 const fem::Mesh& meshOf(const SolvedScene& solved, const ContactLayout& layout) {
   return *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
-}
-
-/// Where thicknesses differ, the facets share their areas as contact::surfaceNodes does, thickness by thickness.
-std::vector<double> areasOfRegions(const SolvedScene& solved, const ContactLayout& layout) {
-  const fem::Mesh& mesh = meshOf(solved, layout);
-  const scene::Body& solid = *solved.elasticBody(layout.firstBody);
-  const fem::BodyModel model(solid, mesh);
-  std::unordered_map<GlobalOrdinal, std::size_t> rowOf;
-  for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
-    rowOf.emplace(layout.firstNodes[row], row);
-
-  const fem::Surface surface = mesh.surface(layout.firstSurface);
-  std::vector<double> areas(layout.firstNodes.size(), 0.0);
-  std::vector<fem::Point> corners;
-  std::vector<double> shares(static_cast<std::size_t>(surface.nodesPerFacet()));
-  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
-    const auto nodes = surface.facet(f);
-    mesh.pointsAt(nodes, corners);
-    const double thickness = fem::thicknessOf(solid.physics, model.materialOf(surface.elements[f]));
-    fem::nodalShares(surface.facetType, corners, shares);
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      if (const auto row = rowOf.find(nodes[a]); row != rowOf.end())
-        areas[row->second] += thickness * shares[a];
-  }
-  return areas;
 }
 
 /// Values of all rows that combinations of some rows name, wherever they lie.
@@ -166,8 +139,8 @@ std::vector<double> pressureAreas(const SolvedScene& solved, const ContactLayout
   const scene::Body* solid = solved.elasticBody(layout.firstBody);
   if (solid == nullptr || solid->physics == scene::Physics::elasticity3d)
     return layout.areas;
-  if (!solid->regions.empty())
-    return areasOfRegions(solved, layout);
+  if (!solid->regions.empty()) // they count the thicknesses of facets already
+    return layout.areas;
   std::vector<double> areas = layout.areas;
   for (double& area : areas)
     area *= fem::thicknessOf(solid->physics, solid->material);
@@ -194,10 +167,9 @@ ContactState contactState(const SolvedScene& solved, int contact) {
   const Shares none, toNodes = layout.isDual ? transposed(layout.smoothed) : none;
   const Shares& around = layout.isDual ? none : layout.smoothed;
 
-  const RowRange slab = evenShare(layout.numRows(), solved.comm());
-  std::vector<std::size_t> rows;
-  for (GlobalOrdinal k = slab.first; k < slab.first + slab.count; ++k)
-    rows.push_back(static_cast<std::size_t>(k));
+  const std::vector<std::size_t> own = layout.ownRows();
+  const RowRange slab = evenShare(static_cast<GlobalOrdinal>(own.size()), solved.comm());
+  const std::vector<std::size_t> rows(own.begin() + slab.first, own.begin() + slab.first + slab.count);
   const Shares onNodes = forceShares(layout);
   const RowValues forces(multiplier, layout, rows, onNodes), pushes(multiplier, layout, rows, around),
       gaps(slack, layout, rows, toNodes);
@@ -211,7 +183,7 @@ ContactState contactState(const SolvedScene& solved, int contact) {
     else
       for (const ContactLayout::Share& share : around[row])
         area += share.weight * state.areas[share.node];
-    state.force.push_back(forces.at(row));
+    state.force.push_back(layout.portion(row) * forces.at(row));
     state.pressure.push_back(pushes.at(row) / area);
     state.gap.push_back(gaps.at(row));
     state.largestPressure = std::max(state.largestPressure, state.pressure.back());
@@ -221,6 +193,8 @@ ContactState contactState(const SolvedScene& solved, int contact) {
     state.penetration =
         std::max(state.penetration,
                  penetrationOn(meshOf(solved, layout).surface(layout.firstSurface), layout, toNodes, slack));
+  for (std::size_t row = 0; row < state.areas.size(); ++row)
+    state.areas[row] *= layout.portion(row);
   state.largestPressure = maxOverRanks(solved.comm(), state.largestPressure);
   state.penetration = maxOverRanks(solved.comm(), state.penetration);
   return state;

@@ -61,22 +61,25 @@ std::vector<AccurateSum> sumContacts(const SolvedScene& solved, const Evaluation
     const decomposition::MultiplierNumber index = map.getGlobalElement(static_cast<LocalOrdinal>(i));
     if (solved.decomposition.problem.kindOf(index) != decomposition::RowKind::contact)
       continue;
-    const auto contact = std::find_if(contacts.begin(), contacts.end(), [index](const ContactLayout& c) {
-      return index < c.firstRow + c.numRows();
-    });
-    const auto place = static_cast<std::size_t>(contact - contacts.begin());
-    const auto row = static_cast<std::size_t>(index - contact->firstRow);
-    const double rowForce = multiplier[i];
-    const std::array<double, 3> direction = directionOf(*contact, row);
-    AccurateSum* const terms = &sums[place * numTerms];
-    terms[force].add(rowForce);
-    const bool areSwapped =
-        contact->firstBody != solved.scene.contacts[static_cast<std::size_t>(contact->number)].first;
-    for (std::size_t d = 0; d < 3; ++d)
-      terms[resultant + d].add(areSwapped ? rowForce * direction[d] : -rowForce * direction[d]);
-    if (isActive[i] > 0.5) {
-      terms[active].add(1);
-      terms[area].add(evaluation.contacts[place].areas[row]);
+    for (std::size_t place = 0; place < contacts.size(); ++place) {
+      const ContactLayout& contact = contacts[place];
+      if (index < contact.firstRow || index >= contact.firstRow + contact.numRows())
+        continue;
+      const auto row = static_cast<std::size_t>(index - contact.firstRow);
+      const double portion = contact.portion(row), rowForce = portion * multiplier[i];
+      if (portion == 0)
+        continue;
+      const std::array<double, 3> direction = directionOf(contact, row);
+      AccurateSum* const terms = &sums[place * numTerms];
+      terms[force].add(rowForce);
+      const bool areSwapped =
+          contact.firstBody != solved.scene.contacts[static_cast<std::size_t>(contact.number)].first;
+      for (std::size_t d = 0; d < 3; ++d)
+        terms[resultant + d].add(areSwapped ? rowForce * direction[d] : -rowForce * direction[d]);
+      if (isActive[i] > 0.5) {
+        terms[active].add(1);
+        terms[area].add(evaluation.contacts[place].areas[row]);
+      }
     }
   }
   sumOverRanks(solved.comm(), sums);
@@ -173,13 +176,17 @@ void addResults(const SolvedScene& solved, const Evaluation& evaluation, Teuchos
     const auto sumOf = [&](std::size_t term) { return sums[c * numTerms + term].value(); };
     report.sublist("Contact")
         .sublist(contacts[c].name)
-        .set("Candidates", contacts[c].numRows())
+        .set("Candidates", static_cast<GlobalOrdinal>(contacts[c].ownRows().size()))
         .set("Active Nodes", static_cast<GlobalOrdinal>(sumOf(active)))
         .set("Force", sumOf(force))
         .set("Resultant", Teuchos::Array<double>(
                               Teuchos::tuple(sumOf(resultant), sumOf(resultant + 1), sumOf(resultant + 2))))
         .set("Largest Pressure", evaluation.contacts[c].largestPressure)
         .set("Contact Area", sumOf(area));
+    if (!contacts[c].note.empty())
+      report.sublist("Contact").sublist(contacts[c].name).set("Note", contacts[c].note);
+    if (contacts[c].numBent > 0)
+      report.sublist("Contact").sublist(contacts[c].name).set("Bent Nodes", contacts[c].numBent);
     if (!contacts[c].smoothed.empty())
       report.sublist("Contact")
           .sublist(contacts[c].name)

@@ -39,7 +39,9 @@ Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* es
 /// Adds to a report:
 ///   Contact/NAME    Candidates (rows), Active Nodes, Force Σλ, Resultant −Σλd (x, y, z; the force on the first body; of
 ///                   membranes, whose deflection is along z, in z), Largest Pressure, of order 2 Largest Penetration (ContactState),
-///                   Contact Area (that of the active rows)
+///                   Contact Area (that of the active rows), Note (what a user should know), Bent Nodes (at sharp bends of a surface
+///                   more than one face of which meets the other side: rows with a mean normal). Rows that contacts share count with
+///                   each of them, by area
 ///   Tied/NAME, and more of Contact/NAME: see JointResults.hpp
 ///   Body/NAME       of elastic bodies: Largest Displacement (the length of the vector), Largest von Mises Stress
 /// Sums are the same to the last digit on any number of ranks. Nothing but the numbers in the lists is ever whole on one rank.

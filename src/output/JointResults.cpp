@@ -2,19 +2,18 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Maps.hpp"
 #include "epafi/output/ContactState.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <Tpetra_Export.hpp>
 #include <Tpetra_Map.hpp>
-#include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,6 +56,9 @@ public:
       for (const contact::NodeShare& share : layout_.secondNodes[place])
         addAt(layout_.secondBody, share, direction, 6);
     });
+    if (!layout_.secondLevers.empty())
+      for (const contact::NodeForce& lever : layout_.secondLevers[row])
+        addAt(layout_.secondBody, {lever.node, 1}, force * lever.force, 6);
     sums_[sizes].add(std::abs(force));
   }
   /// Collective.
@@ -110,23 +112,52 @@ JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalO
     const GlobalOrdinal row = map.getGlobalElement(static_cast<LocalOrdinal>(i)) - offset - layout.firstRow;
     if (row < 0 || row >= layout.numRows())
       continue;
-    sums.add(static_cast<std::size_t>(row), multiplier[i]);
-    each(static_cast<std::size_t>(row), multiplier[i]);
+    const auto place = static_cast<std::size_t>(row);
+    sums.add(place, layout.portion(place) * multiplier[i]);
+    each(place, multiplier[i]);
   }
   sums.finish();
   return sums;
 }
 
-using Tractions = std::map<GlobalOrdinal, Vector3d>; ///< of nodes; all rows of a node lie on one rank
+/// Areas below this share of the mean are round-off: a node without neighbours in the joint, which has no traction.
+constexpr double roundOff = 1e-9;
+
+using Tractions = std::map<GlobalOrdinal, Vector3d>; ///< of nodes
+
+/// Sums of a tied joint, and the tractions on its nodes, ∫pN̂/∫N̂ (contact/QuadraticFaces.hpp): areas of nodes may be 0, these are not.
+struct TieResult {
+  JointSums sums;
+  Tractions tractions;
+};
+
+/// Collective.
+TieResult resultOf(const SolvedScene& solved, const ContactLayout& tie) {
+  std::vector<double> forces(tie.firstNodes.size(), 0.0), areas = pressureAreas(solved, tie);
+  TieResult result{sumsOf(solved, tie, solved.decomposition.problem.numInequalities,
+                          [&](std::size_t row, double force) { forces[row] = force; }),
+                   {}};
+  sumOverRanks(solved.comm(), std::span(forces)); // each is one rank's
+  const double mean = std::accumulate(areas.begin(), areas.end(), 0.0) /
+                      static_cast<double>(std::max<std::size_t>(1, areas.size()));
+  for (const std::size_t row : tie.ownRows()) {
+    double force = forces[row], area = areas[row];
+    if (!tie.isDual && !tie.smoothed.empty()) {
+      force = area = 0;
+      for (const ContactLayout::Share& share : tie.smoothed[row]) {
+        force += share.weight * forces[share.node];
+        area += share.weight * areas[share.node];
+      }
+    }
+    if (area > roundOff * mean)
+      result.tractions.try_emplace(tie.firstNodes[row], Vector3d::Zero()).first->second +=
+          force / area * directionAt(tie, row);
+  }
+  return result;
+}
 
 void addTie(const SolvedScene& solved, const ContactLayout& layout, Teuchos::ParameterList& list) {
-  Tractions traction;
-  const std::vector<double> areas = pressureAreas(solved, layout);
-  const JointSums sums = sumsOf(
-      solved, layout, solved.decomposition.problem.numInequalities, [&](std::size_t row, double force) {
-        traction.try_emplace(layout.firstNodes[row], Vector3d::Zero()).first->second +=
-            force / areas[row] * directionAt(layout, row);
-      });
+  const auto [sums, traction] = resultOf(solved, layout);
   double largest = 0;
   for (const auto& [node, value] : traction)
     largest = std::max(largest, value.norm());
@@ -135,42 +166,22 @@ void addTie(const SolvedScene& solved, const ContactLayout& layout, Teuchos::Par
   const Vector3d resultant = (areSwapped ? 1.0 : -1.0) * sums.resultant();
   list.set("Nodes", sumOverRanks(solved.comm(), static_cast<GlobalOrdinal>(traction.size())))
       .set("Resultant", Teuchos::Array<double>(Teuchos::tuple(resultant[0], resultant[1], resultant[2])))
-      .set("Largest Traction", maxOverRanks(solved.comm(), largest));
+      .set("Largest Traction", largest);
   sums.addImbalance(list);
 }
 
 } // namespace
 
 TieFields gatherTieFields(const SolvedScene& solved, const ContactLayout& tie) {
-  Tractions traction;
-  const std::vector<double> areas = pressureAreas(solved, tie);
-  sumsOf(solved, tie, solved.decomposition.problem.numInequalities, [&](std::size_t row, double force) {
-    traction.try_emplace(tie.firstNodes[row], Vector3d::Zero()).first->second +=
-        force / areas[row] * directionAt(tie, row);
-  });
-  std::vector<GlobalOrdinal> nodes = tie.firstNodes, mine;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  for (const auto& [node, value] : traction)
-    mine.push_back(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-  const RCP<const Comm>& comm = solved.decomposition.problem.comm;
+  const Tractions traction = resultOf(solved, tie).tractions;
   TieFields fields;
-  fields.numNodes = static_cast<GlobalOrdinal>(nodes.size());
-  fields.nodes = evenShare(fields.numNodes, *comm);
-  MultiVector here(mapInOrder(mine, comm), 3), slab(slabMap(fields.numNodes, comm), 3);
-  LocalOrdinal place = 0;
-  for (const auto& [node, value] : traction) {
-    for (std::size_t d = 0; d < 3; ++d)
-      here.replaceLocalValue(place, d, value[static_cast<Eigen::Index>(d)]);
-    ++place;
-  }
-  slab.doExport(here, Export(here.getMap(), slab.getMap()), Tpetra::ADD);
-  for (GlobalOrdinal k = 0; k < fields.nodes.count; ++k) {
-    const Vector3d point =
-        placeOf(solved, tie.firstBody, nodes[static_cast<std::size_t>(fields.nodes.first + k)]);
+  fields.numNodes = static_cast<GlobalOrdinal>(traction.size());
+  fields.nodes = evenShare(fields.numNodes, solved.comm());
+  auto entry = std::next(traction.begin(), fields.nodes.first);
+  for (GlobalOrdinal k = 0; k < fields.nodes.count; ++k, ++entry) {
+    const Vector3d point = placeOf(solved, tie.firstBody, entry->first);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
-    for (std::size_t d = 0; d < 3; ++d)
-      fields.traction.push_back(slab.getData(d)[k]);
+    fields.traction.insert(fields.traction.end(), entry->second.begin(), entry->second.end());
   }
   return fields;
 }
@@ -185,9 +196,11 @@ ContactForce contactForce(const SolvedScene& solved, const ContactLayout& layout
     const GlobalOrdinal row = force.weights->getMap()->getGlobalElement(i) - layout.firstRow;
     if (row < 0 || row >= layout.numRows())
       continue;
+    const double portion = layout.portion(static_cast<std::size_t>(row));
     layout.forEachShare(static_cast<std::size_t>(row), [&](std::size_t place, double weight) {
       layout.forEachFirst(place, [&](const contact::NodeShare& share) {
-        weights[i] += weight * share.weight * directionAt(layout, place).dot(resultant) / force.value;
+        weights[i] +=
+            portion * weight * share.weight * directionAt(layout, place).dot(resultant) / force.value;
       });
     });
   }

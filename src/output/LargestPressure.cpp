@@ -1,6 +1,7 @@
 #include "epafi/output/LargestPressure.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/contact/UnitedSurface.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/output/ContactState.hpp"
 
@@ -84,7 +85,9 @@ constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
     : layout_(layout), mesh_(*solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh),
-      surface_(mesh_.surface(layout.firstSurface)), dimension_(fem::dimensionOf(surface_.facetType)) {
+      surface_(layout.firstSurfaces.empty() ? mesh_.surface(layout.firstSurface)
+                                            : contact::unite(mesh_, layout.firstSurfaces).surface),
+      dimension_(fem::dimensionOf(surface_.facetType)) {
   std::unordered_map<GlobalOrdinal, std::size_t> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     rowOf.emplace(layout.firstNodes[row], row);
@@ -112,9 +115,9 @@ Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
   means_ =
       areCombined ? MatrixXd(rowOfValues(pushes)).transpose() : combined(rowOfValues(pushes)).transpose();
   means_ = means_.cwiseQuotient(areas_);
-  Index peak = 0;
-  means_.maxCoeff(&peak);
-  peak_ = static_cast<std::size_t>(peak);
+  const std::vector<std::size_t> own = layout.ownRows();
+  peak_ = *std::max_element(own.begin(), own.end(),
+                            [&](std::size_t a, std::size_t b) { return means_[at(a)] < means_[at(b)]; });
 }
 
 MatrixXd Pressures::combined(const MatrixXd& x) const {

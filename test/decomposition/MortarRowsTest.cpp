@@ -3,6 +3,7 @@
 
 #include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/ConvexPolygon.hpp"
+#include "epafi/contact/RigidLinks.hpp"
 
 #include "../base/Refusal.hpp"
 #include "../fem/SampleCells.hpp"
@@ -208,6 +209,68 @@ TEST(MortarRowsTest, RowsAreDualWhereTheyAreWholeAndHaveNoMultiplierWhereSupport
   EXPECT_EQ(tied.numRows(), 3 * layout.numRows());
 }
 
+/// Coordinates that 1e9 away are the same numbers: nothing may be lost.
+TEST(MortarRowsTest, GapsAndSharesKeepTheirDigitsFarFromTheOrigin) {
+  for (const Sides& sides : allSides) {
+    const auto jointAt = [&](double x) {
+      const Form form = [&, x](const fem::Point& point) -> fem::Point {
+        const auto snapped = [](double c) { return std::round(c * 1024) / 1024; };
+        const double up = sides.isPlane ? point[1] : point[2], bulge = up > 0 ? 0 : point[0] * point[0] / 16;
+        if (sides.isPlane)
+          return {x + snapped(point[0]), 2 * x + snapped(up - bulge), 0};
+        return {x + snapped(point[0]), 2 * x + snapped(point[1]), -x + snapped(up - bulge)};
+      };
+      return jointOf(sides, 0.25, form);
+    };
+    const ContactLayout near = jointAt(0).meet(), far = jointAt(std::ldexp(1, 30)).meet();
+    ASSERT_EQ(near.firstNodes, far.firstNodes);
+    for (std::size_t row = 0; row < near.gaps.size(); ++row) {
+      EXPECT_NEAR(near.gaps[row], far.gaps[row], 1e-12);
+      ASSERT_EQ(near.secondNodes[row].size(), far.secondNodes[row].size());
+      for (std::size_t k = 0; k < near.secondNodes[row].size(); ++k)
+        EXPECT_NEAR(near.secondNodes[row][k].weight, far.secondNodes[row][k].weight, 1e-11);
+    }
+  }
+}
+
+/// A rigid motion of both bodies together: across a gap as on it.
+TEST(MortarRowsTest, TiesAcrossAGapAreRigidLinks) {
+  for (const Sides& sides : allSides)
+    for (const double shift : {0.0, 0.37}) {
+      const auto lifted = [&](const fem::Point& x) -> fem::Point {
+        return sides.isPlane ? fem::Point{x[0], x[1] + 0.3, 0} : fem::Point{x[0], x[1], x[2] + 0.3};
+      };
+      const Joint flat = jointOf(sides, shift, asItIs);
+      Joint joint = jointOf(sides, shift, asItIs);
+      joint.upperPoints = [&, mesh = joint.upper.get()](GlobalOrdinal node) {
+        return lifted(mesh->point(node));
+      };
+      ContactLayout layout = tieByMortar(joint.terms(), joint.first(), joint.second(), nothingIsHeld);
+      linkRigidly(joint.first(), joint.second(), layout);
+      ASSERT_EQ(layout.secondLevers.size(), layout.firstNodes.size());
+      const Vector3d turn = sides.isPlane ? Vector3d(0, 0, 1) : Vector3d(0.5, -1, 0.7);
+      const auto motion = [&](const fem::Point& x) { return turn.cross(vectorOf(x)); };
+      for (std::size_t row = 0; row < layout.firstNodes.size(); ++row) {
+        const Vector3d direction = directionOf(layout, row, joint.dimension);
+        double jump = 0;
+        for (const NodeShare& share : layout.firstShares[row])
+          jump += share.weight * direction.dot(motion(joint.lowerPoints(share.node)));
+        for (const NodeShare& share : layout.secondNodes[row])
+          jump -= share.weight * direction.dot(motion(joint.upperPoints(share.node)));
+        Vector3d force(0, 0, 0);
+        for (const NodeForce& lever : layout.secondLevers[row]) {
+          jump -= lever.force.dot(motion(joint.upperPoints(lever.node)));
+          force += lever.force;
+        }
+        EXPECT_NEAR(jump, 0, 1e-10) << row;
+        EXPECT_NEAR(force.norm(), 0, 1e-12) << row;
+      }
+      ContactLayout touching = tieByMortar(flat.terms(), flat.first(), flat.second(), nothingIsHeld);
+      linkRigidly(flat.first(), flat.second(), touching);
+      EXPECT_TRUE(touching.secondLevers.empty());
+    }
+}
+
 TEST(MortarRowsTest, SaysWhySurfacesDoNotMeet) {
   const Sides sides{true, false, false, 1, 1};
   const auto complaint = [](const Joint& joint, ContactTerms terms) {
@@ -219,7 +282,9 @@ TEST(MortarRowsTest, SaysWhySurfacesDoNotMeet) {
   };
   EXPECT_NE(complaint(jointOf(sides, 2, asItIs), jointOf(sides, 2, asItIs).terms()).find("do not overlap"),
             std::string::npos);
-  EXPECT_NE(complaint(moved(-0.9), moved(-0.9).terms()).find("deeper than an element"), std::string::npos);
+  ContactTerms thin = moved(-0.9).terms();
+  thin.thickness = [](const Vector3d&) { return 0.75; };
+  EXPECT_NE(complaint(moved(-0.9), thin).find("deeper than a body is thick"), std::string::npos);
   ContactTerms near = moved(0.5).terms();
   near.distance = 0.25;
   EXPECT_NE(complaint(moved(0.5), near).find("farther apart"), std::string::npos);

@@ -1,0 +1,32 @@
+#pragma once
+
+/// What is asked of a contact between two surfaces, or of a surface and an obstacle.
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace epafi::contact {
+
+/// What a contact is to be, and its names for messages.
+struct ContactTerms {
+  std::string name;         ///< of the contact
+  std::string firstSurface; ///< name of the first body's surface
+  int dimension = 3;        ///< of space
+  int components = 3; ///< unknowns a node; a single one is a deflection: gaps do not follow from geometry
+  double gap = 0;     ///< added to that of geometry
+  double distance = std::numeric_limits<double>::infinity(); ///< nodes farther from the other side get no row
+  bool coincide = false; ///< the surfaces do, and their nodes meet in order
+  /// Of the thinner one of the bodies along a direction: overlaps are not deeper, what lies there is a far side. Empty: any depth.
+  std::function<double(const Eigen::Vector3d& direction)> thickness{};
+  /// Of each facet of the first surface the thickness of a plane body, which areas count; empty: 1.
+  std::vector<double> thicknesses{};
+  /// Of each facet of the first surface to which of the united contacts it belongs; empty: there is one.
+  std::vector<std::size_t> parts{};
+  double sense = 1; ///< of a deflection: −1 if it is the second body that must stay below
+};
+
+} // namespace epafi::contact

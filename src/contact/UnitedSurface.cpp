@@ -1,0 +1,35 @@
+#include "epafi/contact/UnitedSurface.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace epafi::contact {
+
+UnitedSurface unite(const fem::Mesh& mesh, std::span<const std::string> names) {
+  UnitedSurface result{mesh.surface(names.front()), {}};
+  fem::Surface& all = result.surface;
+  result.parts.assign(all.numFacets(), 0);
+  if (names.size() == 1)
+    return result;
+  std::set<std::vector<GlobalOrdinal>> known;
+  const auto isNew = [&](std::span<const GlobalOrdinal> nodes) {
+    std::vector<GlobalOrdinal> key(nodes.begin(), nodes.end());
+    std::sort(key.begin(), key.end());
+    return known.insert(std::move(key)).second;
+  };
+  for (std::size_t f = 0; f < all.numFacets(); ++f)
+    isNew(all.facet(f));
+  for (std::size_t part = 1; part < names.size(); ++part) {
+    const fem::Surface next = mesh.surface(names[part]);
+    for (std::size_t f = 0; f < next.numFacets(); ++f)
+      if (isNew(next.facet(f))) {
+        all.facetNodes.insert(all.facetNodes.end(), next.facet(f).begin(), next.facet(f).end());
+        all.elements.push_back(next.elements[f]);
+        result.parts.push_back(part);
+      }
+  }
+  return result;
+}
+
+} // namespace epafi::contact

@@ -1,0 +1,171 @@
+#include "epafi/model/ContactCoupler.hpp"
+
+#include "epafi/contact/ContactSearch.hpp"
+#include "epafi/contact/MortarRows.hpp"
+#include "epafi/contact/QuadraticFaces.hpp"
+#include "epafi/contact/RigidLinks.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/model/ContactSurfaces.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace epafi::model {
+
+using contact::ContactLayout;
+
+namespace {
+
+contact::NodePoints pointsOf(const BodyLayout& body) {
+  return [mesh = body.mesh.get()](GlobalOrdinal node) { return mesh->point(node); };
+}
+
+/// Whether nodes along two edges of structured meshes meet in order.
+bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies) {
+  const auto numElements = [&](int body, const std::string& edge) {
+    const fem::StructuredMesh* mesh = bodies[static_cast<std::size_t>(body)].mesh->structured();
+    return mesh == nullptr ? 0 : mesh->elements()[edge == "left" || edge == "right" ? 1 : 0];
+  };
+  const auto number = numElements(terms.first, terms.firstSurface);
+  return number > 0 && number == numElements(terms.second, terms.secondSurface);
+}
+
+contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
+  using Kind = contact::Obstacle::Kind;
+  return {obstacle.kind == scene::Obstacle::Kind::plane ? Kind::plane : Kind::sphere,
+          {obstacle.point[0], obstacle.point[1], obstacle.point[2]},
+          {obstacle.normal[0], obstacle.normal[1], obstacle.normal[2]},
+          obstacle.radius};
+}
+
+/// The facets of which not all nodes are tied.
+contact::UnitedSurface withoutTied(contact::UnitedSurface whole,
+                                   const std::function<bool(GlobalOrdinal)>& isTied) {
+  contact::UnitedSurface result{{whole.surface.facetType, {}, {}}, {}};
+  for (std::size_t f = 0; f < whole.surface.numFacets(); ++f) {
+    const auto nodes = whole.surface.facet(f);
+    if (std::all_of(nodes.begin(), nodes.end(), isTied))
+      continue;
+    result.surface.facetNodes.insert(result.surface.facetNodes.end(), nodes.begin(), nodes.end());
+    result.surface.elements.push_back(whole.surface.elements[f]);
+    result.parts.push_back(whole.parts[f]);
+  }
+  return result;
+}
+
+} // namespace
+
+Coupler::Coupler(const ContactGroup& group, const std::vector<BodyLayout>& bodies, int components,
+                 const SupportedNodes& supported, const TiedNodes* tied)
+    : terms_(group.terms.front()), bodies_(bodies), components_(components), supported_(supported),
+      tied_(tied), first_{terms_.first, {}}, second_{terms_.second, {}} {
+  for (const scene::SurfaceContact& terms : group.terms) {
+    name_ += (name_.empty() ? "" : "', '") + terms.name;
+    first_.surfaces.push_back(terms.firstSurface);
+    second_.surfaces.push_back(terms.secondSurface);
+    if (terms.second >= 0)
+      surfaceOf(terms, layoutOf(second_), terms.secondSurface); // that it is there
+    surfaceOf(terms, layoutOf(first_), terms.firstSurface);
+  }
+}
+
+ContactLayout Coupler::layout() const {
+  if (second_.body < 0) {
+    const contact::UnitedSurface surface = united(first_);
+    return finish(meetObstacle(asked(first_, surface),
+                               contact::surfaceNodes(pointsOf(layoutOf(first_)), surface.surface),
+                               obstacleOf(terms_.obstacle)),
+                  first_, second_, "nodes of '" + layoutOf(first_).name + "'");
+  }
+  if (terms_.coupling != scene::SurfaceContact::Coupling::mortar)
+    if (std::optional<ContactLayout> pairs = byPairs())
+      return *std::move(pairs);
+  return byMortar();
+}
+
+/// \param first  the side that is to have the rows
+contact::ContactTerms Coupler::asked(const Side& first, const contact::UnitedSurface& surface) const {
+  contact::ContactTerms asked{
+      name_,      first.surfaces.front(), dimensionOf(layoutOf(first).mesh->cellType()), components_,
+      terms_.gap, terms_.distance};
+  asked.sense = first.body == first_.body ? 1 : -1;
+  if (first.surfaces.size() > 1)
+    asked.parts = surface.parts;
+  if (supported_.thicknesses)
+    asked.thicknesses = supported_.thicknesses(first.body, surface.surface);
+  if (components_ > 1 && second_.body >= 0 && supported_.extent)
+    asked.thickness = [this](const Eigen::Vector3d& direction) {
+      return std::min(supported_.extent(first_.body, direction), supported_.extent(second_.body, direction));
+    };
+  return asked;
+}
+
+ContactLayout Coupler::finish(ContactLayout layout, const Side& first, const Side& second,
+                              std::string means) const {
+  layout.name = terms_.name;
+  layout.firstBody = first.body;
+  layout.firstSurface = first.surfaces.front();
+  layout.firstSurfaces = first.surfaces;
+  layout.secondBody = second.body;
+  layout.secondSurfaces = second.surfaces;
+  layout.means = std::move(means);
+  return layout;
+}
+
+/// Nothing if the surfaces ask for mortars.
+std::optional<ContactLayout> Coupler::byPairs() const {
+  const bool areSwapped = orderOf(first_) < orderOf(second_); // the side with more nodes has the rows
+  const Side &finer = areSwapped ? second_ : first_, &other = areSwapped ? first_ : second_;
+  const int order = orderOf(finer);
+  const contact::UnitedSurface carrier = united(finer), faced = united(other);
+  contact::ContactTerms asked = this->asked(finer, carrier);
+  asked.coincide = components_ == 1 && order == orderOf(other) && haveEqualEdges(terms_, bodies_);
+  const contact::SurfaceNodes nodes =
+                                  contact::surfaceNodes(pointsOf(layoutOf(finer)), carrier.surface, order),
+                              facing = contact::surfaceNodes(pointsOf(layoutOf(other)), faced.surface, order);
+  if (terms_.coupling != scene::SurfaceContact::Coupling::nodes && !areAlike(asked, nodes, facing))
+    return {};
+  const contact::FacingNodes pairs = facingNodes(asked, nodes, facing);
+  ContactLayout layout =
+      finish(isTied() ? tieSurface(asked, nodes, facing, pairs, axesOf(finer, carrier.surface))
+                      : meetSurface(asked, nodes, facing, pairs),
+             finer, other, "pairs of nodes");
+  if (isTied()) {
+    const contact::NodePoints own = pointsOf(layoutOf(finer)), theirs = pointsOf(layoutOf(other));
+    contact::linkRigidly({carrier.surface, own}, {faced.surface, theirs}, layout);
+    contact::smoothRows(carrier.surface, layout);
+  } else if (tied_ != nullptr) {
+    tied_->dropFrom(layout);
+  }
+  return layout;
+}
+
+ContactLayout Coupler::byMortar() const {
+  const bool areSwapped = terms_.multipliers == scene::SurfaceContact::Side::second;
+  const Side &first = areSwapped ? second_ : first_, &second = areSwapped ? first_ : second_;
+  contact::UnitedSurface carrier = united(first);
+  const contact::UnitedSurface facing = united(second);
+  std::function<bool(GlobalOrdinal)> isTiedNode;
+  if (!isTied() && tied_ != nullptr)
+    isTiedNode = tied_->heldBetween(first.body, second.body);
+  if (isTiedNode)
+    carrier = withoutTied(std::move(carrier), isTiedNode);
+  if (carrier.parts.empty())
+    refuseTied(terms_.name, tied_->nameBetween(first.body, second.body));
+  const contact::ContactTerms asked = this->asked(first, carrier);
+  const contact::NodePoints ownPoints = pointsOf(layoutOf(first)), otherPoints = pointsOf(layoutOf(second));
+  const contact::PlacedSurface own{carrier.surface, ownPoints}, other{facing.surface, otherPoints};
+  const auto held = [&](GlobalOrdinal node, const Eigen::Vector3d& direction) {
+    return supported_.isHeld && supported_.isHeld(first.body, node, direction);
+  };
+  ContactLayout layout =
+      finish(isTied() ? tieByMortar(asked, own, other, held, axesOf(first, carrier.surface))
+                      : meetByMortar(asked, own, other, isTiedNode),
+             first, second, "mortars on '" + layoutOf(first).name + "'");
+  if (isTied())
+    contact::linkRigidly(own, other, layout);
+  return layout;
+}
+
+} // namespace epafi::model

@@ -1,0 +1,66 @@
+#pragma once
+
+/// The rows of contacts that are laid out as one: by pairs of nodes or by mortars, as their surfaces ask for.
+
+#include "epafi/contact/ContactLayout.hpp"
+#include "epafi/contact/ContactTerms.hpp"
+#include "epafi/contact/UnitedSurface.hpp"
+#include "epafi/model/BodyLayout.hpp"
+#include "epafi/model/ContactGroups.hpp"
+#include "epafi/model/SceneContacts.hpp"
+#include "epafi/model/TiedNodes.hpp"
+#include "epafi/scene/Scene.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epafi::model {
+
+/// What the sides of some contacts are to be, and how they meet.
+class Coupler {
+public:
+  /// Keeps references. \param tied  nodes of tied joints; null: there are none
+  Coupler(const ContactGroup& group, const std::vector<BodyLayout>& bodies, int components,
+          const SupportedNodes& supported, const TiedNodes* tied);
+
+  /// The rows of all of them. \throws InputError as the searches of the contact room do.
+  [[nodiscard]] contact::ContactLayout layout() const;
+
+private:
+  /// A side of the contacts.
+  struct Side {
+    int body;
+    std::vector<std::string> surfaces;
+  };
+
+  [[nodiscard]] const BodyLayout& layoutOf(const Side& side) const {
+    return bodies_[static_cast<std::size_t>(side.body)];
+  }
+  [[nodiscard]] int orderOf(const Side& side) const { return fem::orderOf(layoutOf(side).mesh->cellType()); }
+  [[nodiscard]] contact::UnitedSurface united(const Side& side) const {
+    return contact::unite(*layoutOf(side).mesh, side.surfaces);
+  }
+  [[nodiscard]] bool isTied() const { return terms_.kind == scene::SurfaceContact::Kind::tied; }
+  [[nodiscard]] Eigen::Matrix3d axesOf(const Side& side, const fem::Surface& surface) const {
+    return supported_.axes ? supported_.axes(side.body, surface) : Eigen::Matrix3d::Identity();
+  }
+
+  [[nodiscard]] contact::ContactTerms asked(const Side& first, const contact::UnitedSurface& surface) const;
+  [[nodiscard]] contact::ContactLayout finish(contact::ContactLayout layout, const Side& first,
+                                              const Side& second, std::string means) const;
+  [[nodiscard]] std::optional<contact::ContactLayout> byPairs() const;
+  [[nodiscard]] contact::ContactLayout byMortar() const;
+
+  const scene::SurfaceContact& terms_;
+  const std::vector<BodyLayout>& bodies_;
+  int components_;
+  const SupportedNodes& supported_;
+  const TiedNodes* tied_;
+  Side first_, second_;
+  std::string name_;
+};
+
+} // namespace epafi::model

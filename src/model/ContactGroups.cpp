@@ -1,0 +1,221 @@
+#include "epafi/model/ContactGroups.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/contact/SurfaceNodes.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/model/ContactSurfaces.hpp"
+#include "epafi/scene/EdgeContact.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace epafi::model {
+namespace {
+
+using Terms = scene::SurfaceContact;
+using Kind = Terms::Kind;
+using Eigen::Vector3d;
+
+/// What of a surface decides whether it goes on in another one.
+struct Side {
+  std::set<std::vector<GlobalOrdinal>> facets; ///< nodes, ascending
+  std::map<GlobalOrdinal, Vector3d> normals;   ///< at nodes, by area
+};
+
+Side sideOf(const Terms& terms, const BodyLayout& body, const std::string& name) {
+  const fem::Surface surface = surfaceOf(terms, body, name);
+  Side side;
+  std::vector<fem::Point> points;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    const auto nodes = surface.facet(f);
+    body.mesh->pointsAt(nodes, points);
+    const Vector3d normal = fem::areaVector(surface.facetType, points);
+    for (const GlobalOrdinal node : nodes)
+      side.normals.try_emplace(node, Vector3d::Zero()).first->second += normal;
+    std::vector<GlobalOrdinal> key(nodes.begin(), nodes.end());
+    std::sort(key.begin(), key.end());
+    side.facets.insert(std::move(key));
+  }
+  return side;
+}
+
+bool areDisjoint(const Side& a, const Side& b) {
+  return std::none_of(a.facets.begin(), a.facets.end(),
+                      [&](const auto& facet) { return b.facets.contains(facet); });
+}
+
+bool contains(const Side& whole, const Side& part) {
+  return std::includes(whole.facets.begin(), whole.facets.end(), part.facets.begin(), part.facets.end());
+}
+
+/// How two surfaces of a body meet.
+enum class Meeting { nowhere, smoothly, sharply };
+
+Meeting meetingOf(const Side& a, const Side& b) {
+  Meeting meeting = Meeting::nowhere;
+  for (const auto& [node, normal] : a.normals)
+    if (const auto other = b.normals.find(node); other != b.normals.end()) {
+      meeting = Meeting::smoothly;
+      if (normal.dot(other->second) < contact::sharpBend * normal.norm() * other->second.norm())
+        return Meeting::sharply;
+    }
+  return meeting;
+}
+
+/// Whether obstacles stop a node alike.
+bool areSame(const scene::Obstacle& a, const scene::Obstacle& b) {
+  const auto asVector = [](const scene::Vector3& x) { return Vector3d(x[0], x[1], x[2]); };
+  const Vector3d apart = asVector(b.point) - asVector(a.point);
+  constexpr double same = 1e-12;
+  const double size = asVector(a.point).norm() + asVector(b.point).norm() + std::abs(a.radius);
+  if (a.kind != b.kind)
+    return false;
+  if (a.kind == scene::Obstacle::Kind::plane)
+    return (asVector(a.normal) - asVector(b.normal)).norm() <= same &&
+           std::abs(asVector(a.normal).dot(apart)) <= same * size;
+  return apart.norm() <= same * size && std::abs(a.radius - b.radius) <= same * size;
+}
+
+class Groups {
+public:
+  Groups(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) : scene_(scene), bodies_(bodies) {}
+
+  void add(std::size_t number);
+  [[nodiscard]] std::vector<ContactGroup> take();
+
+private:
+  /// One of the scene's contacts, its bodies as in its group.
+  struct Member {
+    Terms terms;
+    Side first, second; ///< second: of an obstacle empty
+  };
+
+  [[nodiscard]] Member memberOf(const Terms& terms) const;
+  [[nodiscard]] static bool haveSameBodies(const Terms& a, const Terms& b);
+  void requireNew(const Member& old, const Member& added) const;
+  [[nodiscard]] bool joins(const std::vector<Member>& members, const Member& added) const;
+  static void exchange(Member& member);
+
+  const scene::Scene& scene_;
+  const std::vector<BodyLayout>& bodies_;
+  std::vector<ContactGroup> groups_;
+  std::vector<std::vector<Member>> members_;
+};
+
+Groups::Member Groups::memberOf(const Terms& terms) const {
+  Member member{terms, {}, {}};
+  member.first = sideOf(terms, bodies_[static_cast<std::size_t>(terms.first)], terms.firstSurface);
+  if (terms.second >= 0)
+    member.second = sideOf(terms, bodies_[static_cast<std::size_t>(terms.second)], terms.secondSurface);
+  return member;
+}
+
+void Groups::exchange(Member& member) {
+  Terms& terms = member.terms;
+  std::swap(terms.first, terms.second);
+  std::swap(terms.firstSurface, terms.secondSurface);
+  if (terms.multipliers != Terms::Side::automatic)
+    terms.multipliers = terms.multipliers == Terms::Side::first ? Terms::Side::second : Terms::Side::first;
+  std::swap(member.first, member.second);
+}
+
+bool Groups::haveSameBodies(const Terms& a, const Terms& b) {
+  return a.second >= 0 ? std::minmax(a.first, a.second) == std::minmax(b.first, b.second)
+                       : b.second < 0 && a.first == b.first && areSame(a.obstacle, b.obstacle);
+}
+
+/// Precondition: the same bodies in the same order.
+void Groups::requireNew(const Member& old, const Member& added) const {
+  const auto isIn = [](const Member& whole, const Member& part) {
+    return contains(whole.first, part.first) && contains(whole.second, part.second);
+  };
+  if (old.terms.kind == added.terms.kind && old.terms.gap == added.terms.gap &&
+      old.terms.distance == added.terms.distance && (isIn(old, added) || isIn(added, old))) {
+    const bool isAddedLess = isIn(old, added);
+    throw InputError(
+        "contact '" + (isAddedLess ? added : old).terms.name + "' says nothing that contact '" +
+        (isAddedLess ? old : added).terms.name +
+        "' does not say: surfaces of the same bodies that lie within its own; remove one of them");
+  }
+}
+
+/// Whether one more contact goes on in those of a group, seen from the first bodies. Precondition: the same bodies in the same order.
+bool Groups::joins(const std::vector<Member>& members, const Member& added) const {
+  const Terms &its = members.front().terms, &own = added.terms;
+  if (its.kind != own.kind || its.gap != own.gap || its.distance != own.distance ||
+      its.coupling != own.coupling || its.multipliers != own.multipliers)
+    return false;
+  const auto orderOf = [&](int body) {
+    return fem::orderOf(bodies_[static_cast<std::size_t>(body)].mesh->cellType());
+  };
+  const bool mayCarrySecond =
+      own.second >= 0 && (own.multipliers == Terms::Side::second || orderOf(own.second) > orderOf(own.first));
+  bool isConnected = false;
+  for (const Member& member : members) {
+    if (!areDisjoint(member.first, added.first) ||
+        (mayCarrySecond && !areDisjoint(member.second, added.second)))
+      return false;
+    for (const Meeting meeting :
+         {meetingOf(member.first, added.first), meetingOf(member.second, added.second)}) {
+      if (meeting == Meeting::sharply)
+        return false;
+      isConnected = isConnected || meeting == Meeting::smoothly;
+    }
+  }
+  return isConnected;
+}
+
+void Groups::add(std::size_t number) {
+  Member added = memberOf(scene_.contacts[number]);
+  for (std::size_t g = 0; g < groups_.size() && !isAlongEdges(scene_, added.terms); ++g) {
+    std::vector<Member> members = members_[g];
+    if (!haveSameBodies(members.front().terms, added.terms))
+      continue;
+    if (members.front().terms.first != added.terms.first)
+      exchange(added);
+    for (const Member& member : members)
+      requireNew(member, added);
+    if (!joins(members, added) && added.terms.second >= 0) {
+      exchange(added);
+      std::for_each(members.begin(), members.end(), [](Member& member) { exchange(member); });
+    }
+    if (!joins(members, added))
+      continue;
+    groups_[g].numbers.push_back(number);
+    members.push_back(std::move(added));
+    members_[g] = std::move(members);
+    return;
+  }
+  groups_.push_back({{number}, {}, true});
+  members_.push_back({memberOf(scene_.contacts[number])});
+}
+
+std::vector<ContactGroup> Groups::take() {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::vector<Member>& members = members_[g];
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      groups_[g].terms.push_back(members[i].terms);
+      for (std::size_t j = 0; j < i; ++j)
+        groups_[g].mayEitherCarry =
+            groups_[g].mayEitherCarry && areDisjoint(members[i].second, members[j].second);
+    }
+  }
+  return std::move(groups_);
+}
+
+} // namespace
+
+std::vector<ContactGroup> contactGroups(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
+  Groups groups(scene, bodies);
+  for (std::size_t number = 0; number < scene.contacts.size(); ++number)
+    groups.add(number);
+  return groups.take();
+}
+
+} // namespace epafi::model

@@ -1,0 +1,313 @@
+// A contact's numbers are its own: areas are those that both surfaces have in common, what contacts share is shared by area, and no
+// surface is joined twice.
+
+#include "epafi/model/SceneContacts.hpp"
+
+#include "../base/Refusal.hpp"
+#include "../fem/TurnedMesh.hpp"
+
+#include "epafi/fem/MeshOrder.hpp"
+#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace epafi::model {
+namespace {
+
+using contact::ContactLayout;
+using scene::SurfaceContact;
+using Kind = SurfaceContact::Kind;
+using Side = SurfaceContact::Side;
+
+/// How blocks are meshed.
+struct Meshing {
+  int dimension = 2, order = 1;
+  bool isSimplex = false;
+};
+
+const std::vector<Meshing> all{{2, 1, false}, {2, 2, false}, {2, 2, true}, {3, 1, false},
+                               {3, 1, true},  {3, 2, false}, {3, 2, true}};
+
+std::string toString(const Meshing& meshing) {
+  return std::to_string(meshing.dimension) + "-D, order " + std::to_string(meshing.order) +
+         (meshing.isSimplex ? ", simplices" : "");
+}
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Blocks one on the other, and a scene of them.
+struct Blocks {
+  Meshing meshing;
+  scene::Scene scene{};
+  std::vector<BodyLayout> bodies{};
+
+  /// From `left` to `right`, of a number of elements, its last coordinate from `low` to `high`; "top" and "bottom" are cut at the
+  /// middle into "top left", …, and "skin" is all of its outside but what is opposite to the joint.
+  void add(const std::string& name, double left, double right, double low, double high, int elements) {
+    const bool isPlane = meshing.dimension == 2;
+    const fem::StructuredMesh grid(isPlane ? scene::Box{{left, low, 0}, {right, high, 0}}
+                                           : scene::Box{{left, 0, low}, {right, 1, high}},
+                                   isPlane ? std::array{elements, 2, 0} : std::array{elements, 2, 2});
+    fem::MeshArrays arrays = fem::test::arraysOf(grid, {}, meshing.isSimplex);
+    const auto perFacet = static_cast<std::size_t>(numNodesOf(facetTypeOf(arrays.cellType)));
+    const double middle = (left + right) / 2;
+    std::vector<fem::NamedFacets> more;
+    for (const fem::NamedFacets& facets : arrays.surfaces)
+      if (facets.name == "top" || facets.name == "bottom") {
+        fem::NamedFacets halves[2] = {{facets.name + " left", {}}, {facets.name + " right", {}}};
+        for (std::size_t f = 0; f < facets.nodes.size(); f += perFacet) {
+          const auto begin = facets.nodes.begin() + static_cast<std::ptrdiff_t>(f),
+                     end = begin + static_cast<std::ptrdiff_t>(perFacet);
+          double centre = 0;
+          for (auto node = begin; node != end; ++node)
+            centre += arrays.points[static_cast<std::size_t>(*node)][0] / static_cast<double>(perFacet);
+          auto& half = halves[centre < middle ? 0 : 1].nodes;
+          half.insert(half.end(), begin, end);
+        }
+        more.insert(more.end(), {halves[0], halves[1]});
+      }
+    fem::NamedFacets skin{"skin", {}};
+    for (const fem::NamedFacets& facets : arrays.surfaces)
+      if (facets.name != (low < 0 ? "bottom" : "top"))
+        skin.nodes.insert(skin.nodes.end(), facets.nodes.begin(), facets.nodes.end());
+    more.push_back(skin);
+    arrays.surfaces.insert(arrays.surfaces.end(), more.begin(), more.end());
+    if (meshing.order == 2)
+      arrays = fem::completed(std::move(arrays), false);
+    bodies.push_back({name, std::make_unique<const fem::UnstructuredMesh>(std::move(arrays)), nullptr, 0});
+    scene::Body body;
+    body.name = name;
+    body.physics = isPlane ? scene::Physics::planeStrain : scene::Physics::elasticity3d;
+    scene.bodies.push_back(body);
+  }
+
+  SurfaceContact& join(const std::string& name, const std::string& lower, const std::string& upper,
+                       Kind kind = Kind::contact) {
+    SurfaceContact contact;
+    contact.name = name;
+    contact.firstSurface = lower;
+    contact.second = 1;
+    contact.secondSurface = upper;
+    contact.kind = kind;
+    return scene.contacts.emplace_back(contact);
+  }
+
+  [[nodiscard]] SceneContacts layout() const { return layoutContacts(scene, bodies, {}); }
+};
+
+Blocks stacked(const Meshing& meshing, int lower, int upper, double gap = 0) {
+  Blocks blocks{meshing};
+  blocks.add("lower", 0, 2, -1, 0, lower);
+  blocks.add("upper", 0, 2, gap, gap + 1, upper);
+  return blocks;
+}
+
+/// Area of a contact under an even pressure 1: its part of the forces.
+double ownArea(const ContactLayout& layout) {
+  double area = 0;
+  for (std::size_t row = 0; row < layout.areas.size(); ++row)
+    area += layout.portion(row) * layout.areas[row];
+  return area;
+}
+
+TEST(SharedRowsTest, PairsOfNodesHaveTheAreaThatBothSurfacesHaveInCommonWhicheverIsNamedFirst) {
+  for (const Meshing& meshing : all) {
+    SCOPED_TRACE(toString(meshing));
+    std::vector<std::vector<double>> areas;
+    for (const bool isBlockFirst : {false, true}) {
+      Blocks blocks{meshing};
+      blocks.add("plate", 0, 3, -1, 0, 6);
+      blocks.add("block", 1, 2, 0, 1, 2);
+      SurfaceContact& contact = blocks.join("c", "top", "bottom");
+      if (isBlockFirst) {
+        std::swap(contact.first, contact.second);
+        std::swap(contact.firstSurface, contact.secondSurface);
+      }
+      const ContactLayout layout = blocks.layout().contacts.at(0);
+      ASSERT_EQ(layout.means, "pairs of nodes");
+      EXPECT_NEAR(sum(layout.areas), 1, 1e-12);
+      for (const double area : layout.areas)
+        EXPECT_GT(area, 0.005); // may be divided by
+      areas.push_back(layout.areas);
+      std::sort(areas.back().begin(), areas.back().end());
+    }
+    ASSERT_EQ(areas[0].size(), areas[1].size());
+    for (std::size_t row = 0; row < areas[0].size(); ++row)
+      EXPECT_NEAR(areas[0][row], areas[1][row], 1e-13);
+  }
+}
+
+/// At corners of six-node triangles ∫N is 0, and forces by it would be anything.
+TEST(SharedRowsTest, TractionsOfTiesAreForcesByAreasThatAreNotZero) {
+  for (const Meshing& meshing : all) {
+    SCOPED_TRACE(toString(meshing));
+    Blocks blocks = stacked(meshing, 4, 4);
+    blocks.join("t", "top", "bottom", Kind::tied);
+    const ContactLayout tie = blocks.layout().ties.at(0);
+    ASSERT_EQ(tie.means, "pairs of nodes");
+    EXPECT_EQ(tie.smoothed.empty(), meshing.order == 1);
+    for (const auto& shares : tie.smoothed) {
+      double area = 0;
+      for (const ContactLayout::Share& share : shares)
+        area += share.weight * tie.areas[share.node];
+      EXPECT_GT(area, 0.01);
+    }
+  }
+}
+
+/// Contacts and ties, meshed alike or apart: as one surface, of which each has its half.
+TEST(SharedRowsTest, ContactsOfOneSurfaceShareTheRowsOfTheirCommonNodesByArea) {
+  for (const Meshing& meshing : all)
+    for (const int upper : {4, 6})
+      for (const Kind kind : {Kind::contact, Kind::tied}) {
+        SCOPED_TRACE(toString(meshing) + ", " + std::to_string(upper));
+        Blocks parts = stacked(meshing, 4, upper), whole = stacked(meshing, 4, upper);
+        parts.join("A", "top left", "bottom left", kind);
+        SurfaceContact& b = parts.join("B", "top right", "bottom right", kind);
+        std::swap(b.first, b.second); // named from the other side
+        std::swap(b.firstSurface, b.secondSurface);
+        whole.join("all", "top", "bottom", kind);
+        const auto layoutsOf = [&](const Blocks& blocks) {
+          SceneContacts all = blocks.layout();
+          return kind == Kind::tied ? std::move(all.ties) : std::move(all.contacts);
+        };
+        const std::vector<ContactLayout> layouts = layoutsOf(parts), one = layoutsOf(whole);
+        ASSERT_EQ(layouts.size(), 2U);
+        ASSERT_EQ(layouts[0].numRows(), one[0].numRows());
+        EXPECT_EQ(layouts[0].firstRow, layouts[1].firstRow);
+        EXPECT_FALSE(layouts[1].hasOwnRows);
+        const double times = kind == Kind::tied ? meshing.dimension : 1;
+        for (const ContactLayout& layout : layouts)
+          EXPECT_NEAR(ownArea(layout), times, 1e-12) << layout.name;
+        for (std::size_t row = 0; row < one[0].areas.size(); ++row) {
+          EXPECT_NEAR(layouts[0].portion(row) + layouts[1].portion(row), 1, 1e-12);
+          EXPECT_NEAR(layouts[0].areas[row], one[0].areas[row], 1e-13);
+        }
+      }
+}
+
+TEST(SharedRowsTest, OneSurfaceThatFacesTwoHasTheAreaOfEach) {
+  for (const int upper : {4, 6}) {
+    Blocks blocks = stacked({3, 1, false}, 4, upper);
+    blocks.join("A", "top", "bottom left");
+    blocks.join("B", "top", "bottom right");
+    const std::vector<ContactLayout> layouts = blocks.layout().contacts;
+    EXPECT_NEAR(ownArea(layouts[0]), 1, 1e-12);
+    EXPECT_NEAR(ownArea(layouts[1]), 1, 1e-12);
+  }
+}
+
+TEST(SharedRowsTest, FacesOnBothSidesOfAnEdgeKeepRowsOfTheirOwn) {
+  Blocks blocks{{2, 1, false}};
+  blocks.add("lower", 0, 2, -1, 0, 4);
+  for (const char* surface : {"top", "right"}) {
+    SurfaceContact& contact = blocks.join(surface, surface, "");
+    contact.second = -1;
+    contact.obstacle.point = {2, 0, 0};
+    contact.obstacle.normal =
+        surface == std::string("top") ? scene::Vector3{0, -1, 0} : scene::Vector3{-1, 0, 0};
+  }
+  const std::vector<ContactLayout> layouts = blocks.layout().contacts;
+  EXPECT_EQ(layouts[0].numRows() + layouts[1].numRows(), 5 + 3);
+  EXPECT_EQ(layouts[1].firstRow, 5);
+}
+
+TEST(SharedRowsTest, ATieBesideAContactKeepsTheirCommonNodes) {
+  for (const Meshing& meshing : all)
+    for (const int upper : {4, 6}) {
+      SCOPED_TRACE(toString(meshing) + ", " + std::to_string(upper));
+      Blocks blocks = stacked(meshing, 4, upper);
+      blocks.join("touch", "top right", "bottom right");
+      blocks.join("weld", "top left", "bottom left", Kind::tied);
+      const SceneContacts found = blocks.layout();
+      const ContactLayout &touch = found.contacts.at(0), &weld = found.ties.at(0);
+      for (const GlobalOrdinal node : touch.firstNodes)
+        EXPECT_GT(blocks.bodies[static_cast<std::size_t>(touch.firstBody)].mesh->point(node)[0], 1 + 1e-9);
+      if (meshing.order == 1 || upper == 6) // areas of single nodes of order 2 are none of N̂
+        EXPECT_NEAR(sum(touch.areas) + sum(weld.areas) / meshing.dimension, 2, 1e-12);
+      EXPECT_EQ(touch.note.empty(), upper == 6); // by mortars nothing is shared
+    }
+}
+
+TEST(SharedRowsTest, SurfacesAreJoinedOnce) {
+  for (const int upper : {4, 6}) {
+    Blocks tied = stacked({2, 1, false}, 4, upper);
+    tied.join("c1", "top", "bottom");
+    tied.join("c2", "top", "bottom", Kind::tied);
+    test::expectSays(test::refusal([&] { (void)tied.layout(); }),
+                     {"'c1'", "'c2' ties", "remove one of them"});
+
+    Blocks twice = stacked({2, 1, false}, 4, upper);
+    twice.join("c1", "top", "bottom").multipliers = Side::first;
+    twice.join("c2", "top", "bottom").multipliers = Side::second;
+    test::expectSays(test::refusal([&] { (void)twice.layout(); }),
+                     {"'c2' says nothing that contact 'c1'", "remove one of them"});
+
+    Blocks within = stacked({2, 1, false}, 4, upper);
+    within.join("half", "top left", "bottom left");
+    within.join("all", "top", "bottom");
+    test::expectSays(test::refusal([&] { (void)within.layout(); }),
+                     {"'half' says nothing that contact 'all'"});
+  }
+}
+
+/// All of a body's skin on a wider plate: at its edges the normal is that of the foot.
+TEST(SharedRowsTest, ASkinTakesTheNormalAndTheAreaOfTheFaceThatFacesTheOtherSide) {
+  for (const Meshing& meshing : all)
+    for (const double gap : {0.0, 0.125})
+      for (const int plate : {6, 5}) {
+        SCOPED_TRACE(toString(meshing) + ", " + std::to_string(plate));
+        Blocks blocks{meshing};
+        blocks.add("plate", 0, 3, -1, 0, plate);
+        blocks.add("block", 1, 2, gap, 1 + gap, 2);
+        SurfaceContact& contact = blocks.join("c", "top", "skin");
+        contact.multipliers = Side::second;
+        const ContactLayout layout = blocks.layout().contacts.at(0);
+        const auto n = static_cast<std::size_t>(meshing.dimension);
+        for (std::size_t row = 0; row < layout.firstNodes.size(); ++row) {
+          EXPECT_NEAR(std::abs(layout.directions[row * n + n - 1]), 1, 1e-14);
+          EXPECT_NEAR(layout.gaps[row], gap, 1e-13);
+        }
+        EXPECT_NEAR(sum(layout.areas), 1, 1e-12);
+        EXPECT_EQ(layout.numBent, 0);
+      }
+  for (const Meshing& meshing : all) { // on an obstacle, too
+    Blocks blocks{meshing};
+    blocks.add("block", 0, 2, 0, 1, 4);
+    SurfaceContact& contact = blocks.join("floor", "skin", "");
+    contact.second = -1;
+    contact.obstacle.normal = meshing.dimension == 2 ? scene::Vector3{0, 1, 0} : scene::Vector3{0, 0, 1};
+    contact.distance = 0.125;
+    EXPECT_NEAR(sum(blocks.layout().contacts.at(0).areas), 2, 1e-12) << toString(meshing);
+  }
+}
+
+/// However fine the meshes are: 1/32 and 1/33 wide, 0.25 deep; but a body is not pushed through another one.
+TEST(SharedRowsTest, OverlapsMayBeDeeperThanElementsAndNotThanBodies) {
+  for (const SurfaceContact::Coupling coupling :
+       {SurfaceContact::Coupling::mortar, SurfaceContact::Coupling::nodes}) {
+    const int upper = coupling == SurfaceContact::Coupling::mortar ? 66 : 64;
+    Blocks deep = stacked({2, 1, false}, 64, upper, -0.25), through = stacked({2, 1, false}, 64, upper, -1.5);
+    deep.join("c", "top", "bottom").coupling = coupling;
+    through.join("c", "top", "bottom").coupling = coupling;
+    const ContactLayout layout = deep.layout().contacts.at(0);
+    EXPECT_NEAR(sum(layout.areas), 2, 1e-12);
+    for (const double gap : layout.gaps)
+      EXPECT_NEAR(gap, -0.25, 1e-12);
+    EXPECT_FALSE(test::refusal([&] { (void)through.layout(); }).empty());
+  }
+}
+
+} // namespace
+} // namespace epafi::model
