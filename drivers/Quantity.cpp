@@ -147,6 +147,8 @@ fetidp::DataChange QuantityOfScene::evaluate(const output::SolvedScene& solved, 
       change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
     if (quantity.value == 0)
       quantity.failure = "the contact carries no force";
+    else if (kind_ == Kind::force && !contact_->note.empty())
+      quantity.failure = "its force is shared with another joint: " + contact_->note;
     return change;
   }
   AccurateSum sum;

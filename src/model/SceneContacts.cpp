@@ -188,6 +188,7 @@ void addDropped(const std::vector<contact::KnownRows::Dropped>& dropped, Contact
       if (other.number == row.contact) {
         other.areas[static_cast<std::size_t>(row.row)] += row.area;
         names = "'" + other.name + "'";
+        other.note = "contact '" + contact.name + "' says the same at some nodes, which count here";
       }
   if (!dropped.empty())
     contact.note = std::to_string(dropped.size()) +

@@ -125,6 +125,9 @@ ContactFields gatherContactFields(const SolvedScene& solved, int contact, const 
   fields.initialGap = rowsOf(*problem.gap, toSlab);
   fields.gap = state.gap;
   fields.multiplier = rowsOf(*solved.solution.multiplier, toSlab);
+  for (GlobalOrdinal k = 0; k < fields.rows.count; ++k)
+    fields.multiplier[static_cast<std::size_t>(k)] *=
+        layout.portion(own[static_cast<std::size_t>(fields.rows.first + k)]);
   fields.force = state.force;
   fields.pressure = state.pressure;
   for (const double value : rowsOf(*solved.solution.active, toSlab))

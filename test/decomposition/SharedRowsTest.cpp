@@ -179,8 +179,8 @@ TEST(SharedRowsTest, ContactsOfOneSurfaceShareTheRowsOfTheirCommonNodesByArea) {
         std::swap(b.firstSurface, b.secondSurface);
         whole.join("all", "top", "bottom", kind);
         const auto layoutsOf = [&](const Blocks& blocks) {
-          SceneContacts all = blocks.layout();
-          return kind == Kind::tied ? std::move(all.ties) : std::move(all.contacts);
+          SceneContacts found = blocks.layout();
+          return kind == Kind::tied ? std::move(found.ties) : std::move(found.contacts);
         };
         const std::vector<ContactLayout> layouts = layoutsOf(parts), one = layoutsOf(whole);
         ASSERT_EQ(layouts.size(), 2U);
@@ -234,8 +234,9 @@ TEST(SharedRowsTest, ATieBesideAContactKeepsTheirCommonNodes) {
       const ContactLayout &touch = found.contacts.at(0), &weld = found.ties.at(0);
       for (const GlobalOrdinal node : touch.firstNodes)
         EXPECT_GT(blocks.bodies[static_cast<std::size_t>(touch.firstBody)].mesh->point(node)[0], 1 + 1e-9);
-      if (meshing.order == 1 || upper == 6) // areas of single nodes of order 2 are none of N̂
+      if (meshing.order == 1 || upper == 6) { // areas of single nodes of order 2 are none of N̂
         EXPECT_NEAR(sum(touch.areas) + sum(weld.areas) / meshing.dimension, 2, 1e-12);
+      }
       EXPECT_EQ(touch.note.empty(), upper == 6); // by mortars nothing is shared
     }
 }
