@@ -39,21 +39,6 @@ contact::Obstacle obstacleOf(const scene::Obstacle& obstacle) {
           obstacle.radius};
 }
 
-/// The facets of which not all nodes are tied.
-contact::UnitedSurface withoutTied(contact::UnitedSurface whole,
-                                   const std::function<bool(GlobalOrdinal)>& isTied) {
-  contact::UnitedSurface result{{whole.surface.facetType, {}, {}}, {}};
-  for (std::size_t f = 0; f < whole.surface.numFacets(); ++f) {
-    const auto nodes = whole.surface.facet(f);
-    if (std::all_of(nodes.begin(), nodes.end(), isTied))
-      continue;
-    result.surface.facetNodes.insert(result.surface.facetNodes.end(), nodes.begin(), nodes.end());
-    result.surface.elements.push_back(whole.surface.elements[f]);
-    result.parts.push_back(whole.parts[f]);
-  }
-  return result;
-}
-
 } // namespace
 
 Coupler::Coupler(const ContactGroup& group, const std::vector<BodyLayout>& bodies, int components,
@@ -118,7 +103,7 @@ std::optional<ContactLayout> Coupler::byPairs() const {
   const bool areSwapped = orderOf(first_) < orderOf(second_); // the side with more nodes has the rows
   const Side &finer = areSwapped ? second_ : first_, &other = areSwapped ? first_ : second_;
   const int order = orderOf(finer);
-  const contact::UnitedSurface carrier = united(finer), faced = united(other);
+  const contact::UnitedSurface carrier = untied(finer, other), faced = untied(other, finer);
   contact::ContactTerms asked = this->asked(finer, carrier);
   asked.coincide = components_ == 1 && order == orderOf(other) && haveEqualEdges(terms_, bodies_);
   const contact::SurfaceNodes nodes =
@@ -141,18 +126,34 @@ std::optional<ContactLayout> Coupler::byPairs() const {
   return layout;
 }
 
+std::function<bool(GlobalOrdinal)> Coupler::tiedNodes(const Side& side, const Side& other) const {
+  return isTied() || tied_ == nullptr ? nullptr : tied_->heldBetween(side.body, other.body);
+}
+
+/// The facets of a side of which not all nodes are tied.
+contact::UnitedSurface Coupler::untied(const Side& side, const Side& other) const {
+  contact::UnitedSurface whole = united(side);
+  const std::function<bool(GlobalOrdinal)> isTiedNode = tiedNodes(side, other);
+  if (!isTiedNode)
+    return whole;
+  contact::UnitedSurface result{{whole.surface.facetType, {}, {}}, {}};
+  for (std::size_t f = 0; f < whole.surface.numFacets(); ++f) {
+    const auto nodes = whole.surface.facet(f);
+    if (std::all_of(nodes.begin(), nodes.end(), isTiedNode))
+      continue;
+    result.surface.facetNodes.insert(result.surface.facetNodes.end(), nodes.begin(), nodes.end());
+    result.surface.elements.push_back(whole.surface.elements[f]);
+    result.parts.push_back(whole.parts[f]);
+  }
+  if (result.parts.empty())
+    refuseTied(terms_.name, tied_->nameBetween(side.body, other.body));
+  return result;
+}
+
 ContactLayout Coupler::byMortar() const {
   const bool areSwapped = terms_.multipliers == scene::SurfaceContact::Side::second;
   const Side &first = areSwapped ? second_ : first_, &second = areSwapped ? first_ : second_;
-  contact::UnitedSurface carrier = united(first);
-  const contact::UnitedSurface facing = united(second);
-  std::function<bool(GlobalOrdinal)> isTiedNode;
-  if (!isTied() && tied_ != nullptr)
-    isTiedNode = tied_->heldBetween(first.body, second.body);
-  if (isTiedNode)
-    carrier = withoutTied(std::move(carrier), isTiedNode);
-  if (carrier.parts.empty())
-    refuseTied(terms_.name, tied_->nameBetween(first.body, second.body));
+  const contact::UnitedSurface carrier = untied(first, second), facing = united(second);
   const contact::ContactTerms asked = this->asked(first, carrier);
   const contact::NodePoints ownPoints = pointsOf(layoutOf(first)), otherPoints = pointsOf(layoutOf(second));
   const contact::PlacedSurface own{carrier.surface, ownPoints}, other{facing.surface, otherPoints};
@@ -161,7 +162,7 @@ ContactLayout Coupler::byMortar() const {
   };
   ContactLayout layout =
       finish(isTied() ? tieByMortar(asked, own, other, held, axesOf(first, carrier.surface))
-                      : meetByMortar(asked, own, other, isTiedNode),
+                      : meetByMortar(asked, own, other, tiedNodes(first, second)),
              first, second, "mortars on '" + layoutOf(first).name + "'");
   if (isTied())
     contact::linkRigidly(own, other, layout);

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ private:
   [[nodiscard]] contact::UnitedSurface united(const Side& side) const {
     return contact::unite(*layoutOf(side).mesh, side.surfaces);
   }
+  /// Whether nodes of a side are tied to the other one; empty: none is, or this is a tie itself.
+  [[nodiscard]] std::function<bool(GlobalOrdinal)> tiedNodes(const Side& side, const Side& other) const;
+  [[nodiscard]] contact::UnitedSurface untied(const Side& side, const Side& other) const;
   [[nodiscard]] bool isTied() const { return terms_.kind == scene::SurfaceContact::Kind::tied; }
   [[nodiscard]] Eigen::Matrix3d axesOf(const Side& side, const fem::Surface& surface) const {
     return supported_.axes ? supported_.axes(side.body, surface) : Eigen::Matrix3d::Identity();

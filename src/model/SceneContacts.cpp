@@ -6,6 +6,7 @@
 #include "epafi/contact/UnitedSurface.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/HookesLaw.hpp"
+#include "epafi/fem/MeshPart.hpp"
 #include "epafi/model/ContactCoupler.hpp"
 #include "epafi/model/ContactGroups.hpp"
 #include "epafi/model/ContactSurfaces.hpp"
@@ -16,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -142,10 +142,10 @@ SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
   auto boxes = std::make_shared<std::map<int, std::array<fem::Point, 2>>>();
   supported.extent = [&, boxes](int body, const Eigen::Vector3d& direction) {
     const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(body)].mesh;
-    if (mesh.part() != nullptr) // nobody has it all
-      return std::numeric_limits<double>::infinity();
     const auto [entry, isNew] = boxes->try_emplace(body);
-    if (isNew) {
+    if (isNew && mesh.part() != nullptr) {
+      entry->second = mesh.part()->box();
+    } else if (isNew) {
       std::vector<fem::Point> points;
       for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
         points.push_back(mesh.point(node));

@@ -241,6 +241,19 @@ TEST(SharedRowsTest, ATieBesideAContactKeepsTheirCommonNodes) {
     }
 }
 
+TEST(SharedRowsTest, ATieInsideAContactKeepsItsAreaAndTheContactTheRest) {
+  for (const int dimension : {2, 3})
+    for (const int upper : {4, 6}) {
+      Blocks blocks = stacked({dimension, 1, false}, 4, upper);
+      blocks.join("all", "top", "bottom");
+      blocks.join("weld", "top left", "bottom left", Kind::tied);
+      const SceneContacts found = blocks.layout();
+      const double tied = sum(found.ties.at(0).areas) / dimension, free = sum(found.contacts.at(0).areas);
+      EXPECT_NEAR(tied + free, 2, 1e-12);
+      EXPECT_NEAR(free, upper == 6 ? 1 : 0.75, 1e-12); // of pairs the tie has the common nodes
+    }
+}
+
 TEST(SharedRowsTest, SurfacesAreJoinedOnce) {
   for (const int upper : {4, 6}) {
     Blocks tied = stacked({2, 1, false}, 4, upper);
