@@ -2,6 +2,7 @@
 
 #include "epafi/base/Text.hpp"
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,12 +19,16 @@ struct Origin {
 };
 
 Origin originOf(const model::Decomposition& decomposition, GlobalOrdinal row) {
-  for (const auto* layouts : {&decomposition.contacts, &decomposition.ties})
+  for (const auto* layouts : {&decomposition.contacts, &decomposition.ties}) {
+    GlobalOrdinal numRows = 0;
     for (const contact::ContactLayout& layout : *layouts) {
-      if (row < layout.numRows())
-        return {layout, layouts == &decomposition.ties, layout.firstNodes[static_cast<std::size_t>(row)]};
-      row -= layout.numRows();
+      numRows = std::max(numRows, layout.firstRow + layout.numRows());
+      const auto place = static_cast<std::size_t>(row - layout.firstRow);
+      if (row >= layout.firstRow && row < layout.firstRow + layout.numRows() && layout.portion(place) > 0)
+        return {layout, layouts == &decomposition.ties, layout.firstNodes[place]};
     }
+    row -= numRows;
+  }
   throw Error("the scene has no row of contact or ties number " + std::to_string(row) + " behind its last");
 }
 
