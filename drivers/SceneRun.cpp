@@ -159,11 +159,13 @@ std::vector<double> closingOf(const SceneRun& run) {
   for (std::size_t c = 0; c < run.decomposition->contacts.size(); ++c) {
     const contact::ContactLayout& layout = run.decomposition->contacts[c];
     const output::ContactState& state = run.evaluation.contacts[c];
-    const auto first = static_cast<std::size_t>(output::evenShare(layout.numRows(), comm).first);
+    const std::vector<std::size_t> own = layout.ownRows();
+    const auto first =
+        static_cast<std::size_t>(output::evenShare(static_cast<GlobalOrdinal>(own.size()), comm).first);
     double most = 0;
     for (std::size_t i = 0; i < state.gap.size(); ++i)
       if (state.force[i] > 0)
-        most = std::max(most, std::abs(layout.gaps[first + i] - state.gap[i]));
+        most = std::max(most, std::abs(layout.gaps[own[first + i]] - state.gap[i]));
     closing.push_back(maxOverRanks(comm, most));
   }
   return closing;
