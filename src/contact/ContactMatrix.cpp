@@ -98,7 +98,7 @@ ContactMatrix contactMatrix(const std::vector<ContactLayout>& contacts, const No
     gap->replaceGlobalValue(row.number, row.gap);
   }
   matrix->fillComplete(Tpetra::createOneToOne(makeMap(std::move(columns), comm)), map);
-  return {matrix, gap};
+  return {matrix, gap, {}};
 }
 
 } // namespace epafi::contact

@@ -3,6 +3,7 @@
 /// From pairs of nodes that may meet to rows of B_I over the unknowns of nodes.
 
 #include "epafi/contact/ContactLayout.hpp"
+#include "epafi/contact/ContactPlace.hpp"
 
 #include <Eigen/Core>
 
@@ -16,6 +17,8 @@ namespace epafi::contact {
 struct ContactMatrix {
   RCP<const CrsMatrix> rows; ///< B_I, n_I × unknowns, fill-complete; its rows are numbered 0 … n_I − 1
   RCP<const Vector> gap;     ///< c, on the row map of B_I
+  /// Of this rank's rows, as far as anyone knows: what tells bodies that only the facets of their surfaces hold.
+  std::vector<ContactPlace> places = {};
 };
 
 /// What rows have to know of nodes, which are named by body and number in the body.

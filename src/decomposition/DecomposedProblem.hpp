@@ -11,6 +11,7 @@
 /// of MF below 1 appear and products with F grow in number (from 20 to 36 in space, two blocks of 2 × 2 × 2 subdomains).
 
 #include "epafi/base/Types.hpp"
+#include "epafi/contact/ContactPlace.hpp"
 #include "epafi/decomposition/Indices.hpp"
 #include "epafi/fem/RigidMotions.hpp"
 
@@ -104,7 +105,7 @@ struct Body {
   int kernelOffset = 0;        ///< number of its first mode among those of all bodies
   GlobalOrdinal firstNode = 0; ///< number of its node 0 among those of all bodies
   /// What the modes are in space, for errors that say how a body can move; most often there where a body with
-  /// several unknowns a node floats. Nothing is computed from it.
+  /// several unknowns a node floats. No number comes from it.
   std::optional<fem::RigidMotions> motions = std::nullopt;
 };
 
@@ -149,6 +150,8 @@ struct DecomposedProblem {
   GlobalOrdinal numEqualities = 0;   ///< n_E
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
   GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
+  /// Of rows of contact that this rank owns, as far as anyone knows; no number comes from them, but refusals.
+  std::vector<contact::ContactPlace> places;
   /// Of a row of B.
   [[nodiscard]] RowKind kindOf(MultiplierNumber row) const {
     return row < numInequalities             ? RowKind::contact

@@ -305,8 +305,10 @@ void UnassembledProblem::attach() {
   for (std::size_t s = 0; s < nodal_.size(); ++s)
     problem_.subdomains[s].constraint = std::move(constraints.entries[s]);
   problem_.gap = rcp(new Vector(problem_.multiplierMap));
-  if (contact_)
+  if (contact_) {
     setGap(*contact_->gap);
+    problem_.places = contact_->places;
+  }
   if (ties_)
     enterGap(*ties_->gap, *heldTies, problem_.numInequalities, *problem_.gap);
 }

@@ -134,9 +134,11 @@ MotionWords wordsOf(const DecomposedProblem& problem, const Eigen::VectorXd& mot
   return words;
 }
 
-std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions) {
+std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions, double accuracy) {
   // The simplest combinations are those with the fewest coordinates.
-  const Eigen::MatrixXd rows = reduced(coordinatesOf(problem, motions).colwise().normalized().transpose());
+  Eigen::MatrixXd rows = reduced(coordinatesOf(problem, motions).colwise().normalized().transpose());
+  for (auto row : rows.rowwise())
+    row = (row.array().abs() < accuracy * row.cwiseAbs().maxCoeff()).select(0.0, row.array()).matrix().eval();
   std::map<std::vector<const Body*>, std::vector<std::string>> verbs; // of the bodies that do it together
   for (Eigen::Index m = 0; m < rows.rows(); ++m) {
     const Moves moves = movesOf(problem, rows.row(m).transpose(), 1e-4);

@@ -22,6 +22,11 @@ MotionWords wordsOf(const decomposition::DecomposedProblem& problem, const Eigen
 
 /// All that bodies can do by combinations of some motions (columns), in the simplest ones: "the floating body 'cube' can
 /// slide along x, slide along y, turn about …".
-std::string abilitiesOf(const decomposition::DecomposedProblem& problem, const Eigen::MatrixXd& motions);
+/// \param accuracy  shares of a motion below this are 0
+std::string abilitiesOf(const decomposition::DecomposedProblem& problem, const Eigen::MatrixXd& motions,
+                        double accuracy = 0);
+
+/// That of motions along surfaces with facets.
+inline constexpr double facetNoise = 0.02;
 
 } // namespace epafi::fetidp

@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/Balancing.hpp"
 #include "epafi/fetidp/ContactResponse.hpp"
+#include "epafi/fetidp/Proportion.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
 #include "epafi/fetidp/SharedRows.hpp"
 #include "epafi/fetidp/Solvability.hpp"
@@ -282,6 +283,8 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
   if (settling != nullptr && !settle(dual, *settling, *sizes, u, solution))
     return std::nullopt;
 
+  if (found.report.status == qp::Status::converged)
+    requireProportion(problem, u, *found.lambda);
   double largest = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
     solution.displacement.push_back(

@@ -7,6 +7,7 @@
 #include "epafi/fetidp/ContactDirections.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
+#include "epafi/fetidp/SlippingMotions.hpp"
 
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
@@ -25,6 +26,8 @@ namespace {
 
 using decomposition::DecomposedProblem;
 using Rows = std::map<int, Eigen::VectorXd>; // of G̃ᵀ, this rank's, by local index
+
+constexpr double closedUpTo = 1e-6; ///< narrower than this beside the largest gap, a gap counts as closed
 
 /// [G̃_A G̃_Aᵀ, G̃_A slack_A] of the rows A that hold. Collective.
 Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& rows,
@@ -71,7 +74,7 @@ Shortest shortest(const Eigen::MatrixXd& c, const Eigen::VectorXd& s) {
 /// if they leave none: then those that exclude it hold the motions across them, and the search goes on along them.
 std::optional<Eigen::VectorXd> looseMotion(const Eigen::MatrixXd& directions, const Eigen::VectorXd& room,
                                            Eigen::MatrixXd open) {
-  constexpr double margin = 1e-6; // narrower than this beside the largest gap, a gap counts as closed
+  constexpr double margin = closedUpTo;
   while (open.cols() > 0) {
     const Eigen::MatrixXd all = open.transpose() * directions;
     std::vector<Eigen::Index> meeting; // contacts that the motions meet at all
@@ -186,6 +189,27 @@ DistinctDirections roomOf(const DecomposedProblem& problem, const Rows& rows, co
   return contacts;
 }
 
+[[noreturn]] void refuseLoose(const MotionWords& words) {
+  throw SolvabilityError(SolvabilityError::Kind::notUnique,
+                         "not unique: no contact force holds " + words.bodies +
+                             ", which may come to rest anywhere between its contacts" +
+                             (words.motion.empty() ? "" : " (free to " + words.motion + ")") +
+                             "; add a load or a support");
+}
+
+/// What holds a body must be more than the facets of smooth surfaces where these have closed, too.
+void refuseSlipping(const DecomposedProblem& problem, const Rows& rows, const ProblemScales& scales,
+                    const std::set<int>& closed) {
+  const Eigen::MatrixXd slipping =
+      slippingMotions(problem, rows, scales.motions(), [&](int row) { return closed.contains(row); });
+  if (slipping.cols() > 0)
+    throw SolvabilityError(
+        SolvabilityError::Kind::notUnique,
+        "not unique: where contact is closed, " +
+            abilitiesOf(problem, scales.motions().cwiseInverse().asDiagonal() * slipping, facetNoise) +
+            facetsAlone);
+}
+
 /// The same of whole bodies. \param entries  see kernelConstraintOfBodies
 Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
                                const Vector& lambda, const Vector& slack, const RestCheck& check) {
@@ -201,22 +225,23 @@ Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vect
     found = closing(problem, rows, holding, slack);
   Eigen::VectorXd& alpha = found.alpha;
   const double length = slack.normInf();
-  if (found.open.cols() == 0 || length == 0)
-    return alpha.cwiseQuotient(scales.motions());
-  const DistinctDirections contacts = roomOf(problem, rows, slack, alpha, length);
-  const Eigen::MatrixXd directions = contacts.matrix();
-  const Eigen::VectorXd room = contacts.values();
-  if (check.isWanted)
-    if (const auto loose = looseMotion(directions, room, found.open)) {
-      const MotionWords words = wordsOf(problem, loose->cwiseQuotient(scales.motions()));
-      throw SolvabilityError(SolvabilityError::Kind::notUnique,
-                             "not unique: no contact force holds " + words.bodies +
-                                 ", which may come to rest anywhere between its contacts" +
-                                 (words.motion.empty() ? "" : " (free to " + words.motion + ")") +
-                                 "; add a load or a support");
-    }
-  if (const Shortest further = shortest(found.open.transpose() * directions, room); further.x)
-    alpha += length * (found.open * *further.x);
+  if (found.open.cols() > 0 && length > 0) {
+    const DistinctDirections contacts = roomOf(problem, rows, slack, alpha, length);
+    const Eigen::MatrixXd directions = contacts.matrix();
+    const Eigen::VectorXd room = contacts.values();
+    if (check.isWanted)
+      if (const auto loose = looseMotion(directions, room, found.open))
+        refuseLoose(wordsOf(problem, loose->cwiseQuotient(scales.motions())));
+    if (const Shortest further = shortest(found.open.transpose() * directions, room); further.x)
+      alpha += length * (found.open * *further.x);
+  }
+  if (check.isWanted) {
+    const auto gap = slack.getData();
+    for (const auto& [row, vector] : rows)
+      if (gap[row] - vector.dot(alpha) <= closedUpTo * length)
+        holding.insert(row);
+    refuseSlipping(problem, rows, scales, holding);
+  }
   return alpha.cwiseQuotient(scales.motions());
 }
 

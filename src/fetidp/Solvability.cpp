@@ -6,8 +6,10 @@
 #include "epafi/fetidp/ContactDirections.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
+#include "epafi/fetidp/SlippingMotions.hpp"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 
@@ -35,14 +37,15 @@ std::string along(const MotionWords& words, const std::string& before) {
 struct RigidBalance {
   const DecomposedProblem& problem;
   ProblemScales scales;
-  Eigen::MatrixXd directions; ///< of the contacts, k × (as many as differ)
-  Eigen::VectorXd load;       ///< ẽ
+  std::map<int, Eigen::VectorXd> rows; ///< this rank's, see ProblemScales::hinderingRows
+  Eigen::MatrixXd directions;          ///< of the contacts, k × (as many as differ)
+  Eigen::VectorXd load;                ///< ẽ
 
   /// \param entries  see kernelConstraint
   /// Collective.
   RigidBalance(const DecomposedProblem& given, const std::vector<KernelEntry>& entries)
-      : problem(given), scales(given),
-        directions(contactDirections(given, scales.hinderingRows(kernelConstraintOfBodies(given, entries)))),
+      : problem(given), scales(given), rows(scales.hinderingRows(kernelConstraintOfBodies(given, entries))),
+        directions(contactDirections(given, rows)),
         load(onBodies(given, kernelLoad(given)).cwiseQuotient(scales.motions())) {}
 
   /// Of a motion that is measured as the others are.
@@ -75,6 +78,17 @@ void refuseFreeMotion(const RigidBalance& balance) {
          " without meeting a support or a contact; add a support or a contact pair");
 }
 
+/// The same of motions that nothing but the facets of smooth surfaces hinders: where they lead to is the mesh's.
+void refuseSlippingMotion(const RigidBalance& balance) {
+  const Eigen::MatrixXd slipping =
+      slippingMotions(balance.problem, balance.rows, balance.scales.motions(), [](int) { return true; });
+  if (slipping.cols() > 0)
+    refuse(Kind::notUnique,
+           abilitiesOf(balance.problem, balance.scales.motions().cwiseInverse().asDiagonal() * slipping,
+                       facetNoise),
+           facetsAlone);
+}
+
 /// Is ẽ in the cone of the directions? With each body's modes measured by the loads on it and the directions of length 1 again:
 /// neither changes the answer, but a heavy body does not hide a light one.
 struct ScaledCone {
@@ -105,6 +119,7 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
     return;
   const RigidBalance balance(problem, entries);
   refuseFreeMotion(balance);
+  refuseSlippingMotion(balance);
 
   const ScaledCone cone(balance);
   const Eigen::VectorXd pulled = cone.imbalance(cone.resultant);
@@ -144,8 +159,11 @@ bool contactsOppose(const DecomposedProblem& problem, const std::vector<KernelEn
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  if (problem.numRigidModes() > 0)
-    refuseFreeMotion(RigidBalance(problem, entries));
+  if (problem.numRigidModes() == 0)
+    return;
+  const RigidBalance balance(problem, entries);
+  refuseFreeMotion(balance);
+  refuseSlippingMotion(balance);
 }
 
 } // namespace epafi::fetidp

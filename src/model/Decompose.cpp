@@ -5,8 +5,10 @@
 #include "epafi/decomposition/EqualMatrices.hpp"
 #include "epafi/decomposition/UnassembledProblem.hpp"
 #include "epafi/model/SceneContacts.hpp"
+#include "epafi/model/ScenePlaces.hpp"
 
 #include <Teuchos_Comm.hpp>
+#include <Tpetra_CrsMatrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -160,8 +162,11 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   problem.setClusterSizes(std::move(clusters));
   const Share share = shareOf(result.bodies, *comm);
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
-  if (!result.contacts.empty())
-    problem.setContact(contactMatrix(result.bodies, result.contacts, models, comm));
+  if (!result.contacts.empty()) {
+    contact::ContactMatrix matrix = contactMatrix(result.bodies, result.contacts, models, comm);
+    matrix.places = contactPlaces(scene, result.bodies, result.contacts, models, *matrix.rows->getRowMap());
+    problem.setContact(matrix);
+  }
   if (!result.ties.empty())
     problem.setTies(contactMatrix(result.bodies, result.ties, models, comm));
   problem.complete();

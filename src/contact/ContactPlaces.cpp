@@ -1,0 +1,75 @@
+#include "epafi/contact/ContactPlaces.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <optional>
+
+namespace epafi::contact {
+namespace {
+
+using Eigen::Vector3d;
+
+/// What a row takes of one side.
+class Share {
+public:
+  explicit Share(const SmoothSide& side) : side_(side) {}
+
+  void add(const NodeShare& share) {
+    const fem::Point x = (*side_.pointAt)(share.node);
+    place_ += share.weight * Vector3d(x[0], x[1], x[2]);
+    if (const auto& normal = side_.surface->at(share.node)) {
+      normal_ += share.weight * normal->direction; // linear in the place on cylinders and spheres
+      uncertainty_ += std::abs(share.weight) * normal->uncertainty;
+    } else {
+      hasEdge_ = true;
+    }
+  }
+  [[nodiscard]] const Vector3d& place() const { return place_; }
+  [[nodiscard]] std::optional<UncertainNormal> normal() const {
+    if (hasEdge_ || !(normal_.norm() > 0))
+      return std::nullopt;
+    return UncertainNormal{normal_.normalized(), uncertainty_};
+  }
+
+private:
+  SmoothSide side_;
+  Vector3d place_{0, 0, 0}, normal_{0, 0, 0};
+  double uncertainty_ = 0;
+  bool hasEdge_ = false;
+};
+
+} // namespace
+
+ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
+                     const std::optional<SmoothSide>& second) {
+  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
+  Vector3d direction(0, 0, 0);
+  for (std::size_t c = 0; c < components; ++c)
+    direction[static_cast<Eigen::Index>(c)] = contact.directions[row * components + c];
+  Share mine(first);
+  contact.forEachFirst(row, [&](const NodeShare& share) { mine.add(share); });
+  std::optional<UncertainNormal> here = mine.normal(), there = UncertainNormal{direction, 0};
+  ContactPlace place{contact.firstRow + static_cast<GlobalOrdinal>(row), {}, {}};
+  place.first = {contact.firstBody, mine.place(), direction, 0};
+  place.second = {contact.secondBody, mine.place(), direction, 0};
+  if (second) {
+    Share theirs(*second);
+    for (const NodeShare& share : contact.secondNodes[row])
+      theirs.add(share);
+    place.second.place = theirs.place();
+    there = theirs.normal();
+    if (there)
+      there->direction *= -1;
+  }
+  for (ContactPlace::Side* side : {&place.first, &place.second}) {
+    const auto &own = side == &place.first ? here : there, &other = side == &place.first ? there : here;
+    if (const auto& known = own ? own : other) {
+      side->normal = known->direction;
+      side->uncertainty = known->uncertainty;
+    }
+  }
+  return place;
+}
+
+} // namespace epafi::contact

@@ -1,0 +1,27 @@
+#pragma once
+
+/// From rows of contact and smooth surfaces to places.
+
+#include "epafi/contact/ContactLayout.hpp"
+#include "epafi/contact/ContactPlace.hpp"
+#include "epafi/contact/SmoothSurface.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace epafi::contact {
+
+/// One side of a contact; refers to what it is made of.
+struct SmoothSide {
+  const SmoothSurface* surface;
+  const NodePoints* pointAt;
+};
+
+/// Of a row. Where a side has an edge, the other's normal counts, where both do, the row's direction.
+/// \param second  nothing: an obstacle, whose normals are the rows' directions
+/// Precondition: of 2 or 3 components. Not collective.
+ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
+                     const std::optional<SmoothSide>& second);
+
+} // namespace epafi::contact

@@ -1,0 +1,57 @@
+#include "epafi/model/ScenePlaces.hpp"
+
+#include "epafi/contact/ContactPlaces.hpp"
+
+#include <Tpetra_Map.hpp>
+
+#include <optional>
+#include <string>
+
+namespace epafi::model {
+namespace {
+
+/// One side of a contact.
+struct Smooth {
+  contact::NodePoints pointAt;
+  contact::SmoothSurface surface;
+
+  Smooth(const BodyLayout& body, const std::string& name)
+      : pointAt([mesh = body.mesh.get()](GlobalOrdinal node) { return mesh->point(node); }),
+        surface(pointAt, body.mesh->surface(name)) {}
+  [[nodiscard]] contact::SmoothSide side() const { return {&surface, &pointAt}; }
+};
+
+} // namespace
+
+std::vector<contact::ContactPlace> contactPlaces(const scene::Scene& scene,
+                                                 const std::vector<BodyLayout>& bodies,
+                                                 const std::vector<contact::ContactLayout>& contacts,
+                                                 const std::vector<std::unique_ptr<fem::BodyModel>>& models,
+                                                 const Map& rows) {
+  std::vector<contact::ContactPlace> places;
+  const auto floats = [&](int body) {
+    return body >= 0 && models[static_cast<std::size_t>(body)]->kernelDimension() > 0;
+  };
+  for (const contact::ContactLayout& contact : contacts) {
+    if (models.front()->components() == 1 || !(floats(contact.firstBody) || floats(contact.secondBody)))
+      continue;
+    const scene::SurfaceContact& terms = scene.contacts[static_cast<std::size_t>(contact.number)];
+    const bool isInOrder = contact.firstBody == terms.first && contact.firstSurface == terms.firstSurface;
+    std::optional<Smooth> first, second; // once a row asks for them
+    for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
+      if (!rows.isNodeGlobalElement(contact.firstRow + static_cast<GlobalOrdinal>(row)))
+        continue;
+      if (!first) {
+        first.emplace(bodies[static_cast<std::size_t>(contact.firstBody)], contact.firstSurface);
+        if (contact.secondBody >= 0)
+          second.emplace(bodies[static_cast<std::size_t>(contact.secondBody)],
+                         isInOrder ? terms.secondSurface : terms.firstSurface);
+      }
+      places.push_back(
+          placeOf(contact, row, first->side(), second ? std::optional(second->side()) : std::nullopt));
+    }
+  }
+  return places;
+}
+
+} // namespace epafi::model
