@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <Tpetra_Map.hpp>
 
