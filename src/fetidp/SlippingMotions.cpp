@@ -195,11 +195,14 @@ MatrixXd slippingMotions(const DecomposedProblem& problem, const std::map<int, V
   if (!holdsAnywhere(*problem.comm, !problem.places.empty()))
     return MatrixXd(k, 0);
   MatrixXd squares = MatrixXd::Zero(k, k);
-  for (const Sides sides : {Sides::first, Sides::second, Sides::mean})
+  for (const Sides sides : {Sides::first, Sides::second, Sides::mean}) {
+    if (sides == Sides::mean && squares.trace() > 0)
+      break; // what one side knows is sharper
     if (const Slippage slippage(problem, rows, units, counts, sides); slippage.knowsAnything()) {
       const MatrixXd motions = slippingFor(slippage, k);
       squares += motions * motions.transpose();
     }
+  }
   constexpr double same = 0.1; // motions that differ by less than noise are one
   const direct::SymmetricEigen spectrum = direct::eigenOf(squares);
   return spectrum.vectors.rightCols(k - spectrum.numUpTo(same));
