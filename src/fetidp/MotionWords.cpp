@@ -104,11 +104,11 @@ std::string namesOf(const std::vector<const Body*>& bodies) {
 }
 
 /// Gauss–Jordan: rows that span the same, each beginning with a 1 where all others have a 0.
-Eigen::MatrixXd reduced(Eigen::MatrixXd rows) {
+Eigen::MatrixXd reduced(Eigen::MatrixXd rows, double accuracy) {
   Eigen::Index done = 0;
   for (Eigen::Index column = 0; column < rows.cols() && done < rows.rows(); ++column) {
     Eigen::Index pivot = 0;
-    if (rows.col(column).tail(rows.rows() - done).cwiseAbs().maxCoeff(&pivot) <= 1e-4)
+    if (rows.col(column).tail(rows.rows() - done).cwiseAbs().maxCoeff(&pivot) <= std::max(accuracy, 1e-4))
       continue;
     rows.row(done).swap(rows.row(done + pivot));
     rows.row(done) /= rows(done, column);
@@ -136,7 +136,8 @@ MotionWords wordsOf(const DecomposedProblem& problem, const Eigen::VectorXd& mot
 
 std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions, double accuracy) {
   // The simplest combinations are those with the fewest coordinates.
-  Eigen::MatrixXd rows = reduced(coordinatesOf(problem, motions).colwise().normalized().transpose());
+  Eigen::MatrixXd rows =
+      reduced(coordinatesOf(problem, motions).colwise().normalized().transpose(), accuracy);
   for (auto row : rows.rowwise())
     row = (row.array().abs() < accuracy * row.cwiseAbs().maxCoeff()).select(0.0, row.array()).matrix().eval();
   std::map<std::vector<const Body*>, std::vector<std::string>> verbs; // of the bodies that do it together

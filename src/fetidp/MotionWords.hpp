@@ -27,6 +27,6 @@ std::string abilitiesOf(const decomposition::DecomposedProblem& problem, const E
                         double accuracy = 0);
 
 /// That of motions along surfaces with facets.
-inline constexpr double facetNoise = 0.02;
+inline constexpr double facetNoise = 0.05;
 
 } // namespace epafi::fetidp
