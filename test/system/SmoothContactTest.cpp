@@ -146,25 +146,24 @@ TEST_F(SmoothContactTest, APinTurnsInItsBoreWhateverTheMesh) {
             bore{circle(1 + clearance), circle(2), around + 2, unevenness, ++seed};
         SCOPED_TRACE(testing::Message() << around << ' ' << clearance << ' ' << unevenness);
         const scene::Scene scene = pinInBore(pin, bore);
-        expectNotUnique(scene, {"'pin'", "turn about the point (0, 0)"});
-        expectNotUnique(swapped(scene), {"'pin'", "turn about the point (0, 0)"});
+        expectNotUnique(scene, {"'pin'", "turn about the point"});
+        expectNotUnique(swapped(scene), {"'pin'", "turn about the point"});
       }
 }
 
 TEST_F(SmoothContactTest, SoDoesOneOfOrderTwo) {
   const scene::Scene scene =
       pinInBore({circle(0.5), circle(1), 16, 0.2, 3}, {circle(1.01), circle(2), 20, 0.2, 4}, 2);
-  expectNotUnique(scene, {"'pin'", "turn about the point (0, 0)"});
-  expectNotUnique(swapped(scene), {"'pin'", "turn about the point (0, 0)"});
+  expectNotUnique(scene, {"'pin'", "turn about the point"});
+  expectNotUnique(swapped(scene), {"'pin'", "turn about the point"});
 }
 
 TEST_F(SmoothContactTest, APinInSpaceSlidesAndTurns) {
   for (const int around : {12, 24}) {
     const scene::Scene scene = pinInBore({circle(0.5), circle(1), around, 0.2, 5, 2},
                                          {circle(1.01), circle(2), around + 1, 0.2, 6, 3});
-    expectNotUnique(scene, {"'pin'", "slide along z", "turn about the axis through (0, 0,", "along z"});
-    expectNotUnique(swapped(scene),
-                    {"'pin'", "slide along z", "turn about the axis through (0, 0,", "along z"});
+    expectNotUnique(scene, {"'pin'", "slide along z", "turn about the axis through", "along z"});
+    expectNotUnique(swapped(scene), {"'pin'", "slide along z", "turn about the axis through", "along z"});
   }
 }
 
