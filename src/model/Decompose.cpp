@@ -164,7 +164,7 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
   if (!result.contacts.empty()) {
     contact::ContactMatrix matrix = contactMatrix(result.bodies, result.contacts, models, comm);
-    matrix.places = contactPlaces(scene, result.bodies, result.contacts, models, *matrix.rows->getRowMap());
+    matrix.places = contactPlaces(result.bodies, result.contacts, models, *matrix.rows->getRowMap());
     problem.setContact(matrix);
   }
   if (!result.ties.empty())

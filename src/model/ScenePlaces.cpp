@@ -10,21 +10,30 @@
 namespace epafi::model {
 namespace {
 
+fem::Surface joined(const fem::Mesh& mesh, const std::vector<std::string>& names) {
+  fem::Surface all = mesh.surface(names.at(0));
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    const fem::Surface next = mesh.surface(names[k]);
+    all.facetNodes.insert(all.facetNodes.end(), next.facetNodes.begin(), next.facetNodes.end());
+    all.elements.insert(all.elements.end(), next.elements.begin(), next.elements.end());
+  }
+  return all;
+}
+
 /// One side of a contact.
 struct Smooth {
   contact::NodePoints pointAt;
   contact::SmoothSurface surface;
 
-  Smooth(const BodyLayout& body, const std::string& name)
+  Smooth(const BodyLayout& body, const std::vector<std::string>& names)
       : pointAt([mesh = body.mesh.get()](GlobalOrdinal node) { return mesh->point(node); }),
-        surface(pointAt, body.mesh->surface(name)) {}
+        surface(pointAt, joined(*body.mesh, names)) {}
   [[nodiscard]] contact::SmoothSide side() const { return {&surface, &pointAt}; }
 };
 
 } // namespace
 
-std::vector<contact::ContactPlace> contactPlaces(const scene::Scene& scene,
-                                                 const std::vector<BodyLayout>& bodies,
+std::vector<contact::ContactPlace> contactPlaces(const std::vector<BodyLayout>& bodies,
                                                  const std::vector<contact::ContactLayout>& contacts,
                                                  const std::vector<std::unique_ptr<fem::BodyModel>>& models,
                                                  const Map& rows) {
@@ -35,17 +44,14 @@ std::vector<contact::ContactPlace> contactPlaces(const scene::Scene& scene,
   for (const contact::ContactLayout& contact : contacts) {
     if (models.front()->components() == 1 || !(floats(contact.firstBody) || floats(contact.secondBody)))
       continue;
-    const scene::SurfaceContact& terms = scene.contacts[static_cast<std::size_t>(contact.number)];
-    const bool isInOrder = contact.firstBody == terms.first && contact.firstSurface == terms.firstSurface;
     std::optional<Smooth> first, second; // once a row asks for them
     for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
       if (!rows.isNodeGlobalElement(contact.firstRow + static_cast<GlobalOrdinal>(row)))
         continue;
       if (!first) {
-        first.emplace(bodies[static_cast<std::size_t>(contact.firstBody)], contact.firstSurface);
+        first.emplace(bodies[static_cast<std::size_t>(contact.firstBody)], contact.firstSurfaces);
         if (contact.secondBody >= 0)
-          second.emplace(bodies[static_cast<std::size_t>(contact.secondBody)],
-                         isInOrder ? terms.secondSurface : terms.firstSurface);
+          second.emplace(bodies[static_cast<std::size_t>(contact.secondBody)], contact.secondSurfaces);
       }
       places.push_back(
           placeOf(contact, row, first->side(), second ? std::optional(second->side()) : std::nullopt));

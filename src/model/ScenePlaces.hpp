@@ -6,7 +6,6 @@
 #include "epafi/contact/ContactPlace.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/model/BodyLayout.hpp"
-#include "epafi/scene/Scene.hpp"
 
 #include <memory>
 #include <vector>
@@ -16,8 +15,7 @@ namespace epafi::model {
 /// Of those rows of this rank that a floating body takes part in; of scalar fields none.
 /// \param rows  of the contact matrix
 /// Not collective.
-std::vector<contact::ContactPlace> contactPlaces(const scene::Scene& scene,
-                                                 const std::vector<BodyLayout>& bodies,
+std::vector<contact::ContactPlace> contactPlaces(const std::vector<BodyLayout>& bodies,
                                                  const std::vector<contact::ContactLayout>& contacts,
                                                  const std::vector<std::unique_ptr<fem::BodyModel>>& models,
                                                  const Map& rows);
