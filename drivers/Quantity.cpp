@@ -15,7 +15,7 @@ namespace epafi::drivers {
 namespace {
 
 /// Residual of the dual problem at which its solution still serves, should round-off allow no less: meshes have larger errors.
-constexpr double enough = 1e-3;
+constexpr double enoughOfDual = 1e-3;
 
 /// Estimates of coarse meshes see 0.7 of the error.
 constexpr double safety = 1.5;
@@ -173,7 +173,7 @@ Quantity QuantityOfScene::operator()(const ContactSolver& solver, const output::
   fetidp::ContactResponse dual;
   try {
     dual = solver.respond(solved.solution, change);
-    if (!(dual.report.relativeProjectedGradient <= enough))
+    if (!(dual.report.relativeProjectedGradient <= enoughOfDual))
       quantity.failure = "its dual problem was not solved: " + dual.report.reason;
   } catch (const Error& error) { // on all ranks
     quantity.failure = std::string("it has no dual solution: ") + error.what();

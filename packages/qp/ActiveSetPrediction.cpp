@@ -16,9 +16,9 @@ namespace epafi::qp {
 namespace {
 
 constexpr int maxRounds = 20;
-constexpr int maxWorseRounds = 6; ///< in a row; with more a prediction is taken for one that cycles
-constexpr int maxFaceSteps = 30;  ///< of CG in a face
-constexpr double reduction = 0.1; ///< of the gradient in a face
+constexpr int maxWorseRounds = 6;      ///< in a row; with more a prediction is taken for one that cycles
+constexpr int maxPredictionSteps = 30; ///< of CG in a face
+constexpr double reduction = 0.1;      ///< of the gradient in a face
 /// Multipliers as wrong as this share of the worst one come off their bounds.
 constexpr double wrongShare = 0.1;
 /// Less than this share of what a prediction has gained so far is no progress, but may be the last digits of a cycle.
@@ -133,7 +133,7 @@ bool ActiveSetPrediction::minimiseOnFace(double& target, StepVectors& work) {
     }
     if (!(products.energy > goal))
       return true;
-    if (k == maxFaceSteps || objective_.isSpent() || isToStop)
+    if (k == maxPredictionSteps || objective_.isSpent() || isToStop)
       return false;
     setConjugate(preconditioner_.z(), k == 0 ? 0.0 : objective_.scale() * products.timesImage / curvature,
                  work.p); // p = z − (zᵀAp/pᵀAp) p

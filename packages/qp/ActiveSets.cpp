@@ -16,7 +16,7 @@ namespace epafi::qp {
 namespace {
 
 constexpr int maxFaces = 300;
-constexpr int patience = 24;      ///< faces in a row with no smaller gradient to begin with
+constexpr int maxIdleFaces = 24;  ///< faces in a row with no smaller gradient to begin with
 constexpr int caution = 4;        ///< from so many of them on one bound is released at a time
 constexpr int maxFaceSteps = 200; ///< of CG before the face is looked at again
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
@@ -263,7 +263,7 @@ bool ActiveSets::isSolved() {
     }
   }
   reduction_.reduce();
-  if (std::sqrt(reduction_.sum(1)) > roundOff * std::sqrt(reduction_.sum(2)))
+  if (std::sqrt(reduction_.sum(1)) > roundOffOfX * std::sqrt(reduction_.sum(2)))
     return false;
   const double whole = std::hypot(gradient_, std::sqrt(reduction_.sum(0)));
   const double share = gradient_ > 0 ? whole / gradient_ : 1;

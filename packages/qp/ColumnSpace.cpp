@@ -12,12 +12,6 @@
 #include <utility>
 
 namespace epafi::qp {
-namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-} // namespace
-
 ColumnSpace::ColumnSpace(RCP<const Map> map) : map_(std::move(map)), numRows_(numLocal(*map_)) {}
 
 std::span<const double> ColumnSpace::image(std::size_t k) const {
@@ -64,7 +58,8 @@ bool ColumnSpace::factorize() {
     Teuchos::LAPACK<int, double>().POTRF('L', size(), factor_.data(), size(), &info);
   bool isDefinite = info == 0;
   for (std::size_t i = 0; i < k && isDefinite; ++i) // beside the unit diagonal a pivot like that is round-off
-    isDefinite = factor_[i * k + i] * factor_[i * k + i] > static_cast<double>(k) * epsilon;
+    isDefinite = factor_[i * k + i] * factor_[i * k + i] >
+                 static_cast<double>(k) * std::numeric_limits<double>::epsilon();
   return isDefinite;
 }
 

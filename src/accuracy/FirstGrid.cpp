@@ -1,5 +1,6 @@
 #include "epafi/accuracy/FirstGrid.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 
 #include <algorithm>
@@ -7,10 +8,6 @@
 
 namespace epafi::accuracy {
 namespace {
-
-std::size_t index(int number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// Where the body itself needs lines across an axis.
 std::vector<double> ownLines(const scene::Body& body, std::size_t axis) {

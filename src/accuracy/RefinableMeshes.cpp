@@ -2,6 +2,7 @@
 
 #include "epafi/accuracy/FirstGrid.hpp"
 #include "epafi/accuracy/PointLocation.hpp"
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/GmshReader.hpp"
@@ -17,10 +18,6 @@ namespace epafi::accuracy {
 namespace {
 
 using fem::SimplexMesh;
-
-std::size_t index(GlobalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 std::vector<fem::Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
   std::vector<fem::Point> corners;

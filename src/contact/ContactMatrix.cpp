@@ -16,10 +16,10 @@ namespace {
 /// rest is round-off of normals.
 constexpr double heldDirection = 1e-6;
 /// Coefficients that would be 0 without round-off of normals and frames.
-constexpr double roundOff = 1e-14;
+constexpr double roundOffOfDirection = 1e-14;
 
 /// A row of B.
-struct Row {
+struct MatrixRow {
   GlobalOrdinal number;
   double gap;
   std::vector<GlobalOrdinal> unknowns;
@@ -44,7 +44,8 @@ void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, Gl
     if (!unknowns.isHeld(body, node, c))
       free = std::hypot(free, direction[c]);
   for (int c = 0; c < unknowns.components; ++c)
-    if (std::abs(direction[c]) > roundOff && (free > heldDirection || unknowns.isHeld(body, node, c))) {
+    if (std::abs(direction[c]) > roundOffOfDirection &&
+        (free > heldDirection || unknowns.isHeld(body, node, c))) {
       row.unknowns.push_back(
           (unknowns.firstNode[static_cast<std::size_t>(body)] + node) * unknowns.components + c);
       row.coefficients.push_back(factor * direction[c]);
@@ -52,13 +53,14 @@ void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, Gl
 }
 
 /// The rows that this rank owns, ascending.
-std::vector<Row> ownRows(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns) {
-  std::vector<Row> rows;
+std::vector<MatrixRow> ownRows(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns) {
+  std::vector<MatrixRow> rows;
   for (const ContactLayout& contact : contacts)
     for (std::size_t place = 0; contact.hasOwnRows && place < contact.firstNodes.size(); ++place) {
       if (!unknowns.isMine(contact.firstBody, contact.firstNodes[place]))
         continue;
-      Row& row = rows.emplace_back(Row{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
+      MatrixRow& row =
+          rows.emplace_back(MatrixRow{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
       contact.forEachShare(place, [&](std::size_t node, double weight) {
         const Eigen::Vector3d direction = directionAt(contact, node, unknowns);
         row.gap += weight * contact.gaps[node];
@@ -81,10 +83,10 @@ std::vector<Row> ownRows(const std::vector<ContactLayout>& contacts, const NodeU
 
 ContactMatrix contactMatrix(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns,
                             const RCP<const Comm>& comm) {
-  const std::vector<Row> rows = ownRows(contacts, unknowns);
+  const std::vector<MatrixRow> rows = ownRows(contacts, unknowns);
   std::vector<GlobalOrdinal> numbers, columns;
   std::size_t longest = 0;
-  for (const Row& row : rows) {
+  for (const MatrixRow& row : rows) {
     numbers.push_back(row.number);
     columns.insert(columns.end(), row.unknowns.begin(), row.unknowns.end());
     longest = std::max(longest, row.unknowns.size());
@@ -92,7 +94,7 @@ ContactMatrix contactMatrix(const std::vector<ContactLayout>& contacts, const No
   const RCP<const Map> map = mapInOrder(numbers, comm);
   const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(map, longest));
   const RCP<Vector> gap = rcp(new Vector(map));
-  for (const Row& row : rows) {
+  for (const MatrixRow& row : rows) {
     matrix->insertGlobalValues(row.number, Teuchos::arrayViewFromVector(row.unknowns),
                                Teuchos::arrayViewFromVector(row.coefficients));
     gap->replaceGlobalValue(row.number, row.gap);

@@ -29,12 +29,12 @@ constexpr double leastCoverage = 1e-3;
 /// Facets covered by less than this share of them have constant ψ.
 constexpr double sliverOfFacet = 0.02;
 /// Shares that would be 0 without round-off.
-constexpr double roundOff = 1e-13;
+constexpr double roundOffOfWeights = 1e-13;
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 /// What a row takes of both sides.
-struct Row {
+struct MortarRow {
   std::size_t place; ///< of its node, in SurfaceNodes
   double area;       ///< ∫N̂
   std::vector<NodeShare> first, second;
@@ -215,7 +215,7 @@ std::vector<Row> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld, 
     Row& row = rows.emplace_back(Row{k, integrals[static_cast<Eigen::Index>(k)], {}, {}});
     for (const auto& [sums, shares] : {std::pair(&first[k], &row.first), std::pair(&second[k], &row.second)})
       for (const auto& [node, weight] : *sums)
-        if (std::abs(weight) > roundOff * row.area)
+        if (std::abs(weight) > roundOffOfWeights * row.area)
           shares->push_back({node, weight / row.area});
     balanceMoment(row);
   }
@@ -238,7 +238,7 @@ Vector3d RowMaker::apart(const Row& row) const {
 }
 
 /// Adds δ_l = cᵀ(x_l − x̄) to the second side's shares, which changes no force, so that its place lies across the first one's.
-void RowMaker::balanceMoment(Row& row) const {
+void RowMaker::balanceMoment(MortarRow& row) const {
   const Vector3d normal = nodes_.normals[row.place];
   const auto across = [&](const Vector3d& x) -> Vector3d { return x - normal.dot(x) * normal; };
   const Vector3d off = across(apart(row));
@@ -254,7 +254,7 @@ void RowMaker::balanceMoment(Row& row) const {
     moments += place * place.transpose();
   }
   const double size = moments.trace();
-  if (off.squaredNorm() <= roundOff * roundOff * size || size == 0)
+  if (off.squaredNorm() <= roundOffOfWeights * roundOffOfWeights * size || size == 0)
     return;
   moments += size * (normal * normal.transpose() + 1e-14 * Eigen::Matrix3d::Identity());
   const Vector3d change = moments.ldlt().solve(off);
@@ -273,7 +273,7 @@ void enter(const Row& row, const SurfaceNodes& nodes, const RowAreas& areas, con
   areas.enter(row.place, layout);
 }
 
-void requireRows(const ContactTerms& terms, const ContactLayout& layout) {
+void requireMortarRows(const ContactTerms& terms, const ContactLayout& layout) {
   if (layout.firstNodes.empty())
     throw InputError(
         "contact '" + terms.name + "': supports or ties hold every node of the surface '" +
@@ -302,7 +302,7 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
     enter(row, nodes, areas, directionAt(row.place), terms.components, gap, layout);
     layout.numBent += terms.components > 1 && maker.isBent(row.place) ? 1 : 0;
   }
-  requireRows(terms, layout);
+  requireMortarRows(terms, layout);
   smoothRows(first.surface, layout);
   return layout;
 }

@@ -1,3 +1,4 @@
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/fem/SimplexMesh.hpp"
 
 #include <algorithm>
@@ -9,10 +10,6 @@ namespace epafi::fem {
 namespace {
 
 using Edge = SimplexMesh::Edge;
-
-std::size_t index(LocalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 class Bisection {
 public:

@@ -1,5 +1,6 @@
 #include "epafi/fem/GmshFile.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/GmshReader.hpp"
@@ -16,10 +17,6 @@ namespace epafi::fem {
 namespace {
 
 using Blocks = std::vector<const GmshBlock*>;
-
-std::size_t index(LocalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// `"a", "b" and "c"`, or `a and b`.
 std::string listed(const std::vector<std::string>& words, bool areQuoted) {

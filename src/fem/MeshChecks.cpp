@@ -1,5 +1,6 @@
 #include "epafi/fem/MeshChecks.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/ElementGeometry.hpp"

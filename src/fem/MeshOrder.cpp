@@ -1,5 +1,7 @@
 #include "epafi/fem/MeshOrder.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -7,10 +9,6 @@
 
 namespace epafi::fem {
 namespace {
-
-std::size_t index(LocalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// Adds the nodes element by element; what elements share is added once.
 class Completion {

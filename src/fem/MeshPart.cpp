@@ -1,5 +1,6 @@
 #include "epafi/fem/MeshPart.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/MeshArrays.hpp"
 
@@ -10,10 +11,6 @@
 
 namespace epafi::fem {
 namespace {
-
-std::size_t index(GlobalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// Place of a number among ascending ones, their count if it is not there.
 std::size_t placeIn(const std::vector<GlobalOrdinal>& numbers, GlobalOrdinal number) {

@@ -1,5 +1,6 @@
 #include "epafi/fem/SimplexMesh.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/fem/MeshOrder.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 
@@ -9,10 +10,6 @@
 
 namespace epafi::fem {
 namespace {
-
-std::size_t index(GlobalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// Sets of numbers, each by its place in a list.
 class Marks {

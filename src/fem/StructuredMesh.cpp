@@ -8,7 +8,7 @@
 namespace epafi::fem {
 namespace {
 
-using Place = std::array<GlobalOrdinal, 3>;
+using GridPlace = std::array<GlobalOrdinal, 3>;
 
 /// A side of the box and the facet of an element that lies on it.
 struct Side {
@@ -46,7 +46,7 @@ std::span<const std::array<int, 3>> placesOf() {
 }
 
 /// (i,j,k) of a number.
-Place placeOf(GlobalOrdinal number, const std::array<int, 3>& size) {
+GridPlace placeOf(GlobalOrdinal number, const std::array<int, 3>& size) {
   GridWalk walk(size[0], size[1]);
   walk.to(number);
   return walk.place();
@@ -60,7 +60,7 @@ int numTouching(GlobalOrdinal i, int n, int order) {
 }
 
 /// Appends the elements from (i,j,k) = first to end, the latter excluded, ascending.
-void appendElements(const Place& first, const Place& end, const std::array<int, 3>& size,
+void appendElements(const GridPlace& first, const GridPlace& end, const std::array<int, 3>& size,
                     std::vector<GlobalOrdinal>& elements) {
   for (GlobalOrdinal k = first[2]; k < end[2]; ++k)
     for (GlobalOrdinal j = first[1]; j < end[1]; ++j)
@@ -95,7 +95,7 @@ double StructuredMesh::nodeCoordinate(std::size_t axis, GlobalOrdinal k) const {
 }
 
 Point StructuredMesh::point(GlobalOrdinal node) const {
-  const Place place = placeOf(node, nodes_);
+  const GridPlace place = placeOf(node, nodes_);
   return {nodeCoordinate(0, place[0]), nodeCoordinate(1, place[1]), nodeCoordinate(2, place[2])};
 }
 
@@ -118,8 +118,8 @@ void StructuredMesh::elementNodes(std::span<const GlobalOrdinal> elements,
 
 void StructuredMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
-  const Place place = placeOf(node, nodes_);
-  Place first{}, end{};
+  const GridPlace place = placeOf(node, nodes_);
+  GridPlace first{}, end{};
   for (std::size_t d = 0; d < 3; ++d) {
     first[d] = std::max<GlobalOrdinal>((place[d] + order_ - 1) / order_ - 1, 0);
     end[d] = std::min<GlobalOrdinal>(place[d] / order_ + 1, elements_[d]);
@@ -140,8 +140,8 @@ void StructuredMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::
 
 void StructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
-  const Place place = placeOf(element, elements_);
-  const Place step{1, elements_[0], static_cast<GlobalOrdinal>(elements_[0]) * elements_[1]};
+  const GridPlace place = placeOf(element, elements_);
+  const GridPlace step{1, elements_[0], static_cast<GlobalOrdinal>(elements_[0]) * elements_[1]};
   for (std::size_t d = 3; d-- > 0;)
     if (place[d] > 0)
       elements.push_back(element - step[d]);
@@ -151,7 +151,7 @@ void StructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<Global
 }
 
 bool StructuredMesh::isBoundaryNode(GlobalOrdinal node) const {
-  const Place place = placeOf(node, nodes_);
+  const GridPlace place = placeOf(node, nodes_);
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d)
     if (place[d] == 0 || place[d] == nodes_[d] - 1)
       return true;
@@ -168,7 +168,7 @@ std::vector<std::string> StructuredMesh::surfaceNames() const {
 Surface StructuredMesh::surface(const std::string& name) const {
   const auto sides = sidesOf(dimension_);
   const Side& side = *std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.name == name; });
-  Place first{0, 0, 0}, end{elements_[0], elements_[1], elements_[2]};
+  GridPlace first{0, 0, 0}, end{elements_[0], elements_[1], elements_[2]};
   if (side.isFar)
     first[side.axis] = end[side.axis] - 1;
   else

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double flatAngle = 1e-6;                ///< normals of one plane differ by less
 constexpr double smoothCosine = 0.76604444311898; ///< of 40°
-constexpr double onAxis = 1e-12;
+constexpr double normalOnAxis = 1e-12;
 
 /// A surface's facets around each of its nodes.
 struct Facets {
@@ -96,7 +96,7 @@ Vector3d snapped(const Vector3d& normal) {
   Eigen::Index axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   const Vector3d nearest = std::copysign(1.0, normal[axis]) * Vector3d::Unit(axis);
-  return (normal - nearest).norm() <= onAxis ? nearest : normal;
+  return (normal - nearest).norm() <= normalOnAxis ? nearest : normal;
 }
 
 } // namespace

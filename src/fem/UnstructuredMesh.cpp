@@ -1,5 +1,6 @@
 #include "epafi/fem/UnstructuredMesh.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/MeshChecks.hpp"
 
@@ -8,10 +9,6 @@
 
 namespace epafi::fem {
 namespace {
-
-std::size_t index(GlobalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 template <class Named>
 std::vector<std::string> namesOf(const std::vector<Named>& list) {

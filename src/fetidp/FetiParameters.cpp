@@ -9,7 +9,7 @@ namespace epafi::fetidp {
 namespace {
 
 // In the order of the enumerators.
-const std::vector<std::string> modes = {"auto", "implicit", "explicit"};
+const std::vector<std::string> operatorModes = {"auto", "implicit", "explicit"};
 const std::vector<std::string> types = {"none", "lumped", "dirichlet"};
 const std::vector<std::string> scalings = {"multiplicity", "stiffness"};
 const std::vector<std::string> uses = {"auto", "yes", "no"};
@@ -83,7 +83,7 @@ void addFetiParameters(Teuchos::ParameterList& list) {
             "How F is multiplied with: 'implicit' by two triangular solves a subdomain, 'explicit' by "
             "a dense block each, 'auto' by what is less work for the expected products. The preconditioner "
             "follows it in subdomains that are like no other.",
-            modes);
+            operatorModes);
   addInteger(dual, "Expected Products", operatorDefaults.expectedProducts,
              "Products with F in which explicit blocks must pay off, for 'auto'.", 1);
   Teuchos::ParameterList& preconditioner = list.sublist("Preconditioner");
@@ -107,7 +107,7 @@ DirectSolvers directSolversFrom(const Teuchos::ParameterList& list) {
 }
 
 DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list) {
-  return {enumeratorFrom<DualOperatorParameters::Mode>(list, "Mode", modes),
+  return {enumeratorFrom<DualOperatorParameters::Mode>(list, "Mode", operatorModes),
           list.get<int>("Expected Products")};
 }
 

@@ -1,5 +1,6 @@
 #include "epafi/model/MeshPieces.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/PointToPoint.hpp"
@@ -17,10 +18,6 @@ namespace epafi::model {
 namespace {
 
 using Keys = std::vector<GlobalOrdinal>;
-
-std::size_t index(GlobalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
 
 template <class Number>
 void sortEach(std::vector<Number>& keys) {
