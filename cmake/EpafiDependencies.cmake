@@ -81,9 +81,9 @@ endfunction()
 # Others
 
 function(epafi_find_eigen missing)
-  find_package(Eigen3 3.4 QUIET NO_MODULE)
-  if(NOT TARGET Eigen3::Eigen)
-    set(${missing} "Eigen 3.4 is not found; name its prefix in CMAKE_PREFIX_PATH (Debian: libeigen3-dev)" PARENT_SCOPE)
+  find_package(Eigen3 QUIET NO_MODULE) # whose versions 3.4 and 5 do not stand for each other
+  if(NOT TARGET Eigen3::Eigen OR Eigen3_VERSION VERSION_LESS 3.4)
+    set(${missing} "Eigen 3.4 or later is not found; name its prefix in CMAKE_PREFIX_PATH (Debian: libeigen3-dev)" PARENT_SCOPE)
     return()
   endif()
   epafi_imported(eigen LIBRARIES Eigen3::Eigen)

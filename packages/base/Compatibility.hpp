@@ -1,6 +1,6 @@
 #pragma once
 
-/// What differs between Trilinos 13.2 and later versions, in one place.
+/// What differs between Trilinos 13.2 and later versions, in one place; `.ci/run` looks for such calls elsewhere.
 
 #include <Tpetra_Map.hpp>
 #include <Trilinos_version.h>
@@ -25,6 +25,15 @@ inline auto localIndices(const Tpetra::Map<>& map) {
 #else
   return map.getNodeElementList();
 #endif
+}
+
+/// Whether a Teuchos::any holds something (its method was renamed). Not collective.
+template <class Any>
+bool holdsValue(const Any& any) {
+  if constexpr (requires { any.has_value(); })
+    return any.has_value();
+  else
+    return !any.empty();
 }
 
 } // namespace epafi

@@ -1,5 +1,6 @@
 #include "epafi/base/ParameterValue.hpp"
 
+#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -49,7 +50,7 @@ std::string wholeText(const ParameterEntry& entry) {
     return textOf(Teuchos::getValue<Array<int>>(entry));
   if (entry.isType<Array<double>>())
     return textOf(Teuchos::getValue<Array<double>>(entry));
-  if (entry.isList() || entry.getAny(false).empty())
+  if (entry.isList() || !holdsValue(entry.getAny(false)))
     return entry.isList() ? "a list" : "empty";
   std::ostringstream text;
   text << entry.getAny(false);

@@ -3,7 +3,6 @@
 #include <BelosOutputManager.hpp>
 #include <BelosPseudoBlockCGIter.hpp>
 #include <Teuchos_ParameterList.hpp>
-#include <Trilinos_version.h>
 
 namespace epafi::qp {
 
@@ -18,15 +17,9 @@ BelosOutcome iterate(const RCP<BelosProblem>& problem, const std::vector<int>& c
   try {
     const RCP<MultiVector> residual =
         Belos::MultiVecTraits<double, MultiVector>::CloneCopy(*problem->getInitResVec(), columns);
-#if TRILINOS_MAJOR_MINOR_VERSION >= 160000
-    iteration.initializeCG(rcp(new Belos::PseudoBlockCGIterationState<double, MultiVector>(
-                               residual, static_cast<int>(columns.size()))),
-                           residual);
-#else
     Belos::CGIterationState<double, MultiVector> state;
     state.R = residual;
     iteration.initializeCG(state);
-#endif
     iteration.iterate();
   } catch (const Belos::BelosError&) {
     outcome.isIndefinite = true;

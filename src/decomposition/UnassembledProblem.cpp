@@ -1,6 +1,7 @@
 #include "epafi/decomposition/UnassembledProblem.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/decomposition/BodyKernels.hpp"
@@ -268,7 +269,7 @@ void UnassembledProblem::split() {
 RCP<const Vector> UnassembledProblem::enter(const ContactMatrix& matrix, GlobalOrdinal firstRow,
                                             std::vector<GlobalOrdinal>& owned,
                                             std::vector<std::vector<RowEntry>>& rows) const {
-  for (const GlobalOrdinal row : matrix.rows->getRowMap()->getNodeElementList())
+  for (const GlobalOrdinal row : localIndices(*matrix.rows->getRowMap()))
     owned.push_back(firstRow + row);
   ContactRows made = contactRows(view(), shared_, *crosspoints_, matrix);
   for (std::size_t s = 0; s < rows.size(); ++s)
