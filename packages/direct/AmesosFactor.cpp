@@ -1,5 +1,6 @@
 #include "epafi/direct/AmesosFactor.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Types.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
@@ -76,7 +77,7 @@ public:
       for (Eigen::Index j = 0; j < columns; ++j)
         unit(kept_[static_cast<std::size_t>(first + j)], j) = 1;
       solve(unit, image);
-      result.middleCols(first, columns) = image(kept_, Eigen::all);
+      result.middleCols(first, columns) = image(kept_, allOf);
     }
     return (0.5 * (result + result.transpose())).eval();
   }

@@ -1,5 +1,7 @@
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
+
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -13,7 +15,7 @@ Eigen::VectorXd solveOn(const std::vector<Eigen::Index>& passive, const Eigen::M
                         const Eigen::VectorXd& b) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
   if (!passive.empty())
-    x(passive) = a(Eigen::all, passive).colPivHouseholderQr().solve(b);
+    x(passive) = a(allOf, passive).colPivHouseholderQr().solve(b);
   return x;
 }
 

@@ -22,7 +22,7 @@ constexpr int maxFaceSteps = 200; ///< of CG before the face is looked at again
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
 constexpr double safety = 0.5;
 constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
-constexpr double roundOff = 1e-13;        ///< of x that leaves Ω by it
+constexpr double roundOffOfX = 1e-13;     ///< of x that leaves Ω by it
 constexpr double negligibleExit = 1e-3;   ///< of what the tolerance asks for, likewise
 /// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that nearly depend on each other, with forces
 /// out of all proportion. The faces that follow may make up for it; where it happens again and again they do not.
@@ -109,7 +109,7 @@ Status ActiveSets::run(Observer* observer) {
   double least = std::numeric_limits<double>::infinity(), highest = 0, largest = 0;
   int numIdle = 0, numRunaways = 0;
   bool isRunaway = false;
-  for (int faces = 0; faces < maxFaces && numIdle <= patience; ++faces) {
+  for (int faces = 0; faces < maxFaces && numIdle <= maxIdleFaces; ++faces) {
     copy(on_.x, inside_);
     on_.enter(isAtOrigin_ && faces == 0); // Bx = c, g afresh
     gradient_ = on_.gradientNorm();

@@ -36,7 +36,7 @@ Eigen::Vector3d directionAt(const ContactLayout& contact, std::size_t place, con
 
 /// Enters a node along d, times a factor, in its unknowns: its components, or Qᵀd where it has a frame Q.
 void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, GlobalOrdinal node,
-           double factor, Row& row) {
+           double factor, MatrixRow& row) {
   if (const Eigen::Matrix3d* frame = unknowns.frame(body, node))
     direction = frame->transpose() * direction;
   double free = 0;

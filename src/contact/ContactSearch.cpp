@@ -16,10 +16,6 @@ using Eigen::Vector3d;
 /// Facets whose normals have a smaller cosine with a direction lie beside what is there.
 constexpr double beside = 0.2;
 
-InputError refusal(const ContactTerms& contact, const std::string& what) {
-  return InputError("contact '" + contact.name + "': " + what);
-}
-
 /// Direction from a point to the nearest one of an obstacle, and the distance.
 struct Approach {
   Vector3d direction;

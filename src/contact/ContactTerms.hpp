@@ -2,6 +2,8 @@
 
 /// What is asked of a contact between two surfaces, or of a surface and an obstacle.
 
+#include "epafi/base/Errors.hpp"
+
 #include <Eigen/Core>
 
 #include <functional>
@@ -28,5 +30,10 @@ struct ContactTerms {
   std::vector<std::size_t> parts{};
   double sense = 1; ///< of a deflection: −1 if it is the second body that must stay below
 };
+
+/// What is wrong with a contact, by its name.
+inline InputError refusal(const ContactTerms& contact, const std::string& what) {
+  return InputError("contact '" + contact.name + "': " + what);
+}
 
 } // namespace epafi::contact

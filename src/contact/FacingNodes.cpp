@@ -21,9 +21,6 @@ using Eigen::Vector3d;
 
 /// Nodes face each other if what lies between them is normal to the surfaces up to this share of their spacing.
 constexpr double matchTolerance = 1e-2;
-InputError refusal(const ContactTerms& contact, const std::string& what) {
-  return InputError("contact '" + contact.name + "': " + what);
-}
 
 /// Boxes of no extent around points.
 std::vector<FacetTree::Box> boxesOf(const std::vector<Vector3d>& points) {

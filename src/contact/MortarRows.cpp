@@ -54,9 +54,9 @@ public:
   /// Whether a node's normal is the mean of several faces.
   [[nodiscard]] bool isBent(std::size_t place) const { return isBent_[place] != 0; }
   /// \param isHeld  of places of nodes
-  [[nodiscard]] std::vector<Row> rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const;
+  [[nodiscard]] std::vector<MortarRow> rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const;
   /// From the mean place of a row's first side to that of its second.
-  [[nodiscard]] Vector3d apart(const Row& row) const;
+  [[nodiscard]] Vector3d apart(const MortarRow& row) const;
 
 private:
   using Sums = std::vector<std::map<GlobalOrdinal, double>>;
@@ -68,8 +68,8 @@ private:
   void spread(std::vector<std::size_t>& representative) const;
   void add(const MortarFacet& facet, const std::vector<std::size_t>& representative,
            VectorXd& integralsOfRows, RowAreas& areas, Sums& first, Sums& second) const;
-  [[nodiscard]] Vector3d relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const Row& row) const;
-  void balanceMoment(Row& row) const;
+  [[nodiscard]] Vector3d relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const MortarRow& row) const;
+  void balanceMoment(MortarRow& row) const;
 
   const PlacedSurface &first_, &second_;
   SurfaceNodes nodes_;
@@ -201,18 +201,18 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
   }
 }
 
-std::vector<Row> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const {
+std::vector<MortarRow> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const {
   const std::vector<std::size_t> representative = representatives(isHeld);
   const std::size_t n = nodes_.nodes.size();
   VectorXd integrals = VectorXd::Zero(static_cast<Eigen::Index>(n));
   Sums first(n), second(n);
   for (const MortarFacet& facet : facets_)
     add(facet, representative, integrals, areas, first, second);
-  std::vector<Row> rows;
+  std::vector<MortarRow> rows;
   for (std::size_t k = 0; k < n; ++k) {
     if (first[k].empty())
       continue;
-    Row& row = rows.emplace_back(Row{k, integrals[static_cast<Eigen::Index>(k)], {}, {}});
+    MortarRow& row = rows.emplace_back(MortarRow{k, integrals[static_cast<Eigen::Index>(k)], {}, {}});
     for (const auto& [sums, shares] : {std::pair(&first[k], &row.first), std::pair(&second[k], &row.second)})
       for (const auto& [node, weight] : *sums)
         if (std::abs(weight) > roundOffOfWeights * row.area)
@@ -223,12 +223,12 @@ std::vector<Row> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld, 
 }
 
 /// Places relative to the row's node: far from the origin coordinates have lost the digits that sums of theirs would need.
-Vector3d RowMaker::relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const Row& row) const {
+Vector3d RowMaker::relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const MortarRow& row) const {
   const fem::Point x = pointAt(node);
   return Vector3d(x[0], x[1], x[2]) - nodes_.points[row.place];
 }
 
-Vector3d RowMaker::apart(const Row& row) const {
+Vector3d RowMaker::apart(const MortarRow& row) const {
   Vector3d apart(0, 0, 0);
   for (const NodeShare& share : row.second)
     apart += share.weight * relativePlace(second_.pointAt, share.node, row);
@@ -262,7 +262,7 @@ void RowMaker::balanceMoment(MortarRow& row) const {
     row.second[l].weight -= change.dot(places[l]);
 }
 
-void enter(const Row& row, const SurfaceNodes& nodes, const RowAreas& areas, const Vector3d& direction,
+void enter(const MortarRow& row, const SurfaceNodes& nodes, const RowAreas& areas, const Vector3d& direction,
            int components, double gap, ContactLayout& layout) {
   layout.firstNodes.push_back(nodes.nodes[row.place]);
   layout.firstShares.push_back(row.first);
@@ -295,7 +295,7 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   layout.name = terms.name;
   layout.isDual = first.surface.facetType == fem::CellType::triangle6;
   RowAreas areas(terms, nodes.nodes.size());
-  for (const Row& row : maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, areas)) {
+  for (const MortarRow& row : maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, areas)) {
     double gap = terms.gap;
     if (terms.components > 1)
       gap += nodes.normals[row.place].dot(maker.apart(row));
@@ -316,7 +316,7 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
   for (int c = 0; c < terms.components; ++c) {
     const Vector3d axis = axes.col(c);
     RowAreas areas(terms, nodes.nodes.size());
-    for (const Row& row :
+    for (const MortarRow& row :
          maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); }, areas))
       enter(row, nodes, areas, axis, terms.components, 0.0, layout);
   }

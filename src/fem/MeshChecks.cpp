@@ -22,10 +22,6 @@ constexpr double placeTolerance = 1e-10;
 const std::string finer =
     "mesh with smaller elements (of a .geo file by its sizes or a \"Mesh Size Factor\" below 1)";
 
-std::size_t index(LocalOrdinal number) {
-  return static_cast<std::size_t>(number);
-}
-
 /// The checks of one mesh; what they say of nodes and elements is in the file's numbers.
 class Checker {
 public:

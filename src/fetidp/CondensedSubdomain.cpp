@@ -1,5 +1,7 @@
 #include "epafi/fetidp/CondensedSubdomain.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
+
 #include <utility>
 
 namespace epafi::fetidp {
@@ -41,7 +43,7 @@ CondensedSubdomain::CondensedSubdomain(const decomposition::Subdomain& subdomain
   const Eigen::MatrixXd rhs(remainderToCrosspoint_);
   Eigen::MatrixXd response(rhs.rows(), rhs.cols());
   factor_->solve(rhs, response); // Ψ = K_rr⁻¹ K_rc
-  boundaryResponse_ = response(interface_.boundary, Eigen::all);
+  boundaryResponse_ = response(interface_.boundary, allOf);
   schurComplement_ = Eigen::MatrixXd(block(*subdomain.stiffness, crosspoints, crosspoints));
   schurComplement_ -= remainderToCrosspoint_.transpose() * response; // S = K_cc − K_cr Ψ
   schurComplement_ =

@@ -1,5 +1,6 @@
 #include "epafi/fetidp/JointStiffness.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
@@ -85,7 +86,7 @@ Eigen::MatrixXd crosspointResponse(const std::vector<JointPart>& parts) {
     std::vector<Eigen::Index> places;
     for (const decomposition::CoarseNumber crosspoint : part.crosspoints)
       places.push_back(placeOf[crosspoint]);
-    response(Eigen::all, places) += part.response;
+    response(allOf, places) += part.response;
     stiffness(places, places) += part.crosspointStiffness;
     diagonal(places) += part.crosspointDiagonal;
   }

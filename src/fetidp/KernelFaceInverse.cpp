@@ -1,5 +1,6 @@
 #include "epafi/fetidp/KernelFaceInverse.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
@@ -80,7 +81,7 @@ void KernelFaceInverse::setFace(const Vector& face) {
     response_(anchors[static_cast<std::size_t>(i)], i) = delta;
   solveInPlace(response_);
   const direct::SymmetricEigen modes =
-      direct::eigenOf(Eigen::MatrixXd::Identity(numAnchors, numAnchors) - response_(anchors, Eigen::all));
+      direct::eigenOf(Eigen::MatrixXd::Identity(numAnchors, numAnchors) - response_(anchors, allOf));
   constexpr double roundOff = 1e-12; // beside 1
   const Eigen::Index numFree = modes.numUpTo(roundOff), numHeld = numAnchors - numFree;
   const auto held = modes.vectors.rightCols(numHeld);

@@ -1,6 +1,7 @@
 #include "epafi/fetidp/RigidMotion.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
@@ -83,13 +84,13 @@ std::optional<Eigen::VectorXd> looseMotion(const Eigen::MatrixXd& directions, co
         meeting.push_back(j);
     if (meeting.empty())
       return open.col(0);
-    const Eigen::MatrixXd met = all(Eigen::all, meeting);
+    const Eigen::MatrixXd met = all(allOf, meeting);
     const Shortest found = shortest(met, room(meeting).array() - margin);
     if (found.x)
       return open * (found.x->norm() > 0 ? *found.x : Eigen::VectorXd::Unit(open.cols(), 0));
     if (found.excluding.empty())
       return std::nullopt;
-    const Eigen::MatrixXd excluding = met(Eigen::all, found.excluding);
+    const Eigen::MatrixXd excluding = met(allOf, found.excluding);
     const direct::SymmetricEigen spectrum = direct::eigenOf(excluding * excluding.transpose());
     open = (open *
             spectrum.vectors.leftCols(spectrum.numUpTo(ProblemScales::roundOff * spectrum.values.maxCoeff())))

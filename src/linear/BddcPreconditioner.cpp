@@ -1,5 +1,6 @@
 #include "epafi/linear/BddcPreconditioner.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/linear/LinearProblemChecks.hpp"
 #include "epafi/linear/NodalBasis.hpp"
 
@@ -41,14 +42,14 @@ void BoundaryStiffness::apply(const SubdomainVectors& u, SubdomainVectors& force
     output_.resizeLike(input_);
     Eigen::Index place = 0;
     for (const std::size_t member : members) {
-      input_.middleCols(place, columns) = u[member](boundary, Eigen::all);
+      input_.middleCols(place, columns) = u[member](boundary, allOf);
       place += columns;
     }
     blocks_[g]->apply(input_, output_);
     place = 0;
     for (const std::size_t member : members) {
       forces[member].setZero(u[member].rows(), columns);
-      forces[member](boundary, Eigen::all) = output_.middleCols(place, columns);
+      forces[member](boundary, allOf) = output_.middleCols(place, columns);
       place += columns;
     }
   }

@@ -45,6 +45,25 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
                      fault->objection);
 }
 
+/// Gaps are differences of coordinates: what is round-off of these is neither a gap nor an overlap.
+void dropRoundOff(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
+                  ContactLayout& contact) {
+  constexpr double roundOff = 1e-13;
+  const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
+  double largest = std::abs(terms.gap);
+  for (const GlobalOrdinal node : contact.firstNodes)
+    for (const double coordinate : mesh.point(node))
+      largest = std::max(largest, std::abs(coordinate));
+  if (contact.secondBody < 0) {
+    for (const double coordinate : terms.obstacle.point)
+      largest = std::max(largest, std::abs(coordinate));
+    if (terms.obstacle.kind == scene::Obstacle::Kind::sphere)
+      largest = std::max(largest, terms.obstacle.radius);
+  }
+  for (double& gap : contact.gaps)
+    gap = std::abs(gap) <= roundOff * largest ? 0 : gap;
+}
+
 /// ∫N̂ of a row, of all or of a part of the surface; ∫N of a node may be 0.
 double areaAt(const ContactLayout& layout, const std::vector<double>& areas, std::size_t row) {
   if (layout.isDual || layout.smoothed.empty())
@@ -220,6 +239,7 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
     const int components = componentsOf(scene.bodies[static_cast<std::size_t>(terms.first)].physics);
     ContactLayout layout = Coupler(group, bodies, components, supported, tied).layout();
     layout.number = static_cast<int>(group.numbers.front());
+    dropRoundOff(terms, bodies, layout);
     if (!layout.firstShares.empty())
       layout.means += why;
     return layout;

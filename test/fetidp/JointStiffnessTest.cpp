@@ -1,5 +1,6 @@
 #include "Preconditioned.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/JointStiffness.hpp"
 #include "epafi/fetidp/Joints.hpp"
@@ -146,7 +147,7 @@ TEST(JointStiffnessTest, MotionsJumpBetweenClustersAlone) {
     const Eigen::MatrixXd rows = kernelRows(p.problem); // G̃ᵀ
     for (const Joint& joint : jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing)) {
       const Eigen::MatrixXd motions = motionsOf(partsOf(p, joint)),
-                            expected = rows(globalRows(p, joint), Eigen::all);
+                            expected = rows(globalRows(p, joint), allOf);
       EXPECT_LE((motions * motions.transpose() - expected * expected.transpose()).norm(),
                 1e-12 * (1 + expected.squaredNorm()));
       EXPECT_EQ(motions.cols() > 0, expected.norm() > 1e-12);

@@ -1,6 +1,7 @@
 #include "Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
 #include <Eigen/Cholesky>
@@ -48,7 +49,7 @@ Eigen::VectorXd spectrum(const Preconditioned& preconditioned) {
     if (f(i, i) != 0)
       touched.push_back(i);
   const Eigen::MatrixXd rows = kernelRows(preconditioned.problem);
-  const Eigen::MatrixXd z = kernelOf(rows(touched, Eigen::all));
+  const Eigen::MatrixXd z = kernelOf(rows(touched, allOf));
   const Eigen::MatrixXd fz = z.transpose() * f(touched, touched) * z,
                         mz = z.transpose() * m(touched, touched) * z;
   const Eigen::MatrixXd lower = (0.5 * (mz + mz.transpose())).eval().llt().matrixL();

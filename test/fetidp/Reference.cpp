@@ -1,6 +1,7 @@
 #include "Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/EigenCompatibility.hpp"
 
 #include <Eigen/QR>
 #include <Teuchos_Comm.hpp>
@@ -155,7 +156,7 @@ double fieldError(const Field& a, const Field& b) {
 PrimalSolution solveUndecomposed(const model::Decomposition& decomposition) {
   const PrimalProblem primal = assemble(decomposition);
   const Eigen::MatrixXd k = primal.stiffness(primal.unknowns, primal.unknowns),
-                        b = primal.constraint(Eigen::all, primal.unknowns);
+                        b = primal.constraint(allOf, primal.unknowns);
   const Eigen::VectorXd f = primal.load(primal.unknowns);
   const Eigen::Index n = k.rows(), m = b.rows();
   const double unit = k.diagonal().mean(); // forces and gaps compared
@@ -169,8 +170,8 @@ PrimalSolution solveUndecomposed(const model::Decomposition& decomposition) {
     Eigen::MatrixXd saddle = Eigen::MatrixXd::Zero(n + a, n + a);
     Eigen::VectorXd right(n + a);
     saddle.topLeftCorner(n, n) = k / unit;
-    saddle.bottomLeftCorner(a, n) = b(active, Eigen::all);
-    saddle.topRightCorner(n, a) = b(active, Eigen::all).transpose();
+    saddle.bottomLeftCorner(a, n) = b(active, allOf);
+    saddle.topRightCorner(n, a) = b(active, allOf).transpose();
     right << f / unit, primal.gap(active);
     const Eigen::VectorXd solution = saddle.completeOrthogonalDecomposition().solve(right);
     u = solution.head(n);

@@ -1,3 +1,5 @@
+#include "epafi/base/EigenCompatibility.hpp"
+
 #include "DenseOracle.hpp"
 
 #include "DualActiveSet.hpp"
@@ -63,7 +65,7 @@ Point solveHeld(const System& system, const Eigen::VectorXi& held) {
     return point;
   const RealMatrix a = system.hessian(free, free);
   const Eigen::LLT<RealMatrix> cholesky(a);
-  const RealMatrix rows = system.rows(Eigen::all, free);
+  const RealMatrix rows = system.rows(allOf, free);
   Eigen::ColPivHouseholderQR<RealMatrix> qr;
   if (program.numRows() > 0) {
     qr.setThreshold(1e-14L);

@@ -2,6 +2,8 @@
 
 /// Programs with bounds and orthonormal rows, and what their solutions meet.
 
+#include "epafi/base/EigenCompatibility.hpp"
+
 #include "Problems.hpp"
 
 #include <cmath>
@@ -37,7 +39,7 @@ inline double projectedGradient(const EqualityProblem& problem, const Eigen::Vec
     if (x[i] > problem.lower[i])
       free.push_back(i);
   if (problem.g.rows() > 0) {
-    const Eigen::MatrixXd columns = problem.g(Eigen::all, free).transpose();
+    const Eigen::MatrixXd columns = problem.g(allOf, free).transpose();
     g += problem.g.transpose() * columns.colPivHouseholderQr().solve(-g(free)).eval();
   }
   double squared = 0;

@@ -1,6 +1,7 @@
 #include "DenseOracle.hpp"
 #include "QpProblems.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <Tpetra_MultiVector.hpp>
@@ -207,7 +208,7 @@ TEST(QpPreconditioningTest, AProjectorOntoAllFreeEntriesLeavesOnlyTheBoundedOnes
   for (Eigen::Index i = 0; i < program.size(); ++i)
     if (std::isinf(program.lower[i]))
       free.push_back(i);
-  const Eigen::MatrixXd u = Eigen::MatrixXd::Identity(36, 36)(Eigen::all, free);
+  const Eigen::MatrixXd u = Eigen::MatrixXd::Identity(36, 36)(allOf, free);
 
   const QpAnswer answer = solveQp(program, projected(1e-9, u));
 
