@@ -121,7 +121,7 @@ JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalO
 }
 
 /// Areas below this share of the mean are round-off: a node without neighbours in the joint, which has no traction.
-constexpr double roundOff = 1e-9;
+constexpr double roundOffOfArea = 1e-9;
 
 using Tractions = std::map<GlobalOrdinal, Vector3d>; ///< of nodes
 
@@ -149,7 +149,7 @@ TieResult resultOf(const SolvedScene& solved, const ContactLayout& tie) {
         area += share.weight * areas[share.node];
       }
     }
-    if (area > roundOff * mean)
+    if (area > roundOffOfArea * mean)
       result.tractions.try_emplace(tie.firstNodes[row], Vector3d::Zero()).first->second +=
           force / area * directionAt(tie, row);
   }
