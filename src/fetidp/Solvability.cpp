@@ -54,28 +54,35 @@ struct RigidBalance {
   }
 };
 
-/// ẽᵀα must vanish for a motion α that nothing hinders in either direction, G̃ᵀα = 0, and even then α is undetermined.
-void refuseFreeMotion(const RigidBalance& balance) {
+/// Motions α that nothing hinders in either direction, G̃ᵀα = 0, in columns of length 1.
+Eigen::MatrixXd freeMotions(const RigidBalance& balance) {
   const direct::SymmetricEigen spectrum =
       direct::eigenOf(balance.directions * balance.directions.transpose() /
                       static_cast<double>(std::max<Eigen::Index>(balance.directions.cols(), 1)));
-  const Eigen::MatrixXd free = spectrum.vectors.leftCols(
+  return spectrum.vectors.leftCols(
       spectrum.numUpTo(ProblemScales::hindered * ProblemScales::hindered)); // in the root mean square
-  if (free.cols() == 0)
-    return;
+}
+
+/// ẽᵀα must vanish for them.
+void refuseLoadedMotion(const RigidBalance& balance, const Eigen::MatrixXd& free) {
   const Eigen::VectorXd pulls = free.transpose() * balance.load;
   const Eigen::VectorXd motion = free * pulls;
-  if ((pulls.array().abs() >
+  if ((pulls.array().abs() <=
        ProblemScales::resultant * (free.transpose().cwiseAbs() * balance.scales.loads()).array())
-          .any()) {
-    const MotionWords words = balance.words(motion);
-    refuse(Kind::noSolution, words.bodies,
-           " can move without meeting a support or a contact, and the load moves it (resultant ",
-           motion.norm(), along(words, " to "), "); add a support or a contact pair");
-  }
-  refuse(Kind::notUnique,
-         abilitiesOf(balance.problem, balance.scales.motions().cwiseInverse().asDiagonal() * free),
-         " without meeting a support or a contact; add a support or a contact pair");
+          .all())
+    return;
+  const MotionWords words = balance.words(motion);
+  refuse(Kind::noSolution, words.bodies,
+         " can move without meeting a support or a contact, and the load moves it (resultant ", motion.norm(),
+         along(words, " to "), "); add a support or a contact pair");
+}
+
+/// Even then they are undetermined.
+void refuseFreeMotion(const RigidBalance& balance, const Eigen::MatrixXd& free) {
+  if (free.cols() > 0)
+    refuse(Kind::notUnique,
+           abilitiesOf(balance.problem, balance.scales.motions().cwiseInverse().asDiagonal() * free),
+           " without meeting a support or a contact; add a support or a contact pair");
 }
 
 /// The same of motions that nothing but the facets of smooth surfaces hinders: where they lead to is the mesh's.
@@ -118,8 +125,8 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
   if (problem.numRigidModes() == 0)
     return;
   const RigidBalance balance(problem, entries);
-  refuseFreeMotion(balance);
-  refuseSlippingMotion(balance);
+  const Eigen::MatrixXd free = freeMotions(balance);
+  refuseLoadedMotion(balance, free);
 
   const ScaledCone cone(balance);
   const Eigen::VectorXd pulled = cone.imbalance(cone.resultant);
@@ -130,6 +137,8 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
            " along a motion that no contact hinders", along(balance.words(motion), ": "),
            "); turn the load or add a support");
   }
+  refuseFreeMotion(balance, free);
+  refuseSlippingMotion(balance);
 
   // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
   const Eigen::VectorXd mean = cone.directions.rowwise().mean();
@@ -162,7 +171,9 @@ void requireContactForEveryMotion(const DecomposedProblem& problem, const std::v
   if (problem.numRigidModes() == 0)
     return;
   const RigidBalance balance(problem, entries);
-  refuseFreeMotion(balance);
+  const Eigen::MatrixXd free = freeMotions(balance);
+  refuseLoadedMotion(balance, free);
+  refuseFreeMotion(balance, free);
   refuseSlippingMotion(balance);
 }
 

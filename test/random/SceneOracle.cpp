@@ -1,0 +1,362 @@
+#include "SceneOracle.hpp"
+
+#include "../qp/DenseOracle.hpp"
+#include "Cones.hpp"
+#include "UndecomposedSystem.hpp"
+
+#include "epafi/base/Errors.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace epafi::test {
+namespace {
+
+using drivers::UndecomposedSystem;
+using RealSparse = Eigen::SparseMatrix<Real>;
+
+/// The system with rows of length 1, gaps that are round-off of places set to 0, and the rigid motions that supports leave.
+struct Measured {
+  UndecomposedSystem system;
+  double size = 0;              ///< of the scene
+  Eigen::MatrixXd motion;       ///< Z, n × k: the kernel of K; entries of about 1
+  Eigen::MatrixXd rows;         ///< B, m × n, each row of length 1 or 0
+  Eigen::VectorXd lengths, gap; ///< c by the rows' lengths
+  double gapScale = 0;          ///< its largest entry
+  double loadScale = 0;         ///< Σ |f|, or the loads that supports carry if they are more
+
+  Measured(UndecomposedSystem given, const scene::Scene& scene);
+  [[nodiscard]] Eigen::Index numContacts() const { return system.numContacts; }
+
+private:
+  void findMotions();
+};
+
+/// The size of all loads on bodies of some size, those that supports carry at once included.
+double nominalLoad(const scene::Scene& scene, double size) {
+  using Kind = scene::SolidLoad::Kind;
+  double sum = 0;
+  for (const scene::Body& body : scene.bodies)
+    for (const scene::SolidLoad& load : body.loads) {
+      const int extent = dimensionOf(body.physics) - (load.kind == Kind::body ? 0 : 1);
+      sum += std::hypot(load.value[0], load.value[1], load.value[2]) *
+             (load.kind == Kind::point ? 1.0 : std::pow(size, extent));
+    }
+  return sum;
+}
+
+Measured::Measured(UndecomposedSystem given, const scene::Scene& scene)
+    : system(std::move(given)), rows(system.constraint) {
+  size = (system.place.rowwise().maxCoeff() - system.place.rowwise().minCoeff()).norm();
+  lengths = rows.rowwise().norm();
+  gap = system.gap;
+  const double longest = lengths.size() > 0 ? lengths.maxCoeff() : 0;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    if (std::abs(gap[i]) < 1e-12 * longest * (size + system.place.cwiseAbs().maxCoeff()))
+      gap[i] = 0;
+    if (longest > 0 && isClear(lengths[i] / longest, "a row that supports nearly hold")) {
+      rows.row(i) /= lengths[i];
+      gap[i] /= lengths[i];
+    } else {
+      rows.row(i).setZero();
+      lengths[i] = 1;
+    }
+  }
+  gapScale = gap.size() > 0 ? gap.cwiseAbs().maxCoeff() : 0;
+  loadScale = std::max(system.load.cwiseAbs().sum(), nominalLoad(scene, size));
+  findMotions();
+}
+
+/// Among the rigid motions of each body, those that K does not resist.
+void Measured::findMotions() {
+  const Eigen::Index n = system.load.size();
+  const Eigen::VectorXd diagonal = system.stiffness.diagonal();
+  motion.resize(n, 0);
+  const int bodies = n > 0 ? *std::max_element(system.body.begin(), system.body.end()) + 1 : 0;
+  for (int body = 0; body < bodies; ++body) {
+    Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(n, 6);
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    double count = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (system.body[static_cast<std::size_t>(i)] == body) {
+        centre += system.place.col(i);
+        ++count;
+      }
+    if (count == 0)
+      continue;
+    centre /= count;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (system.body[static_cast<std::size_t>(i)] == body) {
+        const Eigen::Vector3d direction = system.direction.col(i),
+                              arm = (system.place.col(i) - centre) / size;
+        rigid.row(i) << direction.transpose(), arm.cross(direction).transpose();
+      }
+    if (system.components == 1)
+      rigid = rigid.leftCols(1).eval();
+    else if (system.components == 2)
+      rigid = rigid(Eigen::all, std::array{0, 1, 5}).eval();
+    // Where supports hold much, motions of what is free may be multiples of each other.
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeThinU);
+    const Eigen::VectorXd& sizes = svd.singularValues();
+    Eigen::Index rank = 0;
+    while (rank < sizes.size() && isClear(sizes[rank] / sizes[0], "motions of what is free"))
+      ++rank;
+    rigid = svd.matrixU().leftCols(rank) * std::sqrt(count);
+    const Eigen::MatrixXd image = diagonal.cwiseInverse().asDiagonal() * (system.stiffness * rigid);
+    const Eigen::MatrixXd free = rigid * nullSpace(image, "motions that supports leave");
+    motion.conservativeResize(Eigen::NoChange, motion.cols() + free.cols());
+    motion.rightCols(free.cols()) = free;
+  }
+}
+
+/// u, λ, α of a problem that has a solution.
+struct Solution {
+  RealVector u, multiplier; ///< λ of rows of length 1
+  Eigen::VectorXd slack;    ///< of the contacts, c − Bu
+};
+
+/// K with springs at as many unknowns as there are motions, which these do not leave at rest: a generalised inverse of K.
+class GeneralisedInverse {
+public:
+  explicit GeneralisedInverse(const Measured& measured)
+      : stiffness_(measured.system.stiffness.cast<Real>()), held_(stiffness_) {
+    if (const Eigen::Index k = measured.motion.cols(); k > 0) {
+      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(measured.motion.transpose());
+      for (Eigen::Index i = 0; i < k; ++i) {
+        const auto unknown = static_cast<int>(qr.colsPermutation().indices()[i]);
+        held_.coeffRef(unknown, unknown) *= 2;
+      }
+    }
+    factor_.compute(held_);
+    if (factor_.info() != Eigen::Success)
+      throw Uncertain{"factor of the stiffness"};
+  }
+
+  [[nodiscard]] RealMatrix solve(const RealMatrix& right) const {
+    RealMatrix x = factor_.solve(right);
+    const RealMatrix left = right - held_ * x;
+    x += factor_.solve(left);
+    return x;
+  }
+  [[nodiscard]] const RealSparse& stiffness() const { return stiffness_; }
+
+private:
+  RealSparse stiffness_, held_;
+  Eigen::SimplicialLDLT<RealSparse> factor_;
+};
+
+/// The dual problem, min ½λᵀFλ − λᵀd, λ_I ≥ 0, Zᵀ(f − Bᵀλ) = 0, in forces of about 1.
+DenseProgram dualProgram(const Measured& measured, const RealMatrix& f, const RealVector& d,
+                         const Eigen::VectorXd& unit) {
+  const Eigen::Index m = d.size();
+  const RealVector scale = unit.cast<Real>();
+  DenseProgram program;
+  program.hessian = (scale.asDiagonal() * f * scale.asDiagonal()).cast<double>();
+  program.linear = scale.cwiseProduct(d).cast<double>();
+  program.lower = Eigen::VectorXd::Constant(m, -std::numeric_limits<double>::infinity());
+  program.lower.head(measured.numContacts()).setZero();
+  program.upper = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::infinity());
+  program.rows = measured.motion.transpose() * measured.rows.transpose() * unit.asDiagonal();
+  program.values = measured.motion.transpose() * measured.system.load;
+  const double size = program.hessian.cwiseAbs().maxCoeff();
+  program.hessian /= size;
+  program.linear /= size;
+  return program;
+}
+
+Solution solutionOf(const Measured& measured) {
+  const Eigen::Index m = measured.gap.size(), n = measured.system.load.size();
+  const GeneralisedInverse inverse(measured);
+  const RealMatrix rows = measured.rows.cast<Real>();
+  const RealVector load = measured.system.load.cast<Real>();
+  Solution solution{RealVector::Zero(n), RealVector::Zero(m), {}};
+  RealVector alpha = RealVector::Zero(measured.motion.cols());
+  if (m > 0) {
+    const RealMatrix f = rows * inverse.solve(rows.transpose());
+    const RealVector d = rows * inverse.solve(load) - measured.gap.cast<Real>();
+    // Forces: of the loads, or of what stiffness makes of gaps.
+    const Eigen::VectorXd diagonal = f.diagonal().cast<double>();
+    const double typical = diagonal.maxCoeff();
+    const double force = std::max(measured.loadScale, static_cast<double>(d.cwiseAbs().maxCoeff()) / typical);
+    const Eigen::VectorXd unit = (diagonal.array() > 1e-12 * typical)
+                                     .select(force * (typical / diagonal.array().max(1e-300)).sqrt(),
+                                             Eigen::ArrayXd::Constant(m, force));
+    if (force > 0) {
+      const OracleAnswer answer = solveByProximalSteps(dualProgram(measured, f, d, unit));
+      if (!answer.isFeasible)
+        throw Uncertain{"equilibrium"};
+      solution.multiplier = answer.x.cwiseProduct(unit.cast<Real>());
+      const Real size =
+          (unit.cast<Real>().asDiagonal() * f * unit.cast<Real>().asDiagonal()).cwiseAbs().maxCoeff();
+      alpha = -answer.multiplier * size;
+    }
+  }
+  solution.u =
+      inverse.solve(load - rows.transpose() * solution.multiplier) + measured.motion.cast<Real>() * alpha;
+  solution.slack = measured.gap - (rows * solution.u).cast<double>();
+  const RealVector left = inverse.stiffness() * solution.u - load + rows.transpose() * solution.multiplier;
+  const double force =
+                   std::max(measured.loadScale, static_cast<double>(solution.multiplier.cwiseAbs().sum())),
+               length = std::max(measured.gapScale, static_cast<double>(solution.u.cwiseAbs().maxCoeff()));
+  const auto contacts = measured.numContacts();
+  const bool fits =
+      static_cast<double>(left.cwiseAbs().maxCoeff()) <= 1e-11 * force &&
+      (contacts == 0 || solution.slack.head(contacts).minCoeff() >= -1e-9 * length) &&
+      (m == contacts || solution.slack.tail(m - contacts).cwiseAbs().maxCoeff() <= 1e-9 * length);
+  if (!fits) // or not a number
+    throw Uncertain{"residuals of the reference"};
+  return solution;
+}
+
+/// Rows of B Z T, by the row.
+Eigen::MatrixXd chosen(const Eigen::MatrixXd& rows, const std::vector<Eigen::Index>& which) {
+  return rows(which, Eigen::all);
+}
+
+/// Rows of closed contacts: those that carry force, and those that do not.
+struct Closed {
+  std::vector<Eigen::Index> pressed, touching;
+};
+
+Closed closedRows(const Measured& measured, const Solution& solution, double force, double length,
+                  double forceLimit, double lengthLimit) {
+  Closed closed;
+  for (Eigen::Index i = 0; i < measured.numContacts(); ++i)
+    if (static_cast<double>(solution.multiplier[i]) > forceLimit * force)
+      closed.pressed.push_back(i);
+    else if (solution.slack[i] < lengthLimit * length)
+      closed.touching.push_back(i);
+  return closed;
+}
+
+/// Whether some motion leaves every closed contact as it is, or opens it at no cost.
+bool restsAnywhere(const Measured& measured, const Solution& solution, const Eigen::MatrixXd& along,
+                   double force, double length) {
+  bool first = true, result = false;
+  for (const double forceLimit : {roundOff, clear})
+    for (const double lengthLimit : {roundOff, clear}) {
+      const Closed closed = closedRows(measured, solution, force, length, forceLimit, lengthLimit);
+      const bool rests = !isPointed(chosen(along, closed.touching), chosen(along, closed.pressed));
+      if (!first && rests != result)
+        throw Uncertain{"contacts that hardly touch"};
+      first = false;
+      result = rests;
+    }
+  return result;
+}
+
+/// The columns of a cone, those of length 0 left out.
+Eigen::MatrixXd directionsOf(const Eigen::MatrixXd& along) {
+  Eigen::MatrixXd directions(along.cols(), along.rows());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < along.rows(); ++i)
+    if (const double length = along.row(i).norm(); isClear(length, "what contacts hinder"))
+      directions.col(count++) = along.row(i).transpose() / length;
+  return directions.leftCols(count);
+}
+
+/// Whether forces along the rows are well determined by what they do to nodes.
+bool areIndependent(const Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0 || rows.rows() > rows.cols())
+    return rows.rows() == 0;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  return qr.matrixR().diagonal().cwiseAbs().minCoeff() > 1e-2;
+}
+
+void fill(const Measured& measured, const Solution& solution, double force, Truth& truth) {
+  const UndecomposedSystem& system = measured.system;
+  const Eigen::VectorXd u = solution.u.cast<double>();
+  const double strain = 0.5 * u.dot(system.stiffness * u), work = system.load.dot(u);
+  truth.energy = strain - work + system.energyOffset;
+  // Where there is nothing else, round-off of places:
+  const double stiffness = std::exp(system.stiffness.diagonal().array().log().mean());
+  truth.largest = 1e-6 * force / stiffness + 1e-7 * measured.size;
+  truth.energyScale = std::max(strain + std::abs(work) + std::abs(system.energyOffset),
+                               stiffness * truth.largest * truth.largest);
+  const Eigen::VectorXd lambda = solution.multiplier.cast<double>().cwiseQuotient(measured.lengths);
+  truth.force = lambda.head(measured.numContacts()).sum();
+  std::vector<Eigen::Index> active;
+  for (Eigen::Index i = 0; i < measured.gap.size(); ++i)
+    if (i >= measured.numContacts() || static_cast<double>(solution.multiplier[i]) > roundOff * force)
+      active.push_back(i);
+  if (areIndependent(chosen(measured.rows, active)))
+    truth.forceScale = std::max(force, lambda.cwiseAbs().sum());
+  truth.displacement = system.valuesOf(u);
+  for (const Eigen::VectorXd& values : truth.displacement)
+    truth.largest = std::max(truth.largest, values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0);
+}
+
+} // namespace
+
+std::string toString(Verdict verdict) {
+  static const std::array<const char*, 6> names{"solved",        "no solution", "not unique",
+                                                "contradiction", "wrong input", "not converged"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+Truth truthOf(const scene::Scene& scene) {
+  Truth truth;
+  std::optional<UndecomposedSystem> system;
+  try {
+    system = drivers::undecomposedSystem(scene);
+  } catch (const InputError& error) {
+    return {Verdict::wrongInput, error.what()};
+  } catch (const SolvabilityError& error) {
+    return {Verdict::contradiction, error.what()};
+  }
+  const Measured measured(std::move(*system), scene);
+  const Eigen::Index contacts = measured.numContacts(), ties = measured.gap.size() - contacts;
+  const Eigen::MatrixXd meeting = measured.rows * measured.motion;
+  const Eigen::MatrixXd joint = nullSpace(meeting.bottomRows(ties), "motions that ties leave");
+  const Eigen::MatrixXd along = meeting.topRows(contacts) * joint;
+  const Eigen::MatrixXd directions = directionsOf(along);
+  truth.isFree = joint.cols() > 0 && nullSpace(directions.transpose(), "what contacts hinder").cols() > 0;
+  if (measured.gapScale > 0 && !isFeasible(measured.rows, measured.gap / measured.gapScale, contacts)) {
+    truth.verdict = Verdict::contradiction;
+    truth.reason = "no displacement";
+    return truth;
+  }
+  if (joint.cols() > 0 && measured.loadScale > 0) {
+    const Eigen::VectorXd e =
+        joint.transpose() * (measured.motion.transpose() * measured.system.load) / measured.loadScale;
+    if (isClear(imbalance(directions, e).norm(), "loads on motions")) {
+      truth.verdict = Verdict::noSolution;
+      truth.reason = "loads on " + std::to_string(joint.cols()) + " motions are not balanced";
+      return truth;
+    }
+  }
+  if (truth.isFree) {
+    truth.verdict = Verdict::notUnique;
+    truth.reason = "a motion meets nothing";
+    return truth;
+  }
+  Solution solution;
+  try {
+    solution = solutionOf(measured);
+  } catch (const std::runtime_error&) {
+    throw Uncertain{"end of the reference"};
+  }
+  const double length = std::max(measured.gapScale, static_cast<double>(solution.u.cwiseAbs().maxCoeff()));
+  const Eigen::VectorXd diagonal = measured.system.stiffness.diagonal();
+  double force = std::max(measured.loadScale, static_cast<double>(solution.multiplier.cwiseAbs().sum()));
+  force = std::max(force, measured.gapScale * std::exp(diagonal.array().log().mean()) * 1e-3);
+  if (joint.cols() > 0 && restsAnywhere(measured, solution, along, force, length)) {
+    truth.verdict = Verdict::notUnique;
+    truth.reason = "no force holds a motion";
+    return truth;
+  }
+  fill(measured, solution, force, truth);
+  return truth;
+}
+
+} // namespace epafi::test
