@@ -97,7 +97,7 @@ bool isFeasible(const Eigen::MatrixXd& c, const Eigen::VectorXd& s, Eigen::Index
   const Eigen::VectorXd bonds = s.tail(s.size() - numInequalities);
   if (bonds.isZero(0) && (numInequalities == 0 || s.head(numInequalities).minCoeff() >= 0))
     return true;
-  constexpr double farthest = 1e4;
+  constexpr double farthest = 1e2;
   if (shortest(c, s, numInequalities) <= farthest)
     return true;
   // With a little more room, a bond being two inequalities:
@@ -106,7 +106,7 @@ bool isFeasible(const Eigen::MatrixXd& c, const Eigen::VectorXd& s, Eigen::Index
   both << c, -c.bottomRows(numEqualities);
   Eigen::VectorXd room(both.rows());
   room << s, -bonds;
-  if (shortest(both, room.array() + clear, both.rows()) <= 1e2 * farthest)
+  if (shortest(both, room.array() + clear, both.rows()) <= 1e4 * farthest)
     throw Uncertain{"room"};
   return false;
 }

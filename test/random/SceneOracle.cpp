@@ -64,7 +64,9 @@ Measured::Measured(UndecomposedSystem given, const scene::Scene& scene)
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     if (std::abs(gap[i]) < 1e-12 * longest * (size + system.place.cwiseAbs().maxCoeff()))
       gap[i] = 0;
-    if (longest > 0 && isClear(lengths[i] / longest, "a row that supports nearly hold")) {
+    if (lengths[i] > roundOff * longest) {
+      if (lengths[i] < 1e-3 * longest)
+        throw Uncertain{"a row that supports nearly hold"};
       rows.row(i) /= lengths[i];
       gap[i] /= lengths[i];
     } else {
