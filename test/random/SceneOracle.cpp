@@ -2,124 +2,24 @@
 
 #include "../qp/DenseOracle.hpp"
 #include "Cones.hpp"
-#include "UndecomposedSystem.hpp"
+#include "MeasuredSystem.hpp"
 
 #include "epafi/base/Errors.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <stdexcept>
-#include <utility>
 
 namespace epafi::test {
 namespace {
 
 using drivers::UndecomposedSystem;
 using RealSparse = Eigen::SparseMatrix<Real>;
-
-/// The system with rows of length 1, gaps that are round-off of places set to 0, and the rigid motions that supports leave.
-struct Measured {
-  UndecomposedSystem system;
-  double size = 0;              ///< of the scene
-  Eigen::MatrixXd motion;       ///< Z, n × k: the kernel of K; entries of about 1
-  Eigen::MatrixXd rows;         ///< B, m × n, each row of length 1 or 0
-  Eigen::VectorXd lengths, gap; ///< c by the rows' lengths
-  double gapScale = 0;          ///< its largest entry
-  double loadScale = 0;         ///< Σ |f|, or the loads that supports carry if they are more
-
-  Measured(UndecomposedSystem given, const scene::Scene& scene);
-  [[nodiscard]] Eigen::Index numContacts() const { return system.numContacts; }
-
-private:
-  void findMotions();
-};
-
-/// The size of all loads on bodies of some size, those that supports carry at once included.
-double nominalLoad(const scene::Scene& scene, double size) {
-  using Kind = scene::SolidLoad::Kind;
-  double sum = 0;
-  for (const scene::Body& body : scene.bodies)
-    for (const scene::SolidLoad& load : body.loads) {
-      const int extent = dimensionOf(body.physics) - (load.kind == Kind::body ? 0 : 1);
-      sum += std::hypot(load.value[0], load.value[1], load.value[2]) *
-             (load.kind == Kind::point ? 1.0 : std::pow(size, extent));
-    }
-  return sum;
-}
-
-Measured::Measured(UndecomposedSystem given, const scene::Scene& scene)
-    : system(std::move(given)), rows(system.constraint) {
-  size = (system.place.rowwise().maxCoeff() - system.place.rowwise().minCoeff()).norm();
-  lengths = rows.rowwise().norm();
-  gap = system.gap;
-  const double longest = lengths.size() > 0 ? lengths.maxCoeff() : 0;
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    if (std::abs(gap[i]) < 1e-12 * longest * (size + system.place.cwiseAbs().maxCoeff()))
-      gap[i] = 0;
-    if (lengths[i] > roundOff * longest) {
-      if (lengths[i] < 1e-3 * longest)
-        throw Uncertain{"a row that supports nearly hold"};
-      rows.row(i) /= lengths[i];
-      gap[i] /= lengths[i];
-    } else {
-      rows.row(i).setZero();
-      lengths[i] = 1;
-    }
-  }
-  gapScale = gap.size() > 0 ? gap.cwiseAbs().maxCoeff() : 0;
-  loadScale = std::max(system.load.cwiseAbs().sum(), nominalLoad(scene, size));
-  findMotions();
-}
-
-/// Among the rigid motions of each body, those that K does not resist.
-void Measured::findMotions() {
-  const Eigen::Index n = system.load.size();
-  const Eigen::VectorXd diagonal = system.stiffness.diagonal();
-  motion.resize(n, 0);
-  const int bodies = n > 0 ? *std::max_element(system.body.begin(), system.body.end()) + 1 : 0;
-  for (int body = 0; body < bodies; ++body) {
-    Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(n, 6);
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double count = 0;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (system.body[static_cast<std::size_t>(i)] == body) {
-        centre += system.place.col(i);
-        ++count;
-      }
-    if (count == 0)
-      continue;
-    centre /= count;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (system.body[static_cast<std::size_t>(i)] == body) {
-        const Eigen::Vector3d direction = system.direction.col(i),
-                              arm = (system.place.col(i) - centre) / size;
-        rigid.row(i) << direction.transpose(), arm.cross(direction).transpose();
-      }
-    if (system.components == 1)
-      rigid = rigid.leftCols(1).eval();
-    else if (system.components == 2)
-      rigid = rigid(Eigen::all, std::array{0, 1, 5}).eval();
-    // Where supports hold much, motions of what is free may be multiples of each other.
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeThinU);
-    const Eigen::VectorXd& sizes = svd.singularValues();
-    Eigen::Index rank = 0;
-    while (rank < sizes.size() && isClear(sizes[rank] / sizes[0], "motions of what is free"))
-      ++rank;
-    rigid = svd.matrixU().leftCols(rank) * std::sqrt(count);
-    const Eigen::MatrixXd image = diagonal.cwiseInverse().asDiagonal() * (system.stiffness * rigid);
-    const Eigen::MatrixXd free = rigid * nullSpace(image, "motions that supports leave");
-    motion.conservativeResize(Eigen::NoChange, motion.cols() + free.cols());
-    motion.rightCols(free.cols()) = free;
-  }
-}
 
 /// u, λ, α of a problem that has a solution.
 struct Solution {
@@ -298,25 +198,31 @@ void fill(const Measured& measured, const Solution& solution, double force, Trut
     truth.largest = std::max(truth.largest, values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0);
 }
 
-} // namespace
-
-std::string toString(Verdict verdict) {
-  static const std::array<const char*, 6> names{"solved",        "no solution", "not unique",
-                                                "contradiction", "wrong input", "not converged"};
-  return names[static_cast<std::size_t>(verdict)];
+/// The solution, if bodies do not rest anywhere. \param along  rows of the contacts by the motions that ties leave
+Truth restOf(const Measured& measured, const Eigen::MatrixXd& along) {
+  Truth truth;
+  Solution solution;
+  try {
+    solution = solutionOf(measured);
+  } catch (const std::runtime_error&) {
+    throw Uncertain{"end of the reference"};
+  }
+  const double length = std::max(measured.gapScale, static_cast<double>(solution.u.cwiseAbs().maxCoeff()));
+  const Eigen::VectorXd diagonal = measured.system.stiffness.diagonal();
+  double force = std::max(measured.loadScale, static_cast<double>(solution.multiplier.cwiseAbs().sum()));
+  force = std::max(force, measured.gapScale * std::exp(diagonal.array().log().mean()) * 1e-3);
+  if (along.cols() > 0 && restsAnywhere(measured, solution, along, force, length)) {
+    truth.verdict = Verdict::notUnique;
+    truth.reason = "no force holds a motion";
+    return truth;
+  }
+  fill(measured, solution, force, truth);
+  return truth;
 }
 
-Truth truthOf(const scene::Scene& scene) {
+/// What is true of a system that could be assembled.
+Truth truthOf(const Measured& measured) {
   Truth truth;
-  std::optional<UndecomposedSystem> system;
-  try {
-    system = drivers::undecomposedSystem(scene);
-  } catch (const InputError& error) {
-    return {Verdict::wrongInput, error.what()};
-  } catch (const SolvabilityError& error) {
-    return {Verdict::contradiction, error.what()};
-  }
-  const Measured measured(std::move(*system), scene);
   const Eigen::Index contacts = measured.numContacts(), ties = measured.gap.size() - contacts;
   const Eigen::MatrixXd meeting = measured.rows * measured.motion;
   const Eigen::MatrixXd joint = nullSpace(meeting.bottomRows(ties), "motions that ties leave");
@@ -342,23 +248,25 @@ Truth truthOf(const scene::Scene& scene) {
     truth.reason = "a motion meets nothing";
     return truth;
   }
-  Solution solution;
+  return restOf(measured, along);
+}
+
+} // namespace
+
+std::string toString(Verdict verdict) {
+  static const std::array<const char*, 6> names{"solved",        "no solution", "not unique",
+                                                "contradiction", "wrong input", "not converged"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+Truth truthOf(const scene::Scene& scene) {
   try {
-    solution = solutionOf(measured);
-  } catch (const std::runtime_error&) {
-    throw Uncertain{"end of the reference"};
+    return truthOf(Measured(drivers::undecomposedSystem(scene), scene));
+  } catch (const InputError& error) {
+    return {Verdict::wrongInput, error.what()};
+  } catch (const SolvabilityError& error) {
+    return {Verdict::contradiction, error.what()};
   }
-  const double length = std::max(measured.gapScale, static_cast<double>(solution.u.cwiseAbs().maxCoeff()));
-  const Eigen::VectorXd diagonal = measured.system.stiffness.diagonal();
-  double force = std::max(measured.loadScale, static_cast<double>(solution.multiplier.cwiseAbs().sum()));
-  force = std::max(force, measured.gapScale * std::exp(diagonal.array().log().mean()) * 1e-3);
-  if (joint.cols() > 0 && restsAnywhere(measured, solution, along, force, length)) {
-    truth.verdict = Verdict::notUnique;
-    truth.reason = "no force holds a motion";
-    return truth;
-  }
-  fill(measured, solution, force, truth);
-  return truth;
 }
 
 } // namespace epafi::test
