@@ -11,7 +11,7 @@ namespace epafi::contact {
 struct ContactPlace {
   /// One of the two bodies.
   struct Side {
-    int body = -1;                  ///< −1: an obstacle
+    int body = -1;
     Eigen::Vector3d place{0, 0, 0}; ///< the mean of what the row takes of it
     Eigen::Vector3d normal{0, 0,
                            0}; ///< of its smooth surface, of length 1, from the first body to the second

@@ -42,33 +42,30 @@ private:
 } // namespace
 
 ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
-                     const std::optional<SmoothSide>& second) {
+                     const SmoothSide& second) {
   const std::size_t components = contact.directions.size() / contact.firstNodes.size();
   Vector3d direction(0, 0, 0);
   for (std::size_t c = 0; c < components; ++c)
     direction[static_cast<Eigen::Index>(c)] = contact.directions[row * components + c];
-  Share mine(first);
+  Share mine(first), theirs(second);
   contact.forEachFirst(row, [&](const NodeShare& share) { mine.add(share); });
-  std::optional<UncertainNormal> here = mine.normal(), there = UncertainNormal{direction, 0};
-  ContactPlace place{contact.firstRow + static_cast<GlobalOrdinal>(row), {}, {}};
-  place.first = {contact.firstBody, mine.place(), direction, 0};
-  place.second = {contact.secondBody, mine.place(), direction, 0};
-  if (second) {
-    Share theirs(*second);
-    for (const NodeShare& share : contact.secondNodes[row])
-      theirs.add(share);
-    place.second.place = theirs.place();
-    there = theirs.normal();
-    if (there)
-      there->direction *= -1;
-  }
-  for (ContactPlace::Side* side : {&place.first, &place.second}) {
-    const auto &own = side == &place.first ? here : there, &other = side == &place.first ? there : here;
-    if (const auto& known = own ? own : other) {
-      side->normal = known->direction;
-      side->uncertainty = known->uncertainty;
+  for (const NodeShare& share : contact.secondNodes[row])
+    theirs.add(share);
+  const std::optional<UncertainNormal> here = mine.normal();
+  std::optional<UncertainNormal> there = theirs.normal();
+  if (there)
+    there->direction *= -1;
+  ContactPlace place{contact.firstRow + static_cast<GlobalOrdinal>(row),
+                     {contact.firstBody, mine.place(), direction, 0},
+                     {contact.secondBody, theirs.place(), direction, 0}};
+  const auto know = [](ContactPlace::Side& side, const std::optional<UncertainNormal>& known) {
+    if (known) {
+      side.normal = known->direction;
+      side.uncertainty = known->uncertainty;
     }
-  }
+  };
+  know(place.first, here ? here : there);
+  know(place.second, there ? there : here);
   return place;
 }
 

@@ -6,10 +6,6 @@
 #include "epafi/contact/ContactPlace.hpp"
 #include "epafi/contact/SmoothSurface.hpp"
 
-#include <Eigen/Core>
-
-#include <optional>
-
 namespace epafi::contact {
 
 /// One side of a contact; refers to what it is made of.
@@ -19,9 +15,8 @@ struct SmoothSide {
 };
 
 /// Of a row. Where a side has an edge, the other's normal counts, where both do, the row's direction.
-/// \param second  nothing: an obstacle, whose normals are the rows' directions
 /// Precondition: of 2 or 3 components. Not collective.
 ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
-                     const std::optional<SmoothSide>& second);
+                     const SmoothSide& second);
 
 } // namespace epafi::contact

@@ -42,7 +42,9 @@ std::vector<contact::ContactPlace> contactPlaces(const std::vector<BodyLayout>& 
     return body >= 0 && models[static_cast<std::size_t>(body)]->kernelDimension() > 0;
   };
   for (const contact::ContactLayout& contact : contacts) {
-    if (models.front()->components() == 1 || !(floats(contact.firstBody) || floats(contact.secondBody)))
+    // Normals of obstacles are exact, and membranes have none.
+    if (models.front()->components() == 1 || contact.secondBody < 0 ||
+        !(floats(contact.firstBody) || floats(contact.secondBody)))
       continue;
     std::optional<Smooth> first, second; // once a row asks for them
     for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
@@ -50,11 +52,9 @@ std::vector<contact::ContactPlace> contactPlaces(const std::vector<BodyLayout>& 
         continue;
       if (!first) {
         first.emplace(bodies[static_cast<std::size_t>(contact.firstBody)], contact.firstSurfaces);
-        if (contact.secondBody >= 0)
-          second.emplace(bodies[static_cast<std::size_t>(contact.secondBody)], contact.secondSurfaces);
+        second.emplace(bodies[static_cast<std::size_t>(contact.secondBody)], contact.secondSurfaces);
       }
-      places.push_back(
-          placeOf(contact, row, first->side(), second ? std::optional(second->side()) : std::nullopt));
+      places.push_back(placeOf(contact, row, first->side(), second->side()));
     }
   }
   return places;
