@@ -54,7 +54,8 @@ public:
   /// Whether a node's normal is the mean of several faces.
   [[nodiscard]] bool isBent(std::size_t place) const { return isBent_[place] != 0; }
   /// \param isHeld  of places of nodes
-  [[nodiscard]] std::vector<MortarRow> rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const;
+  [[nodiscard]] std::vector<MortarRow> rows(const std::function<bool(std::size_t)>& isHeld,
+                                            RowAreas& areas) const;
   /// From the mean place of a row's first side to that of its second.
   [[nodiscard]] Vector3d apart(const MortarRow& row) const;
 
@@ -68,7 +69,8 @@ private:
   void spread(std::vector<std::size_t>& representative) const;
   void add(const MortarFacet& facet, const std::vector<std::size_t>& representative,
            VectorXd& integralsOfRows, RowAreas& areas, Sums& first, Sums& second) const;
-  [[nodiscard]] Vector3d relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const MortarRow& row) const;
+  [[nodiscard]] Vector3d relativePlace(const NodePoints& pointAt, GlobalOrdinal node,
+                                       const MortarRow& row) const;
   void balanceMoment(MortarRow& row) const;
 
   const PlacedSurface &first_, &second_;
@@ -295,7 +297,8 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   layout.name = terms.name;
   layout.isDual = first.surface.facetType == fem::CellType::triangle6;
   RowAreas areas(terms, nodes.nodes.size());
-  for (const MortarRow& row : maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, areas)) {
+  for (const MortarRow& row :
+       maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, areas)) {
     double gap = terms.gap;
     if (terms.components > 1)
       gap += nodes.normals[row.place].dot(maker.apart(row));

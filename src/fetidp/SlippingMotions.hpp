@@ -27,6 +27,7 @@ Eigen::MatrixXd slippingMotions(const decomposition::DecomposedProblem& problem,
 
 /// What is to be said of them after what the bodies can do.
 inline constexpr const char* facetsAlone =
-    ", which only the facets of its surfaces hinder: smooth ones would not; add a support, or hold a piece of the surface along it";
+    ", which only the facets of its surfaces hinder: smooth ones would not; add a support, or hold a piece "
+    "of the surface along it";
 
 } // namespace epafi::fetidp

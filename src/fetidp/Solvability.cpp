@@ -168,13 +168,8 @@ bool contactsOppose(const DecomposedProblem& problem, const std::vector<KernelEn
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  if (problem.numRigidModes() == 0)
-    return;
-  const RigidBalance balance(problem, entries);
-  const Eigen::MatrixXd free = freeMotions(balance);
-  refuseLoadedMotion(balance, free);
-  refuseFreeMotion(balance, free);
-  refuseSlippingMotion(balance);
+  if (problem.numRigidModes() > 0 && freeMotions(RigidBalance(problem, entries)).cols() > 0)
+    requireUniqueSolution(problem, entries); // which says what the loads there are make of it
 }
 
 } // namespace epafi::fetidp

@@ -164,7 +164,7 @@ void addTie(const SolvedScene& solved, const ContactLayout& layout, Teuchos::Par
   const bool areSwapped =
       layout.firstBody != solved.scene.contacts[static_cast<std::size_t>(layout.number)].first;
   const Vector3d resultant = (areSwapped ? 1.0 : -1.0) * sums.resultant();
-  list.set("Nodes", sumOverRanks(solved.comm(), static_cast<GlobalOrdinal>(traction.size())))
+  list.set("Nodes", static_cast<GlobalOrdinal>(traction.size()))
       .set("Resultant", Teuchos::Array<double>(Teuchos::tuple(resultant[0], resultant[1], resultant[2])))
       .set("Largest Traction", largest);
   sums.addImbalance(list);

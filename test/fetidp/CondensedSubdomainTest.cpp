@@ -57,8 +57,7 @@ TEST(CondensedSubdomainTest, CouplesCrosspointsAsDenseEliminationDoes) {
   forEachSubdomain([](const Compared& s) {
     const Eigen::MatrixXd psi = s.inverse * s.krc;
     expectNear(s.condensed.crosspointResponse(), psi, 1 + psi.norm());
-    expectNear(s.condensed.boundaryResponse(), psi(s.condensed.interface().boundary, allOf),
-               1 + psi.norm());
+    expectNear(s.condensed.boundaryResponse(), psi(s.condensed.interface().boundary, allOf), 1 + psi.norm());
     expectNear(s.condensed.schurComplement(), s.kcc - s.krc.transpose() * psi, s.kcc.norm());
     EXPECT_EQ(s.condensed.schurComplement(), s.condensed.schurComplement().transpose());
     expectNear(Eigen::MatrixXd(s.condensed.remainderToCrosspoint()), s.krc, 0);

@@ -1,5 +1,7 @@
 #include "Cones.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
+
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -44,7 +46,7 @@ Eigen::VectorXd imbalance(const Eigen::MatrixXd& a, const Eigen::VectorXd& targe
       break;
     free.push_back(next);
     while (true) {
-      const Eigen::VectorXd y = Eigen::MatrixXd(a(Eigen::all, free)).colPivHouseholderQr().solve(target);
+      const Eigen::VectorXd y = Eigen::MatrixXd(a(allOf, free)).colPivHouseholderQr().solve(target);
       double share = 1;
       Eigen::Index blocking = -1;
       for (std::size_t k = 0; k < free.size(); ++k)

@@ -2,6 +2,8 @@
 
 #include "Cones.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
+
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
@@ -79,7 +81,7 @@ void Measured::findMotions() {
     if (system.components == 1)
       rigid = rigid.leftCols(1).eval();
     else if (system.components == 2)
-      rigid = rigid(Eigen::all, std::array{0, 1, 5}).eval();
+      rigid = rigid(allOf, std::array{0, 1, 5}).eval();
     // Where supports hold much, motions of what is free may be multiples of each other.
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeThinU);
     const Eigen::VectorXd& sizes = svd.singularValues();

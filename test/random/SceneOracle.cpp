@@ -4,6 +4,7 @@
 #include "Cones.hpp"
 #include "MeasuredSystem.hpp"
 
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 
 #include <Eigen/QR>
@@ -122,7 +123,7 @@ Solution solutionOf(const Measured& measured) {
 
 /// Rows of B Z T, by the row.
 Eigen::MatrixXd chosen(const Eigen::MatrixXd& rows, const std::vector<Eigen::Index>& which) {
-  return rows(which, Eigen::all);
+  return rows(which, allOf);
 }
 
 /// Rows of closed contacts: those that carry force, and those that do not.
