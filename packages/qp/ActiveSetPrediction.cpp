@@ -28,7 +28,7 @@ constexpr int mostDoublings = 6;         ///< of the pause after predictions tha
 
 /// A number that tells faces from each other, the same on all ranks. Collective, one message.
 double fingerprintOf(const Vector& face) {
-  constexpr std::uint64_t mask = (std::uint64_t(1) << 40) - 1; // sums over the ranks are exact
+  constexpr std::uint64_t mask = (std::uint64_t{1} << 40) - 1; // sums over the ranks are exact
   const auto isFree = localData(face);
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < isFree.size(); ++i)

@@ -323,7 +323,7 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
          maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); }, areas))
       enter(row, nodes, areas, axis, terms.components, 0.0, layout);
   }
-  requireRows(terms, layout);
+  requireMortarRows(terms, layout);
   layout.isDual = first.surface.facetType == fem::CellType::triangle6;
   smoothRows(first.surface, layout);
   return layout;

@@ -93,7 +93,7 @@ private:
     Vector3d centre(0, 0, 0);
     for (const GlobalOrdinal node : nodes) {
       patch.nodes.push_back(node);
-      patch.places.push_back(placeOf(second_, node) - origin);
+      patch.places.emplace_back(placeOf(second_, node) - origin);
       centre += patch.places.back() / static_cast<double>(nodes.size());
     }
     Matrix3d inertia = Matrix3d::Zero();

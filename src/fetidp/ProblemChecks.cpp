@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 
 #include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include <cmath>
 #include <string>
