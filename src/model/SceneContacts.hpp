@@ -42,7 +42,7 @@ SupportedNodes supportedNodes(const std::vector<std::unique_ptr<fem::BodyModel>>
 /// supported, if two pairs share an edge of a body (a common corner is fine), if a surface is not there, or if a contact adds no
 /// row to those before; SolvabilityError if two contacts leave a node no room. Not collective (every rank finds the same).
 SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
-                             const SupportedNodes& supported);
+                             const SupportedNodes& supports);
 
 /// The rows of one contact or tied joint: of pairs of nodes where the surfaces match, else by mortars, whose multipliers the
 /// first surface carries unless the terms say otherwise. `firstRow` is left to the caller. Not collective.
