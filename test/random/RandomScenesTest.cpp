@@ -6,7 +6,9 @@
 #include "RandomNumbers.hpp"
 #include "SceneOutcome.hpp"
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_XMLParameterListHelpers.hpp>
+#include <Tpetra_Core.hpp>
 
 #include <csignal>
 #include <cstdio>

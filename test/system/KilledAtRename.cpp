@@ -30,7 +30,9 @@ struct Plan {
 
 } // namespace
 
-extern "C" int rename(const char* from, const char* to) noexcept {
+extern "C" int renameOrDie(const char* from, const char* to) noexcept __asm__("rename"); // in place of the system's
+
+extern "C" int renameOrDie(const char* from, const char* to) noexcept {
   static Plan plan;
   if (++plan.count == plan.number)
     std::raise(SIGKILL);
