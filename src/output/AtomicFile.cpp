@@ -108,6 +108,17 @@ fs::path temporaryBeside(const fs::path& file, const Comm& comm) {
   return agreedText(comm, path);
 }
 
+void removeTemporary(const fs::path& temporary) noexcept try {
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  const std::string name = temporary.filename().string() + '-';
+  for (const fs::directory_entry& entry : fs::directory_iterator(temporary.parent_path(), ignored))
+    if (entry.path().filename().string().starts_with(name))
+      fs::remove(entry.path(), ignored);
+} catch (...) {
+  // A hidden file stays.
+}
+
 void createForAll(const fs::path& temporary, const Comm& comm) {
   collectively(comm, [&] {
     if (comm.getRank() == 0)

@@ -21,6 +21,10 @@ void prepareTarget(const std::filesystem::path& file, const Comm& comm);
 /// no file. Collective.
 std::filesystem::path temporaryBeside(const std::filesystem::path& file, const Comm& comm);
 
+/// Removes `temporary` and what MPI has made beside it (Open MPI's "<its name>-<job>-<process>.lock", which stays where a file could not be
+/// closed). Says nothing of failures. Not collective.
+void removeTemporary(const std::filesystem::path& temporary) noexcept;
+
 /// Makes `temporary`, empty, from rank 0, for all ranks to open. Collective. \throws InputError if a rank does not see it
 /// there, on a disk of its own perhaps; Error if it cannot be made.
 void createForAll(const std::filesystem::path& temporary, const Comm& comm);

@@ -38,7 +38,8 @@ public:
   /// Gives all files their names. \throws Error naming those that could not be put in place; the others are.
   void publish();
 
-  [[nodiscard]] const Comm& comm() const { return *comm_; }
+  [[nodiscard]] const Comm& comm() const { return *comm_; } ///< of the ranks that write
+  /// Whether files are on the disk itself before they get their names.
   [[nodiscard]] bool syncs() const { return syncs_; }
 
 private:

@@ -176,8 +176,7 @@ Hdf5File::~Hdf5File() {
 
 void Hdf5File::forget() noexcept {
   file_ = -1;
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  removeTemporary(temporary_);
 }
 
 /// Runs `work`, and remembers whether it threw what all ranks agree on: an Error of ours, nothing else.
@@ -215,9 +214,8 @@ void Hdf5File::abandon() noexcept {
     }
   }
   file_ = -1;
-  std::error_code ignored;
   if (comm_->getRank() == 0)
-    std::filesystem::remove(temporary_, ignored);
+    removeTemporary(temporary_);
 }
 
 void Hdf5File::createGroup(const std::string& group) {

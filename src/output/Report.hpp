@@ -22,6 +22,7 @@ void writeReport(const Teuchos::ParameterList& report, const std::filesystem::pa
 /// constraint_residual, objective, active_bounds, hessian_multiplications; numbers in the shortest form that
 /// reads back exactly. Directory, collectivity and errors as above.
 void writeHistory(const qp::History& history, const std::filesystem::path& file, const Comm& comm);
+/// The same, for a file that gets its name with others.
 void writeHistory(const qp::History& history, const std::filesystem::path& file, FileSet& together);
 
 } // namespace epafi::output
