@@ -29,11 +29,12 @@ inline auto localIndices(const Tpetra::Map<>& map) {
 
 /// Whether a Teuchos::any holds something (its method was renamed). Not collective.
 template <class Any>
-bool holdsValue(const Any& any) {
-  if constexpr (requires { any.has_value(); })
-    return any.has_value();
-  else
-    return !any.empty();
+auto holdsValue(const Any& any) -> decltype(any.has_value(), bool()) {
+  return any.has_value();
+}
+template <class Any, class... None>
+auto holdsValue(const Any& any, const None&...) -> decltype(any.empty(), bool()) {
+  return !any.empty();
 }
 
 } // namespace epafi

@@ -221,7 +221,7 @@ Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
 
 /// Shapes that are meshes are not meshed anew: without their triangles nothing is left.
 TEST_F(GmshGeometryTest, LeavesShapesThatAreMeshesAsTheyAre) {
-  folder.write("plate.msh", test::plate41);
+  ASSERT_NE(folder.write("plate.msh", test::plate41), "");
   const std::string merged = folder.write("merged.geo", "Merge \"plate.msh\";\n");
   EXPECT_EQ(GmshFile(merged).body("").numElements(), 2);
   EXPECT_EQ(textOfGeometry(merged, 1, SizeField({2, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {1, 1, 1}})), "");
