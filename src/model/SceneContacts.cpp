@@ -45,12 +45,12 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
                      fault->objection);
 }
 
-/// Gaps are differences of coordinates: what is round-off of these is neither a gap nor an overlap.
+/// Gaps are differences of coordinates, beside what the scene gives: what is round-off of these is neither a gap nor an overlap.
 void dropRoundOff(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
                   ContactLayout& contact) {
   constexpr double roundOff = 1e-13;
   const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
-  double largest = std::abs(terms.gap);
+  double largest = 0;
   for (const GlobalOrdinal node : contact.firstNodes)
     for (const double coordinate : mesh.point(node))
       largest = std::max(largest, std::abs(coordinate));
@@ -61,7 +61,7 @@ void dropRoundOff(const scene::SurfaceContact& terms, const std::vector<BodyLayo
       largest = std::max(largest, terms.obstacle.radius);
   }
   for (double& gap : contact.gaps)
-    gap = std::abs(gap) <= roundOff * largest ? 0 : gap;
+    gap = std::abs(gap - terms.gap) <= roundOff * largest ? terms.gap : gap;
 }
 
 /// ∫N̂ of a row, of all or of a part of the surface; ∫N of a node may be 0.
