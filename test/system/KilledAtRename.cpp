@@ -30,7 +30,8 @@ struct Plan {
 
 } // namespace
 
-extern "C" int renameOrDie(const char* from, const char* to) noexcept __asm__("rename"); // in place of the system's
+extern "C" int renameOrDie(const char* from, const char* to) noexcept
+    __asm__("rename"); // in place of the system's
 
 extern "C" int renameOrDie(const char* from, const char* to) noexcept {
   static Plan plan;
