@@ -32,6 +32,7 @@ template <class Any>
 auto holdsValue(const Any& any) -> decltype(any.has_value(), bool()) {
   return any.has_value();
 }
+/// The same in releases that lack the new name.
 template <class Any, class... None>
 auto holdsValue(const Any& any, const None&...) -> decltype(any.empty(), bool()) {
   return !any.empty();
