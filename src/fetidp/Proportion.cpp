@@ -51,10 +51,26 @@ double largestOf(const Subdomain& subdomain, const VectorXd& unknowns) {
   return values.size() > 0 ? values.lpNorm<Eigen::Infinity>() : 0.0;
 }
 
+/// Bodies that meet surfaces whose normals are known but up to their facets. Where all are exact, the linear problem's answer stands. Collective.
+std::vector<double> uncertainBodies(const DecomposedProblem& problem) {
+  constexpr double exact = 1e-6; // radians
+  std::vector<double> isUncertain(problem.bodies.size(), 0.0);
+  for (const contact::ContactPlace& place : problem.places)
+    if (std::max(place.first.uncertainty, place.second.uncertainty) > exact)
+      for (const int body : {place.first.body, place.second.body})
+        isUncertain[static_cast<std::size_t>(body)] = 1;
+  for (double& each : isUncertain)
+    each = maxOverRanks(*problem.comm, each);
+  return isUncertain;
+}
+
 } // namespace
 
 void requireProportion(const DecomposedProblem& problem, const SubdomainVectors& u, const Vector& lambda) {
   if (problem.numRigidModes() == 0)
+    return;
+  const std::vector<double> isUncertain = uncertainBodies(problem);
+  if (std::count(isUncertain.begin(), isUncertain.end(), 1.0) == 0)
     return;
   const std::vector<VectorXd> rigid = rigidParts(problem, u);
   std::vector<double> moved(problem.bodies.size(), 0.0);
@@ -77,7 +93,7 @@ void requireProportion(const DecomposedProblem& problem, const SubdomainVectors&
   for (std::size_t b = 0; b < moved.size(); ++b) {
     const decomposition::Body& body = problem.bodies[b];
     const double distance = maxOverRanks(*problem.comm, moved[b]);
-    if (!body.motions || distance <= std::max(2 * body.motions->size, often * usual))
+    if (isUncertain[b] == 0 || !body.motions || distance <= std::max(2 * body.motions->size, often * usual))
       continue;
     VectorXd motion = VectorXd::Zero(problem.numRigidModes());
     motion.segment(body.kernelOffset, body.kernelDimension) = rigid[b];
