@@ -60,7 +60,7 @@ if(EPAFI_INSTALL)
   epafi_install_library(epafi_headers headers USES Epafi::trilinos)
 endif()
 
-# epafi_unite(<target>): its sources are compiled several at a time, which takes half the time: what all of them instantiate is
+# epafi_unite(<target>): its sources are compiled several at a time, which takes less time: what all of them instantiate is
 # instantiated once. Names in their anonymous namespaces must differ for it.
 function(epafi_unite target)
   if(EPAFI_UNITY)
