@@ -1,4 +1,5 @@
-# epafi_test(<name> SOURCES ... USES ... [RANKS 1 2 ...] [LABELS ...] [TIMEOUT seconds])
+# epafi_test(<name> SOURCES ... [ALONE ...] USES ... [RANKS 1 2 ...] [LABELS ...] [TIMEOUT seconds]); ALONE are sources whose names others
+# have, too, so that they are compiled each for itself.
 # One googletest program, run by ctest once for every number of ranks. The tests of a program are valid for any number.
 
 find_package(GTest REQUIRED)
@@ -21,6 +22,15 @@ add_library(epafi_test_main STATIC "${PROJECT_SOURCE_DIR}/test/main.cpp")
 target_link_libraries(epafi_test_main PUBLIC Epafi::base GTest::gtest)
 epafi_test_code(epafi_test_main)
 
+# epafi_test_library(<target> SOURCES ... USES ...): what several test programs share.
+function(epafi_test_library target)
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "" "" "SOURCES;USES")
+  add_library(${target} STATIC EXCLUDE_FROM_ALL ${TEST_SOURCES})
+  target_link_libraries(${target} PUBLIC GTest::gtest ${TEST_USES})
+  epafi_test_code(${target})
+  epafi_unite(${target})
+endfunction()
+
 set(EPAFI_MPIRUN_FLAGS --oversubscribe --bind-to none)
 # On one machine nobody needs to look for fast networks and X servers, which takes longer than most tests. Ranks that wait for others make
 # way for these: on a busy machine small messages take thirty times as long otherwise.
@@ -28,18 +38,20 @@ set(EPAFI_TEST_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFI
     HWLOC_COMPONENTS=-gl OPENBLAS_NUM_THREADS=1)
 
 function(epafi_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 TEST "" "TIMEOUT" "SOURCES;USES;RANKS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 TEST "" "TIMEOUT" "SOURCES;ALONE;USES;RANKS;LABELS")
   if(NOT TEST_RANKS)
     set(TEST_RANKS 1)
   endif()
   if(NOT TEST_TIMEOUT)
     set(TEST_TIMEOUT 600) # against hanging; a loaded machine is slow
   endif()
-  add_executable(test_${name} ${TEST_SOURCES})
+  add_executable(test_${name} ${TEST_SOURCES} ${TEST_ALONE})
   target_link_libraries(test_${name} PRIVATE epafi_test_main ${TEST_USES})
   target_compile_definitions(test_${name} PRIVATE EPAFI_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   EPAFI_BINARY_DIR="${PROJECT_BINARY_DIR}")
   epafi_test_code(test_${name})
+  epafi_unite(test_${name})
+  set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   foreach(ranks IN LISTS TEST_RANKS)
     add_test(NAME ${name}_np${ranks}
              COMMAND ${MPIEXEC_EXECUTABLE} ${EPAFI_MPIRUN_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks}

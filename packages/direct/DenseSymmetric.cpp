@@ -75,6 +75,10 @@ std::optional<Eigen::MatrixXd> choleskyFactor(const Eigen::MatrixXd& matrix) {
   return Eigen::MatrixXd(factor.matrixL());
 }
 
+Eigen::MatrixXd solvedSymmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.ldlt().solve(b);
+}
+
 SymmetricEigen eigenOf(Eigen::MatrixXd matrix) {
   const int n = static_cast<int>(matrix.rows());
   if (n == 0)

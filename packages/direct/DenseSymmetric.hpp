@@ -17,6 +17,9 @@ Eigen::MatrixXd inverseOfSpd(Eigen::MatrixXd matrix);
 /// The lower triangular C of A = CCᵀ, likewise; nothing if A is not positive definite.
 std::optional<Eigen::MatrixXd> choleskyFactor(const Eigen::MatrixXd& matrix);
 
+/// A⁻¹B of a symmetric A, of which the lower triangle is read, and which may be semidefinite.
+Eigen::MatrixXd solvedSymmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 /// Eigenvalues and eigenvectors.
 struct SymmetricEigen {
   Eigen::VectorXd values;  ///< ascending

@@ -1,8 +1,7 @@
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
-
-#include <Eigen/QR>
+#include "epafi/direct/DenseOrthogonal.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -15,7 +14,7 @@ Eigen::VectorXd solveOn(const std::vector<Eigen::Index>& passive, const Eigen::M
                         const Eigen::VectorXd& b) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
   if (!passive.empty())
-    x(passive) = a(allOf, passive).colPivHouseholderQr().solve(b);
+    x(passive) = leastSquares(a(allOf, passive), b);
   return x;
 }
 

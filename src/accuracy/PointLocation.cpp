@@ -6,10 +6,6 @@
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 
-#define BOOST_ALLOW_DEPRECATED_HEADERS // what its own headers include
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,22 +13,19 @@
 #include <utility>
 
 namespace epafi::accuracy {
-namespace geometry = boost::geometry;
 namespace {
 
 using fem::Mesh;
 using fem::Point;
 
 /// Moves reference coordinates into the reference element; returns how far they were outside.
-template <int dim, int order>
-double pullIn(fem::Brick<dim, order> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
-  const double outside = std::max(0.0, xi.cwiseAbs().maxCoeff() - 1);
-  xi = xi.cwiseMin(1.0).cwiseMax(-1.0);
-  return outside;
-}
-
-template <int dim, int order>
-double pullIn(fem::Simplex<dim, order> /*shape*/, Eigen::Matrix<double, dim, 1>& xi) {
+template <int dim>
+double pullIn(const fem::Shape<dim>& shape, fem::Coordinates<dim>& xi) {
+  if (!shape.isSimplex) {
+    const double outside = std::max(0.0, xi.cwiseAbs().maxCoeff() - 1);
+    xi = xi.cwiseMin(1.0).cwiseMax(-1.0);
+    return outside;
+  }
   const double outside = std::max({0.0, -xi.minCoeff(), xi.sum() - 1});
   xi = xi.cwiseMax(0.0);
   if (xi.sum() > 1)
@@ -42,25 +35,25 @@ double pullIn(fem::Simplex<dim, order> /*shape*/, Eigen::Matrix<double, dim, 1>&
 
 /// Newton's method for x(ξ) = point, exact at once where the map is affine; not finite where it does not settle, as far outside of
 /// curved elements.
-template <class Shape>
-typename Shape::Coordinates coordinatesOf(std::span<const Point> corners, const Point& point) {
-  constexpr int dim = Shape::dimension;
-  const auto relative = fem::relativeCorners<Shape>(corners);
-  typename Shape::Coordinates wanted, xi = Shape::centre();
+template <int dim>
+fem::Coordinates<dim> coordinatesOf(const fem::Shape<dim>& shape, std::span<const Point> corners,
+                                    const Point& point) {
+  const auto relative = fem::relativeCorners<dim>(corners);
+  fem::Coordinates<dim> wanted, xi = shape.centre();
   for (int i = 0; i < dim; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     wanted[i] = point[axis] - corners[0][axis];
   }
   for (int iteration = 0; iteration < 20; ++iteration) {
-    const auto sample = fem::sampleAt<Shape>(xi);
-    const fem::ElementMap<Shape> map(relative, sample);
-    const typename Shape::Coordinates step =
-        map.jacobian().partialPivLu().solve(wanted - relative * sample.values);
+    const auto sample = shape.sampleAt(xi);
+    const fem::ElementMap map(relative, sample);
+    const fem::Coordinates<dim> off = wanted - relative.lazyProduct(sample.values);
+    const fem::Coordinates<dim> step = map.jacobian().inverse() * off;
     xi += step.cwiseMin(2.0).cwiseMax(-2.0);
     if (!(step.norm() > 1e-12))
       return xi;
   }
-  return Shape::Coordinates::Constant(std::numeric_limits<double>::quiet_NaN());
+  return fem::Coordinates<dim>::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// \param[out] outside  how far the point is outside of the element, in reference coordinates
@@ -68,11 +61,10 @@ Location locateIn(const Mesh& mesh, GlobalOrdinal element, const Point& point, d
   std::vector<Point> corners;
   mesh.elementPoints(element, corners);
   Location location{element, {}};
-  fem::withShape(mesh.cellType(), [&](auto shape) {
-    using Shape = decltype(shape);
-    typename Shape::Coordinates xi = coordinatesOf<Shape>(corners, point);
+  fem::withShape(mesh.cellType(), [&]<int dim>(const fem::Shape<dim>& shape) {
+    fem::Coordinates<dim> xi = coordinatesOf(shape, corners, point);
     outside = xi.allFinite() ? pullIn(shape, xi) : std::numeric_limits<double>::infinity();
-    const typename Shape::Values values = Shape::values(xi.allFinite() ? xi : Shape::centre());
+    const fem::NodalValues values = shape.values(xi.allFinite() ? xi : shape.centre());
     std::copy(values.begin(), values.end(), location.weights.begin());
   });
   return location;
@@ -84,17 +76,10 @@ int cellOf(double x, double low, double size, int number) {
 
 } // namespace
 
-struct PointLocation::Boxes {
-  using Corner = geometry::model::point<double, 3, geometry::cs::cartesian>;
-  using Box = geometry::model::box<Corner>;
-  using Entry = std::pair<Box, GlobalOrdinal>;
-  geometry::index::rtree<Entry, geometry::index::quadratic<16>> tree;
-};
-
 PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.structured() != nullptr)
     return;
-  std::vector<Boxes::Entry> entries;
+  std::vector<fem::BoxTree::Box> boxes;
   std::vector<Point> nodes;
   const fem::MeshPart* part = mesh.part();
   const GlobalOrdinal numHeld =
@@ -109,21 +94,21 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
       lower[d] -= more;
       upper[d] += more;
     }
-    entries.emplace_back(Boxes::Box{{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}, element);
+    boxes.push_back({lower, upper});
   }
-  boxes_ = std::make_unique<const Boxes>(Boxes{decltype(Boxes::tree)(entries)});
+  boxes_.emplace(boxes);
 }
 
-PointLocation::~PointLocation() = default;
-
 /// The candidate that the point is least outside of.
-Location PointLocation::best(const Point& point, const std::vector<GlobalOrdinal>& candidates,
+Location PointLocation::best(const Point& point, const std::vector<std::size_t>& candidates,
                              double& outside) const {
   Location result;
   outside = std::numeric_limits<double>::infinity();
-  for (const GlobalOrdinal element : candidates) {
+  const fem::MeshPart* part = mesh_.part();
+  for (const std::size_t held : candidates) {
     double here = 0;
-    const Location location = locateIn(mesh_, element, point, here);
+    const Location location = locateIn(
+        mesh_, part == nullptr ? static_cast<GlobalOrdinal>(held) : part->elements()[held], point, here);
     if (here < outside) {
       outside = here;
       result = location;
@@ -143,20 +128,15 @@ Location PointLocation::find(const Point& point) const {
     return locateIn(mesh_, cell[0] + grid->elements()[0] * (cell[1] + grid->elements()[1] * cell[2]), point,
                     outside);
   }
-  const Boxes::Corner place(point[0], point[1], point[2]);
-  std::vector<GlobalOrdinal> candidates;
-  const auto collect = [&](const auto& query) {
-    candidates.clear();
-    for (auto entry = boxes_->tree.qbegin(query); entry != boxes_->tree.qend(); ++entry)
-      candidates.push_back(entry->second);
-    return best(point, candidates, outside);
-  };
+  std::vector<std::size_t> candidates;
+  boxes_->meeting({point, point}, candidates);
   constexpr double roundOff = 1e-9;
-  const Location location = collect(geometry::index::intersects(place));
+  const Location location = best(point, candidates, outside);
   if (outside <= roundOff)
     return location;
-  constexpr unsigned near = 16; // beyond a curved border
-  return collect(geometry::index::nearest(place, near));
+  constexpr std::size_t near = 16; // beyond a curved border
+  boxes_->nearest(point, near, candidates);
+  return best(point, candidates, outside);
 }
 
 } // namespace epafi::accuracy

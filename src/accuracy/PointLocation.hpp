@@ -2,10 +2,11 @@
 
 /// Which element of a mesh a point lies in.
 
+#include "epafi/fem/BoxTree.hpp"
 #include "epafi/fem/Mesh.hpp"
 
 #include <array>
-#include <memory>
+#include <optional>
 #include <vector>
 
 namespace epafi::accuracy {
@@ -20,19 +21,17 @@ class PointLocation {
 public:
   /// Keeps the reference. Of a structured mesh nothing is stored, of another a tree of the elements' boxes.
   explicit PointLocation(const fem::Mesh& mesh);
-  ~PointLocation();
 
   /// The element that contains the point; for a point outside of the body, as finer meshes of round bodies have, that of a
   /// near one, and the weights are those of a point of it; of a piece of a mesh, of the held ones. Not collective.
   [[nodiscard]] Location find(const fem::Point& point) const;
 
 private:
-  struct Boxes;
-  [[nodiscard]] Location best(const fem::Point& point, const std::vector<GlobalOrdinal>& candidates,
+  [[nodiscard]] Location best(const fem::Point& point, const std::vector<std::size_t>& candidates,
                               double& outside) const;
 
   const fem::Mesh& mesh_;
-  std::unique_ptr<const Boxes> boxes_; ///< null of structured meshes
+  std::optional<fem::BoxTree> boxes_; ///< of the held elements; none of structured meshes
 };
 
 } // namespace epafi::accuracy

@@ -65,7 +65,7 @@ std::vector<FacetView> CoveringFacets::viewsOf(const PlacedSurface& placed) {
 }
 
 /// The box of a facet moved along its normal, from behind it to ahead of it.
-FacetTree::Box CoveringFacets::boxOf(const FacetView& view, double behind, double ahead) {
+fem::BoxTree::Box CoveringFacets::boxOf(const FacetView& view, double behind, double ahead) {
   std::vector<fem::Point> points;
   for (Eigen::Index a = 0; a < view.points().cols(); ++a)
     for (const double along : {-behind, ahead}) {
@@ -75,8 +75,8 @@ FacetTree::Box CoveringFacets::boxOf(const FacetView& view, double behind, doubl
   return fem::boxOf(points, 0.1 * view.diameter()); // curved facets bulge
 }
 
-std::vector<FacetTree::Box> CoveringFacets::boxesOf(const std::vector<FacetView>& views) {
-  std::vector<FacetTree::Box> boxes;
+std::vector<fem::BoxTree::Box> CoveringFacets::boxesOf(const std::vector<FacetView>& views) {
+  std::vector<fem::BoxTree::Box> boxes;
   for (const FacetView& view : views)
     boxes.push_back(boxOf(view, 0, 0));
   return boxes;
@@ -86,10 +86,10 @@ std::vector<fem::Point> CoveringFacets::boxOfAll() const {
   std::vector<fem::Point> corners;
   for (const auto* views : {&first_, &second_})
     for (const FacetView& view : *views) {
-      const FacetTree::Box box = boxOf(view, 0, 0);
+      const fem::BoxTree::Box box = boxOf(view, 0, 0);
       corners.insert(corners.end(), box.begin(), box.end());
     }
-  const FacetTree::Box all = fem::boxOf(corners);
+  const fem::BoxTree::Box all = fem::boxOf(corners);
   return {all.begin(), all.end()};
 }
 

@@ -1,6 +1,7 @@
 #include "epafi/contact/FacetView.hpp"
 
 #include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
 #include <Eigen/Geometry>
@@ -89,18 +90,16 @@ int FacetView::degree() const {
 }
 
 std::optional<FacetView::Sight> FacetView::at(const Eigen::Vector2d& seen, const ViewPlane& plane) const {
-  return fem::withFacetShape(type_, [&](auto shape) -> std::optional<Sight> {
-    using Shape = decltype(shape);
-    constexpr int dim = Shape::dimension, maxSteps = 30;
-    using Point = Eigen::Matrix<double, dim, 1>;
-    using Jacobian = Eigen::Matrix<double, dim, dim>;
-    const Eigen::Matrix<double, 3, Shape::numNodes> relative = points_.colwise() - plane.origin;
-    const Eigen::Matrix<double, dim, Shape::numNodes> flat =
-        plane.axes.template leftCols<dim>().transpose() * relative;
-    typename Shape::Coordinates xi = Shape::centre();
+  return fem::withFacetShape(type_, [&]<int dim>(const fem::Shape<dim>& shape) -> std::optional<Sight> {
+    constexpr int maxSteps = 30;
+    using Point = fem::Coordinates<dim>;
+    const fem::NodalColumns<3> relative = points_.colwise() - plane.origin;
+    const fem::NodalColumns<dim> flat = plane.axes.template leftCols<dim>().transpose().lazyProduct(relative);
+    Point xi = shape.centre();
     for (int step = 0; step < maxSteps; ++step) {
-      const Point off = flat * Shape::values(xi) - seen.head<dim>();
-      const Jacobian jacobian = flat * Shape::gradients(xi).transpose();
+      const auto sample = shape.sampleAt(xi);
+      const Point off = flat.lazyProduct(sample.values) - seen.head<dim>();
+      const Eigen::Matrix<double, dim, dim> jacobian = fem::derivatives(flat, sample);
       const double determinant = jacobian.determinant();
       if (std::abs(determinant) <= 1e-14 * std::pow(diameter_, dim))
         return std::nullopt;
@@ -108,14 +107,14 @@ std::optional<FacetView::Sight> FacetView::at(const Eigen::Vector2d& seen, const
       xi -= change;
       if (change.norm() <= 1e-10 || // the next one would be 1e-20
           (isAffine_ && step == 0)) {
-        const Eigen::Matrix<double, 3, dim> tangents = relative * Shape::gradients(xi).transpose();
+        const auto last = shape.sampleAt(xi);
+        const Eigen::Matrix<double, 3, dim> tangents = fem::derivatives(relative, last);
         double size = 0;
         if constexpr (dim == 1)
           size = tangents.norm();
         else
           size = tangents.col(0).cross(tangents.col(1)).norm();
-        const auto values = Shape::values(xi);
-        return Sight{values, relative * values, size / std::abs(determinant)};
+        return Sight{last.values, relative * last.values, size / std::abs(determinant)};
       }
     }
     return std::nullopt;

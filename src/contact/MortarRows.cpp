@@ -5,9 +5,9 @@
 #include "epafi/contact/MortarIntegrals.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/RowAreas.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -183,7 +183,7 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
     psi = integrals / facet.area * (VectorXd::Ones(numRows).transpose() * functions);
   } else {
     const MatrixXd mass = functions * facet.mass * functions.transpose();
-    psi = integrals.asDiagonal() * mass.ldlt().solve(functions);
+    psi = integrals.asDiagonal() * direct::solvedSymmetric(mass, functions);
   }
   const MatrixXd own = psi * facet.mass;
   const auto nodes = first_.surface.facet(facet.facet);
@@ -259,7 +259,7 @@ void RowMaker::balanceMoment(MortarRow& row) const {
   if (off.squaredNorm() <= roundOffOfWeights * roundOffOfWeights * size || size == 0)
     return;
   moments += size * (normal * normal.transpose() + 1e-14 * Eigen::Matrix3d::Identity());
-  const Vector3d change = moments.ldlt().solve(off);
+  const Vector3d change = moments.inverse() * off;
   for (std::size_t l = 0; l < places.size(); ++l)
     row.second[l].weight -= change.dot(places[l]);
 }

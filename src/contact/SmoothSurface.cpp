@@ -1,6 +1,7 @@
 #include "epafi/contact/SmoothSurface.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "epafi/direct/DenseSymmetric.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -146,13 +147,12 @@ std::optional<UncertainNormal> SmoothSurface::fitted(std::size_t place, Vector3d
       heights += z * terms;
       squares += z * z;
     }
-    const Eigen::SelfAdjointEigenSolver<decltype(products)> spectrum(products);
+    const direct::SymmetricEigen spectrum = direct::eigenOf(products);
     constexpr double tells = 2e-3; // singular values down to 1/20 of the largest
-    if (spectrum.eigenvalues()[0] < tells * spectrum.eigenvalues()[numUnknowns - 1])
+    if (spectrum.values[0] < tells * spectrum.values[numUnknowns - 1])
       return std::nullopt;
     const decltype(heights) quadric =
-        spectrum.eigenvectors() *
-        (spectrum.eigenvectors().transpose() * heights).cwiseQuotient(spectrum.eigenvalues());
+        spectrum.vectors * (spectrum.vectors.transpose() * heights).cwiseQuotient(spectrum.values);
     residual = std::sqrt(std::max(squares - quadric.dot(heights), 0.0) / static_cast<double>(around.size()));
     normal = (normal - quadric[0] * first - quadric[1] * second).normalized();
   }

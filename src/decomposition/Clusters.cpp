@@ -2,8 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/decomposition/Corners.hpp"
-
-#include <Eigen/Cholesky>
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -160,7 +159,7 @@ ClusterKernels findClusterKernels(const Substructures& all, std::vector<Motions>
   for (std::size_t c = 0; c < free.size(); ++c) { // R X = R_body, but for round-off
     result.clusters[c].ofBody = mixed[c];
     if (result.clusters[c].kernelDimension > 0)
-      result.clusters[c].ofBody = gram[c].ldlt().solve(mixed[c]);
+      result.clusters[c].ofBody = direct::solvedSymmetric(gram[c], mixed[c]);
   }
   return result;
 }

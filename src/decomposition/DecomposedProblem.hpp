@@ -80,6 +80,7 @@ struct Subdomain {
   std::vector<NodeFrame> frames; ///< where positions are not components in space; most often none
   Eigen::VectorXd prescribed;    ///< value at each position; 0 at the free ones
   double energyOffset = 0;       ///< energy that prescribed values alone contribute
+  double heldLoad = 0;           ///< sum of the sizes of the loads at prescribed values
   Eigen::MatrixXd kernel;        ///< R^s, n_s × kernelDimension of its cluster
 };
 

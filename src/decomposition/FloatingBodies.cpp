@@ -3,8 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/Clusters.hpp"
-
-#include <Eigen/Eigenvalues>
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <map>
 #include <set>
@@ -75,13 +74,12 @@ Energies energiesOf(const std::vector<Motions>& motions, const Comm& comm, std::
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& size) {
   const Eigen::VectorXd scale =
       size.diagonal().unaryExpr([](double s) { return s > 0 ? 1 / std::sqrt(s) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * size * scale.asDiagonal());
+  const direct::SymmetricEigen eigen = direct::eigenOf(scale.asDiagonal() * size * scale.asDiagonal());
   Eigen::MatrixXd basis(size.rows(), 0);
   for (Eigen::Index i = 0; i < size.rows(); ++i)
-    if (eigen.eigenvalues()[i] > dependent) {
+    if (eigen.values[i] > dependent) {
       basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-      basis.rightCols(1) =
-          scale.asDiagonal() * eigen.eigenvectors().col(i) / std::sqrt(eigen.eigenvalues()[i]);
+      basis.rightCols(1) = scale.asDiagonal() * eigen.vectors.col(i) / std::sqrt(eigen.values[i]);
     }
   return basis;
 }
@@ -91,9 +89,8 @@ Eigen::MatrixXd freeCombinations(const Eigen::MatrixXd& size, const Eigen::Matri
   Eigen::MatrixXd basis = size.rows() > 0 ? orthonormal(size) : size;
   if (basis.cols() == 0)
     return basis;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * force * basis);
-  const auto numFree = (eigen.eigenvalues().array() <= bound * bound).count(); // ascending
-  Eigen::MatrixXd free = basis * eigen.eigenvectors().leftCols(numFree);
+  const direct::SymmetricEigen eigen = direct::eigenOf(basis.transpose() * force * basis);
+  Eigen::MatrixXd free = basis * eigen.vectors.leftCols(eigen.numUpTo(bound * bound));
   // A motion along x has no part along y: what is round-off beside the rest of a combination would couple what nothing couples.
   const Eigen::VectorXd lengths = size.diagonal().cwiseMax(0.0).cwiseSqrt();
   for (Eigen::Index m = 0; m < free.cols(); ++m) {

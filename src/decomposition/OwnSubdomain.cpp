@@ -1,6 +1,7 @@
 #include "epafi/decomposition/OwnSubdomain.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace epafi::decomposition {
 
@@ -51,6 +52,7 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, fem::Assembl
   assembled.load.resize(static_cast<Eigen::Index>(assembled.unknownPosition.size()));
   freeLoad(own, assembled.load);
   assembled.energyOffset = prescribedEnergy(own);
+  assembled.heldLoad = heldLoad(own);
   return own;
 }
 
@@ -81,6 +83,13 @@ void freeLoad(const OwnSubdomain& own, Eigen::VectorXd& load) {
 
 double prescribedEnergy(const OwnSubdomain& own) {
   return (0.5 * own.heldForce - own.load).dot(own.prescribed);
+}
+
+double heldLoad(const OwnSubdomain& own) {
+  double sum = 0;
+  for (std::size_t i = 0; i < own.row.size(); ++i)
+    sum += own.row[i] < 0 ? std::abs(own.load[static_cast<Eigen::Index>(i)]) : 0.0;
+  return sum;
 }
 
 } // namespace epafi::decomposition

@@ -33,4 +33,7 @@ void freeLoad(const OwnSubdomain& own, Eigen::VectorXd& load);
 /// ½ uᵀK^s u − f^sᵀu of the prescribed values alone.
 double prescribedEnergy(const OwnSubdomain& own);
 
+/// Sum of the sizes of the loads at prescribed values.
+double heldLoad(const OwnSubdomain& own);
+
 } // namespace epafi::decomposition

@@ -99,6 +99,7 @@ void UnassembledProblem::add(NodeOrderedSubdomain subdomain) {
   target.frames = std::move(subdomain.frames);
   target.prescribed = std::move(values.prescribed);
   target.energyOffset = values.energyOffset;
+  target.heldLoad = values.heldLoad;
   target.kernel = std::move(values.kernel);
   nodal_.push_back(
       {std::move(values.unknownOf), std::move(values.borderNodes), std::move(subdomain.stiffness), {}});
@@ -356,6 +357,7 @@ void UnassembledProblem::refreshLoad(std::size_t subdomain) {
   freeLoad(own, target.load);
   target.load = loadInBasisOf(target.averages, std::move(target.load));
   target.energyOffset = prescribedEnergy(own);
+  target.heldLoad = heldLoad(own);
 }
 
 void UnassembledProblem::setMatrix(std::size_t subdomain, const SparseMatrix& stiffness) {

@@ -20,21 +20,21 @@ void noteJacobian(ElementShape& shape, double value, int corner) {
 
 /// Of a simplex of order 1 the determinant is the same everywhere; of a quadrilateral it is linear, so that its least value
 /// lies at a corner. Of order 2 samples come first: most elements that are not sound fail there.
-template <class Shape>
-void measure([[maybe_unused]] CellType type, std::span<const Point> points, ElementShape& shape) {
-  const auto corners = relativeCorners<Shape>(points);
-  if constexpr (Shape::numGaussPoints > 1) {
+template <int dim>
+void measure(const Shape<dim>& reference, std::span<const Point> points, ElementShape& shape) {
+  const auto corners = relativeCorners<dim>(points);
+  if (reference.gaussSamples().size() > 1) {
     int node = 0;
-    for (const auto& sample : nodeSamples<Shape>())
-      noteJacobian(shape, Shape::measure * ElementMap<Shape>(corners, sample).determinant(), node++);
+    for (const auto& sample : reference.nodeSamples())
+      noteJacobian(shape, reference.measure * ElementMap(corners, sample).determinant(), node++);
   }
-  for (const auto& sample : fineSamples<Shape>()) {
-    const double inside = ElementMap<Shape>(corners, sample).determinant();
+  for (const auto& sample : reference.fineSamples()) {
+    const double inside = ElementMap(corners, sample).determinant();
     shape.measure += sample.weight * inside; // exact
-    noteJacobian(shape, Shape::measure * inside, -1);
+    noteJacobian(shape, reference.measure * inside, -1);
   }
-  if constexpr (Shape::order > 1)
-    noteJacobian(shape, Shape::measure * leastDeterminant(type, points), -1);
+  if (reference.order > 1)
+    noteJacobian(shape, reference.measure * leastDeterminant(reference.type, points), -1);
 }
 
 } // namespace
@@ -75,34 +75,31 @@ double diameterOf(std::span<const Point> points) {
 }
 
 double measureOf(CellType type, std::span<const Point> points) {
-  return withShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
-    const auto corners = relativeCorners<Shape>(points);
+  return withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+    const auto corners = relativeCorners<dim>(points);
     double measure = 0;
-    for (const auto& sample : fineSamples<Shape>())
-      measure += sample.weight * ElementMap<Shape>(corners, sample).determinant();
+    for (const auto& sample : shape.fineSamples())
+      measure += sample.weight * ElementMap(corners, sample).determinant();
     return measure;
   });
 }
 
 void nodalShares(CellType facet, std::span<const Point> points, std::span<double> shares) {
-  withFacetShape(facet, [&](auto shape) {
-    using Shape = decltype(shape);
-    const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
-    Eigen::Map<typename Shape::Values> sums(shares.data());
+  withFacetShape(facet, [&]<int dim>(const Shape<dim>& shape) {
+    const auto corners = relativeCorners<dim + 1>(points);
+    Eigen::Map<Eigen::VectorXd> sums(shares.data(), shape.numNodes);
     sums.setZero();
-    for (const auto& sample : fineSamples<Shape>())
-      sums += (sample.weight * facetNormal<Shape>(corners, sample).norm()) * sample.values;
+    for (const auto& sample : shape.fineSamples())
+      sums += (sample.weight * facetNormal(corners, sample).norm()) * sample.values;
   });
 }
 
 Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points) {
-  return withFacetShape(facet, [&](auto shape) {
-    using Shape = decltype(shape);
-    const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
+  return withFacetShape(facet, [&]<int dim>(const Shape<dim>& shape) {
+    const auto corners = relativeCorners<dim + 1>(points);
     Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-    for (const auto& sample : fineSamples<Shape>())
-      vector.head<Shape::dimension + 1>() += sample.weight * facetNormal<Shape>(corners, sample);
+    for (const auto& sample : shape.fineSamples())
+      vector.head<dim + 1>() += sample.weight * facetNormal(corners, sample);
     return vector;
   });
 }
@@ -110,16 +107,12 @@ Eigen::Vector3d areaVector(CellType facet, std::span<const Point> points) {
 void nodalNormals(CellType facet, std::span<const Point> points, std::vector<Eigen::Vector3d>& normals) {
   const Eigen::Vector3d area = areaVector(facet, points);
   normals.assign(points.size(), area);
-  withFacetShape(facet, [&](auto shape) {
-    using Shape = decltype(shape);
-    if constexpr (Shape::order > 1) {
-      const auto corners = relativeCorners<Shape, Shape::dimension + 1>(points);
-      for (std::size_t a = 0; a < normals.size(); ++a) {
-        normals[a].setZero();
-        normals[a].template head<Shape::dimension + 1>() =
-            facetNormal<Shape>(corners, nodeSamples<Shape>()[a]);
-        normals[a] *= area.norm() / normals[a].norm();
-      }
+  withFacetShape(facet, [&]<int dim>(const Shape<dim>& shape) {
+    const auto corners = relativeCorners<dim + 1>(points);
+    for (std::size_t a = 0; a < normals.size() && shape.order > 1; ++a) {
+      normals[a].setZero();
+      normals[a].template head<dim + 1>() = facetNormal(corners, shape.nodeSamples()[a]);
+      normals[a] *= area.norm() / normals[a].norm();
     }
   });
 }
@@ -128,7 +121,7 @@ ElementShape shapeOf(CellType type, std::span<const Point> corners) {
   ElementShape shape;
   shape.diameter = diameterOf(corners);
   shape.leastJacobian = std::numeric_limits<double>::infinity();
-  withShape(type, [&](auto reference) { measure<decltype(reference)>(type, corners, shape); });
+  withShape(type, [&](const auto& reference) { measure(reference, corners, shape); });
   return shape;
 }
 

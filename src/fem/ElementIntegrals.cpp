@@ -12,13 +12,11 @@ namespace {
 
 using scene::Physics;
 
-template <class Shape>
-constexpr int numGradients = Shape::numNodes* Shape::dimension;
-
 /// S: products of all shape functions' derivatives, row and column node × dimension + direction. Isotropic stiffnesses are
 /// sums of its entries.
-template <class Shape>
-using GradientProducts = Eigen::Matrix<double, numGradients<Shape>, numGradients<Shape>>;
+template <int dim>
+using GradientProducts = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                       dim* static_cast<int>(mostNodes), dim* static_cast<int>(mostNodes)>;
 
 [[maybe_unused]] bool fits(CellType type, Physics physics) {
   return dimensionOf(type) == (physics == Physics::elasticity3d ? 3 : 2);
@@ -39,28 +37,24 @@ void shareOut(std::span<const double> shares, Physics physics, const scene::Mate
       load[static_cast<Eigen::Index>(a * components + i)] = thickness * shares[a] * force[i];
 }
 
-/// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its upper triangle.
-template <class Shape>
-GradientProducts<Shape> gradientProducts(std::span<const Point> points) {
-  const auto corners = relativeCorners<Shape>(points);
-  GradientProducts<Shape> products = GradientProducts<Shape>::Zero();
-  for (const auto& sample : gaussSamples<Shape>()) {
-    const ElementMap<Shape> map(corners, sample);
-    const typename Shape::Gradients gradients = map.gradients(sample);
-    const Eigen::Map<const Eigen::Matrix<double, numGradients<Shape>, 1>> g(gradients.data());
+/// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its blocks on the diagonal and above.
+template <int dim>
+GradientProducts<dim> gradientProducts(const Shape<dim>& shape, std::span<const Point> points) {
+  const auto corners = relativeCorners<dim>(points);
+  const int size = dim * shape.numNodes;
+  GradientProducts<dim> products(size, size);
+  products.setZero();
+  for (const auto& sample : shape.gaussSamples()) {
+    const ElementMap map(corners, sample);
+    const NodalColumns<dim> gradients = map.gradients(sample);
+    const Eigen::Map<const Eigen::VectorXd> g(gradients.data(), size);
     const double weight = sample.weight * map.determinant();
-    for (int column = 0; column < numGradients<Shape>; ++column)
-      products.col(column) += (weight * g[column]) * g;
+    for (int column = 0; column < size; ++column) {
+      const int above = (column / dim + 1) * dim;
+      products.col(column).head(above) += (weight * g[column]) * g.head(above);
+    }
   }
   return products;
-}
-
-/// ∫∇N_a·∇N_b
-template <class Shape>
-double gradientsDot(const GradientProducts<Shape>& products, int a, int b) {
-  return products
-      .template block<Shape::dimension, Shape::dimension>(a * Shape::dimension, b * Shape::dimension)
-      .trace();
 }
 
 /// The lower triangle becomes the mirror image of the upper one.
@@ -71,25 +65,25 @@ void mirror(Matrix& matrix) {
       matrix(column, row) = matrix(row, column);
 }
 
-template <class Shape>
-void membraneStiffness(std::span<const Point> points, double conductivity, Eigen::MatrixXd& stiffness) {
-  const GradientProducts<Shape> products = gradientProducts<Shape>(points);
-  for (int b = 0; b < Shape::numNodes; ++b)
-    for (int a = 0; a <= b; ++a)
-      stiffness(a, b) = conductivity * gradientsDot<Shape>(products, a, b);
+/// K_a,b = κ Σ_k S_ak,bk
+template <int dim>
+void membraneStiffness(const GradientProducts<dim>& products, double conductivity,
+                       Eigen::MatrixXd& stiffness) {
+  for (Eigen::Index b = 0; b < stiffness.cols(); ++b)
+    for (Eigen::Index a = 0; a <= b; ++a)
+      stiffness(a, b) = conductivity * products.template block<dim, dim>(a * dim, b * dim).trace();
 }
 
 /// K_ai,bj = λ S_ai,bj + μ S_aj,bi + μ δ_ij Σ_k S_ak,bk
-template <class Shape>
-void elasticStiffness(std::span<const Point> points, double lambda, double mu, Eigen::MatrixXd& stiffness) {
-  constexpr int dim = Shape::dimension;
-  const GradientProducts<Shape> products = gradientProducts<Shape>(points);
-  for (int b = 0; b < Shape::numNodes; ++b)
-    for (int a = 0; a <= b; ++a) {
-      const Eigen::Matrix<double, dim, dim> s = products.template block<dim, dim>(a * dim, b * dim);
+template <int dim>
+void elasticStiffness(const GradientProducts<dim>& products, double lambda, double mu,
+                      Eigen::MatrixXd& stiffness) {
+  for (Eigen::Index b = 0; b < stiffness.cols(); b += dim)
+    for (Eigen::Index a = 0; a <= b; a += dim) {
+      const Eigen::Matrix<double, dim, dim> s = products.template block<dim, dim>(a, b);
       Eigen::Matrix<double, dim, dim> block = lambda * s + mu * s.transpose();
       block.diagonal().array() += mu * s.trace();
-      stiffness.template block<dim, dim>(a * dim, b * dim) = block;
+      stiffness.template block<dim, dim>(a, b) = block;
     }
 }
 
@@ -98,16 +92,16 @@ void elasticStiffness(std::span<const Point> points, double lambda, double mu, E
 void elementStiffness(CellType type, std::span<const Point> points, Physics physics,
                       const scene::Material& material, Eigen::MatrixXd& stiffness) {
   assert(fits(type, physics));
-  withShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
-    const int size = physics == Physics::membrane ? Shape::numNodes : numGradients<Shape>;
+  withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+    const GradientProducts<dim> products = gradientProducts(shape, points);
+    const int size = physics == Physics::membrane ? shape.numNodes : dim * shape.numNodes;
     stiffness.resize(size, size);
     if (physics == Physics::membrane) {
-      membraneStiffness<Shape>(points, material.conductivity, stiffness);
+      membraneStiffness<dim>(products, material.conductivity, stiffness);
     } else {
       const auto [lambda, mu] = lameConstants(physics, material);
       const double thickness = thicknessOf(physics, material);
-      elasticStiffness<Shape>(points, thickness * lambda, thickness * mu, stiffness);
+      elasticStiffness<dim>(products, thickness * lambda, thickness * mu, stiffness);
     }
   });
   mirror(stiffness);
@@ -116,13 +110,12 @@ void elementStiffness(CellType type, std::span<const Point> points, Physics phys
 void bodyForceLoad(CellType type, std::span<const Point> points, Physics physics,
                    const scene::Material& material, const scene::Vector3& force, Eigen::VectorXd& load) {
   assert(fits(type, physics));
-  withShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
-    const auto corners = relativeCorners<Shape>(points);
-    typename Shape::Values integrals = Shape::Values::Zero(); // ∫N_a
-    for (const auto& sample : fineSamples<Shape>())
-      integrals += (sample.weight * ElementMap<Shape>(corners, sample).determinant()) * sample.values;
-    shareOut({integrals.data(), Shape::numNodes}, physics, material, force, load);
+  withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+    const auto corners = relativeCorners<dim>(points);
+    NodalValues integrals = NodalValues::Zero(shape.numNodes); // ∫N_a
+    for (const auto& sample : shape.fineSamples())
+      integrals += (sample.weight * ElementMap(corners, sample).determinant()) * sample.values;
+    shareOut({integrals.data(), points.size()}, physics, material, force, load);
   });
 }
 
@@ -138,15 +131,13 @@ void tractionLoad(CellType facet, std::span<const Point> points, Physics physics
 void pressureLoad(CellType facet, std::span<const Point> points, Physics physics,
                   const scene::Material& material, double pressure, Eigen::VectorXd& load) {
   assert(boundsElement(facet, physics) && physics != Physics::membrane);
-  withFacetShape(facet, [&](auto shape) {
-    using Shape = decltype(shape);
-    constexpr int components = Shape::dimension + 1;
-    const auto corners = relativeCorners<Shape, components>(points);
-    Eigen::Matrix<double, components, Shape::numNodes> forces;
-    forces.setZero();
+  withFacetShape(facet, [&]<int dim>(const Shape<dim>& shape) {
+    const auto corners = relativeCorners<dim + 1>(points);
+    NodalColumns<dim + 1> forces = NodalColumns<dim + 1>::Zero(dim + 1, shape.numNodes);
     const double factor = -pressure * thicknessOf(physics, material);
-    for (const auto& sample : fineSamples<Shape>())
-      forces += (factor * sample.weight * facetNormal<Shape>(corners, sample)) * sample.values.transpose();
+    for (const auto& sample : shape.fineSamples())
+      forces +=
+          (factor * sample.weight * facetNormal(corners, sample)).lazyProduct(sample.values.transpose());
     load = forces.reshaped();
   });
 }

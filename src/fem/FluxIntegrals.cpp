@@ -1,16 +1,16 @@
 #include "epafi/fem/FluxIntegrals.hpp"
 
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 
-#include <Eigen/Cholesky>
-
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
 namespace epafi::fem {
 namespace {
@@ -19,12 +19,11 @@ using scene::Physics;
 
 constexpr int numMembraneFluxes = 2, numStresses = 6;
 
-/// Flux κ∇u of a membrane on elements of a shape, and the density of its energy.
-template <class Shape>
+/// Flux κ∇u of a membrane, and the density of its energy.
 struct MembraneLaw {
   static constexpr int numFluxes = numMembraneFluxes, components = 1;
   using Flux = Eigen::Matrix<double, numFluxes, 1>;
-  using Gradient = Eigen::Matrix<double, components, Shape::dimension>;
+  using Gradient = Eigen::Matrix<double, components, 2>;
 
   MembraneLaw(Physics /*physics*/, const scene::Material& material) : conductivity(material.conductivity) {}
   [[nodiscard]] Flux flux(const Gradient& gradient) const { return conductivity * gradient.transpose(); }
@@ -35,11 +34,11 @@ struct MembraneLaw {
 
 /// Stress of an elastic body. For plane strain the stress across the plane is part of the sum, with which the law of
 /// space holds; for plane stress it is 0.
-template <class Shape>
+template <int dim>
 struct ElasticLaw {
-  static constexpr int numFluxes = numStresses, components = Shape::dimension;
+  static constexpr int numFluxes = numStresses, components = dim;
   using Flux = Eigen::Matrix<double, numFluxes, 1>;
-  using Gradient = Eigen::Matrix<double, components, Shape::dimension>;
+  using Gradient = Eigen::Matrix<double, components, dim>;
 
   ElasticLaw(Physics bodyPhysics, const scene::Material& bodyMaterial)
       : physics(bodyPhysics), material(bodyMaterial), thickness(thicknessOf(bodyPhysics, bodyMaterial)) {}
@@ -62,44 +61,51 @@ struct ElasticLaw {
   double thickness;
 };
 
-template <class Shape, class Law>
-typename Law::Gradient gradientAt(const ElementMap<Shape>& map, const ShapeSample<Shape>& sample,
-                                  std::span<const double> displacements) {
-  const Eigen::Map<const Eigen::Matrix<double, Law::components, Shape::numNodes>> nodal(displacements.data());
-  const typename Law::Gradient inReference = nodal * sample.gradients.transpose();
-  return inReference * map.jacobian().inverse();
+/// An element's displacements, a column for each node.
+template <class Law>
+using NodalDisplacements = Eigen::Map<const Eigen::Matrix<double, Law::components, Eigen::Dynamic>>;
+
+template <class Law>
+NodalDisplacements<Law> atNodes(std::span<const double> displacements) {
+  return {displacements.data(), Law::components,
+          static_cast<Eigen::Index>(displacements.size()) / Law::components};
+}
+
+template <class Law, int dim>
+typename Law::Flux fluxAt(const Law& law, const ElementMap<dim>& map, const ShapeSample<dim>& sample,
+                          std::span<const double> displacements) {
+  return law.flux(derivatives(atNodes<Law>(displacements), sample) * map.jacobian().inverse());
 }
 
 /// The flux is constant, so that w = q* − q_h is linear: ∫ w:C⁻¹:w = |T|/((d+1)(d+2)) (Σ Q(w_a) + Q(Σ w_a)).
-template <class Shape, class Law, class Nodal>
-FluxEnergies simplexEnergies(const Law& law, std::span<const Point> points,
+template <class Law, int dim, class Nodal>
+FluxEnergies simplexEnergies(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
                              std::span<const double> displacements, const Nodal& nodalFluxes) {
-  const auto& sample = centreSample<Shape>();
-  const ElementMap<Shape> map(relativeCorners<Shape>(points), sample);
-  const typename Law::Flux flux = law.flux(gradientAt<Shape, Law>(map, sample, displacements));
+  const auto& sample = shape.centreSample();
+  const ElementMap map(relativeCorners<dim>(points), sample);
+  const typename Law::Flux flux = fluxAt(law, map, sample, displacements);
   const double measure = sample.weight * map.determinant();
   double sum = 0;
   typename Law::Flux total = Law::Flux::Zero();
-  for (int a = 0; a < Shape::numNodes; ++a) {
+  for (int a = 0; a <= dim; ++a) {
     const typename Law::Flux difference = nodalFluxes.col(a) - flux;
     sum += law.density(difference);
     total += difference;
   }
-  return {measure * (sum + law.density(total)) / (Shape::numNodes * (Shape::numNodes + 1)),
-          measure * law.density(flux)};
+  return {measure * (sum + law.density(total)) / ((dim + 1) * (dim + 2)), measure * law.density(flux)};
 }
 
 /// By the fine rule: w is of the shape functions' kind, but where the element map is not affine.
-template <class Shape, class Law, class Nodal>
-FluxEnergies energiesByRule(const Law& law, std::span<const Point> points,
+template <class Law, int dim, class Nodal>
+FluxEnergies energiesByRule(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
                             std::span<const double> displacements, const Nodal& nodalFluxes) {
-  const auto corners = relativeCorners<Shape>(points);
+  const auto corners = relativeCorners<dim>(points);
   FluxEnergies energies;
-  for (const auto& sample : fineSamples<Shape>()) {
-    const ElementMap<Shape> map(corners, sample);
-    const typename Law::Flux flux = law.flux(gradientAt<Shape, Law>(map, sample, displacements));
+  for (const auto& sample : shape.fineSamples()) {
+    const ElementMap map(corners, sample);
+    const typename Law::Flux flux = fluxAt(law, map, sample, displacements);
     const double weight = sample.weight * map.determinant();
-    energies.difference += weight * law.density(nodalFluxes * sample.values - flux);
+    energies.difference += weight * law.density(nodalFluxes.lazyProduct(sample.values) - flux);
     energies.flux += weight * law.density(flux);
   }
   return energies;
@@ -108,31 +114,25 @@ FluxEnergies energiesByRule(const Law& law, std::span<const Point> points,
 /// The flux as a function of one order less than the displacements: its values at the points where it is most accurate
 /// (Barlow, *Int. J. Numer. Meth. Engng* 10 (1976)), carried on to the nodes. Order 1: a constant, one column. Of simplices of
 /// order 2 with straight edges the flux is such a function itself.
-template <class Shape, class Law, class Fluxes>
-void sampleFlux(const Law& law, std::span<const Point> points, std::span<const double> displacements,
-                Fluxes& fluxes) {
-  const auto corners = relativeCorners<Shape>(points);
-  const auto at = [&](const ShapeSample<Shape>& sample) -> typename Law::Flux {
-    return law.flux(gradientAt<Shape, Law>(ElementMap<Shape>(corners, sample), sample, displacements));
+template <class Law, int dim>
+void sampleFlux(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
+                std::span<const double> displacements, Eigen::MatrixXd& fluxes) {
+  const auto corners = relativeCorners<dim>(points);
+  const auto at = [&](const ShapeSample<dim>& sample) {
+    return fluxAt(law, ElementMap(corners, sample), sample, displacements);
   };
-  if constexpr (Shape::order == 1) {
-    fluxes = at(centreSample<Shape>());
-  } else if constexpr (Shape::isSimplex) {
-    for (Eigen::Index a = 0; a < Shape::numNodes; ++a)
-      fluxes.col(a) = at(nodeSamples<Shape>()[static_cast<std::size_t>(a)]);
+  if (shape.order == 1) {
+    fluxes = at(shape.centreSample());
+  } else if (shape.isSimplex) {
+    for (int a = 0; a < shape.numNodes; ++a)
+      fluxes.col(a) = at(shape.nodeSamples()[static_cast<std::size_t>(a)]);
   } else {
-    using Linear = Brick<Shape::dimension>;
-    static const auto samples = [] {
-      std::array<ShapeSample<Shape>, static_cast<std::size_t>(Linear::numNodes)> all;
-      for (std::size_t g = 0; g < all.size(); ++g)
-        all[g] = sampleAt<Shape>(Linear::gaussPoints()[g].xi);
-      return all;
-    }();
-    Eigen::Matrix<double, Law::numFluxes, Linear::numNodes> sampled;
-    for (std::size_t g = 0; g < samples.size(); ++g)
-      sampled.col(static_cast<Eigen::Index>(g)) = at(samples[g]);
-    for (int a = 0; a < Shape::numNodes; ++a)
-      fluxes.col(a) = sampled * Linear::values(std::sqrt(3.0) * Shape::node(a));
+    const Shape<dim>& linear = referenceShape<dim>(withOrder(shape.type, 1));
+    Eigen::Matrix<double, Law::numFluxes, 1 << dim> sampled;
+    for (int g = 0; g < linear.numNodes; ++g)
+      sampled.col(g) = at(shape.sampleAt(linear.gaussSamples()[static_cast<std::size_t>(g)].xi));
+    for (int a = 0; a < shape.numNodes; ++a)
+      fluxes.col(a) = sampled.lazyProduct(linear.values(std::sqrt(3.0) * shape.node(a)));
   }
 }
 
@@ -140,8 +140,11 @@ void sampleFlux(const Law& law, std::span<const Point> points, std::span<const d
 template <class Apply>
 Eigen::MatrixXd columnsOf(Eigen::Index rows, Eigen::Index columns, const Apply& apply) {
   Eigen::MatrixXd matrix(rows, columns);
-  for (Eigen::Index j = 0; j < columns; ++j)
-    matrix.col(j) = apply(Eigen::VectorXd(Eigen::VectorXd::Unit(columns, j)));
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    std::vector<double> unit(static_cast<std::size_t>(columns), 0.0);
+    unit[static_cast<std::size_t>(j)] = 1;
+    matrix.col(j) = apply(std::span<const double>(unit));
+  }
   return matrix;
 }
 
@@ -150,32 +153,27 @@ Eigen::MatrixXd columnsOf(Eigen::Index rows, Eigen::Index columns, const Apply& 
 template <class Law>
 Eigen::MatrixXd rootOfDensity(const Law& law) {
   constexpr int n = Law::numFluxes;
-  Eigen::Matrix<double, n, n> form;
+  Eigen::MatrixXd form(n, n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       form(i, j) = (law.density(Law::Flux::Unit(i) + Law::Flux::Unit(j)) -
                     law.density(Law::Flux::Unit(i) - Law::Flux::Unit(j))) /
                    4;
-  return form.llt().matrixU();
+  return direct::choleskyFactor(form).value().transpose();
 }
 
 /// Gauss points of [0, 1] and their weights: exact for degree 5.
 constexpr std::array<std::array<double, 2>, 3> gauss{
     {{0.11270166537925831, 5.0 / 18}, {0.5, 8.0 / 18}, {0.88729833462074169, 5.0 / 18}}};
 
+/// A point of the unit square or cube in the reference element; returns the factor of the weight. For a simplex the cube's top
+/// shrinks to a point (Duffy).
 template <int dim>
-using Place = Eigen::Matrix<double, dim, 1>;
-
-/// A point of the unit square or cube in the reference element; returns the factor of the weight.
-template <int dim, int order>
-double carry(Brick<dim, order> /*shape*/, Place<dim>& place) {
-  place = 2 * place - Place<dim>::Ones();
-  return 1 << dim;
-}
-
-/// The cube's top shrinks to a point (Duffy).
-template <int dim, int order>
-double carry(Simplex<dim, order> /*shape*/, Place<dim>& place) {
+double carry(const Shape<dim>& shape, Coordinates<dim>& place) {
+  if (!shape.isSimplex) {
+    place = 2 * place - Coordinates<dim>::Ones();
+    return 1 << dim;
+  }
   double rest = 1, factor = 1;
   for (int i = 0; i < dim; ++i) {
     place[i] *= rest;
@@ -186,29 +184,29 @@ double carry(Simplex<dim, order> /*shape*/, Place<dim>& place) {
   return factor;
 }
 
-template <class Shape, class Law>
-DisplacementNorms normsOf(const Law& law, std::span<const Point> points,
+template <class Law, int dim>
+DisplacementNorms normsOf(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
                           std::span<const double> displacements,
                           const std::function<FieldValue(const Point&)>& exact) {
-  constexpr int dim = Shape::dimension, numPoints = dim == 2 ? 9 : 27;
-  const auto corners = relativeCorners<Shape>(points);
-  const Eigen::Map<const Eigen::Matrix<double, Law::components, Shape::numNodes>> nodal(displacements.data());
+  constexpr int numPoints = dim == 2 ? 9 : 27;
+  const auto corners = relativeCorners<dim>(points);
+  const NodalDisplacements<Law> nodal = atNodes<Law>(displacements);
   DisplacementNorms norms;
   for (int k = 0; k < numPoints; ++k) {
-    Place<dim> place;
+    Coordinates<dim> place;
     double weight = 1;
     for (int i = 0, rest = k; i < dim; ++i, rest /= 3) {
       const auto& [at, share] = gauss[static_cast<std::size_t>(rest % 3)];
       place[i] = at;
       weight *= share;
     }
-    weight *= carry(Shape{}, place);
-    const ShapeSample<Shape> sample = sampleAt<Shape>(place);
-    const ElementMap<Shape> map(corners, sample);
-    typename Law::Flux flux = law.flux(gradientAt<Shape, Law>(map, sample, displacements));
-    Eigen::Matrix<double, Law::components, 1> value = nodal * sample.values;
+    weight *= carry(shape, place);
+    const ShapeSample<dim> sample = shape.sampleAt(place);
+    const ElementMap map(corners, sample);
+    typename Law::Flux flux = fluxAt(law, map, sample, displacements);
+    Eigen::Matrix<double, Law::components, 1> value = nodal.lazyProduct(sample.values);
     if (exact) {
-      const Place<dim> relative = corners * sample.values;
+      const Coordinates<dim> relative = corners.lazyProduct(sample.values);
       Point point = points[0];
       for (int i = 0; i < dim; ++i)
         point[static_cast<std::size_t>(i)] += relative[i];
@@ -227,12 +225,11 @@ DisplacementNorms normsOf(const Law& law, std::span<const Point> points,
 template <class Action>
 decltype(auto) withLaw(CellType type, Physics physics, const scene::Material& material, Action&& action) {
   assert(dimensionOf(type) == (physics == Physics::elasticity3d ? 3 : 2));
-  return withShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
-    if constexpr (Shape::dimension == 2)
+  return withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+    if constexpr (dim == 2)
       if (physics == Physics::membrane)
-        return action(shape, MembraneLaw<Shape>(physics, material));
-    return action(shape, ElasticLaw<Shape>(physics, material));
+        return action(shape, MembraneLaw(physics, material));
+    return action(shape, ElasticLaw<dim>(physics, material));
   });
 }
 
@@ -250,24 +247,21 @@ void sampledFluxes(CellType type, std::span<const Point> points, Physics physics
                    const scene::Material& material, std::span<const double> displacements,
                    Eigen::MatrixXd& fluxes) {
   fluxes.resize(numFluxes(physics), numSampledFluxes(type));
-  withLaw(type, physics, material, [&](auto shape, const auto& law) {
-    sampleFlux<decltype(shape)>(law, points, displacements, fluxes);
-  });
+  withLaw(type, physics, material,
+          [&](const auto& shape, const auto& law) { sampleFlux(law, shape, points, displacements, fluxes); });
 }
 
 FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, Physics physics,
                           const scene::Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes) {
-  return withLaw(type, physics, material, [&](auto shape, const auto& law) {
-    using Shape = decltype(shape);
+  return withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
     using Law = std::decay_t<decltype(law)>;
-    assert(nodalFluxes.rows() == Law::numFluxes && nodalFluxes.cols() == Shape::numNodes);
-    const Eigen::Map<const Eigen::Matrix<double, Law::numFluxes, Shape::numNodes>, 0, Eigen::OuterStride<>>
-        fluxes(nodalFluxes.data(), Eigen::OuterStride<>(nodalFluxes.outerStride()));
-    if constexpr (Shape::isSimplex && Shape::order == 1)
-      return simplexEnergies<Shape>(law, points, displacements, fluxes);
-    else
-      return energiesByRule<Shape>(law, points, displacements, fluxes);
+    assert(nodalFluxes.rows() == Law::numFluxes && nodalFluxes.cols() == shape.numNodes);
+    const Eigen::Map<const Eigen::Matrix<double, Law::numFluxes, Eigen::Dynamic>, 0, Eigen::OuterStride<>>
+        fluxes(nodalFluxes.data(), Law::numFluxes, nodalFluxes.cols(),
+               Eigen::OuterStride<>(nodalFluxes.outerStride()));
+    return shape.isSimplex && shape.order == 1 ? simplexEnergies(law, shape, points, displacements, fluxes)
+                                               : energiesByRule(law, shape, points, displacements, fluxes);
   });
 }
 
@@ -275,34 +269,31 @@ CongruentFluxes::CongruentFluxes(CellType type, std::span<const Point> points, P
                                  const scene::Material& material) {
   elementStiffness(type, points, physics, material, stiffness_);
   const Eigen::Index unknowns = stiffness_.rows();
-  withLaw(type, physics, material, [&](auto shape, const auto& law) {
-    using Shape = decltype(shape);
-    using Law = std::decay_t<decltype(law)>;
-    const auto corners = relativeCorners<Shape>(points);
+  withLaw(type, physics, material, [&]<int dim>(const Shape<dim>& shape, const auto& law) {
+    constexpr int numFluxes = std::decay_t<decltype(law)>::numFluxes;
+    const auto corners = relativeCorners<dim>(points);
     const Eigen::MatrixXd root = rootOfDensity(law);
-    const auto fluxAt = [&](const ShapeSample<Shape>& sample, const Eigen::VectorXd& u) {
-      return law.flux(gradientAt<Shape, Law>(ElementMap<Shape>(corners, sample), sample,
-                                             {u.data(), static_cast<std::size_t>(u.size())}));
-    };
     const Eigen::Index numSampled = numSampledFluxes(type);
-    sampled_ = columnsOf(Law::numFluxes * numSampled, unknowns, [&](const Eigen::VectorXd& u) {
-      Eigen::MatrixXd fluxes(Law::numFluxes, numSampled);
-      sampleFlux<Shape>(law, points, {u.data(), static_cast<std::size_t>(u.size())}, fluxes);
+    sampled_ = columnsOf(numFluxes * numSampled, unknowns, [&](std::span<const double> u) {
+      Eigen::MatrixXd fluxes(numFluxes, numSampled);
+      sampleFlux(law, shape, points, u, fluxes);
       return Eigen::VectorXd(fluxes.reshaped());
     });
-    const auto add = [&](const ShapeSample<Shape>& sample, double weight) {
-      const Eigen::Index row = ofFluxes_.rows();
-      ofFluxes_.conservativeResize(row + Law::numFluxes, Law::numFluxes * Shape::numNodes);
-      ofDisplacement_.conservativeResize(row + Law::numFluxes, unknowns);
-      for (int a = 0; a < Shape::numNodes; ++a)
-        ofFluxes_.block(row, a * Law::numFluxes, Law::numFluxes, Law::numFluxes) =
-            std::sqrt(weight) * sample.values[a] * root;
-      ofDisplacement_.bottomRows(Law::numFluxes) =
-          std::sqrt(weight) * root *
-          columnsOf(Law::numFluxes, unknowns, [&](const Eigen::VectorXd& u) { return fluxAt(sample, u); });
-    };
-    for (const auto& sample : fineSamples<Shape>())
-      add(sample, sample.weight * ElementMap<Shape>(corners, sample).determinant());
+    const auto numSamples = static_cast<Eigen::Index>(shape.fineSamples().size());
+    ofFluxes_.resize(numFluxes * numSamples, numFluxes * shape.numNodes);
+    ofDisplacement_.resize(numFluxes * numSamples, unknowns);
+    Eigen::Index row = 0;
+    for (const auto& sample : shape.fineSamples()) {
+      const ElementMap map(corners, sample);
+      const double size = std::sqrt(sample.weight * map.determinant());
+      for (int a = 0; a < shape.numNodes; ++a)
+        ofFluxes_.block(row, a * numFluxes, numFluxes, numFluxes) = size * sample.values[a] * root;
+      ofDisplacement_.middleRows(row, numFluxes) =
+          size * root * columnsOf(numFluxes, unknowns, [&](std::span<const double> u) {
+            return fluxAt(law, map, sample, u);
+          });
+      row += numFluxes;
+    }
   });
 }
 
@@ -316,8 +307,8 @@ Eigen::VectorXd CongruentFluxes::differences(const Eigen::MatrixXd& displacement
 DisplacementNorms differenceNorms(CellType type, std::span<const Point> points, Physics physics,
                                   const scene::Material& material, std::span<const double> displacements,
                                   const std::function<FieldValue(const Point&)>& exact) {
-  return withLaw(type, physics, material, [&](auto shape, const auto& law) {
-    return normsOf<decltype(shape)>(law, points, displacements, exact);
+  return withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
+    return normsOf(law, shape, points, displacements, exact);
   });
 }
 

@@ -22,12 +22,12 @@ Vector3 vectorOf(const Point& point) {
 }
 
 /// Coordinates moved to where the reference facet is.
-template <class Shape>
-typename Shape::Coordinates clamped(typename Shape::Coordinates xi) {
-  if constexpr (!Shape::isSimplex)
+template <int dim>
+Coordinates<dim> clamped(const Shape<dim>& shape, Coordinates<dim> xi) {
+  if (!shape.isSimplex)
     return xi.cwiseMax(-1).cwiseMin(1);
   if (xi.sum() > 1)
-    xi.array() -= (xi.sum() - 1) / Shape::dimension;
+    xi.array() -= (xi.sum() - 1) / dim;
   return xi.cwiseMax(0).cwiseMin(1);
 }
 
@@ -45,22 +45,23 @@ double distanceToNeighbours(LocalOrdinal node, const MeshArrays& mesh, const Mes
 } // namespace
 
 double distanceFrom(CellType type, std::span<const Point> facet, const Point& point) {
-  return withFacetShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
+  return withFacetShape(type, [&]<int dim>(const Shape<dim>& shape) {
     constexpr int mostSteps = 20; // a plane facet takes one or two
-    const auto corners = relativeCorners<Shape, 3>(facet);
+    const auto corners = relativeCorners<3>(facet);
     const Vector3 wanted = vectorOf(point) - vectorOf(facet[0]);
-    typename Shape::Coordinates xi = Shape::centre();
+    Coordinates<dim> xi = shape.centre();
     for (int step = 0; step < mostSteps; ++step) { // Gauss–Newton for the nearest point
-      const ShapeSample<Shape> sample = sampleAt<Shape>(xi);
-      const Eigen::Matrix<double, 3, Shape::dimension> derivatives = corners * sample.gradients.transpose();
-      const typename Shape::Coordinates change =
-          derivatives.colPivHouseholderQr().solve(wanted - corners * sample.values);
+      const ShapeSample<dim> sample = shape.sampleAt(xi);
+      const Vector3 off = wanted - corners * sample.values;
+      const Eigen::Matrix<double, 3, dim> tangents = derivatives(corners, sample);
+      const Coordinates<dim> change =
+          (tangents.transpose() * tangents).inverse() * (tangents.transpose() * off);
       xi += change;
       if (change.norm() <= 1e-12)
         break;
     }
-    return (wanted - corners * Shape::values(clamped<Shape>(xi))).norm();
+    const Vector3 nearest = corners * shape.values(clamped(shape, xi));
+    return (wanted - nearest).norm();
   });
 }
 

@@ -1,11 +1,11 @@
 #include "epafi/fem/JacobianBound.hpp"
 
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/fem/ElementMap.hpp"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -14,16 +14,15 @@ namespace epafi::fem {
 namespace {
 
 /// A part of a reference element: origin + axes · ξ for all ξ of the whole.
-template <class Shape>
+template <int dim>
 struct Part {
-  static constexpr int dim = Shape::dimension;
-  typename Shape::Coordinates origin = Shape::Coordinates::Zero();
+  Coordinates<dim> origin = Coordinates<dim>::Zero();
   Eigen::Matrix<double, dim, dim> axes = Eigen::Matrix<double, dim, dim>::Identity();
 
   /// Both halves: of a brick across its longest axis, of a simplex across its longest edge.
-  [[nodiscard]] std::array<Part, 2> halves() const {
+  [[nodiscard]] std::array<Part, 2> halves(bool isSimplex) const {
     std::array<Part, 2> both{*this, *this};
-    if constexpr (!Shape::isSimplex) {
+    if (!isSimplex) {
       Eigen::Index axis = 0;
       axes.colwise().squaredNorm().maxCoeff(&axis);
       for (int side = 0; side < 2; ++side) {
@@ -32,7 +31,7 @@ struct Part {
       }
     } else {
       const auto [a, b] = longestEdge();
-      const typename Shape::Coordinates middle = 0.5 * (corner(a) + corner(b));
+      const Coordinates<dim> middle = 0.5 * (corner(a) + corner(b));
       both[0].moveCorner(a, middle);
       both[1].moveCorner(b, middle);
     }
@@ -40,10 +39,10 @@ struct Part {
   }
 
 private:
-  [[nodiscard]] typename Shape::Coordinates corner(int number) const {
-    return number == 0 ? origin : typename Shape::Coordinates(origin + axes.col(number - 1));
+  [[nodiscard]] Coordinates<dim> corner(int number) const {
+    return number == 0 ? origin : Coordinates<dim>(origin + axes.col(number - 1));
   }
-  void moveCorner(int number, const typename Shape::Coordinates& to) {
+  void moveCorner(int number, const Coordinates<dim>& to) {
     if (number == 0) {
       axes.colwise() += origin - to;
       origin = to;
@@ -61,38 +60,44 @@ private:
   }
 };
 
+double factorial(int n) {
+  return n < 2 ? 1 : n * factorial(n - 1);
+}
+
 /// Bernstein's basis of the polynomials that determinants are.
-template <class Shape>
+template <int dim>
 class Bernstein {
 public:
-  using Coordinates = typename Shape::Coordinates;
-
-  Bernstein() {
+  explicit Bernstein(const Shape<dim>& shape)
+      : isSimplex_(shape.isSimplex),
+        degree_(shape.isSimplex ? dim * (shape.order - 1) : dim * shape.order - 1) {
     std::vector<Exponents> all;
-    for (int code = 0; code < power(degree + 1, dim); ++code) {
+    for (int code = 0; code < power(degree_ + 1, dim); ++code) {
       Exponents exponents{};
-      exponents.back() = degree;
-      for (std::size_t i = 0, left = static_cast<std::size_t>(code); i < dim; ++i, left /= degree + 1)
-        exponents.back() -= exponents[i] = static_cast<int>(left % (degree + 1));
-      if (Shape::isSimplex && exponents.back() < 0)
+      exponents.back() = degree_;
+      for (std::size_t i = 0, left = static_cast<std::size_t>(code),
+                       base = static_cast<std::size_t>(degree_) + 1;
+           i < dim; ++i, left /= base)
+        exponents.back() -= exponents[i] = static_cast<int>(left % base);
+      if (isSimplex_ && exponents.back() < 0)
         continue;
       all.push_back(exponents);
-      Coordinates point;
+      Coordinates<dim> point;
       for (std::size_t i = 0; i < dim; ++i)
-        point[static_cast<Eigen::Index>(i)] = static_cast<double>(exponents[i]) / degree;
-      points_.push_back(Shape::isSimplex ? point : Coordinates(2 * point - Coordinates::Ones()));
+        point[static_cast<Eigen::Index>(i)] = static_cast<double>(exponents[i]) / degree_;
+      points_.push_back(isSimplex_ ? point : Coordinates<dim>(2 * point - Coordinates<dim>::Ones()));
     }
     Eigen::MatrixXd values(all.size(), all.size());
     for (std::size_t row = 0; row < all.size(); ++row)
       for (std::size_t column = 0; column < all.size(); ++column)
         values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
             at(points_[row], all[column]);
-    toCoefficients_ = values.inverse();
+    toCoefficients_ = direct::leastSquares(values, Eigen::MatrixXd::Identity(values.rows(), values.cols()));
   }
 
   /// Least value at the points of a part, and least coefficient there.
   template <class Polynomial>
-  std::pair<double, double> least(const Part<Shape>& part, const Polynomial& polynomial) const {
+  std::pair<double, double> least(const Part<dim>& part, const Polynomial& polynomial) const {
     Eigen::VectorXd values(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i)
       values[static_cast<Eigen::Index>(i)] = polynomial(part.origin + part.axes * points_[i]);
@@ -100,45 +105,53 @@ public:
   }
 
 private:
-  static constexpr int dim = Shape::dimension;
-  /// Altogether on simplices, in each coordinate on bricks: of a product of `dim` derivatives.
-  static constexpr int degree = Shape::isSimplex ? dim * (Shape::order - 1) : dim * Shape::order - 1;
   /// The last one: what is left of the degree, on simplices.
   using Exponents = std::array<int, static_cast<std::size_t>(dim) + 1>;
 
-  static double factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
-  static double at(const Coordinates& xi, const Exponents& exponents) {
+  [[nodiscard]] double at(const Coordinates<dim>& xi, const Exponents& exponents) const {
     double value = 1;
     for (int i = 0; i < dim; ++i) {
       const int k = exponents[static_cast<std::size_t>(i)];
-      const double x = Shape::isSimplex ? xi[i] : 0.5 * (1 + xi[i]);
+      const double x = isSimplex_ ? xi[i] : 0.5 * (1 + xi[i]);
       value *= std::pow(x, k) / factorial(k);
-      if (!Shape::isSimplex)
-        value *= factorial(degree) * std::pow(1 - x, degree - k) / factorial(degree - k);
+      if (!isSimplex_)
+        value *= factorial(degree_) * std::pow(1 - x, degree_ - k) / factorial(degree_ - k);
     }
-    return Shape::isSimplex ? value * factorial(degree) * std::pow(1 - xi.sum(), exponents.back()) /
-                                  factorial(exponents.back())
-                            : value;
+    return isSimplex_ ? value * factorial(degree_) * std::pow(1 - xi.sum(), exponents.back()) /
+                            factorial(exponents.back())
+                      : value;
   }
 
-  std::vector<Coordinates> points_;
+  bool isSimplex_;
+  int degree_; ///< altogether on simplices, in each coordinate on bricks: of a product of `dim` derivatives
+  std::vector<Coordinates<dim>> points_;
   Eigen::MatrixXd toCoefficients_;
 };
 
-template <class Shape>
-double leastDeterminantOf(std::span<const Point> points) {
-  static const Bernstein<Shape> basis;
-  constexpr int mostHalvings = 5 * Shape::dimension;
-  const auto corners = relativeCorners<Shape>(points);
-  const auto determinant = [&](const typename Shape::Coordinates& xi) {
-    return ElementMap<Shape>(corners, sampleAt<Shape>(xi)).determinant();
+/// Made once. Precondition: order 2.
+template <int dim>
+const Bernstein<dim>& basisOf(const Shape<dim>& shape) {
+  constexpr bool isPlane = dim == 2;
+  static const Bernstein<dim> ofSimplex(
+      referenceShape<dim>(isPlane ? CellType::triangle6 : CellType::tetrahedron10)),
+      ofBrick(referenceShape<dim>(isPlane ? CellType::quadrilateral9 : CellType::hexahedron27));
+  return shape.isSimplex ? ofSimplex : ofBrick;
+}
+
+template <int dim>
+double leastDeterminantOf(const Shape<dim>& shape, std::span<const Point> points) {
+  const Bernstein<dim>& basis = basisOf(shape);
+  constexpr int mostHalvings = 5 * dim;
+  const auto corners = relativeCorners<dim>(points);
+  const auto determinant = [&](const Coordinates<dim>& xi) {
+    return ElementMap<dim>(corners, shape.sampleAt(xi)).determinant();
   };
-  std::vector<Part<Shape>> parts(1);
-  double sound = determinant(Shape::centre()); // bound on the parts that are settled
+  std::vector<Part<dim>> parts(1);
+  double sound = determinant(shape.centre()); // bound on the parts that are settled
   for (int halving = 0;; ++halving) {
-    std::vector<Part<Shape>> doubtful;
+    std::vector<Part<dim>> doubtful;
     double doubt = sound;
-    for (const Part<Shape>& part : parts) {
+    for (const Part<dim>& part : parts) {
       const auto [value, coefficient] = basis.least(part, determinant);
       if (value <= 0)
         return value;
@@ -153,8 +166,8 @@ double leastDeterminantOf(std::span<const Point> points) {
     if (halving == mostHalvings)
       return doubt;
     parts.clear();
-    for (const Part<Shape>& part : doubtful)
-      for (const Part<Shape>& half : part.halves())
+    for (const Part<dim>& part : doubtful)
+      for (const Part<dim>& half : part.halves(shape.isSimplex))
         parts.push_back(half);
   }
 }
@@ -162,13 +175,8 @@ double leastDeterminantOf(std::span<const Point> points) {
 } // namespace
 
 double leastDeterminant(CellType type, std::span<const Point> points) {
-  return withShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
-    if constexpr (Shape::order == 1)
-      return 0.0;
-    else
-      return leastDeterminantOf<Shape>(points);
-  });
+  assert(orderOf(type) == 2);
+  return withShape(type, [&](const auto& shape) { return leastDeterminantOf(shape, points); });
 }
 
 } // namespace epafi::fem

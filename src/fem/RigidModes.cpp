@@ -1,7 +1,6 @@
 #include "epafi/fem/RigidModes.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include "epafi/direct/DenseOrthogonal.hpp"
 
 #include <cmath>
 #include <limits>
@@ -29,8 +28,7 @@ private:
   static constexpr Eigen::Index chunk = 64;
 
   void compress() {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_);
-    const Eigen::MatrixXd upper = qr.matrixQR().topRows(rows_.cols()).template triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd upper = direct::triangularFactor(rows_);
     rows_.setZero();
     rows_.topRows(rows_.cols()) = upper;
     numNew_ = 0;
@@ -71,12 +69,12 @@ FreeModes RigidModes::freeOf(std::span<const HeldDirection> held) const {
   RowFactor rows(number());
   for (const HeldDirection& value : held)
     rows.add(along(value.point, value.direction));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.factor(), Eigen::ComputeFullV);
-  const Eigen::VectorXd hold = svd.singularValues() / std::sqrt(static_cast<double>(held.size()));
+  const direct::RightSingular svd = direct::rightSingularOf(rows.factor());
+  const Eigen::VectorXd hold = svd.values / std::sqrt(static_cast<double>(held.size()));
   Eigen::Index numHeld = 0;
   while (numHeld < hold.size() && hold[numHeld] > freeUpTo)
     ++numHeld;
-  return {svd.matrixV().rightCols(number() - numHeld),
+  return {svd.vectors.rightCols(number() - numHeld),
           numHeld > 0 ? hold[numHeld - 1] : std::numeric_limits<double>::infinity()};
 }
 

@@ -3,10 +3,6 @@
 #include "epafi/fem/ElementGeometry.hpp"
 
 #include <Eigen/LU>
-#define BOOST_ALLOW_DEPRECATED_HEADERS // what its own headers include
-#include <boost/geometry.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,26 +10,19 @@
 #include <utility>
 
 namespace epafi::fem {
-namespace geometry = boost::geometry;
+namespace {
 
-struct SizeField::Boxes {
-  using Corner = geometry::model::point<double, 3, geometry::cs::cartesian>;
-  using Box = geometry::model::box<Corner>;
-  using Entry = std::pair<Box, std::size_t>;
-  geometry::index::rtree<Entry, geometry::index::quadratic<16>> tree;
-};
-
-SizeField::SizeField(MeshSizes sizes) : sizes_(std::move(sizes)) {
-  std::vector<Boxes::Entry> entries;
-  const auto count = static_cast<std::size_t>(sizes_.dimension) + 1;
-  for (std::size_t first = 0; first < sizes_.corners.size(); first += count) {
-    const auto [lower, upper] = boxOf(std::span(sizes_.corners).subspan(first, count));
-    entries.emplace_back(Boxes::Box{{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}, first);
-  }
-  boxes_ = std::make_unique<const Boxes>(Boxes{decltype(Boxes::tree)(entries)});
+std::vector<BoxTree::Box> boxesOf(const MeshSizes& sizes) {
+  std::vector<BoxTree::Box> boxes;
+  const auto count = static_cast<std::size_t>(sizes.dimension) + 1;
+  for (std::size_t first = 0; first < sizes.corners.size(); first += count)
+    boxes.push_back(boxOf(std::span(sizes.corners).subspan(first, count)));
+  return boxes;
 }
 
-SizeField::~SizeField() = default;
+} // namespace
+
+SizeField::SizeField(MeshSizes sizes) : sizes_(std::move(sizes)), boxes_(boxesOf(sizes_)) {}
 
 double SizeField::sizeIn(std::size_t simplex, const Point& point, double& outside) const {
   const int n = sizes_.dimension;
@@ -47,7 +36,7 @@ double SizeField::sizeIn(std::size_t simplex, const Point& point, double& outsid
       edges(d, i) = corners[i + 1][axis] - corners[0][axis];
   }
   Eigen::Vector4d weights = Eigen::Vector4d::Zero();
-  weights.segment<3>(1) = edges.partialPivLu().solve(place);
+  weights.segment<3>(1) = edges.inverse() * place;
   weights[0] = 1 - weights.sum();
   outside = std::max(0.0, -weights.head(n + 1).minCoeff());
   constexpr double roundOff = 1e-9;
@@ -61,22 +50,25 @@ double SizeField::sizeIn(std::size_t simplex, const Point& point, double& outsid
 }
 
 double SizeField::at(const Point& point) const {
-  const Boxes::Corner place(point[0], point[1], point[2]);
   double least = std::numeric_limits<double>::infinity(), size = least;
-  const auto look = [&](const auto& query) {
-    for (auto entry = boxes_->tree.qbegin(query); entry != boxes_->tree.qend(); ++entry) {
+  std::vector<std::size_t> found;
+  const auto look = [&] {
+    for (const std::size_t simplex : found) {
       double outside = 0;
-      const double here = sizeIn(entry->second, point, outside);
+      const double here = sizeIn(simplex * (static_cast<std::size_t>(sizes_.dimension) + 1), point, outside);
       if (outside < least || (outside == least && here < size)) {
         least = outside;
         size = here;
       }
     }
   };
-  look(geometry::index::intersects(place));
-  constexpr unsigned near = 8; // beyond the chords of a curved border
-  if (!(least <= 0))
-    look(geometry::index::nearest(place, near));
+  boxes_.meeting({point, point}, found);
+  look();
+  constexpr std::size_t near = 8; // beyond the chords of a curved border
+  if (!(least <= 0)) {
+    boxes_.nearest(point, near, found);
+    look();
+  }
   return size;
 }
 

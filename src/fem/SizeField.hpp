@@ -2,9 +2,10 @@
 
 /// How long the edges of a mesh are to be, all over a body.
 
+#include "epafi/fem/BoxTree.hpp"
 #include "epafi/fem/Mesh.hpp"
 
-#include <memory>
+#include <cstddef>
 #include <vector>
 
 namespace epafi::fem {
@@ -21,20 +22,16 @@ class SizeField {
 public:
   /// Precondition: at least one simplex. Keeps the sizes.
   explicit SizeField(MeshSizes sizes);
-  ~SizeField();
-  SizeField(const SizeField&) = delete;
-  SizeField& operator=(const SizeField&) = delete;
 
   /// Beyond all simplices the size on the nearest.
   [[nodiscard]] double at(const Point& point) const;
 
 private:
-  struct Boxes;
   /// \param[out] outside  how far, about; 0 inside
   [[nodiscard]] double sizeIn(std::size_t simplex, const Point& point, double& outside) const;
 
   MeshSizes sizes_;
-  std::unique_ptr<const Boxes> boxes_;
+  BoxTree boxes_;
 };
 
 } // namespace epafi::fem

@@ -31,18 +31,20 @@ std::span<const Side> sidesOf(int dimension) {
   return dimension == 2 ? std::span<const Side>(sidesOfRectangle) : std::span<const Side>(sidesOfBox);
 }
 
-/// (i,j,k) of the nodes of an element in the order of Cell.hpp.
-template <class Shape>
-std::span<const std::array<int, 3>> placesOf() {
-  static const auto places = [] {
-    std::array<std::array<int, 3>, static_cast<std::size_t>(Shape::numNodes)> all{};
-    for (int node = 0; node < Shape::numNodes; ++node)
-      for (int d = 0; d < Shape::dimension; ++d)
-        all[static_cast<std::size_t>(node)][static_cast<std::size_t>(d)] =
-            static_cast<int>(Shape::node(node)[d] + 1) * Shape::order / 2;
-    return all;
-  }();
-  return places;
+/// (i,j,k) of the nodes of an element in the order of Cell.hpp: of order 1, then of order 2.
+template <int dim>
+std::array<std::vector<std::array<int, 3>>, 2> placesIn() {
+  std::array<std::vector<std::array<int, 3>>, 2> all;
+  const CellType linear = dim == 2 ? CellType::quadrilateral : CellType::hexahedron;
+  for (int order = 1; order <= 2; ++order) {
+    const Shape<dim>& shape = referenceShape<dim>(withOrder(linear, order));
+    for (int node = 0; node < shape.numNodes; ++node) {
+      std::array<int, 3>& place = all[static_cast<std::size_t>(order - 1)].emplace_back();
+      for (int d = 0; d < dim; ++d)
+        place[static_cast<std::size_t>(d)] = static_cast<int>(shape.node(node)[d] + 1) * order / 2;
+    }
+  }
+  return all;
 }
 
 /// (i,j,k) of a number.
@@ -194,9 +196,8 @@ std::vector<Point> StructuredMesh::elementShape() const {
 }
 
 std::span<const std::array<int, 3>> StructuredMesh::places() const {
-  if (order_ == 1)
-    return dimension_ == 2 ? placesOf<Brick<2>>() : placesOf<Brick<3>>();
-  return dimension_ == 2 ? placesOf<Brick<2, 2>>() : placesOf<Brick<3, 2>>();
+  static const auto ofPlane = placesIn<2>(), ofSpace = placesIn<3>();
+  return (dimension_ == 2 ? ofPlane : ofSpace)[static_cast<std::size_t>(order_ - 1)];
 }
 
 std::vector<Point> congruentShape(const Mesh& mesh) {

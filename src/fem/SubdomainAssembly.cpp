@@ -1,5 +1,6 @@
 #include "epafi/fem/SubdomainAssembly.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace epafi::fem {
@@ -122,12 +123,15 @@ void SubdomainAssembler::addStiffness(const StiffnessPattern& pattern, Assembled
 
 void SubdomainAssembler::addLoads(const LocalNumbering& numbering, AssembledSubdomain& subdomain) {
   subdomain.load.setZero(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
+  subdomain.heldLoad = 0;
   const double* load = loads_.data();
   for (const int node : numbering.corners())
     for (std::size_t c = 0; c < components_; ++c, ++load) {
       const int unknown = subdomain.unknownOf[static_cast<std::size_t>(node) * components_ + c];
       if (unknown >= 0)
         subdomain.load[unknown] += *load;
+      else
+        subdomain.heldLoad += std::abs(*load);
     }
 }
 

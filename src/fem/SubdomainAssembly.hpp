@@ -26,7 +26,7 @@ struct AssembledSubdomain {
   Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness;
   Eigen::VectorXd load;
   Eigen::VectorXd prescribed;
-  double energyOffset = 0;
+  double energyOffset = 0, heldLoad = 0;
   Eigen::MatrixXd kernel;
 };
 

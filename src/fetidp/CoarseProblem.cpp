@@ -4,8 +4,8 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/decomposition/Clusters.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 
-#include <Eigen/QR>
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
@@ -120,15 +120,15 @@ std::vector<int> fixingUnknowns(const DecomposedProblem& problem, const CoarseKe
       continue;
     const Eigen::MatrixXd transposed =
         kernel.modes(candidates[c], Eigen::seqN(0, cluster.kernelDimension)).transpose();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
-    if (qr.rank() < cluster.kernelDimension)
+    const direct::PivotedColumns pivoted = direct::pivotedColumns(transposed);
+    if (pivoted.rank < cluster.kernelDimension)
       throw Error("the crosspoints of the floating body '" +
                   problem.bodies[static_cast<std::size_t>(cluster.body)].name + "' do not hold the " +
                   std::to_string(cluster.kernelDimension) +
                   " rigid modes of its cluster of subdomains number " + std::to_string(c) +
                   "; choose more crosspoints");
-    for (int k = 0; k < cluster.kernelDimension; ++k)
-      fixed.push_back(candidates[c][static_cast<std::size_t>(qr.colsPermutation().indices()[k])]);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(cluster.kernelDimension); ++k)
+      fixed.push_back(candidates[c][static_cast<std::size_t>(pivoted.order[k])]);
   }
   return fixed;
 }

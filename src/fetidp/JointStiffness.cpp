@@ -2,9 +2,8 @@
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -101,21 +100,7 @@ Eigen::MatrixXd crosspointResponse(const std::vector<JointPart>& parts) {
 
 /// Orthonormal columns that span those of a matrix, whatever their lengths, but for round-off.
 Eigen::MatrixXd spanOf(const Eigen::MatrixXd& columns) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.rows(), columns.cols());
-  qr.setThreshold(1e-8);
-  qr.compute(columns.colwise().normalized());
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
-  basis.applyOnTheLeft(qr.householderQ());
-  return basis;
-}
-
-/// Orthonormal columns that span what the given ones, of full rank, are orthogonal to.
-Eigen::MatrixXd complementOf(const Eigen::MatrixXd& columns) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  Eigen::MatrixXd basis =
-      Eigen::MatrixXd::Identity(columns.rows(), columns.rows()).rightCols(columns.rows() - columns.cols());
-  basis.applyOnTheLeft(qr.householderQ());
-  return basis;
+  return direct::pivotedColumns(columns.colwise().normalized(), 1e-8).basis;
 }
 
 } // namespace
@@ -199,16 +184,30 @@ Eigen::MatrixXd motionsOf(const std::vector<JointPart>& parts) {
   return all;
 }
 
+namespace {
+
+/// L of M_E = LLᵀ; what jumps of the stiffness leave of its smallest eigenvalues may be round-off, and gets a spring of that size.
+Eigen::MatrixXd preconditionerFactor(const Eigen::MatrixXd& preconditioner) {
+  for (const double spring : {0.0, 1e-13, 1e-11, 1e-9}) {
+    Eigen::MatrixXd held = preconditioner;
+    held.diagonal() *= 1 + spring;
+    if (std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(held))
+      return std::move(*lower);
+  }
+  throw Error(
+      "the preconditioner of an interface is not positive definite: round-off has grown too large; avoid "
+      "very flat elements and very large jumps of stiffness, or set Adaptive Constraints/Use to 'no'");
+}
+
+} // namespace
+
 OverratedJumps overratedJumps(const JointStiffness& joint, double threshold, const Eigen::MatrixXd& motions) {
-  const std::optional<Eigen::MatrixXd> lower = direct::choleskyFactor(joint.preconditioner); // M_E = LLᵀ
-  if (!lower)
-    throw Error(
-        "the preconditioner of an interface is not positive definite: round-off has grown too large; avoid "
-        "very flat elements and very large jumps of stiffness, or set Adaptive Constraints/Use to 'no'");
-  Eigen::MatrixXd basis = *lower, held(lower->rows(), 0); // of u = L x, and of what it is orthogonal to
+  const Eigen::MatrixXd lower = preconditionerFactor(joint.preconditioner);
+  Eigen::MatrixXd basis = lower, held(lower.rows(), 0); // of u = L x, and of what it is orthogonal to
   if (motions.cols() > 0) {
     held = spanOf(motions);
-    basis = *lower * complementOf(lower->transpose() * held); // before springs come in, which are large there
+    basis = lower * direct::orthogonalComplement(lower.transpose() *
+                                                 held); // before springs come in, which are large there
   }
   Eigen::MatrixXd product =
       basis.transpose() * joint.ofBoundaries * basis; // LᵀF_E L x = ω x, y = F_E L x, M_E y = ω L x
@@ -222,7 +221,7 @@ OverratedJumps overratedJumps(const JointStiffness& joint, double threshold, con
   const Eigen::Index number = size - eigen.numUpTo(threshold);
   Eigen::MatrixXd forces = basis * eigen.vectors.rightCols(number).rowwise().reverse();
   forces -= held * (held.transpose() * forces); // round-off of the basis
-  const auto c = lower->triangularView<Eigen::Lower>();
+  const auto c = lower.triangularView<Eigen::Lower>();
   return {eigen.values.tail(number).reverse(), c.transpose().solve(c.solve(forces)), std::move(forces)};
 }
 

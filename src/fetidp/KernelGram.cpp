@@ -2,9 +2,8 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/qp/LocalData.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <span>
@@ -114,9 +113,9 @@ std::vector<int> anchorsAmong(const std::vector<int>& modes,
     Eigen::MatrixXd columns(dimension, static_cast<Eigen::Index>(found[body].size()));
     for (std::size_t i = 0; i < found[body].size(); ++i)
       columns.col(static_cast<Eigen::Index>(i)) = motions[body][i];
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-    for (Eigen::Index i = 0; i < qr.rank(); ++i)
-      anchors.push_back(found[body][static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
+    const direct::PivotedColumns pivoted = direct::pivotedColumns(columns);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(pivoted.rank); ++i)
+      anchors.push_back(found[body][static_cast<std::size_t>(pivoted.order[i])]);
   }
   return anchors;
 }

@@ -43,7 +43,7 @@ void ProblemScales::measureLoads(const DecomposedProblem& problem) {
   for (const auto& subdomain : problem.subdomains) {
     const auto cluster =
         static_cast<std::size_t>(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
-    sums[cluster] += subdomain.load.lpNorm<1>();
+    sums[cluster] += subdomain.load.lpNorm<1>() + subdomain.heldLoad;
     const double prescribed =
         subdomain.prescribed.size() > 0 ? subdomain.prescribed.lpNorm<Eigen::Infinity>() : 0.0;
     if (prescribed > 0 && subdomain.stiffness->rows() > 0)

@@ -29,7 +29,7 @@ public:
 
   /// Largest displacement of each mode of the bodies, k; 1 for a mode without any.
   [[nodiscard]] const Eigen::VectorXd& motions() const { return motions_; }
-  /// Loads on the body of each motion, k: the sum of all forces on it whatever their directions. Where supports prescribe displacements, not less than
+  /// Loads on the body of each motion, k: the sum of all forces on it whatever their directions, those on supports, too. Where supports prescribe displacements, not less than
   /// what is left if the forces that these cause cancel; those on the least loaded body where a body carries none but round-off.
   [[nodiscard]] const Eigen::VectorXd& loads() const { return loads_; }
   /// The same for the columns of R, in their own scaling: what ẽ is measured by.

@@ -2,9 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 
-#include <Eigen/Cholesky>
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::vector<VectorXd> rigidParts(const DecomposedProblem& problem, const Subdoma
   std::vector<VectorXd> parts;
   for (MatrixXd& sum : sums) {
     sumOverRanks(*problem.comm, std::span(sum.data(), static_cast<std::size_t>(sum.size())));
-    parts.emplace_back(sum.leftCols(sum.rows()).ldlt().solve(sum.rightCols(1)));
+    parts.emplace_back(direct::solvedSymmetric(sum.leftCols(sum.rows()), sum.rightCols(1)));
   }
   return parts;
 }

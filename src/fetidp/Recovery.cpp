@@ -7,7 +7,6 @@
 #include "epafi/fetidp/Proportion.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
 #include "epafi/fetidp/SharedRows.hpp"
-#include "epafi/fetidp/Solvability.hpp"
 
 #include <Tpetra_Map.hpp>
 
@@ -243,14 +242,14 @@ namespace {
 /// Collective.
 RestCheck restCheck(const DualProblem& dual, const DualSolution& found) {
   const DecomposedProblem& problem = dual.problem();
-  if (found.report.status != qp::Status::converged || dual.coarseSpace().is_null() ||
-      !contactsOppose(problem, dual.kernelEntries()))
+  if (found.report.status != qp::Status::converged || dual.coarseSpace().is_null())
     return {};
   const DualParameters& parameters = dual.parameters();
   const double norm = dual.norm().norm,
                reference = equilibriumReference(problem, *dual.coarseSpace(), kernelLoad(problem),
                                                 found.reference, norm);
-  return {true, std::max(parameters.equilibriumTolerance, parameters.tolerance) * reference, norm};
+  return {true, std::max(parameters.equilibriumTolerance, parameters.tolerance) * reference, norm,
+          std::max(1e-6, 100 * parameters.tolerance)};
 }
 
 /// Nothing if it cannot be settled. \param settling  null if that is not wanted

@@ -1,22 +1,20 @@
 #include "epafi/fetidp/RigidMotion.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/direct/NonNegativeLeastSquares.hpp"
 #include "epafi/fetidp/ContactDirections.hpp"
+#include "epafi/fetidp/LooseMotion.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
 #include "epafi/fetidp/SlippingMotions.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -44,59 +42,6 @@ Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& ro
           sums[static_cast<std::size_t>(i + k * j)].add(vector[i] * (j < k ? vector[j] : gap[row]));
   sumOverRanks(*problem.comm, sums, normal.data());
   return normal;
-}
-
-/// Shortest x with Cᵀx ≤ s (to 1e-9), or if there is none the columns of C that exclude it: those that forces y ≥ 0 with
-/// Cy = 0, yᵀs < 0 act along (Lawson, Hanson, *Solving Least Squares Problems*, 1974, ch. 23.4: least distance
-/// programming).
-struct Shortest {
-  std::optional<Eigen::VectorXd> x;
-  std::vector<Eigen::Index> excluding;
-};
-
-Shortest shortest(const Eigen::MatrixXd& c, const Eigen::VectorXd& s) {
-  const Eigen::Index n = c.rows();
-  Eigen::MatrixXd e(n + 1, c.cols());
-  e << -c, -s.transpose();
-  const auto dual = direct::nonNegativeLeastSquares(e, Eigen::VectorXd::Unit(n + 1, n));
-  if (dual.residual[n] > 0) { // round-off of a residual 0 would give anything
-    const Eigen::VectorXd x = -dual.residual.head(n) / dual.residual[n];
-    if ((c.transpose() * x - s).maxCoeff() <= 1e-9)
-      return {x, {}};
-  }
-  Shortest none;
-  for (Eigen::Index j = 0; j < dual.x.size(); ++j)
-    if (dual.x[j] > 0)
-      none.excluding.push_back(j);
-  return none;
-}
-
-/// A motion β in the span of `open` that all contacts leave some room for, directionsᵀβ < room where they meet it, or nothing
-/// if they leave none: then those that exclude it hold the motions across them, and the search goes on along them.
-std::optional<Eigen::VectorXd> looseMotion(const Eigen::MatrixXd& directions, const Eigen::VectorXd& room,
-                                           Eigen::MatrixXd open) {
-  constexpr double margin = closedUpTo;
-  while (open.cols() > 0) {
-    const Eigen::MatrixXd all = open.transpose() * directions;
-    std::vector<Eigen::Index> meeting; // contacts that the motions meet at all
-    for (Eigen::Index j = 0; j < all.cols(); ++j)
-      if (all.col(j).norm() > margin)
-        meeting.push_back(j);
-    if (meeting.empty())
-      return open.col(0);
-    const Eigen::MatrixXd met = all(allOf, meeting);
-    const Shortest found = shortest(met, room(meeting).array() - margin);
-    if (found.x)
-      return open * (found.x->norm() > 0 ? *found.x : Eigen::VectorXd::Unit(open.cols(), 0));
-    if (found.excluding.empty())
-      return std::nullopt;
-    const Eigen::MatrixXd excluding = met(allOf, found.excluding);
-    const direct::SymmetricEigen spectrum = direct::eigenOf(excluding * excluding.transpose());
-    open = (open *
-            spectrum.vectors.leftCols(spectrum.numUpTo(ProblemScales::roundOff * spectrum.values.maxCoeff())))
-               .eval();
-  }
-  return std::nullopt;
 }
 
 /// How far clusters move until they fit together: the least squares of G̃ᵀα = slack over the rows that glue them, where the
@@ -129,8 +74,7 @@ Eigen::VectorXd fittedClusters(const DecomposedProblem& problem, const std::vect
     if (cluster.ofBody.cols() == 0 || isHeld[static_cast<std::size_t>(cluster.body)])
       continue;
     isHeld[static_cast<std::size_t>(cluster.body)] = true;
-    const Eigen::MatrixXd motions = Eigen::HouseholderQR<Eigen::MatrixXd>(cluster.ofBody).householderQ() *
-                                    Eigen::MatrixXd::Identity(cluster.kernelDimension, cluster.ofBody.cols());
+    const Eigen::MatrixXd motions = direct::orthonormalBasis(cluster.ofBody);
     const Eigen::MatrixXd hold = motions * motions.transpose();
     for (int i = 0; i < cluster.kernelDimension; ++i)
       for (int j = 0; j < cluster.kernelDimension; ++j)
@@ -198,6 +142,39 @@ DistinctDirections roomOf(const DecomposedProblem& problem, const Rows& rows, co
                              "; add a load or a support");
 }
 
+/// Motions in the span of `open` that the loads do not work on.
+Eigen::MatrixXd acrossLoads(const DecomposedProblem& problem, const ProblemScales& scales,
+                            const Eigen::MatrixXd& open) {
+  const Eigen::VectorXd load = onBodies(problem, kernelLoad(problem)).cwiseQuotient(scales.motions());
+  const Eigen::VectorXd works = open.transpose() * load, terms = open.transpose().cwiseAbs() * scales.loads();
+  if ((works.array().abs() <= ProblemScales::resultant * terms.array()).all())
+    return open;
+  return open * direct::orthogonalComplement(works);
+}
+
+/// Small forces may be what the iteration has left of none, however well it has converged. Whether they are does not need their values: a
+/// motion β that ties and the larger forces allow, that opens no contact's other side, and that the loads do not work on, 0 = ẽᵀβ = Σ λ_i G̃_iᵀβ, opens only
+/// contacts without force.
+void refuseUnpressed(const DecomposedProblem& problem, const Rows& rows, const ProblemScales& scales,
+                     const Vector& lambda, const Vector& slack, const RestCheck& check,
+                     const Eigen::VectorXd& alpha, double length) {
+  constexpr double clear = 1e-3; // beside the largest force
+  const auto force = lambda.getData();
+  double largest = 0;
+  for (const auto& [row, vector] : rows)
+    largest = std::max(largest, isTied(problem, row) ? 0.0 : force[row]);
+  largest = std::max(clear * maxOverRanks(*problem.comm, largest), check.leastForce);
+  std::set<int> pressing;
+  for (const auto& [row, vector] : rows)
+    if (isTied(problem, row) || force[row] > largest)
+      pressing.insert(row);
+  const Eigen::MatrixXd open = acrossLoads(problem, scales, closing(problem, rows, pressing, slack).open);
+  const DistinctDirections contacts = roomOf(problem, rows, slack, alpha, length);
+  if (const auto loose = looseMotion(contacts.matrix(), contacts.values().array() - check.margin, open,
+                                     ProblemScales::hindered))
+    refuseLoose(wordsOf(problem, loose->cwiseQuotient(scales.motions())));
+}
+
 /// What holds a body must be more than the facets of smooth surfaces where these have closed, too.
 void refuseSlipping(const DecomposedProblem& problem, const Rows& rows, const ProblemScales& scales,
                     const std::set<int>& closed) {
@@ -231,12 +208,15 @@ Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vect
     const Eigen::MatrixXd directions = contacts.matrix();
     const Eigen::VectorXd room = contacts.values();
     if (check.isWanted)
-      if (const auto loose = looseMotion(directions, room, found.open))
+      if (const auto loose =
+              looseMotion(directions, room.array() - closedUpTo, found.open, ProblemScales::hindered))
         refuseLoose(wordsOf(problem, loose->cwiseQuotient(scales.motions())));
-    if (const Shortest further = shortest(found.open.transpose() * directions, room); further.x)
+    if (const ShortestMotion further = shortestMotion(found.open.transpose() * directions, room); further.x)
       alpha += length * (found.open * *further.x);
   }
   if (check.isWanted) {
+    if (length > 0)
+      refuseUnpressed(problem, rows, scales, lambda, slack, check, alpha, length);
     const auto gap = slack.getData();
     for (const auto& [row, vector] : rows)
       if (gap[row] - vector.dot(alpha) <= closedUpTo * length)

@@ -12,12 +12,14 @@
 
 namespace epafi::fetidp {
 
-/// Whether the contacts are asked if they leave room: where λ solves the dual problem and contacts oppose each other (Solvability.hpp). A force holds if
+/// Whether the contacts are asked if they leave room: where λ solves the dual problem. A force holds if
 /// it is more than the tolerance leaves of nothing, and what it moves where bodies are softest is more than the gap that is left.
 struct RestCheck {
   bool isWanted = false;
   double leastForce = 0;  ///< equilibrium's tolerance, as a force
   double flexibility = 0; ///< ‖F‖
+  double margin =
+      0; ///< gaps narrower than this beside the largest count as closed where forces are not asked
 };
 
 /// Solves G̃ᵀα = c − B̄K̄⁺(f̄ − B̄ᵀλ) by least squares, first over the rows that glue clusters, then, by motions of whole bodies,

@@ -1,10 +1,10 @@
 #include "epafi/fetidp/SlippingMotions.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <Tpetra_Map.hpp>
 
 #include <array>
@@ -178,13 +178,9 @@ MatrixXd slippingFor(const Slippage& slippage, Eigen::Index k) {
     const std::optional<VectorXd> seen = slippage.clearest(motions);
     if (!seen)
       break;
-    const MatrixXd turned = Eigen::HouseholderQR<MatrixXd>(*seen).householderQ();
-    motions = (motions * turned.rightCols(motions.cols() - 1)).eval();
+    motions = (motions * direct::orthogonalComplement(*seen)).eval();
   }
-  if (motions.cols() == 0)
-    return motions;
-  return Eigen::HouseholderQR<MatrixXd>(motions).householderQ() *
-         MatrixXd::Identity(motions.rows(), motions.cols());
+  return motions.cols() == 0 ? motions : direct::orthonormalBasis(motions);
 }
 
 } // namespace

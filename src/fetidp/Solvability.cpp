@@ -1,15 +1,18 @@
 #include "epafi/fetidp/Solvability.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 #include "epafi/fetidp/ContactDirections.hpp"
+#include "epafi/fetidp/LooseMotion.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
 #include "epafi/fetidp/SlippingMotions.hpp"
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -117,6 +120,19 @@ struct ScaledCone {
     return (forces.residual.array().abs() <= ProblemScales::resultant + ProblemScales::roundOff * passing)
         .select(0.0, forces.residual.array());
   }
+
+  /// A motion β that opens contacts or leaves them as they are, directionsᵀβ ≤ 0, without work of the loads: ẽ is not in the cone's interior then.
+  [[nodiscard]] std::optional<Eigen::VectorXd> looseMotion() const {
+    const Eigen::VectorXd works =
+        (resultant.array().abs() <= ProblemScales::resultant).select(0.0, resultant.array());
+    const Eigen::MatrixXd across = works.norm() > 0 ? direct::orthogonalComplement(works)
+                                                    : Eigen::MatrixXd::Identity(works.size(), works.size());
+    const std::optional<Eigen::VectorXd> loose = fetidp::looseMotion(
+        directions, Eigen::VectorXd::Constant(directions.cols(), -1.0), across, ProblemScales::resultant);
+    if (!loose)
+      return std::nullopt;
+    return loose->cwiseQuotient(unit);
+  }
 };
 
 } // namespace
@@ -140,31 +156,11 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
   refuseFreeMotion(balance, free);
   refuseSlippingMotion(balance);
 
-  // Still inside the cone when every contact direction takes away a little: ẽ is in its interior.
-  const Eigen::VectorXd mean = cone.directions.rowwise().mean();
-  if (mean.norm() <= ProblemScales::roundOff)
-    return; // the contacts oppose each other: any resultant is balanced
-  const bool isLoaded = balance.scales.loads().sum() > 0;
-  const Eigen::VectorXd from = isLoaded ? cone.resultant : Eigen::VectorXd::Zero(mean.size());
-  const Eigen::VectorXd loose =
-      cone.imbalance(from - (isLoaded ? 10 * ProblemScales::resultant : 1.0) * mean);
-  if (loose.norm() > 0)
-    refuse(Kind::notUnique, "the load does not press ", balance.words(loose).bodies,
+  if (const auto loose = cone.looseMotion())
+    refuse(Kind::notUnique, "the load does not press ", balance.words(loose->cwiseProduct(cone.unit)).bodies,
            " onto its contacts (zero resultant",
-           along(balance.words(loose.cwiseQuotient(cone.unit)), " along a motion that no contact hinders: "),
+           along(balance.words(*loose), " along a motion that no contact hinders: "),
            "), so that it may come to rest anywhere; add a load or a support");
-}
-
-bool contactsOppose(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  if (problem.numRigidModes() == 0)
-    return false;
-  const RigidBalance balance(problem, entries);
-  Eigen::MatrixXd means(balance.directions.rows() + 1,
-                        balance.directions.cols()); // do they have 0 among them?
-  means << balance.directions, Eigen::RowVectorXd::Ones(means.cols());
-  const auto nearest =
-      direct::nonNegativeLeastSquares(means, Eigen::VectorXd::Unit(means.rows(), means.rows() - 1));
-  return nearest.residual.norm() <= ProblemScales::hindered;
 }
 
 void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {

@@ -25,11 +25,6 @@ namespace epafi::fetidp {
 void requireUniqueSolution(const decomposition::DecomposedProblem& problem,
                            const std::vector<KernelEntry>& entries);
 
-/// Whether some contacts oppose each other: then they may leave room, whatever the loads, and their forces alone tell (RigidMotion.hpp).
-/// \param entries  likewise
-/// Collective.
-bool contactsOppose(const decomposition::DecomposedProblem& problem, const std::vector<KernelEntry>& entries);
-
 /// What can be said before any load is known: throws SolvabilityError (not unique) if a rigid motion of the
 /// floating bodies meets no contact at all. Collective.
 void requireContactForEveryMotion(const decomposition::DecomposedProblem& problem,

@@ -1,7 +1,7 @@
 #include "epafi/model/ContactSurfaces.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/contact/FacetTree.hpp"
+#include "epafi/fem/BoxTree.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 
 #include <algorithm>
@@ -11,9 +11,8 @@
 namespace epafi::model {
 namespace {
 
-std::vector<contact::FacetTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface& surface,
-                                             double margin) {
-  std::vector<contact::FacetTree::Box> boxes;
+std::vector<fem::BoxTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface& surface, double margin) {
+  std::vector<fem::BoxTree::Box> boxes;
   std::vector<fem::Point> points;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     mesh.pointsAt(surface.facet(f), points);
@@ -23,10 +22,9 @@ std::vector<contact::FacetTree::Box> boxesOf(const fem::Mesh& mesh, const fem::S
 }
 
 /// Mean distance of nodes on that part of a surface that the other one is near to, by the contact's distance.
-double spacingOn(const fem::Mesh& mesh, const fem::Surface& surface, const contact::FacetTree& other,
+double spacingOn(const fem::Mesh& mesh, const fem::Surface& surface, const fem::BoxTree& other,
                  double distance) {
-  const std::vector<contact::FacetTree::Box> boxes =
-      boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
+  const std::vector<fem::BoxTree::Box> boxes = boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
   double area = 0;
   int number = 0;
   std::vector<fem::Point> points;
@@ -75,8 +73,8 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
     const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
                      &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
     const fem::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
-    return spacingOn(*own.mesh, surfaceOf(terms, own, surface),
-                     contact::FacetTree(boxesOf(*other.mesh, facing, 0)), terms.distance);
+    return spacingOn(*own.mesh, surfaceOf(terms, own, surface), fem::BoxTree(boxesOf(*other.mesh, facing, 0)),
+                     terms.distance);
   };
   const auto stiffness = [&](int body, const std::string&) {
     const scene::Body& owner = scene.bodies[static_cast<std::size_t>(body)];

@@ -95,17 +95,16 @@ Shares forceShares(const ContactLayout& layout) {
 
 /// Values of a facet's shape functions at a lattice of points.
 std::vector<Eigen::VectorXd> latticeOn(fem::CellType facet) {
-  return withFacetShape(facet, [](auto shape) {
-    using Shape = decltype(shape);
-    constexpr int dim = Shape::dimension, across = dim == 1 ? 0 : latticeSteps;
+  return withFacetShape(facet, []<int dim>(const fem::Shape<dim>& shape) {
+    constexpr int across = dim == 1 ? 0 : latticeSteps;
     std::vector<Eigen::VectorXd> values;
     for (int i = 0; i <= latticeSteps; ++i)
-      for (int j = 0; j <= across && (!Shape::isSimplex || i + j <= latticeSteps); ++j) {
-        typename Shape::Coordinates xi = Shape::Coordinates::Constant(static_cast<double>(j) / latticeSteps);
+      for (int j = 0; j <= across && (!shape.isSimplex || i + j <= latticeSteps); ++j) {
+        fem::Coordinates<dim> xi = fem::Coordinates<dim>::Constant(static_cast<double>(j) / latticeSteps);
         xi[0] = static_cast<double>(i) / latticeSteps;
-        if constexpr (!Shape::isSimplex)
+        if (!shape.isSimplex)
           xi = (2 * xi.array() - 1).matrix();
-        values.emplace_back(Shape::values(xi));
+        values.emplace_back(shape.values(xi));
       }
     return values;
   });

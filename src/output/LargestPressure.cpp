@@ -2,10 +2,11 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/contact/UnitedSurface.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/output/ContactState.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <Tpetra_Map.hpp>
@@ -175,16 +176,14 @@ Patch Pressures::patch(double share) const {
 MatrixXd Pressures::moments(const Patch& patch) const {
   MatrixXd sums = MatrixXd::Zero(numMonomials(), at(layout_.firstNodes.size()));
   std::vector<fem::Point> points;
-  fem::withFacetShape(surface_.facetType, [&](auto shape) {
-    using Shape = decltype(shape);
-    constexpr int dim = Shape::dimension;
-    using Fine = std::conditional_t<Shape::isSimplex, fem::Simplex<dim, 2>, fem::Brick<dim, 2>>;
+  fem::withFacetShape(surface_.facetType, [&]<int dim>(const fem::Shape<dim>& shape) {
+    const fem::Shape<dim>& fine = fem::referenceShape<dim>(fem::withOrder(shape.type, 2));
     for (std::size_t f = 0; f < facets_.size(); ++f) {
       mesh_.pointsAt(surface_.facet(f), points);
-      const Eigen::Map<const Eigen::Matrix<double, 3, Shape::numNodes>> nodes(points.front().data());
-      for (const auto& rule : Fine::finePoints()) {
-        const auto sample = fem::sampleAt<Shape>(rule.xi, rule.weight);
-        const Eigen::Matrix<double, 3, dim> tangents = nodes * sample.gradients.transpose();
+      const Eigen::Map<const Eigen::Matrix3Xd> nodes(points.front().data(), 3, shape.numNodes);
+      for (const auto& rule : fine.fineSamples()) {
+        const auto sample = shape.sampleAt(rule.xi, rule.weight);
+        const Eigen::Matrix<double, 3, dim> tangents = fem::derivatives(nodes, sample);
         const double area = sample.weight * std::sqrt((tangents.transpose() * tangents).determinant());
         const VectorXd values = area * monomials(patch.coordinates(nodes * sample.values), dimension_);
         for (std::size_t a = 0; a < facets_[f].size(); ++a)
@@ -208,7 +207,7 @@ VectorXd Pressures::fit(const Patch& patch) const {
   }
   constexpr double roundOff = 1e-10;
   gram.diagonal().array() += roundOff * gram.trace();
-  const MatrixXd coefficients = gram.ldlt().solve(rhs); // of the p_k
+  const MatrixXd coefficients = direct::solvedSymmetric(gram, rhs); // of the p_k
   const VectorXd c = coefficients * means_;
 
   Vector2d best(0, 0);

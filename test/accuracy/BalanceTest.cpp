@@ -16,13 +16,13 @@ namespace {
 
 using BalanceTest = test::AccuracyTest;
 
-struct Solved {
+struct SolvedTo {
   scene::Scene scene;
   model::Decomposition decomposition;
   ContactSolver solver;
   fetidp::ContactSolution solution;
 
-  Solved(const scene::Scene& given, const Teuchos::ParameterList& parameters, const RCP<const Comm>& comm)
+  SolvedTo(const scene::Scene& given, const Teuchos::ParameterList& parameters, const RCP<const Comm>& comm)
       : scene(given), decomposition(model::decompose(scene, comm)), solver(parameters) {
     solver.setup(decomposition.problem);
     ErrorEstimator estimator(scene, decomposition);
@@ -38,7 +38,7 @@ Teuchos::ParameterList tolerance(double value) {
 }
 
 /// Broken energy norm of the difference of two solutions on the same subdomains.
-double distance(const Solved& a, const Solved& b) {
+double energyDistance(const SolvedTo& a, const SolvedTo& b) {
   std::vector<Eigen::VectorXd> difference = a.solution.displacement;
   for (std::size_t s = 0; s < difference.size(); ++s)
     difference[s] -= b.solution.displacement[s];
@@ -55,10 +55,10 @@ std::vector<scene::Scene> scenes(const BalanceTest& fixture) {
 
 TEST_F(BalanceTest, TheAlgebraicErrorIsNoLargerThanItsEstimateAndNotMuchSmaller) {
   for (const scene::Scene& scene : scenes(*this)) {
-    const Solved exact(scene, tolerance(1e-12), comm);
+    const SolvedTo exact(scene, tolerance(1e-12), comm);
     for (const double value : {1e-1, 1e-2, 1e-4}) {
-      const Solved rough(scene, tolerance(value), comm);
-      const double error = distance(rough, exact);
+      const SolvedTo rough(scene, tolerance(value), comm);
+      const double error = energyDistance(rough, exact);
       EXPECT_LE(error, 1.0001 * rough.solution.algebraicError + 1e-9 * exact.solution.algebraicError);
       EXPECT_LE(rough.solution.algebraicError, 3 * error + 1e-10) << value;
     }
@@ -67,16 +67,16 @@ TEST_F(BalanceTest, TheAlgebraicErrorIsNoLargerThanItsEstimateAndNotMuchSmaller)
 
 TEST_F(BalanceTest, StopsAtTheFractionThatWasAskedForAndSavesProducts) {
   for (const scene::Scene& scene : scenes(*this)) {
-    const Solved exact(scene, tolerance(1e-12), comm), fixed(scene, tolerance(1e-6), comm);
+    const SolvedTo exact(scene, tolerance(1e-12), comm), fixed(scene, tolerance(1e-6), comm);
     const ErrorEstimate estimate =
         ErrorEstimator(exact.scene, exact.decomposition)(exact.solution.displacement);
     const double mesh = estimate.discretisation, energyNorm = estimate.energyNorm;
     for (const double fraction : {0.3, 0.1, 0.01}) {
       Teuchos::ParameterList parameters;
       parameters.set("Tolerance", std::string("balanced")).set("Algebraic Fraction", fraction);
-      const Solved balanced(scene, parameters, comm);
+      const SolvedTo balanced(scene, parameters, comm);
       EXPECT_EQ(balanced.solver.report().status, qp::Status::converged);
-      EXPECT_LE(distance(balanced, exact),
+      EXPECT_LE(energyDistance(balanced, exact),
                 1.1 * fraction * std::max(mesh, 1e-5 * energyNorm)); // a mesh without any error is let off
 
       EXPECT_LE(balanced.solver.report().counts.hessianMultiplications,

@@ -10,8 +10,6 @@
 namespace epafi::accuracy {
 namespace {
 
-using Values = std::vector<double>;
-
 /// η² = h^(2q) |K| with h^d = |K|.
 double squaredError(double measure, double order, int dimension) {
   return std::pow(measure, 2 * order / dimension) * measure;
@@ -21,10 +19,11 @@ double squaredError(double measure, double order, int dimension) {
 double orderAfter(double order, double before, int dimension, std::size_t number, double measure,
                   int orderOfElements = 2) {
   const ElementErrors last{{squaredError(1, order, dimension)}, {1.0}, {before}};
-  const Values result = localOrders(last, std::vector<LocalOrdinal>(number, 0),
-                                    Values(number, squaredError(measure, order, dimension)),
-                                    Values(number, measure), dimension, orderOfElements);
-  EXPECT_EQ(result, Values(number, result.front()));
+  const std::vector<double> result =
+      localOrders(last, std::vector<LocalOrdinal>(number, 0),
+                  std::vector<double>(number, squaredError(measure, order, dimension)),
+                  std::vector<double>(number, measure), dimension, orderOfElements);
+  EXPECT_EQ(result, std::vector<double>(number, result.front()));
   return result.front();
 }
 
@@ -58,15 +57,15 @@ TEST(LocalOrdersTest, EachElementHasItsOwnOrderWithAllPartsOfItTogether) {
   // Four elements of measure 1: two cut in four, with q = 1 and q = 0.5; one not cut; one with a zero where none was.
   const ElementErrors last{{1, 1, 1, 0}, {1, 1, 1, 1}, {2, 2, 1.5, 1.5}};
   const std::vector<LocalOrdinal> ancestors{1, 0, 2, 1, 0, 3, 0, 1, 1, 0, 3, 3, 3};
-  Values squared, measures;
+  std::vector<double> squared, measures;
   for (const LocalOrdinal ancestor : ancestors) {
     measures.push_back(ancestor == 2 ? 1 : 0.25);
     squared.push_back(ancestor == 2 ? 1 : ancestor == 3 ? 0 : squaredError(0.25, ancestor == 0 ? 1 : 0.5, 2));
   }
   squared[1] *= 1.5; // what one part has more another has less
   squared[4] *= 0.5;
-  const Values orders = localOrders(last, ancestors, squared, measures, 2, 2);
-  const Values expected{1.5, 1.25, 1.5, 1.5};
+  const std::vector<double> orders = localOrders(last, ancestors, squared, measures, 2, 2);
+  const std::vector<double> expected{1.5, 1.25, 1.5, 1.5};
   for (std::size_t e = 0; e < ancestors.size(); ++e)
     EXPECT_NEAR(orders[e], expected[static_cast<std::size_t>(ancestors[e])], 1e-12);
 }
@@ -75,8 +74,9 @@ TEST(LocalOrdersTest, EachElementHasItsOwnOrderWithAllPartsOfItTogether) {
 TEST(LocalOrdersTest, IsNeverAboveTheOrderOfTheElementsNorBelowTheLeast) {
   const auto seen = [](double squaredErrorOfParts, int order) {
     const ElementErrors last{{1}, {1}, {1}};
-    return 2 * localOrders(last, std::vector<LocalOrdinal>(4, 0), Values(4, squaredErrorOfParts / 4),
-                           Values(4, 0.25), 2, order)
+    return 2 * localOrders(last, std::vector<LocalOrdinal>(4, 0),
+                           std::vector<double>(4, squaredErrorOfParts / 4), std::vector<double>(4, 0.25), 2,
+                           order)
                    .front() -
            1;
   };
@@ -89,8 +89,10 @@ TEST(LocalOrdersTest, IsNeverAboveTheOrderOfTheElementsNorBelowTheLeast) {
 TEST(LocalOrdersTest, DoesNotDependOnTheUnitsOfErrorsAndLengths) {
   const ElementErrors last{{3}, {2}, {2}}, scaled{{3e8}, {2e-6}, {2}};
   const std::vector<LocalOrdinal> ancestors{0, 0};
-  const Values one = localOrders(last, ancestors, Values{0.3, 0.4}, Values{0.5, 1.5}, 2, 2),
-               other = localOrders(scaled, ancestors, Values{0.3e8, 0.4e8}, Values{0.5e-6, 1.5e-6}, 2, 2);
+  const std::vector<double> one = localOrders(last, ancestors, std::vector<double>{0.3, 0.4},
+                                              std::vector<double>{0.5, 1.5}, 2, 2),
+                            other = localOrders(scaled, ancestors, std::vector<double>{0.3e8, 0.4e8},
+                                                std::vector<double>{0.5e-6, 1.5e-6}, 2, 2);
   EXPECT_NEAR(one[0], other[0], 1e-12);
   EXPECT_NEAR(one[1], other[1], 1e-12);
 }

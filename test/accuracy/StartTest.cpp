@@ -19,12 +19,12 @@ namespace {
 
 using StartTest = test::AccuracyTest;
 
-struct Solved {
+struct SolvedScene {
   model::Decomposition decomposition;
   ContactSolver solver;
   fetidp::ContactSolution solution;
 
-  Solved(const scene::Scene& scene, const RCP<const Comm>& comm, double tolerance = 1e-12)
+  SolvedScene(const scene::Scene& scene, const RCP<const Comm>& comm, double tolerance = 1e-12)
       : decomposition(model::decompose(scene, comm)),
         solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
     solver.setup(decomposition.problem);
@@ -33,7 +33,7 @@ struct Solved {
 };
 
 /// ‖a − b‖/‖b‖
-double distance(const Vector& a, const Vector& b) {
+double largestDifference(const Vector& a, const Vector& b) {
   Vector difference(a, Teuchos::Copy);
   difference.update(-1.0, b, 1.0);
   return accurateNorm(difference) / accurateNorm(b);
@@ -41,9 +41,9 @@ double distance(const Vector& a, const Vector& b) {
 
 TEST_F(StartTest, TheMultipliersOfASolutionAreItsOwn) {
   for (const bool coercive : {true, false}) {
-    const Solved solved(scene::modelProblem(coercive, 3, 12), comm);
+    const SolvedScene solved(scene::modelProblem(coercive, 3, 12), comm);
     const RCP<const Vector> lambda = solved.solver.startFrom(solved.solution.displacement);
-    EXPECT_LE(distance(*lambda, *solved.solution.multiplier), 1e-9) << coercive;
+    EXPECT_LE(largestDifference(*lambda, *solved.solution.multiplier), 1e-9) << coercive;
   }
   for (const test::Kind& kind : test::kinds()) { // turned axes, averages along edges, floating bodies
     scene::Scene scene = test::stackedBlocks(kind, 6, 1, directory, *comm);
@@ -51,17 +51,17 @@ TEST_F(StartTest, TheMultipliersOfASolutionAreItsOwn) {
         {"corner", scene::SolidLoad::Kind::point, {}, "", {1, 1, 2}, {0.01, -0.02, 0.03}});
     if (fem::dimensionOf(kind.cell) == 2)
       scene.bodies[1].loads.back().point = {1, 2, 0};
-    const Solved solved(scene, comm);
+    const SolvedScene solved(scene, comm);
     const RCP<const Vector> lambda = solved.solver.startFrom(solved.solution.displacement);
-    EXPECT_LE(distance(*lambda, *solved.solution.multiplier), 1e-9) << toString(kind.physics);
+    EXPECT_LE(largestDifference(*lambda, *solved.solution.multiplier), 1e-9) << toString(kind.physics);
   }
 }
 
 TEST_F(StartTest, ASolveFromThereIsShorterAndEndsAtTheSameSolution) {
   for (const bool coercive : {true, false}) {
     const scene::Scene scene = scene::modelProblem(coercive, 2, 16);
-    const Solved coarse(scene, comm, 1e-8), fine(refined(scene), comm, 1e-8);
-    Solved warm(refined(scene), comm, 1e-8);
+    const SolvedScene coarse(scene, comm, 1e-8), fine(refined(scene), comm, 1e-8);
+    SolvedScene warm(refined(scene), comm, 1e-8);
     const RCP<Vector> start = warm.solver.startFrom(interpolate(
         coarse.decomposition, coarse.solution.displacement, warm.decomposition, NodesOf::interfaces));
     transferContact(coarse.decomposition, *coarse.solution.multiplier, warm.decomposition, *start);
@@ -95,7 +95,7 @@ double sumOfContact(const model::Decomposition& decomposition, const Vector& lam
 
 TEST_F(StartTest, ContactOnTheSameMeshIsItsOwn) {
   for (const test::Kind& kind : test::kinds()) {
-    const Solved solved(test::stackedBlocks(kind, 6, 1, directory, *comm), comm);
+    const SolvedScene solved(test::stackedBlocks(kind, 6, 1, directory, *comm), comm);
     const Vector& lambda = *solved.solution.multiplier;
     const double largest = lambda.normInf();
     Vector start(lambda.getMap());
@@ -113,7 +113,7 @@ TEST_F(StartTest, ContactOnTheSameMeshIsItsOwn) {
 
 TEST_F(StartTest, ActiveSetsStartNearTheZoneOfACoarserMesh) {
   const scene::Scene scene = scene::modelProblem(false, 2, 16);
-  const Solved coarse(scene, comm), fine(refined(scene), comm);
+  const SolvedScene coarse(scene, comm), fine(refined(scene), comm);
   Vector start(fine.solution.multiplier->getMap());
   transferContact(coarse.decomposition, *coarse.solution.multiplier, fine.decomposition, start);
   EXPECT_NEAR(sumOverRanks(*comm, sumOfContact(fine.decomposition, start)), coarse.solution.contactForce,

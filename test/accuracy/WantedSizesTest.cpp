@@ -16,7 +16,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-double sumOf(const Values& values) {
+double total(const Values& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -29,7 +29,7 @@ Values partsOf(const WantedSizes& wanted, int dimension) {
 }
 
 /// Σ η² n^(−2q/d)
-double squaredError(const Values& squared, const Values& orders, const Values& parts, int dimension) {
+double squaredErrorAfter(const Values& squared, const Values& orders, const Values& parts, int dimension) {
   double sum = 0;
   for (std::size_t e = 0; e < squared.size(); ++e)
     sum += squared[e] * std::pow(parts[e], -2 * orders[e] / dimension);
@@ -48,7 +48,7 @@ struct Sample {
       orders.push_back(order(random));
     }
   }
-  [[nodiscard]] double error() const { return std::sqrt(sumOf(squared)); }
+  [[nodiscard]] double error() const { return std::sqrt(total(squared)); }
 };
 
 constexpr double noLimit = 1e30;
@@ -59,7 +59,7 @@ TEST(WantedSizesTest, EqualElementsAreHalvedAlikeAndReachTheGoal) {
     for (const double order : {0.5, 1.0, 2.0})
       for (const double halvings : {0.25, 1.0}) {
         const Values squared(7, 0.01), orders(7, order);
-        const double goal = std::sqrt(sumOf(squared)) * std::exp2(-order * halvings);
+        const double goal = std::sqrt(total(squared)) * std::exp2(-order * halvings);
         const WantedSizes wanted = wantedSizes(squared, orders, {.dimension = dimension, .error = goal});
         for (const double own : wanted.halvings)
           EXPECT_NEAR(own, halvings, 1e-10);
@@ -89,9 +89,9 @@ TEST(WantedSizesTest, ReachesTheGoalIfNoLimitIsInTheWay) {
                         {.dimension = dimension, .error = goal, .growth = noLimit, .mostHalvings = 40});
         const Values parts = partsOf(wanted, dimension);
         EXPECT_NEAR(wanted.error, goal, 1e-9 * goal);
-        EXPECT_NEAR(std::sqrt(squaredError(sample.squared, sample.orders, parts, dimension)), goal,
+        EXPECT_NEAR(std::sqrt(squaredErrorAfter(sample.squared, sample.orders, parts, dimension)), goal,
                     1e-9 * goal);
-        EXPECT_NEAR(wanted.growth, sumOf(parts) / static_cast<double>(parts.size()), 1e-12 * wanted.growth);
+        EXPECT_NEAR(wanted.growth, total(parts) / static_cast<double>(parts.size()), 1e-12 * wanted.growth);
       }
   }
 }
@@ -136,7 +136,7 @@ TEST(WantedSizesTest, MovingPartsFromOneElementToAnotherDoesNotPay) {
   const WantedSizes wanted = wantedSizes(
       sample.squared, sample.orders, {.error = 0.2 * sample.error(), .growth = noLimit, .mostHalvings = 40});
   const Values best = partsOf(wanted, dimension);
-  const double least = squaredError(sample.squared, sample.orders, best, dimension);
+  const double least = squaredErrorAfter(sample.squared, sample.orders, best, dimension);
   for (std::size_t from = 0; from < best.size(); ++from)
     for (std::size_t to = 0; to < best.size(); ++to) {
       if (from == to || best[from] < 1.1)
@@ -144,7 +144,7 @@ TEST(WantedSizesTest, MovingPartsFromOneElementToAnotherDoesNotPay) {
       Values parts = best;
       parts[from] -= 0.05;
       parts[to] += 0.05;
-      EXPECT_GE(squaredError(sample.squared, sample.orders, parts, dimension), least * (1 - 1e-13));
+      EXPECT_GE(squaredErrorAfter(sample.squared, sample.orders, parts, dimension), least * (1 - 1e-13));
     }
 }
 
@@ -172,15 +172,15 @@ TEST(WantedSizesTest, AFarGoalIsReachedInEqualStepsEachWithinTheGrowth) {
   for (const auto& [whole, growth, steps] :
        {std::tuple{64.0, 4.0, 3}, {64.0, 8.0, 2}, {10.0, 8.0, 2}, {8.0, 8.0, 1}, {2.0, 8.0, 1}}) {
     Values squared(5, 0.01);
-    const double goal = std::sqrt(sumOf(squared) / whole); // order 1 in the plane: η² falls with the parts
+    const double goal = std::sqrt(total(squared) / whole); // order 1 in the plane: η² falls with the parts
     for (int step = 0; step < steps; ++step) {
       const WantedSizes wanted = wantedSizes(squared, orders, {.error = goal, .growth = growth});
       EXPECT_NEAR(wanted.growth, std::pow(whole, 1.0 / steps), 1e-8);
-      EXPECT_NEAR(wanted.error, std::sqrt(sumOf(squared) / wanted.growth), 1e-10);
+      EXPECT_NEAR(wanted.error, std::sqrt(total(squared) / wanted.growth), 1e-10);
       for (double& own : squared)
         own /= wanted.growth;
     }
-    EXPECT_NEAR(std::sqrt(sumOf(squared)), goal, 1e-8 * goal);
+    EXPECT_NEAR(std::sqrt(total(squared)), goal, 1e-8 * goal);
   }
 }
 
@@ -203,10 +203,10 @@ TEST(WantedSizesTest, WhatComesByItselfIsNotAskedForAndTheGoalIsStillReached) {
       const WantedSizes naive = wantedSizes(sample.squared, sample.orders, goal),
                         wanted = wantedSizes(sample.squared, sample.orders, goal, more);
       const Values parts = more(wanted.halvings);
-      EXPECT_NEAR(wanted.growth, sumOf(parts) / number, 1e-12 * wanted.growth);
-      EXPECT_NEAR(wanted.error, std::sqrt(squaredError(sample.squared, sample.orders, parts, dimension)),
+      EXPECT_NEAR(wanted.growth, total(parts) / number, 1e-12 * wanted.growth);
+      EXPECT_NEAR(wanted.error, std::sqrt(squaredErrorAfter(sample.squared, sample.orders, parts, dimension)),
                   1e-12 * wanted.error);
-      EXPECT_LT(wanted.growth, 0.8 * sumOf(more(naive.halvings)) / number);
+      EXPECT_LT(wanted.growth, 0.8 * total(more(naive.halvings)) / number);
       if (isNear) {
         EXPECT_LE(wanted.error, goal.error);
         EXPECT_GE(wanted.error, 0.8 * goal.error);
@@ -225,7 +225,8 @@ TEST(WantedSizesTest, NoElementIsHalvedMoreOftenThanItMayBe) {
                     {.error = 1e-6 * sample.error(), .growth = noLimit, .mostHalvings = 2});
     EXPECT_LE(*std::max_element(wanted.halvings.begin(), wanted.halvings.end()), 2);
     EXPECT_GE(*std::min_element(wanted.halvings.begin(), wanted.halvings.end()), 0);
-    EXPECT_NEAR(wanted.error, std::sqrt(squaredError(sample.squared, sample.orders, partsOf(wanted, 2), 2)),
+    EXPECT_NEAR(wanted.error,
+                std::sqrt(squaredErrorAfter(sample.squared, sample.orders, partsOf(wanted, 2), 2)),
                 1e-9 * wanted.error);
   }
 }

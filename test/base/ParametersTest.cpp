@@ -45,7 +45,7 @@ ParameterList schema() {
 }
 
 template <class Value>
-std::string refusalOf(const std::string& name, const Value& value) {
+std::string refusalOfSolver(const std::string& name, const Value& value) {
   ParameterList given;
   given.sublist("Solver").set(name, value);
   return refusal([&] { validated(given, schema(), "a.xml"); });
@@ -111,21 +111,21 @@ TEST(ParametersTest, TakesAWordForANumberWhereItMeansOne) {
 TEST(ParametersTest, RefusesOtherWordsAndNumbersThere) {
   const std::string limit = "> 0 and ≤ 1, or \"balanced\"",
                     share = "≥ 0 and < 1, or per cents such as \"1 %\"";
-  expectSays(refusalOf("Limit", std::string("ballanced")), {"\"Limit\"", "\"ballanced\"", limit});
-  expectSays(refusalOf("Limit", 0.0), {"\"Limit\"", limit});
+  expectSays(refusalOfSolver("Limit", std::string("ballanced")), {"\"Limit\"", "\"ballanced\"", limit});
+  expectSays(refusalOfSolver("Limit", 0.0), {"\"Limit\"", limit});
   for (const char* const wrong : {"100 %", "-1 %", "1", "% 1", "one %", "nan %"})
-    expectSays(refusalOf("Share", std::string(wrong)), {"\"Share\"", wrong, share});
-  expectSays(refusalOf("Share", 1.0), {"\"Share\"", share});
+    expectSays(refusalOfSolver("Share", std::string(wrong)), {"\"Share\"", wrong, share});
+  expectSays(refusalOfSolver("Share", 1.0), {"\"Share\"", share});
 }
 
 TEST(ParametersTest, RefusesAnUnknownParameterAndSuggestsTheNearest) {
-  expectSays(refusalOf("Tolerence", 1e-3),
+  expectSays(refusalOfSolver("Tolerence", 1e-3),
              {"a.xml: ", "\"Tolerence\"", "list \"Solver\"", "0.001", "did you mean \"Tolerance\"?"});
 }
 
 TEST(ParametersTest, ListsWhatIsAllowedWhereNoNameIsNear) {
-  expectSays(refusalOf("Xqwzj", 1), {"a.xml: ", "\"Xqwzj\"", "list \"Solver\"",
-                                     "\"Tolerance\", \"Limit\", \"Share\", \"Shift\", \"Steps\""});
+  expectSays(refusalOfSolver("Xqwzj", 1), {"a.xml: ", "\"Xqwzj\"", "list \"Solver\"",
+                                           "\"Tolerance\", \"Limit\", \"Share\", \"Shift\", \"Steps\""});
 }
 
 TEST(ParametersTest, RefusesAnUnknownListAndSuggestsTheNearest) {
@@ -164,34 +164,36 @@ TEST(ParametersTest, RefusesAParameterWhereAListIsExpected) {
 }
 
 TEST(ParametersTest, RefusesAnotherType) {
-  expectSays(refusalOf("Steps", 2.5),
+  expectSays(refusalOfSolver("Steps", 2.5),
              {"a.xml: ", "\"Steps\"", "\"Solver\"", "2.5 of type double", "type int"});
-  expectSays(refusalOf("Steps", true), {"true of type bool", "type int"});
-  expectSays(refusalOf("Tolerance", "1e-3"), {"\"1e-3\" of type string", "type double"});
-  expectSays(refusalOf("Verbose", 1), {"1 of type int", "type bool"});
-  expectSays(refusalOf("Range", 1.0), {"1 of type double", "type Array(double)"});
-  expectSays(refusalOf("Method", 3), {"3 of type int", "type string"});
+  expectSays(refusalOfSolver("Steps", true), {"true of type bool", "type int"});
+  expectSays(refusalOfSolver("Tolerance", "1e-3"), {"\"1e-3\" of type string", "type double"});
+  expectSays(refusalOfSolver("Verbose", 1), {"1 of type int", "type bool"});
+  expectSays(refusalOfSolver("Range", 1.0), {"1 of type double", "type Array(double)"});
+  expectSays(refusalOfSolver("Method", 3), {"3 of type int", "type string"});
 }
 
 TEST(ParametersTest, RefusesValuesOutOfRange) {
-  expectSays(refusalOf("Tolerance", 0.0), {"a.xml: ", "\"Tolerance\"", "\"Solver\"", "is 0", "> 0 and ≤ 1"});
-  expectSays(refusalOf("Tolerance", 1.5), {"is 1.5", "> 0 and ≤ 1"});
-  expectSays(refusalOf("Factor", 0.0), {"is 0", "> 0 and < 2"});
-  expectSays(refusalOf("Factor", 2.0), {"is 2", "> 0 and < 2"});
-  expectSays(refusalOf("Steps", 0), {"is 0", "≥ 1 and ≤ 1000"});
-  expectSays(refusalOf("Steps", -2147483647), {"is -2147483647", "≥ 1 and ≤ 1000"});
+  expectSays(refusalOfSolver("Tolerance", 0.0),
+             {"a.xml: ", "\"Tolerance\"", "\"Solver\"", "is 0", "> 0 and ≤ 1"});
+  expectSays(refusalOfSolver("Tolerance", 1.5), {"is 1.5", "> 0 and ≤ 1"});
+  expectSays(refusalOfSolver("Factor", 0.0), {"is 0", "> 0 and < 2"});
+  expectSays(refusalOfSolver("Factor", 2.0), {"is 2", "> 0 and < 2"});
+  expectSays(refusalOfSolver("Steps", 0), {"is 0", "≥ 1 and ≤ 1000"});
+  expectSays(refusalOfSolver("Steps", -2147483647), {"is -2147483647", "≥ 1 and ≤ 1000"});
 }
 
 TEST(ParametersTest, RefusesWhatIsNotFinite) {
-  expectSays(refusalOf("Tolerance", notANumber), {"a.xml: ", "\"Tolerance\"", "\"Solver\"", "nan", "finite"});
-  expectSays(refusalOf("Shift", notANumber), {"nan", "finite"});
-  expectSays(refusalOf("Shift", -infinity), {"-inf", "finite"});
-  expectSays(refusalOf("Range", numbers({0.0, notANumber})), {"{0, nan}", "finite"});
+  expectSays(refusalOfSolver("Tolerance", notANumber),
+             {"a.xml: ", "\"Tolerance\"", "\"Solver\"", "nan", "finite"});
+  expectSays(refusalOfSolver("Shift", notANumber), {"nan", "finite"});
+  expectSays(refusalOfSolver("Shift", -infinity), {"-inf", "finite"});
+  expectSays(refusalOfSolver("Range", numbers({0.0, notANumber})), {"{0, nan}", "finite"});
 }
 
 TEST(ParametersTest, RefusesAWordThatIsNoChoice) {
-  expectSays(refusalOf("Method", "mprpg"), {"a.xml: ", "\"Method\"", "\"Solver\"", "is \"mprpg\"",
-                                            "one of \"mprgp\", \"smalbe\"", "did you mean \"mprgp\"?"});
+  expectSays(refusalOfSolver("Method", "mprpg"), {"a.xml: ", "\"Method\"", "\"Solver\"", "is \"mprpg\"",
+                                                  "one of \"mprgp\", \"smalbe\"", "did you mean \"mprgp\"?"});
 }
 
 TEST(ParametersTest, RefusesListNamesThatCannotNameAGroupOfAFile) {

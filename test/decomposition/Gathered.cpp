@@ -1,6 +1,5 @@
 #include "Gathered.hpp"
 
-#include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -10,13 +9,6 @@
 #include <limits>
 
 namespace epafi::decomposition {
-namespace {
-
-void sum(const Comm& comm, Eigen::MatrixXd& matrix) {
-  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
-}
-
-} // namespace
 
 std::vector<std::vector<Eigen::Index>> mergedColumns(const DecomposedProblem& problem) {
   const auto numRemainders = static_cast<Eigen::Index>(problem.remainderMap->getGlobalNumElements());
@@ -93,7 +85,7 @@ Eigen::MatrixXd mergedStiffness(const DecomposedProblem& problem) {
         merged(columns[s][static_cast<std::size_t>(entry.row())], columns[s][static_cast<std::size_t>(j)]) +=
             entry.value();
   }
-  sum(*problem.comm, merged);
+  sumEntries(*problem.comm, merged);
   return merged;
 }
 
@@ -105,7 +97,7 @@ Eigen::MatrixXd mergedConstraint(const DecomposedProblem& problem) {
     for (const ConstraintEntry& entry : problem.subdomains[s].constraint)
       merged(static_cast<Eigen::Index>(problem.numberOf(entry.multiplier)),
              columns[s][static_cast<std::size_t>(entry.unknown)]) += entry.coefficient;
-  sum(*problem.comm, merged);
+  sumEntries(*problem.comm, merged);
   return merged;
 }
 

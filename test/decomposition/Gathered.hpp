@@ -3,11 +3,13 @@
 /// Small decomposed problems and what the tests look at: the matrices of the whole problem, dense, on every
 /// rank.
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,12 @@ scene::Decomposition clustered(scene::Decomposition cut, int size);
 /// One square body of n × m elements, without contact.
 scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
                      const std::vector<scene::SolidSupport>& supports);
+
+/// Sums a vector or matrix over ranks. Collective.
+template <class Matrix>
+void sumEntries(const Comm& comm, Matrix& matrix) {
+  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
+}
 
 /// A node of the whole problem as one number: unique over bodies.
 double nodeKey(const Subdomain& subdomain, int unknown, int components);

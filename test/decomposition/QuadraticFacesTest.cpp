@@ -103,10 +103,10 @@ TEST(QuadraticFacesTest, MeansOfAQuadraticPressureAreOffByTheSameEverywhere) {
   layout.areas = nodes.areas;
   contact::adaptRows(surface, layout);
   std::vector<double> forces(nodes.nodes.size(), 0.0);
-  using Shape = fem::Brick<2, 2>;
+  const auto& shape = fem::referenceShape<2>(fem::CellType::quadrilateral9);
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto facet = surface.facet(f);
-    for (const auto& sample : fem::fineSamples<Shape>()) {
+    for (const auto& sample : shape.fineSamples()) {
       Eigen::Vector3d x(0, 0, 0);
       std::vector<std::size_t> places;
       for (std::size_t a = 0; a < facet.size(); ++a) {

@@ -14,8 +14,8 @@ RCP<const Comm> oneRank() {
   return rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
 }
 
-void expectSame(const DecomposedProblem& a, const Subdomain& s, const DecomposedProblem& b,
-                const Subdomain& t) {
+void expectSameSubdomain(const DecomposedProblem& a, const Subdomain& s, const DecomposedProblem& b,
+                         const Subdomain& t) {
   EXPECT_EQ(s.body, t.body);
   EXPECT_EQ(s.number, t.number);
   EXPECT_EQ(s.nodes, t.nodes);
@@ -45,7 +45,7 @@ TEST(RankTest, EverySubdomainIsTheSameOnAnyNumberOfRanks) {
     EXPECT_EQ(p.numCrosspoints, q.numCrosspoints);
     ASSERT_EQ(q.subdomains.size(), static_cast<std::size_t>(q.numSubdomains));
     for (const Subdomain& s : p.subdomains)
-      expectSame(p, s, q, q.subdomains[static_cast<std::size_t>(s.number)]);
+      expectSameSubdomain(p, s, q, q.subdomains[static_cast<std::size_t>(s.number)]);
     const auto mine = p.gap->getData(), all = q.gap->getData();
     for (Teuchos_Ordinal k = 0; k < mine.size(); ++k)
       EXPECT_EQ(

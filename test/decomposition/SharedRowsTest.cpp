@@ -42,7 +42,7 @@ std::string toString(const Meshing& meshing) {
          (meshing.isSimplex ? ", simplices" : "");
 }
 
-double sum(const std::vector<double>& values) {
+double total(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -136,7 +136,7 @@ TEST(SharedRowsTest, PairsOfNodesHaveTheAreaThatBothSurfacesHaveInCommonWhicheve
       }
       const ContactLayout layout = blocks.layout().contacts.at(0);
       ASSERT_EQ(layout.means, "pairs of nodes");
-      EXPECT_NEAR(sum(layout.areas), 1, 1e-12);
+      EXPECT_NEAR(total(layout.areas), 1, 1e-12);
       for (const double area : layout.areas)
         EXPECT_GT(area, 0.005); // may be divided by
       areas.push_back(layout.areas);
@@ -235,7 +235,7 @@ TEST(SharedRowsTest, ATieBesideAContactKeepsTheirCommonNodes) {
       for (const GlobalOrdinal node : touch.firstNodes)
         EXPECT_GT(blocks.bodies[static_cast<std::size_t>(touch.firstBody)].mesh->point(node)[0], 1 + 1e-9);
       if (meshing.order == 1 || upper == 6) { // areas of single nodes of order 2 are none of N̂
-        EXPECT_NEAR(sum(touch.areas) + sum(weld.areas) / meshing.dimension, 2, 1e-12);
+        EXPECT_NEAR(total(touch.areas) + total(weld.areas) / meshing.dimension, 2, 1e-12);
       }
       EXPECT_EQ(touch.note.empty(), upper == 6); // by mortars nothing is shared
     }
@@ -248,7 +248,7 @@ TEST(SharedRowsTest, ATieInsideAContactKeepsItsAreaAndTheContactTheRest) {
       blocks.join("all", "top", "bottom");
       blocks.join("weld", "top left", "bottom left", Kind::tied);
       const SceneContacts found = blocks.layout();
-      const double tied = sum(found.ties.at(0).areas) / dimension, free = sum(found.contacts.at(0).areas);
+      const double tied = total(found.ties.at(0).areas) / dimension, free = total(found.contacts.at(0).areas);
       EXPECT_NEAR(tied + free, 2, 1e-12);
       EXPECT_NEAR(free, upper == 6 ? 1 : 0.75, 1e-12); // of pairs the tie has the common nodes
     }
@@ -293,7 +293,7 @@ TEST(SharedRowsTest, ASkinTakesTheNormalAndTheAreaOfTheFaceThatFacesTheOtherSide
           EXPECT_NEAR(std::abs(layout.directions[row * n + n - 1]), 1, 1e-14);
           EXPECT_NEAR(layout.gaps[row], gap, 1e-13);
         }
-        EXPECT_NEAR(sum(layout.areas), 1, 1e-12);
+        EXPECT_NEAR(total(layout.areas), 1, 1e-12);
         EXPECT_EQ(layout.numBent, 0);
       }
   for (const Meshing& meshing : all) { // on an obstacle, too
@@ -303,7 +303,7 @@ TEST(SharedRowsTest, ASkinTakesTheNormalAndTheAreaOfTheFaceThatFacesTheOtherSide
     contact.second = -1;
     contact.obstacle.normal = meshing.dimension == 2 ? scene::Vector3{0, 1, 0} : scene::Vector3{0, 0, 1};
     contact.distance = 0.125;
-    EXPECT_NEAR(sum(blocks.layout().contacts.at(0).areas), 2, 1e-12) << toString(meshing);
+    EXPECT_NEAR(total(blocks.layout().contacts.at(0).areas), 2, 1e-12) << toString(meshing);
   }
 }
 
@@ -316,7 +316,7 @@ TEST(SharedRowsTest, OverlapsMayBeDeeperThanElementsAndNotThanBodies) {
     deep.join("c", "top", "bottom").coupling = coupling;
     through.join("c", "top", "bottom").coupling = coupling;
     const ContactLayout layout = deep.layout().contacts.at(0);
-    EXPECT_NEAR(sum(layout.areas), 2, 1e-12);
+    EXPECT_NEAR(total(layout.areas), 2, 1e-12);
     for (const double gap : layout.gaps)
       EXPECT_NEAR(gap, -0.25, 1e-12);
     EXPECT_FALSE(test::refusal([&] { (void)through.layout(); }).empty());

@@ -16,8 +16,8 @@ using Corners = std::array<GlobalOrdinal, 8>;
 const scene::Box brick{{-1, 0.5, 2}, {2, 1.5, 2.5}}; // 3 × 1 × ½
 
 /// The general case, one element, one row of elements in each direction, one layer in each direction.
-const std::vector<std::array<int, 3>> sizes{{3, 2, 4}, {1, 1, 1}, {4, 1, 1}, {1, 4, 1},
-                                            {1, 1, 4}, {1, 3, 2}, {3, 1, 2}, {3, 2, 1}};
+const std::vector<std::array<int, 3>> boxSizes{{3, 2, 4}, {1, 1, 1}, {4, 1, 1}, {1, 4, 1},
+                                               {1, 1, 4}, {1, 3, 2}, {3, 1, 2}, {3, 2, 1}};
 
 StructuredMesh meshOf(const std::array<int, 3>& size) {
   return {brick, size};
@@ -56,7 +56,7 @@ TEST(BoxMeshTest, NumbersNodesAndElementsXFirstThenYThenZ) {
 TEST(BoxMeshTest, CornersOfElementsLieAsThoseOfTheUnitCube) {
   const std::array<Eigen::Vector3d, 8> cube{
       {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
-  for (const auto& size : sizes) {
+  for (const auto& size : boxSizes) {
     const StructuredMesh mesh = meshOf(size);
     const scene::Vector3 side = mesh.elementSize();
     for (std::size_t d = 0; d < 3; ++d)
@@ -74,7 +74,7 @@ TEST(BoxMeshTest, CornersOfElementsLieAsThoseOfTheUnitCube) {
 
 TEST(BoxMeshTest, NodesKnowExactlyTheElementsThatKnowThem) {
   std::vector<GlobalOrdinal> elements;
-  for (const auto& size : sizes) {
+  for (const auto& size : boxSizes) {
     const StructuredMesh mesh = meshOf(size);
     for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
       mesh.nodeElements(node, elements);
@@ -87,7 +87,7 @@ TEST(BoxMeshTest, NodesKnowExactlyTheElementsThatKnowThem) {
 }
 
 TEST(BoxMeshTest, ManyAtOnceAreTheSameAsOneByOne) {
-  for (const auto& size : sizes) {
+  for (const auto& size : boxSizes) {
     const StructuredMesh mesh = meshOf(size);
     std::vector<GlobalOrdinal> elements; // ascending with gaps, then backwards
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element)
@@ -120,7 +120,7 @@ TEST(BoxMeshTest, ManyAtOnceAreTheSameAsOneByOne) {
 
 TEST(BoxMeshTest, NeighboursAreThoseWhoShareFourNodes) {
   std::vector<GlobalOrdinal> neighbours;
-  for (const auto& size : sizes) {
+  for (const auto& size : boxSizes) {
     const StructuredMesh mesh = meshOf(size);
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
       mesh.elementNeighbours(element, neighbours);
@@ -151,7 +151,7 @@ TEST(BoxMeshTest, EndPointsAreExactWhateverTheSpacing) {
 }
 
 TEST(BoxMeshTest, ElementsFillTheBox) {
-  for (const auto& size : sizes) {
+  for (const auto& size : boxSizes) {
     const StructuredMesh mesh = meshOf(size);
     const auto [a, b, c] = mesh.elementSize();
     EXPECT_NEAR(a * b * c * static_cast<double>(mesh.numElements()), 1.5, 1e-14);
@@ -173,7 +173,7 @@ TEST(BoxMeshTest, SurfacesLookOutwards) {
   const std::map<std::string, Eigen::Vector3d> area{{"left", {-0.5, 0, 0}},   {"right", {0.5, 0, 0}},
                                                     {"front", {0, -1.5, 0}},  {"back", {0, 1.5, 0}},
                                                     {"bottom", {0, 0, -3.0}}, {"top", {0, 0, 3.0}}};
-  for (const auto& size : sizes) {
+  for (const auto& size : boxSizes) {
     const StructuredMesh mesh = meshOf(size);
     double volume = 0;
     ASSERT_EQ(mesh.surfaceNames().size(), 6u);
@@ -202,7 +202,7 @@ TEST(BoxMeshTest, SurfacesLookOutwards) {
 
 /// Each edge of a facet is run through once in both directions, and each facet belongs to one element only.
 TEST(BoxMeshTest, SurfacesCloseTheBoundary) {
-  for (const auto& size : sizes) {
+  for (const auto& size : boxSizes) {
     const StructuredMesh mesh = meshOf(size);
     std::map<std::pair<GlobalOrdinal, GlobalOrdinal>, int> edges;
     std::set<GlobalOrdinal> nodes;

@@ -1,10 +1,9 @@
 #include "epafi/fem/ElementGeometry.hpp"
 
 #include "SampleCells.hpp"
+#include "SimplexSamples.hpp"
 
 #include <gtest/gtest.h>
-
-#include <numeric>
 
 namespace epafi::fem {
 namespace {
@@ -15,10 +14,6 @@ std::vector<double> sharesOf(CellType facet, const Points& points) {
   std::vector<double> shares(points.size());
   nodalShares(facet, points, shares);
   return shares;
-}
-
-double sumOf(const std::vector<double>& shares) {
-  return std::accumulate(shares.begin(), shares.end(), 0.0);
 }
 
 TEST(ElementGeometryTest, MeasuresOfUnitCellsAreTheKnownOnes) {

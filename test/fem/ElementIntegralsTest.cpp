@@ -14,9 +14,6 @@ namespace {
 
 using scene::Physics;
 
-const scene::Material material{
-    .conductivity = 3, .youngsModulus = 10, .poissonsRatio = 0.25, .thickness = 0.5};
-
 int componentsIn(CellType type, Physics physics) {
   return physics == Physics::membrane ? 1 : dimensionOf(type);
 }

@@ -14,9 +14,6 @@ namespace {
 
 using scene::Physics;
 
-const scene::Material material{
-    .conductivity = 3, .youngsModulus = 10, .poissonsRatio = 0.2, .thickness = 0.5};
-
 /// The displacement's gradient in these tests, 0 where the plane has no component.
 Eigen::Matrix3d gradientIn(CellType type) {
   Eigen::Matrix3d gradient;
@@ -42,10 +39,6 @@ Eigen::Matrix3d hooke(const Eigen::Matrix3d& gradient, Physics physics) {
   }
   const double pressure = modulus / (1 - 2 * ratio) * strain.trace(); // tr σ
   return (modulus * strain + ratio * pressure * Eigen::Matrix3d::Identity()) / (1 + ratio);
-}
-
-std::span<const double> spanOf(const Eigen::VectorXd& vector) {
-  return {vector.data(), static_cast<std::size_t>(vector.size())};
 }
 
 Eigen::VectorXd nodalForces(CellType type, std::span<const Point> points, Physics physics,

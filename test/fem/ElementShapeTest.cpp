@@ -71,20 +71,20 @@ TEST(ElementShapeTest, FlatAndCollapsedElementsHaveNoJacobian) {
 }
 
 /// The least of many values of det ∂x/∂ξ, times the measure of the reference element.
-template <class Shape>
-double leastSampled(const std::vector<Point>& points) {
+template <int dim>
+double leastSampled(const Shape<dim>& shape, const std::vector<Point>& points) {
   constexpr int n = 12;
-  const auto corners = relativeCorners<Shape>(points);
+  const auto corners = relativeCorners<dim>(points);
   double least = std::numeric_limits<double>::infinity();
-  for (int code = 0; code < power(n + 1, Shape::dimension); ++code) {
-    typename Shape::Coordinates xi;
-    for (int i = 0, rest = code; i < Shape::dimension; ++i, rest /= n + 1)
+  for (int code = 0; code < power(n + 1, dim); ++code) {
+    Coordinates<dim> xi;
+    for (int i = 0, rest = code; i < dim; ++i, rest /= n + 1)
       xi[i] = (rest % (n + 1)) / static_cast<double>(n);
-    if (Shape::isSimplex && xi.sum() > 1)
+    if (shape.isSimplex && xi.sum() > 1)
       continue;
-    if (!Shape::isSimplex)
-      xi = 2 * xi - Shape::Coordinates::Ones();
-    least = std::min(least, Shape::measure * ElementMap<Shape>(corners, sampleAt<Shape>(xi)).determinant());
+    if (!shape.isSimplex)
+      xi = 2 * xi - Coordinates<dim>::Ones();
+    least = std::min(least, shape.measure * ElementMap<dim>(corners, shape.sampleAt(xi)).determinant());
   }
   return least;
 }
@@ -98,7 +98,7 @@ TEST(ElementShapeTest, TheJacobianOfCurvedElementsIsBoundedEverywhere) {
       const auto points = mapped(distortedCell(type, seed), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
         return x + 0.004 * seed * random.vector();
       });
-      const double least = withShape(type, [&](auto shape) { return leastSampled<decltype(shape)>(points); });
+      const double least = withShape(type, [&](const auto& shape) { return leastSampled(shape, points); });
       const double bound = shapeOf(type, points).leastJacobian;
       const double scale = std::abs(shapeOf(type, points).measure);
       if (least > 0) {

@@ -13,9 +13,6 @@ namespace {
 
 using scene::Physics;
 
-const scene::Material material{
-    .conductivity = 3, .youngsModulus = 10, .poissonsRatio = 0.25, .thickness = 0.5};
-
 /// Σ x_a × f_a
 Eigen::Vector3d moment(std::span<const Point> points, const Eigen::VectorXd& load) {
   const auto components = load.size() / static_cast<Eigen::Index>(points.size());

@@ -13,13 +13,6 @@ namespace {
 
 using scene::Physics;
 
-const scene::Material material{
-    .conductivity = 3, .youngsModulus = 10, .poissonsRatio = 0.2, .thickness = 0.5};
-
-std::span<const double> spanOf(const Eigen::VectorXd& vector) {
-  return {vector.data(), static_cast<std::size_t>(vector.size())};
-}
-
 Eigen::VectorXd randomValues(Eigen::Index size, std::uint32_t seed) {
   RandomNumbers random(seed);
   Eigen::VectorXd values(size);

@@ -43,6 +43,13 @@ inline std::vector<scene::Physics> allPhysics(CellType type) {
   return all;
 }
 
+inline const scene::Material material{
+    .conductivity = 3, .youngsModulus = 10, .poissonsRatio = 0.25, .thickness = 0.5};
+
+inline std::span<const double> spanOf(const Eigen::VectorXd& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
 inline Eigen::Vector3d vectorOf(const Point& point) {
   return {point[0], point[1], point[2]};
 }
@@ -52,12 +59,10 @@ inline Point pointOf(const Eigen::Vector3d& vector) {
 
 /// The nodes of a cell whose shape functions of order 1 these corners have.
 inline std::vector<Point> withAllNodes(CellType type, const std::vector<Point>& corners) {
-  return withShape(type, [&](auto shape) {
-    using Shape = decltype(shape);
-    using Linear = std::conditional_t<Shape::isSimplex, Simplex<Shape::dimension>, Brick<Shape::dimension>>;
+  return withShape(type, [&]<int dim>(const Shape<dim>& shape) {
     std::vector<Point> points;
-    for (int node = 0; node < Shape::numNodes; ++node) {
-      const typename Linear::Values values = Linear::values(Shape::node(node));
+    for (int node = 0; node < shape.numNodes; ++node) {
+      const NodalValues values = referenceShape<dim>(withOrder(type, 1)).values(shape.node(node));
       Point& point = points.emplace_back();
       for (std::size_t a = 0; a < corners.size(); ++a)
         for (std::size_t d = 0; d < 3; ++d)

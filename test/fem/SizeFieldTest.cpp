@@ -117,7 +117,7 @@ TEST_F(SizeFieldTest, WhereBodiesTouchTheSmallerSizeHolds) {
 }
 
 /// A square or cube of side 1 that says itself that two elements a side are enough.
-const std::string square = R"(
+const std::string squareGeometry = R"(
 lc = 0.5;
 Point(1) = {0, 0, 0, lc}; Point(2) = {1, 0, 0, lc}; Point(3) = {1, 1, 0, lc}; Point(4) = {0, 1, 0, lc};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
@@ -169,7 +169,7 @@ Size constant(double size) {
 constexpr double closeEnough = 0.3; // Gmsh makes what it is asked for on average
 
 TEST_F(SizeFieldTest, GeometriesAreMeshedWithTheSizesThatAreAskedForAndNotWithTheirOwn) {
-  const std::string plate = folder.write("square.geo", square), block = folder.write("cube.geo", cube);
+  const std::string plate = folder.write("square.geo", squareGeometry), block = folder.write("cube.geo", cube);
   for (const double size : {0.2, 0.05}) {
     const UnstructuredMesh mesh = meshWith(plate, sizesOf(2, constant(size)));
     EXPECT_EQ(mesh.cellType(), CellType::triangle6);
@@ -184,7 +184,7 @@ TEST_F(SizeFieldTest, FieldsAndMeshesThatAGeometryGivesDoNotMatter) {
   const std::string field = "Field[1] = MathEval;\nField[1].F = \"0.05\";\nBackground Field = 1;\n",
                     meshes = "Mesh 2;\n";
   for (const std::string& more : {field, meshes}) {
-    const std::string plate = folder.write("square.geo", square + more);
+    const std::string plate = folder.write("square.geo", squareGeometry + more);
     const double size = more == field ? 0.2 : 0.05;
     const UnstructuredMesh mesh = meshWith(plate, sizesOf(2, constant(size)));
     EXPECT_NEAR(meanEdge(mesh, constant(size)), 1, closeEnough) << more;
@@ -195,13 +195,13 @@ TEST_F(SizeFieldTest, FieldsAndMeshesThatAGeometryGivesDoNotMatter) {
 
 TEST_F(SizeFieldTest, GeometriesAreMeshedFinelyWhereThatIsAskedForAlone) {
   const Size graded = [](const Point& x) { return 0.02 + 0.1 * (x[0] + x[1]); };
-  const UnstructuredMesh mesh = meshWith(folder.write("square.geo", square), sizesOf(2, graded));
+  const UnstructuredMesh mesh = meshWith(folder.write("square.geo", squareGeometry), sizesOf(2, graded));
   EXPECT_NEAR(meanEdge(mesh, graded, [](const Point& x) { return x[0] + x[1] < 0.3; }), 1, closeEnough);
   EXPECT_NEAR(meanEdge(mesh, graded, [](const Point& x) { return x[0] + x[1] > 1.4; }), 1, closeEnough);
 }
 
 TEST_F(SizeFieldTest, GroupsOfAGeometryAreStillThere) {
-  const UnstructuredMesh mesh = meshWith(folder.write("square.geo", square), sizesOf(2, constant(0.2)));
+  const UnstructuredMesh mesh = meshWith(folder.write("square.geo", squareGeometry), sizesOf(2, constant(0.2)));
   EXPECT_EQ(mesh.groupNames(), std::vector<std::string>{"plate"});
   EXPECT_EQ(static_cast<GlobalOrdinal>(mesh.group("plate").size()), mesh.numElements());
   EXPECT_EQ(mesh.surfaceNames(), std::vector<std::string>{"bottom"});

@@ -1,13 +1,12 @@
 #include "epafi/fem/BodyModel.hpp"
 
+#include "WholeBody.hpp"
+
 #include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/fem/SubdomainAssembly.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
-
-#include <numeric>
 
 namespace epafi::fem {
 namespace {
@@ -27,13 +26,6 @@ scene::Body solidOf(Physics physics) {
   solid.physics = physics;
   solid.material = {2.0, 10.0, 0.3, 0.5};
   return solid;
-}
-
-/// The whole body as one subdomain.
-AssembledSubdomain assembled(const BodyModel& model) {
-  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(model.mesh().numElements()));
-  std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
-  return assemble(model, elements);
 }
 
 int numZeroEigenvalues(const AssembledSubdomain& body) {

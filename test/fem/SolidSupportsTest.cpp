@@ -2,9 +2,9 @@
 
 #include "MeshFiles.hpp"
 #include "TurnedMesh.hpp"
+#include "WholeBody.hpp"
 
 #include "epafi/fem/BodyModel.hpp"
-#include "epafi/fem/SubdomainAssembly.hpp"
 #include "epafi/fem/SupportNormals.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
 
@@ -13,7 +13,6 @@
 
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <random>
 
 namespace epafi::fem {
@@ -49,12 +48,6 @@ scene::Body solidWith(int dimension, std::vector<SolidSupport> supports) {
   solid.physics = dimension == 3 ? Physics::elasticity3d : Physics::planeStrain;
   solid.supports = std::move(supports);
   return solid;
-}
-
-AssembledSubdomain assembled(const BodyModel& model) {
-  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(model.mesh().numElements()));
-  std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
-  return assemble(model, elements);
 }
 
 /// The kernel that geometry tells must be the kernel of the matrix: K R = 0, and no further eigenvalue vanishes.

@@ -12,32 +12,32 @@
 namespace epafi::fem {
 namespace {
 
-const StructuredMesh mesh(scene::rectangle(-1, 2, 0.5, 1.5), {3, 2, 0});
+const StructuredMesh oblong(scene::rectangle(-1, 2, 0.5, 1.5), {3, 2, 0});
 
 bool contains(const std::vector<GlobalOrdinal>& list, GlobalOrdinal value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
 TEST(RectangleTest, NumbersNodesAndElementsRowByRow) {
-  EXPECT_EQ(mesh.numNodes(), 12);
-  EXPECT_EQ(mesh.numElements(), 6);
-  EXPECT_EQ(mesh.point(0), (Point{-1, 0.5, 0}));
-  EXPECT_EQ(mesh.point(11), (Point{2, 1.5, 0}));
+  EXPECT_EQ(oblong.numNodes(), 12);
+  EXPECT_EQ(oblong.numElements(), 6);
+  EXPECT_EQ(oblong.point(0), (Point{-1, 0.5, 0}));
+  EXPECT_EQ(oblong.point(11), (Point{2, 1.5, 0}));
   std::array<GlobalOrdinal, 4> nodes{};
-  mesh.elementNodes(4, nodes);
+  oblong.elementNodes(4, nodes);
   EXPECT_EQ(nodes, (std::array<GlobalOrdinal, 4>{5, 6, 10, 9}));
 }
 
 TEST(RectangleTest, NodesKnowExactlyTheElementsThatKnowThem) {
   std::vector<GlobalOrdinal> elements;
   std::array<GlobalOrdinal, 4> nodes{};
-  for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
-    mesh.nodeElements(node, elements);
-    for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
-      mesh.elementNodes(element, nodes);
+  for (GlobalOrdinal node = 0; node < oblong.numNodes(); ++node) {
+    oblong.nodeElements(node, elements);
+    for (GlobalOrdinal element = 0; element < oblong.numElements(); ++element) {
+      oblong.elementNodes(element, nodes);
       EXPECT_EQ(std::find(nodes.begin(), nodes.end(), node) != nodes.end(), contains(elements, element));
     }
-    EXPECT_EQ(mesh.isBoundaryNode(node), elements.size() < 4) << node;
+    EXPECT_EQ(oblong.isBoundaryNode(node), elements.size() < 4) << node;
   }
 }
 
@@ -80,10 +80,10 @@ TEST(StructuredMeshTest, OfOrderTwoEverythingFitsTogether) {
 TEST(RectangleTest, ManyAtOnceAreTheSameAsOneByOne) {
   const std::vector<GlobalOrdinal> elements{1, 2, 3, 5, 0, 4}; // runs, a gap, a step back
   std::vector<GlobalOrdinal> all(4 * elements.size());
-  mesh.elementNodes(elements, all);
+  oblong.elementNodes(elements, all);
   std::array<GlobalOrdinal, 4> nodes{};
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    mesh.elementNodes(elements[e], nodes);
+    oblong.elementNodes(elements[e], nodes);
     EXPECT_TRUE(std::equal(nodes.begin(), nodes.end(), all.begin() + static_cast<std::ptrdiff_t>(4 * e)))
         << e;
   }
@@ -107,11 +107,11 @@ TEST(RectangleTest, ManyAtOnceAreTheSameAsOneByOne) {
 TEST(RectangleTest, NeighboursShareTwoNodes) {
   std::vector<GlobalOrdinal> neighbours;
   std::array<GlobalOrdinal, 4> a{}, b{};
-  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
-    mesh.elementNeighbours(element, neighbours);
-    mesh.elementNodes(element, a);
-    for (GlobalOrdinal other = 0; other < mesh.numElements(); ++other) {
-      mesh.elementNodes(other, b);
+  for (GlobalOrdinal element = 0; element < oblong.numElements(); ++element) {
+    oblong.elementNeighbours(element, neighbours);
+    oblong.elementNodes(element, a);
+    for (GlobalOrdinal other = 0; other < oblong.numElements(); ++other) {
+      oblong.elementNodes(other, b);
       const auto common = std::count_if(
           a.begin(), a.end(), [&](GlobalOrdinal n) { return std::find(b.begin(), b.end(), n) != b.end(); });
       EXPECT_EQ(contains(neighbours, other), common == 2) << element << ' ' << other;
@@ -125,10 +125,10 @@ TEST(RectangleTest, EdgesHaveTheNodesOnThem) {
   std::vector<std::string> names;
   for (const auto& [name, nodes] : edges) {
     names.push_back(name);
-    const std::vector<GlobalOrdinal> all = mesh.surface(name).facetNodes;
+    const std::vector<GlobalOrdinal> all = oblong.surface(name).facetNodes;
     EXPECT_EQ(std::set<GlobalOrdinal>(all.begin(), all.end()), nodes) << name;
   }
-  EXPECT_EQ(mesh.surfaceNames(), names);
+  EXPECT_EQ(oblong.surfaceNames(), names);
 }
 
 TEST(RectangleTest, EndPointsAreExactWhateverTheSpacing) {
@@ -137,9 +137,9 @@ TEST(RectangleTest, EndPointsAreExactWhateverTheSpacing) {
 }
 
 TEST(RectangleTest, ElementsFillTheRectangle) {
-  EXPECT_EQ(mesh.elements(), (std::array<int, 3>{3, 2, 1}));
-  EXPECT_EQ(mesh.elementSize(), (scene::Vector3{1, 0.5, 0}));
-  EXPECT_EQ(mesh.elementShape(), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {0, 0.5, 0}}));
+  EXPECT_EQ(oblong.elements(), (std::array<int, 3>{3, 2, 1}));
+  EXPECT_EQ(oblong.elementSize(), (scene::Vector3{1, 0.5, 0}));
+  EXPECT_EQ(oblong.elementShape(), (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 0.5, 0}, {0, 0.5, 0}}));
 }
 
 TEST(RectangleTest, SurfacesRunAroundTheBodyWithItOnTheirLeft) {

@@ -19,18 +19,13 @@ namespace {
 using decomposition::mergedColumns;
 using decomposition::mergedSize;
 
-template <class Matrix>
-void sum(const Comm& comm, Matrix& matrix) {
-  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
-}
-
 /// Number of copies of each merged unknown. Collective.
 Eigen::VectorXd countCopies(const DecomposedProblem& problem) {
   Eigen::VectorXd copies = Eigen::VectorXd::Zero(mergedSize(problem));
   for (const auto& columns : mergedColumns(problem))
     for (const Eigen::Index column : columns)
       copies[column] += 1;
-  sum(*problem.comm, copies);
+  decomposition::sumEntries(*problem.comm, copies);
   return copies;
 }
 
@@ -112,8 +107,8 @@ DenseProblem densify(const DecomposedProblem& problem) {
           subdomain.kernel.row(unknown);
     }
   }
-  sum(*problem.comm, dense.load);
-  sum(*problem.comm, dense.kernel);
+  decomposition::sumEntries(*problem.comm, dense.load);
+  decomposition::sumEntries(*problem.comm, dense.kernel);
   dense.kernel.array().colwise() /= countCopies(problem).array(); // the mean of copies that agree
   dense.gap = gathered(*problem.gap);
   return dense;
@@ -149,7 +144,7 @@ Eigen::VectorXd mergeValues(const DecomposedProblem& problem, const SubdomainVec
   for (std::size_t s = 0; s < columns.size(); ++s)
     for (std::size_t i = 0; i < columns[s].size(); ++i)
       merged[columns[s][i]] += u[s](static_cast<Eigen::Index>(i));
-  sum(*problem.comm, merged);
+  decomposition::sumEntries(*problem.comm, merged);
   return merged.cwiseQuotient(countCopies(problem));
 }
 
@@ -170,7 +165,7 @@ Eigen::MatrixXd matrixOf(const Operator& a) {
       matrix(static_cast<Eigen::Index>(indices[static_cast<decltype(indices.size())>(row)]), column) =
           values[row];
   }
-  sum(*a.getDomainMap()->getComm(), matrix);
+  decomposition::sumEntries(*a.getDomainMap()->getComm(), matrix);
   return matrix;
 }
 
@@ -180,7 +175,7 @@ Eigen::VectorXd gathered(const Vector& x) {
   const auto values = x.getData();
   for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
     all[static_cast<Eigen::Index>(indices[static_cast<decltype(indices.size())>(i)])] = values[i];
-  sum(*x.getMap()->getComm(), all);
+  decomposition::sumEntries(*x.getMap()->getComm(), all);
   return all;
 }
 

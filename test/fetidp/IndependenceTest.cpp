@@ -6,7 +6,7 @@ namespace epafi::fetidp {
 namespace {
 
 /// Pressed together below, apart above.
-scene::Scene membranes(bool coercive, int elements, const scene::Decomposition& cut) {
+scene::Scene cutMembranes(bool coercive, int elements, const scene::Decomposition& cut) {
   scene::Scene scene = twoMembranes(coercive, elements, cut);
   setHalves(scene.bodies[0], 4.0, -5.0);
   setHalves(scene.bodies[1], -3.0, 2.0);
@@ -43,13 +43,13 @@ int steps(const Solved& solved) {
 
 TEST(IndependenceTest, TheSolutionDoesNotDependOnThePartition) {
   for (const bool coercive : {true, false}) {
-    const Solved reference(membranes(coercive, 6, grid(1, 1)));
+    const Solved reference(cutMembranes(coercive, 6, grid(1, 1)));
     const Field u = fieldOf(reference.decomposition, reference.solution);
     for (const auto& cut : {grid(2, 2), grid(6, 6), grid(1, 3), metis(3), metis(7), clustered(grid(2, 2), 1),
                             clustered(grid(3, 3), 4), clustered(metis(4), 2)}) {
       SCOPED_TRACE(testing::Message()
                    << coercive << ' ' << cut.counts[0] << ' ' << cut.parts << ' ' << cut.cluster);
-      const Solved solved(membranes(coercive, 6, cut));
+      const Solved solved(cutMembranes(coercive, 6, cut));
       EXPECT_LE(fieldError(fieldOf(solved.decomposition, solved.solution), u), 1e-8);
       EXPECT_NEAR(solved.solution.energy, reference.solution.energy,
                   1e-9 * std::abs(reference.solution.energy));
@@ -61,8 +61,8 @@ TEST(IndependenceTest, TheSolutionDoesNotDependOnThePartition) {
 }
 
 TEST(IndependenceTest, BodiesMayBeCutDifferently) {
-  const Solved reference(membranes(false, 6, grid(1, 1)));
-  scene::Scene scene = membranes(false, 6, grid(3, 2));
+  const Solved reference(cutMembranes(false, 6, grid(1, 1)));
+  scene::Scene scene = cutMembranes(false, 6, grid(3, 2));
   scene.bodies[1].decomposition = metis(5);
   const Solved solved(scene);
   EXPECT_LE(fieldError(fieldOf(solved.decomposition, solved.solution),
@@ -75,7 +75,7 @@ TEST(IndependenceTest, TheConductivityMayJumpAcrossAndInsideSubdomains) {
     for (const double jump : {1e-4, 1e4})
       for (const auto& cut : {grid(2, 2), metis(3)}) { // along the cut of the one, across that of the other
         SCOPED_TRACE(testing::Message() << coercive << ' ' << jump << ' ' << cut.parts);
-        scene::Scene scene = membranes(coercive, 4, cut);
+        scene::Scene scene = cutMembranes(coercive, 4, cut);
         scene.bodies[0].regions = {{"corner", scene::rectangle(0, 0.5, 0, 0.5), "", {jump}}};
         scene.bodies[1].regions = {{"right half", scene::rectangle(1.5, 2, 0, 1), "", {jump}}};
         const Solved solved(scene);
@@ -90,7 +90,7 @@ TEST(IndependenceTest, TheConductivityMayJumpFromBodyToBody) {
   for (const bool coercive : {true, false})
     for (const double jump : {1e-4, 1e4}) {
       SCOPED_TRACE(testing::Message() << coercive << ' ' << jump);
-      scene::Scene scene = membranes(coercive, 4, grid(2, 2));
+      scene::Scene scene = cutMembranes(coercive, 4, grid(2, 2));
       scene.bodies[1].material.conductivity = jump;
       const Solved solved(scene);
       const PrimalSolution reference = solveUndecomposed(solved.decomposition);
@@ -118,7 +118,7 @@ void expectScaled(const scene::Scene& first, const scene::Scene& second, double 
 TEST(IndependenceTest, TheSolutionScalesWithTheUnits) {
   for (const bool coercive : {true, false})
     for (const auto& cut : {grid(1, 1), grid(2, 2)}) {
-      const scene::Scene scene = membranes(coercive, 4, cut);
+      const scene::Scene scene = cutMembranes(coercive, 4, cut);
       for (const double unit : {1e-9, 1e9}) {
         SCOPED_TRACE(testing::Message() << coercive << ' ' << cut.counts[0] << ' ' << unit);
         expectScaled(scene, rescaled(scene, 1, unit, 1), unit);
@@ -136,7 +136,7 @@ TEST(IndependenceTest, GapsScaleWithTheUnits) {
   for (const bool coercive : {true, false})
     for (const double unit : {1e-9, 1e9}) {
       SCOPED_TRACE(testing::Message() << coercive << ' ' << unit);
-      scene::Scene scene = membranes(coercive, 4, grid(2, 2));
+      scene::Scene scene = cutMembranes(coercive, 4, grid(2, 2));
       scene.contacts.front().gap = 0.02;
       scene::Scene other = rescaled(scene, 1, unit, 1);
       other.contacts.front().gap = 0.02 * unit;

@@ -26,7 +26,7 @@ std::vector<Form> allForms() {
   return forms;
 }
 
-std::string nameOf(const Form& form) {
+std::string nameOfForm(const Form& form) {
   return form.solver + (form.isShared ? ", shared" : ", not shared") +
          (form.mode == Mode::implicitSolves   ? ", implicit"
           : form.mode == Mode::explicitBlocks ? ", explicit"
@@ -61,7 +61,7 @@ TEST(OperatorFormsTest, EveryFormEqualsTheUndecomposedComputation) {
     const Eigen::MatrixXd expected =
         z.transpose() * dense.constraint * pseudoInverse(dense.stiffness) * dense.constraint.transpose() * z;
     for (const Form& form : allForms()) {
-      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      SCOPED_TRACE(c.name + "; " + nameOfForm(form));
       EXPECT_LE(relativeError(z.transpose() * matrixIn(decomposition.problem, form) * z, expected), 1e-12);
     }
   }
@@ -73,7 +73,7 @@ TEST(OperatorFormsTest, AllFormsAreTheSameOperator) {
     const auto decomposition = decompose(c.scene, world());
     const Eigen::MatrixXd plain = matrixIn(decomposition.problem, {"CHOLMOD", false, Mode::implicitSolves});
     for (const Form& form : allForms()) {
-      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      SCOPED_TRACE(c.name + "; " + nameOfForm(form));
       const Eigen::MatrixXd f = matrixIn(decomposition.problem, form);
       EXPECT_LE(relativeError(f, plain), 1e-12);
       EXPECT_LE((f - f.transpose()).norm(), 1e-13 * f.norm());
@@ -85,7 +85,7 @@ TEST(OperatorFormsTest, EveryFormIsTheSameToTheLastDigitOnAnyNumberOfRanks) {
   for (const ContactCase& c : formCases()) {
     const auto together = decompose(c.scene, world()), alone = decompose(c.scene, thisRankOnly());
     for (const Form& form : allForms()) {
-      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      SCOPED_TRACE(c.name + "; " + nameOfForm(form));
       EXPECT_EQ((matrixIn(together.problem, form) - matrixIn(alone.problem, form)).cwiseAbs().maxCoeff(), 0);
     }
   }
@@ -104,7 +104,7 @@ TEST(OperatorFormsTest, AllFormsAreTheSamePreconditioner) {
     const auto together = decompose(c.scene, world()), alone = decompose(c.scene, thisRankOnly());
     const Eigen::MatrixXd blocks = matrixOfM(together.problem, {"CHOLMOD", false, Mode::explicitBlocks});
     for (const Form& form : allForms()) {
-      SCOPED_TRACE(c.name + "; " + nameOf(form));
+      SCOPED_TRACE(c.name + "; " + nameOfForm(form));
       const Eigen::MatrixXd m = matrixOfM(together.problem, form);
       EXPECT_LE(relativeError(m, blocks), 1e-12);
       EXPECT_LE((m - m.transpose()).norm(), 1e-13 * m.norm());
@@ -118,7 +118,7 @@ TEST(OperatorFormsTest, ProductsWithManyMultipliersAtOnceAreTheSumOfSingleOnes) 
   const auto decomposition = decompose(twoMembranes(false, 12, grid(4, 4)), world());
   const DecomposedProblem& problem = decomposition.problem;
   for (const Form& form : allForms()) {
-    SCOPED_TRACE(nameOf(form));
+    SCOPED_TRACE(nameOfForm(form));
     auto inverse =
         std::make_shared<GeneralizedInverse>(problem, DirectSolvers{form.solver, "CHOLMOD", form.isShared});
     inverse->prepareDual({form.mode, 40});

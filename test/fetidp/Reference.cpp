@@ -13,11 +13,6 @@
 namespace epafi::fetidp {
 namespace {
 
-template <class Matrix>
-void sum(const Comm& comm, Matrix& matrix) {
-  sumOverRanks(comm, std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
-}
-
 /// The problem over all nodes of all bodies, supported ones too (one unknown a node).
 struct PrimalProblem {
   Eigen::MatrixXd stiffness, constraint; ///< K; B_I
@@ -34,7 +29,7 @@ Eigen::Index nodeOf(const PrimalProblem& primal, const decomposition::Subdomain&
          static_cast<Eigen::Index>(subdomain.nodes[static_cast<std::size_t>(position)]);
 }
 
-std::vector<Eigen::Index> firstNodes(const model::Decomposition& decomposition) {
+std::vector<Eigen::Index> firstColumns(const model::Decomposition& decomposition) {
   std::vector<Eigen::Index> first{0};
   for (const auto& body : decomposition.bodies)
     first.push_back(first.back() + static_cast<Eigen::Index>(body.mesh->numNodes()));
@@ -71,7 +66,7 @@ void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdoma
 PrimalProblem assemble(const model::Decomposition& decomposition) {
   const DecomposedProblem& problem = decomposition.problem;
   PrimalProblem primal;
-  primal.firstNode = firstNodes(decomposition);
+  primal.firstNode = firstColumns(decomposition);
   const Eigen::Index n = primal.firstNode.back();
   primal.stiffness = Eigen::MatrixXd::Zero(n, n);
   primal.constraint = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.numInequalities), n);
@@ -79,10 +74,10 @@ PrimalProblem assemble(const model::Decomposition& decomposition) {
   Eigen::VectorXd isFree = Eigen::VectorXd::Zero(n);
   for (const auto& subdomain : problem.subdomains)
     addSubdomain(problem, subdomain, primal, isFree);
-  sum(*problem.comm, primal.stiffness);
-  sum(*problem.comm, primal.constraint);
+  decomposition::sumEntries(*problem.comm, primal.stiffness);
+  decomposition::sumEntries(*problem.comm, primal.constraint);
   for (Eigen::VectorXd* vector : {&primal.load, &primal.prescribed, &primal.copies, &isFree})
-    sum(*problem.comm, *vector);
+    decomposition::sumEntries(*problem.comm, *vector);
   primal.energyOffset = sumOverRanks(*problem.comm, primal.energyOffset);
   primal.prescribed.array() /= primal.copies.array();
   primal.gap = gathered(*problem.gap).head(primal.constraint.rows());
@@ -116,7 +111,7 @@ Solved::Solved(const scene::Scene& scene, double tolerance)
 
 Field fieldOf(const model::Decomposition& decomposition, const ContactSolution& solution) {
   PrimalProblem primal;
-  primal.firstNode = firstNodes(decomposition);
+  primal.firstNode = firstColumns(decomposition);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(primal.firstNode.back()), copies = values;
   for (std::size_t s = 0; s < solution.displacement.size(); ++s)
     for (Eigen::Index i = 0; i < solution.displacement[s].size(); ++i) {
@@ -124,8 +119,8 @@ Field fieldOf(const model::Decomposition& decomposition, const ContactSolution& 
       values[node] += solution.displacement[s][i];
       copies[node] += 1;
     }
-  sum(*decomposition.problem.comm, values);
-  sum(*decomposition.problem.comm, copies);
+  decomposition::sumEntries(*decomposition.problem.comm, values);
+  decomposition::sumEntries(*decomposition.problem.comm, copies);
   return split(primal, values.cwiseQuotient(copies));
 }
 

@@ -12,8 +12,6 @@ namespace {
 using namespace epafi;
 using qp::Status;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 struct Problem : test::EqualityProblem {
   Eigen::MatrixXd m{}; ///< preconditioner, or empty
   double faceReduction = 0.1;
@@ -48,7 +46,7 @@ Answer solve(const Problem& problem, double tolerance, const Eigen::VectorXd& fa
 TEST(ActiveSetsTest, SolvesTwoUnknownsByHand) {
   // min ½(x² + y²) − 3x − y over x + y = 0 (as an orthonormal row), y ≥ −0.5: y = −0.5, x = 0.5.
   const Problem problem{Eigen::Matrix2d::Identity(), Eigen::MatrixXd::Constant(1, 2, 1 / std::sqrt(2.0)),
-                        Eigen::Vector2d(3, 1), Eigen::Vector2d(-infinity, -0.5)};
+                        Eigen::Vector2d(3, 1), Eigen::Vector2d(-test::unbounded, -0.5)};
 
   const Answer answer = solve(problem, 1e-10);
 

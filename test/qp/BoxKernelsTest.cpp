@@ -14,8 +14,6 @@ using namespace epafi;
 using namespace epafi::test;
 using qp::Box;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Entries 0 … 6: [−1, 2], [−1, ∞), (−∞, 2], free, fixed at 1, [−1, 2], [−1, 2].
 class BoxKernelsTest : public testing::Test {
 protected:
@@ -32,8 +30,8 @@ protected:
   }
   static double largest(double mine) { return -smallest(-mine); }
 
-  RCP<Vector> lower_ = vector({-1, -1, -infinity, -infinity, 1, -1, -1});
-  RCP<Vector> upper_ = vector({2, infinity, 2, infinity, 1, 2, 2});
+  RCP<Vector> lower_ = vector({-1, -1, -test::unbounded, -test::unbounded, 1, -1, -1});
+  RCP<Vector> upper_ = vector({2, test::unbounded, 2, test::unbounded, 1, 2, 2});
   Box box_{lower_, upper_};
   RCP<Vector> x_ = vector({-1, -1, 2, 5, 1, 2, 0.5}); ///< lower, lower, upper, free, fixed, upper, free
 };
@@ -57,10 +55,10 @@ TEST_F(BoxKernelsTest, TheLongestStepEndsAtTheFirstBound) {
 
   EXPECT_EQ(along({0, 0, 0, 0, 0, 0, 0.5}), 3) << "from 0.5 to −1";
   EXPECT_EQ(along({0, 0, 0, 0, 0, 0, -0.5}), 3) << "from 0.5 to 2";
-  EXPECT_EQ(along({0, 0, 0, 7, 0, 0, 0}), infinity);
+  EXPECT_EQ(along({0, 0, 0, 7, 0, 0, 0}), test::unbounded);
   EXPECT_EQ(along({-1, 0, 0, 0, 0, 0, 0}), 3) << "from the lower bound to the upper one";
   EXPECT_EQ(along({1, 0, 0, 0, 0, 0, 0}), 0) << "out of the box";
-  EXPECT_EQ(along({0, -1, 1, 0, 0, 0, 0}), infinity) << "away from single bounds";
+  EXPECT_EQ(along({0, -1, 1, 0, 0, 0, 0}), test::unbounded) << "away from single bounds";
   EXPECT_EQ(along({0, 0, 0, 0, 1, 0, 0}), 0) << "a fixed entry";
 }
 
@@ -139,8 +137,8 @@ TEST_F(BoxKernelsTest, TheDistanceIsThatToTheNearerBoundAtMostWhatIsAsked) {
 
   box_.distanceToBoundary(*inside, 3, *y);
   EXPECT_EQ(gather(*y), dense({1, 3, 3, 3, 0, 0.25, 1.5}));
-  box_.distanceToBoundary(*x_, infinity, *y);
-  EXPECT_EQ(gather(*y), dense({0, 0, 0, infinity, 0, 0, 1.5}));
+  box_.distanceToBoundary(*x_, test::unbounded, *y);
+  EXPECT_EQ(gather(*y), dense({0, 0, 0, test::unbounded, 0, 0, 1.5}));
 }
 
 TEST_F(BoxKernelsTest, ActivationGoesToTheNearerBoundIfThereIsOne) {
@@ -179,13 +177,13 @@ TEST_F(BoxKernelsTest, MultipliersMayMoveUntilTheFirstChangesItsSign) {
     return smallest(box_.longestMultiplierStep(*x_, *g, *vector(s)));
   };
 
-  EXPECT_EQ(along({0, 0, 0, 0, 0, 0, 0}), infinity);
+  EXPECT_EQ(along({0, 0, 0, 0, 0, 0, 0}), test::unbounded);
   EXPECT_EQ(along({-1, 0, 0, 0, 0, 0, 0}), 3);
   EXPECT_EQ(along({-1, -1, 0, 0, 0, 0, 0}), 2);
   EXPECT_EQ(along({-1, -1, 0.5, 0, 0, 12, 0}), 0.5) << "an upper bound's grows to 0";
-  EXPECT_EQ(along({1, 1, -1, 0, 0, -1, 0}), infinity) << "all grow away from 0";
+  EXPECT_EQ(along({1, 1, -1, 0, 0, -1, 0}), test::unbounded) << "all grow away from 0";
   EXPECT_EQ(along({0, 0, 0, 1, 0, 0, 0}), 0) << "a free entry has no multiplier to give";
-  EXPECT_EQ(along({0, 0, 0, 0, -100, 0, 0}), infinity) << "that of a fixed entry may have either sign";
+  EXPECT_EQ(along({0, 0, 0, 0, -100, 0, 0}), test::unbounded) << "that of a fixed entry may have either sign";
 }
 
 TEST_F(BoxKernelsTest, MultipliersThatAreNegligibleReleaseNothing) {
@@ -223,7 +221,7 @@ TEST_F(BoxKernelsTest, WithoutBoundsEverythingIsFree) {
 
   EXPECT_EQ(gather(*y), Eigen::VectorXd::Ones(7));
   EXPECT_EQ(gather(*d), dense({-1, 1, -2, 2, -3, 3, 0}));
-  EXPECT_EQ(smallest(none.maxFeasibleStep(*x_, *y)), infinity);
+  EXPECT_EQ(smallest(none.maxFeasibleStep(*x_, *y)), test::unbounded);
 }
 
 } // namespace

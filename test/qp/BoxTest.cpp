@@ -10,8 +10,6 @@ namespace {
 using namespace epafi;
 using qp::Box;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 TEST(BoxTest, ProjectsOntoTheNearestFeasibleValue) {
   const Box::Interval interval{-1, 2};
 
@@ -58,8 +56,8 @@ TEST(BoxTest, LongestFeasibleStepEndsOnTheBound) {
 
   EXPECT_DOUBLE_EQ(1 - interval.maxFeasibleStep(1, 4) * 4, -2);
   EXPECT_DOUBLE_EQ(1 - interval.maxFeasibleStep(1, -4) * -4, 3);
-  EXPECT_EQ(interval.maxFeasibleStep(1, 0), infinity);
-  EXPECT_EQ((Box::Interval{-infinity, infinity}).maxFeasibleStep(1, 5), infinity);
+  EXPECT_EQ(interval.maxFeasibleStep(1, 0), test::unbounded);
+  EXPECT_EQ((Box::Interval{-test::unbounded, test::unbounded}).maxFeasibleStep(1, 5), test::unbounded);
 }
 
 TEST(BoxTest, CrossingBoundsAreNamedOnAllRanks) {

@@ -9,8 +9,8 @@ namespace {
 using namespace epafi;
 using qp::Status;
 
-qp::SolveReport solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
-                      double tolerance, int limit = 1000) {
+qp::SolveReport solveDense(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+                           double tolerance, int limit = 1000) {
   const auto map = test::linearMap(static_cast<int>(b.size()));
   const RCP<Vector> solution = test::makeVector(map, x);
   auto report = qp::solveUnconstrained(rcp(new test::DenseOperator(map, a)), test::makeVector(map, b),
@@ -25,7 +25,7 @@ TEST(ConjugateGradientTest, SolvesToTheToleranceAndCertifiesIt) {
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(30, 1, 2);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(30);
 
-  const auto report = solve(a, b, x, 1e-9);
+  const auto report = solveDense(a, b, x, 1e-9);
 
   EXPECT_EQ(report.status, Status::converged);
   EXPECT_LE((a * x - b).norm(), 1e-9 * b.norm());
@@ -37,7 +37,7 @@ TEST(ConjugateGradientTest, SolvesToTheToleranceAndCertifiesIt) {
 TEST(ConjugateGradientTest, AnswersAZeroRightHandSideWithZero) {
   Eigen::VectorXd x = Eigen::VectorXd::Ones(5);
 
-  const auto report = solve(Eigen::MatrixXd::Identity(5, 5), Eigen::VectorXd::Zero(5), x, 1e-9);
+  const auto report = solveDense(Eigen::MatrixXd::Identity(5, 5), Eigen::VectorXd::Zero(5), x, 1e-9);
 
   EXPECT_EQ(report.status, Status::converged);
   EXPECT_EQ(x.norm(), 0);
@@ -47,7 +47,7 @@ TEST(ConjugateGradientTest, SaysThatTheLimitWasReached) {
   std::mt19937 random(2);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(40);
 
-  const auto report = solve(test::randomSpd(40, 1e8, random), Eigen::VectorXd::Ones(40), x, 1e-12, 3);
+  const auto report = solveDense(test::randomSpd(40, 1e8, random), Eigen::VectorXd::Ones(40), x, 1e-12, 3);
 
   EXPECT_EQ(report.status, Status::maxIterations);
   EXPECT_EQ(report.counts.conjugateGradient, 3);
@@ -56,14 +56,14 @@ TEST(ConjugateGradientTest, SaysThatTheLimitWasReached) {
 TEST(ConjugateGradientTest, NamesAnIndefiniteOperator) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
 
-  EXPECT_EQ(solve(-Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 2, 3), x, 1e-9).status,
+  EXPECT_EQ(solveDense(-Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 2, 3), x, 1e-9).status,
             Status::indefiniteOperator);
 }
 
 TEST(ConjugateGradientTest, KeepsTheStartWhenTheOperatorReturnsNan) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
 
-  EXPECT_EQ(solve(Eigen::Matrix3d::Constant(std::nan("")), Eigen::Vector3d(1, 2, 3), x, 1e-9).status,
+  EXPECT_EQ(solveDense(Eigen::Matrix3d::Constant(std::nan("")), Eigen::Vector3d(1, 2, 3), x, 1e-9).status,
             Status::notFinite);
   EXPECT_TRUE(x.allFinite());
 }

@@ -9,7 +9,7 @@
 namespace epafi::test {
 namespace {
 
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
+constexpr Real unreached = std::numeric_limits<Real>::infinity();
 /// A normal whose share outside the active ones is smaller than this depends on them.
 constexpr Real dependent = 1e-11L;
 constexpr Real violation = 1e-15L;
@@ -135,7 +135,7 @@ bool DualActiveSet::enforce(Constraint constraint) {
       certify(constraint, r);
       return false;
     }
-    Real longest = infinity; // t₁: until the first multiplier vanishes
+    Real longest = unreached; // t₁: until the first multiplier vanishes
     Eigen::Index first = -1;
     for (Eigen::Index k = 0; k < q && !constraint.isEquality(); ++k)
       if (!active_[static_cast<std::size_t>(k)].isEquality() && r[k] > 0 &&
@@ -143,7 +143,7 @@ bool DualActiveSet::enforce(Constraint constraint) {
         longest = multipliers_[static_cast<std::size_t>(k)] / r[k];
         first = k;
       }
-    const Real full = depends ? infinity : -s / outside; // t₂
+    const Real full = depends ? unreached : -s / outside; // t₂
     const bool isFull = constraint.isEquality() || full <= longest;
     const Real step = isFull ? full : longest;
     if (!std::isfinite(step)) {

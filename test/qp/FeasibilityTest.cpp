@@ -15,8 +15,6 @@ namespace {
 using namespace epafi;
 using namespace epafi::test;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 struct Found {
   qp::Feasibility feasibility;
   Eigen::VectorXd x, certificate; ///< the certificate on the rows of B
@@ -121,8 +119,8 @@ TEST_P(FeasibilityTest, MissesAnInfeasibleRowByAsLittleAsCanBe) {
 
 TEST_P(FeasibilityTest, WithoutBoundsRowsOfFullRankAreAlwaysFeasible) {
   DenseProgram program = unitBox(10, 4, 7);
-  program.lower.setConstant(-infinity);
-  program.upper.setConstant(infinity);
+  program.lower.setConstant(-test::unbounded);
+  program.upper.setConstant(test::unbounded);
   program.values.setConstant(1e4);
 
   const Found found = find(program, GetParam(), Eigen::VectorXd::Zero(10));

@@ -16,9 +16,12 @@
 #include <Tpetra_Vector.hpp>
 
 #include <functional>
+#include <limits>
 #include <random>
 
 namespace epafi::test {
+
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// n entries, spread as evenly as Tpetra does; some ranks own none if n is small.
 inline RCP<const Map> linearMap(int n, const RCP<const Comm>& comm = Tpetra::getDefaultComm()) {

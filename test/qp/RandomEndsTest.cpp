@@ -13,14 +13,14 @@ using namespace epafi;
 using namespace epafi::test;
 using qp::Status;
 
-constexpr unsigned numPrograms = 200;
+constexpr unsigned numEnds = 200;
 
-unsigned stride() {
+unsigned strideOfEnds() {
   return Tpetra::getDefaultComm()->getSize() == 1 ? 1 : 20;
 }
 
 TEST(RandomEndsTest, InfeasibleProgramsAreNamedWithACertificate) {
-  for (unsigned seed = 0; seed < numPrograms; seed += stride()) {
+  for (unsigned seed = 0; seed < numEnds; seed += strideOfEnds()) {
     const RandomProgram random = randomInfeasibleProgram(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + random.kind);
 
@@ -39,7 +39,7 @@ TEST(RandomEndsTest, InfeasibleProgramsAreNamedWithACertificate) {
 }
 
 TEST(RandomEndsTest, UnboundedProgramsAreNamedWithADirection) {
-  for (unsigned seed = 0; seed < numPrograms; seed += stride()) {
+  for (unsigned seed = 0; seed < numEnds; seed += strideOfEnds()) {
     const RandomProgram random = randomUnboundedProgram(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + random.kind);
 

@@ -1,5 +1,7 @@
 #include "RandomPrograms.hpp"
 
+#include "Problems.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 
 namespace epafi::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Draws; numbers on a coarse binary grid make sums and products exact, so that redundant rows are redundant to the bit.
 class Draw {
@@ -88,8 +88,8 @@ constexpr const char* activityNames[] = {"some bounds active", "degenerate",    
 /// Bounds around x; returns the multipliers that hold it there.
 Eigen::VectorXd drawBounds(Activity activity, const Eigen::VectorXd& x, DenseProgram& program, Draw& draw) {
   const Eigen::Index n = x.size();
-  program.lower = Eigen::VectorXd::Constant(n, -infinity);
-  program.upper = Eigen::VectorXd::Constant(n, infinity);
+  program.lower = Eigen::VectorXd::Constant(n, -unbounded);
+  program.upper = Eigen::VectorXd::Constant(n, unbounded);
   Eigen::VectorXd multiplier = Eigen::VectorXd::Zero(n);
   if (activity == Activity::unbounded)
     return multiplier;
@@ -287,9 +287,9 @@ RandomProgram randomUnboundedProgram(unsigned seed) {
   drawBounds(Activity::some, x, program, draw);
   for (int i = 0; i < n; ++i) {
     if (d[i] < 0)
-      program.lower[i] = -infinity;
+      program.lower[i] = -unbounded;
     if (d[i] > 0)
-      program.upper[i] = infinity;
+      program.upper[i] = unbounded;
   }
   const int m = draw.chance(0.5) ? draw.integer(1, std::max(1, std::min(n / 2, 8))) : 0;
   program.rows = wholeNumbers(m, n, draw);

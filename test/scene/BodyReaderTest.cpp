@@ -10,7 +10,7 @@ using Teuchos::ParameterList;
 
 /// What readScene says if a parameter of the body `right` has another value.
 template <class Value>
-std::string refusalOf(const std::string& name, const Value& value) {
+std::string refusalOfBody(const std::string& name, const Value& value) {
   return sceneRefusal([&](ParameterList& list) { bodyOf(list, "right").set(name, value); });
 }
 
@@ -57,18 +57,18 @@ TEST(BodyReaderTest, RefusesABodyWithoutElements) {
 TEST(BodyReaderTest, RefusesABodyWithoutRectangle) {
   expectSays(sceneRefusal([](ParameterList& list) { bodyOf(list, "right").remove("Rectangle"); }),
              {"a.xml: ", "\"Bodies/right\"", "\"Rectangle\"", "must be given"});
-  expectSays(refusalOf("Rectangle", numbers({})), {"\"Bodies/right\"", "\"Rectangle\"", "must be given"});
+  expectSays(refusalOfBody("Rectangle", numbers({})), {"\"Bodies/right\"", "\"Rectangle\"", "must be given"});
 }
 
 TEST(BodyReaderTest, RefusesARectangleOfTheWrongLength) {
-  expectSays(refusalOf("Rectangle", numbers({0, 1, 0})),
+  expectSays(refusalOfBody("Rectangle", numbers({0, 1, 0})),
              {"a.xml: ", "\"Rectangle\"", "\"Bodies/right\"", "{0, 1, 0}", "4 entries"});
 }
 
 TEST(BodyReaderTest, RefusesARectangleWithoutSize) {
-  expectSays(refusalOf("Rectangle", numbers({1, 1, 0, 1})),
+  expectSays(refusalOfBody("Rectangle", numbers({1, 1, 0, 1})),
              {"a.xml: ", "\"Rectangle\"", "{1, 1, 0, 1}", "x0 < x1"});
-  expectSays(refusalOf("Rectangle", numbers({1, 2, 1, 0})), {"{1, 2, 1, 0}", "y0 < y1"});
+  expectSays(refusalOfBody("Rectangle", numbers({1, 2, 1, 0})), {"{1, 2, 1, 0}", "y0 < y1"});
 }
 
 TEST(BodyReaderTest, RefusesNumbersWhoseSquaresAreNone) {
@@ -85,7 +85,7 @@ TEST(BodyReaderTest, RefusesNumbersWhoseSquaresAreNone) {
   }
   expectSays(load(1e-200), {" is 1e-200, but"});
   for (const double value : {1e-200, 1e200}) {
-    const std::string message = refusalOf("Conductivity", value);
+    const std::string message = refusalOfBody("Conductivity", value);
     expectSays(message, {"\"Conductivity\"", "\"Bodies/right\"", "between 1e-30 and 1e30", "other units"});
     EXPECT_EQ(message.find("0 or"), std::string::npos) << message;
   }
@@ -94,10 +94,11 @@ TEST(BodyReaderTest, RefusesNumbersWhoseSquaresAreNone) {
 TEST(BodyReaderTest, RefusesRectanglesWhoseSquaresAreNone) {
   for (const auto& box :
        {numbers({-1e308, 1e308, 0, 1}), numbers({0, 1e-31, 0, 1}), numbers({1e-200, 1, 0, 1})})
-    expectSays(refusalOf("Rectangle", box), {"a.xml: ", "\"Rectangle\"", "\"Bodies/right\"", "its entries",
-                                             "0 or between", "other units."});
+    expectSays(refusalOfBody("Rectangle", box), {"a.xml: ", "\"Rectangle\"", "\"Bodies/right\"",
+                                                 "its entries", "0 or between", "other units."});
   for (const auto& box : {numbers({-9e29, 9e29, 0, 1}), numbers({1e-30, 1.5e-30, 0, 1})})
-    expectSays(refusalOf("Rectangle", box), {"its sides", "between 1e-30 and 1e30", "choose other units."});
+    expectSays(refusalOfBody("Rectangle", box),
+               {"its sides", "between 1e-30 and 1e30", "choose other units."});
   expectSays(refusalIn("Loads",
                        [](ParameterList& load) {
                          load.set("Box", numbers({1, 2, 0, 1e31})).set("Value", 1.0);
@@ -115,37 +116,37 @@ TEST(BodyReaderTest, TakesZeroAndTheEndsOfTheRange) {
 
 TEST(BodyReaderTest, RefusesARectangleWithNaN) {
   const double notANumber = std::numeric_limits<double>::quiet_NaN();
-  expectSays(refusalOf("Rectangle", numbers({1, notANumber, 0, 1})),
+  expectSays(refusalOfBody("Rectangle", numbers({1, notANumber, 0, 1})),
              {"a.xml: ", "\"Rectangle\"", "\"Bodies/right\"", "{1, nan, 0, 1}", "finite"});
 }
 
 TEST(BodyReaderTest, RefusesARectangleTooThinToBeCut) {
-  expectSays(refusalOf("Rectangle", numbers({1e9, 1e9 + 1e-6, 0, 1})), {"\"Rectangle\"", "too thin"});
+  expectSays(refusalOfBody("Rectangle", numbers({1e9, 1e9 + 1e-6, 0, 1})), {"\"Rectangle\"", "too thin"});
 }
 
 TEST(BodyReaderTest, RefusesNumbersOfElementsBelowOne) {
-  expectSays(refusalOf("Elements", counts({4, 0})),
+  expectSays(refusalOfBody("Elements", counts({4, 0})),
              {"a.xml: ", "\"Elements\"", "\"Bodies/right\"", "{4, 0}", "at least 1"});
-  expectSays(refusalOf("Elements", counts({-4, 4})), {"{-4, 4}", "at least 1"});
-  expectSays(refusalOf("Elements", counts({4})), {"{4}", "2 entries"});
+  expectSays(refusalOfBody("Elements", counts({-4, 4})), {"{-4, 4}", "at least 1"});
+  expectSays(refusalOfBody("Elements", counts({4})), {"{4}", "2 entries"});
 }
 
 TEST(BodyReaderTest, RefusesMoreNodesThanAnIntCounts) {
-  expectSays(refusalOf("Elements", counts({50000, 50000})),
+  expectSays(refusalOfBody("Elements", counts({50000, 50000})),
              {"a.xml: ", "\"Elements\"", "{50000, 50000}", "10000200001 nodes", "2147483647"});
-  expectSays(refusalOf("Elements", counts({2147483647, 2147483647})),
+  expectSays(refusalOfBody("Elements", counts({2147483647, 2147483647})),
              {"\"Elements\"", "18446744065119617024 nodes"});
 }
 
 TEST(BodyReaderTest, RefusesConductivityThatIsNotPositive) {
-  expectSays(refusalOf("Conductivity", 0.0),
+  expectSays(refusalOfBody("Conductivity", 0.0),
              {"a.xml: ", "\"Conductivity\"", "\"Bodies/right\"", "is 0", "> 0"});
   expectSays(refusalIn("Regions", [](ParameterList& region) { region.set("Conductivity", -2.0); }),
              {"\"Bodies/right/Regions/new\"", "is -2", "> 0"});
 }
 
 TEST(BodyReaderTest, RefusesUnknownPhysics) {
-  expectSays(refusalOf("Physics", "elasticity"),
+  expectSays(refusalOfBody("Physics", "elasticity"),
              {"a.xml: ", "\"Physics\"", "\"elasticity\"", "\"membrane\""});
 }
 

@@ -10,7 +10,7 @@ using Teuchos::ParameterList;
 
 /// What readScene says if a parameter of the pair has another value.
 template <class Value>
-std::string refusalOf(const std::string& name, const Value& value) {
+std::string refusalOfPair(const std::string& name, const Value& value) {
   return sceneRefusal([&](ParameterList& list) { pairOf(list).set(name, value); });
 }
 
@@ -21,19 +21,20 @@ TEST(ContactReaderTest, RefusesAPairWithAParameterMissing) {
 }
 
 TEST(ContactReaderTest, RefusesAnUnknownBodyAndSuggestsTheNearest) {
-  expectSays(refusalOf("Second Body", "rigth"),
+  expectSays(refusalOfPair("Second Body", "rigth"),
              {"a.xml: ", "\"Second Body\"", "\"Contact/interface\"", "\"rigth\"", "did you mean \"right\"?"});
-  EXPECT_TRUE(refusalOf("Second Body", "rigth").ends_with("?"));
-  expectSays(refusalOf("First Body", "xyzxyzxyz"), {"\"xyzxyzxyz\"", "the bodies are \"left\", \"right\""});
+  EXPECT_TRUE(refusalOfPair("Second Body", "rigth").ends_with("?"));
+  expectSays(refusalOfPair("First Body", "xyzxyzxyz"),
+             {"\"xyzxyzxyz\"", "the bodies are \"left\", \"right\""});
 }
 
 TEST(ContactReaderTest, RefusesAnUnknownEdge) {
-  expectSays(refusalOf("First Edge", "north"), {"a.xml: ", "\"First Edge\"", "\"Contact/interface\"",
-                                                "\"north\"", "\"left\", \"right\", \"bottom\", \"top\""});
+  expectSays(refusalOfPair("First Edge", "north"), {"a.xml: ", "\"First Edge\"", "\"Contact/interface\"",
+                                                    "\"north\"", "\"left\", \"right\", \"bottom\", \"top\""});
 }
 
 TEST(ContactReaderTest, RefusesABodyInContactWithItself) {
-  expectSays(refusalOf("Second Body", "left"), {"a.xml: ", "\"Second Body\"", "\"left\"", "with itself"});
+  expectSays(refusalOfPair("Second Body", "left"), {"a.xml: ", "\"Second Body\"", "\"left\"", "with itself"});
 }
 
 TEST(ContactReaderTest, RefusesAnEdgeThatIsSupported) {
@@ -54,19 +55,19 @@ TEST(ContactReaderTest, RefusesAnEdgeInTwoPairs) {
 }
 
 TEST(ContactReaderTest, RefusesAGapThatIsNotFinite) {
-  expectSays(refusalOf("Gap", std::numeric_limits<double>::infinity()),
+  expectSays(refusalOfPair("Gap", std::numeric_limits<double>::infinity()),
              {"a.xml: ", "\"Gap\"", "inf", "finite"});
 }
 
 TEST(ContactReaderTest, RefusesAGapWhoseSquareIsNoNumber) {
-  expectSays(refusalOf("Gap", 1e-200),
+  expectSays(refusalOfPair("Gap", 1e-200),
              {"a.xml: parameter \"Gap\" in list \"Contact/interface\" is 1e-200", "choose other units."});
 }
 
 TEST(ContactReaderTest, RefusesEdgesThatDoNotCoincide) {
-  expectSays(refusalOf("Second Edge", "right"), {"a.xml: ", "\"Contact/interface\"", "do not coincide",
-                                                 "x = 1, y from 0 to 1", "x = 2, y from 0 to 1"});
-  expectSays(refusalOf("Second Edge", "top"), {"do not coincide", "y = 1, x from 1 to 2"});
+  expectSays(refusalOfPair("Second Edge", "right"), {"a.xml: ", "\"Contact/interface\"", "do not coincide",
+                                                     "x = 1, y from 0 to 1", "x = 2, y from 0 to 1"});
+  expectSays(refusalOfPair("Second Edge", "top"), {"do not coincide", "y = 1, x from 1 to 2"});
 }
 
 TEST(ContactReaderTest, RefusesPairsOfNodesOnEdgesWithDifferentNumbersOfElements) {

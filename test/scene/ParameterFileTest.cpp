@@ -32,7 +32,7 @@ std::string parameter(const std::string& type, const std::string& value) {
   return "<Parameter name=\"p\" type=\"" + type + "\" value=\"" + value + "\"/>";
 }
 
-std::string refusalOf(const std::string& text) {
+std::string refusalOfText(const std::string& text) {
   return refusal([&] { parseParameters(text, "a.xml"); });
 }
 
@@ -61,78 +61,81 @@ TEST(ParameterFileTest, ReadsEveryTypeInTheOrderOfTheFile) {
 }
 
 TEST(ParameterFileTest, NamesTheLineOfMalformedXml) {
-  expectSays(refusalOf("<ParameterList>\n<Parameter name=\"x\" type=double/>\n</ParameterList>"),
+  expectSays(refusalOfText("<ParameterList>\n<Parameter name=\"x\" type=double/>\n</ParameterList>"),
              {"a.xml, line 2: malformed XML", "quoted"});
-  expectSays(refusalOf("<ParameterList>\n</Foo>"), {"a.xml, line 2: ", "Foo"});
-  expectSays(refusalOf("<ParameterList>"), {"a.xml, line 1: ", "file ended before closing"});
-  expectSays(refusalOf("hello"), {"a.xml, line 1: "});
-  expectSays(refusalOf("<ParameterList/><ParameterList/>"), {"a.xml, line 1: ", "more than one root"});
-  expectSays(refusalOf("<ParameterList>\n\n<!-- open </ParameterList>"), {"a.xml, line 3"});
+  expectSays(refusalOfText("<ParameterList>\n</Foo>"), {"a.xml, line 2: ", "Foo"});
+  expectSays(refusalOfText("<ParameterList>"), {"a.xml, line 1: ", "file ended before closing"});
+  expectSays(refusalOfText("hello"), {"a.xml, line 1: "});
+  expectSays(refusalOfText("<ParameterList/><ParameterList/>"), {"a.xml, line 1: ", "more than one root"});
+  expectSays(refusalOfText("<ParameterList>\n\n<!-- open </ParameterList>"), {"a.xml, line 3"});
 }
 
 TEST(ParameterFileTest, RefusesATextWithoutXml) {
   for (const std::string text : {"", " \n\t"})
-    expectSays(refusalOf(text), {"a.xml is empty", "<ParameterList>"});
-  expectSays(refusalOf("<!-- nothing -->"), {"a.xml", "<ParameterList>"});
-  expectSays(refusalOf(std::string("\0\1\2", 3)), {"a.xml is a binary file"});
+    expectSays(refusalOfText(text), {"a.xml is empty", "<ParameterList>"});
+  expectSays(refusalOfText("<!-- nothing -->"), {"a.xml", "<ParameterList>"});
+  expectSays(refusalOfText(std::string("\0\1\2", 3)), {"a.xml is a binary file"});
 }
 
 TEST(ParameterFileTest, RefusesAnotherRootElement) {
-  expectSays(refusalOf("<Scene/>"), {"a.xml: ", "<Scene>", "<ParameterList>"});
+  expectSays(refusalOfText("<Scene/>"), {"a.xml: ", "<Scene>", "<ParameterList>"});
 }
 
 TEST(ParameterFileTest, RefusesOtherElements) {
-  expectSays(refusalOf(nested("<Paramter/>")), {"a.xml: ", "<Paramter>", "\"Outer/Inner\"", "<Parameter>"});
-  expectSays(refusalOf(nested("some words")), {"a.xml: ", "some words", "\"Outer/Inner\""});
-  expectSays(refusalOf(nested("<Parameter name=\"p\" type=\"int\" value=\"1\"><x/></Parameter>")),
+  expectSays(refusalOfText(nested("<Paramter/>")),
+             {"a.xml: ", "<Paramter>", "\"Outer/Inner\"", "<Parameter>"});
+  expectSays(refusalOfText(nested("some words")), {"a.xml: ", "some words", "\"Outer/Inner\""});
+  expectSays(refusalOfText(nested("<Parameter name=\"p\" type=\"int\" value=\"1\"><x/></Parameter>")),
              {"\"p\"", "<x>"});
 }
 
 TEST(ParameterFileTest, RefusesAMissingAttribute) {
-  expectSays(refusalOf(nested("<Parameter type=\"int\" value=\"1\"/>")),
+  expectSays(refusalOfText(nested("<Parameter type=\"int\" value=\"1\"/>")),
              {"a.xml: ", "\"Outer/Inner\"", "no name"});
-  expectSays(refusalOf(nested("<Parameter name=\"p\" value=\"1\"/>")), {"a.xml: ", "\"p\"", "no type"});
-  expectSays(refusalOf(nested("<Parameter name=\"p\" type=\"int\"/>")), {"a.xml: ", "\"p\"", "no value"});
-  expectSays(refusalOf(nested("<ParameterList/>")), {"\"Outer/Inner\"", "no name"});
+  expectSays(refusalOfText(nested("<Parameter name=\"p\" value=\"1\"/>")), {"a.xml: ", "\"p\"", "no type"});
+  expectSays(refusalOfText(nested("<Parameter name=\"p\" type=\"int\"/>")), {"a.xml: ", "\"p\"", "no value"});
+  expectSays(refusalOfText(nested("<ParameterList/>")), {"\"Outer/Inner\"", "no name"});
 }
 
 TEST(ParameterFileTest, RefusesAnUnknownType) {
-  expectSays(refusalOf(nested(parameter("dubble", "1"))),
+  expectSays(refusalOfText(nested(parameter("dubble", "1"))),
              {"a.xml: ", "\"p\"", "\"Outer/Inner\"", "\"dubble\"",
               "int, double, bool, string, Array(int), Array(double)", "did you mean \"double\"?"});
 }
 
 TEST(ParameterFileTest, RefusesARealNumberThatDoesNotParse) {
   for (const std::string value : {"abc", "1,5", "1.5 2.5", "", "1e"})
-    expectSays(refusalOf(nested(parameter("double", value))),
+    expectSays(refusalOfText(nested(parameter("double", value))),
                {"a.xml: ", "\"p\"", "\"Outer/Inner\"", "type double", '"' + value + '"', "is not a number"});
   for (const std::string value : {"nan", "inf", "-inf"})
-    expectSays(refusalOf(nested(parameter("double", value))),
+    expectSays(refusalOfText(nested(parameter("double", value))),
                {"\"p\"", '"' + value + '"', "not a finite number"});
 }
 
 TEST(ParameterFileTest, RefusesAWholeNumberThatDoesNotParse) {
   for (const std::string value : {"2.5", "two", "", "3000000000"})
-    expectSays(refusalOf(nested(parameter("int", value))),
+    expectSays(refusalOfText(nested(parameter("int", value))),
                {"a.xml: ", "\"p\"", "\"Outer/Inner\"", "type int", '"' + value + '"', "a whole number"});
 }
 
 TEST(ParameterFileTest, RefusesABoolThatDoesNotParse) {
-  expectSays(refusalOf(nested(parameter("bool", "yes"))), {"a.xml: ", "\"p\"", "\"yes\"", "true nor false"});
+  expectSays(refusalOfText(nested(parameter("bool", "yes"))),
+             {"a.xml: ", "\"p\"", "\"yes\"", "true nor false"});
 }
 
 TEST(ParameterFileTest, RefusesAnArrayThatDoesNotParse) {
-  expectSays(refusalOf(nested(parameter("Array(double)", "{0, x, 1}"))),
+  expectSays(refusalOfText(nested(parameter("Array(double)", "{0, x, 1}"))),
              {"a.xml: ", "\"p\"", "entry 2", "\"x\""});
-  expectSays(refusalOf(nested(parameter("Array(double)", "{0, nan}"))), {"\"p\"", "entry 2", "finite"});
-  expectSays(refusalOf(nested(parameter("Array(int)", "{4, 4.5}"))), {"\"p\"", "entry 2", "whole number"});
-  expectSays(refusalOf(nested(parameter("Array(int)", "4, 4"))), {"\"p\"", "\"4, 4\"", "not an array"});
+  expectSays(refusalOfText(nested(parameter("Array(double)", "{0, nan}"))), {"\"p\"", "entry 2", "finite"});
+  expectSays(refusalOfText(nested(parameter("Array(int)", "{4, 4.5}"))),
+             {"\"p\"", "entry 2", "whole number"});
+  expectSays(refusalOfText(nested(parameter("Array(int)", "4, 4"))), {"\"p\"", "\"4, 4\"", "not an array"});
 }
 
 TEST(ParameterFileTest, RefusesNamesThatAppearTwice) {
   const std::string one = parameter("int", "1"), list = "<ParameterList name=\"p\"/>";
   for (const std::string& text : {one + one, list + list, one + list})
-    expectSays(refusalOf(nested(text)), {"a.xml: ", "\"p\"", "twice", "\"Outer/Inner\""});
+    expectSays(refusalOfText(nested(text)), {"a.xml: ", "\"p\"", "twice", "\"Outer/Inner\""});
 }
 
 /// `number` lists inside the top list.
@@ -149,9 +152,9 @@ TEST(ParameterFileTest, RefusesElementsNestedWithoutEndBeforeTheStackOverflows) 
   EXPECT_EQ(parseParameters(inside(99), "a.xml").numParams(), 1);
   for (const int number : {100, 500'000})
     for (const char* const tag : {"ParameterList name=\"a\"", "a", "a b='/>'"})
-      expectSays(refusalOf(inside(number, tag)), {"a.xml nests", "more than 100 deep"});
+      expectSays(refusalOfText(inside(number, tag)), {"a.xml nests", "more than 100 deep"});
   const std::string half = inside(100'000);
-  expectSays(refusalOf(half.substr(0, half.find("</"))), {"more than 100 deep"});
+  expectSays(refusalOfText(half.substr(0, half.find("</"))), {"more than 100 deep"});
 }
 
 TEST(ParameterFileTest, CountsNoDepthWhereTagsEndAtOnce) {
@@ -166,8 +169,9 @@ TEST(ParameterFileTest, RefusesNamesThatNobodyCanRead) {
     return nested("<Parameter name=\"" + name + "\" type=\"int\" value=\"1\"/>");
   };
   EXPECT_NO_THROW(parseParameters(named(std::string(200, 'x')), "a.xml"));
-  expectSays(refusalOf(named(std::string(201, 'x'))), {"\"Outer/Inner\"", "xxx...\"", "at most 200 letters"});
-  expectSays(refusalOf(named("a\x1b[31m")), {"\"a?[31m\"", "control characters"});
+  expectSays(refusalOfText(named(std::string(201, 'x'))),
+             {"\"Outer/Inner\"", "xxx...\"", "at most 200 letters"});
+  expectSays(refusalOfText(named("a\x1b[31m")), {"\"a?[31m\"", "control characters"});
 }
 
 TEST(ParameterFileTest, ShowsOnlyTheBeginningOfWhatIsEndless) {
@@ -175,7 +179,7 @@ TEST(ParameterFileTest, ShowsOnlyTheBeginningOfWhatIsEndless) {
   for (const std::string& text :
        {nested(parameter(endless, "1")), nested(parameter("int", endless)), nested(endless),
         nested('<' + endless + "/>"), '<' + endless + "/>", '<' + endless})
-    EXPECT_LT(refusalOf(text).size(), 1000U);
+    EXPECT_LT(refusalOfText(text).size(), 1000U);
 }
 
 /// A file that rank 0 alone writes, under a name that no other run of this test uses.

@@ -23,7 +23,7 @@ ParameterList overridden(const std::string& assignment) {
   return list;
 }
 
-std::string refusalOf(const std::string& assignment) {
+std::string refusalOfAssignment(const std::string& assignment) {
   return refusal([&] { overridden(assignment); });
 }
 
@@ -56,48 +56,51 @@ TEST(ParameterOverrideTest, IsReadLikeAValueOfTheFile) {
 }
 
 TEST(ParameterOverrideTest, RefusesATextWithoutEqualsSign) {
-  expectSays(refusalOf("Solver/Tolerance"), {"--set \"Solver/Tolerance\"", "no \"=\"", "Parameter=value"});
+  expectSays(refusalOfAssignment("Solver/Tolerance"),
+             {"--set \"Solver/Tolerance\"", "no \"=\"", "Parameter=value"});
 }
 
 TEST(ParameterOverrideTest, RefusesAnEmptyName) {
   for (const char* const text : {"=1", "Solver/=1", "/Title=1", "Solver//Tolerance=1"})
-    expectSays(refusalOf(text), {"--set \"" + std::string(text) + '"', "empty name"});
+    expectSays(refusalOfAssignment(text), {"--set \"" + std::string(text) + '"', "empty name"});
 }
 
 TEST(ParameterOverrideTest, RefusesUnknownNamesAndSuggestsTheNearest) {
-  expectSays(refusalOf("Solver/Tolerence=1e-3"),
+  expectSays(refusalOfAssignment("Solver/Tolerence=1e-3"),
              {"--set \"Solver/Tolerence=1e-3\"", "list \"Solver\"", "did you mean \"Tolerance\"?"});
-  expectSays(refusalOf("Solvre/Tolerance=1e-3"),
+  expectSays(refusalOfAssignment("Solvre/Tolerance=1e-3"),
              {"--set \"Solvre/", "\"Solvre\"", "did you mean \"Solver\"?"});
-  expectSays(refusalOf("Bodies/left/Elemnts={1, 1}"), {"\"Bodies/left\"", "did you mean \"Elements\"?"});
+  expectSays(refusalOfAssignment("Bodies/left/Elemnts={1, 1}"),
+             {"\"Bodies/left\"", "did you mean \"Elements\"?"});
 }
 
 TEST(ParameterOverrideTest, RefusesAValueOfAnotherType) {
-  expectSays(refusalOf("Solver/Tolerance=small"),
+  expectSays(refusalOfAssignment("Solver/Tolerance=small"),
              {"--set \"Solver/Tolerance=small\"", "\"small\"", "not a number", "type double"});
-  expectSays(refusalOf("Decomposition/Parts=2.5"), {"\"2.5\"", "not a whole number", "type int"});
-  expectSays(refusalOf("Bodies/left/Elements=8"), {"\"8\"", "not an array", "type Array(int)"});
-  expectSays(refusalOf("Solver/Tolerance="), {"--set \"Solver/Tolerance=\"", "not a number"});
+  expectSays(refusalOfAssignment("Decomposition/Parts=2.5"), {"\"2.5\"", "not a whole number", "type int"});
+  expectSays(refusalOfAssignment("Bodies/left/Elements=8"), {"\"8\"", "not an array", "type Array(int)"});
+  expectSays(refusalOfAssignment("Solver/Tolerance="), {"--set \"Solver/Tolerance=\"", "not a number"});
 }
 
 TEST(ParameterOverrideTest, RefusesAValueOutOfRange) {
-  expectSays(refusalOf("Solver/Tolerance=-1"),
+  expectSays(refusalOfAssignment("Solver/Tolerance=-1"),
              {"--set \"Solver/Tolerance=-1\"", "\"Tolerance\" in list \"Solver\" is -1", "> 0 and ≤ 1"});
 }
 
 TEST(ParameterOverrideTest, RefusesAListAsParameter) {
-  expectSays(refusalOf("Solver=1"), {"--set \"Solver=1\"", "\"Solver\"", "must be a list"});
-  expectSays(refusalOf("Title/x=1"), {"--set \"Title/x=1\"", "\"Title\"", "must be a parameter"});
-  expectSays(refusalOf("Bodies/left=1"), {"--set \"Bodies/left=1\"", "<body>"});
+  expectSays(refusalOfAssignment("Solver=1"), {"--set \"Solver=1\"", "\"Solver\"", "must be a list"});
+  expectSays(refusalOfAssignment("Title/x=1"), {"--set \"Title/x=1\"", "\"Title\"", "must be a parameter"});
+  expectSays(refusalOfAssignment("Bodies/left=1"), {"--set \"Bodies/left=1\"", "<body>"});
 }
 
 TEST(ParameterOverrideTest, RefusesANewListWhoseNameLooksMisspelt) {
-  EXPECT_EQ(refusalOf("Bodies/lefd/Elements={8, 8}"),
+  EXPECT_EQ(refusalOfAssignment("Bodies/lefd/Elements={8, 8}"),
             "--set \"Bodies/lefd/Elements={8, 8}\" names the list \"Bodies/lefd\", which the scene does not "
             "have; did you mean \"left\"?");
-  expectSays(refusalOf("Bodies/left/Supports/Wall/Value=1"),
+  expectSays(refusalOfAssignment("Bodies/left/Supports/Wall/Value=1"),
              {"\"Bodies/left/Supports/Wall\"", "did you mean \"wall\"?"});
-  expectSays(refusalOf("Contact/interfac/Gap=1"), {"\"Contact/interfac\"", "did you mean \"interface\"?"});
+  expectSays(refusalOfAssignment("Contact/interfac/Gap=1"),
+             {"\"Contact/interfac\"", "did you mean \"interface\"?"});
 }
 
 TEST(ParameterOverrideTest, AddsAListWhoseNameIsLikeNoOther) {

@@ -9,20 +9,20 @@ namespace {
 
 using namespace test;
 
-const scene::Vector3 origin{0, 0, 0};
+const scene::Vector3 corner{0, 0, 0};
 
 /// A square in the corner of a floor and a wall, pressed into it.
 scene::Scene inCorner(const scene::Decomposition& cut) {
   scene::Scene scene;
   scene.bodies = {block("square", {{0, 0, 0}, {1, 1, 0}}, {4, 4, 0}, cut)};
   scene.bodies[0].loads = {weight({-0.5, -1, 0})};
-  scene.contacts = {onPlane("floor", 0, "bottom", origin, {0, 1, 0}),
-                    onPlane("wall", 0, "left", origin, {1, 0, 0})};
+  scene.contacts = {onPlane("floor", 0, "bottom", corner, {0, 1, 0}),
+                    onPlane("wall", 0, "left", corner, {1, 0, 0})};
   return scene;
 }
 
 /// Both solutions agree in what is unique: displacements, energy, total force.
-void expectSame(const SolidRun& a, const SolidRun& b) {
+void expectSameRun(const SolidRun& a, const SolidRun& b) {
   EXPECT_EQ(a.solver.report().status, qp::Status::converged);
   EXPECT_EQ(b.solver.report().status, qp::Status::converged);
   EXPECT_LE((a.displacement(0) - b.displacement(0)).norm(), 1e-7 * a.displacement(0).norm());
@@ -36,7 +36,7 @@ TEST(ContactNodesTest, ANodeInACornerHasARowForEachWall) {
   const Eigen::VectorXd u = reference.displacement(0);
   EXPECT_GE(std::min(u[0], u[1]), -1e-8); // the corner stays in front of both
   for (const auto& cut : {cutInGrid({2, 2, 1}), cutByMetis(4)})
-    expectSame(reference, SolidRun(inCorner(cut)));
+    expectSameRun(reference, SolidRun(inCorner(cut)));
 }
 
 TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
@@ -50,7 +50,7 @@ TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
   EXPECT_EQ(run.decomposition.problem.numInequalities, 14);
   EXPECT_EQ(run.solution.activeContactNodes, reference.solution.activeContactNodes);
   EXPECT_NEAR(run.solution.contactForce, reference.solution.contactForce, 1e-8);
-  expectSame(reference, run);
+  expectSameRun(reference, run);
 }
 
 TEST(ContactNodesTest, AContactThatSaysNothingNewIsRefused) {
@@ -84,11 +84,11 @@ TEST(ContactNodesTest, RedundantRowsAtANodeDoNoHarm) {
   for (const auto& cut : {cutInGrid({1, 1, 1}), cutInGrid({2, 2, 1})}) {
     const SolidRun reference(inCorner(cut), 1e-11); // energies err by λᵀ(c − Bu), a few tolerances
     scene::Scene scene = inCorner(cut);
-    scene::SurfaceContact edge = onPlane("edge", 0, "left", origin, {s, s, 0}); // meets the corner alone
+    scene::SurfaceContact edge = onPlane("edge", 0, "left", corner, {s, s, 0}); // meets the corner alone
     scene.contacts.push_back(edge);
     const SolidRun run(scene, 1e-11);
     EXPECT_EQ(run.decomposition.problem.numInequalities, 15);
-    expectSame(reference, run);
+    expectSameRun(reference, run);
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-const scene::Vector3 origin{0, 0, 0}, up{0, 0, 1}, upInPlane{0, 1, 0}, right{1, 0, 0};
+const scene::Vector3 origin{0, 0, 0}, upward{0, 0, 1}, upInPlane{0, 1, 0}, right{1, 0, 0};
 
 scene::Body cube(const std::string& name, double bottom, double size = 1) {
   scene::Body body =
@@ -27,7 +27,7 @@ scene::Scene cubeOnPlane(const std::vector<scene::SolidSupport>& supports) {
   scene::Scene scene;
   scene.bodies = {cube("cube", 0)};
   scene.bodies[0].supports = supports;
-  scene.contacts = {onPlane("floor", 0, "bottom", origin, up)};
+  scene.contacts = {onPlane("floor", 0, "bottom", origin, upward)};
   return scene;
 }
 
@@ -118,7 +118,7 @@ TEST(FloatingSolidTest, ThreeStackedCubesCarryEachOther) {
       if (isHeldInX || level < 2)
         scene.bodies.back().supports.push_back(slide("left"));
       scene.contacts.push_back(
-          level == 0 ? onPlane("floor", 0, "bottom", origin, up)
+          level == 0 ? onPlane("floor", 0, "bottom", origin, upward)
                      : between("joint " + std::to_string(level), level - 1, "top", level, "bottom"));
     }
     if (!isHeldInX) {

@@ -20,7 +20,7 @@ using fem::CellType;
 using fem::test::MeshFolder;
 using fem::test::Placement;
 
-constexpr double accuracy = 1e-10;
+constexpr double patchAccuracy = 1e-10;
 
 /// The exact solution in the stack's own coordinates, the last one upwards.
 class UniaxialStress {
@@ -123,9 +123,10 @@ void expectConstantStress(const scene::Scene& scene, const Kind& kind, Below bel
   EXPECT_EQ(run.solver.report().status, qp::Status::converged) << run.solver.report().reason;
   EXPECT_EQ(run.decomposition.problem.kernelDimension, 1);
   const double thickness = kind.dimension() == 2 ? 0.5 : 1;
-  EXPECT_LE(displacementError(run, exact), accuracy * pressure / 200);
+  EXPECT_LE(displacementError(run, exact), patchAccuracy * pressure / 200);
   for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body)
-    EXPECT_LE(stressError(run, scene, body, exact), (below == Below::tiedBlock ? 3 : 1) * accuracy * pressure)
+    EXPECT_LE(stressError(run, scene, body, exact),
+              (below == Below::tiedBlock ? 3 : 1) * patchAccuracy * pressure)
         << body; // tied with the least tolerance that round-off allows
   if (below == Below::tiedBlock)
     return;
@@ -133,9 +134,9 @@ void expectConstantStress(const scene::Scene& scene, const Kind& kind, Below bel
   ASSERT_EQ(forces.size(), areas.size());
   ASSERT_GT(forces.size(), 1U);
   EXPECT_EQ(run.solution.activeContactNodes, static_cast<GlobalOrdinal>(forces.size()));
-  EXPECT_NEAR(run.solution.contactForce, pressure * thickness, accuracy * pressure);
+  EXPECT_NEAR(run.solution.contactForce, pressure * thickness, patchAccuracy * pressure);
   for (std::size_t row = 0; row < forces.size(); ++row)
-    EXPECT_NEAR(forces[row] / (areas[row] * thickness), pressure, accuracy * pressure) << row;
+    EXPECT_NEAR(forces[row] / (areas[row] * thickness), pressure, patchAccuracy * pressure) << row;
 }
 
 class PatchTest : public testing::TestWithParam<Kind> {};
@@ -181,7 +182,7 @@ TEST_P(PatchTest, StressIsConstantThroughAGapThatClosesOnAPlaneAndThroughATiedJo
   }
 }
 
-std::string nameOf(const testing::TestParamInfo<Kind>& instance) {
+std::string nameOfKind(const testing::TestParamInfo<Kind>& instance) {
   const Kind& kind = instance.param;
   std::string name = toString(kind.physics) + fem::toString(kind.cell) +
                      (kind.source == Source::structured ? "structured"
@@ -244,8 +245,8 @@ std::vector<Kind> kindsApart() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Stacks, PatchTest, testing::ValuesIn(kinds()), nameOf);
-INSTANTIATE_TEST_SUITE_P(Apart, PatchTest, testing::ValuesIn(kindsApart()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Stacks, PatchTest, testing::ValuesIn(kinds()), nameOfKind);
+INSTANTIATE_TEST_SUITE_P(Apart, PatchTest, testing::ValuesIn(kindsApart()), nameOfKind);
 
 } // namespace
 } // namespace epafi

@@ -37,7 +37,7 @@ struct Ring {
 };
 
 /// A mesh file with the surfaces "inner", "outer" and, in space, "end" at z = 0.
-std::string meshOf(const Ring& ring) {
+std::string meshOfRing(const Ring& ring) {
   constexpr int numAcross = 2;
   std::mt19937 engine(ring.seed);
   std::uniform_real_distribution<double> random(-1, 1);
@@ -107,7 +107,7 @@ protected:
     scene::Body made;
     made.name = name;
     made.physics = ring.layers > 0 ? Physics::elasticity3d : Physics::planeStrain;
-    made.mesh.file = folder_.write(name + std::to_string(count_++) + ".msh", meshOf(ring));
+    made.mesh.file = folder_.write(name + std::to_string(count_++) + ".msh", meshOfRing(ring));
     made.mesh.order = order;
     made.material.youngsModulus = 200;
     made.decomposition = cutByMetis(2);

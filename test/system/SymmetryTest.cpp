@@ -72,12 +72,12 @@ std::map<std::array<long, 3>, Value> byPlace(const fem::Mesh& mesh, const std::v
   return result;
 }
 
-const fem::Mesh& meshOf(const SolidRun& run, int body) {
+const fem::Mesh& meshOfBody(const SolidRun& run, int body) {
   return *run.decomposition.bodies[static_cast<std::size_t>(body)].mesh;
 }
 
 std::map<std::array<long, 3>, Eigen::VectorXd> displacements(const SolidRun& run, int body) {
-  const fem::Mesh& mesh = meshOf(run, body);
+  const fem::Mesh& mesh = meshOfBody(run, body);
   const Eigen::VectorXd u = run.displacement(body);
   const int n = run.decomposition.problem.components;
   std::vector<GlobalOrdinal> nodes;
@@ -90,7 +90,7 @@ std::map<std::array<long, 3>, Eigen::VectorXd> displacements(const SolidRun& run
 }
 
 std::map<std::array<long, 3>, double> forces(const SolidRun& run) {
-  return byPlace(meshOf(run, 1), run.decomposition.contacts[0].firstNodes, run.forces());
+  return byPlace(meshOfBody(run, 1), run.decomposition.contacts[0].firstNodes, run.forces());
 }
 
 void expectPartOf(const SolidRun& part, const SolidRun& whole, std::array<bool, 2> half) {

@@ -15,7 +15,7 @@ using namespace test;
 using fem::test::MeshFolder;
 using fem::test::Placement;
 
-struct Case {
+struct TurnedCase {
   int dimension;
   bool simplices, coercive;
   int parts;
@@ -23,7 +23,7 @@ struct Case {
 };
 
 /// Two blocks in files, one on the other, all supports along normals; a load that is not symmetric.
-scene::Scene stack(const Case& c, const Placement& placement, const MeshFolder& folder) {
+scene::Scene stack(const TurnedCase& c, const Placement& placement, const MeshFolder& folder) {
   const bool isSpace = c.dimension == 3;
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
@@ -61,10 +61,10 @@ scene::Scene stack(const Case& c, const Placement& placement, const MeshFolder& 
   return scene;
 }
 
-class TurnedSolidTest : public testing::TestWithParam<Case> {};
+class TurnedSolidTest : public testing::TestWithParam<TurnedCase> {};
 
 TEST_P(TurnedSolidTest, TurnsItsSolution) {
-  const Case& c = GetParam();
+  const TurnedCase& c = GetParam();
   const MeshFolder folder, turnedFolder;
   const SolidRun straight(stack(c, {}, folder), 1e-12);
   ASSERT_EQ(straight.solver.report().status, qp::Status::converged) << straight.solver.report().reason;
@@ -91,13 +91,13 @@ TEST_P(TurnedSolidTest, TurnsItsSolution) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stacks, TurnedSolidTest,
-                         testing::Values(Case{2, false, true, 3}, Case{2, true, true, 5},
-                                         Case{2, true, false, 3}, Case{2, false, false, 5},
-                                         Case{3, false, true, 3}, Case{3, true, false, 4},
-                                         Case{2, true, false, 3, 2}, Case{2, false, true, 3, 2},
-                                         Case{3, false, false, 3, 2}, Case{3, true, false, 4, 2}),
+                         testing::Values(TurnedCase{2, false, true, 3}, TurnedCase{2, true, true, 5},
+                                         TurnedCase{2, true, false, 3}, TurnedCase{2, false, false, 5},
+                                         TurnedCase{3, false, true, 3}, TurnedCase{3, true, false, 4},
+                                         TurnedCase{2, true, false, 3, 2}, TurnedCase{2, false, true, 3, 2},
+                                         TurnedCase{3, false, false, 3, 2}, TurnedCase{3, true, false, 4, 2}),
                          [](const auto& instance) {
-                           const Case& c = instance.param;
+                           const TurnedCase& c = instance.param;
                            return std::string(c.dimension == 2 ? "Plane" : "Space") +
                                   (c.simplices ? "Simplices" : "Cubes") + (c.coercive ? "Held" : "Floating") +
                                   std::to_string(c.order);
@@ -126,7 +126,7 @@ TEST(TurnedContactTest, AFloatingBlockOnATurnedPlaneKeepsItsModes) {
   for (const int dimension : {2, 3}) {
     const Placement placement = fem::test::placed(dimension, 0.8, {20, 7, dimension == 3 ? -3.0 : 0.0});
     const MeshFolder folder;
-    const Case c{dimension, true, false, 3};
+    const TurnedCase c{dimension, true, false, 3};
     scene::Scene scene = stack(c, placement, folder);
     scene.bodies.erase(scene.bodies.begin()); // the upper one on an obstacle in the lower one's place
     const Eigen::Vector3d up = placement.turn.col(dimension - 1),

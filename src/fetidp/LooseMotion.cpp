@@ -1,0 +1,53 @@
+#include "epafi/fetidp/LooseMotion.hpp"
+
+#include "epafi/base/EigenCompatibility.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/direct/NonNegativeLeastSquares.hpp"
+#include "epafi/fetidp/ProblemScales.hpp"
+
+namespace epafi::fetidp {
+
+ShortestMotion shortestMotion(const Eigen::MatrixXd& c, const Eigen::VectorXd& s) {
+  const Eigen::Index n = c.rows();
+  const double scale = s.size() > 0 && s.lpNorm<Eigen::Infinity>() > 0 ? s.lpNorm<Eigen::Infinity>() : 1.0;
+  Eigen::MatrixXd e(n + 1, c.cols());
+  e << -c, -s.transpose() / scale;
+  const auto dual = direct::nonNegativeLeastSquares(e, Eigen::VectorXd::Unit(n + 1, n));
+  if (dual.residual[n] > 0) { // round-off of a residual 0 would give anything
+    const Eigen::VectorXd x = -scale * dual.residual.head(n) / dual.residual[n];
+    if ((c.transpose() * x - s).maxCoeff() <= 1e-9 * scale)
+      return {x, {}};
+  }
+  ShortestMotion none;
+  for (Eigen::Index j = 0; j < dual.x.size(); ++j)
+    if (dual.x[j] > 0)
+      none.excluding.push_back(j);
+  return none;
+}
+
+std::optional<Eigen::VectorXd> looseMotion(const Eigen::MatrixXd& directions, const Eigen::VectorXd& room,
+                                           Eigen::MatrixXd open, double meets) {
+  while (open.cols() > 0) {
+    const Eigen::MatrixXd all = open.transpose() * directions;
+    std::vector<Eigen::Index> meeting;
+    for (Eigen::Index j = 0; j < all.cols(); ++j)
+      if (all.col(j).norm() > meets)
+        meeting.push_back(j);
+    if (meeting.empty())
+      return open.col(0);
+    const Eigen::MatrixXd met = all(allOf, meeting);
+    const ShortestMotion found = shortestMotion(met, room(meeting));
+    if (found.x)
+      return open * (found.x->norm() > 0 ? *found.x : Eigen::VectorXd::Unit(open.cols(), 0));
+    if (found.excluding.empty())
+      return std::nullopt;
+    const Eigen::MatrixXd excluding = met(allOf, found.excluding);
+    const direct::SymmetricEigen spectrum = direct::eigenOf(excluding * excluding.transpose());
+    open = (open *
+            spectrum.vectors.leftCols(spectrum.numUpTo(ProblemScales::roundOff * spectrum.values.maxCoeff())))
+               .eval();
+  }
+  return std::nullopt;
+}
+
+} // namespace epafi::fetidp
