@@ -19,8 +19,9 @@ ShortestMotion shortestMotion(const Eigen::MatrixXd& c, const Eigen::VectorXd& s
       return {x, {}};
   }
   ShortestMotion none;
+  const double least = dual.x.size() > 0 ? ProblemScales::resultant * dual.x.maxCoeff() : 0.0;
   for (Eigen::Index j = 0; j < dual.x.size(); ++j)
-    if (dual.x[j] > 0)
+    if (dual.x[j] > least)
       none.excluding.push_back(j);
   return none;
 }
