@@ -1,8 +1,6 @@
 #pragma once
 
-namespace Stratimikos { // NOLINT(readability-identifier-naming): it is theirs
-class DefaultLinearSolverBuilder;
-} // namespace Stratimikos
+#include "epafi/base/StratimikosCompatibility.hpp"
 
 namespace epafi::drivers {
 

@@ -38,4 +38,19 @@ auto holdsValue(const Any& any, const None&...) -> decltype(any.empty(), bool())
   return !any.empty();
 }
 
+/// Starts an iteration of Belos at a residual (later releases take state and residual apart). Collective.
+template <class Iteration, class Residual>
+auto startAt(Iteration& iteration, const Residual& residual)
+    -> decltype(iteration.initializeCG(iteration.getState(), residual)) {
+  iteration.initializeCG(iteration.getState(), residual);
+}
+/// The same in releases before.
+template <class Iteration, class Residual, class... None>
+auto startAt(Iteration& iteration, const Residual& residual, const None&... /*unused*/)
+    -> decltype(iteration.getState().R, void()) {
+  auto state = iteration.getState();
+  state.R = residual;
+  iteration.initializeCG(state);
+}
+
 } // namespace epafi

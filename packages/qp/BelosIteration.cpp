@@ -1,5 +1,7 @@
 #include "epafi/qp/BelosIteration.hpp"
 
+#include "epafi/base/Compatibility.hpp"
+
 #include <BelosOutputManager.hpp>
 #include <BelosPseudoBlockCGIter.hpp>
 #include <Teuchos_ParameterList.hpp>
@@ -17,9 +19,7 @@ BelosOutcome iterate(const RCP<BelosProblem>& problem, const std::vector<int>& c
   try {
     const RCP<MultiVector> residual =
         Belos::MultiVecTraits<double, MultiVector>::CloneCopy(*problem->getInitResVec(), columns);
-    Belos::CGIterationState<double, MultiVector> state;
-    state.R = residual;
-    iteration.initializeCG(state);
+    startAt(iteration, residual);
     iteration.iterate();
   } catch (const Belos::BelosError&) {
     outcome.isIndefinite = true;

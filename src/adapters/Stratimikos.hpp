@@ -4,6 +4,7 @@
 /// C++17: g++ up to 13 does not take the header of DefaultLinearSolverBuilder in Trilinos 13.2 as C++20. A file in C++20 takes
 /// linearSolveStrategy.
 
+#include "epafi/base/StratimikosCompatibility.hpp"
 #include "epafi/base/Types.hpp"
 
 #include <Teuchos_AbstractFactory.hpp>
@@ -12,10 +13,6 @@
 #include <Thyra_PreconditionerFactoryBase_decl.hpp>
 
 #include <string>
-
-namespace Stratimikos { // NOLINT(readability-identifier-naming): it is theirs
-class DefaultLinearSolverBuilder;
-} // namespace Stratimikos
 
 namespace epafi::linear {
 class UnassembledOperator;

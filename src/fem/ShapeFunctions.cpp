@@ -138,8 +138,7 @@ Shape<dim>::Shape(CellType shapeType)
     : type(shapeType), isSimplex(numCornersOf(type) == dim + 1), order(orderOf(type)),
       numNodes(numNodesOf(type)), measure(measureOfReference(dim, isSimplex)) {
   placeNodes();
-  centreSample_ =
-      sampleAt(isSimplex ? Coordinates<dim>::Constant(1.0 / (dim + 1)) : Coordinates<dim>::Zero(), measure);
+  centreSample_ = sampleAt(Coordinates<dim>::Constant(isSimplex ? 1.0 / (dim + 1) : 0.0), measure);
   if (!isSimplex) {
     gaussSamples_ = samplesOf(*this, productRule(*this));
   } else if (order == 1) {

@@ -106,15 +106,18 @@ Closing closing(const DecomposedProblem& problem, const Rows& rows, const std::s
           spectrum.vectors.leftCols(numOpen)};
 }
 
-/// Drops rows whose force is none: those that close less than their gap, where one of the two is 0 in a solution, and those that are none beside the others. Returns
-/// whether there are any. Collective.
+/// Drops rows whose force is none: those that are none beside the others, and those that close less than their gap, where one of the two is 0
+/// in a solution. Returns whether there are any. Collective.
 bool dropIdleRows(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda,
                   const Vector& slack, const RestCheck& check, const Eigen::VectorXd& alpha,
                   std::set<int>& holding) {
   const auto force = lambda.getData(), gap = slack.getData();
+  const double closed = closedUpTo * slack.normInf();
   const auto dropped = std::erase_if(holding, [&](int row) {
-    return !isTied(problem, row) && (force[row] <= check.leastForce ||
-                                     check.flexibility * force[row] <= gap[row] - rows.at(row).dot(alpha));
+    if (isTied(problem, row))
+      return false;
+    const double room = gap[row] - rows.at(row).dot(alpha);
+    return force[row] <= check.leastForce || (room > closed && check.flexibility * force[row] <= room);
   });
   return holdsAnywhere(*problem.comm, dropped > 0);
 }
@@ -163,7 +166,7 @@ void refuseUnpressed(const DecomposedProblem& problem, const Rows& rows, const P
   double largest = 0;
   for (const auto& [row, vector] : rows)
     largest = std::max(largest, isTied(problem, row) ? 0.0 : force[row]);
-  largest = std::max(clear * maxOverRanks(*problem.comm, largest), check.leastForce);
+  largest = std::max(clear * maxOverRanks(*problem.comm, largest), check.leastForce / clear);
   std::set<int> pressing;
   for (const auto& [row, vector] : rows)
     if (isTied(problem, row) || force[row] > largest)

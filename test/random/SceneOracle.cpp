@@ -137,7 +137,7 @@ Closed closedRows(const Measured& measured, const Solution& solution, double for
   for (Eigen::Index i = 0; i < measured.numContacts(); ++i)
     if (static_cast<double>(solution.multiplier[i]) > forceLimit * force)
       closed.pressed.push_back(i);
-    else if (solution.slack[i] < lengthLimit * length)
+    else if (solution.slack[i] <= lengthLimit * length)
       closed.touching.push_back(i);
   return closed;
 }
