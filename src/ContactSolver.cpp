@@ -160,16 +160,29 @@ double allowedViolation(double tolerance) {
 } // namespace
 
 /// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the tolerance is met
-/// long before the constraints are.
-void ContactSolver::settle(const fetidp::DualSolution& dual, const qp::Interruption& interruption,
+/// long before the constraints are. And round-off may end an iteration that is not far from its tolerance: responses to what is left of the gradient go on from there.
+void ContactSolver::settle(fetidp::DualSolution dual, const qp::Interruption& interruption,
                            fetidp::ContactSolution& solution) {
-  const double allowed = allowedViolation(dualParameters_.tolerance);
-  if (dual.report.status != qp::Status::converged || solution.feasibility <= allowed)
+  const double tolerance = dualParameters_.tolerance, allowed = allowedViolation(tolerance);
+  const bool isRough = solution.relativeProjectedGradient > 2 * tolerance,
+             isStagnated = dual.report.status == qp::Status::stagnated;
+  if (!isStagnated &&
+      !(dual.report.status == qp::Status::converged && (isRough || solution.feasibility > allowed)))
     return;
+  dual.report.status = qp::Status::converged; // if this is well with the rest
+  const double asked = isRough ? 0.1 * tolerance * dual.reference : 0.0;
   const std::optional<fetidp::ContactSolution> settled =
-      fetidp::recoverSettled(*dual_, dual, 0.01 * allowed, report_, interruption);
-  if (settled && settled->feasibility < solution.feasibility)
+      fetidp::recoverSettled(*dual_, dual, {0.01 * allowed, asked}, report_, interruption);
+  if (!settled || report_.status == qp::Status::interrupted || report_.status == qp::Status::timeLimit)
+    return;
+  if (settled->relativeProjectedGradient <= 2 * tolerance ||
+      (!isStagnated && settled->feasibility < solution.feasibility)) {
     solution = *settled;
+    report_.status = qp::Status::converged;
+    report_.reason =
+        isRough ? "the tolerance is reached; the last digits were settled where round-off ended the iteration"
+                : dual.report.reason;
+  }
 }
 
 /// What the iteration claims must hold for the displacements too: round-off in the subdomain solves can undo it, and

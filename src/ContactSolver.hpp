@@ -100,7 +100,7 @@ private:
   void factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier);
   void confirm(const fetidp::ContactSolution& solution, double errorTarget);
   [[nodiscard]] double algebraicErrorOf(const fetidp::ContactSolution& solution) const;
-  void settle(const fetidp::DualSolution& dual, const qp::Interruption& interruption,
+  void settle(fetidp::DualSolution dual, const qp::Interruption& interruption,
               fetidp::ContactSolution& solution);
   [[nodiscard]] std::string describeDualOperator() const;
   [[nodiscard]] std::string describePreconditioner() const;

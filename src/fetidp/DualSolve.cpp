@@ -237,9 +237,10 @@ void IterativeSolve::goOn(const Method& method, Vector& x, int most) {
   report = std::move(further);
 }
 
-/// Whether there are products left after a method that has used up its own.
+/// Whether another method is to go on: there are products left after one that has used up its own, or that round-off has ended.
 bool IterativeSolve::isToGoOn() const {
-  return solution_.report.status == qp::Status::maxIterations &&
+  return (solution_.report.status == qp::Status::maxIterations ||
+          solution_.report.status == qp::Status::stagnated) &&
          solution_.report.counts.hessianMultiplications < dual_.operators().mprgp.maxMultiplications;
 }
 

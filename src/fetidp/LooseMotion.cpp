@@ -1,6 +1,7 @@
 #include "epafi/fetidp/LooseMotion.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
@@ -13,16 +14,23 @@ ShortestMotion shortestMotion(const Eigen::MatrixXd& c, const Eigen::VectorXd& s
   Eigen::MatrixXd e(n + 1, c.cols());
   e << -c, -s.transpose() / scale;
   const auto dual = direct::nonNegativeLeastSquares(e, Eigen::VectorXd::Unit(n + 1, n));
-  if (dual.residual[n] > 0) { // round-off of a residual 0 would give anything
-    const Eigen::VectorXd x = -scale * dual.residual.head(n) / dual.residual[n];
-    if ((c.transpose() * x - s).maxCoeff() <= 1e-9 * scale)
+  const auto isAllowed = [&](const Eigen::VectorXd& x) {
+    return (c.transpose() * x - s).maxCoeff() <= 1e-9 * scale;
+  };
+  if (dual.residual[n] > 0) // round-off of a residual 0 would give anything
+    if (const Eigen::VectorXd x = -scale * dual.residual.head(n) / dual.residual[n]; isAllowed(x))
       return {x, {}};
-  }
   ShortestMotion none;
   const double least = dual.x.size() > 0 ? ProblemScales::resultant * dual.x.maxCoeff() : 0.0;
   for (Eigen::Index j = 0; j < dual.x.size(); ++j)
     if (dual.x[j] > least)
       none.excluding.push_back(j);
+  if (!none.excluding
+           .empty()) // a long way along directions that nearly oppose each other: the residual has few digits then
+    if (const Eigen::VectorXd x =
+            direct::leastSquares(c(allOf, none.excluding).transpose(), s(none.excluding));
+        isAllowed(x))
+      return {x, {}};
   return none;
 }
 

@@ -93,9 +93,9 @@ SubdomainVectors unknownsOf(const DecomposedProblem& problem, const GeneralizedI
   return u;
 }
 
-/// What is allowed, relative to the largest displacement or gap, where products are added, and who may want an end.
+/// What is allowed, where products are added, and who may want an end.
 struct Settling {
-  double allowed;
+  AllowedViolation allowed;
   qp::SolveReport& report;
   const qp::Interruption& interruption;
 
@@ -202,8 +202,10 @@ bool settle(const DualProblem& dual, const Settling& settling, const Vector& siz
   double largest = 0; // displacement
   for (const Eigen::MatrixXd& values : u)
     largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
-  const double allowed =
-      settling.allowed * std::max(maxOverRanks(*dual.problem().comm, largest), dual.problem().gap->normInf());
+  double allowed = settling.allowed.relative *
+                   std::max(maxOverRanks(*dual.problem().comm, largest), dual.problem().gap->normInf());
+  if (settling.allowed.absolute > 0)
+    allowed = std::min(allowed, settling.allowed.absolute);
   HeldRows rows(dual.problem(), sizes, *solution.multiplier);
   double open = std::numeric_limits<double>::infinity();
   for (int step = 0; step < maxSteps && !settling.isUnwanted(*dual.problem().comm); ++step) {
@@ -303,7 +305,7 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
 }
 
 std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
-                                              double allowed, qp::SolveReport& report,
+                                              const AllowedViolation& allowed, qp::SolveReport& report,
                                               const qp::Interruption& interruption) {
   const Settling settling{allowed, report, interruption};
   return recovered(dual, found, &settling);

@@ -20,14 +20,20 @@ std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vecto
 /// Collective.
 ContactSolution recover(const DualProblem& dual, const DualSolution& found);
 
+/// What rows may be violated by, the smaller of both.
+struct AllowedViolation {
+  double relative = 0; ///< to the largest displacement or gap
+  double absolute = 0; ///< 0: as the other says
+};
+
 /// The same, and what round-off leaves open of closed contacts and gluing is closed by responses of their own (ContactResponse.hpp). The last
 /// digit of λ moves a body that hardly anything holds by far more than its own last digit: u = K̄⁺(f̄ − B̄ᵀλ) has then fewer digits
 /// than the sum of what comes first and of what follows. Nothing where that does not end with contacts that all push and with none that penetrates.
-/// \param allowed  what rows may be violated by, relative to the largest displacement or gap
+/// \param allowed  what rows may be violated by
 /// \param report        where the products are added, and the status of an end before its time
 /// \param interruption  asked between the responses
 std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
-                                              double allowed, qp::SolveReport& report,
+                                              const AllowedViolation& allowed, qp::SolveReport& report,
                                               const qp::Interruption& interruption);
 
 } // namespace epafi::fetidp

@@ -154,7 +154,7 @@ TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
     const DecomposedProblem& problem = solved.decomposition.problem;
     qp::SolveReport report;
     const auto settling =
-        recoverSettled(solved.solver.dualProblem(), found, 1e-12, report, qp::Interruption(0));
+        recoverSettled(solved.solver.dualProblem(), found, {1e-12}, report, qp::Interruption(0));
     ASSERT_TRUE(settling);
     const ContactSolution& settled = *settling;
     const Eigen::VectorXd closed = gathered(*solved.solution.active),
@@ -203,7 +203,7 @@ TEST(RecoveryTest, ClosedRowsAreFoundFromWrongOnes) {
         force += push * std::abs(force) + std::max(push, 0.0) * reference.force.maxCoeff();
       qp::SolveReport report;
       const auto settled =
-          recoverSettled(solved.solver.dualProblem(), found, 1e-12, report, qp::Interruption(0));
+          recoverSettled(solved.solver.dualProblem(), found, {1e-12}, report, qp::Interruption(0));
       ASSERT_TRUE(settled);
       EXPECT_LE(fieldError(fieldOf(solved.decomposition, *settled), reference.field), 1e-8);
       EXPECT_NEAR(settled->energy, reference.energy, 1e-8 * std::abs(reference.energy));
@@ -230,7 +230,7 @@ TEST(RecoveryTest, SettlingEndsWhereOneRankWantsIt) {
   for (const auto& [interruption, status] :
        {std::pair(&wanted, qp::Status::interrupted), {&late, qp::Status::timeLimit}}) {
     qp::SolveReport report;
-    EXPECT_FALSE(recoverSettled(solved.solver.dualProblem(), found, 1e-12, report, *interruption));
+    EXPECT_FALSE(recoverSettled(solved.solver.dualProblem(), found, {1e-12}, report, *interruption));
     EXPECT_EQ(report.status, status);
     EXPECT_EQ(report.counts.hessianMultiplications, 0);
   }
