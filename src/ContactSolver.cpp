@@ -164,8 +164,11 @@ double allowedViolation(double tolerance) {
 void ContactSolver::settle(fetidp::DualSolution dual, const qp::Interruption& interruption,
                            fetidp::ContactSolution& solution) {
   const double tolerance = dualParameters_.tolerance, allowed = allowedViolation(tolerance);
+  constexpr double roundOff = 1e-13; // of u itself, which rows that are closed to the last digit do not tell
   const bool isRough = solution.relativeProjectedGradient > 2 * tolerance,
              isStagnated = dual.report.status == qp::Status::stagnated;
+  if ((isRough || isStagnated) && tolerance < roundOff)
+    return;
   if (!isStagnated &&
       !(dual.report.status == qp::Status::converged && (isRough || solution.feasibility > allowed)))
     return;
