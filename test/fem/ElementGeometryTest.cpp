@@ -37,7 +37,7 @@ TEST(ElementGeometryTest, BoundaryEnclosesTheMeasure) {
       const Eigen::Vector3d area = areaVector(facet.type, corners);
       flux += area.dot(vectorOf(corners[0])); // the same all over a plane face
       sum += area;
-      const double measure = sumOf(sharesOf(facet.type, corners));
+      const double measure = test::sumOf(sharesOf(facet.type, corners));
       surface += measure;
       EXPECT_NEAR(area.norm(), measure, 1e-14);
     }
