@@ -12,8 +12,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <fcntl.h>
+#include <poll.h>
 
 namespace epafi::fem {
 namespace {
@@ -52,10 +54,51 @@ void say(int pipe, char what, const std::string& text) {
   leave();
 }
 
-std::string readAll(int pipe) {
+/// Seconds on the processor; −1 if nobody knows.
+double processorTimeOf(pid_t process) {
+  clockid_t clock = 0;
+  timespec time{};
+  if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+    return -1;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Ends a process that waits for itself: one that uses no processor for a while.
+class StallWatch {
+public:
+  /// \param patience  seconds
+  StallWatch(pid_t process, int patience)
+      : process_(process), patience_(patience), used_(processorTimeOf(process)) {}
+  /// To be asked every second.
+  void look() {
+    constexpr double nothing = 0.001; // seconds on the processor
+    const double used = processorTimeOf(process_);
+    idle_ = used - used_ < nothing ? idle_ + 1 : 0;
+    used_ = used;
+    if (idle_ == patience_)
+      ::kill(process_, SIGKILL);
+    hasStalled_ = hasStalled_ || idle_ >= patience_;
+  }
+  [[nodiscard]] bool hasStalled() const { return hasStalled_; }
+
+private:
+  pid_t process_;
+  int patience_;
+  double used_;
+  int idle_ = 0;
+  bool hasStalled_ = false;
+};
+
+std::string readAll(int pipe, StallWatch& watch) {
+  constexpr int second = 1000; // milliseconds
   std::string text;
   std::array<char, 4096> part{};
   for (;;) {
+    pollfd waiting{pipe, POLLIN, 0};
+    if (::poll(&waiting, 1, second) == 0) {
+      watch.look();
+      continue;
+    }
     const ssize_t size = ::read(pipe, part.data(), part.size());
     if (size > 0)
       text.append(part.data(), static_cast<std::size_t>(size));
@@ -79,7 +122,8 @@ std::string endOf(pid_t child) {
 
 } // namespace
 
-void inChildProcess(const std::function<void()>& work, const std::string& name, const std::string& remedy) {
+void inChildProcess(const std::function<void()>& work, const std::string& name, const std::string& remedy,
+                    int patience) {
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
     throw Error(name + " cannot begin: " + std::strerror(errno) + "; close files or end other programs");
@@ -88,11 +132,15 @@ void inChildProcess(const std::function<void()>& work, const std::string& name, 
     workAndLeave(work, pipe[1], parent);
   const int reason = errno;
   ::close(pipe[1]);
-  const std::string message = child > 0 ? readAll(pipe[0]) : "";
+  StallWatch watch(child > 0 ? child : parent, patience);
+  const std::string message = child > 0 ? readAll(pipe[0], watch) : "";
   ::close(pipe[0]);
   if (child < 0)
     throw Error(name + " cannot begin: " + std::strerror(reason) + "; free memory or end other programs");
-  const std::string end = endOf(child);
+  const std::string end = endOf(child); // it is waited for, whatever has become of it
+  if (watch.hasStalled())
+    throw InputError(name + " waited for itself, " + std::to_string(patience) +
+                     " seconds long, and was stopped; " + remedy);
   if (message.empty())
     throw InputError(name + " ended " + end + "; " + remedy);
   if (message.front() == wrongInput)
