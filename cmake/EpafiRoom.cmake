@@ -63,11 +63,15 @@ if(EPAFI_INSTALL)
   epafi_install_library(epafi_headers headers USES Epafi::trilinos)
 endif()
 
-# epafi_unite(<target>): its sources are compiled several at a time, which takes less time: what all of them instantiate is
+# epafi_unite(<target> [<number>]): its sources are compiled so many at a time, 20 if not given, which takes less time: what all of them instantiate is
 # instantiated once. Names in their anonymous namespaces must differ for it.
 function(epafi_unite target)
   if(EPAFI_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set(batch 20)
+    if(ARGC GREATER 1)
+      set(batch ${ARGV1})
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     # What is in an anonymous namespace of a source seems to be one of a header then.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()

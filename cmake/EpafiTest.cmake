@@ -32,10 +32,11 @@ function(epafi_test_library target)
 endfunction()
 
 set(EPAFI_MPIRUN_FLAGS --oversubscribe --bind-to none)
-# On one machine nobody needs to look for fast networks and X servers, which takes longer than most tests. Ranks that wait for others make
+# On one machine nobody needs to look for fast networks and X servers, which takes longer than most tests, and what a container does not
+# tell of its processors is not for the output. Ranks that wait for others make
 # way for these: on a busy machine small messages take thirty times as long otherwise.
 set(EPAFI_TEST_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_pml=ob1 OMPI_MCA_mpi_yield_when_idle=1
-    HWLOC_COMPONENTS=-gl OPENBLAS_NUM_THREADS=1)
+    HWLOC_COMPONENTS=-gl HWLOC_HIDE_ERRORS=2 OPENBLAS_NUM_THREADS=1)
 
 function(epafi_test name)
   cmake_parse_arguments(PARSE_ARGV 1 TEST "" "TIMEOUT" "SOURCES;ALONE;USES;RANKS;LABELS")
@@ -50,7 +51,7 @@ function(epafi_test name)
   target_compile_definitions(test_${name} PRIVATE EPAFI_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   EPAFI_BINARY_DIR="${PROJECT_BINARY_DIR}")
   epafi_test_code(test_${name})
-  epafi_unite(test_${name})
+  epafi_unite(test_${name} 12)
   set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   foreach(ranks IN LISTS TEST_RANKS)
     add_test(NAME ${name}_np${ranks}
