@@ -169,7 +169,8 @@ Size constant(double size) {
 constexpr double closeEnough = 0.3; // Gmsh makes what it is asked for on average
 
 TEST_F(SizeFieldTest, GeometriesAreMeshedWithTheSizesThatAreAskedForAndNotWithTheirOwn) {
-  const std::string plate = folder.write("square.geo", squareGeometry), block = folder.write("cube.geo", cube);
+  const std::string plate = folder.write("square.geo", squareGeometry),
+                    block = folder.write("cube.geo", cube);
   for (const double size : {0.2, 0.05}) {
     const UnstructuredMesh mesh = meshWith(plate, sizesOf(2, constant(size)));
     EXPECT_EQ(mesh.cellType(), CellType::triangle6);
@@ -201,7 +202,8 @@ TEST_F(SizeFieldTest, GeometriesAreMeshedFinelyWhereThatIsAskedForAlone) {
 }
 
 TEST_F(SizeFieldTest, GroupsOfAGeometryAreStillThere) {
-  const UnstructuredMesh mesh = meshWith(folder.write("square.geo", squareGeometry), sizesOf(2, constant(0.2)));
+  const UnstructuredMesh mesh =
+      meshWith(folder.write("square.geo", squareGeometry), sizesOf(2, constant(0.2)));
   EXPECT_EQ(mesh.groupNames(), std::vector<std::string>{"plate"});
   EXPECT_EQ(static_cast<GlobalOrdinal>(mesh.group("plate").size()), mesh.numElements());
   EXPECT_EQ(mesh.surfaceNames(), std::vector<std::string>{"bottom"});
