@@ -7,7 +7,7 @@ file(MAKE_DIRECTORY "${EPAFI_INCLUDE_ROOT}/epafi")
 # Warnings and sanitizers for our own code.
 function(epafi_flags target)
   # Programs are compiled as libraries are, so that they share precompiled headers.
-  # GCC looks for garbage that it could free again and again; with a gigabyte to fill first it compiles in seven eighths of the time.
+  # GCC looks for garbage that it could free again and again; with a gigabyte to fill first it compiles in less time, and takes a fifth more memory.
   target_compile_options(${target} PRIVATE -fPIC
     "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;SHELL:--param ggc-min-heapsize=1000000;SHELL:--param ggc-min-expand=100>"
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
