@@ -137,36 +137,13 @@ Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
   return kernelLoad(problem, loadsOf(problem));
 }
 
-namespace {
-
-/// Σ XᵀẽC over the clusters of each body, X given by `part` of a cluster.
-template <class Part>
-Eigen::VectorXd sumsOnBodies(const DecomposedProblem& problem, const Eigen::VectorXd& resultants,
-                             const Part& part) {
+Eigen::VectorXd onBodies(const DecomposedProblem& problem, const Eigen::VectorXd& resultants) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(problem.numRigidModes());
   for (const decomposition::Cluster& cluster : problem.clusters)
     sums.segment(problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset,
                  cluster.ofBody.cols()) +=
-        part(cluster).transpose() * resultants.segment(cluster.kernelOffset, cluster.kernelDimension);
+        cluster.ofBody.transpose() * resultants.segment(cluster.kernelOffset, cluster.kernelDimension);
   return sums;
-}
-
-} // namespace
-
-Eigen::VectorXd onBodies(const DecomposedProblem& problem, const Eigen::VectorXd& resultants) {
-  return sumsOnBodies(problem, resultants,
-                      [](const decomposition::Cluster& cluster) { return cluster.ofBody; });
-}
-
-Eigen::VectorXd magnitudesOnBodies(const DecomposedProblem& problem) {
-  return sumsOnBodies(problem, kernelLoadMagnitude(problem), [](const decomposition::Cluster& cluster) {
-    return Eigen::MatrixXd(cluster.ofBody.cwiseAbs());
-  });
-}
-
-Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem) {
-  return resultants(problem, loadsOf(problem),
-                    [](const auto& r, const auto& f) { return r.cwiseAbs().dot(f.cwiseAbs()); });
 }
 
 } // namespace epafi::fetidp

@@ -38,10 +38,4 @@ Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, cons
 /// Resultants on whole bodies of those on clusters. Not collective.
 Eigen::VectorXd onBodies(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& resultants);
 
-/// Bounds of what they would be if nothing in them cancelled. Collective.
-Eigen::VectorXd magnitudesOnBodies(const decomposition::DecomposedProblem& problem);
-
-/// |R|ᵀ|f̄|: what ẽ would be if nothing in it cancelled, its yardstick. On every rank. Collective.
-Eigen::VectorXd kernelLoadMagnitude(const decomposition::DecomposedProblem& problem);
-
 } // namespace epafi::fetidp
