@@ -33,10 +33,10 @@ endfunction()
 
 set(EPAFI_MPIRUN_FLAGS --oversubscribe --bind-to none)
 # On one machine nobody needs to look for fast networks and X servers, which takes longer than most tests, and what a container does not
-# tell of its processors is not for the output. Ranks that wait for others make
-# way for these: on a busy machine small messages take thirty times as long otherwise.
+# tell of its processors and networks is not for the output. Ranks that wait for others make way for these: on a busy machine small messages
+# take thirty times as long otherwise.
 set(EPAFI_TEST_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_pml=ob1 OMPI_MCA_mpi_yield_when_idle=1
-    HWLOC_COMPONENTS=-gl HWLOC_HIDE_ERRORS=2 OPENBLAS_NUM_THREADS=1)
+    HWLOC_COMPONENTS=-gl HWLOC_HIDE_ERRORS=2 UCX_LOG_LEVEL=fatal OPENBLAS_NUM_THREADS=1)
 
 function(epafi_test name)
   cmake_parse_arguments(PARSE_ARGV 1 TEST "" "TIMEOUT" "SOURCES;ALONE;USES;RANKS;LABELS")

@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include <algorithm>
+
 namespace epafi::direct {
 namespace {
 
@@ -26,7 +28,7 @@ Eigen::MatrixXd orthogonalComplement(const Eigen::MatrixXd& columns) {
 
 Eigen::MatrixXd triangularFactor(const Eigen::MatrixXd& matrix) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(matrix);
-  return qr.matrixQR().topRows(matrix.cols()).triangularView<Eigen::Upper>();
+  return qr.matrixQR().topRows(std::min(matrix.rows(), matrix.cols())).triangularView<Eigen::Upper>();
 }
 
 PivotedColumns pivotedColumns(const Eigen::MatrixXd& columns, double threshold) {

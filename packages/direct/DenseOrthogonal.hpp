@@ -12,7 +12,7 @@ namespace epafi::direct {
 Eigen::MatrixXd orthonormalBasis(const Eigen::MatrixXd& columns);
 /// Orthonormal columns that span what those of a matrix of full rank are orthogonal to, m × (m − n).
 Eigen::MatrixXd orthogonalComplement(const Eigen::MatrixXd& columns);
-/// R of A = QR, n × n; A has n columns and at least as many rows.
+/// R of A = QR, min(m, n) × n, of an m × n matrix.
 Eigen::MatrixXd triangularFactor(const Eigen::MatrixXd& matrix);
 
 /// Columns of a matrix in an order in which each is as independent as can be of those before it.

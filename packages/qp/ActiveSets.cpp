@@ -1,9 +1,7 @@
 #include "epafi/qp/ActiveSets.hpp"
 
-#include "epafi/base/Collective.hpp"
-#include "epafi/qp/FaceIteration.hpp"
+#include "epafi/qp/ActiveSetIteration.hpp"
 #include "epafi/qp/LocalData.hpp"
-#include "epafi/qp/StoppingRule.hpp"
 
 #include <Tpetra_Map.hpp>
 
@@ -16,67 +14,25 @@ namespace epafi::qp {
 namespace {
 
 constexpr int maxFaces = 300;
-constexpr int maxIdleFaces = 24;  ///< faces in a row with no smaller gradient to begin with
-constexpr int caution = 4;        ///< from so many of them on one bound is released at a time
-constexpr int maxFaceSteps = 200; ///< of CG before the face is looked at again
+constexpr int caution = 4; ///< from so many idle faces on one bound is released at a time
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
 constexpr double safety = 0.5;
-constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
 constexpr double roundOffOfX = 1e-13;     ///< of x that leaves Ω by it
-constexpr double negligibleExit = 1e-3;   ///< of what the tolerance asks for, likewise
 /// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that nearly depend on each other, with forces
 /// out of all proportion. The faces that follow may make up for it; where it happens again and again they do not.
 constexpr double runaway = 1e3;
-constexpr int mostRunaways = 1;
+constexpr int mostRunaways = 1, mostRunawayFaces = 8;
 
-class ActiveSets {
-public:
-  ActiveSets(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
-             const SmalbeTolerances& tolerances, const MprgpParameters& limits);
-  /// The loop of the paper.
-  Status run(Observer* observer);
-  void describe(SolveReport& report) const;
-  [[nodiscard]] const Vector& solution() const { return on_.x; }
+} // namespace
 
-private:
-  void chooseFirstFace(const ActiveSetProblem& problem);
-  std::optional<Status> minimise();
-  [[nodiscard]] bool isEndless();
-  [[nodiscard]] bool isNearlySmall() const;
-  bool chooseFace(bool isCautious);
-  bool balance();
-  bool isSolved();
-  [[nodiscard]] bool isSmall(double gradient, double energy);
-  [[nodiscard]] bool holdsEquality() const;
-  void record(StepKind kind);
-  [[nodiscard]] double enough() const {
-    return tolerances_.gradient * tolerances_.gradientReference * objective_.scale();
-  }
-
-  StepCounts counts_;
-  const ConvexSet& set_;
-  ScaledObjective objective_;
-  SmalbeTolerances tolerances_;
-  std::optional<ErrorWatch> watch_; ///< with an error's target
-  Interruption interruption_;
-  FaceIteration on_;            ///< the face, with x and g
-  Vector best_;                 ///< the point with the least gradient on entering a face
-  Vector inside_, next_, work_; ///< x projected; the next face
-  FusedReduction reduction_;
-  double faceReduction_;
-  double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled
-  long long numActive_ = 0;
-  bool isAtOrigin_ = false; ///< where the method starts
-};
-
-ActiveSets::ActiveSets(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
+ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
                        const SmalbeTolerances& tolerances, const MprgpParameters& limits)
-    : set_(*problem.set),
+    : problem_(problem), set_(*problem.set),
       objective_(problem.hessian, problem.operatorNorm, limits.maxMultiplications, counts_),
       tolerances_(tolerances), interruption_(limits.timeLimit),
       on_(objective_, problem.preconditioner, problem.equality, interruption_, counts_),
-      best_(start, Teuchos::Copy), inside_(objective_.map()), next_(objective_.map()),
-      work_(objective_.map()), reduction_(objective_.map()->getComm(), 3),
+      start_(start, Teuchos::Copy), best_(start, Teuchos::Copy), inside_(objective_.map()), next_(objective_.map()),
+      work_(objective_.map()), reduction_(objective_.map()->getComm(), 4),
       faceReduction_(problem.faceReduction) {
   objective_.setLinearTerm(*problem.linearTerm, 0);
   if (tolerances.error != nullptr)
@@ -94,7 +50,7 @@ ActiveSets::ActiveSets(const ActiveSetProblem& problem, const Vector& start, con
 }
 
 /// That of the start; at the origin, where it says nothing, that of Mb, as if M were A⁻¹.
-void ActiveSets::chooseFirstFace(const ActiveSetProblem& problem) {
+void ActiveSetIteration::chooseFirstFace(const ActiveSetProblem& problem) {
   copy(on_.x, inside_);
   if (on_.x.normInf() == 0 && !problem.preconditioner.is_null()) {
     problem.preconditioner->apply(objective_.linearTerm(), inside_);
@@ -104,10 +60,18 @@ void ActiveSets::chooseFirstFace(const ActiveSetProblem& problem) {
   set_.freeIndicator(inside_, on_.face);
 }
 
-Status ActiveSets::run(Observer* observer) {
+Status ActiveSetIteration::run(Observer* observer) {
   interruption_.setObserver(observer);
+  const Status status = settle();
+  if (status != Status::stagnated && status != Status::unbounded)
+    return status;
+  const Status further = descend();
+  return further == Status::stagnated ? status : further;
+}
+
+Status ActiveSetIteration::settle() {
   double least = std::numeric_limits<double>::infinity(), highest = 0, largest = 0;
-  int numIdle = 0, numRunaways = 0;
+  int numIdle = 0, numRunaways = 0, numRunawayFaces = 0;
   bool isRunaway = false;
   for (int faces = 0; faces < maxFaces && numIdle <= maxIdleFaces; ++faces) {
     copy(on_.x, inside_);
@@ -130,14 +94,15 @@ Status ActiveSets::run(Observer* observer) {
     }
     numRunaways += gradient_ > largest && !isRunaway ? 1 : 0;
     isRunaway = gradient_ > largest;
-    if (numRunaways > mostRunaways)
+    numRunawayFaces += isRunaway ? 1 : 0;
+    if (numRunaways > mostRunaways || numRunawayFaces > mostRunawayFaces)
       break;
     if (gradient_ < least && on_.objective() <= highest) {
       least = gradient_;
       copy(on_.x, best_);
     }
     do {
-      if (const auto status = minimise()) { // on the face, as if it had no bounds
+      if (const auto status = minimise(maxFaceSteps)) { // on the face, as if it had no bounds
         if (*status == Status::stagnated || *status == Status::unbounded)
           copy(best_, on_.x);
         return *status;
@@ -151,13 +116,13 @@ Status ActiveSets::run(Observer* observer) {
 }
 
 /// Whether the face can hold Bx = c.
-bool ActiveSets::holdsEquality() const {
+bool ActiveSetIteration::holdsEquality() const {
   return on_.constraintResidual() <= tolerances_.constraint * tolerances_.constraintReference;
 }
 
 /// Where the face cannot hold Bx = c, lets those move that first stop the motion which is left: along it the multipliers of bounds fall. False if
 /// nothing stops it.
-bool ActiveSets::balance() {
+bool ActiveSetIteration::balance() {
   constexpr double hindering = 1e-9; // beside what hinders it most
   on_.unbalanced(work_);
   const double least = hindering * work_.normInf();
@@ -182,7 +147,7 @@ bool ActiveSets::balance() {
 }
 
 /// CG until ‖Zg‖ and (gᵀMg)^½ have fallen to a share of themselves, or are small enough.
-std::optional<Status> ActiveSets::minimise() {
+std::optional<Status> ActiveSetIteration::minimise(int maxSteps) {
   const double goal = faceReduction_ * faceReduction_ * on_.energy(),
                most = faceReduction_ * on_.gradientNorm();
   for (int step = 0; (on_.energy() > goal || on_.gradientNorm() > most) && !isNearlySmall(); ++step) {
@@ -190,7 +155,7 @@ std::optional<Status> ActiveSets::minimise() {
       return on_.wish();
     if (objective_.isSpent())
       return Status::maxIterations;
-    if (step == maxFaceSteps)
+    if (step == maxSteps)
       return Status::stagnated;
     if (const auto status = on_.step())
       return *status == Status::unbounded && !isEndless() ? Status::stagnated : *status;
@@ -201,7 +166,7 @@ std::optional<Status> ActiveSets::minimise() {
 }
 
 /// Whether the set goes on for ever where the last direction leads down, or nearly so.
-bool ActiveSets::isEndless() {
+bool ActiveSetIteration::isEndless() {
   constexpr double mostOff = 0.1;
   inside_.update(on_.slope() > 0 ? -1.0 : 1.0, on_.direction(), 0.0);
   copy(inside_, next_);
@@ -211,14 +176,14 @@ bool ActiveSets::isEndless() {
 }
 
 /// Whether CG has done what the tolerance asks for, with something to spare.
-bool ActiveSets::isNearlySmall() const {
+bool ActiveSetIteration::isNearlySmall() const {
   return watch_ ? std::sqrt(std::max(0.0, on_.energy())) / objective_.scale() <= watch_->limit()
                 : on_.gradientNorm() <= safety * enough();
 }
 
 /// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong sign; with caution
 /// only where it is the largest of these. False if that is the present face.
-bool ActiveSets::chooseFace(bool isCautious) {
+bool ActiveSetIteration::chooseFace(bool isCautious) {
   copy(on_.x, inside_);
   set_.project(inside_);
   set_.freeIndicator(inside_, next_);
@@ -246,7 +211,7 @@ bool ActiveSets::chooseFace(bool isCautious) {
 }
 
 /// Whether x, with g afresh, is within Ω and its projected gradient meets the tolerance.
-bool ActiveSets::isSolved() {
+bool ActiveSetIteration::isSolved() {
   copy(on_.x, inside_);
   set_.project(inside_);
   set_.choppedGradient(inside_, on_.gradient(), 0.0, work_);
@@ -260,9 +225,11 @@ bool ActiveSets::isSolved() {
       sums[0].add(chopped * chopped);
       sums[1].add(out * out);
       sums[2].add(x[i] * x[i]);
+      sums[3].add(1 - on[i]);
     }
   }
   reduction_.reduce();
+  numActive_ = static_cast<long long>(reduction_.sum(3));
   if (std::sqrt(reduction_.sum(1)) > roundOffOfX * std::sqrt(reduction_.sum(2)))
     return false;
   const double whole = std::hypot(gradient_, std::sqrt(reduction_.sum(0)));
@@ -275,12 +242,12 @@ bool ActiveSets::isSolved() {
 }
 
 /// Whether the tolerance is met. \param energy  an upper bound of the squared error, of a scaled gradient. Collective.
-bool ActiveSets::isSmall(double gradient, double energy) {
+bool ActiveSetIteration::isSmall(double gradient, double energy) {
   return watch_ ? watch_->isSmallEnough(std::sqrt(std::max(0.0, energy)) / objective_.scale(), on_.x)
                 : gradient <= enough();
 }
 
-void ActiveSets::record(StepKind kind) {
+void ActiveSetIteration::record(StepKind kind) {
   Observer* const observer = interruption_.observer();
   if (observer == nullptr)
     return;
@@ -300,7 +267,7 @@ void ActiveSets::record(StepKind kind) {
   observer->look(next_);
 }
 
-void ActiveSets::describe(SolveReport& report) const {
+void ActiveSetIteration::describe(SolveReport& report) const {
   report.reason = explain(report.status);
   report.counts = counts_;
   report.relativeProjectedGradient =
@@ -314,14 +281,12 @@ void ActiveSets::describe(SolveReport& report) const {
   report.gradient->scale(1.0 / objective_.scale());
 }
 
-} // namespace
-
 SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
                               const SmalbeTolerances& tolerances, const MprgpParameters& limits,
                               Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
-  ActiveSets method(problem, x, face, tolerances, limits);
+  ActiveSetIteration method(problem, x, face, tolerances, limits);
   report.status = method.run(&recorder);
   x.assign(method.solution());
   problem.set->project(x);

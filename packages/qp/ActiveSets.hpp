@@ -4,8 +4,9 @@
 /// the planning steps of Avery, Rebel, Lesoinne, Farhat, *Comput. Methods Appl. Mech. Engrg* 193 (2004):
 ///   minimise on the face as if it had no bounds, Bx = c held exactly, as far as the next decision needs;
 ///   put the entries that left Ω on its boundary, and let those move whose multipliers have the wrong sign, all at once.
-/// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not settle, the method
-/// says so: MPRGP and SMALBE, which always get there, can go on from its best point.
+/// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not settle, a primal method
+/// goes on in Ω (Nocedal, Wright, *Numerical Optimization*, 2006, 16.5), slower and with an objective that falls; where round-off
+/// ends that too, the method says so.
 
 #include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"

@@ -253,7 +253,7 @@ void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::Smalbe
   constexpr int patience = 300, endless = std::numeric_limits<int>::max();
   const bool isByFaces = dual_.algorithm() == Algorithm::activeSets;
   if (!isByFaces) {
-    goOn(always, x, faces.preconditioner.is_null() ? endless : patience);
+    goOn(always, x, patience);
     if (!isToGoOn())
       return;
   }

@@ -194,8 +194,23 @@ void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u
   solution.energy -= 0.5 * accurateDot(force, moved);
 }
 
+/// Whether the energy that was followed is that of u: else forces that were large on the way have left u and λ out of balance. Collective.
+bool isBalanced(const DecomposedProblem& problem, const SubdomainVectors& u, double energy) {
+  constexpr double share = 1e-7, roundOff = 1e-12;
+  AccurateSum sums[2]; // uᵀKu, |u|ᵀ|K||u|
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    const auto& stiffness = *problem.subdomains[s].stiffness;
+    const auto values = u[s].col(0);
+    sums[0].add(values.dot(stiffness * values));
+    sums[1].add(values.cwiseAbs().dot(stiffness.cwiseAbs() * values.cwiseAbs()));
+  }
+  sumOverRanks(*problem.comm, sums);
+  return std::abs(energyOf(problem, u) - energy) <=
+         share * (std::abs(energy) + std::abs(sums[0].value())) + roundOff * sums[1].value();
+}
+
 /// Steps until held rows are open by no more than is allowed, or by the round-off of u: a step is as exact as the last digits that it
-/// starts from. Then rows change until all contacts push and none penetrates; returns whether they do. Collective.
+/// starts from. Then rows change until all contacts push and none penetrates; returns whether they do, in balance. Collective.
 bool settle(const DualProblem& dual, const Settling& settling, const Vector& sizes, SubdomainVectors& u,
             ContactSolution& solution) {
   constexpr int maxSteps = 60;
@@ -221,7 +236,7 @@ bool settle(const DualProblem& dual, const Settling& settling, const Vector& siz
       open = std::numeric_limits<double>::infinity();
     } else {
       rows.clip(*solution.multiplier);
-      return true;
+      return isBalanced(dual.problem(), u, solution.energy);
     }
   }
   return false;

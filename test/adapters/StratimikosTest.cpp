@@ -4,6 +4,7 @@
 
 #include "epafi/adapters/Stratimikos.hpp"
 #include "epafi/adapters/ThyraOperators.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <Thyra_LinearOpWithSolveFactoryHelpers.hpp>
@@ -35,7 +36,7 @@ Eigen::MatrixXd solved(const LinearSolveStrategy& strategy, const linear::Linear
 
 TEST(StratimikosTest, PicksFetiDpAndBddcByNameFromTheListsThatShip) {
   const linear::LinearProblem problem(linear::plate(12, decomposition::grid(3, 3)));
-  const Eigen::MatrixXd expected = denseOf(*problem.k).llt().solve(denseOf(*problem.k->load()));
+  const Eigen::MatrixXd expected = direct::solvedSymmetric(denseOf(*problem.k), denseOf(*problem.k->load()));
   Thyra::SolveStatus<double> status;
   const auto fetiDp = linearSolveStrategy(shippedList("fetidp.xml"));
   EXPECT_LE(linear::relativeError(solved(*fetiDp, problem, problem.k, status), expected), 1e-7);
@@ -72,7 +73,7 @@ TEST(StratimikosTest, WrongParametersOfTheListAreRefused) {
 
 TEST(StratimikosTest, AnApplicationsOwnBuilderTakesThemUnderAnyNames) {
   const linear::LinearProblem problem(linear::plate(8, decomposition::grid(2, 2)));
-  const Eigen::MatrixXd expected = denseOf(*problem.k).llt().solve(denseOf(*problem.k->load()));
+  const Eigen::MatrixXd expected = direct::solvedSymmetric(denseOf(*problem.k), denseOf(*problem.k->load()));
   const auto list = Teuchos::parameterList();
   list->set("Linear Solver Type", "Tearing");
   Thyra::SolveStatus<double> status;

@@ -1,8 +1,8 @@
 #include "Gathered.hpp"
 
 #include "epafi/base/Compatibility.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <Tpetra_Core.hpp>
 
@@ -125,9 +125,8 @@ double smallestPivot(const DecomposedProblem& problem) {
 int kernelDimension(const Eigen::MatrixXd& symmetric) {
   if (symmetric.rows() == 0)
     return 0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, Eigen::EigenvaluesOnly);
-  const double threshold = 1e-10 * solver.eigenvalues().maxCoeff();
-  return static_cast<int>((solver.eigenvalues().array() < threshold).count());
+  const direct::SymmetricEigen eigen = direct::eigenOf(symmetric);
+  return static_cast<int>(eigen.numUpTo(1e-10 * eigen.values.maxCoeff()));
 }
 
 scene::Decomposition clustered(scene::Decomposition cut, int size) {

@@ -4,8 +4,8 @@
 
 #include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 namespace epafi::fem {
@@ -29,9 +29,8 @@ scene::Body solidOf(Physics physics) {
 }
 
 int numZeroEigenvalues(const AssembledSubdomain& body) {
-  const Eigen::MatrixXd k = body.stiffness;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(k);
-  return static_cast<int>((solver.eigenvalues().array() < 1e-9 * solver.eigenvalues().maxCoeff()).count());
+  const direct::SymmetricEigen eigen = direct::eigenOf(body.stiffness);
+  return static_cast<int>(eigen.numUpTo(1e-9 * eigen.values.maxCoeff()));
 }
 
 struct Supported {

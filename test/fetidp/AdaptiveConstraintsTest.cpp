@@ -7,8 +7,8 @@
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 #include "epafi/fetidp/OverratedColumns.hpp"
 #include "epafi/qp/DeflatedOperator.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>
@@ -83,10 +83,9 @@ Eigen::VectorXd spectrum(const Deflated& d, const Operator& preconditioner) {
   const Eigen::MatrixXd z = kernelOf(kernelRows(d.problem));
   const Eigen::MatrixXd m = z.transpose() * matrixOf(preconditioner) * z,
                         f = z.transpose() * matrixOf(d.deflated) * z;
-  const Eigen::MatrixXd lower = (0.5 * (m + m.transpose())).eval().llt().matrixL();
+  const Eigen::MatrixXd lower = direct::choleskyFactor(0.5 * (m + m.transpose())).value();
   const Eigen::MatrixXd product = lower.transpose() * (0.5 * (f + f.transpose())) * lower;
-  const Eigen::VectorXd all =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(product, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd all = direct::eigenOf(product).values;
   EXPECT_LE(all.head(d.constraints.number).lpNorm<Eigen::Infinity>(), 1e-7);
   return all.tail(all.size() - d.constraints.number);
 }
@@ -106,7 +105,7 @@ TEST(AdaptiveConstraintsTest, FUIsFWithoutWhatUStandsFor) {
     const Deflated d(channels(coercive, 1e3, grid(2, 2)), {Use::yes, 3});
     const Eigen::MatrixXd f = matrixOf(d.f), u = d.columns(), fu = f * u;
     ASSERT_GT(d.constraints.number, 3);
-    const Eigen::MatrixXd expected = f - fu * (u.transpose() * fu).ldlt().solve(fu.transpose());
+    const Eigen::MatrixXd expected = f - fu * direct::solvedSymmetric(u.transpose() * fu, fu.transpose());
     EXPECT_LE((matrixOf(d.deflated) - expected).norm(), 1e-9 * f.norm());
     EXPECT_LE((matrixOf(d.deflated) * u).norm(), 1e-9 * fu.norm());
     EXPECT_LE(scaledAsymmetry(matrixOf(d.deflated)), 1e-9);
@@ -232,7 +231,7 @@ TEST(AdaptiveConstraintsTest, TheCorrectedPreconditionerIsItsFormula) {
     const Eigen::MatrixXd h = matrixOf(c.deflated), m = matrixOf(*c.constrained),
                           corrected = matrixOf(c.corrected);
     v = (m * v).eval();
-    const Eigen::MatrixXd inverse = (v.transpose() * h * v).inverse();
+    const Eigen::MatrixXd inverse = direct::inverseOfSpd(v.transpose() * h * v);
     const Eigen::MatrixXd p =
         Eigen::MatrixXd::Identity(h.rows(), h.cols()) - v * inverse * (h * v).transpose();
     const Eigen::MatrixXd expected = p * m * p.transpose() + v * inverse * v.transpose();

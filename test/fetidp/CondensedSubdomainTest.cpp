@@ -2,8 +2,8 @@
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/fetidp/CondensedSubdomain.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace epafi::fetidp {
@@ -20,7 +20,7 @@ struct Compared {
     krr = k(r, r);
     krc = k(r, c);
     kcc = k(c, c);
-    inverse = krr.llt().solve(Eigen::MatrixXd::Identity(krr.rows(), krr.cols()));
+    inverse = direct::inverseOfSpd(krr);
   }
 
   direct::Factorizer factorizer;
@@ -80,7 +80,7 @@ TEST(CondensedSubdomainTest, CondensesTheBoundaryAsDenseEliminationDoes) {
     Eigen::MatrixXd expected = s.krr(boundary, boundary);
     if (!inner.empty() && !boundary.empty()) {
       const Eigen::MatrixXd inside = s.krr(inner, inner), coupling = s.krr(inner, boundary);
-      expected -= coupling.transpose() * inside.llt().solve(coupling);
+      expected -= coupling.transpose() * direct::solvedSymmetric(inside, coupling);
     }
     expectNear(schur, expected, expected.norm());
     EXPECT_EQ(schur, schur.transpose());

@@ -2,8 +2,8 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_MultiVector.hpp>
@@ -189,11 +189,11 @@ RCP<Vector> spread(const RCP<const Map>& map, const Eigen::VectorXd& values) {
 Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& symmetric) {
   if (symmetric.rows() == 0)
     return symmetric;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
-  const double threshold = 1e-10 * solver.eigenvalues().cwiseAbs().maxCoeff();
-  const Eigen::VectorXd inverse = solver.eigenvalues().unaryExpr(
-      [threshold](double value) { return value > threshold ? 1.0 / value : 0.0; });
-  return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
+  const direct::SymmetricEigen eigen = direct::eigenOf(symmetric);
+  const double threshold = 1e-10 * eigen.values.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd inverse =
+      eigen.values.unaryExpr([threshold](double value) { return value > threshold ? 1.0 / value : 0.0; });
+  return eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
 }
 
 double relativeError(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

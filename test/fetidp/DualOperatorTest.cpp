@@ -3,8 +3,8 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/fetidp/DualOperator.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
@@ -46,8 +46,8 @@ TEST(DualOperatorTest, IsPositiveDefiniteWhereNoBodyFloats) {
     if (!c.coercive)
       continue;
     SCOPED_TRACE(c.name);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(matrixOf(Assembled(c.scene).op));
-    EXPECT_GT(spectrum.eigenvalues().minCoeff(), 1e-3 * spectrum.eigenvalues().maxCoeff());
+    const Eigen::VectorXd spectrum = direct::eigenOf(matrixOf(Assembled(c.scene).op)).values;
+    EXPECT_GT(spectrum.minCoeff(), 1e-3 * spectrum.maxCoeff());
   }
 }
 
@@ -59,12 +59,12 @@ TEST(DualOperatorTest, IsPositiveDefiniteOnTheKernelOfGAndNowhereElseNeeded) {
     const Assembled assembled(c.scene);
     const Eigen::MatrixXd p = projector(densify(assembled.decomposition.problem));
     const Eigen::MatrixXd pfp = p * matrixOf(assembled.op) * p;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(0.5 * (pfp + pfp.transpose()));
-    const double largest = spectrum.eigenvalues().maxCoeff();
+    const Eigen::VectorXd spectrum = direct::eigenOf(0.5 * (pfp + pfp.transpose())).values;
+    const double largest = spectrum.maxCoeff();
     const int k = assembled.decomposition.problem.kernelDimension;
     ASSERT_GT(k, 0);
-    EXPECT_LE(spectrum.eigenvalues().head(k).cwiseAbs().maxCoeff(), 1e-12 * largest); // Im Gᵀ
-    EXPECT_GT(spectrum.eigenvalues()[k], 1e-4 * largest);
+    EXPECT_LE(spectrum.head(k).cwiseAbs().maxCoeff(), 1e-12 * largest); // Im Gᵀ
+    EXPECT_GT(spectrum[k], 1e-4 * largest);
   }
 }
 

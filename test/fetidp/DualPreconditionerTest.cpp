@@ -1,9 +1,8 @@
 #include "Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
@@ -122,7 +121,7 @@ private:
       if (const int near = crosspoints_.nearIndexOf(s.crosspointIndices[j]); near >= 0)
         moved.row(static_cast<Eigen::Index>(j)) = crosspoints_.extension().row(near) * touched;
     const Eigen::MatrixXd krc = k(r, c);
-    const Eigen::MatrixXd follow = -k(r, r).llt().solve(krc * moved);
+    const Eigen::MatrixXd follow = -direct::solvedSymmetric(k(r, r), krc * moved);
     for (const auto& entry : s.constraint)
       if (const auto at = std::lower_bound(r.begin(), r.end(), entry.unknown);
           at != r.end() && *at == entry.unknown)
@@ -136,11 +135,11 @@ private:
     if (boundary.empty())
       return;
     const Eigen::MatrixXd krr = k(r, r),
-                          inverse = krr.llt().solve(Eigen::MatrixXd::Identity(krr.rows(), krr.cols()));
+                          inverse = direct::inverseOfSpd(krr);
     const Eigen::MatrixXd stiffness =
         parameters_.type == Type::lumped
             ? Eigen::MatrixXd(krr(boundary, boundary))
-            : Eigen::MatrixXd(Eigen::MatrixXd(inverse(boundary, boundary)).inverse());
+            : direct::inverseOfSpd(inverse(boundary, boundary));
     Eigen::MatrixXd t = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(boundary.size()), m.cols());
     for (std::size_t i = 0; i < boundary.size(); ++i)
       for (const auto& entry : s.constraint)

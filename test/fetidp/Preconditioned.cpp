@@ -3,10 +3,9 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -35,11 +34,9 @@ Eigen::MatrixXd kernelRows(const DecomposedProblem& problem) {
 }
 
 Eigen::MatrixXd kernelOf(const Eigen::MatrixXd& columns) {
-  const Eigen::Index n = columns.rows(), k = columns.cols();
-  if (k == 0)
-    return Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).householderQ();
-  return q.rightCols(n - k);
+  if (columns.cols() == 0)
+    return Eigen::MatrixXd::Identity(columns.rows(), columns.rows());
+  return direct::orthogonalComplement(columns);
 }
 
 Eigen::VectorXd spectrum(const Preconditioned& preconditioned) {
@@ -52,11 +49,9 @@ Eigen::VectorXd spectrum(const Preconditioned& preconditioned) {
   const Eigen::MatrixXd z = kernelOf(rows(touched, allOf));
   const Eigen::MatrixXd fz = z.transpose() * f(touched, touched) * z,
                         mz = z.transpose() * m(touched, touched) * z;
-  const Eigen::MatrixXd lower = (0.5 * (mz + mz.transpose())).eval().llt().matrixL();
+  const Eigen::MatrixXd lower = direct::choleskyFactor(0.5 * (mz + mz.transpose())).value();
   const Eigen::MatrixXd product = lower.transpose() * fz * lower; // similar to MF
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (product + product.transpose()),
-                                                              Eigen::EigenvaluesOnly);
-  return solver.eigenvalues();
+  return direct::eigenOf(0.5 * (product + product.transpose())).values;
 }
 
 double conditionNumber(const Preconditioned& preconditioned) {
@@ -68,7 +63,7 @@ Eigen::VectorXd scaledSpectrum(const Eigen::MatrixXd& symmetric) {
   const Eigen::VectorXd scale = symmetric.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled =
       scale.asDiagonal() * (0.5 * (symmetric + symmetric.transpose())) * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  return direct::eigenOf(scaled).values;
 }
 
 double scaledAsymmetry(const Eigen::MatrixXd& matrix) {

@@ -5,12 +5,11 @@
 
 #include "epafi/base/Parameters.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <BelosBlockCGSolMgr.hpp>
 #include <BelosPseudoBlockCGSolMgr.hpp>
 #include <BelosTpetraAdapter.hpp>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -23,10 +22,9 @@ namespace {
 Eigen::VectorXd spectrumOf(const LinearProblem& problem, const BddcParameters& parameters = {}) {
   const Eigen::MatrixXd k = denseOf(*problem.k), m = denseOf(BddcPreconditioner(problem.k, parameters));
   EXPECT_LE(relativeError(m, m.transpose()), 1e-10);
-  const Eigen::MatrixXd lower = k.llt().matrixL(), product = lower.transpose() * m * lower; // similar to M⁻¹K
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (product + product.transpose()),
-                                                        Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  const Eigen::MatrixXd lower = direct::choleskyFactor(k).value(),
+                        product = lower.transpose() * m * lower; // similar to M⁻¹K
+  return direct::eigenOf(0.5 * (product + product.transpose())).values;
 }
 
 /// The eigenvalues above 1, ascending.
@@ -96,7 +94,7 @@ TEST(BddcPreconditionerTest, PreconditionsBelosConjugateGradientsFromTheLeftAndF
     Eigen::MatrixXd two(loads.rows(), 2);
     two << loads, Eigen::VectorXd::LinSpaced(loads.rows(), -1, 1);
     const RCP<const MultiVector> b = spreadOn(problem.k->getRangeMap(), two);
-    const Eigen::MatrixXd expected = k.llt().solve(two);
+    const Eigen::MatrixXd expected = direct::inverseOfSpd(k) * two;
     for (const bool isLeft : {true, false}) {
       const RCP<MultiVector> x = rcp(new MultiVector(b->getMap(), 2));
       EXPECT_LE(stepsOf<Belos::PseudoBlockCGSolMgr>(problem, bddc, isLeft, x, b), 20);

@@ -3,8 +3,8 @@
 
 #include "QpProblems.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include "epafi/direct/DenseSymmetric.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ QpAnswer solveGround(const DenseProgram& program, const std::string& expansion, 
       const Eigen::Index n = program.size();
       const Eigen::MatrixXd ground = program.hessian - Eigen::MatrixXd::Constant(n, n, 9.0);
       problem.preconditioner = rcp(new DenseOperator(problem.hessian->getDomainMap(),
-                                                     ground.llt().solve(Eigen::MatrixXd::Identity(n, n))));
+                                                     direct::inverseOfSpd(ground)));
     };
   return solveQp(program, call);
 }
@@ -101,7 +101,7 @@ TEST(ActiveSetExpansionTest, AutoIsProjectedCgWhereThatDoesWell) {
     QpCall call{withTolerance(1e-9)};
     call.change = [&](qp::QuadraticProgram& problem) {
       problem.preconditioner = rcp(new DenseOperator(
-          problem.hessian->getDomainMap(), program.hessian.inverse() + Eigen::MatrixXd::Identity(40, 40)));
+          problem.hessian->getDomainMap(), direct::inverseOfSpd(program.hessian) + Eigen::MatrixXd::Identity(40, 40)));
     };
     call.parameters.sublist("MPRGP").set("Expansion", std::string("projected CG"));
     const QpAnswer plain = solveQp(program, call);

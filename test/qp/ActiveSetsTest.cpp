@@ -2,6 +2,7 @@
 
 #include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/Box.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ TEST(ActiveSetsTest, AtTheOriginThePreconditionerChoosesTheFirstFace) {
   problem.b = Eigen::VectorXd::LinSpaced(12, -3, 4).array().sin().matrix();
   problem.lower = Eigen::VectorXd::Zero(12);
   EXPECT_GT(solve(problem, 1e-10).report.counts.expansion, 0); // from the face where nothing moves
-  problem.m = problem.a.inverse();
+  problem.m = direct::inverseOfSpd(problem.a);
 
   const Answer answer = solve(problem, 1e-10);
 
@@ -96,10 +97,9 @@ TEST(ActiveSetsTest, AFaceThatCannotHoldTheRowsTakesInWhatStopsTheMotionThatIsLe
   EXPECT_LE((answer.x - Eigen::Vector3d(0, -0.5, -0.5)).norm(), 1e-12);
 }
 
-/// Entries that nearly depend on each other may get forces out of all proportion: from there no other method finds back.
-TEST(ActiveSetsTest, WhereFacesDoNotSettleThePointIsNoWorseThanTheStart) {
+/// Entries that nearly depend on each other may get forces out of all proportion; then the way leads through points of the set.
+TEST(ActiveSetsTest, GoesOnInTheSetWhereFacesDoNotSettle) {
   std::mt19937 random(7);
-  int numLeft = 0;
   for (int problemNumber = 0; problemNumber < 60; ++problemNumber) {
     SCOPED_TRACE(problemNumber);
     Problem problem{test::randomProblem(16, 1, 10, random)};
@@ -111,11 +111,12 @@ TEST(ActiveSetsTest, WhereFacesDoNotSettleThePointIsNoWorseThanTheStart) {
       problem.a(i + 8, i + 8) = problem.a(i, i) * (1 + 1e-10);
     }
     const Answer answer = solve(problem, 1e-10, Eigen::VectorXd::Ones(16));
+    EXPECT_EQ(answer.report.status, Status::converged);
     EXPECT_GE(answer.x.minCoeff(), 0.0);
-    EXPECT_LE(0.5 * answer.x.dot(problem.a * answer.x) - problem.b.dot(answer.x), 1e-12);
-    numLeft += answer.report.status == Status::converged ? 0 : 1;
+    const Eigen::VectorXd g = problem.a * answer.x - problem.b;
+    EXPECT_GE(g.minCoeff(), -1e-9 * problem.b.norm());
+    EXPECT_LE(std::abs(g.dot(answer.x)), 1e-9 * problem.b.norm() * answer.x.norm());
   }
-  EXPECT_GT(numLeft, 0) << "no problem was hard enough";
 }
 
 TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
@@ -127,7 +128,7 @@ TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
     if (rows == 0)
       problem.g.resize(0, 24);
     if (problemNumber % 2 != 0)
-      problem.m = problem.a.inverse() + 0.1 * Eigen::MatrixXd::Identity(24, 24);
+      problem.m = direct::inverseOfSpd(problem.a) + 0.1 * Eigen::MatrixXd::Identity(24, 24);
 
     const Answer answer = solve(problem, 1e-8);
 

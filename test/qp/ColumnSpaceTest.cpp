@@ -3,6 +3,7 @@
 #include "Problems.hpp"
 
 #include "epafi/base/Maps.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ protected:
 TEST_F(ColumnSpaceTest, ProjectsAndCorrectsSeveralColumnsAtOnce) {
   ASSERT_TRUE(space.factorize());
   EXPECT_EQ(space.size(), k);
-  const Eigen::MatrixXd correction = dense * gram.inverse() * dense.transpose(),
+  const Eigen::MatrixXd correction = dense * direct::inverseOfSpd(gram) * dense.transpose(),
                         p = Eigen::MatrixXd::Identity(n, n) - correction * matrix;
   const RCP<MultiVector> x = someColumns(), d = someColumns(), corrected = someColumns();
 
@@ -98,8 +99,8 @@ TEST_F(ColumnSpaceTest, GivesCoefficientsToWhoeverKeepsThem) {
   qp::ColumnSpace::Coefficients c, image;
   space.coefficients(*someColumns(), c);
   space.imageCoefficients(*someColumns(), image);
-  const Eigen::MatrixXd expected = gram.inverse() * dense.transpose() * someEntries,
-                        expectedImage = gram.inverse() * dense.transpose() * matrix * someEntries;
+  const Eigen::MatrixXd expected = direct::inverseOfSpd(gram) * dense.transpose() * someEntries,
+                        expectedImage = direct::inverseOfSpd(gram) * dense.transpose() * matrix * someEntries;
   ASSERT_EQ(c.size(), 2u * k);
   for (std::size_t i = 0; i < c.size(); ++i) {
     EXPECT_NEAR(c[i], expected.data()[i], 1e-12);
@@ -110,7 +111,7 @@ TEST_F(ColumnSpaceTest, GivesCoefficientsToWhoeverKeepsThem) {
 TEST_F(ColumnSpaceTest, DeflatesAnOperator) {
   ASSERT_TRUE(space.factorize());
   const qp::DeflatedOperator deflated(a, space);
-  const Eigen::MatrixXd au = matrix * dense, expected = matrix - au * gram.inverse() * au.transpose();
+  const Eigen::MatrixXd au = matrix * dense, expected = matrix - au * direct::inverseOfSpd(gram) * au.transpose();
   MultiVector y(map, 2);
 
   deflated.apply(*someColumns(), y);

@@ -3,6 +3,7 @@
 /// Programs with bounds and orthonormal rows, and what their solutions meet.
 
 #include "epafi/base/EigenCompatibility.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 
 #include "Problems.hpp"
 
@@ -40,7 +41,7 @@ inline double projectedGradient(const EqualityProblem& problem, const Eigen::Vec
       free.push_back(i);
   if (problem.g.rows() > 0) {
     const Eigen::MatrixXd columns = problem.g(allOf, free).transpose();
-    g += problem.g.transpose() * columns.colPivHouseholderQr().solve(-g(free)).eval();
+    g += problem.g.transpose() * direct::leastSquares(columns, -g(free));
   }
   double squared = 0;
   for (Eigen::Index i = 0; i < x.size(); ++i)

@@ -6,6 +6,7 @@
 #include "epafi/base/Types.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
 #include "epafi/qp/LocalData.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 
 #include <Eigen/Dense>
 #include <Teuchos_Comm.hpp>
@@ -133,7 +134,7 @@ inline Eigen::MatrixXd randomOrthogonal(int n, std::mt19937& random) {
   Eigen::MatrixXd a(n, n);
   for (Eigen::Index i = 0; i < a.size(); ++i)
     a.data()[i] = normal(random);
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ();
+  return direct::orthonormalBasis(a);
 }
 
 /// SPD with eigenvalues spread evenly (in the exponent) from 1/condition to 1.

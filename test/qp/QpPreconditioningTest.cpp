@@ -3,6 +3,7 @@
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Tpetra_MultiVector.hpp>
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ DenseProgram membrane(int k) {
 TEST(QpPreconditioningTest, TheExactInverseNeedsFarFewerStepsForTheSameAnswer) {
   for (const char* release : {"projected gradient", "chopped gradient"}) {
     const DenseProgram program = membrane(12);
-    QpCall call = preconditioned(1e-9, program.hessian.inverse());
+    QpCall call = preconditioned(1e-9, direct::inverseOfSpd(program.hessian));
     call.parameters.sublist("MPRGP").set("Release", std::string(release));
     const QpAnswer plain = solveQp(program, {withTolerance(1e-9)});
 
@@ -76,7 +77,7 @@ TEST(QpPreconditioningTest, TheInverseOfTheFaceSolvesInAStepWhereTheFaceIsRight)
           face.col(i).setZero();
           face(i, i) = 1;
         }
-      return rcp(new DenseOperator(indicator.getMap(), face.inverse()));
+      return rcp(new DenseOperator(indicator.getMap(), direct::inverseOfSpd(face)));
     };
   };
 

@@ -1,5 +1,7 @@
 #include "QpProblems.hpp"
 
+#include "epafi/direct/DenseSymmetric.hpp"
+
 #include <gtest/gtest.h>
 
 /// What a residual is relative to must not vanish with the data: loads and right-hand sides that are 0, or nearly.
@@ -84,7 +86,7 @@ TEST_P(QpSmallLoadTest, ARowWithASmallRightHandSide) {
   program.rows = Eigen::RowVector3d(1, 1, 1);
   program.values = Eigen::VectorXd::Constant(1, GetParam());
   const Eigen::Vector3d image =
-      program.hessian.ldlt().solve(program.linear); // x = A⁻¹(b − Bᵀμ) = (1 − μ) A⁻¹b = 0
+      direct::solvedSymmetric(program.hessian, program.linear); // x = A⁻¹(b − Bᵀμ) = (1 − μ) A⁻¹b = 0
 
   const QpAnswer answer = solveQp(program, {withTolerance(1e-10)});
 

@@ -1,8 +1,9 @@
 #include "RandomPrograms.hpp"
 
+#include "epafi/direct/DenseSymmetric.hpp"
+
 #include "Problems.hpp"
 
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -66,8 +67,7 @@ void drawDefinite(int n, double condition, RandomProgram& result, Draw& draw) {
 void drawSemidefinite(Eigen::MatrixXd g, RandomProgram& result) {
   result.program.hessian = g.transpose() * g / 64;
   result.isSingular = true;
-  const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(result.program.hessian).eigenvalues();
+  const Eigen::VectorXd eigenvalues = direct::eigenOf(result.program.hessian).values;
   result.smallestEigenvalue = eigenvalues.maxCoeff();
   for (const double value : eigenvalues)
     if (value > 1e-9 * eigenvalues.maxCoeff())

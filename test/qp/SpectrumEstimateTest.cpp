@@ -2,10 +2,10 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/qp/SpectrumEstimate.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 
 namespace {
 
@@ -15,9 +15,8 @@ using qp::SpectrumEstimate;
 
 /// Eigenvalues of MA, both SPD, ascending.
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& m) {
-  const Eigen::MatrixXd lower = m.llt().matrixL();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(lower.transpose() * a * lower, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  const Eigen::MatrixXd lower = direct::choleskyFactor(m).value();
+  return direct::eigenOf(lower.transpose() * a * lower).values;
 }
 
 TEST(SpectrumEstimateTest, FindsTheEndsOfTheSpectrumOfRandomPairs) {

@@ -1,9 +1,8 @@
 #include "Cones.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +20,11 @@ Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& matrix, const char* of) {
   const Eigen::Index n = matrix.cols();
   if (n == 0 || matrix.rows() == 0)
     return Eigen::MatrixXd::Identity(n, n);
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(n, n); // R of M = QR
-  const Eigen::Index rows = std::min(n, matrix.rows());
-  square.topRows(rows) =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(matrix).matrixQR().topRows(rows).triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
+  const direct::RightSingular svd = direct::rightSingularOf(matrix);
   Eigen::Index rank = 0;
-  for (const double value : svd.singularValues())
+  for (const double value : svd.values)
     rank += isClear(value, of) ? 1 : 0;
-  return svd.matrixV().rightCols(n - rank);
+  return svd.vectors.rightCols(n - rank);
 }
 
 Eigen::VectorXd imbalance(const Eigen::MatrixXd& a, const Eigen::VectorXd& target) {
@@ -46,7 +41,7 @@ Eigen::VectorXd imbalance(const Eigen::MatrixXd& a, const Eigen::VectorXd& targe
       break;
     free.push_back(next);
     while (true) {
-      const Eigen::VectorXd y = Eigen::MatrixXd(a(allOf, free)).colPivHouseholderQr().solve(target);
+      const Eigen::VectorXd y = direct::leastSquares(a(allOf, free), target);
       double share = 1;
       Eigen::Index blocking = -1;
       for (std::size_t k = 0; k < free.size(); ++k)
@@ -80,10 +75,7 @@ namespace {
 /// Length of the shortest x with Cx ≤ s, Cx = s; infinite if there is none. By least distance programming, in the space of the rows.
 double shortest(const Eigen::MatrixXd& c, const Eigen::VectorXd& s, Eigen::Index numInequalities) {
   const Eigen::Index rank = std::min(c.rows(), c.cols()), numEqualities = c.rows() - numInequalities;
-  const Eigen::MatrixXd rows = Eigen::HouseholderQR<Eigen::MatrixXd>(c.transpose())
-                                   .matrixQR()
-                                   .topRows(rank)
-                                   .triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd rows = direct::triangularFactor(c.transpose());
   Eigen::MatrixXd all(rank + 1, c.rows() + numEqualities);
   all.topLeftCorner(rank, c.rows()) = -rows;
   all.row(rank).head(c.rows()) = -s.transpose();

@@ -3,9 +3,9 @@
 #include "Cones.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,8 @@ Measured::Measured(drivers::UndecomposedSystem given, const scene::Scene& scene)
   size = (system.place.rowwise().maxCoeff() - system.place.rowwise().minCoeff()).norm();
   lengths = rows.rowwise().norm();
   gap = system.gap;
-  const double longest = lengths.size() > 0 ? lengths.maxCoeff() : 0;
+  constexpr double shortest = 1e-6; // that a row has which supports do not hold whole
+  const double longest = std::max(shortest, lengths.size() > 0 ? lengths.maxCoeff() : 0);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     if (std::abs(gap[i]) < 1e-12 * longest * (size + system.place.cwiseAbs().maxCoeff()))
       gap[i] = 0;
@@ -83,12 +84,11 @@ void Measured::findMotions() {
     else if (system.components == 2)
       rigid = rigid(allOf, std::array{0, 1, 5}).eval();
     // Where supports hold much, motions of what is free may be multiples of each other.
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rigid, Eigen::ComputeThinU);
-    const Eigen::VectorXd& sizes = svd.singularValues();
+    const auto [sizes, motions] = direct::rightSingularOf(rigid);
     Eigen::Index rank = 0;
     while (rank < sizes.size() && isClear(sizes[rank] / sizes[0], "motions of what is free"))
       ++rank;
-    rigid = svd.matrixU().leftCols(rank) * std::sqrt(count);
+    rigid = rigid * motions.leftCols(rank) * (std::sqrt(count) * sizes.head(rank).cwiseInverse()).asDiagonal();
     const Eigen::MatrixXd image = diagonal.cwiseInverse().asDiagonal() * (system.stiffness * rigid);
     const Eigen::MatrixXd free = rigid * nullSpace(image, "motions that supports leave");
     motion.conservativeResize(Eigen::NoChange, motion.cols() + free.cols());

@@ -6,8 +6,8 @@
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -34,9 +34,9 @@ public:
   explicit GeneralisedInverse(const Measured& measured)
       : stiffness_(measured.system.stiffness.cast<Real>()), held_(stiffness_) {
     if (const Eigen::Index k = measured.motion.cols(); k > 0) {
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(measured.motion.transpose());
+      const std::vector<Eigen::Index> order = direct::pivotedColumns(measured.motion.transpose()).order;
       for (Eigen::Index i = 0; i < k; ++i) {
-        const auto unknown = static_cast<int>(qr.colsPermutation().indices()[i]);
+        const auto unknown = static_cast<int>(order[static_cast<std::size_t>(i)]);
         held_.coeffRef(unknown, unknown) *= 2;
       }
     }
@@ -172,8 +172,7 @@ Eigen::MatrixXd directionsOf(const Eigen::MatrixXd& along) {
 bool areIndependent(const Eigen::MatrixXd& rows) {
   if (rows.rows() == 0 || rows.rows() > rows.cols())
     return rows.rows() == 0;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-  return qr.matrixR().diagonal().cwiseAbs().minCoeff() > 1e-2;
+  return direct::pivotedColumns(rows.transpose(), 1e-2).rank == rows.rows();
 }
 
 void fill(const Measured& measured, const Solution& solution, double force, Truth& truth) {
@@ -188,9 +187,11 @@ void fill(const Measured& measured, const Solution& solution, double force, Trut
                                stiffness * truth.largest * truth.largest);
   const Eigen::VectorXd lambda = solution.multiplier.cast<double>().cwiseQuotient(measured.lengths);
   truth.force = lambda.head(measured.numContacts()).sum();
-  std::vector<Eigen::Index> active;
+  const double closed = roundOff * std::max(measured.gapScale, u.cwiseAbs().maxCoeff());
+  std::vector<Eigen::Index> active; // with those that touch: they may share
   for (Eigen::Index i = 0; i < measured.gap.size(); ++i)
-    if (i >= measured.numContacts() || static_cast<double>(solution.multiplier[i]) > roundOff * force)
+    if (i >= measured.numContacts() || static_cast<double>(solution.multiplier[i]) > roundOff * force ||
+        solution.slack[i] < closed)
       active.push_back(i);
   if (areIndependent(chosen(measured.rows, active)))
     truth.forceScale = std::max(force, lambda.cwiseAbs().sum());

@@ -1,0 +1,66 @@
+#pragma once
+
+/// The run of solveByActiveSets: `settle` goes from face to face through points that may lie outside of Ω (ActiveSets.cpp); where it finds no end,
+/// `descend` goes on through points of Ω (ActiveSetDescent.cpp).
+
+#include "epafi/qp/ActiveSets.hpp"
+#include "epafi/qp/FaceIteration.hpp"
+#include "epafi/qp/StoppingRule.hpp"
+
+#include <optional>
+
+namespace epafi::qp {
+
+/// Keeps references to the problem.
+class ActiveSetIteration {
+public:
+  ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
+             const SmalbeTolerances& tolerances, const MprgpParameters& limits);
+  /// Collective.
+  Status run(Observer* observer);
+  void describe(SolveReport& report) const;
+  [[nodiscard]] const Vector& solution() const { return on_.x; }
+
+private:
+  static constexpr int maxIdleFaces = 24;  ///< in a row with no smaller gradient, or objective
+  static constexpr int maxFaceSteps = 200; ///< of CG before a face is looked at again
+  static constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
+
+  Status settle();  ///< the loop of the paper
+  Status descend(); ///< through points of Ω alone
+  void chooseFirstFace(const ActiveSetProblem& problem);
+  std::optional<Status> minimise(int maxSteps);
+  [[nodiscard]] bool isEndless();
+  [[nodiscard]] bool isNearlySmall() const;
+  bool chooseFace(bool isCautious);
+  bool balance();
+  bool startInside();
+  void release(double share);
+  double follow(const Vector& p, double most);
+  bool isSolved();
+  [[nodiscard]] bool isSmall(double gradient, double energy);
+  [[nodiscard]] bool holdsEquality() const;
+  void record(StepKind kind);
+  [[nodiscard]] double enough() const {
+    return tolerances_.gradient * tolerances_.gradientReference * objective_.scale();
+  }
+
+  StepCounts counts_;
+  const ActiveSetProblem& problem_;
+  const ConvexSet& set_;
+  ScaledObjective objective_;
+  SmalbeTolerances tolerances_;
+  std::optional<ErrorWatch> watch_; ///< with an error's target
+  Interruption interruption_;
+  FaceIteration on_;            ///< the face, with x and g
+  Vector start_;
+  Vector best_;                 ///< the point with the least gradient on entering a face
+  Vector inside_, next_, work_; ///< x projected; the next face
+  FusedReduction reduction_;
+  double faceReduction_;
+  double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled
+  long long numActive_ = 0;
+  bool isAtOrigin_ = false; ///< where the method starts
+};
+
+} // namespace epafi::qp
