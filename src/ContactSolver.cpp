@@ -48,8 +48,8 @@ Teuchos::ParameterList ContactSolver::validParameters() {
           "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes.",
           0.0, 1.0, true);
   addChoice(list, "Algorithm", algorithms.front(),
-            "How contact is found. 'MPRGP': the paper's, with SMALBE around it where bodies float; with a "
-            "preconditioner active sets go on after 300 products. 'active "
+            "How contact is found. 'MPRGP': the paper's, with SMALBE around it where bodies float; "
+            "active sets go on after 300 products. 'active "
             "set': primal-dual active sets with equilibrium held exactly on every face, then MPRGP or SMALBE "
             "from their best "
             "point, should the faces not settle. 'auto': active set where bodies float and there is a "
@@ -177,6 +177,8 @@ void ContactSolver::settle(fetidp::DualSolution dual, const qp::Interruption& in
   const std::optional<fetidp::ContactSolution> settled =
       fetidp::recoverSettled(*dual_, dual, {0.01 * allowed, asked}, report_, interruption);
   if (!settled || report_.status == qp::Status::interrupted || report_.status == qp::Status::timeLimit)
+    return;
+  if (settled->equilibrium > std::max(2 * dualParameters_.equilibriumTolerance, solution.equilibrium))
     return;
   if (settled->relativeProjectedGradient <= 2 * tolerance ||
       (!isStagnated && settled->feasibility < solution.feasibility)) {

@@ -15,15 +15,15 @@ namespace epafi::qp {
 class ActiveSetIteration {
 public:
   ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
-             const SmalbeTolerances& tolerances, const MprgpParameters& limits);
+                     const SmalbeTolerances& tolerances, const MprgpParameters& limits);
   /// Collective.
   Status run(Observer* observer);
   void describe(SolveReport& report) const;
   [[nodiscard]] const Vector& solution() const { return on_.x; }
 
 private:
-  static constexpr int maxIdleFaces = 24;  ///< in a row with no smaller gradient, or objective
-  static constexpr int maxFaceSteps = 200; ///< of CG before a face is looked at again
+  static constexpr int maxIdleFaces = 24;          ///< in a row with no smaller gradient, or objective
+  static constexpr int maxFaceSteps = 200;         ///< of CG before a face is looked at again
   static constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
 
   Status settle();  ///< the loop of the paper
@@ -52,7 +52,7 @@ private:
   SmalbeTolerances tolerances_;
   std::optional<ErrorWatch> watch_; ///< with an error's target
   Interruption interruption_;
-  FaceIteration on_;            ///< the face, with x and g
+  FaceIteration on_; ///< the face, with x and g
   Vector start_;
   Vector best_;                 ///< the point with the least gradient on entering a face
   Vector inside_, next_, work_; ///< x projected; the next face

@@ -17,7 +17,7 @@ constexpr int maxFaces = 300;
 constexpr int caution = 4; ///< from so many idle faces on one bound is released at a time
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
 constexpr double safety = 0.5;
-constexpr double roundOffOfX = 1e-13;     ///< of x that leaves Ω by it
+constexpr double roundOffOfX = 1e-13; ///< of x that leaves Ω by it
 /// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that nearly depend on each other, with forces
 /// out of all proportion. The faces that follow may make up for it; where it happens again and again they do not.
 constexpr double runaway = 1e3;
@@ -25,14 +25,15 @@ constexpr int mostRunaways = 1, mostRunawayFaces = 8;
 
 } // namespace
 
-ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
-                       const SmalbeTolerances& tolerances, const MprgpParameters& limits)
+ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start,
+                                       const Vector* face, const SmalbeTolerances& tolerances,
+                                       const MprgpParameters& limits)
     : problem_(problem), set_(*problem.set),
       objective_(problem.hessian, problem.operatorNorm, limits.maxMultiplications, counts_),
       tolerances_(tolerances), interruption_(limits.timeLimit),
       on_(objective_, problem.preconditioner, problem.equality, interruption_, counts_),
-      start_(start, Teuchos::Copy), best_(start, Teuchos::Copy), inside_(objective_.map()), next_(objective_.map()),
-      work_(objective_.map()), reduction_(objective_.map()->getComm(), 4),
+      start_(start, Teuchos::Copy), best_(start, Teuchos::Copy), inside_(objective_.map()),
+      next_(objective_.map()), work_(objective_.map()), reduction_(objective_.map()->getComm(), 4),
       faceReduction_(problem.faceReduction) {
   objective_.setLinearTerm(*problem.linearTerm, 0);
   if (tolerances.error != nullptr)

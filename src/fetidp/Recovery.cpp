@@ -310,6 +310,13 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
   }
   assess(problem, *sizes, found, dual.norm().norm, largest, solution);
+  if (settling != nullptr && !dual.coarseSpace().is_null()) { // of the λ that has been settled
+    const NaturalCoarseSpace& space = *dual.coarseSpace();
+    const Eigen::VectorXd resultants = kernelLoad(problem);
+    solution.equilibrium =
+        space.normOf(space.product(*solution.multiplier) - resultants) /
+        equilibriumReference(problem, space, resultants, found.reference, dual.norm().norm);
+  }
   return solution;
 }
 

@@ -1,7 +1,7 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 
 #include "SampleCells.hpp"
 

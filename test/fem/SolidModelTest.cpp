@@ -2,9 +2,9 @@
 
 #include "WholeBody.hpp"
 
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include "TurnedMesh.hpp"
 #include "WholeBody.hpp"
 
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/SupportNormals.hpp"
 #include "epafi/fem/UnstructuredMesh.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <gtest/gtest.h>
 

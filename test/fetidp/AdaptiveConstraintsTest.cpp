@@ -2,12 +2,12 @@
 #include "Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fetidp/CorrectedPreconditioner.hpp"
 #include "epafi/fetidp/Joints.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 #include "epafi/fetidp/OverratedColumns.hpp"
 #include "epafi/qp/DeflatedOperator.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>

@@ -1,8 +1,8 @@
 #include "Preconditioned.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
-#include "epafi/fetidp/CondensedSubdomain.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/fetidp/CondensedSubdomain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/fetidp/ContactCrosspoints.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/fetidp/ContactCrosspoints.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>

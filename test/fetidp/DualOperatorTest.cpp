@@ -2,8 +2,8 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Compatibility.hpp"
-#include "epafi/fetidp/DualOperator.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/fetidp/DualOperator.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

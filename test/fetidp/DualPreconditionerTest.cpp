@@ -134,12 +134,10 @@ private:
     const std::vector<int> boundary = interfaceOf(s).boundary;
     if (boundary.empty())
       return;
-    const Eigen::MatrixXd krr = k(r, r),
-                          inverse = direct::inverseOfSpd(krr);
-    const Eigen::MatrixXd stiffness =
-        parameters_.type == Type::lumped
-            ? Eigen::MatrixXd(krr(boundary, boundary))
-            : direct::inverseOfSpd(inverse(boundary, boundary));
+    const Eigen::MatrixXd krr = k(r, r), inverse = direct::inverseOfSpd(krr);
+    const Eigen::MatrixXd stiffness = parameters_.type == Type::lumped
+                                          ? Eigen::MatrixXd(krr(boundary, boundary))
+                                          : direct::inverseOfSpd(inverse(boundary, boundary));
     Eigen::MatrixXd t = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(boundary.size()), m.cols());
     for (std::size_t i = 0; i < boundary.size(); ++i)
       for (const auto& entry : s.constraint)

@@ -2,9 +2,9 @@
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fetidp/JointStiffness.hpp"
 #include "epafi/fetidp/Joints.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>
@@ -178,7 +178,8 @@ TEST(JointStiffnessTest, AHingeIsOneJumpWithoutEnergy) {
   EXPECT_GE(jumps.ratios[0], 1e8);
   const Eigen::VectorXd v = jumps.forces.col(0);
   const Eigen::MatrixXd rest = kernelOf(v); // jumps with vᵀy = 0
-  const Eigen::MatrixXd stiffness = direct::inverseOfSpd(hinged.flexibility()), // kappa: the largest with M y = kappa S y
+  const Eigen::MatrixXd stiffness = direct::inverseOfSpd(
+                            hinged.flexibility()), // kappa: the largest with M y = kappa S y
       largest = 30 * stiffness - hinged.preconditioner;
   EXPECT_GE(direct::eigenOf(rest.transpose() * largest * rest).values[0], 0);
 }

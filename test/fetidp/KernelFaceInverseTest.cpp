@@ -2,9 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fetidp/KernelFaceInverse.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

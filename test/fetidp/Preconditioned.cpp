@@ -2,9 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/EigenCompatibility.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>

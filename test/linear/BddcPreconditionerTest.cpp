@@ -4,8 +4,8 @@
 #include "../fetidp/Preconditioned.hpp"
 
 #include "epafi/base/Parameters.hpp"
-#include "epafi/linear/BddcPreconditioner.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/linear/BddcPreconditioner.hpp"
 
 #include <BelosBlockCGSolMgr.hpp>
 #include <BelosPseudoBlockCGSolMgr.hpp>

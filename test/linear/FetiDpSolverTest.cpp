@@ -4,9 +4,9 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
 #include "epafi/linear/FetiDpSolver.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -4,8 +4,8 @@
 #include "../decomposition/HandedOver.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/linear/NodalBasis.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/linear/NodalBasis.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>

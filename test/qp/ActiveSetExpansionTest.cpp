@@ -40,8 +40,8 @@ QpAnswer solveGround(const DenseProgram& program, const std::string& expansion, 
     call.change = [&](qp::QuadraticProgram& problem) {
       const Eigen::Index n = program.size();
       const Eigen::MatrixXd ground = program.hessian - Eigen::MatrixXd::Constant(n, n, 9.0);
-      problem.preconditioner = rcp(new DenseOperator(problem.hessian->getDomainMap(),
-                                                     direct::inverseOfSpd(ground)));
+      problem.preconditioner =
+          rcp(new DenseOperator(problem.hessian->getDomainMap(), direct::inverseOfSpd(ground)));
     };
   return solveQp(program, call);
 }
@@ -100,8 +100,9 @@ TEST(ActiveSetExpansionTest, AutoIsProjectedCgWhereThatDoesWell) {
     const DenseProgram program = mixedProgram(40, 10, 300 + seed);
     QpCall call{withTolerance(1e-9)};
     call.change = [&](qp::QuadraticProgram& problem) {
-      problem.preconditioner = rcp(new DenseOperator(
-          problem.hessian->getDomainMap(), direct::inverseOfSpd(program.hessian) + Eigen::MatrixXd::Identity(40, 40)));
+      problem.preconditioner =
+          rcp(new DenseOperator(problem.hessian->getDomainMap(),
+                                direct::inverseOfSpd(program.hessian) + Eigen::MatrixXd::Identity(40, 40)));
     };
     call.parameters.sublist("MPRGP").set("Expansion", std::string("projected CG"));
     const QpAnswer plain = solveQp(program, call);

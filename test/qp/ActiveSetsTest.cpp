@@ -1,8 +1,8 @@
 #include "EqualityProblems.hpp"
 
+#include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/Box.hpp"
-#include "epafi/direct/DenseSymmetric.hpp"
 
 #include <gtest/gtest.h>
 

@@ -111,7 +111,8 @@ TEST_F(ColumnSpaceTest, GivesCoefficientsToWhoeverKeepsThem) {
 TEST_F(ColumnSpaceTest, DeflatesAnOperator) {
   ASSERT_TRUE(space.factorize());
   const qp::DeflatedOperator deflated(a, space);
-  const Eigen::MatrixXd au = matrix * dense, expected = matrix - au * direct::inverseOfSpd(gram) * au.transpose();
+  const Eigen::MatrixXd au = matrix * dense,
+                        expected = matrix - au * direct::inverseOfSpd(gram) * au.transpose();
   MultiVector y(map, 2);
 
   deflated.apply(*someColumns(), y);

@@ -1,8 +1,8 @@
 #include "Problems.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/MatrixEquality.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
+#include "epafi/qp/MatrixEquality.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Types.hpp"
+#include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
 #include "epafi/qp/LocalData.hpp"
-#include "epafi/direct/DenseOrthogonal.hpp"
 
 #include <Eigen/Dense>
 #include <Teuchos_Comm.hpp>

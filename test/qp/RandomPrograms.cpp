@@ -4,7 +4,6 @@
 
 #include "Problems.hpp"
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,11 +1,10 @@
 #include "Problems.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/SpectrumEstimate.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
+#include "epafi/qp/SpectrumEstimate.hpp"
 
 #include <gtest/gtest.h>
-
 
 namespace {
 

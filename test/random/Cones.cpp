@@ -3,7 +3,6 @@
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -88,7 +88,8 @@ void Measured::findMotions() {
     Eigen::Index rank = 0;
     while (rank < sizes.size() && isClear(sizes[rank] / sizes[0], "motions of what is free"))
       ++rank;
-    rigid = rigid * motions.leftCols(rank) * (std::sqrt(count) * sizes.head(rank).cwiseInverse()).asDiagonal();
+    rigid =
+        rigid * motions.leftCols(rank) * (std::sqrt(count) * sizes.head(rank).cwiseInverse()).asDiagonal();
     const Eigen::MatrixXd image = diagonal.cwiseInverse().asDiagonal() * (system.stiffness * rigid);
     const Eigen::MatrixXd free = rigid * nullSpace(image, "motions that supports leave");
     motion.conservativeResize(Eigen::NoChange, motion.cols() + free.cols());
