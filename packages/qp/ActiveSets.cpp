@@ -1,5 +1,6 @@
 #include "epafi/qp/ActiveSets.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/qp/ActiveSetIteration.hpp"
 #include "epafi/qp/LocalData.hpp"
 
