@@ -1,10 +1,13 @@
 #include "epafi/contact/QuadraticFaces.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <set>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace epafi::contact {
 namespace {
@@ -98,18 +101,25 @@ void addWeights(const fem::Surface& surface, const std::map<GlobalOrdinal, std::
   }
 }
 
-/// W; of tied joints, whose nodes come once for each component, of each of these.
+/// W; of tied joints, whose nodes come once for each component that supports leave them, of each of these.
 Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
-  Weights weights;
-  std::map<GlobalOrdinal, std::ptrdiff_t> rowOf;
-  for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
-    if (rowOf.contains(contact.firstNodes[row])) {
-      addWeights(surface, rowOf, weights);
-      rowOf.clear();
-    }
-    rowOf.emplace(contact.firstNodes[row], static_cast<std::ptrdiff_t>(row));
+  const std::size_t numRows = contact.firstNodes.size();
+  const bool hasComponents =
+      std::set<GlobalOrdinal>(contact.firstNodes.begin(), contact.firstNodes.end()).size() < numRows;
+  const auto components =
+      static_cast<std::ptrdiff_t>(contact.directions.size() / std::max<std::size_t>(1, numRows));
+  std::map<std::vector<double>, std::map<GlobalOrdinal, std::ptrdiff_t>>
+      rowsAlong; // directions, if there are several
+  for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(numRows); ++row) {
+    const auto direction = contact.directions.begin() + row * components;
+    std::vector<double> along;
+    if (hasComponents)
+      along.assign(direction, direction + components);
+    rowsAlong[along].emplace(contact.firstNodes[static_cast<std::size_t>(row)], row);
   }
-  addWeights(surface, rowOf, weights);
+  Weights weights;
+  for (const auto& [along, rowOf] : rowsAlong)
+    addWeights(surface, rowOf, weights);
   return weights;
 }
 

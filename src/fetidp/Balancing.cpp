@@ -27,6 +27,19 @@ void markFree(const decomposition::DecomposedProblem& problem, const Vector& lam
 
 } // namespace
 
+double gradientReference(const decomposition::DecomposedProblem& problem, const Vector& d) {
+  constexpr double most = 10;
+  Vector violated(d, Teuchos::Copy);
+  {
+    const auto values = violated.getDataNonConst();
+    for (LocalOrdinal row = 0; row < values.size(); ++row)
+      if (isContact(problem, row))
+        values[row] = std::max(values[row], 0.0);
+  }
+  const double whole = accurateNorm(d), part = accurateNorm(violated);
+  return part > 0 ? std::min(whole, most * part) : whole;
+}
+
 double equilibriumReference(const decomposition::DecomposedProblem& problem, const NaturalCoarseSpace& space,
                             const Eigen::VectorXd& resultants, double gradient, double norm) {
   const double resultant = space.normOf(resultants),

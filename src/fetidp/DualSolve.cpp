@@ -176,13 +176,13 @@ void IterativeSolve::completeJumps(Vector& lambda) const {
     dual_.deflatedOperator()->complete(*wholeRhs_.values, lambda);
 }
 
-/// Residuals are relative to ‖d̃‖ or ‖Pd‖. One that is the round-off of its terms is set to zero, and their size
+/// Residuals are relative to the size of d̃ or Pd (Balancing.hpp). One that is the round-off of its terms is set to zero, and their size
 /// becomes the measure; returns whether that is so. Collective.
 bool IterativeSolve::setReference() {
   const bool vanishes = rhs_->normInf() <= 1e-13 * wholeRhs_.termSize;
   if (vanishes)
     rhs_->putScalar(0.0);
-  solution_.reference = vanishes ? wholeRhs_.termSize : accurateNorm(*rhs_);
+  solution_.reference = vanishes ? wholeRhs_.termSize : gradientReference(problem_, *rhs_);
   return vanishes;
 }
 
@@ -281,7 +281,7 @@ void IterativeSolve::iterateInBounds() {
                                  dual_.preconditioner(), dual_.norm().norm};
   const qp::ActiveSetProblem faces{problem.hessian, problem.linearTerm,     problem.set,
                                    Teuchos::null,   problem.preconditioner, problem.operatorNorm};
-  const double reference = accurateNorm(*rhs_);
+  const double reference = rhs_->normInf() > 0 ? solution_.reference : 0;
   qp::SmalbeTolerances tolerances{.gradient = tolerance_, .gradientReference = reference};
   if (balance_ == nullptr || reference == 0) {
     iterate(faces, tolerances, *solution_.lambda, observer_,

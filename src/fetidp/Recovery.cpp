@@ -44,33 +44,44 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   return energy.value();
 }
 
+/// Largest |c| of the rows that hold or overlap: the distance of a contact that stays open is no size of the solution. Collective.
+double largestGap(const DecomposedProblem& problem, const Vector& lambda) {
+  const auto gap = problem.gap->getData(), force = lambda.getData();
+  double largest = 0;
+  for (LocalOrdinal i = 0; i < gap.size(); ++i)
+    if (problem.kindOf(decomposition::OwnedMultiplier(i)) != decomposition::RowKind::contact ||
+        force[i] > 0 || gap[i] < 0)
+      largest = std::max(largest, std::abs(gap[i]));
+  return maxOverRanks(*problem.comm, largest);
+}
+
 /// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
 /// problem. \param sizes  see sizesOfRows
 void assess(const DecomposedProblem& problem, const Vector& sizes, const DualSolution& dual,
             double operatorNorm, double largestValue, ContactSolution& solution) {
   const auto force = solution.multiplier->getData(), slack = solution.slack->getData();
-  const auto gap = problem.gap->getData(), size = sizes.getData();
+  const auto size = sizes.getData();
   const auto active = solution.active->getDataNonConst();
   AccurateSum sums[4]; // ‖g^P‖², λᵀg, force, active nodes
-  double violation = 0, largestGap = 0;
+  double violation = 0;
   for (LocalOrdinal i = 0; i < force.size(); ++i) {
     const bool isContact =
         problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact;
     const double projected = isContact && !(force[i] > 0) ? std::min(slack[i], 0.0) : slack[i];
     sums[0].add(projected * projected);
     violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]) / size[i]);
-    largestGap = std::max(largestGap, std::abs(gap[i]));
     if (!isContact)
       continue;
     sums[1].add(force[i] * slack[i]);
     sums[2].add(force[i]);
-    active[i] = operatorNorm * force[i] > slack[i] ? 1.0 : 0.0; // λ − (c − Bu)/‖F‖ > 0
+    // λ − (c − Bu)/‖F‖ > 0; where motions of bodies alone fix all forces, ‖F‖ = 0
+    active[i] = (operatorNorm > 0 ? operatorNorm * force[i] > slack[i] : force[i] > 0) ? 1.0 : 0.0;
     sums[3].add(active[i]);
   }
   const Comm& comm = *problem.comm;
   sumOverRanks(comm, sums);
   violation = maxOverRanks(comm, violation);
-  const double scale = maxOverRanks(comm, std::max(largestGap, largestValue));
+  const double scale = std::max(maxOverRanks(comm, largestValue), largestGap(problem, *solution.multiplier));
   const auto relative = [](double value, double reference) {
     return reference > 0 ? value / reference : value;
   };
@@ -217,8 +228,8 @@ bool settle(const DualProblem& dual, const Settling& settling, const Vector& siz
   double largest = 0; // displacement
   for (const Eigen::MatrixXd& values : u)
     largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
-  double allowed = settling.allowed.relative *
-                   std::max(maxOverRanks(*dual.problem().comm, largest), dual.problem().gap->normInf());
+  double allowed = settling.allowed.relative * std::max(maxOverRanks(*dual.problem().comm, largest),
+                                                        largestGap(dual.problem(), *solution.multiplier));
   if (settling.allowed.absolute > 0)
     allowed = std::min(allowed, settling.allowed.absolute);
   HeldRows rows(dual.problem(), sizes, *solution.multiplier);
@@ -313,9 +324,10 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
   if (settling != nullptr && !dual.coarseSpace().is_null()) { // of the λ that has been settled
     const NaturalCoarseSpace& space = *dual.coarseSpace();
     const Eigen::VectorXd resultants = kernelLoad(problem);
-    solution.equilibrium =
-        space.normOf(space.product(*solution.multiplier) - resultants) /
-        equilibriumReference(problem, space, resultants, found.reference, dual.norm().norm);
+    const double imbalance = space.normOf(space.product(*solution.multiplier) - resultants),
+                 reference =
+                     equilibriumReference(problem, space, resultants, found.reference, dual.norm().norm);
+    solution.equilibrium = reference > 0 ? imbalance / reference : imbalance;
   }
   return solution;
 }

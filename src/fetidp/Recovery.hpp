@@ -22,7 +22,7 @@ ContactSolution recover(const DualProblem& dual, const DualSolution& found);
 
 /// What rows may be violated by, the smaller of both.
 struct AllowedViolation {
-  double relative = 0; ///< to the largest displacement or gap
+  double relative = 0; ///< to the largest displacement, or gap that is closed
   double absolute = 0; ///< 0: as the other says
 };
 

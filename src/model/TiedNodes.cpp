@@ -3,6 +3,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/KnownRows.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -41,8 +42,12 @@ void TiedNodes::dropFrom(ContactLayout& contact) const {
   std::vector<std::size_t> kept;
   std::string names;
   for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
-    const GlobalOrdinal own = contact.firstNodes[row], other = contact.secondNodes[row].front().node;
-    if (!isHeld(own) && !isOtherHeld(other)) {
+    const GlobalOrdinal own = contact.firstNodes[row];
+    const auto& shares = contact.secondNodes[row];
+    const GlobalOrdinal other = shares.front().node;
+    if (!isHeld(own) && !std::all_of(shares.begin(), shares.end(), [&](const contact::NodeShare& share) {
+          return isOtherHeld(share.node);
+        })) {
       kept.push_back(row);
       continue;
     }

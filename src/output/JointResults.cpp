@@ -53,8 +53,9 @@ public:
       const Vector3d direction = force * weight * directionAt(layout_, place);
       layout_.forEachFirst(
           place, [&](const contact::NodeShare& share) { addAt(layout_.firstBody, share, direction, 0); });
-      for (const contact::NodeShare& share : layout_.secondNodes[place])
-        addAt(layout_.secondBody, share, direction, 6);
+      if (layout_.secondBody >= 0) // else an obstacle, which has no nodes
+        for (const contact::NodeShare& share : layout_.secondNodes[place])
+          addAt(layout_.secondBody, share, direction, 6);
     });
     if (!layout_.secondLevers.empty())
       for (const contact::NodeForce& lever : layout_.secondLevers[row])

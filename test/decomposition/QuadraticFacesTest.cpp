@@ -92,6 +92,30 @@ TEST(QuadraticFacesTest, OtherFunctionsShareTheNodesOut) {
   }
 }
 
+/// Supports leave nodes of a tied joint fewer rows than others: components stay apart all the same.
+TEST(QuadraticFacesTest, ComponentsOfATieAreSmoothedEachForItself) {
+  for (const bool simplices : {false, true}) {
+    const Side side(simplices);
+    const std::size_t n = side.nodes.nodes.size(), numHeld = n / 3;
+    contact::ContactLayout tie;
+    for (int component = 0; component < 3; ++component)
+      for (std::size_t k = component == 1 ? 0 : numHeld; k < n;
+           ++k) { // the first and the last are held at some
+        tie.firstNodes.push_back(side.nodes.nodes[k]);
+        for (int d = 0; d < 3; ++d)
+          tie.directions.push_back(d == component ? 1.0 : 0.0);
+      }
+    smoothRows(side.surface, tie);
+    for (std::size_t row = 0; row < tie.firstNodes.size(); ++row)
+      for (const auto& share : tie.smoothed[row])
+        EXPECT_TRUE(std::equal(tie.directions.begin() + static_cast<std::ptrdiff_t>(3 * row),
+                               tie.directions.begin() + static_cast<std::ptrdiff_t>(3 * row + 3),
+                               tie.directions.begin() + static_cast<std::ptrdiff_t>(3 * share.node)));
+    for (std::size_t k = 0; k < n; ++k) // the second has all rows, as a contact has
+      EXPECT_EQ(tie.smoothed[n - numHeld + k].size(), side.layout.smoothed[k].size());
+  }
+}
+
 /// On an even mesh, of p = |x|² in the surface, whose forces divided by areas alternate by h²/10.
 TEST(QuadraticFacesTest, MeansOfAQuadraticPressureAreOffByTheSameEverywhere) {
   const fem::StructuredMesh mesh({{0, 0, 0}, {4, 4, 1}}, {4, 4, 1}, 2);

@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -238,6 +239,32 @@ TEST(SharedRowsTest, ATieBesideAContactKeepsTheirCommonNodes) {
         EXPECT_NEAR(total(touch.areas) + total(weld.areas) / meshing.dimension, 2, 1e-12);
       }
       EXPECT_EQ(touch.note.empty(), upper == 6); // by mortars nothing is shared
+    }
+}
+
+/// A node in the middle of a straight edge hangs on both ends of that, of which the tie may hold one.
+TEST(SharedRowsTest, ATieOfBodiesOfTwoOrdersLeavesTheContactItsNodesBesideIt) {
+  for (const Meshing& meshing : {Meshing{2, 1, false}, {2, 1, true}, {3, 1, false}, {3, 1, true}})
+    for (const int lowerOrder : {1, 2}) {
+      SCOPED_TRACE(toString(meshing) + ", lower order " + std::to_string(lowerOrder));
+      Blocks blocks{meshing};
+      blocks.meshing.order = lowerOrder;
+      blocks.add("lower", 0, 2, -1, 0, 4);
+      blocks.meshing.order = 3 - lowerOrder;
+      blocks.add("upper", 0, 2, 0, 1, 4);
+      blocks.join("touch", "top right", "bottom right");
+      blocks.join("weld", "top left", "bottom left", Kind::tied);
+      const SceneContacts found = blocks.layout();
+      const ContactLayout& touch = found.contacts.at(0);
+      ASSERT_EQ(touch.means, "pairs of nodes");
+      const fem::Mesh& mesh = *blocks.bodies[static_cast<std::size_t>(touch.firstBody)].mesh;
+      const fem::Surface surface = mesh.surface(touch.firstBody == 0 ? "top right" : "bottom right");
+      std::set<GlobalOrdinal> beside;
+      for (std::size_t f = 0; f < surface.numFacets(); ++f)
+        for (const GlobalOrdinal node : surface.facet(f))
+          if (mesh.point(node)[0] > 1 + 1e-9)
+            beside.insert(node);
+      EXPECT_EQ(std::set<GlobalOrdinal>(touch.firstNodes.begin(), touch.firstNodes.end()), beside);
     }
 }
 

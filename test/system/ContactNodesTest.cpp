@@ -53,6 +53,55 @@ TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
   expectSameRun(reference, run);
 }
 
+/// The distance of what stays open is no measure of what is solved: held and floating, in the plane and in space.
+TEST(ContactNodesTest, AContactThatStaysOpenDoesNotSpoilTheOthers) {
+  constexpr double tolerance = 1e-6;
+  for (const int dimension : {2, 3})
+    for (const bool isFloating : {false, true}) {
+      SCOPED_TRACE(testing::Message() << dimension << "-D, " << (isFloating ? "floating" : "held"));
+      const bool isPlane = dimension == 2;
+      const scene::Vector3 up = isPlane ? scene::Vector3{0, 1, 0} : scene::Vector3{0, 0, 1},
+                           down{0, -up[1], -up[2]};
+      scene::Scene scene;
+      scene.bodies = {block("block", {{0, 0, 0}, {2, 1, isPlane ? 0.0 : 1.0}}, {8, 4, isPlane ? 0 : 2},
+                            cutInGrid({2, 1, 1}))};
+      scene.bodies[0].supports = {slide("left")};
+      if (!isPlane)
+        scene.bodies[0].supports.push_back(slide("front"));
+      if (!isFloating)
+        scene.bodies[0].supports = {{"left", "left", {0.0, 0.0, 0.0}}};
+      scene.bodies[0].loads = {weight(isPlane ? scene::Vector3{0.3, -1, 0} : scene::Vector3{0.3, 0, -1})};
+      scene.contacts = {onPlane("floor", 0, "bottom", {0, 0, 0}, up)};
+      const SolidRun alone(scene, tolerance);
+      ASSERT_GT(alone.solution.contactForce, 0.1);
+      for (const double gap : {1e1, 1e3, 1e6}) {
+        scene::Scene both = scene;
+        both.contacts.push_back(onPlane("roof", 0, "top", {0, isPlane ? 1 + gap : 0, 1 + gap}, down));
+        const SolidRun run(both, tolerance);
+        EXPECT_EQ(run.solver.report().status, qp::Status::converged);
+        EXPECT_NEAR(run.solution.contactForce / alone.solution.contactForce, 1, 2e-4) << gap;
+        EXPECT_NEAR(run.solution.energy / alone.solution.energy, 1, 2e-4) << gap;
+        EXPECT_EQ(run.solution.activeContactNodes, alone.solution.activeContactNodes) << gap;
+      }
+    }
+}
+
+/// Where motions of bodies alone fix all forces, F between projectors is 0.
+TEST(ContactNodesTest, ASingleRowThatCarriesTheLoadIsClosed) {
+  scene::Scene scene;
+  scene.bodies = {block("square", {{0, 0, 0}, {1, 1, 0}}, {4, 4, 0}, cutInGrid({1, 1, 1}))};
+  scene.bodies[0].supports = {slide("left")};
+  scene.bodies[0].loads = {weight({0, -1, 0})};
+  scene.contacts = {onPlane("dome", 0, "bottom", {0, -1, 0}, {0, 1, 0})};
+  scene.contacts[0].obstacle.kind = scene::Obstacle::Kind::sphere;
+  scene.contacts[0].obstacle.radius = 1;
+  scene.contacts[0].distance = 0.02; // of the others there is no row
+  const SolidRun run(scene);
+  ASSERT_EQ(run.decomposition.problem.numInequalities, 1);
+  EXPECT_EQ(run.solution.activeContactNodes, 1);
+  EXPECT_NEAR(run.solution.contactForce, 1, 1e-9);
+}
+
 TEST(ContactNodesTest, AContactThatSaysNothingNewIsRefused) {
   scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
   scene.contacts.push_back(scene.contacts[0]);

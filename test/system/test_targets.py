@@ -140,6 +140,17 @@ class SolvesAsAccuratelyAsAsked(Driver):
         self.assertEqual(run.returncode, SOLVED, run.stderr)
         self.assertRegex(run.stdout, r"quantity    force of contact 'interface': 0\.134\d* ± ")
 
+    def test_the_force_on_an_obstacle_has_a_bar(self):
+        for name, contact, ranks in (("hertz_cylinder", "touch", 2), ("hertz_sphere", "touch", 1), ("pressed_ring", "below", 2)):
+            report = self.place / "report.xml"
+            run = epafi(scene(name), "--report", report, "--set", "Accuracy/Quantity/Kind=force", "--set",
+                        f"Accuracy/Quantity/Contact={contact}", ranks=ranks)
+            self.assertEqual(run.returncode, SOLVED, run.stderr)
+            content = read_report(report)
+            value, bar = (float(content["Quantity"][entry]) for entry in ("Value", "Error Bar"))
+            self.assertTrue(0 < value <= (1 + 1e-9) * float(content["Contact Force"]), (name, value))
+            self.assertTrue(0 <= bar < 0.01 * value, (name, bar))
+
     def test_a_contact_without_force_has_no_bar_and_its_run_keeps_its_results(self):
         entries = [part for entry in ("Contact/interface/Gap=10", "Accuracy/Quantity/Kind=force", "Accuracy/Quantity/Contact=interface")
                    for part in ("--set", entry)]
