@@ -22,7 +22,7 @@ struct ContactSolution {
 
   // How accurate it is, recomputed from u and λ alone; all relative, without units.
   double relativeProjectedGradient = 0;
-  double feasibility = 0;     ///< largest penetration or jump, relative to the largest |u|, or |c| that is closed
+  double feasibility = 0; ///< largest penetration or jump, relative to the largest |u|, or |c| that is closed
   double complementarity = 0; ///< |λ_Iᵀ(c − Bu)| relative to the energy
   double equilibrium =
       0; ///< ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes (0 without floating bodies)

@@ -59,6 +59,13 @@ fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& b
 
 std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
                        scene::SurfaceContact& terms) {
+  const auto support = [&](int body, const std::string& surface) { // what one holds fixes no pressure
+    const auto& supports = scene.bodies[static_cast<std::size_t>(body)].supports;
+    return std::any_of(supports.begin(), supports.end(),
+                       [&](const scene::SolidSupport& held) { return held.surface == surface; })
+               ? 1.0
+               : 0.0;
+  };
   const auto others = [&](int body, const std::string& surface) {
     std::ptrdiff_t count = -1; // itself
     for (const scene::SurfaceContact& other : scene.contacts)
@@ -88,6 +95,8 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
         second < first ? scene::SurfaceContact::Side::second : scene::SurfaceContact::Side::first;
     return std::max(first, second) > margin * std::min(first, second);
   };
+  if (decides(support, 1))
+    return ", which no support holds there";
   if (decides(others, 1))
     return ", which has no other contact there";
   if (decides(spacing, 1.5))

@@ -108,11 +108,11 @@ void describeLoads(ParameterList& body) {
       "per area on a surface (per length on a membrane's); pressure: force per area against a surface's "
       "outward normal; point: force at a node.",
       {"body", "traction", "pressure", "point"});
-  addArray(
-      load, "Box", Array<double>(),
-      "Kind body: extent {x0, x1, y0, y1}, in space {x0, x1, y0, y1, z0, z1}, of what carries the load; {} "
-      "is the whole body.",
-      box);
+  addArray(load, "Box", Array<double>(),
+           "Kind body: extent {x0, x1, y0, y1}, in space {x0, x1, y0, y1, z0, z1}, of what carries the load: "
+           "that part of a "
+           "membrane, of an elastic body the elements whose centre lies in it. {} is the whole body.",
+           box);
   load.set("Group", "", "Kind body: physical group of the mesh file that carries the load.");
   load.set("Surface", "", "Kinds traction and pressure, required: the loaded surface.");
   addArray(load, "Point", Array<double>(), "Kind point, required: where the node lies, {x, y} or {x, y, z}.",
@@ -184,11 +184,12 @@ void describePair(ParameterList& contact) {
             "\"mortar\", integrals over what the surfaces have in common; \"auto\": pairs where all match, "
             "else mortars.",
             {"auto", "nodes", "mortar"});
-  addChoice(
-      pair, "Multipliers", "auto",
-      "With mortars: which surface carries the multipliers. \"auto\": one that no other contact has, "
-      "then the one that is finer by half, then that of the softer body, then the finer, then the first.",
-      {"auto", "first", "second"});
+  addChoice(pair, "Multipliers", "auto",
+            "With mortars: which surface carries the multipliers. \"auto\": one that no support holds, then "
+            "one that no "
+            "other contact has, then the one that is finer by half, then that of the softer body, then the "
+            "finer, then the first.",
+            {"auto", "first", "second"});
 }
 
 } // namespace

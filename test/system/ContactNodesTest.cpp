@@ -102,6 +102,43 @@ TEST(ContactNodesTest, ASingleRowThatCarriesTheLoadIsClosed) {
   EXPECT_NEAR(run.solution.contactForce, 1, 1e-9);
 }
 
+/// A platen, meshed finer than what it presses: forces on nodes that do not give would not be unique.
+TEST(ContactNodesTest, ASideThatASupportHoldsCarriesNoMultipliers) {
+  for (const int dimension : {2, 3})
+    for (const int order : {1, 2})
+      for (const bool isHeldFirst : {false, true}) {
+        SCOPED_TRACE(testing::Message() << dimension << "-D, order " << order << ", " << isHeldFirst);
+        const bool isPlane = dimension == 2;
+        const auto stacked = [&](const std::string& name, double low, int elements) {
+          scene::Body body = block(
+              name,
+              isPlane ? scene::Box{{0, low, 0}, {2, low + 1, 0}} : scene::Box{{0, 0, low}, {2, 1, low + 1}},
+              {elements, isPlane ? 2 : elements / 2, isPlane ? 0 : 2}, cutInGrid({1, 1, 1}));
+          body.mesh.order = order;
+          body.supports = {slide("left")};
+          if (!isPlane)
+            body.supports.push_back(slide("front"));
+          return body;
+        };
+        scene::Scene scene;
+        scene.bodies = {stacked("platen", 0, 6), stacked("block", 1, 4)};
+        scene.bodies[0].supports.push_back(slide("bottom", -0.01));
+        scene.bodies[0].supports.push_back(slide("top", 0.01));
+        scene.bodies[0].material.poissonsRatio = 0;
+        scene.bodies[1].supports.push_back(slide("top"));
+        scene.contacts = {isHeldFirst ? between("c", 0, "top", 1, "bottom")
+                                      : between("c", 1, "bottom", 0, "top")};
+        const SolidRun run(scene);
+        const double nu = scene.bodies[1].material.poissonsRatio,
+                     pressure = 0.01 * 200 / (isPlane ? 1 - nu * nu : 1);
+        const contact::ContactLayout& layout = run.decomposition.contacts.at(0);
+        EXPECT_EQ(layout.firstBody, 1);
+        const std::vector<double> forces = run.forces();
+        for (std::size_t row = 0; row < forces.size(); ++row)
+          EXPECT_NEAR(forces[row] / layout.areas[row], pressure, 1e-7 * pressure);
+      }
+}
+
 TEST(ContactNodesTest, AContactThatSaysNothingNewIsRefused) {
   scene::Scene scene = inCorner(cutInGrid({2, 2, 1}));
   scene.contacts.push_back(scene.contacts[0]);

@@ -148,7 +148,7 @@ class SolvesAsAccuratelyAsAsked(Driver):
             self.assertEqual(run.returncode, SOLVED, run.stderr)
             content = read_report(report)
             value, bar = (float(content["Quantity"][entry]) for entry in ("Value", "Error Bar"))
-            self.assertTrue(0 < value <= (1 + 1e-9) * float(content["Contact Force"]), (name, value))
+            self.assertTrue(0 < value <= (1 + 1e-9) * float(content["Accuracy"]["Contact Force"]), (name, value))
             self.assertTrue(0 <= bar < 0.01 * value, (name, bar))
 
     def test_a_contact_without_force_has_no_bar_and_its_run_keeps_its_results(self):
