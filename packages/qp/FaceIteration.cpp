@@ -54,8 +54,8 @@ void FaceIteration::enter(bool isOrigin) {
     f_ = objective_.evaluate(x, image_, x, p_).objective;
   }
   objective_.gradient(image_, g_);
-  for (int pass = 0; pass < 2;
-       ++pass) { // what a row that hardly reaches the face leaves of a large g, the second takes
+  // What rows that hardly reach the face leave of a large g, the second pass takes.
+  for (int pass = 0; pass < (rows_.empty() ? 1 : 2); ++pass) {
     copy(g_, r_);
     equality_.addWholeTransposed(equality_.fit(r_), -1.0, g_);
   }

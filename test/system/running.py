@@ -71,9 +71,11 @@ def wait_for(condition, what, seconds=LIMIT):
 
 
 def ranks_of(launcher):
-    """Process numbers of the ranks that a mpirun has started."""
-    children = pathlib.Path(f"/proc/{launcher}/task/{launcher}/children")
-    return [int(number) for number in children.read_text().split()]
+    """Process numbers of the ranks that a mpirun has started, from release 5 on by a launcher of its own."""
+    started = sorted(int(number) for children in pathlib.Path(f"/proc/{launcher}/task").glob("*/children")
+                     for number in children.read_text().split())
+    return [rank for number in started for rank in
+            (ranks_of(number) if pathlib.Path(f"/proc/{number}/exe").resolve().name.startswith("prte") else [number])]
 
 
 def has(process, kind, number):
