@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace epafi::drivers {
@@ -151,13 +152,22 @@ fetidp::DataChange QuantityOfScene::evaluate(const output::SolvedScene& solved, 
       quantity.failure = "its force is shared with another joint: " + contact_->note;
     return change;
   }
-  AccurateSum sum;
+  std::array<AccurateSum, 2> sums; // of the terms, and of the weights' magnitudes
+  double largest = 0;
   for (std::size_t s = 0; s < weights_.size(); ++s) {
-    sum.add(weights_[s].dot(solved.solution.displacement[s]));
+    const Eigen::VectorXd& u = solved.solution.displacement[s];
+    sums[0].add(weights_[s].dot(u));
+    sums[1].add(weights_[s].cwiseAbs().sum());
+    largest = std::max(largest, u.size() > 0 ? u.cwiseAbs().maxCoeff() : 0);
     change.load.push_back(decomposition::loadOf(problem.subdomains[s], weights_[s]));
   }
-  sumOverRanks(*problem.comm, {&sum, 1});
-  quantity.value = sum.value();
+  sumOverRanks(*problem.comm, sums);
+  quantity.value = sums[0].value();
+  constexpr double roundOff = 1e-13;
+  if (std::abs(quantity.value) <= roundOff * sums[1].value() * maxOverRanks(*problem.comm, largest)) {
+    quantity.value = 0;
+    quantity.failure = "it is 0 to round-off, of which an error is no share";
+  }
   return change;
 }
 

@@ -216,9 +216,9 @@ MeshResult SceneLevels::resultOf(const SceneRun& run) {
   const qp::SolveReport& report = run.solver->report();
   if (report.status == qp::Status::interrupted ||
       (report.status != qp::Status::converged && !(result.algebraic <= run.error->toBalance())))
-    result.failure = report.reason;
-  else if (run.quantity)
-    result.failure = run.quantity->failure;
+    result.failure = "the iteration did not reach its tolerance on a mesh: " + report.reason;
+  else if (run.quantity && !run.quantity->failure.empty())
+    result.failure = "what is asked for has no error bar: " + run.quantity->failure;
   result.elements = elementsOf(run);
   return result;
 }

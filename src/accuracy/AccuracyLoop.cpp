@@ -115,7 +115,7 @@ std::string obstacle(const std::vector<MeshResult>& meshes, double growth, const
   for (const MeshResult& mesh : meshes)
     seconds += mesh.seconds;
   if (!last.failure.empty())
-    text << "the iteration did not reach its tolerance on a mesh: " << last.failure;
+    text << last.failure;
   else if (static_cast<int>(meshes.size()) >= goal.maxMeshes)
     text << "no more than " << goal.maxMeshes << " meshes are allowed";
   else if (next > goal.maxUnknowns)

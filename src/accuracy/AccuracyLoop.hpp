@@ -41,7 +41,7 @@ struct MeshResult {
   std::optional<Quantity> quantity;
   double change = 0;      ///< ‖u − u of the last mesh‖ in the energy norm; 0: not known
   double effectivity = 1; ///< estimate by error, as the loop takes it to be
-  std::string failure;    ///< why the iteration did not reach its tolerance; empty if it did
+  std::string failure;    ///< why the mesh has no error to go by; empty if it has
   ElementErrors
       elements; ///< of all bodies, their shares of the quantity's error for η²; the loop finds their orders, and keeps those of the last mesh alone
 

@@ -51,8 +51,8 @@ struct ContactLayout {
       secondNodes;                ///< what the same rows face, one node or more; empty for an obstacle
   std::vector<double> directions; ///< d, `components` numbers a row
   std::vector<double> gaps;       ///< before supports are taken into account
-  std::vector<double>
-      areas; ///< share of the first surface (in the plane: of its length) on which a row's force acts
+  /// Share of the first surface on which a row's force acts; in the plane of its length, times the thickness of the thinner body.
+  std::vector<double> areas;
   /// Of areas what each of the united contacts has; empty: there is one alone.
   std::vector<std::vector<double>> areasOfParts;
   /// What a row takes of the second body beside `secondNodes`, to be subtracted like these: forces that add up to none, and balance the

@@ -24,7 +24,7 @@ struct ContactTerms {
   bool coincide = false; ///< the surfaces do, and their nodes meet in order
   /// Of the thinner one of the bodies along a direction: overlaps are not deeper, what lies there is a far side. Empty: any depth.
   std::function<double(const Eigen::Vector3d& direction)> thickness{};
-  /// Of each facet of the first surface the thickness of a plane body, which areas count; empty: 1.
+  /// Of each facet of the first surface the thickness of plane bodies that areas count; empty: 1.
   std::vector<double> thicknesses{};
   /// Of each facet of the first surface to which of the united contacts it belongs; empty: there is one.
   std::vector<std::size_t> parts{};

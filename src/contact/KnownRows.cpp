@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <type_traits>
 #include <utility>
@@ -14,13 +13,6 @@ namespace {
 
 /// Directions, and gaps beside the nodes' spacing, that agree to this are the same.
 constexpr double same = 1e-9;
-
-/// Mean distance of nodes. Areas of single ones may be 0.
-double spacingOf(const ContactLayout& contact) {
-  const double area = std::accumulate(contact.areas.begin(), contact.areas.end(), 0.0) /
-                      static_cast<double>(contact.areas.size());
-  return contact.directions.size() == 3 * contact.firstNodes.size() ? std::sqrt(area) : area;
-}
 
 } // namespace
 
@@ -77,12 +69,11 @@ void KnownRows::requireRoom(const Entry& entry, Iterator first, Iterator last) {
   }
 }
 
-std::vector<KnownRows::Dropped> KnownRows::dropFrom(ContactLayout& contact) {
+std::vector<KnownRows::Dropped> KnownRows::dropFrom(ContactLayout& contact, double spacing) {
   std::vector<Dropped> dropped;
   std::vector<std::size_t> kept;
   std::vector<Entry> added;
   std::string repeated;
-  const double spacing = spacingOf(contact);
   for (std::size_t place = 0; place < contact.firstNodes.size(); ++place) {
     Entry entry = entryOf(contact, place);
     entry.second.spacing = spacing;

@@ -29,7 +29,8 @@ public:
   };
   /// Leaves out the rows that earlier contacts have, which it returns, and keeps the others in mind. \throws InputError if none is left,
   /// SolvabilityError (no solution) if rows of two contacts at the same node oppose each other without room between them.
-  std::vector<Dropped> dropFrom(ContactLayout& contact);
+  /// \param spacing  of its nodes, beside which gaps agree or do not
+  std::vector<Dropped> dropFrom(ContactLayout& contact, double spacing);
 
 private:
   using Place = std::pair<int, GlobalOrdinal>; ///< body (−1: an obstacle) and node

@@ -3,6 +3,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/FacingFaces.hpp"
 #include "epafi/contact/MortarIntegrals.hpp"
+#include "epafi/contact/MultiplierNodes.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/RowAreas.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -24,14 +24,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A node has no multiplier if less than this share of its N̂ is covered.
-constexpr double leastCoverage = 1e-3;
 /// Facets covered by less than this share of them have constant ψ.
 constexpr double sliverOfFacet = 0.02;
 /// Shares that would be 0 without round-off.
 constexpr double roundOffOfWeights = 1e-13;
-
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 /// What a row takes of both sides.
 struct MortarRow {
@@ -45,8 +41,8 @@ class RowMaker {
 public:
   RowMaker(const ContactTerms& terms, const PlacedSurface& first, const PlacedSurface& second)
       : first_(first), second_(second), nodes_(surfaceNodes(first.pointAt, first.surface)),
-        basis_(dualBasis(first.surface.facetType)), facets_(mortarIntegrals(terms, first, second)) {
-    measureCoverage();
+        basis_(dualBasis(first.surface.facetType)), facets_(mortarIntegrals(terms, first, second)),
+        multiplierNodes_(nodes_, basis_, facets_) {
     isBent_ = faceOtherSide(facets_, nodes_);
   }
 
@@ -54,7 +50,8 @@ public:
   /// Whether a node's normal is the mean of several faces.
   [[nodiscard]] bool isBent(std::size_t place) const { return isBent_[place] != 0; }
   /// \param isHeld  of places of nodes
-  [[nodiscard]] std::vector<MortarRow> rows(const std::function<bool(std::size_t)>& isHeld,
+  /// \param holdTurns  whether rows must hinder all turns of the surfaces, as ties do
+  [[nodiscard]] std::vector<MortarRow> rows(const std::function<bool(std::size_t)>& isHeld, bool holdTurns,
                                             RowAreas& areas) const;
   /// From the mean place of a row's first side to that of its second.
   [[nodiscard]] Vector3d apart(const MortarRow& row) const;
@@ -62,11 +59,6 @@ public:
 private:
   using Sums = std::vector<std::map<GlobalOrdinal, double>>;
 
-  void measureCoverage();
-  [[nodiscard]] std::vector<std::size_t> placesOf(std::size_t facet) const;
-  [[nodiscard]] std::vector<std::size_t>
-  representatives(const std::function<bool(std::size_t)>& isHeld) const;
-  void spread(std::vector<std::size_t>& representative) const;
   void add(const MortarFacet& facet, const std::vector<std::size_t>& representative,
            VectorXd& integralsOfRows, RowAreas& areas, Sums& first, Sums& second) const;
   [[nodiscard]] Vector3d relativePlace(const NodePoints& pointAt, GlobalOrdinal node,
@@ -77,96 +69,18 @@ private:
   SurfaceNodes nodes_;
   MatrixXd basis_; ///< N̂ = T N of a facet
   std::vector<MortarFacet> facets_;
-  std::vector<double> coverage_; ///< of each node's N̂, the covered share
+  MultiplierNodes multiplierNodes_;
   std::vector<char> isBent_;
 };
-
-std::vector<std::size_t> RowMaker::placesOf(std::size_t facet) const {
-  std::vector<std::size_t> places;
-  for (const GlobalOrdinal node : first_.surface.facet(facet))
-    places.push_back(static_cast<std::size_t>(
-        std::lower_bound(nodes_.nodes.begin(), nodes_.nodes.end(), node) - nodes_.nodes.begin()));
-  return places;
-}
-
-void RowMaker::measureCoverage() {
-  std::vector<double> covered(nodes_.nodes.size(), 0.0), whole = covered;
-  std::vector<fem::Point> points;
-  VectorXd shares(basis_.rows());
-  const auto addTo = [&](std::size_t facet, const VectorXd& values, std::vector<double>& sums) {
-    const std::vector<std::size_t> places = placesOf(facet);
-    for (std::size_t a = 0; a < places.size(); ++a)
-      sums[places[a]] += values[static_cast<Eigen::Index>(a)];
-  };
-  for (std::size_t f = 0; f < first_.surface.numFacets(); ++f) {
-    points.clear();
-    for (const GlobalOrdinal node : first_.surface.facet(f))
-      points.push_back(first_.pointAt(node));
-    fem::nodalShares(first_.surface.facetType, points, {shares.data(), points.size()});
-    addTo(f, basis_ * shares, whole);
-  }
-  for (const MortarFacet& facet : facets_)
-    addTo(facet.facet, basis_ * facet.shares, covered);
-  for (std::size_t k = 0; k < covered.size(); ++k)
-    coverage_.push_back(covered[k] / whole[k]);
-}
-
-/// The node whose multiplier each node's N̂ belongs to: itself, or the nearest one in steps from facet to facet.
-std::vector<std::size_t> RowMaker::representatives(const std::function<bool(std::size_t)>& isHeld) const {
-  std::vector<std::size_t> representative(nodes_.nodes.size(), none);
-  for (const MortarFacet& facet : facets_) {
-    const std::vector<std::size_t> places = placesOf(facet.facet);
-    for (std::size_t a = 0; a < places.size(); ++a)
-      if (facet.isReached[a] != 0 && coverage_[places[a]] >= leastCoverage && !isHeld(places[a]))
-        representative[places[a]] = places[a];
-  }
-  spread(representative);
-  for (const MortarFacet& facet : facets_) { // where less than a facet is covered, no node may be reached
-    const std::vector<std::size_t> places = placesOf(facet.facet);
-    std::size_t best = none;
-    for (const std::size_t k : places)
-      if (!isHeld(k) && (best == none || coverage_[k] > coverage_[best]))
-        best = k;
-    if (best == none ||
-        std::any_of(places.begin(), places.end(), [&](std::size_t k) { return representative[k] != none; }))
-      continue;
-    representative[best] = best;
-    spread(representative);
-  }
-  return representative;
-}
-
-/// Gives nodes without a representative that of the nearest one around, until all that can be reached have one.
-void RowMaker::spread(std::vector<std::size_t>& representative) const {
-  for (bool isAnyNew = true; isAnyNew;) {
-    isAnyNew = false;
-    std::vector<std::size_t> next = representative;
-    std::vector<double> distance(next.size(), std::numeric_limits<double>::infinity());
-    for (const MortarFacet& facet : facets_) {
-      const std::vector<std::size_t> places = placesOf(facet.facet);
-      for (const std::size_t k : places)
-        for (const std::size_t other : places) {
-          if (representative[k] != none || representative[other] == none)
-            continue;
-          const double apart = (nodes_.points[representative[other]] - nodes_.points[k]).norm();
-          if (apart < distance[k]) {
-            distance[k] = apart;
-            next[k] = representative[other];
-            isAnyNew = true;
-          }
-        }
-    }
-    representative.swap(next);
-  }
-}
 
 /// The parts of the rows of one facet: P = A S T, ψ = P N, with S adding up the N̂ that have one multiplier.
 void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& representative,
                    VectorXd& integralsOfRows, RowAreas& areas, Sums& first, Sums& second) const {
-  const std::vector<std::size_t> places = placesOf(facet.facet);
+  const std::vector<std::size_t>& places = nodes_.facets[facet.facet].nodes;
   std::vector<std::size_t> rows;
   for (const std::size_t k : places)
-    if (representative[k] != none && std::find(rows.begin(), rows.end(), representative[k]) == rows.end())
+    if (representative[k] != MultiplierNodes::none &&
+        std::find(rows.begin(), rows.end(), representative[k]) == rows.end())
       rows.push_back(representative[k]);
   if (rows.empty())
     return;
@@ -203,8 +117,9 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
   }
 }
 
-std::vector<MortarRow> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld, RowAreas& areas) const {
-  const std::vector<std::size_t> representative = representatives(isHeld);
+std::vector<MortarRow> RowMaker::rows(const std::function<bool(std::size_t)>& isHeld, bool holdTurns,
+                                      RowAreas& areas) const {
+  const std::vector<std::size_t> representative = multiplierNodes_.representatives(isHeld, holdTurns);
   const std::size_t n = nodes_.nodes.size();
   VectorXd integrals = VectorXd::Zero(static_cast<Eigen::Index>(n));
   Sums first(n), second(n);
@@ -298,7 +213,7 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   layout.isDual = first.surface.facetType == fem::CellType::triangle6;
   RowAreas areas(terms, nodes.nodes.size());
   for (const MortarRow& row :
-       maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, areas)) {
+       maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, false, areas)) {
     double gap = terms.gap;
     if (terms.components > 1)
       gap += nodes.normals[row.place].dot(maker.apart(row));
@@ -320,7 +235,8 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
     const Vector3d axis = axes.col(c);
     RowAreas areas(terms, nodes.nodes.size());
     for (const MortarRow& row :
-         maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); }, areas))
+         maker.rows([&](std::size_t k) { return isHeld && isHeld(nodes.nodes[k], axis); },
+                    terms.components > 1, areas))
       enter(row, nodes, areas, axis, terms.components, 0.0, layout);
   }
   requireMortarRows(terms, layout);

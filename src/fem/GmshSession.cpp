@@ -211,7 +211,14 @@ void GmshSession::mesh(int refinements, int order) const {
   if (dimension > 0 && elementTypes(dimension).empty())
     call(Gmsh::get().generate, dimension);
   for (int i = 0; i < refinements; ++i)
-    call(Gmsh::get().refine);
+    try {
+      call(Gmsh::get().refine);
+    } catch (const InputError& failure) {
+      throw InputError(
+          failure.what() +
+          std::string(" To be refined, a file of format 2.2 that lists elements once for each of their "
+                      "groups must be saved in format 4.1"));
+    }
   if (order > 0)
     call(Gmsh::get().setOrder, order);
 }

@@ -4,6 +4,7 @@
 #include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/RigidLinks.hpp"
+#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/StructuredMesh.hpp"
 #include "epafi/model/ContactSurfaces.hpp"
 
@@ -69,6 +70,36 @@ ContactLayout Coupler::layout() const {
   return byMortar();
 }
 
+/// Forces act on the thinner one of two plane bodies.
+std::vector<double> Coupler::thicknesses(const Side& first, const fem::Surface& surface) const {
+  std::vector<double> own = supported_.thicknesses(first.body, surface);
+  const Side& second = first.body == first_.body ? second_ : first_;
+  if (second.body < 0 || own.empty())
+    return own;
+  const fem::Surface facing = united(second).surface;
+  const std::vector<double> theirs = supported_.thicknesses(second.body, facing);
+  const auto middles = [&](const Side& side, const fem::Surface& of) {
+    std::vector<Eigen::Vector2d> result;
+    std::vector<fem::Point> points;
+    for (std::size_t f = 0; f < of.numFacets(); ++f) {
+      layoutOf(side).mesh->pointsAt(of.facet(f), points);
+      const fem::Point x = fem::centreOf(points);
+      result.emplace_back(x[0], x[1]);
+    }
+    return result;
+  };
+  const bool isUniform = std::equal(theirs.begin() + 1, theirs.end(), theirs.begin());
+  const std::vector<Eigen::Vector2d> here = middles(first, surface), there = middles(second, facing);
+  for (std::size_t f = 0; f < own.size(); ++f) {
+    std::size_t nearest = 0;
+    for (std::size_t g = 1; g < there.size() && !isUniform; ++g)
+      if ((there[g] - here[f]).squaredNorm() < (there[nearest] - here[f]).squaredNorm())
+        nearest = g;
+    own[f] = std::min(own[f], theirs[nearest]);
+  }
+  return own;
+}
+
 /// \param first  the side that is to have the rows
 contact::ContactTerms Coupler::asked(const Side& first, const contact::UnitedSurface& surface) const {
   contact::ContactTerms asked{
@@ -78,7 +109,7 @@ contact::ContactTerms Coupler::asked(const Side& first, const contact::UnitedSur
   if (first.surfaces.size() > 1)
     asked.parts = surface.parts;
   if (supported_.thicknesses)
-    asked.thicknesses = supported_.thicknesses(first.body, surface.surface);
+    asked.thicknesses = thicknesses(first, surface.surface);
   if (components_ > 1 && second_.body >= 0 && supported_.extent)
     asked.thickness = [this](const Eigen::Vector3d& direction) {
       return std::min(supported_.extent(first_.body, direction), supported_.extent(second_.body, direction));
@@ -98,26 +129,41 @@ ContactLayout Coupler::finish(ContactLayout layout, const Side& first, const Sid
   return layout;
 }
 
+/// Whether supports hold a side wholly in the direction of contact, so that of rows at its nodes no single force is known.
+bool Coupler::isHeld(const Side& side) const {
+  const contact::SurfaceNodes nodes = contact::surfaceNodes(pointsOf(layoutOf(side)), united(side).surface);
+  for (std::size_t k = 0; k < nodes.nodes.size(); ++k)
+    if (!supported_.isHeld ||
+        !supported_.isHeld(side.body, nodes.nodes[k],
+                           components_ == 1 ? Eigen::Vector3d(1, 0, 0) : nodes.normals[k]))
+      return false;
+  return true;
+}
+
 /// Nothing if the surfaces ask for mortars.
 std::optional<ContactLayout> Coupler::byPairs() const {
-  const bool areSwapped = orderOf(first_) < orderOf(second_); // the side with more nodes has the rows
-  const Side &finer = areSwapped ? second_ : first_, &other = areSwapped ? first_ : second_;
-  const int order = orderOf(finer);
-  const contact::UnitedSurface carrier = untied(finer, other), faced = untied(other, finer);
-  contact::ContactTerms asked = this->asked(finer, carrier);
-  asked.coincide = components_ == 1 && order == orderOf(other) && haveEqualEdges(terms_, bodies_);
+  bool areSwapped = orderOf(first_) < orderOf(second_); // the side with more nodes has the rows
+  if (!isTied() && orderOf(first_) != orderOf(second_) &&
+      isHeld(areSwapped ? second_ : first_)) // if it can move
+    areSwapped = !areSwapped;
+  const Side &first = areSwapped ? second_ : first_, &second = areSwapped ? first_ : second_;
+  const int order = orderOf(first);
+  const contact::UnitedSurface carrier = untied(first, second), faced = untied(second, first);
+  contact::ContactTerms asked = this->asked(first, carrier);
+  asked.coincide = components_ == 1 && order == orderOf(second) && haveEqualEdges(terms_, bodies_);
   const contact::SurfaceNodes nodes =
-                                  contact::surfaceNodes(pointsOf(layoutOf(finer)), carrier.surface, order),
-                              facing = contact::surfaceNodes(pointsOf(layoutOf(other)), faced.surface, order);
+                                  contact::surfaceNodes(pointsOf(layoutOf(first)), carrier.surface, order),
+                              facing =
+                                  contact::surfaceNodes(pointsOf(layoutOf(second)), faced.surface, order);
   if (terms_.coupling != scene::SurfaceContact::Coupling::nodes && !areAlike(asked, nodes, facing))
     return {};
   const contact::FacingNodes pairs = facingNodes(asked, nodes, facing);
   ContactLayout layout =
-      finish(isTied() ? tieSurface(asked, nodes, facing, pairs, axesOf(finer, carrier.surface))
+      finish(isTied() ? tieSurface(asked, nodes, facing, pairs, axesOf(first, carrier.surface))
                       : meetSurface(asked, nodes, facing, pairs),
-             finer, other, "pairs of nodes");
+             first, second, "pairs of nodes");
   if (isTied()) {
-    const contact::NodePoints own = pointsOf(layoutOf(finer)), theirs = pointsOf(layoutOf(other));
+    const contact::NodePoints own = pointsOf(layoutOf(first)), theirs = pointsOf(layoutOf(second));
     contact::linkRigidly({carrier.surface, own}, {faced.surface, theirs}, layout);
     contact::smoothRows(carrier.surface, layout);
   } else if (tied_ != nullptr) {
@@ -153,7 +199,7 @@ contact::UnitedSurface Coupler::untied(const Side& side, const Side& other) cons
 ContactLayout Coupler::byMortar() const {
   const bool areSwapped = terms_.multipliers == scene::SurfaceContact::Side::second;
   const Side &first = areSwapped ? second_ : first_, &second = areSwapped ? first_ : second_;
-  const contact::UnitedSurface carrier = untied(first, second), facing = united(second);
+  const contact::UnitedSurface carrier = untied(first, second), facing = untied(second, first);
   const contact::ContactTerms asked = this->asked(first, carrier);
   const contact::NodePoints ownPoints = pointsOf(layoutOf(first)), otherPoints = pointsOf(layoutOf(second));
   const contact::PlacedSurface own{carrier.surface, ownPoints}, other{facing.surface, otherPoints};

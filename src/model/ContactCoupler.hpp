@@ -47,11 +47,13 @@ private:
   /// Whether nodes of a side are tied to the other one; empty: none is, or this is a tie itself.
   [[nodiscard]] std::function<bool(GlobalOrdinal)> tiedNodes(const Side& side, const Side& other) const;
   [[nodiscard]] contact::UnitedSurface untied(const Side& side, const Side& other) const;
+  [[nodiscard]] bool isHeld(const Side& side) const;
   [[nodiscard]] bool isTied() const { return terms_.kind == scene::SurfaceContact::Kind::tied; }
   [[nodiscard]] Eigen::Matrix3d axesOf(const Side& side, const fem::Surface& surface) const {
     return supported_.axes ? supported_.axes(side.body, surface) : Eigen::Matrix3d::Identity();
   }
 
+  [[nodiscard]] std::vector<double> thicknesses(const Side& first, const fem::Surface& surface) const;
   [[nodiscard]] contact::ContactTerms asked(const Side& first, const contact::UnitedSurface& surface) const;
   [[nodiscard]] contact::ContactLayout finish(contact::ContactLayout layout, const Side& first,
                                               const Side& second, std::string means) const;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -43,11 +44,6 @@ Side sideOf(const Terms& terms, const BodyLayout& body, const std::string& name)
     side.facets.insert(std::move(key));
   }
   return side;
-}
-
-bool areDisjoint(const Side& a, const Side& b) {
-  return std::none_of(a.facets.begin(), a.facets.end(),
-                      [&](const auto& facet) { return b.facets.contains(facet); });
 }
 
 bool contains(const Side& whole, const Side& part) {
@@ -99,6 +95,8 @@ private:
   [[nodiscard]] Member memberOf(const Terms& terms) const;
   [[nodiscard]] static bool haveSameBodies(const Terms& a, const Terms& b);
   void requireNew(const Member& old, const Member& added) const;
+  [[nodiscard]] static bool bringsFacets(std::span<const Member> members, const Member& added,
+                                         Side Member::*side);
   [[nodiscard]] bool joins(const std::vector<Member>& members, const Member& added) const;
   static void exchange(Member& member);
 
@@ -145,6 +143,15 @@ void Groups::requireNew(const Member& old, const Member& added) const {
   }
 }
 
+/// Whether a surface of one more contact has facets that those of the others have not.
+bool Groups::bringsFacets(std::span<const Member> members, const Member& added, Side Member::*side) {
+  const auto& own = (added.*side).facets;
+  return std::any_of(own.begin(), own.end(), [&](const auto& facet) {
+    return std::none_of(members.begin(), members.end(),
+                        [&](const Member& member) { return (member.*side).facets.contains(facet); });
+  });
+}
+
 /// Whether one more contact goes on in those of a group, seen from the first bodies. Precondition: the same bodies in the same order.
 bool Groups::joins(const std::vector<Member>& members, const Member& added) const {
   const Terms &its = members.front().terms, &own = added.terms;
@@ -156,11 +163,11 @@ bool Groups::joins(const std::vector<Member>& members, const Member& added) cons
   };
   const bool mayCarrySecond =
       own.second >= 0 && (own.multipliers == Terms::Side::second || orderOf(own.second) > orderOf(own.first));
+  if (!bringsFacets(members, added, &Member::first) ||
+      (mayCarrySecond && !bringsFacets(members, added, &Member::second)))
+    return false;
   bool isConnected = false;
   for (const Member& member : members) {
-    if (!areDisjoint(member.first, added.first) ||
-        (mayCarrySecond && !areDisjoint(member.second, added.second)))
-      return false;
     for (const Meeting meeting :
          {meetingOf(member.first, added.first), meetingOf(member.second, added.second)}) {
       if (meeting == Meeting::sharply)
@@ -201,9 +208,9 @@ std::vector<ContactGroup> Groups::take() {
     const std::vector<Member>& members = members_[g];
     for (std::size_t i = 0; i < members.size(); ++i) {
       groups_[g].terms.push_back(members[i].terms);
-      for (std::size_t j = 0; j < i; ++j)
-        groups_[g].mayEitherCarry =
-            groups_[g].mayEitherCarry && areDisjoint(members[i].second, members[j].second);
+      groups_[g].mayEitherCarry =
+          groups_[g].mayEitherCarry &&
+          (i == 0 || bringsFacets(std::span(members).first(i), members[i], &Member::second));
     }
   }
   return std::move(groups_);

@@ -12,7 +12,8 @@ namespace epafi::model {
 
 struct ContactGroup {
   std::vector<std::size_t> numbers; ///< of the scene's contacts, ascending
-  /// The same, with the same bodies first and second; no facet of the first one's surfaces belongs to two of them.
+  /// The same, with the same bodies first and second. Each of the first one's surfaces has facets that those before it have not; what
+  /// two of them have belongs to the earlier one.
   std::vector<scene::SurfaceContact> terms;
   bool mayEitherCarry = true; ///< whether that holds of the second one's surfaces, too
 };

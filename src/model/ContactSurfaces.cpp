@@ -21,28 +21,45 @@ std::vector<fem::BoxTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface
   return boxes;
 }
 
-/// Mean distance of nodes on that part of a surface that the other one is near to, by the contact's distance.
-double spacingOn(const fem::Mesh& mesh, const fem::Surface& surface, const fem::BoxTree& other,
-                 double distance) {
-  const std::vector<fem::BoxTree::Box> boxes = boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
+/// Facets of a surface, their number and area.
+struct Facets {
   double area = 0;
   int number = 0;
-  std::vector<fem::Point> points;
+  void add(const fem::Mesh& mesh, const fem::Surface& surface, std::size_t facet) {
+    std::vector<fem::Point> points;
+    mesh.pointsAt(surface.facet(facet), points);
+    area += fem::areaVector(surface.facetType, points).norm();
+    ++number;
+  }
+  [[nodiscard]] double spacing(const fem::Surface& surface) const {
+    return std::pow(area / std::max(number, 1), 1.0 / dimensionOf(surface.facetType)) /
+           orderOf(surface.facetType);
+  }
+};
+
+/// Those that the other surface is near to, by the contact's distance.
+Facets facetsNear(const fem::Mesh& mesh, const fem::Surface& surface, const fem::BoxTree& other,
+                  double distance) {
+  const std::vector<fem::BoxTree::Box> boxes = boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
+  Facets near;
   std::vector<std::size_t> found;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     if (std::isfinite(distance))
       other.meeting(boxes[f], found);
-    if (std::isfinite(distance) && found.empty())
-      continue;
-    mesh.pointsAt(surface.facet(f), points);
-    area += fem::areaVector(surface.facetType, points).norm();
-    ++number;
+    if (!std::isfinite(distance) || !found.empty())
+      near.add(mesh, surface, f);
   }
-  return std::pow(area / std::max(number, 1), 1.0 / dimensionOf(surface.facetType)) /
-         orderOf(surface.facetType);
+  return near;
 }
 
 } // namespace
+
+double spacingOf(const fem::Mesh& mesh, const fem::Surface& surface) {
+  Facets all;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f)
+    all.add(mesh, surface, f);
+  return all.spacing(surface);
+}
 
 fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
                        const std::string& surface) {
@@ -75,14 +92,19 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
                    : 0;
     return static_cast<double>(count);
   };
-  const auto spacing = [&](int body, const std::string& surface) {
+  const auto near = [&](int body, const std::string& surface) {
     const bool isFirst = body == terms.first;
     const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
                      &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
     const fem::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
-    return spacingOn(*own.mesh, surfaceOf(terms, own, surface), fem::BoxTree(boxesOf(*other.mesh, facing, 0)),
-                     terms.distance);
+    return facetsNear(*own.mesh, surfaceOf(terms, own, surface),
+                      fem::BoxTree(boxesOf(*other.mesh, facing, 0)), terms.distance);
   };
+  const auto spacing = [&](int body, const std::string& surface) {
+    const BodyLayout& own = bodies[static_cast<std::size_t>(body)];
+    return near(body, surface).spacing(surfaceOf(terms, own, surface));
+  };
+  const auto area = [&](int body, const std::string& surface) { return near(body, surface).area; };
   const auto stiffness = [&](int body, const std::string&) {
     const scene::Body& owner = scene.bodies[static_cast<std::size_t>(body)];
     return owner.physics == scene::Physics::membrane ? owner.material.conductivity
@@ -101,6 +123,8 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
     return ", which has no other contact there";
   if (decides(spacing, 1.5))
     return ", the finer one";
+  if (decides(area, 1.1)) // rows of facets that are covered in part may not reach to the rim
+    return ", which the other one covers";
   if (decides(stiffness, 1.01)) // of meshes about as fine its pressure is the smoother one
     return ", the softer one";
   if (decides(spacing, 1.01))

@@ -5,7 +5,6 @@
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/UnitedSurface.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/MeshPart.hpp"
 #include "epafi/model/ContactCoupler.hpp"
 #include "epafi/model/ContactGroups.hpp"
@@ -149,13 +148,14 @@ SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
                           const std::vector<BodyLayout>& bodies) {
   supported.thicknesses = [&](int body, const fem::Surface& surface) {
     const scene::Body& solid = scene.bodies[static_cast<std::size_t>(body)];
-    std::vector<double> thicknesses;
-    if (solid.regions.empty() || solid.physics == scene::Physics::membrane ||
-        solid.physics == scene::Physics::elasticity3d)
+    if (solid.physics == scene::Physics::membrane || solid.physics == scene::Physics::elasticity3d)
+      return std::vector<double>();
+    std::vector<double> thicknesses(surface.numFacets(), solid.material.thickness);
+    if (solid.regions.empty())
       return thicknesses;
     const fem::BodyModel model(solid, *bodies[static_cast<std::size_t>(body)].mesh);
-    for (const GlobalOrdinal element : surface.elements)
-      thicknesses.push_back(fem::thicknessOf(solid.physics, model.materialOf(element)));
+    for (std::size_t f = 0; f < thicknesses.size(); ++f)
+      thicknesses[f] = model.materialOf(surface.elements[f]).thickness;
     return thicknesses;
   };
   auto boxes = std::make_shared<std::map<int, std::array<fem::Point, 2>>>();
@@ -250,15 +250,15 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
   for (ContactGroup& group : groups)
     if (group.terms.front().kind == scene::SurfaceContact::Kind::tied)
       enter(partsOf(layOut(group, nullptr), group), all.ties);
+  noteCircles(all.ties);
   const TiedNodes tied(all.ties);
   for (ContactGroup& group : groups) {
     if (group.terms.front().kind == scene::SurfaceContact::Kind::tied)
       continue;
     ContactLayout layout = layOut(group, &tied);
-    addDropped(known.dropFrom(layout), layout, all.contacts);
-    const fem::Surface surface =
-        contact::unite(*bodies[static_cast<std::size_t>(layout.firstBody)].mesh, layout.firstSurfaces)
-            .surface;
+    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
+    const fem::Surface surface = contact::unite(mesh, layout.firstSurfaces).surface;
+    addDropped(known.dropFrom(layout, spacingOf(mesh, surface)), layout, all.contacts);
     layout.firstShares.empty() ? contact::adaptRows(surface, layout) : contact::smoothRows(surface, layout);
     enter(partsOf(layout, group), all.contacts);
   }

@@ -14,6 +14,8 @@ using contact::ContactLayout;
 TiedNodes::TiedNodes(std::vector<ContactLayout>& ties) : ties_(ties) {
   for (const ContactLayout& tie : ties) {
     nodes_[{tie.firstBody, tie.secondBody}].insert(tie.firstNodes.begin(), tie.firstNodes.end());
+    if (!tie.firstShares.empty()) // by mortars nodes of the other side are not held one by one
+      continue;
     for (const auto& shares : tie.secondNodes)
       for (const contact::NodeShare& share : shares)
         nodes_[{tie.secondBody, tie.firstBody}].insert(share.node);
@@ -69,6 +71,34 @@ void TiedNodes::dropFrom(ContactLayout& contact) const {
   contact.note = std::to_string(numDropped) + (numDropped == 1 ? " more node is" : " more nodes are") +
                  " tied by " + (names.empty() ? nameBetween(contact.firstBody, contact.secondBody) : names) +
                  ", whose force is that of both there";
+}
+
+void noteCircles(std::vector<ContactLayout>& ties) {
+  using Node = std::pair<int, GlobalOrdinal>; // of a body
+  std::map<Node, Node> next;                  // on the way to the one that stands for all that hang together
+  const auto rootOf = [&](Node node) {
+    for (auto found = next.find(node); found != next.end(); found = next.find(node))
+      node = found->second;
+    return node;
+  };
+  for (ContactLayout& tie : ties) {
+    std::map<GlobalOrdinal, GlobalOrdinal> pairs;
+    if (tie.hasOwnRows && tie.firstShares.empty())
+      for (std::size_t row = 0; row < tie.firstNodes.size(); ++row)
+        if (tie.secondNodes[row].size() == 1)
+          pairs.emplace(tie.firstNodes[row], tie.secondNodes[row].front().node);
+    int number = 0;
+    for (const auto& [first, second] : pairs) {
+      const Node a = rootOf({tie.firstBody, first}), b = rootOf({tie.secondBody, second});
+      if (a == b)
+        ++number;
+      else
+        next.emplace(a, b);
+    }
+    if (number > 0)
+      tie.note = std::to_string(number) + (number == 1 ? " pair of nodes is" : " pairs of nodes are") +
+                 " held together by other ties, too; how they share the force there is not unique";
+  }
 }
 
 void refuseTied(const std::string& contact, const std::string& tie) {

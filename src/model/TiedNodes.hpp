@@ -30,6 +30,9 @@ private:
   std::map<std::pair<int, int>, std::set<GlobalOrdinal>> nodes_; ///< of a body that hang on another one
 };
 
+/// Notes in ties by pairs of nodes where other ties hold the same nodes together already: how they share the force there is not unique.
+void noteCircles(std::vector<contact::ContactLayout>& ties);
+
 /// Refuses a contact all of whose nodes are tied.
 [[noreturn]] void refuseTied(const std::string& contact, const std::string& tie);
 

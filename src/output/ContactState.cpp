@@ -2,7 +2,6 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Maps.hpp"
-#include "epafi/fem/HookesLaw.hpp"
 #include "epafi/fem/ShapeFunctions.hpp"
 #include "epafi/output/Slab.hpp"
 
@@ -134,18 +133,6 @@ double penetrationOn(const fem::Surface& surface, const ContactLayout& layout, c
 
 } // namespace
 
-std::vector<double> pressureAreas(const SolvedScene& solved, const ContactLayout& layout) {
-  const scene::Body* solid = solved.elasticBody(layout.firstBody);
-  if (solid == nullptr || solid->physics == scene::Physics::elasticity3d)
-    return layout.areas;
-  if (!solid->regions.empty()) // they count the thicknesses of facets already
-    return layout.areas;
-  std::vector<double> areas = layout.areas;
-  for (double& area : areas)
-    area *= fem::thicknessOf(solid->physics, solid->material);
-  return areas;
-}
-
 std::vector<long long> completeFacets(const ContactLayout& layout, const fem::Surface& surface) {
   std::unordered_map<GlobalOrdinal, long long> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
@@ -174,7 +161,7 @@ ContactState contactState(const SolvedScene& solved, int contact) {
       gaps(slack, layout, rows, toNodes);
 
   ContactState state;
-  state.areas = pressureAreas(solved, layout);
+  state.areas = layout.areas;
   for (const std::size_t row : rows) {
     double area = 0;
     if (around.empty())

@@ -9,15 +9,10 @@
 
 namespace epafi::output {
 
-/// Each row's share of the area of a contact or tied joint: on which its multiplier acts. Of plane bodies the share of
-/// the length times the thickness of the elements there, of membranes the length alone. In the order of the contact's rows,
-/// whole on every rank. Not collective.
-std::vector<double> pressureAreas(const SolvedScene& solved, const contact::ContactLayout& layout);
-
 /// What a contact has come to. Force, pressure and gap are those of nodes, of this rank's slab of ContactLayout::ownRows (evenShare).
 /// Of rows that contacts share it has its part of force and area; the pressure is that of all of them together.
 struct ContactState {
-  std::vector<double> areas; ///< pressureAreas, of all rows, as far as they are its own
+  std::vector<double> areas; ///< of all rows, as far as they are its own
   std::vector<double> force; ///< on a node, ∫pN_a; of six-node triangles another thing than the multiplier
   /// Mean of the contact pressure around a node. Elements of order 1: λ/area; of order 2: ∫pN̂/∫N̂ (contact/QuadraticFaces.hpp).
   std::vector<double> pressure;

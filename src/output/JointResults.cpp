@@ -134,7 +134,7 @@ struct TieResult {
 
 /// Collective.
 TieResult resultOf(const SolvedScene& solved, const ContactLayout& tie) {
-  std::vector<double> forces(tie.firstNodes.size(), 0.0), areas = pressureAreas(solved, tie);
+  std::vector<double> forces(tie.firstNodes.size(), 0.0), areas = tie.areas;
   TieResult result{sumsOf(solved, tie, solved.decomposition.problem.numInequalities,
                           [&](std::size_t row, double force) { forces[row] = force; }),
                    {}};
@@ -168,6 +168,8 @@ void addTie(const SolvedScene& solved, const ContactLayout& layout, Teuchos::Par
   list.set("Nodes", static_cast<GlobalOrdinal>(traction.size()))
       .set("Resultant", Teuchos::Array<double>(Teuchos::tuple(resultant[0], resultant[1], resultant[2])))
       .set("Largest Traction", largest);
+  if (!layout.note.empty())
+    list.set("Note", layout.note);
   sums.addImbalance(list);
 }
 

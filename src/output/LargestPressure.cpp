@@ -99,7 +99,7 @@ Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
       rows.push_back(found == rowOf.end() ? none : found->second);
     }
   }
-  std::vector<double> pushes(layout.firstNodes.size(), 0.0), areas = pressureAreas(solved, layout);
+  std::vector<double> pushes(layout.firstNodes.size(), 0.0), areas = layout.areas;
   const Map& map = *solved.decomposition.problem.multiplierMap;
   const auto multiplier = solved.solution.multiplier->getData();
   for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {

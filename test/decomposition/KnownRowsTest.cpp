@@ -13,6 +13,8 @@ using namespace epafi;
 using contact::ContactLayout;
 using contact::KnownRows;
 
+constexpr double spacing = 0.5; // of nodes
+
 /// A contact of nodes 0, 1, … of body 0 with an obstacle, in the plane, in one direction.
 ContactLayout onObstacle(const std::string& name, const std::vector<GlobalOrdinal>& nodes, double upwards,
                          double gap) {
@@ -30,8 +32,8 @@ TEST(KnownRowsTest, OnlyWhatIsNewStays) {
   KnownRows known;
   ContactLayout floor = onObstacle("floor", {0, 1, 2}, -1, 0.25),
                 again = onObstacle("again", {1, 2, 3}, -1, 0.25);
-  known.dropFrom(floor);
-  known.dropFrom(again);
+  known.dropFrom(floor, spacing);
+  known.dropFrom(again, spacing);
   EXPECT_EQ(floor.numRows(), 3);
   EXPECT_EQ(again.firstNodes, std::vector<GlobalOrdinal>{3});
   EXPECT_EQ(again.directions.size(), 2U);
@@ -42,21 +44,21 @@ TEST(KnownRowsTest, OnlyWhatIsNewStays) {
 TEST(KnownRowsTest, AnotherGapIsNew) {
   KnownRows known;
   ContactLayout floor = onObstacle("floor", {0, 1}, -1, 0.25), lower = onObstacle("lower", {0, 1}, -1, 0.5);
-  known.dropFrom(floor);
-  known.dropFrom(lower);
+  known.dropFrom(floor, spacing);
+  known.dropFrom(lower, spacing);
   EXPECT_EQ(lower.numRows(), 2);
 }
 
 TEST(KnownRowsTest, ANodeBetweenOppositeContactsNeedsRoom) {
   ContactLayout floor = onObstacle("floor", {0, 1, 2}, -1, 0), high = onObstacle("high", {0}, 1, 0.125);
   KnownRows roomy;
-  roomy.dropFrom(floor);
-  roomy.dropFrom(high);
+  roomy.dropFrom(floor, spacing);
+  roomy.dropFrom(high, spacing);
   EXPECT_EQ(high.numRows(), 1);
 
   ContactLayout ceiling = onObstacle("ceiling", {1}, 1, -0.125);
   try {
-    roomy.dropFrom(ceiling);
+    roomy.dropFrom(ceiling, spacing);
     ADD_FAILURE() << "not refused";
   } catch (const SolvabilityError& error) {
     EXPECT_EQ(error.kind(), SolvabilityError::Kind::noSolution);

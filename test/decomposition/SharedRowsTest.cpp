@@ -54,7 +54,7 @@ struct Blocks {
   std::vector<BodyLayout> bodies{};
 
   /// From `left` to `right`, of a number of elements, its last coordinate from `low` to `high`; "top" and "bottom" are cut at the
-  /// middle into "top left", …, and "skin" is all of its outside but what is opposite to the joint.
+  /// middle into "top left", …, their inner halves are "top inner", …, and "skin" is all of its outside but what is opposite to the joint.
   void add(const std::string& name, double left, double right, double low, double high, int elements) {
     const bool isPlane = meshing.dimension == 2;
     const fem::StructuredMesh grid(isPlane ? scene::Box{{left, low, 0}, {right, high, 0}}
@@ -66,7 +66,8 @@ struct Blocks {
     std::vector<fem::NamedFacets> more;
     for (const fem::NamedFacets& facets : arrays.surfaces)
       if (facets.name == "top" || facets.name == "bottom") {
-        fem::NamedFacets halves[2] = {{facets.name + " left", {}}, {facets.name + " right", {}}};
+        fem::NamedFacets halves[2] = {{facets.name + " left", {}}, {facets.name + " right", {}}},
+                         inner{facets.name + " inner", {}};
         for (std::size_t f = 0; f < facets.nodes.size(); f += perFacet) {
           const auto begin = facets.nodes.begin() + static_cast<std::ptrdiff_t>(f),
                      end = begin + static_cast<std::ptrdiff_t>(perFacet);
@@ -75,8 +76,10 @@ struct Blocks {
             centre += arrays.points[static_cast<std::size_t>(*node)][0] / static_cast<double>(perFacet);
           auto& half = halves[centre < middle ? 0 : 1].nodes;
           half.insert(half.end(), begin, end);
+          if (std::abs(centre - middle) < (right - left) / 4)
+            inner.nodes.insert(inner.nodes.end(), begin, end);
         }
-        more.insert(more.end(), {halves[0], halves[1]});
+        more.insert(more.end(), {halves[0], halves[1], inner});
       }
     fem::NamedFacets skin{"skin", {}};
     for (const fem::NamedFacets& facets : arrays.surfaces)
@@ -347,6 +350,118 @@ TEST(SharedRowsTest, OverlapsMayBeDeeperThanElementsAndNotThanBodies) {
     for (const double gap : layout.gaps)
       EXPECT_NEAR(gap, -0.25, 1e-12);
     EXPECT_FALSE(test::refusal([&] { (void)through.layout(); }).empty());
+  }
+}
+
+/// Facets of two groups that overlap act once.
+TEST(SharedRowsTest, WhatGroupsOfFacetsHaveInCommonCountsOnce) {
+  for (const Meshing& meshing : all)
+    for (const bool isMortar : {false, true}) {
+      SCOPED_TRACE(toString(meshing) + (isMortar ? ", mortars" : ", pairs"));
+      Blocks blocks = stacked(meshing, 8, isMortar ? 12 : 8);
+      blocks.join("left", "top left", "bottom left");
+      blocks.join("inner", "top inner", "bottom inner");
+      const SceneContacts layouts = blocks.layout();
+      EXPECT_NEAR(ownArea(layouts.contacts.at(0)), 1, 1e-12);
+      EXPECT_NEAR(ownArea(layouts.contacts.at(1)), 0.5, 1e-12);
+    }
+}
+
+/// Forces act on the thickness of the thinner body, whichever is named first, and wherever it is thin.
+TEST(SharedRowsTest, PlaneBodiesMeetOnTheThicknessOfTheThinnerOne) {
+  for (const int order : {1, 2})
+    for (const int upper : {4, 7})
+      for (const bool isUpperFirst : {false, true})
+        for (const Kind kind : {Kind::contact, Kind::tied}) {
+          SCOPED_TRACE(testing::Message()
+                       << "order " << order << ", " << upper << " elements, " << isUpperFirst);
+          Blocks blocks = stacked({2, order, false}, 4, upper);
+          blocks.scene.bodies[0].material.thickness = 0.5;
+          blocks.scene.bodies[1].material.thickness = 2;
+          SurfaceContact& contact = blocks.join("c", "top", "bottom", kind);
+          if (isUpperFirst) {
+            std::swap(contact.first, contact.second);
+            std::swap(contact.firstSurface, contact.secondSurface);
+          }
+          const auto areaOf = [&] {
+            const SceneContacts layouts = blocks.layout();
+            return kind == Kind::tied ? ownArea(layouts.ties.at(0)) / 2 : ownArea(layouts.contacts.at(0));
+          };
+          EXPECT_NEAR(areaOf(), 1, 1e-12);
+          scene::SolidRegion thin{"thin", {{-1, -2, 0}, {1, 1, 0}}, "", blocks.scene.bodies[0].material};
+          thin.material.thickness = 0.25;
+          blocks.scene.bodies[0].regions = {thin};
+          if (upper == 4) { // facets of 7 lie across the step
+            EXPECT_NEAR(areaOf(), 0.75, 1e-12);
+          }
+        }
+}
+
+TEST(SharedRowsTest, AContactBesideATieOnTheOtherSideOfMortarsHasItsWholeArea) {
+  for (const Meshing& meshing : all) {
+    SCOPED_TRACE(toString(meshing));
+    Blocks blocks = stacked(meshing, 7, 4);
+    blocks.join("tie", "top", "bottom left", Kind::tied).multipliers = Side::second;
+    blocks.join("contact", "top", "bottom right").multipliers = Side::first;
+    const SceneContacts layouts = blocks.layout();
+    EXPECT_NEAR(total(layouts.contacts.at(0).areas), 1, 1e-12);
+    EXPECT_EQ(layouts.contacts.at(0).firstBody, 0);
+    EXPECT_EQ(layouts.ties.at(0).firstBody, 1);
+  }
+}
+
+/// A tie holds all turns, also where none of its nodes lies within the other surface; and multipliers go to the surface that is covered.
+TEST(SharedRowsTest, AWideSurfaceIsTiedAtMoreThanOnePoint) {
+  for (const Meshing& meshing : all)
+    for (const Side side : {Side::first, Side::automatic}) {
+      SCOPED_TRACE(toString(meshing));
+      Blocks blocks{meshing};
+      blocks.add("wide", 0, 2, -1, 0, 1);
+      blocks.add("narrow", 0.25, 1.75, 0, 1, 1);
+      blocks.join("tie", "top", "bottom", Kind::tied).multipliers = side;
+      const ContactLayout tie = blocks.layout().ties.at(0);
+      EXPECT_EQ(tie.firstBody, side == Side::first ? 0 : 1);
+      std::set<double> places;
+      for (const GlobalOrdinal node : tie.firstNodes)
+        places.insert(blocks.bodies[static_cast<std::size_t>(tie.firstBody)].mesh->point(node)[0]);
+      EXPECT_GE(places.size(), 2U);
+    }
+}
+
+/// Of rows at the nodes of a held surface between those of the other one no single force is known.
+TEST(SharedRowsTest, OfPairsOfTwoOrdersTheSideThatCanMoveHasTheRows) {
+  for (const int dimension : {2, 3}) {
+    Blocks blocks{{dimension, 2, false}};
+    blocks.add("lower", 0, 2, -1, 0, 4);
+    blocks.meshing.order = 1;
+    blocks.add("upper", 0, 2, 0, 1, 4);
+    blocks.join("c", "top", "bottom");
+    SupportedNodes supports;
+    EXPECT_EQ(layoutContacts(blocks.scene, blocks.bodies, supports).contacts.at(0).firstBody, 0);
+    supports.isHeld = [](int body, GlobalOrdinal, const Eigen::Vector3d&) { return body == 0; };
+    const ContactLayout layout = layoutContacts(blocks.scene, blocks.bodies, supports).contacts.at(0);
+    EXPECT_EQ(layout.firstBody, 1);
+    EXPECT_EQ(layout.numRows(), dimension == 2 ? 5 : 15);
+    EXPECT_NEAR(total(layout.areas), 2, 1e-12);
+  }
+}
+
+TEST(SharedRowsTest, TiesInACircleSayThatTheirForcesAreNotUnique) {
+  for (const Meshing& meshing : all) {
+    SCOPED_TRACE(toString(meshing));
+    Blocks blocks{meshing};
+    blocks.add("base", 0, 2, -1, 0, 4);
+    blocks.add("left", 0, 1, 0, 1, 2);
+    blocks.add("right", 1, 2, 0, 1, 2);
+    blocks.join("a", "top", "bottom", Kind::tied);
+    blocks.join("b", "top", "bottom", Kind::tied).second = 2;
+    SurfaceContact& seam = blocks.join("seam", "right", "left", Kind::tied);
+    seam.first = 1;
+    seam.second = 2;
+    const SceneContacts layouts = blocks.layout();
+    EXPECT_TRUE(layouts.ties.at(0).note.empty());
+    EXPECT_TRUE(layouts.ties.at(1).note.empty());
+    EXPECT_NE(layouts.ties.at(2).note.find("not unique"), std::string::npos) << layouts.ties.at(2).note;
   }
 }
 

@@ -1,5 +1,7 @@
 #include "GmshPlate.hpp"
 
+#include "epafi/fem/GmshReader.hpp"
+
 #include <gtest/gtest.h>
 
 namespace epafi::fem {
@@ -75,6 +77,15 @@ TEST_F(GmshRefusalsTest, RefusesWhatTheChecksRefuseByTheFilesNumbers) {
   const std::string doubled = replaced(replaced(plate22, "$Elements\n4", "$Elements\n5"), "3 3 2 3 2 2 3 6 5",
                                        "3 3 2 3 2 2 3 6 5\n7 3 2 3 2 2 3 6 5");
   expectRefused(doubled, {"element 3 and element 7 have the same nodes", "list an element once"});
+}
+
+TEST_F(GmshRefusalsTest, RefinesElementsOfSeveralGroupsOfFormat41Alone) {
+  const std::string twice = replaced(
+      replaced(replaced(plate22, "$Elements\n4", "$Elements\n5"), "3 3 2 3 2", "7 1 2 4 2 1 4\n3 3 2 3 2"),
+      "3\n1 1 \"left\"", "4\n1 4 \"skin\"\n1 1 \"left\"");
+  EXPECT_EQ(plate(twice).body("").surfaceNames(), (std::vector<std::string>{"left", "skin"}));
+  const std::string file = folder.write("plate.msh", twice);
+  expectRefusal([&] { (void)textOfMeshFile(file, 1, 1, 0); }, {"plate.msh", "must be saved in format 4.1"});
 }
 
 TEST_F(GmshRefusalsTest, RefusesSolidElementsNumberedTheOtherWayRound) {

@@ -219,11 +219,12 @@ TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheReport) {
 TEST_F(EvaluationTest, ReportCountsActiveRowsAndSumsAllForces) {
   const test::Kind kind{Physics::planeStrain, fem::CellType::quadrilateral};
   scene::Scene scene = test::stackedBlocks(kind, 2, 1, directory, *comm);
-  scene::SolidRegion thick; // the right half of the lower block
+  scene::SolidRegion thick; // the right half of both blocks
   thick.box.lower[0] = 0.5;
   thick.material = scene.bodies[0].material;
   thick.material.thickness = 2;
-  scene.bodies[0].regions.push_back(thick);
+  for (scene::Body& body : scene.bodies)
+    body.regions.push_back(thick);
   const auto decomposition = model::decompose(scene, comm);
   const auto solution = test::solutionWith(decomposition, [](const fem::Point&) {
     return std::array{3.0, 4.0, 0.0};

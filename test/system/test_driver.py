@@ -13,7 +13,7 @@ import xml.etree.ElementTree
 
 PROGRAM, SOURCE, LAUNCH = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
 SOLVED, NOT_CONVERGED, WRONG_INPUT, NOT_SOLVABLE = range(4)
-LIMIT = 60  # seconds
+LIMIT = 240  # seconds
 
 REPORT = {
     "Epafi": ["Version"],

@@ -10,7 +10,7 @@ import unittest
 
 import numpy
 
-from running import (ANSWER, FAILED, PROGRAM, SLOW, SOLVED, WITH_FAULTS, WRONG_INPUT, Run, elements, fields_of, has, ranks_of,
+from running import (FAILED, PROGRAM, SLOW, SOLVED, WITH_FAULTS, WRONG_INPUT, Run, elements, fields_of, has, ranks_of,
                      report_of, run, said, scene, wait_for)
 
 
@@ -84,7 +84,7 @@ class Signals(Run):
         def has_ended():  # what comes 0.2 s later or sooner is the same wish
             process.send_signal(signal.SIGINT)
             return process.poll() is not None
-        wait_for(has_ended, "the end", ANSWER)
+        wait_for(has_ended, "the end")
         self.assertEqual(process.returncode, -signal.SIGINT)
 
     def test_in_a_later_mesh_the_last_complete_one_is_kept(self):

@@ -161,6 +161,18 @@ class SolvesAsAccuratelyAsAsked(Driver):
         self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
         self.assertIn("the contact carries no force", read_report(self.place / "report.xml")["Status"]["Reason"])
 
+    def test_a_displacement_that_is_0_has_no_bar(self):
+        held = [part for entry in ("Kind=displacement", "Body=lower", "Surface=left", "Direction={1, 0, 0}")
+                for part in ("--set", f"Accuracy/Quantity/{entry}")]
+        run = epafi(scene("three_cubes"), *held, ranks=2)
+        self.assertEqual(run.returncode, SOLVED, run.stderr)
+        self.assertIn(": 0, without an error bar: it is 0 to round-off", run.stdout)
+        run = epafi(scene("three_cubes"), *held, "--accuracy", "20%", "--output", self.place)
+        self.assertEqual(run.returncode, NOT_CONVERGED, run.stderr)
+        reason = read_report(self.place / "report.xml")["Status"]["Reason"]
+        self.assertIn("it is 0 to round-off", reason)
+        self.assertNotIn("the iteration", reason)
+
     def test_a_quantity_is_in_the_table_of_meshes(self):
         run = epafi(scene("coercive"), "--accuracy", "1%", "--set", "Accuracy/Quantity/Kind=force", "--set",
                     "Accuracy/Quantity/Contact=interface", "--output", self.place)
