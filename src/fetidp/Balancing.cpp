@@ -27,7 +27,7 @@ void markFree(const decomposition::DecomposedProblem& problem, const Vector& lam
 
 } // namespace
 
-double gradientReference(const decomposition::DecomposedProblem& problem, const Vector& d) {
+double gradientReference(const decomposition::DecomposedProblem& problem, const Vector& d, double roundOff) {
   constexpr double most = 10;
   Vector violated(d, Teuchos::Copy);
   {
@@ -37,7 +37,7 @@ double gradientReference(const decomposition::DecomposedProblem& problem, const 
         values[row] = std::max(values[row], 0.0);
   }
   const double whole = accurateNorm(d), part = accurateNorm(violated);
-  return part > 0 ? std::min(whole, most * part) : whole;
+  return violated.normInf() > roundOff ? std::min(whole, most * part) : whole;
 }
 
 double equilibriumReference(const decomposition::DecomposedProblem& problem, const NaturalCoarseSpace& space,

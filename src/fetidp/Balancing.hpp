@@ -10,8 +10,9 @@
 namespace epafi::fetidp {
 
 /// What the dual gradient is compared with: ‖d‖, but at most ten times what constraints lack where there is no force. The
-/// distance of a contact that stays open is no size of the solution. \param d  −g at λ = 0. Collective.
-double gradientReference(const decomposition::DecomposedProblem& problem, const Vector& d);
+/// distance of a contact that stays open is no size of the solution. \param d  −g at λ = 0  \param roundOff  of its entries; what lacks no
+/// more is nothing. Collective.
+double gradientReference(const decomposition::DecomposedProblem& problem, const Vector& d, double roundOff);
 
 /// What forces and resultants are measured by, in the metric of N⁻¹: ‖ẽ‖, or ‖Pd‖/‖PFP‖ where the loads have no resultant and contacts hold them from both
 /// sides. \param resultants  ẽ  \param gradient  ‖Pd‖  \param norm  ‖PFP‖; 0: unknown

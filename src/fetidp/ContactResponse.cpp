@@ -133,6 +133,8 @@ RCP<Vector> multiplierOf(const DualProblem& dual, Face& face, const DataChange& 
       preconditioner = rcp(new FaceOperator(operators.facePreconditioner, face));
     report = qp::solveUnconstrained(hessian, rhs, lambda, tolerance,
                                     dual.parameters().mprgp.maxMultiplications, nullptr, preconditioner);
+    for (int pass = 0; pass < 2; ++pass) // the operator does not see what round-off adds beside equilibrium
+      face.restrict(*lambda);
   }
   lambda->update(1.0, balanced, 1.0);
   if (!operators.deflated.is_null())

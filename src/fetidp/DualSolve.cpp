@@ -97,6 +97,7 @@ constexpr double reductionWithClusters = 0.02;
 struct RightHandSide {
   RCP<Vector> values;
   double termSize = 0; ///< max |K̄⁺f̄| + max |c|
+  double largest = 0;  ///< max |K̄⁺f̄|
 };
 
 /// d̃ = B̄ K̄⁺ f̄ − c. Collective.
@@ -109,10 +110,10 @@ RightHandSide rightHandSide(const DualProblem& dual) {
   RightHandSide rhs{rcp(new Vector(problem.multiplierMap))};
   exchange.sumToOwners(*rhs.values);
   rhs.values->update(-1.0, *problem.gap, 1.0);
-  double largest = 0;
   for (const Eigen::MatrixXd& values : u)
-    largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
-  rhs.termSize = maxOverRanks(*problem.comm, largest) + problem.gap->normInf();
+    rhs.largest = values.size() > 0 ? std::max(rhs.largest, values.lpNorm<Eigen::Infinity>()) : rhs.largest;
+  rhs.largest = maxOverRanks(*problem.comm, rhs.largest);
+  rhs.termSize = rhs.largest + problem.gap->normInf();
   return rhs;
 }
 
@@ -179,10 +180,12 @@ void IterativeSolve::completeJumps(Vector& lambda) const {
 /// Residuals are relative to the size of d̃ or Pd (Balancing.hpp). One that is the round-off of its terms is set to zero, and their size
 /// becomes the measure; returns whether that is so. Collective.
 bool IterativeSolve::setReference() {
-  const bool vanishes = rhs_->normInf() <= 1e-13 * wholeRhs_.termSize;
+  constexpr double roundOff = 1e-13;
+  const bool vanishes = rhs_->normInf() <= roundOff * wholeRhs_.termSize;
   if (vanishes)
     rhs_->putScalar(0.0);
-  solution_.reference = vanishes ? wholeRhs_.termSize : gradientReference(problem_, *rhs_);
+  solution_.reference =
+      vanishes ? wholeRhs_.termSize : gradientReference(problem_, *rhs_, roundOff * wholeRhs_.largest);
   return vanishes;
 }
 

@@ -184,11 +184,12 @@ void describePair(ParameterList& contact) {
             "\"mortar\", integrals over what the surfaces have in common; \"auto\": pairs where all match, "
             "else mortars.",
             {"auto", "nodes", "mortar"});
-  addChoice(pair, "Multipliers", "auto",
-            "With mortars: which surface carries the multipliers. \"auto\": one that no support holds, then one "
-            "that no other contact has, then the one that is finer by half, then the one that the other covers, "
-            "then that of the softer body, then the finer, then the first.",
-            {"auto", "first", "second"});
+  addChoice(
+      pair, "Multipliers", "auto",
+      "With mortars: which surface carries the multipliers. \"auto\": one that no support holds, then one "
+      "that no other contact has, then the one that is finer by half, then the one that the other covers, "
+      "then that of the softer body, then the finer, then the first.",
+      {"auto", "first", "second"});
 }
 
 } // namespace
