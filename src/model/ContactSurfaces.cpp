@@ -1,6 +1,7 @@
 #include "epafi/model/ContactSurfaces.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/contact/MortarIntegrals.hpp"
 #include "epafi/fem/BoxTree.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 
@@ -52,6 +53,35 @@ Facets facetsNear(const fem::Mesh& mesh, const fem::Surface& surface, const fem:
   return near;
 }
 
+/// Area of the facets of a side that the other one covers somewhere, by what it covers of them; 1 if nothing can be said.
+double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
+                const scene::SurfaceContact& terms, int body, const std::string& surface) {
+  const bool isFirst = body == terms.first;
+  const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
+                   &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
+  const fem::Surface ownSurface = surfaceOf(terms, own, surface),
+                     facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
+  const contact::NodePoints here = [&](GlobalOrdinal node) { return own.mesh->point(node); },
+                            there = [&](GlobalOrdinal node) { return other.mesh->point(node); };
+  const contact::ContactTerms asked{terms.name,
+                                    surface,
+                                    dimensionOf(own.mesh->cellType()),
+                                    componentsOf(scene.bodies[static_cast<std::size_t>(body)].physics),
+                                    terms.gap,
+                                    terms.distance};
+  double whole = 0, covered = 0;
+  try {
+    for (const contact::MortarFacet& facet :
+         contact::mortarIntegrals(asked, {ownSurface, here}, {facing, there})) {
+      whole += facet.whole;
+      covered += facet.area;
+    }
+  } catch (const InputError&) { // told where the rows are made
+    return 1;
+  }
+  return whole / covered;
+}
+
 } // namespace
 
 double spacingOf(const fem::Mesh& mesh, const fem::Surface& surface) {
@@ -92,19 +122,19 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
                    : 0;
     return static_cast<double>(count);
   };
-  const auto near = [&](int body, const std::string& surface) {
+  const auto spacing = [&](int body, const std::string& surface) {
     const bool isFirst = body == terms.first;
     const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
                      &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
     const fem::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
-    return facetsNear(*own.mesh, surfaceOf(terms, own, surface),
-                      fem::BoxTree(boxesOf(*other.mesh, facing, 0)), terms.distance);
+    const fem::Surface at = surfaceOf(terms, own, surface);
+    return facetsNear(*own.mesh, at, fem::BoxTree(boxesOf(*other.mesh, facing, 0)), terms.distance)
+        .spacing(at);
   };
-  const auto spacing = [&](int body, const std::string& surface) {
-    const BodyLayout& own = bodies[static_cast<std::size_t>(body)];
-    return near(body, surface).spacing(surfaceOf(terms, own, surface));
+  const auto beyond = [&](int body,
+                          const std::string& surface) { // area of its facets by what is covered of them
+    return beyondOf(scene, bodies, terms, body, surface);
   };
-  const auto area = [&](int body, const std::string& surface) { return near(body, surface).area; };
   const auto stiffness = [&](int body, const std::string&) {
     const scene::Body& owner = scene.bodies[static_cast<std::size_t>(body)];
     return owner.physics == scene::Physics::membrane ? owner.material.conductivity
@@ -123,7 +153,7 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
     return ", which has no other contact there";
   if (decides(spacing, 1.5))
     return ", the finer one";
-  if (decides(area, 1.1)) // rows of facets that are covered in part may not reach to the rim
+  if (decides(beyond, 1.05)) // of few facets rows of those covered in part do not reach the rim
     return ", which the other one covers";
   if (decides(stiffness, 1.01)) // of meshes about as fine its pressure is the smoother one
     return ", the softer one";

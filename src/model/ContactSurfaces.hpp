@@ -19,7 +19,7 @@ fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& b
 double spacingOf(const fem::Mesh& mesh, const fem::Surface& surface);
 
 /// Decides which surface is to carry multipliers: one that no support holds, then one that no other contact has, then one
-/// that is finer by half where they are near each other, then one that is smaller by a tenth there, then that of the softer body, then the
+/// that is finer by half where they are near each other, then one of whose facets the other covers more, then that of the softer body, then the
 /// finer, then the first. Returns why, as words behind the body's name.
 /// \param[in,out] terms  one of the scene's contacts, between two bodies
 /// Not collective.
