@@ -73,10 +73,17 @@ std::vector<std::size_t> MultiplierNodes::representatives(const std::function<bo
       if (!isHeld(k))
         most = std::max(most, coverage_[k]);
     }
-    if (own.empty() || width(own) > narrow * width(places))
-      continue;
-    for (const std::size_t k : places)
-      representative[k] = coverage_[k] >= coverageOfTurns * most && !isHeld(k) ? k : none;
+    for (const bool withHeld :
+         {false, true}) { // at nodes that are held the other side is tied to what does not move
+      if (own.empty() || width(own) > narrow * width(places))
+        break;
+      own.clear();
+      for (const std::size_t k : places) {
+        representative[k] = coverage_[k] >= coverageOfTurns * most && (withHeld || !isHeld(k)) ? k : none;
+        if (representative[k] == k)
+          own.push_back(k);
+      }
+    }
   }
   spread(representative);
   return representative;

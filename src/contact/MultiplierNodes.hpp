@@ -27,7 +27,8 @@ public:
   /// that is covered most has one.
   /// \param isHeld  whether a place may have no multiplier
   /// \param holdTurns  whether they must hinder all turns of the surfaces, as ties do: where those with multipliers would lie in one
-  ///                   point, or in space on one line, all that are covered enough have some
+  ///                   point, or in space on one line, all that are covered enough have some,
+  ///                   those that are held, too, where the others do not do
   [[nodiscard]] std::vector<std::size_t> representatives(const std::function<bool(std::size_t)>& isHeld,
                                                          bool holdTurns) const;
 

@@ -97,6 +97,7 @@ private:
   void requireNew(const Member& old, const Member& added) const;
   [[nodiscard]] static bool bringsFacets(std::span<const Member> members, const Member& added,
                                          Side Member::*side);
+  void requireApart(Member added) const;
   [[nodiscard]] bool joins(const std::vector<Member>& members, const Member& added) const;
   static void exchange(Member& member);
 
@@ -199,8 +200,34 @@ void Groups::add(std::size_t number) {
     members_[g] = std::move(members);
     return;
   }
+  added = memberOf(scene_.contacts[number]);
+  requireApart(added);
   groups_.push_back({{number}, {}, true});
-  members_.push_back({memberOf(scene_.contacts[number])});
+  members_.push_back({std::move(added)});
+}
+
+/// Contacts that are no group would share the forces of facets that both have on both sides in any way.
+void Groups::requireApart(Member added) const {
+  if (isAlongEdges(scene_, added.terms))
+    return;
+  const auto haveCommon = [](const Side& a, const Side& b) {
+    return std::any_of(a.facets.begin(), a.facets.end(),
+                       [&](const auto& facet) { return b.facets.contains(facet); });
+  };
+  for (const std::vector<Member>& members : members_)
+    for (const Member& member : members) {
+      const Terms& its = member.terms;
+      if (!haveSameBodies(its, added.terms) || its.kind != added.terms.kind || its.gap != added.terms.gap)
+        continue;
+      if (its.first != added.terms.first)
+        exchange(added);
+      if (haveCommon(member.first, added.first) &&
+          (its.second < 0 || haveCommon(member.second, added.second)))
+        throw InputError(
+            "contacts '" + its.name + "' and '" + added.terms.name +
+            "' have facets in common on both sides, whose forces they could share in any way; name "
+            "each facet in one of them");
+    }
 }
 
 std::vector<ContactGroup> Groups::take() {

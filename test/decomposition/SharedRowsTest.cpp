@@ -465,5 +465,45 @@ TEST(SharedRowsTest, TiesInACircleSayThatTheirForcesAreNotUnique) {
   }
 }
 
+/// What is no one surface, because of its orders, distances, or a third contact, is refused instead of counted twice.
+TEST(SharedRowsTest, CommonFacetsOfContactsThatAreNoSurfaceAreRefused) {
+  const auto refused = [](Blocks& blocks) {
+    test::expectSays(test::refusal([&] { (void)blocks.layout(); }),
+                     {"'left'", "'inner'", "facets in common"});
+  };
+  for (const int upper : {8, 12}) {
+    Blocks orders = stacked({2, 1, false}, 8, upper);
+    orders.bodies.pop_back();
+    orders.scene.bodies.pop_back();
+    orders.meshing.order = 2;
+    orders.add("upper", 0, 2, 0, 1, upper);
+    orders.join("left", "top left", "bottom");
+    orders.join("inner", "top inner", "bottom");
+    refused(orders);
+    Blocks distances = stacked({2, 1, false}, 8, upper);
+    distances.join("left", "top left", "bottom left").distance = 0.125;
+    distances.join("inner", "top inner", "bottom inner").distance = 0.25;
+    refused(distances);
+    Blocks gaps = stacked({2, 1, false}, 8, upper); // of two gaps the smaller one counts
+    gaps.join("left", "top left", "bottom left");
+    gaps.join("inner", "top inner", "bottom inner").gap = 0.125;
+    EXPECT_EQ(gaps.layout().contacts.size(), 2U);
+  }
+}
+
+/// A tie holds turns beside a support that holds one of the two nodes that could.
+TEST(SharedRowsTest, ATieBesideASupportHoldsTurns) {
+  Blocks blocks{{2, 1, false}};
+  blocks.add("wide", 0, 2, -1, 0, 1);
+  blocks.add("narrow", 0.25, 1.75, 0, 1, 1);
+  blocks.join("tie", "top", "bottom", Kind::tied).multipliers = Side::first;
+  SupportedNodes supports;
+  const fem::Mesh& wide = *blocks.bodies[0].mesh;
+  supports.isHeld = [&](int body, GlobalOrdinal node, const Eigen::Vector3d&) {
+    return body == 0 && wide.point(node)[0] == 0;
+  };
+  EXPECT_EQ(layoutContacts(blocks.scene, blocks.bodies, supports).ties.at(0).numRows(), 4);
+}
+
 } // namespace
 } // namespace epafi::model
