@@ -40,8 +40,10 @@ endfunction()
 # TrilinosConfig.cmake reads its packages but once in a directory, those that whoever came first has asked for. Their files
 # are therefore read here one by one.
 function(epafi_find_in_trilinos name missing)
-  find_package(MPI QUIET COMPONENTS CXX)
-  if(NOT MPI_CXX_FOUND)
+  if(NOT TARGET MPI::MPI_CXX) # it compiles programs to see, each time that it is asked
+    find_package(MPI QUIET COMPONENTS CXX)
+  endif()
+  if(NOT TARGET MPI::MPI_CXX)
     set(${missing} "MPI for C++ is not found; name its compiler in MPI_CXX_COMPILER (Debian: libopenmpi-dev)" PARENT_SCOPE)
     return()
   endif()
