@@ -61,6 +61,9 @@ double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies
                    &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
   const fem::Surface ownSurface = surfaceOf(terms, own, surface),
                      facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
+  constexpr std::size_t few = 400; // of more the rim is a small part, and the integrals are not for nothing
+  if (std::max(ownSurface.numFacets(), facing.numFacets()) > few)
+    return 1;
   const contact::NodePoints here = [&](GlobalOrdinal node) { return own.mesh->point(node); },
                             there = [&](GlobalOrdinal node) { return other.mesh->point(node); };
   const contact::ContactTerms asked{terms.name,
