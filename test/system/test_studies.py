@@ -63,8 +63,6 @@ class StudiesScaling(Studies):
         for row in alone:
             numbers = {name: float(row[name]) for name in self.COLUMNS[6:]}
             self.assertTrue(all(value > 0 for value in numbers.values()), row)
-            phases = sum(numbers[f"{phase}_seconds"] for phase in ("assembly", "setup", "solve"))
-            self.assertLess(phases, 1.5 * numbers["total_seconds"], row)  # medians, each of its own
         for problem in ("coercive", "semicoercive"):
             energies = [float(row["energy"]) for row in alone
                         if (row["problem"], row["H_inverse"], row["H_over_h"]) == (problem, "8", "8")]
