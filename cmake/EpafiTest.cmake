@@ -7,6 +7,7 @@ find_package(GTest REQUIRED)
 # Tests take longer to compile than to run: they are optimised less, and GCC 12 takes some of Eigen for uninitialized then.
 function(epafi_test_code target)
   epafi_flags(${target})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/test")
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_precompile_headers(${target} REUSE_FROM epafi_precompiled_tests)
 endfunction()

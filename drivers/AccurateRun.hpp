@@ -19,11 +19,11 @@ struct AccurateRun {
   bool isInterrupted = false; ///< by a signal: the run is on the last mesh whose iteration ended
 };
 
-/// Refines the scene until the estimated relative error is at most the target, or no finer mesh is allowed. Its report gets
-/// the list Levels, and the status says whether the target is met.
+/// Refines the scene until the estimated relative error is at most the target, or no finer mesh is allowed.
+/// Its report gets the list Levels, and the status says whether the target is met.
 /// \param solverParameters  the list Solver; its tolerance is 'balanced' unless it gives one
-/// \param tell              is told of every mesh before the next one is made, with its run, whose report says what is reached
-///                          so far, with the status Running; may be empty
+/// \param tell  is told of every mesh before the next one is made, with its run, whose report says what is
+/// reached so far, with the status Running; may be empty
 /// Precondition: accuracy.target > 0. Collective. \throws as solveScene.
 AccurateRun solveToTarget(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                           const AccuracyParameters& accuracy, const RCP<const Comm>& comm,

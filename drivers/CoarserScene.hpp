@@ -17,8 +17,9 @@ struct CoarserScene {
   std::string means;                     ///< what makes it coarser, in some words
 };
 
-/// Where elements are of order 2 those of order 1 on the same mesh; where all are of order 1 half as many cells along each axis of a grid, and
-/// elements twice as large in a geometry. Nothing where no body can be had coarser, as of a mesh file of order 1.
+/// Where elements are of order 2 those of order 1 on the same mesh; where all are of order 1 half as many
+/// cells along each axis of a grid, and elements twice as large in a geometry. Nothing where no body can be
+/// had coarser, as of a mesh file of order 1.
 /// \param fine  the bodies of the scene
 /// Collective. \throws InputError, the same on all ranks, where a geometry cannot be meshed in this way.
 std::optional<CoarserScene> coarserScene(const scene::Scene& scene,

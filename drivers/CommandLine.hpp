@@ -8,8 +8,8 @@
 
 namespace epafi::drivers {
 
-/// The options that a program knows, and what each does. An option's value follows it, or an = without blanks. All ranks see the same
-/// arguments: nothing here is collective.
+/// The options that a program knows, and what each does. An option's value follows it, or an = without
+/// blanks. All ranks see the same arguments: nothing here is collective.
 class CommandLine {
 public:
   using Take = std::function<void(const std::string&)>;
@@ -25,7 +25,8 @@ public:
   /// Takes the words that are no options.
   CommandLine& words(Take take);
 
-  /// Returns whether help is asked for. \throws InputError for an unknown option, or one with a missing value or one too many
+  /// Returns whether help is asked for. \throws InputError for an unknown option, or one with a missing value
+  /// or one too many
   [[nodiscard]] bool parse(int argc, const char* const* argv) const;
 
 private:

@@ -61,9 +61,10 @@ void endForAll(MPI_Comm messages, int rank, int size, const Failure& failure) {
   MPI_Abort(MPI_COMM_WORLD, failure.code);
 }
 
-/// A process that nobody launched beside others needs no daemon of Open MPI, no search for fast networks and no X server, which take
-/// ten times as long as the rest of the start; nor a directory for what ranks share, which would be that of all such processes: one that
-/// starts while another one ends fails when that takes it away. What the user has set stays.
+/// A process that nobody launched beside others needs no daemon of Open MPI, no search for fast networks and
+/// no X server, which take ten times as long as the rest of the start; nor a directory for what ranks share,
+/// which would be that of all such processes: one that starts while another one ends fails when that takes it
+/// away. What the user has set stays.
 void startLean() {
   for (const char* ofLaunchers : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_FD", "PMI_PORT",
                                   "SLURM_PROCID", "MPI_LOCALRANKID", "FLUX_JOB_ID", "ALPS_APP_PE"})

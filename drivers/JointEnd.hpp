@@ -9,22 +9,25 @@
 
 namespace epafi::drivers {
 
-/// notConverged stands for whatever else was not done as well: a file that could not be written, a rank that failed.
+/// notConverged stands for whatever else was not done as well: a file that could not be written, a rank that
+/// failed.
 enum ExitCode : int { solved = 0, notConverged = 1, wrongInput = 2, notSolvable = 3 };
 
-/// Runs `work` on every rank. Returns the exit code: what `work` returns, or the code of the error that it throws, of which one
-/// rank tells on the error stream.
+/// Runs `work` on every rank. Returns the exit code: what `work` returns, or the code of the error that it
+/// throws, of which one rank tells on the error stream.
 ///
-/// Most errors are thrown by all ranks together (epafi/base/Collective.hpp): rank 0 says which, and all return. What one rank
-/// throws alone, out of memory say, leaves the others waiting for it in some message. So whoever throws waits for all others
-/// to do so too, `patience` seconds at most; then the lowest of those that threw speaks, with its rank, and MPI_Abort ends the
-/// others with the code. Nothing hangs as long as what was thrown gets here: destructors must not wait for other ranks.
-/// Collective; from here on messages of its own.
+/// Most errors are thrown by all ranks together (epafi/base/Collective.hpp): rank 0 says which, and all
+/// return. What one rank throws alone, out of memory say, leaves the others waiting for it in some message.
+/// So whoever throws waits for all others to do so too, `patience` seconds at most; then the lowest of those
+/// that threw speaks, with its rank, and MPI_Abort ends the others with the code. Nothing hangs as long as
+/// what was thrown gets here: destructors must not wait for other ranks. Collective; from here on messages of
+/// its own.
 /// \param program  whose name begins what is told
 int endTogether(const Comm& comm, const std::function<int()>& work, double patience = 3.0,
                 const std::string& program = "epafi");
 
-/// What the programs' main() does: MPI from here to the end, and `work` on all ranks, with memory as keepFreedMemory has it. Returns the exit code.
+/// What the programs' main() does: MPI from here to the end, and `work` on all ranks, with memory as
+/// keepFreedMemory has it. Returns the exit code.
 int runMain(int argc, char** argv, const std::string& program,
             const std::function<int(const RCP<const Comm>&)>& work);
 

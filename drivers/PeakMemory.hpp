@@ -4,12 +4,12 @@
 
 namespace epafi::drivers {
 
-/// From now on memory that is freed stays with the program, ready to be used again: the system would have to clear it, page by
-/// page, at its next first touch. Not collective.
+/// From now on memory that is freed stays with the program, ready to be used again: the system would have to
+/// clear it, page by page, at its next first touch. Not collective.
 void keepFreedMemory();
 
-/// Gives back to the system what is free, and starts anew; returns the bytes held now. Where the system does not allow
-/// it (Linux does), peaks go on from the program's start. Not collective.
+/// Gives back to the system what is free, and starts anew; returns the bytes held now. Where the system does
+/// not allow it (Linux does), peaks go on from the program's start. Not collective.
 double resetPeakBytes();
 
 /// Most bytes that this process held in memory since `resetPeakBytes`. Not collective.

@@ -15,7 +15,8 @@
 namespace epafi::drivers {
 namespace {
 
-/// Residual of the dual problem at which its solution still serves, should round-off allow no less: meshes have larger errors.
+/// Residual of the dual problem at which its solution still serves, should round-off allow no less: meshes
+/// have larger errors.
 constexpr double enoughOfDual = 1e-3;
 
 /// Estimates of coarse meshes see 0.7 of the error.

@@ -43,7 +43,8 @@ struct Quantity {
 /// A quantity of a scene that is cut: made before the solve, so that a wrong name is found at once.
 class QuantityOfScene {
 public:
-  /// Keeps references. Not collective. \throws InputError, the same on all ranks, if the scene has no such thing.
+  /// Keeps references. Not collective. \throws InputError, the same on all ranks, if the scene has no such
+  /// thing.
   QuantityOfScene(const QuantityParameters& parameters, const scene::Scene& scene,
                   const model::Decomposition& decomposition);
 

@@ -50,7 +50,7 @@ fetidp::ContradictionError inWordsOf(const model::Decomposition& decomposition,
     names.push_back(nameOf(decomposition, originOf(decomposition, row)));
   const Origin first = originOf(decomposition, error.rows().front());
   const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(first.layout.firstBody)].mesh;
-  const fem::Point point = mesh.point(first.node);
+  const Point point = mesh.point(first.node);
   const auto dimension = static_cast<std::size_t>(fem::dimensionOf(mesh.cellType()));
   return {error.rows(), error.misfit(), std::move(names), text(std::span(point.data(), dimension))};
 }

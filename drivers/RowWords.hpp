@@ -7,7 +7,8 @@
 
 namespace epafi::drivers {
 
-/// The same error with the names of contacts, joints and bodies, and a place, instead of numbers of rows. Not collective.
+/// The same error with the names of contacts, joints and bodies, and a place, instead of numbers of rows. Not
+/// collective.
 fetidp::ContradictionError inWordsOf(const model::Decomposition& decomposition,
                                      const fetidp::ContradictionError& error);
 

@@ -68,7 +68,8 @@ std::string tableOfMeshes(const Teuchos::ParameterList& levels) {
 RunFiles::RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started)
     : options_(options), watch_(watch), comm_(std::move(comm)), started_(started), lastMesh_(started) {}
 
-/// Runs `work`, which writes `file` and returns a line that says so; notes what all ranks agree that it could not.
+/// Runs `work`, which writes `file` and returns a line that says so; notes what all ranks agree that it could
+/// not.
 template <class Work>
 void RunFiles::attempt(const std::filesystem::path& file, const Work& work) {
   try {
@@ -86,7 +87,8 @@ void RunFiles::publish(output::FileSet& files) {
   }
 }
 
-/// All but the checkpoint, which is of the mesh that the iteration is on, and says which, get their names later; reports last.
+/// All but the checkpoint, which is of the mesh that the iteration is on, and says which, get their names
+/// later; reports last.
 void RunFiles::prepare(SceneRun& run, output::FileSet& files) {
   lines_.clear();
   failures_.clear();

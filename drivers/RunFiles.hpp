@@ -17,19 +17,20 @@ namespace epafi::drivers {
 /// DIR/report.xml and the file of --report, as far as they were asked for; not twice the same.
 std::vector<std::filesystem::path> reportsOf(const Options& options);
 
-/// Writes what was asked for: checkpoint, history, fields, reports, the smallest first. A file that cannot be written does not keep
-/// the others from it. All methods are collective; what they note is the same on all ranks.
+/// Writes what was asked for: checkpoint, history, fields, reports, the smallest first. A file that cannot be
+/// written does not keep the others from it. All methods are collective; what they note is the same on all
+/// ranks.
 class RunFiles {
 public:
   /// \param started  wall time at the start of the run
   RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started);
 
-  /// The files of a mesh of several, in place of those of the mesh before: all, with a report that says that the run goes on, or
-  /// none, and the run goes on without, of which rank 0 tells once. They are put in place together, between a report that says so
-  /// and the one that is to stay.
+  /// The files of a mesh of several, in place of those of the mesh before: all, with a report that says that
+  /// the run goes on, or none, and the run goes on without, of which rank 0 tells once. They are put in place
+  /// together, between a report that says so and the one that is to stay.
   void writeMesh(SceneRun& run);
-  /// Those of a run that is over; of its last mesh, if that has them, the reports alone. Enters Time/Output, that of all meshes, and
-  /// Time/Total in the run's report, as writeMesh() does.
+  /// Those of a run that is over; of its last mesh, if that has them, the reports alone. Enters Time/Output,
+  /// that of all meshes, and Time/Total in the run's report, as writeMesh() does.
   void finish(SceneRun& run);
 
   [[nodiscard]] const std::string& lines() const { return lines_; } ///< for people: what was written where

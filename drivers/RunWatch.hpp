@@ -21,11 +21,12 @@ public:
 
 class RunWatch final : public RunCompanion {
 public:
-  /// Reads the checkpoint of --restart. Precondition: listenToStopSignals() was called. Collective. \throws InputError if it
-  /// cannot be read.
+  /// Reads the checkpoint of --restart. Precondition: listenToStopSignals() was called. Collective. \throws
+  /// InputError if it cannot be read.
   RunWatch(const Options& options, RCP<const Comm> comm);
 
-  /// λ of that checkpoint. \throws InputError if it does not fit the problem, Interrupted if a signal has come.
+  /// λ of that checkpoint. \throws InputError if it does not fit the problem, Interrupted if a signal has
+  /// come.
   RCP<const Vector> begin(const decomposition::DecomposedProblem& problem) override;
   /// \throws Interrupted if a signal has come.
   void beforeIteration() override;

@@ -50,9 +50,11 @@ double distance(const SceneRun& finer, const SceneRun& coarser) {
       .energy;
 }
 
-/// Numbers are asked to more digits than norms, and a bound of what the iteration may be off by is in their bars.
+/// Numbers are asked to more digits than norms, and a bound of what the iteration may be off by is in their
+/// bars.
 constexpr double quantityTolerance = 1e-8;
-/// A fifth of what single runs have: some products more, where a target that is missed by the iteration's share costs another mesh.
+/// A fifth of what single runs have: some products more, where a target that is missed by the iteration's
+/// share costs another mesh.
 constexpr double fractionOnTheWay = 0.02;
 
 /// Elements halved everywhere, and as many times more subdomains.
@@ -129,8 +131,8 @@ protected:
     }
     return values;
   }
-  /// Where bodies are of one material the diagonal varies with the elements' size and nodes' kinds alone, which no preconditioner
-  /// minds: no eigenproblems.
+  /// Where bodies are of one material the diagonal varies with the elements' size and nodes' kinds alone,
+  /// which no preconditioner minds: no eigenproblems.
   static Teuchos::ParameterList parametersFor(const scene::Scene& scene, Teuchos::ParameterList list) {
     Teuchos::ParameterList& adaptive = list.sublist("Adaptive Constraints");
     const bool isUniform = std::all_of(scene.bodies.begin(), scene.bodies.end(),

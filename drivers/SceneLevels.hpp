@@ -1,6 +1,7 @@
 #pragma once
 
-/// A scene on its meshes, as the loop that leads to a target sees it: solved, and refined everywhere or where the error is.
+/// A scene on its meshes, as the loop that leads to a target sees it: solved, and refined everywhere or where
+/// the error is.
 
 #include "AccuracyParameters.hpp"
 #include "SceneRun.hpp"
@@ -15,7 +16,8 @@ namespace epafi::drivers {
 /// Each run starts from the last one's solution.
 class SceneLevels : public accuracy::RefinableProblem {
 public:
-  /// \param solverParameters  the list Solver; unless it gives a tolerance that is 'balanced', or small for a quantity
+  /// \param solverParameters  the list Solver; unless it gives a tolerance that is 'balanced', or small for a
+  /// quantity
   SceneLevels(const Teuchos::ParameterList& solverParameters, QuantityParameters quantity,
               RCP<const Comm> comm, RunCompanion* companion);
 

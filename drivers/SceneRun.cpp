@@ -60,8 +60,8 @@ void SceneRun::correctQuantity(double effectivity, double bar) {
 
 namespace {
 
-/// The solution on a coarser mesh as λ of a run that is set up; null if that has no use for it. What goes wrong is no matter: there
-/// are other starts. Collective.
+/// The solution on a coarser mesh as λ of a run that is set up; null if that has no use for it. What goes
+/// wrong is no matter: there are other starts. Collective.
 RCP<Vector> startFrom(const SceneRun& coarser, const SceneRun& run) try {
   const RCP<Vector> start =
       run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
@@ -85,7 +85,8 @@ private:
   RunCompanion* of_;
 };
 
-/// Whether a run looks for the contact zone on a coarser mesh first. Membranes are solved in less time than it takes.
+/// Whether a run looks for the contact zone on a coarser mesh first. Membranes are solved in less time than
+/// it takes.
 bool beginsOnCoarserMesh(const decomposition::DecomposedProblem& problem, const RunOptions& options) {
   return options.coarser == nullptr && problem.components > 1 && problem.numInequalities > 0 &&
          problem.primalDimension >= options.coarserFrom;
@@ -102,7 +103,8 @@ Teuchos::ParameterList chosenFor(const decomposition::DecomposedProblem& problem
   return parameters;
 }
 
-/// A few subdomains need no clusters, which cost products. Ranks keep the subdomains that they have. Not collective.
+/// A few subdomains need no clusters, which cost products. Ranks keep the subdomains that they have. Not
+/// collective.
 void joinClusters(CoarserScene& coarser, int numRanks) {
   GlobalOrdinal number = 0;
   for (const model::BodyLayout& body : coarser.bodies)
@@ -112,8 +114,9 @@ void joinClusters(CoarserScene& coarser, int numRanks) {
       body.decomposition.cluster = 0;
 }
 
-/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Before the run is set up, and without
-/// its factors: there is memory for one set of them. What goes wrong there is no matter. Collective.
+/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Before
+/// the run is set up, and without its factors: there is memory for one set of them. What goes wrong there is
+/// no matter. Collective.
 std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
                                            const RCP<const Comm>& comm, const RunOptions& options) {
   constexpr double enough = 1e-4; // meshes differ by more
@@ -142,8 +145,8 @@ std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::Paramet
   }
 }
 
-/// A guess of the discretisation error relative to the solution, from nothing but the number of nodes: h of even meshes of bodies
-/// of size 1, as edges and borders of contact leave it to any order.
+/// A guess of the discretisation error relative to the solution, from nothing but the number of nodes: h of
+/// even meshes of bodies of size 1, as edges and borders of contact leave it to any order.
 double guessedError(const SceneRun& run) {
   const decomposition::DecomposedProblem& problem = run.decomposition->problem;
   const auto& bodies = run.scene.bodies;

@@ -25,8 +25,8 @@ struct SceneRun;
 /// Goes along with a run: looks on, may stop it, may know where to start.
 class RunCompanion : public qp::Observer {
 public:
-  /// Called when the problem is assembled, before anything is factorised. Returns λ to start from, or null. Collective; may
-  /// throw what all ranks agree on.
+  /// Called when the problem is assembled, before anything is factorised. Returns λ to start from, or null.
+  /// Collective; may throw what all ranks agree on.
   virtual RCP<const Vector> begin(const decomposition::DecomposedProblem& /*problem*/) {
     return Teuchos::null;
   }
@@ -66,8 +66,8 @@ struct SceneRun {
   [[nodiscard]] double relativeError() const;
   /// Divides the estimated discretisation error by its effectivity, in the report too. Precondition: `error`.
   void correctEstimate(double effectivity);
-  /// Divides the estimated error of the quantity by the square of the effectivity, and takes its bar from a loop that has seen other
-  /// meshes; in the report too. Precondition: `quantity`.
+  /// Divides the estimated error of the quantity by the square of the effectivity, and takes its bar from a
+  /// loop that has seen other meshes; in the report too. Precondition: `quantity`.
   void correctQuantity(double effectivity, double bar);
   [[nodiscard]] output::SolvedScene solved() const { return {scene, *decomposition, solution}; }
 };
@@ -81,8 +81,8 @@ struct RunOptions {
   /// Unknowns from which on the run may look for a coarser mesh itself.
   GlobalOrdinal coarserFrom = std::numeric_limits<GlobalOrdinal>::max();
   RunCompanion* companion = nullptr;
-  /// How meshes of files lie on several ranks, where `bodies` does not say: whole if runs are to be compared. A displacement at a
-  /// point wants them whole, and has them.
+  /// How meshes of files lie on several ranks, where `bodies` does not say: whole if runs are to be compared.
+  /// A displacement at a point wants them whole, and has them.
   model::Meshes meshes = model::Meshes::whole;
   /// Bodies that are meshed and cut already, which the run takes; null: as the scene says.
   std::vector<model::BodyLayout>* bodies = nullptr;

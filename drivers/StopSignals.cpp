@@ -11,7 +11,8 @@ volatile std::sig_atomic_t received = 0;
 // Of the first signal. Written by the handler before `received` only.
 timespec when{};
 
-/// What comes so soon after the first signal is the same wish: mpirun, a batch system and the terminal may all pass it on.
+/// What comes so soon after the first signal is the same wish: mpirun, a batch system and the terminal may
+/// all pass it on.
 constexpr double sameWish = 0.2;
 
 void remember(int signal) {

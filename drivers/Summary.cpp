@@ -174,8 +174,8 @@ std::string rounded(const ParameterList& list, const char* name) {
   return text.str();
 }
 
-/// ", resultant 256.76" where it is another thing than the sum of the nodes' forces: these turn with the surface, and their
-/// resultant is what a load holds.
+/// ", resultant 256.76" where it is another thing than the sum of the nodes' forces: these turn with the
+/// surface, and their resultant is what a load holds.
 std::string resultantOf(const ParameterList& contact) {
   constexpr double alike = 0.02;
   const auto& force = contact.get<Teuchos::Array<double>>("Resultant");

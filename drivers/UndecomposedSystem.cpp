@@ -78,7 +78,7 @@ void locate(const Decomposition& decomposition, const Subdomain& subdomain, int 
     const int component = subdomain.unknownPosition[i] % components;
     const auto unknown = static_cast<std::size_t>(first) + i;
     const auto column = static_cast<Eigen::Index>(unknown);
-    const fem::Point point = mesh.point(subdomain.nodes[node]);
+    const Point point = mesh.point(subdomain.nodes[node]);
     system.body[unknown] = subdomain.body;
     system.node[unknown] = static_cast<int>(subdomain.nodes[node]);
     system.place.col(column) << point[0], point[1], point[2];

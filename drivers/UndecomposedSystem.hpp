@@ -12,7 +12,8 @@
 
 namespace epafi::drivers {
 
-/// n unknowns, free displacements of nodes, body by body and node by node; m conditions, those of contact first and then those of tied joints.
+/// n unknowns, free displacements of nodes, body by body and node by node; m conditions, those of contact
+/// first and then those of tied joints.
 struct UndecomposedSystem {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 

@@ -50,7 +50,8 @@ std::string farewell(const std::string& signal, const RunWatch& watch) {
                        : "; to go on: --restart " + file + '\n');
 }
 
-/// Whether the standard output took the text, or nobody wanted to read it; says so if not: a disk may be full.
+/// Whether the standard output took the text, or nobody wanted to read it; says so if not: a disk may be
+/// full.
 bool print(const std::string& text) {
   std::cout.clear(); // what was lost before, lines about progress, is no matter
   errno = 0;

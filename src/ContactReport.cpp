@@ -23,7 +23,8 @@ double peakBytes() {
 
 } // namespace
 
-/// How many of the subdomains are multiplied with as dense blocks, and how many different ones there are. Collective.
+/// How many of the subdomains are multiplied with as dense blocks, and how many different ones there are.
+/// Collective.
 std::string ContactSolver::describeDualOperator() const {
   if (dual_->algorithm() == fetidp::Algorithm::direct)
     return "none";

@@ -129,8 +129,8 @@ fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* 
   return solution;
 }
 
-/// (g^Pᵀ M g^P)^½ of the gradient g = c − Bu: no eigenvalue of MF is below 1, so that it is the algebraic error in the energy
-/// norm at most (see qp/StoppingRule.hpp). Collective.
+/// (g^Pᵀ M g^P)^½ of the gradient g = c − Bu: no eigenvalue of MF is below 1, so that it is the algebraic
+/// error in the energy norm at most (see qp/StoppingRule.hpp). Collective.
 double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) const {
   if (dual_->algorithm() == fetidp::Algorithm::direct)
     return 0;
@@ -151,16 +151,17 @@ double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) 
 
 namespace {
 
-/// What constraints may be violated by, relative to the largest displacement: 1000 tolerances, or what round-off leaves of
-/// differences of displacements in the worst of the problems that are solved well.
+/// What constraints may be violated by, relative to the largest displacement: 1000 tolerances, or what
+/// round-off leaves of differences of displacements in the worst of the problems that are solved well.
 double allowedViolation(double tolerance) {
   return std::max(1e-7, 1e3 * tolerance);
 }
 
 } // namespace
 
-/// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the tolerance is met
-/// long before the constraints are. And round-off may end an iteration that is not far from its tolerance: responses to what is left of the gradient go on from there.
+/// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the
+/// tolerance is met long before the constraints are. And round-off may end an iteration that is not far from
+/// its tolerance: responses to what is left of the gradient go on from there.
 void ContactSolver::settle(fetidp::DualSolution dual, const qp::Interruption& interruption,
                            fetidp::ContactSolution& solution) {
   const double tolerance = dualParameters_.tolerance, allowed = allowedViolation(tolerance);
@@ -190,8 +191,8 @@ void ContactSolver::settle(fetidp::DualSolution dual, const qp::Interruption& in
   }
 }
 
-/// What the iteration claims must hold for the displacements too: round-off in the subdomain solves can undo it, and
-/// a right-hand side that is huge beside the displacements can make it worth little.
+/// What the iteration claims must hold for the displacements too: round-off in the subdomain solves can undo
+/// it, and a right-hand side that is huge beside the displacements can make it worth little.
 void ContactSolver::confirm(const fetidp::ContactSolution& solution, double errorTarget) {
   if (report_.status != qp::Status::converged)
     return;

@@ -42,34 +42,39 @@ public:
   /// ranks.
   void setup(const decomposition::DecomposedProblem& problem);
 
-  /// Follows changes that the problem of `setup` has seen since: matrices K^s (another object with the same pattern) and rows
-  /// of B. Loads and gaps need no call. Less than `setup`: subdomains whose matrix is the same object, with B at the same
-  /// unknowns as before, keep their factors; others are factorised numerically, their ordering and symbolic part kept. The
-  /// algorithm is chosen, ‖F‖ estimated and the preconditioner made anew; its blocks are kept where factors are. What earlier
-  /// calls returned stays valid but for references into dualProblem(). Collective. \throws as `setup`.
-  /// Preconditions: `setup` was called; subdomains, unknowns and crosspoints are the same.
+  /// Follows changes that the problem of `setup` has seen since: matrices K^s (another object with the same
+  /// pattern) and rows of B. Loads and gaps need no call. Less than `setup`: subdomains whose matrix is the
+  /// same object, with B at the same unknowns as before, keep their factors; others are factorised
+  /// numerically, their ordering and symbolic part kept. The algorithm is chosen, ‖F‖ estimated and the
+  /// preconditioner made anew; its blocks are kept where factors are. What earlier calls returned stays valid
+  /// but for references into dualProblem(). Collective. \throws as `setup`. Preconditions: `setup` was
+  /// called; subdomains, unknowns and crosspoints are the same.
   void update();
 
-  /// Solves for the loads and gaps that the problem holds now. Where the tolerance is met but the displacements violate the
-  /// constraints still, it is settled (fetidp/Recovery.hpp); the report counts those steps, too, which the observer is not told of, but may end. A solution that misses
-  /// the tolerance is returned as well: ask `report().status`.
+  /// Solves for the loads and gaps that the problem holds now. Where the tolerance is met but the
+  /// displacements violate the constraints still, it is settled (fetidp/Recovery.hpp); the report counts
+  /// those steps, too, which the observer is not told of, but may end. A solution that misses the tolerance
+  /// is returned as well: ask `report().status`.
   /// \param start     λ of an earlier solve to start from, or null
-  /// \param observer  told of every step, shown λ where it wants to look, may end the iteration (`interrupted`); or null
+  /// \param observer  told of every step, shown λ where it wants to look, may end the iteration
+  /// (`interrupted`); or null
   /// \param balance   with the tolerance 'balanced': who estimates the discretisation error; else null
   /// Collective. Precondition: `setup` was called.
   /// \throws SolvabilityError or InputError (a load or gap that is not finite), the same on all ranks.
   fetidp::ContactSolution solve(const Vector* start = nullptr, qp::Observer* observer = nullptr,
                                 const fetidp::ErrorBalance* balance = nullptr);
 
-  /// λ to start from, of a guess of the displacements, say from a coarser mesh: see fetidp::DualProblem::startFrom. Null
-  /// where there is nothing to iterate, or no preconditioner of type dirichlet. Precondition: `setup` was called. Collective.
+  /// λ to start from, of a guess of the displacements, say from a coarser mesh: see
+  /// fetidp::DualProblem::startFrom. Null where there is nothing to iterate, or no preconditioner of type
+  /// dirichlet. Precondition: `setup` was called. Collective.
   [[nodiscard]] RCP<Vector> startFrom(std::span<const Eigen::VectorXd> displacement) const {
     return dual_->startFrom(displacement);
   }
 
-  /// How a solution changes with loads and gaps while its closed contacts stay closed and its open ones open: a linear problem, for
-  /// sensitivities and for the errors of quantities; see fetidp::contactResponse. Precondition: `setup` was called, and `solution`
-  /// is one of its problem. Leaves report() as it is. Collective.
+  /// How a solution changes with loads and gaps while its closed contacts stay closed and its open ones open:
+  /// a linear problem, for sensitivities and for the errors of quantities; see fetidp::contactResponse.
+  /// Precondition: `setup` was called, and `solution` is one of its problem. Leaves report() as it is.
+  /// Collective.
   [[nodiscard]] fetidp::ContactResponse respond(const fetidp::ContactSolution& solution,
                                                 const fetidp::DataChange& change,
                                                 double tolerance = 1e-6) const {
@@ -92,8 +97,8 @@ public:
   /// That fraction.
   [[nodiscard]] double algebraicFraction() const { return algebraicFraction_; }
 
-  /// The report of the last solve as a list: Epafi (Version), Problem, Algorithm, Iterations, Accuracy, Time, Memory, Status.
-  /// Collective.
+  /// The report of the last solve as a list: Epafi (Version), Problem, Algorithm, Iterations, Accuracy, Time,
+  /// Memory, Status. Collective.
   [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
 
 private:

@@ -1,5 +1,5 @@
-// What the changes of a problem cost: loads, gaps, contact rows and matrices, each beside setting all up anew.
-// Prints the seconds of setup or update, and those of the solve that follows.
+// What the changes of a problem cost: loads, gaps, contact rows and matrices, each beside setting all up
+// anew. Prints the seconds of setup or update, and those of the solve that follows.
 #include "Block.hpp"
 
 #include "epafi/ContactSolver.hpp"

@@ -1,5 +1,6 @@
-// A block of an application's own mesh, pressed up against a rigid circle: element matrices in, displacements out.
-// Prints the displacements of all nodes, row by row from below; test/consumer/circle.xml is the same problem as a scene.
+// A block of an application's own mesh, pressed up against a rigid circle: element matrices in, displacements
+// out. Prints the displacements of all nodes, row by row from below; test/consumer/circle.xml is the same
+// problem as a scene.
 #include "epafi/ContactSolver.hpp"
 #include "epafi/decomposition/ElementMatrices.hpp"
 #include "epafi/decomposition/UnassembledProblem.hpp"
@@ -73,8 +74,9 @@ void addSubdomains(epafi::decomposition::UnassembledProblem& problem, int rank, 
   }
 }
 
-/// No node of the top comes into the circle that touches it in the middle: d'u <= distance, d towards the centre.
-epafi::decomposition::ContactMatrix contact(const epafi::RCP<const epafi::Comm>& comm) {
+/// No node of the top comes into the circle that touches it in the middle: d'u <= distance, d towards the
+/// centre.
+epafi::decomposition::ConstraintMatrix contact(const epafi::RCP<const epafi::Comm>& comm) {
   const auto rows = Teuchos::rcp(new epafi::Map(nx + 1, 0, comm));
   const auto unknowns = Teuchos::rcp(new epafi::Map(2 * (nx + 1) * (ny + 1), 0, comm));
   const auto matrix = Teuchos::rcp(new epafi::CrsMatrix(rows, 2));

@@ -1,8 +1,8 @@
 /// Heat conduction in a square plate, −∇·(κ∇T) = q, by FETI-DP through Stratimikos:
 ///     example-heat-conduction LIST.xml [ELEMENTS SUBDOMAINS]
-/// The left side is kept at T = 20, the right one at 0, the others are insulated. Two bars conduct a thousand times as well as
-/// the rest. The mesh, n × n Q1 elements cut into m × m subdomains, is the program's own. Once the matrix is factorised two
-/// sources of heat are solved for, one after the other.
+/// The left side is kept at T = 20, the right one at 0, the others are insulated. Two bars conduct a thousand
+/// times as well as the rest. The mesh, n × n Q1 elements cut into m × m subdomains, is the program's own.
+/// Once the matrix is factorised two sources of heat are solved for, one after the other.
 
 #include "epafi/adapters/Stratimikos.hpp"
 #include "epafi/adapters/ThyraOperators.hpp"

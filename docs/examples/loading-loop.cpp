@@ -1,6 +1,6 @@
-// A rigid paraboloid is pressed into a block and moves along it in fifty steps: set up once, then every step starts from where
-// the last three point.
-// Prints a line a step and what all steps cost together beside the first one.
+// A rigid paraboloid is pressed into a block and moves along it in fifty steps: set up once, then every step
+// starts from where the last three point. Prints a line a step and what all steps cost together beside the
+// first one.
 #include "Block.hpp"
 
 #include "epafi/ContactSolver.hpp"
@@ -27,15 +27,15 @@ void setGaps(epafi::model::Decomposition& cut, double middle) {
   const epafi::contact::ContactLayout& contact = cut.contacts.front();
   for (std::size_t k = 0; k < contact.firstNodes.size(); ++k) {
     const auto row = contact.firstRow + static_cast<epafi::GlobalOrdinal>(k);
-    const epafi::fem::Point point = cut.bodies.front().mesh->point(contact.firstNodes[k]);
+    const epafi::Point point = cut.bodies.front().mesh->point(contact.firstNodes[k]);
     const double x = point[0] - middle, y = point[1] - 1;
     if (cut.problem.gap->getMap()->isNodeGlobalElement(row))
       cut.problem.gap->replaceGlobalValue(row, 0.5 * curvature * (x * x + y * y) - depth);
   }
 }
 
-/// λ of a step from those of the last ones, the latest first, at most three: between changes of the contact zone λ is a
-/// polynomial in the way, of degree 2 as the gaps are. Forces do not pull.
+/// λ of a step from those of the last ones, the latest first, at most three: between changes of the contact
+/// zone λ is a polynomial in the way, of degree 2 as the gaps are. Forces do not pull.
 RCP<Vector> predicted(const std::deque<RCP<Vector>>& last, epafi::GlobalOrdinal numInequalities) {
   constexpr double weights[3][3] = {{1, 0, 0}, {2, -1, 0}, {3, -3, 1}};
   if (last.empty())

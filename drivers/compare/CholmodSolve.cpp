@@ -9,7 +9,8 @@ namespace epafi::drivers {
 
 LinearSolution solveByCholmod(const LinearSystem& system) {
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor;
-  // With METIS's order the factor is a sixth less work, but finding that order takes twice as long as all the rest.
+  // With METIS's order the factor is a sixth less work, but finding that order takes twice as long as all the
+  // rest.
   factor.cholmod().nmethods = 1;
   factor.cholmod().method[0].ordering = CHOLMOD_AMD;
   LinearSolution result;

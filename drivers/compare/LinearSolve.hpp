@@ -23,8 +23,9 @@ struct LinearSolution {
 /// \throws std::runtime_error if K is not positive definite or the memory does not suffice.
 LinearSolution solveByCholmod(const LinearSystem& system);
 
-/// Conjugate gradients (Belos) from 0, preconditioned by one V-cycle of MueLu, to a residual of `tolerance` relative
-/// to the load. Setup is MueLu's; handing the matrix over to Tpetra, without a copy, is not measured.
+/// Conjugate gradients (Belos) from 0, preconditioned by one V-cycle of MueLu, to a residual of `tolerance`
+/// relative to the load. Setup is MueLu's; handing the matrix over to Tpetra, without a copy, is not
+/// measured.
 /// \throws std::runtime_error if that is not reached. On one rank.
 LinearSolution solveByMueLu(const LinearSystem& system, double tolerance);
 

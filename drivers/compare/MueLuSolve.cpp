@@ -21,7 +21,8 @@ namespace {
 using Problem = Belos::LinearProblem<double, MultiVector, Operator>;
 using ConjugateGradients = Belos::PseudoBlockCGSolMgr<double, MultiVector, Operator>;
 
-/// Shares columns and values with the system. Tpetra's interface knows no const; sorted rows stay as they are.
+/// Shares columns and values with the system. Tpetra's interface knows no const; sorted rows stay as they
+/// are.
 RCP<CrsMatrix> tpetraMatrix(const LinearSystem& system) {
   const auto& k = system.matrix;
   const auto map = rcp(new Map(static_cast<std::size_t>(k.rows()), 0, Tpetra::getDefaultComm()));
@@ -35,8 +36,8 @@ RCP<CrsMatrix> tpetraMatrix(const LinearSystem& system) {
   return matrix;
 }
 
-/// MueLu's defaults but for the smoother. Of higher degrees of the polynomial, other dampings and dropping none is
-/// faster by more than 2 % at 1/h = 512.
+/// MueLu's defaults but for the smoother. Of higher degrees of the polynomial, other dampings and dropping
+/// none is faster by more than 2 % at 1/h = 512.
 Teuchos::ParameterList multigridParameters() {
   Teuchos::ParameterList list;
   list.set("verbosity", "none");

@@ -8,8 +8,9 @@
 
 namespace epafi::drivers {
 
-/// The solver that a list asks for; "Preconditioner Type" may also be "MueLu" or "FROSch". \param k  the decomposition of
-/// operators that are assembled. Not collective. \throws what Stratimikos throws if a parameter is wrong
+/// The solver that a list asks for; "Preconditioner Type" may also be "MueLu" or "FROSch". \param k the
+/// decomposition of operators that are assembled. Not collective. \throws what Stratimikos throws if a
+/// parameter is wrong
 RCP<adapters::LinearSolveStrategy> strategyAmongPeers(const RCP<Teuchos::ParameterList>& list,
                                                       const RCP<const linear::UnassembledOperator>& k);
 

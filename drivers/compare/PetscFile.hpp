@@ -1,7 +1,7 @@
 #pragma once
 
-/// Matrices and vectors in PETSc's binary format, as `MatLoad`, `VecLoad` and `ISLoad` read them one after the other:
-/// big-endian 32-bit integers and 64-bit reals.
+/// Matrices and vectors in PETSc's binary format, as `MatLoad`, `VecLoad` and `ISLoad` read them one after
+/// the other: big-endian 32-bit integers and 64-bit reals.
 ///
 ///   matrix   1211216, rows, columns, entries, entries of each row, columns of the entries, entries
 ///   vector   1211214, length, values

@@ -1,6 +1,7 @@
 #include "PoissonProblem.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
+#include "epafi/model/GlobalUnknowns.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <Tpetra_Map.hpp>
@@ -28,7 +29,7 @@ scene::Scene squareMembrane(int elements, int subdomains) {
 
 /// Those of the inner nodes follow each other.
 linear::GlobalUnknowns numbersOf(const model::Decomposition& decomposition, int elements) {
-  linear::GlobalUnknowns unknowns = linear::globalUnknowns(decomposition); // one a node
+  linear::GlobalUnknowns unknowns = model::globalUnknowns(decomposition); // one a node
   const GlobalOrdinal n = elements;
   for (auto& numbers : unknowns)
     for (GlobalOrdinal& number : numbers)

@@ -1,5 +1,6 @@
-/// `epafi-export SCENE.xml FILE`: the scene's contact problem as one system, for `compare/peers` and whoever wants to
-/// solve it otherwise. What stands in FILE, and in what order: `usage`, UndecomposedSystem.hpp; how: PetscFile.hpp.
+/// `epafi-export SCENE.xml FILE`: the scene's contact problem as one system, for `compare/peers` and whoever
+/// wants to solve it otherwise. What stands in FILE, and in what order: `usage`, UndecomposedSystem.hpp; how:
+/// PetscFile.hpp.
 
 #include "CommandLine.hpp"
 #include "JointEnd.hpp"

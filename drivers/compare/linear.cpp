@@ -1,5 +1,5 @@
-/// `epafi-linear cholmod|muelu`: one linear solve of the model problem's membranes with a contact zone that is given,
-/// for `compare/peers`. Prints its measurements as one line of JSON.
+/// `epafi-linear cholmod|muelu`: one linear solve of the model problem's membranes with a contact zone that
+/// is given, for `compare/peers`. Prints its measurements as one line of JSON.
 
 #include "ClosedMembranes.hpp"
 #include "CommandLine.hpp"

@@ -1,5 +1,5 @@
-/// `epafi-poisson LIST.xml|cholmod`: −Δu = 1 on the unit square by whatever linear solver a list for Stratimikos asks for, for
-/// `compare/poisson`. Rank 0 prints the measurements as one line of JSON.
+/// `epafi-poisson LIST.xml|cholmod`: −Δu = 1 on the unit square by whatever linear solver a list for
+/// Stratimikos asks for, for `compare/poisson`. Rank 0 prints the measurements as one line of JSON.
 
 #include "CommandLine.hpp"
 #include "JointEnd.hpp"

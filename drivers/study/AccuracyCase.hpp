@@ -8,9 +8,11 @@
 
 namespace epafi::drivers {
 
-/// Solves a problem on a mesh of its ladder by all variants in turns, several times over, so that a busy machine does them
-/// all the same harm. Times are medians. Rows of iterations that stop early say so. Collective.
-/// \param variants  of cases/accuracy.cases: name; tolerance, "balanced" or the default's if empty; Solver, Nested
+/// Solves a problem on a mesh of its ladder by all variants in turns, several times over, so that a busy
+/// machine does them all the same harm. Times are medians. Rows of iterations that stop early say so.
+/// Collective.
+/// \param variants  of cases/accuracy.cases: name; tolerance, "balanced" or the default's if empty; Solver,
+/// Nested
 /// \param budget    seconds after which there is no further round
 std::vector<Row> measureVariants(const AccuracyProblem& problem, int level,
                                  const AccuracyReference& reference, const std::vector<Case>& variants,

@@ -14,7 +14,7 @@ namespace {
 constexpr double leftLoad = -1, rightLoad = -3;
 
 /// u and u' of the two strings. λ = (f₁ − f₂)/4, u₁(1) = f₁/2 − λ, u₂(1) = f₂/2 + λ.
-fem::FieldValue strings(int body, const fem::Point& point) {
+fem::FieldValue strings(int body, const Point& point) {
   constexpr double force = (leftLoad - rightLoad) / 4;
   const bool isLeft = body == 0;
   const double load = isLeft ? leftLoad : rightLoad, atJoint = load / 2 + (isLeft ? -force : force);

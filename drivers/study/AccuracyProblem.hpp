@@ -18,7 +18,8 @@ struct AccuracyProblem {
 
   /// Of the elements.
   [[nodiscard]] int order() const { return coarsest.bodies.front().mesh.order; }
-  /// The scene on a mesh of the ladder, 0 the coarsest, or beyond it, there in larger subdomains: a smaller coarse problem.
+  /// The scene on a mesh of the ladder, 0 the coarsest, or beyond it, there in larger subdomains: a smaller
+  /// coarse problem.
   [[nodiscard]] scene::Scene onMesh(int level) const;
 };
 

@@ -22,17 +22,18 @@ struct TightSolution {
   ContactResult contact;
 };
 
-/// The error that is left of u_h against the exact solution, from its distances to a reference solution: squares of energy
-/// errors add up, ‖u_h − u‖² = ‖u_h − u_ref‖² + ‖u_ref − u‖², as they do for Galerkin's method, and are C²h^{2p}. Then
-/// r = d₄²/d₂² = 4^p + 1, with d₂ and d₄ the distances of the solutions on meshes of 2 and 4 times the reference's size, and
-/// ‖u_ref − u‖² = d₂²/(r − 2). Where the distances have no such order (r ≤ 3), p is taken as ½.
+/// The error that is left of u_h against the exact solution, from its distances to a reference solution:
+/// squares of energy errors add up, ‖u_h − u‖² = ‖u_h − u_ref‖² + ‖u_ref − u‖², as they do for Galerkin's
+/// method, and are C²h^{2p}. Then r = d₄²/d₂² = 4^p + 1, with d₂ and d₄ the distances of the solutions on
+/// meshes of 2 and 4 times the reference's size, and ‖u_ref − u‖² = d₂²/(r − 2). Where the distances have no
+/// such order (r ≤ 3), p is taken as ½.
 /// \returns ‖u_ref − u‖
 double referenceError(double distance2, double distance4);
 
 class AccuracyReference {
 public:
-  /// Solves on all meshes of the ladder and, unless a closed form is known, on two finer ones, with tolerance 1e-10.
-  /// Collective. \throws Error if an iteration does not get there.
+  /// Solves on all meshes of the ladder and, unless a closed form is known, on two finer ones, with tolerance
+  /// 1e-10. Collective. \throws Error if an iteration does not get there.
   AccuracyReference(const AccuracyProblem& problem, const RCP<const Comm>& comm);
 
   /// On a mesh of the ladder.
@@ -54,8 +55,8 @@ private:
   double ownError_ = 0;
 };
 
-/// Solves to tolerance 1e-10, from a coarser solution if there is one. The solver's factors are given up again.
-/// Collective. \throws Error if it does not get there.
+/// Solves to tolerance 1e-10, from a coarser solution if there is one. The solver's factors are given up
+/// again. Collective. \throws Error if it does not get there.
 SceneRun solveTightly(const scene::Scene& scene, const SceneRun* coarser, const RCP<const Comm>& comm);
 
 } // namespace epafi::drivers

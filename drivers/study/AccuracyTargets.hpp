@@ -6,11 +6,12 @@
 
 namespace epafi::drivers {
 
-/// targets.csv: a scene with a target. Errors in the energy norm, relative; seconds of all meshes, and those of the last.
+/// targets.csv: a scene with a target. Errors in the energy norm, relative; seconds of all meshes, and those
+/// of the last.
 Table targetsTable();
 
-/// Of scenes/name.xml, for each target; `reference` is that of the run that these are compared with. A target of which that is not clearly
-/// better, for lack of memory, has no row.
+/// Of scenes/name.xml, for each target; `reference` is that of the run that these are compared with. A target
+/// of which that is not clearly better, for lack of memory, has no row.
 /// \param order  of the elements, 0: chosen
 /// Collective. \throws InputError if the scene cannot be read.
 std::vector<Row> measureTargets(const std::string& name, int order, const std::vector<double>& targets,

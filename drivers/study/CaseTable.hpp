@@ -4,19 +4,21 @@
 ///
 ///     scene NAME PARAMETER=DEFAULT …      a piece of a case that others use, with what follows indented
 ///     family NAME                         cases that belong together
-///       for A,B in 1,x 2,y                names and their values; with ; between them values may contain blanks.
+///       for A,B in 1,x 2,y names and their values; with ; between them values may contain blanks.
 ///                                         Commas followed by a blank belong to the text
 ///       for A from 0 to 3 step 1
 ///       let A = VALUE                     (VALUE) in parentheses is computed
 ///       if CONDITION
 ///       case NAME; PARAMETER; VALUE       one row; VALUE, a number, and PARAMETER may be missing
 ///         use NAME PARAMETER=VALUE …      what the scene says
-///         LIST/SUB LIST/PARAMETER = VALUE a number, which may be computed, {numbers}, or words. * as a list stands for all
+///         LIST/SUB LIST/PARAMETER = VALUE a number, which may be computed, {numbers}, or words. * as a list
+///         stands for all
 ///                                         that are there
 ///         remove LIST/SUB LIST
 ///         reference                       what follows makes the list Reference, a case to compare with
 ///
-/// $A stands for A's value, anywhere; QUICK | FULL in `for` and `let` for values of quick and of full runs; # begins a comment.
+/// $A stands for A's value, anywhere; QUICK | FULL in `for` and `let` for values of quick and of full runs; #
+/// begins a comment.
 
 #include <Teuchos_ParameterList.hpp>
 

@@ -11,9 +11,10 @@ namespace epafi::drivers {
 /// After how many products explicit blocks have paid off; infinite if they never do.
 double payoffOf(const fetidp::DualCosts& costs);
 
-/// scaling_costs.csv, of all subdomains of the coercive model problem with 1/H = `subdomainsPerSide`, on this rank alone; medians.
-/// `boundary` is n_Δ, the largest; rates are numbers a second, in the units of CostModel.cpp: entries of factors, entries of
-/// blocks or additions and multiplications with them, the same when blocks are made. Not collective.
+/// scaling_costs.csv, of all subdomains of the coercive model problem with 1/H = `subdomainsPerSide`, on this
+/// rank alone; medians. `boundary` is n_Δ, the largest; rates are numbers a second, in the units of
+/// CostModel.cpp: entries of factors, entries of blocks or additions and multiplications with them, the same
+/// when blocks are made. Not collective.
 Table timeDualCosts(int subdomainsPerSide, const std::vector<int>& elementsPerSide);
 
 } // namespace epafi::drivers

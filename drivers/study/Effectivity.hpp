@@ -6,12 +6,13 @@
 
 namespace epafi::drivers {
 
-/// accuracy_effectivity.csv: a scene on one of its meshes. Level 0 is the scene's own mesh, or a coarser one, 1 that mesh
-/// refined. Errors in the energy norm relative to that of the solution; that of the reference is contained in the true one.
+/// accuracy_effectivity.csv: a scene on one of its meshes. Level 0 is the scene's own mesh, or a coarser one,
+/// 1 that mesh refined. Errors in the energy norm relative to that of the solution; that of the reference is
+/// contained in the true one.
 Table effectivityTable();
 
-/// Of the mesh of scenes/name.xml and, with a reference that is refined twice, of the mesh refined once. What is left of the true
-/// error by the reference's own is added by extrapolation (AccuracyReference.hpp).
+/// Of the mesh of scenes/name.xml and, with a reference that is refined twice, of the mesh refined once. What
+/// is left of the true error by the reference's own is added by extrapolation (AccuracyReference.hpp).
 /// \param refinements  of the reference; with 1 its own error is that of order h
 /// \param meshSize     factor on the sizes that a geometry asks for
 /// Collective. \throws InputError if the scene cannot be read, Error if an iteration does not converge.

@@ -13,8 +13,9 @@
 namespace epafi::drivers {
 namespace {
 
-/// Solves with the default parameters but for Adaptive Constraints/Use = `use`, and estimates the condition of what the iteration
-/// works on, by Lanczos. `constraints` are the adaptive ones, each a product with F in the set-up. Collective.
+/// Solves with the default parameters but for Adaptive Constraints/Use = `use`, and estimates the condition
+/// of what the iteration works on, by Lanczos. `constraints` are the adaptive ones, each a product with F in
+/// the set-up. Collective.
 Row measure(const Case& which, const std::string& use, const RCP<const Comm>& comm) {
   Teuchos::ParameterList parameters;
   parameters.sublist("Adaptive Constraints").set("Use", use);

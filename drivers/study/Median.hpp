@@ -1,6 +1,7 @@
 #pragma once
 
-/// Times of work that is done again and again: the median, which neither a slow first time nor a disturbed one moves.
+/// Times of work that is done again and again: the median, which neither a slow first time nor a disturbed
+/// one moves.
 
 #include "epafi/base/Collective.hpp"
 

@@ -8,7 +8,8 @@
 #include <array>
 #include <functional>
 
-// Teuchos has no product with a packed matrix. The name is Fortran's: NOLINTNEXTLINE(readability-identifier-naming)
+// Teuchos has no product with a packed matrix. The name is Fortran's:
+// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void dspmv_(const char* uplo, const int* n, const double* alpha, const double* ap, const double* x,
                        const int* incx, const double* beta, double* y, const int* incy);
 

@@ -14,9 +14,9 @@
 namespace epafi::drivers {
 namespace {
 
-/// Chebyshev smoothing: symmetric and, unlike Gauss–Seidel, the same on any number of ranks. It amplifies what lies
-/// above its bound of the largest eigenvalue, and the cycle would then be indefinite: 20 steps of the power method,
-/// which come from below, and 20 % more are safe on all benchmarks.
+/// Chebyshev smoothing: symmetric and, unlike Gauss–Seidel, the same on any number of ranks. It amplifies
+/// what lies above its bound of the largest eigenvalue, and the cycle would then be indefinite: 20 steps of
+/// the power method, which come from below, and 20 % more are safe on all benchmarks.
 void useChebyshev(Teuchos::ParameterList& list, const std::string& level, int degree, double ratio) {
   list.set(level + ": type", "CHEBYSHEV");
   Teuchos::ParameterList& parameters = list.sublist(level + ": params");
@@ -26,9 +26,10 @@ void useChebyshev(Teuchos::ParameterList& list, const std::string& level, int de
   parameters.set("chebyshev: boost factor", 1.2);
 }
 
-/// Chosen on the benchmarks of `epafi-study qp`. Couplings below 5 % of the diagonal are not aggregated along: the
-/// journal bearing's elements are three times as high as wide. The coarsest problem is solved by Chebyshev too:
-/// Amesos2's KLU2, the default, is wrong on more than one rank (Trilinos 13.2), and the cycle unsymmetric.
+/// Chosen on the benchmarks of `epafi-study qp`. Couplings below 5 % of the diagonal are not aggregated
+/// along: the journal bearing's elements are three times as high as wide. The coarsest problem is solved by
+/// Chebyshev too: Amesos2's KLU2, the default, is wrong on more than one rank (Trilinos 13.2), and the cycle
+/// unsymmetric.
 Teuchos::ParameterList multigridParameters() {
   Teuchos::ParameterList list;
   list.set("verbosity", "none");

@@ -1,13 +1,14 @@
 #pragma once
 
-/// Algebraic multigrid as a preconditioner, by MueLu. This is the one place that knows MueLu: its headers take long to
-/// compile.
+/// Algebraic multigrid as a preconditioner, by MueLu. This is the one place that knows MueLu: its headers
+/// take long to compile.
 
 #include "epafi/base/Types.hpp"
 
 namespace epafi::drivers {
 
-/// One symmetric V-cycle of smoothed aggregation for `a`: symmetric positive definite if `a` is. Shares the matrix.
+/// One symmetric V-cycle of smoothed aggregation for `a`: symmetric positive definite if `a` is. Shares the
+/// matrix.
 /// \param a  scalar unknowns, constants in the near kernel
 /// Collective.
 RCP<const Operator> makeMultigrid(const RCP<CrsMatrix>& a);

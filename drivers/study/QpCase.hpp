@@ -16,8 +16,8 @@ struct QpCase {
   std::string expansion = "projected CG", release = "projected gradient"; ///< as MPRGP's parameters name them
   /// none; multigrid, of the whole matrix; face_multigrid, of the matrix restricted to the face of the start
   std::string preconditioner = "none";
-  /// zero; unconstrained, the solution without bounds, projected; nested, the solution on a mesh of twice the width, itself
-  /// started so, from about 20 × 20 on; interpolated
+  /// zero; unconstrained, the solution without bounds, projected; nested, the solution on a mesh of twice the
+  /// width, itself started so, from about 20 × 20 on; interpolated
   std::string start = "zero";
   double proportioningConstant = 1; ///< Γ
   double expansionStep = 1.9;       ///< ᾱ‖A‖
@@ -26,8 +26,8 @@ struct QpCase {
 struct QpResult {
   qp::SolveReport report;
   int normMultiplications = 0; ///< products of the estimate of ‖A‖
-  /// Products that the start took, norm estimates included, in products of this size: those of a coarser mesh count
-  /// as its share of the unknowns.
+  /// Products that the start took, norm estimates included, in products of this size: those of a coarser mesh
+  /// count as its share of the unknowns.
   double startMultiplications = 0;
   double seconds = 0;      ///< of all: start, norm, preconditioner, iteration
   double startSeconds = 0; ///< of the start alone

@@ -45,8 +45,8 @@ private:
   Vector diagonal_;
 };
 
-/// The shortest conjugate gradient step, without its product: what another program on the machine disturbs counts for
-/// nothing.
+/// The shortest conjugate gradient step, without its product: what another program on the machine disturbs
+/// counts for nothing.
 class StepClock final : public qp::Observer {
 public:
   explicit StepClock(const TimedDiagonal& hessian) : hessian_(hessian) {}
@@ -79,7 +79,8 @@ double secondsPerStep(const RCP<const Map>& map) {
   return maxOverRanks(*map->getComm(), clock.shortest);
 }
 
-/// Bytes a second of a = b + s c on all ranks together, each with its share of the map; the best of many runs.
+/// Bytes a second of a = b + s c on all ranks together, each with its share of the map; the best of many
+/// runs.
 double streamBandwidth(const RCP<const Map>& map) {
   Vector a(map), b(map), c(map);
   b.putScalar(1.0);

@@ -23,14 +23,16 @@ namespace {
 
 constexpr int elementsOfCoarse = 4; ///< H/h, of no importance for the coarse problem
 constexpr double secondsOfSolves = 0.1;
-/// A step's sums over the ranks, as counted (scaling.csv): scalar products, which motions of clusters go along with, and contact at
-/// crosspoints in the preconditioner, whose bytes are those of each side that a subdomain has in contact, in the plane and in space.
+/// A step's sums over the ranks, as counted (scaling.csv): scalar products, which motions of clusters go
+/// along with, and contact at crosspoints in the preconditioner, whose bytes are those of each side that a
+/// subdomain has in contact, in the plane and in space.
 constexpr double scalarSums = 2, contactSums = 2;
 constexpr double contactBytesInPlane = 350, contactBytesInSpace = 1100;
 /// Products with N⁻¹ and with K a step: two projections on a face (KernelFaceInverse).
 constexpr double gramProducts = 4, faceProducts = 2;
-/// Crosspoint values that follow the borders of a cluster of sᵈ subdomains (fetidp/ContactCrosspoints.hpp): so many times s or s²; 1392 were
-/// counted in 16 corner clusters of 4³, which have borders on half of their sides.
+/// Crosspoint values that follow the borders of a cluster of sᵈ subdomains (fetidp/ContactCrosspoints.hpp):
+/// so many times s or s²; 1392 were counted in 16 corner clusters of 4³, which have borders on half of their
+/// sides.
 constexpr double borderInPlane = 4, borderInSpace = 10.5;
 constexpr double exchanges = 4; ///< a step: to the subdomains and back, for F and for its preconditioner
 constexpr double clusterExchanges = 2; ///< and for crosspoints at the borders of clusters
@@ -82,7 +84,8 @@ Row timeMotions(const std::string& problem, const model::Decomposition& cut, con
                    nonZeros * (sizeof(double) + sizeof(int)));
 }
 
-/// Bytes c nᵃ of a factor through the two largest of a kind; a solve reads them as fast as the largest was read.
+/// Bytes c nᵃ of a factor through the two largest of a kind; a solve reads them as fast as the largest was
+/// read.
 class Extrapolation {
 public:
   Extrapolation(const Table& coarse, const std::string& problem, const std::string& kind) {
@@ -204,7 +207,8 @@ private:
     }
     return step;
   }
-  /// The coarse problem of a cluster, and how it follows the cluster's borders: each of its ranks does all of it.
+  /// The coarse problem of a cluster, and how it follows the cluster's borders: each of its ranks does all of
+  /// it.
   void addCluster(double subdomains, double ranks, CoarseStep& step) const {
     const double n = crosspoints_.perSubdomain() * subdomains,
                  border = (dimension_ == 3 ? borderInSpace : borderInPlane) * onSection(subdomains);

@@ -9,8 +9,9 @@
 
 namespace epafi::drivers {
 
-/// scaling_coarse.csv: what of a step is of the whole problem's size, on this rank alone; medians. For each 1/H in the list the
-/// coarse problem of FETI-DP (`kind` crosspoints) and G̃G̃ᵀ of FETI (motions), `solve_seconds` once through the factor and back.
+/// scaling_coarse.csv: what of a step is of the whole problem's size, on this rank alone; medians. For each
+/// 1/H in the list the coarse problem of FETI-DP (`kind` crosspoints) and G̃G̃ᵀ of FETI (motions),
+/// `solve_seconds` once through the factor and back.
 /// \param problem  of scalingScene(). Not collective.
 Table timeCoarseProblems(const std::string& problem, const std::vector<int>& subdomainsPerSide);
 
@@ -35,12 +36,13 @@ struct LocalWork {
 /// scaling_prediction.csv without rows.
 Table predictedTable();
 
-/// Weak scaling: 1/h grows with the ranks, each of which has a square or cube of subdomains and a neighbour on every side. Methods:
-/// feti-dp; feti-1, whose clusters are subdomains; hybrid, whose clusters are those of one rank or of as many as is fastest within 200 MB a rank (cluster_ranks), every rank
-/// with the factor of G̃G̃ᵀ; hybrid-spread, with rows of its inverse on each rank (fetidp/GramInverse.hpp). Sizes of coarse
+/// Weak scaling: 1/h grows with the ranks, each of which has a square or cube of subdomains and a neighbour
+/// on every side. Methods: feti-dp; feti-1, whose clusters are subdomains; hybrid, whose clusters are those
+/// of one rank or of as many as is fastest within 200 MB a rank (cluster_ranks), every rank with the factor
+/// of G̃G̃ᵀ; hybrid-spread, with rows of its inverse on each rank (fetidp/GramInverse.hpp). Sizes of coarse
 /// problems are extrapolated as c nᵃ through the two largest of `coarse`, and read as fast as the largest.
-/// Columns of scaling_prediction.csv; bytes_a_rank: of the coarse problem on every rank. Precondition: two rows of each kind in
-/// `coarse`.
+/// Columns of scaling_prediction.csv; bytes_a_rank: of the coarse problem on every rank. Precondition: two
+/// rows of each kind in `coarse`.
 Table predictSteps(const LocalWork& local, const Table& coarse, const std::vector<double>& subdomainsPerRank,
                    const Network& network = {});
 

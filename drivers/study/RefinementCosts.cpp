@@ -25,7 +25,8 @@ struct Measured {
   Row row;
 };
 
-/// A scene with all elements larger by a factor, and its bodies cut into grids or parts of a size that suits them.
+/// A scene with all elements larger by a factor, and its bodies cut into grids or parts of a size that suits
+/// them.
 scene::Scene onEvenMesh(scene::Scene scene, int order, double size) {
   for (scene::Body& body : scene.bodies) {
     const bool isSolid = dimensionOf(body.physics) == 3;

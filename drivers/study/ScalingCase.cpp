@@ -121,8 +121,8 @@ double matrixBytes(const decomposition::DecomposedProblem& problem) {
   return sumOverRanks(*problem.comm, bytes);
 }
 
-/// Of the vectors without which a scene is not solved: load, prescribed values, displacement, nodes of every subdomain;
-/// λ, d̃, g, p, Fp, φ, Mφ, bound, gap, slack, active set, work of F.
+/// Of the vectors without which a scene is not solved: load, prescribed values, displacement, nodes of every
+/// subdomain; λ, d̃, g, p, Fp, φ, Mφ, bound, gap, slack, active set, work of F.
 double vectorBytes(const decomposition::DecomposedProblem& problem) {
   return sizeof(double) * (4.0 * static_cast<double>(problem.primalDimension) +
                            12.0 * static_cast<double>(problem.dualDimension()));

@@ -8,8 +8,9 @@
 
 namespace epafi::drivers {
 
-/// Solves the model problem with the settings of `row` (scalingSettings) on the communicator's ranks and fills in the rest; times are
-/// medians of up to 7 runs, as many as fit into some seconds. Returns whether it converged. Collective.
+/// Solves the model problem with the settings of `row` (scalingSettings) on the communicator's ranks and
+/// fills in the rest; times are medians of up to 7 runs, as many as fit into some seconds. Returns whether it
+/// converged. Collective.
 bool measureRun(Row& row, const RCP<const Comm>& comm);
 
 } // namespace epafi::drivers

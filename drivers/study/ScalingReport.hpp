@@ -13,8 +13,8 @@
 
 namespace epafi::drivers {
 
-/// Growing 1/H and H/h; forms of F and preconditioners; memory: rows of one rank. Strong and weak scaling with efficiencies, as
-/// far as the table has rows of one rank to compare with; messages.
+/// Growing 1/H and H/h; forms of F and preconditioners; memory: rows of one rank. Strong and weak scaling
+/// with efficiencies, as far as the table has rows of one rank to compare with; messages.
 std::string scalingReport(const Table& table, const ScalingSizes& sizes);
 
 std::string blockReport(const Table& products, double streamRate);

@@ -11,8 +11,8 @@
 namespace epafi::drivers {
 namespace {
 
-/// After how many products dense blocks have paid off beside the implicit run with the same preconditioner, or, where
-/// there is none, with the default one.
+/// After how many products dense blocks have paid off beside the implicit run with the same preconditioner,
+/// or, where there is none, with the default one.
 double payoffIn(const Table& table, const Row& row) {
   Row like = row;
   like["operator"] = "implicit";

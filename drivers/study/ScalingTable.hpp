@@ -6,10 +6,11 @@
 
 namespace epafi::drivers {
 
-/// What runs, and what it took. Times in seconds, the largest over the ranks; bytes of all ranks together unless said
-/// otherwise:
+/// What runs, and what it took. Times in seconds, the largest over the ranks; bytes of all ranks together
+/// unless said otherwise:
 ///
-///   problem                        coercive, semicoercive: the paper's membranes; blocks: two elastic ones in space (ScalingScene.hpp)
+///   problem coercive, semicoercive: the paper's membranes; blocks: two elastic ones in space
+///   (ScalingScene.hpp)
 ///   H_inverse, H_over_h            1/H, H/h
 ///   cluster                        subdomains that share crosspoints; 0: a whole body's
 ///   operator                       of F: implicit, explicit, shared

@@ -64,8 +64,8 @@ RCP<const Operator> partOf(const RCP<const Operator>& a, const decomposition::De
   return rcp(new PartOfOperator(a, std::move(isIn)));
 }
 
-/// One row for the whole Hessian and, of whole bodies, for the parts of it that gluing and contact make. Where bodies are cut into
-/// clusters, P mixes them.
+/// One row for the whole Hessian and, of whole bodies, for the parts of it that gluing and contact make.
+/// Where bodies are cut into clusters, P mixes them.
 std::vector<Row> measure(const Case& which, const char* preconditioner, const RCP<const Comm>& comm) {
   Teuchos::ParameterList parameters;
   parameters.sublist("Preconditioner").set("Type", preconditioner);

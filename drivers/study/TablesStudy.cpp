@@ -42,8 +42,8 @@ constexpr std::array<Cell, 18> paper{{
     {false, 8, 4, 3200, 705, 154, 35},
 }};
 
-/// Our numbers, and the paper's under the same names after "paper_". The plain method is the paper's; others have a preconditioner, and
-/// active sets where they are the default.
+/// Our numbers, and the paper's under the same names after "paper_". The plain method is the paper's; others
+/// have a preconditioner, and active sets where they are the default.
 Row solveCell(const Cell& cell, const RCP<const Comm>& comm) {
   const scene::Scene scene = scene::modelProblem(cell.coercive, cell.subdomainsPerSide,
                                                  cell.subdomainsPerSide * cell.elementsPerSide);

@@ -44,8 +44,8 @@ extern "C" void addSumsTakeMinimum(void* in, void* inout, int* count, MPI_Dataty
 }
 // NOLINTEND(readability-non-const-parameter)
 
-/// The type of one sum and the two operations, made at the first use and freed by MPI_Finalize (which deletes the
-/// attributes of MPI_COMM_SELF first).
+/// The type of one sum and the two operations, made at the first use and freed by MPI_Finalize (which deletes
+/// the attributes of MPI_COMM_SELF first).
 struct MpiObjects {
   MPI_Datatype sum = MPI_DATATYPE_NULL;
   MPI_Op add = MPI_OP_NULL, addTakeMinimum = MPI_OP_NULL;

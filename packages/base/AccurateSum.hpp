@@ -40,8 +40,9 @@ void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums);
 /// Likewise, and rounds them into as many `values`.
 void sumOverRanks(const Comm& comm, std::span<AccurateSum> sums, double* values);
 
-/// Several sums and one minimum over all ranks in a single message: a CG step of MPRGP needs its dot products and the
-/// longest feasible step together. Keeps what MPI needs for its messages, so that `reduce` allocates nothing.
+/// Several sums and one minimum over all ranks in a single message: a CG step of MPRGP needs its dot products
+/// and the longest feasible step together. Keeps what MPI needs for its messages, so that `reduce` allocates
+/// nothing.
 class FusedReduction {
 public:
   /// \param numSums  number of sums. Not collective.

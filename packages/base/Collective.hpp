@@ -1,7 +1,7 @@
 #pragma once
 
-/// What all ranks do together: errors that they agree on, so that a rank in trouble never leaves the others waiting in a
-/// collective call; sums and extrema of numbers; values gathered.
+/// What all ranks do together: errors that they agree on, so that a rank in trouble never leaves the others
+/// waiting in a collective call; sums and extrema of numbers; values gathered.
 
 #include "epafi/base/Types.hpp"
 
@@ -19,8 +19,8 @@
 namespace epafi {
 
 /// Runs `work` on every rank. If it throws anywhere, every rank throws the error of the lowest failing rank,
-/// with the same type (InputError, SolvabilityError, or Error for all else) and the same text (sentenceOf what is no error
-/// of Epafi's).
+/// with the same type (InputError, SolvabilityError, or Error for all else) and the same text (sentenceOf
+/// what is no error of Epafi's).
 ///
 /// \param work  must contain no collective call itself, or only ones that all ranks reach before any can
 /// throw. Collective.
@@ -34,8 +34,8 @@ void sumOverRanks(const Comm& comm, std::span<double> values);
 void sumOverRanks(const Comm& comm, std::span<GlobalOrdinal> values); ///< likewise
 void sumOverRanks(const Comm& comm, std::span<int> values);           ///< likewise
 
-/// Σ of the values of the ranks before this one. Not by Teuchos::scan, which makes of a lack of memory an exception without a
-/// word. Collective.
+/// Σ of the values of the ranks before this one. Not by Teuchos::scan, which makes of a lack of memory an
+/// exception without a word. Collective.
 GlobalOrdinal sumBefore(const Comm& comm, GlobalOrdinal mine);
 
 namespace detail {
@@ -94,8 +94,8 @@ auto gathered(const Comm& comm, const Values& values, bool isForAll) {
 
 /// The values of all ranks, rank after rank, on every rank. For data of the coarse problem's size only.
 ///
-/// \param values  a vector, span or array of what may be copied byte by byte: numbers, or structs of them. Any number of
-/// them, also none. Collective.
+/// \param values  a vector, span or array of what may be copied byte by byte: numbers, or structs of them.
+/// Any number of them, also none. Collective.
 template <class Values>
 auto gatherOnAll(const Comm& comm, const Values& values) {
   return detail::gathered(comm, values, true);

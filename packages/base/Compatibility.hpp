@@ -1,6 +1,7 @@
 #pragma once
 
-/// What differs between Trilinos 13.2 and later versions, in one place; `.ci/run` looks for such calls elsewhere.
+/// What differs between Trilinos 13.2 and later versions, in one place; `.ci/run` looks for such calls
+/// elsewhere.
 
 #include <Tpetra_Map.hpp>
 #include <Trilinos_version.h>

@@ -35,8 +35,8 @@ private:
 };
 
 /// The candidate that is nearest to `word` in spelling, or an empty string if none is near: if every one
-/// needs more edits than about a third of the word's letters, or the word has more than 100. Used to suggest a name in error
-/// messages.
+/// needs more edits than about a third of the word's letters, or the word has more than 100. Used to suggest
+/// a name in error messages.
 template <class Names>
 std::string nearestName(const std::string& word, const Names& candidates);
 
@@ -46,11 +46,12 @@ std::size_t editDistance(const std::string& a, const std::string& b);
 /// The text with a full stop at its end, unless it ends as a sentence already: `… did you mean "left"?`.
 std::string asSentence(const std::string& text);
 
-/// The text as a message shows it: of more than 200 bytes the first ones and "...", and '?' for control characters.
+/// The text as a message shows it: of more than 200 bytes the first ones and "...", and '?' for control
+/// characters.
 std::string shortened(const std::string& text);
 
-/// What an exception says, on one line; of a failed allocation, which says nothing, which rank has no memory left and what to
-/// do.
+/// What an exception says, on one line; of a failed allocation, which says nothing, which rank has no memory
+/// left and what to do.
 std::string sentenceOf(const std::exception& error, int rank);
 
 template <class Names>

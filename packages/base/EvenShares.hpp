@@ -1,6 +1,7 @@
 #pragma once
 
-/// Rows of small dense matrices, spread over all ranks as evenly as can be: rank r of P has rN/P to (r + 1)N/P.
+/// Rows of small dense matrices, spread over all ranks as evenly as can be: rank r of P has rN/P to (r +
+/// 1)N/P.
 
 #include "epafi/base/Types.hpp"
 
@@ -21,7 +22,8 @@ public:
     return offsets_[static_cast<std::size_t>(rank)];
   }                                                                                          ///< of any rank
   [[nodiscard]] int size(int rank) const { return counts_[static_cast<std::size_t>(rank)]; } ///< likewise
-  /// Puts each rank's numbers into `all`, N of them, on every rank; one message, and nothing is allocated. Collective.
+  /// Puts each rank's numbers into `all`, N of them, on every rank; one message, and nothing is allocated.
+  /// Collective.
   void gather(std::span<const double> mine, std::span<double> all) const;
 
 private:

@@ -7,9 +7,9 @@
 
 namespace epafi {
 
-/// While it lives, a signal does not reach the thread that made it, nor threads that this thread starts, which never take
-/// it afterwards either. One that is sent to the process meanwhile arrives at the end, if all other threads were started so.
-/// Not collective.
+/// While it lives, a signal does not reach the thread that made it, nor threads that this thread starts,
+/// which never take it afterwards either. One that is sent to the process meanwhile arrives at the end, if
+/// all other threads were started so. Not collective.
 class HeldSignal {
 public:
   explicit HeldSignal(int signal) {

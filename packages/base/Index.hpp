@@ -6,8 +6,8 @@
 
 namespace epafi {
 
-/// A number in one index space, which `Space` names. It is made of an integer and read as one without a word; a number of
-/// another space is never taken for it: that does not compile.
+/// A number in one index space, which `Space` names. It is made of an integer and read as one without a word;
+/// a number of another space is never taken for it: that does not compile.
 template <class Space, std::integral Integer = int>
 class Index {
 public:

@@ -41,16 +41,16 @@ void addReal(Teuchos::ParameterList& schema, const std::string& name, double def
              double maximum = std::numeric_limits<double>::infinity(), bool openBelow = false,
              bool openAbove = false);
 
-/// Schema entry of a real number in [minimum, maximum] without the minimum itself, or one of `words` in its place: the value
-/// is a double or a string then.
+/// Schema entry of a real number in [minimum, maximum] without the minimum itself, or one of `words` in its
+/// place: the value is a double or a string then.
 void addRealOrWord(Teuchos::ParameterList& schema, const std::string& name, double defaultValue,
                    const std::vector<std::string>& words, const std::string& doc, double minimum,
                    double maximum);
 /// Whether a schema entry is of that kind.
 bool takesWords(const Teuchos::ParameterEntry& schemaEntry);
 
-/// Schema entry of a share in [0, 1): a double, or in its place a string such as "1 %", which becomes a double when the
-/// list is validated.
+/// Schema entry of a share in [0, 1): a double, or in its place a string such as "1 %", which becomes a
+/// double when the list is validated.
 void addShare(Teuchos::ParameterList& schema, const std::string& name, double defaultValue,
               const std::string& doc);
 

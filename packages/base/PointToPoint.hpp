@@ -23,16 +23,18 @@ struct Message {
   std::span<const std::byte> bytes;
 };
 
-/// Calls place(rank, from, bytes) for each piece of each sender's message, in the order of the ranks, and has it received where that
-/// says. \param longest  bytes of a piece, less than MPI can count; a message is several where it is longer. The same on all ranks
+/// Calls place(rank, from, bytes) for each piece of each sender's message, in the order of the ranks, and has
+/// it received where that says. \param longest bytes of a piece, less than MPI can count; a message is
+/// several where it is longer. The same on all ranks
 void exchange(const Comm& comm, std::span<const Message> outgoing, const std::set<int>& senders,
               const std::function<std::byte*(int, std::size_t, std::size_t)>& place,
               std::size_t longest = std::size_t{1} << 30);
 
 } // namespace detail
 
-/// Sends `outgoing`, one message a rank, and returns what the ranks in `senders` send here. Every rank named there must
-/// send, and to no other rank may anyone send; a message may be empty. Collective only in that all partners call it.
+/// Sends `outgoing`, one message a rank, and returns what the ranks in `senders` send here. Every rank named
+/// there must send, and to no other rank may anyone send; a message may be empty. Collective only in that all
+/// partners call it.
 ///
 /// \tparam Value  what may be copied byte by byte: numbers, or structs of them
 template <class Value>
@@ -63,7 +65,8 @@ std::set<int> ranksOf(const Messages& messages) {
 /// The ranks that name this one among those that they send to: a byte between any two. Collective.
 std::set<int> sendersTo(const Comm& comm, const std::set<int>& receivers);
 
-/// The same exchange where a rank knows only whom it sends to. What it has for itself stays where it is. Collective.
+/// The same exchange where a rank knows only whom it sends to. What it has for itself stays where it is.
+/// Collective.
 template <class Value>
 std::map<int, std::vector<Value>> deliver(const Comm& comm, std::map<int, std::vector<Value>> outgoing) {
   auto own = outgoing.extract(comm.getRank());

@@ -6,7 +6,8 @@
 
 namespace epafi {
 
-/// Consecutive ranks in groups as large as each other, or larger by one. The first rank of a group *leads* it.
+/// Consecutive ranks in groups as large as each other, or larger by one. The first rank of a group *leads*
+/// it.
 class RankGroups {
 public:
   /// \param number  of the groups, from one to as many as ranks, each of which then leads itself. Collective.

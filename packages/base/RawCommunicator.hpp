@@ -8,7 +8,8 @@
 
 namespace epafi {
 
-/// Not collective. Throws Error if `comm` is not one of MPI's; such a one has a single rank, which needs no messages.
+/// Not collective. Throws Error if `comm` is not one of MPI's; such a one has a single rank, which needs no
+/// messages.
 MPI_Comm rawCommunicator(const Comm& comm);
 
 } // namespace epafi

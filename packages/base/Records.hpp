@@ -11,8 +11,8 @@
 
 namespace epafi {
 
-/// `count` records of `size` bytes each, record k to rank ranks[k]; the records that came here, sender by sender in ascending
-/// order, each sender's in the order in which it gave them. Collective.
+/// `count` records of `size` bytes each, record k to rank ranks[k]; the records that came here, sender by
+/// sender in ascending order, each sender's in the order in which it gave them. Collective.
 std::vector<char> sendRecordBytes(const RCP<const Comm>& comm, const char* records, std::size_t size,
                                   std::span<const int> ranks);
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The builder of Stratimikos without its header, which is not C++20 in Trilinos 13.2; later releases make it of a template.
+/// The builder of Stratimikos without its header, which is not C++20 in Trilinos 13.2; later releases make it
+/// of a template.
 
 namespace Stratimikos { // NOLINT(readability-identifier-naming): it is theirs
 #if __has_include(<Stratimikos_LinearSolverBuilder.hpp>)

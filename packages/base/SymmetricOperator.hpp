@@ -16,8 +16,9 @@ public:
   [[nodiscard]] RCP<const Map> getDomainMap() const final { return map_; }
   [[nodiscard]] RCP<const Map> getRangeMap() const final { return map_; }
   [[nodiscard]] bool hasTransposeApply() const final { return true; }
-  /// With beta = 0, y is overwritten, whatever it holds. x and y are different. Allocates only where both alpha and beta are
-  /// not 0: a vector for A x, at the first such call and where the number of columns changes. Collective.
+  /// With beta = 0, y is overwritten, whatever it holds. x and y are different. Allocates only where both
+  /// alpha and beta are not 0: a vector for A x, at the first such call and where the number of columns
+  /// changes. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode = Teuchos::NO_TRANS,
              double alpha = 1.0, double beta = 0.0) const final;
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Scalar, ordinals and the Tpetra classes built on them, named once. Everything uses Tpetra's default node.
+/// Scalar, ordinals, points and the Tpetra classes built on them, named once. Everything uses Tpetra's
+/// default node.
 
 #include <Teuchos_RCP.hpp>
 #include <Tpetra_CrsMatrix_fwd.hpp>
@@ -11,6 +12,8 @@
 #include <Tpetra_MultiVector_fwd.hpp>
 #include <Tpetra_Operator_fwd.hpp>
 #include <Tpetra_Vector_fwd.hpp>
+
+#include <array>
 
 namespace Teuchos {
 template <typename Ordinal>
@@ -31,6 +34,9 @@ using Operator = Tpetra::Operator<Scalar>;
 using CrsMatrix = Tpetra::CrsMatrix<Scalar>;
 using Import = Tpetra::Import<>;
 using Export = Tpetra::Export<>;
+
+/// A point in the plane or in space; unused coordinates are 0.
+using Point = std::array<double, 3>;
 
 using Teuchos::RCP;
 using Teuchos::rcp;

@@ -9,8 +9,8 @@
 
 namespace epafi::benchmarks {
 
-/// All benchmarks are dimensionless. Matrices and vectors are on one map, that of `grid`; each rank has made its own
-/// rows.
+/// All benchmarks are dimensionless. Matrices and vectors are on one map, that of `grid`; each rank has made
+/// its own rows.
 struct BoundBenchmark {
   std::string name; ///< as in qp.csv
   Grid grid;

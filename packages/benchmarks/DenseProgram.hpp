@@ -1,6 +1,7 @@
 #pragma once
 
-/// A quadratic program as dense data, and what can be recomputed of an answer from them alone, in extended precision.
+/// A quadratic program as dense data, and what can be recomputed of an answer from them alone, in extended
+/// precision.
 
 #include <Eigen/Dense>
 
@@ -43,12 +44,12 @@ struct DenseResiduals {
 
 DenseResiduals residuals(const DenseProgram& program, const RealVector& x, const RealVector& multiplier);
 
-/// The smallest yᵀ(Bx − c) over the box, which is positive only if no x in the box satisfies Bx = c. Entries of Bᵀy below
-/// `tolerance` · Σ |y_i|‖B_i‖ count as zero where the box has no end.
+/// The smallest yᵀ(Bx − c) over the box, which is positive only if no x in the box satisfies Bx = c. Entries
+/// of Bᵀy below `tolerance` · Σ |y_i|‖B_i‖ count as zero where the box has no end.
 double separation(const DenseProgram& program, const Eigen::VectorXd& y, double tolerance = 1e-8);
 
-/// Why d is no direction along which the objective falls without end inside the constraints; empty if it is one.
-/// d has length 1. `tolerance` is relative: Ad = 0 to ‖A‖, Bd = 0 to ‖B‖, dᵀb > 0 to ‖b‖.
+/// Why d is no direction along which the objective falls without end inside the constraints; empty if it is
+/// one. d has length 1. `tolerance` is relative: Ad = 0 to ‖A‖, Bd = 0 to ‖B‖, dᵀb > 0 to ‖b‖.
 std::string whyNotRecession(const DenseProgram& program, const Eigen::VectorXd& d, double tolerance = 1e-7);
 
 } // namespace epafi::benchmarks

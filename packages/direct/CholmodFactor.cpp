@@ -18,8 +18,9 @@ extern "C" void omp_set_max_active_levels(int levels); // NOLINT(readability-ide
 namespace epafi::direct {
 namespace {
 
-/// While it lives, OpenMP makes no threads for this one. CHOLMOD asks for four whatever the machine has, ranks are what
-/// Epafi runs in parallel, and on matrices of some hundred unknowns the threads cost more than they bring.
+/// While it lives, OpenMP makes no threads for this one. CHOLMOD asks for four whatever the machine has,
+/// ranks are what Epafi runs in parallel, and on matrices of some hundred unknowns the threads cost more than
+/// they bring.
 class OneThread {
 public:
   OneThread() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }

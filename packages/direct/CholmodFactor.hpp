@@ -10,7 +10,8 @@
 
 namespace epafi::direct {
 
-/// Ordering and elimination tree of a pattern, with the kept unknowns last; shared by all matrices that have it.
+/// Ordering and elimination tree of a pattern, with the kept unknowns last; shared by all matrices that have
+/// it.
 class CholmodPattern;
 
 /// Orders by constrained approximate minimum degree. See Factorizer for the arguments.

@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-/// LAPACK's eigenvalues by relatively robust representations, which Teuchos does not wrap; the last three are lengths of texts.
+/// LAPACK's eigenvalues by relatively robust representations, which Teuchos does not wrap; the last three are
+/// lengths of texts.
 extern "C" void dsyevr_( // NOLINT(readability-identifier-naming): LAPACK's name
     const char* jobz, const char* range, const char* uplo, const int* n, double* a, const int* lda,
     const double* vl, const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w,

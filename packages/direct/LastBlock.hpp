@@ -1,7 +1,8 @@
 #pragma once
 
-/// The last k columns of a factor by CHOLMOD: C, lower triangular, with S = C Cᵀ for the Schur complement S of the k unknowns that
-/// are eliminated last. S and S⁻¹ are applied where the factor lies, without the rest of it.
+/// The last k columns of a factor by CHOLMOD: C, lower triangular, with S = C Cᵀ for the Schur complement S
+/// of the k unknowns that are eliminated last. S and S⁻¹ are applied where the factor lies, without the rest
+/// of it.
 
 #include <Eigen/Core>
 
@@ -12,7 +13,8 @@ struct cholmod_factor_struct; // NOLINT(readability-identifier-naming): a cholmo
 
 namespace epafi::direct {
 
-/// Refers to the factor, which must stay as it is. Unknowns are counted from the first of the k, in the factor's order.
+/// Refers to the factor, which must stay as it is. Unknowns are counted from the first of the k, in the
+/// factor's order.
 class LastBlock {
 public:
   /// \param factor  L Lᵀ, simplicial or supernodal; 0 ≤ k ≤ its size

@@ -26,8 +26,8 @@ public:
 
   [[nodiscard]] bool contains(Eigen::Index j) const { return isIn_[static_cast<std::size_t>(j)] != 0; }
 
-  /// Lets a column in, and goes from x as far as feasible towards the least squares solution, letting go of what becomes
-  /// zero on the way. Returns whether the column is still in.
+  /// Lets a column in, and goes from x as far as feasible towards the least squares solution, letting go of
+  /// what becomes zero on the way. Returns whether the column is still in.
   bool enter(Eigen::Index entering, Eigen::VectorXd& x) {
     columns_.push_back(entering);
     isIn_[static_cast<std::size_t>(entering)] = 1;

@@ -41,8 +41,9 @@ void requireKnown(const std::string& solver) {
   throw InputError("the direct solver '" + solver + "' is not known to this build; use one of: " + known);
 }
 
-/// Makes the BLAS take its work space now. OpenBLAS does so at its first product, 128 MiB of addresses, keeps it, and if there is
-/// no such memory, asks for it for ever: a rank short of memory would hang there. So it is asked for here first.
+/// Makes the BLAS take its work space now. OpenBLAS does so at its first product, 128 MiB of addresses, keeps
+/// it, and if there is no such memory, asks for it for ever: a rank short of memory would hang there. So it
+/// is asked for here first.
 /// \throws std::bad_alloc if it is not to be had. Not collective.
 void takeBlasMemory() {
   static const bool isTaken = [] {

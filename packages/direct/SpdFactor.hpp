@@ -16,9 +16,9 @@ namespace epafi::direct {
 /// Symmetric matrix with both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// A factorised SPD matrix A (n × n), of whose unknowns k ≤ n are *kept*: eliminated last, so that what is left of A
-/// when the others are gone, the Schur complement S = A_kk − A_ki A_ii⁻¹ A_ik = ((A⁻¹)_kk)⁻¹, can be had. Not copyable;
-/// used by one rank alone, nothing here is collective.
+/// A factorised SPD matrix A (n × n), of whose unknowns k ≤ n are *kept*: eliminated last, so that what is
+/// left of A when the others are gone, the Schur complement S = A_kk − A_ki A_ii⁻¹ A_ik = ((A⁻¹)_kk)⁻¹, can
+/// be had. Not copyable; used by one rank alone, nothing here is collective.
 class SpdFactor {
 public:
   SpdFactor() = default;
@@ -33,8 +33,8 @@ public:
   virtual Eigen::MatrixXd schurComplement() = 0;
   /// (A⁻¹)_kk = S⁻¹, likewise.
   virtual Eigen::MatrixXd inverseOfKept() = 0;
-  /// y = S x, without S: CHOLMOD reads its factor's last k columns, no others, twice. k entries each, in the same order; y may
-  /// be x.
+  /// y = S x, without S: CHOLMOD reads its factor's last k columns, no others, twice. k entries each, in the
+  /// same order; y may be x.
   virtual void multiplyKept(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y) = 0;
   /// x = S⁻¹ b, likewise.
   virtual void solveKept(const Eigen::Ref<const Eigen::VectorXd>& b, Eigen::Ref<Eigen::VectorXd> x) = 0;
@@ -49,8 +49,8 @@ public:
 /// Ordering and elimination tree of a pattern (CholmodFactor.hpp).
 class CholmodPattern;
 
-/// Factorises matrices by one direct solver, and remembers what depends on their pattern alone (ordering, elimination
-/// tree) for the next one with the same pattern and the same unknowns kept.
+/// Factorises matrices by one direct solver, and remembers what depends on their pattern alone (ordering,
+/// elimination tree) for the next one with the same pattern and the same unknowns kept.
 class Factorizer {
 public:
   /// \param solver  one of `availableSolvers()`. \throws InputError for another name (lists the known ones),
@@ -58,9 +58,10 @@ public:
   explicit Factorizer(std::string solver);
 
   /// Precondition: A square, SPD, both triangles stored; `kept` distinct and within it. n = 0 is allowed.
-  /// \param like  an earlier factor, of any Factorizer: what depends on its pattern alone is used again if it is the same
-  ///              and CHOLMOD made both; or null
-  /// \throws Error if the factorisation fails, with `what` (the matrix's name for people, such as "subdomain 3") and n.
+  /// \param like  an earlier factor, of any Factorizer: what depends on its pattern alone is used again if it
+  /// is the same and CHOLMOD made both; or null
+  /// \throws Error if the factorisation fails, with `what` (the matrix's name for people, such as "subdomain
+  /// 3") and n.
   std::unique_ptr<SpdFactor> factorize(const SparseMatrix& matrix, const std::vector<int>& kept,
                                        const std::string& what, const SpdFactor* like = nullptr);
 
@@ -75,8 +76,8 @@ private:
   int numSymbolic_ = 0;
 };
 
-/// Names that `Factorizer` takes: CHOLMOD, and the serial solvers of Amesos2 in this build of Trilinos. Amesos2's Tacho
-/// is left out: it crashes on matrices of some thousand unknowns in Trilinos 13.2.
+/// Names that `Factorizer` takes: CHOLMOD, and the serial solvers of Amesos2 in this build of Trilinos.
+/// Amesos2's Tacho is left out: it crashes on matrices of some thousand unknowns in Trilinos 13.2.
 std::vector<std::string> availableSolvers();
 
 /// The solver that was fastest at every size measured (docs/performance.md).

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
-// Teuchos has no product with a packed matrix; the names are BLAS'. NOLINTBEGIN(readability-identifier-naming)
+// Teuchos has no product with a packed matrix; the names are BLAS'.
+// NOLINTBEGIN(readability-identifier-naming)
 extern "C" void dspmv_(const char* uplo, const int* n, const double* alpha, const double* ap, const double* x,
                        const int* incx, const double* beta, double* y, const int* incy);
 extern "C" void sspmv_(const char* uplo, const int* n, const float* alpha, const float* ap, const float* x,
@@ -15,11 +16,12 @@ extern "C" void sspmv_(const char* uplo, const int* n, const float* alpha, const
 namespace epafi::direct {
 namespace {
 
-/// From here on a single product is as fast or faster with half the matrix (measured with OpenBLAS on one core, the matrix
-/// not in the cache: docs/performance.md).
+/// From here on a single product is as fast or faster with half the matrix (measured with OpenBLAS on one
+/// core, the matrix not in the cache: docs/performance.md).
 constexpr int packedPays = 48;
 
-/// Columns of one matrix–matrix product, never more, never fewer: OpenBLAS adds in another order where there are many.
+/// Columns of one matrix–matrix product, never more, never fewer: OpenBLAS adds in another order where there
+/// are many.
 constexpr int width = 8;
 
 /// Y = A X of a full matrix. \param padded  work space for the last columns

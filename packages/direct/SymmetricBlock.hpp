@@ -1,7 +1,7 @@
 #pragma once
 
-/// A dense symmetric matrix that is multiplied often: the condensed block of a subdomain. How it is stored follows from
-/// what is faster at its size.
+/// A dense symmetric matrix that is multiplied often: the condensed block of a subdomain. How it is stored
+/// follows from what is faster at its size.
 
 #include <Eigen/Core>
 
@@ -12,14 +12,15 @@ namespace epafi::direct {
 
 class SymmetricBlock {
 public:
-  /// Whether products are with one vector at a time, or with several. The columns of a product do not depend on how
-  /// many there are.
+  /// Whether products are with one vector at a time, or with several. The columns of a product do not depend
+  /// on how many there are.
   enum class Use { alone, shared };
   /// In which the numbers are kept and multiplied; single is for preconditioners alone.
   enum class Precision { full, single };
 
   SymmetricBlock() = default;
-  /// \param matrix  k × k, both triangles. Stored are k(k + 1)/2 numbers for a large matrix used alone, else k².
+  /// \param matrix  k × k, both triangles. Stored are k(k + 1)/2 numbers for a large matrix used alone, else
+  /// k².
   SymmetricBlock(const Eigen::MatrixXd& matrix, Use use, Precision precision = Precision::full);
 
   [[nodiscard]] int size() const { return size_; }                 ///< k

@@ -11,9 +11,10 @@
 
 namespace epafi::qp {
 
-/// Where faces do not settle: from a point of Ω towards the minimum on its face, as far as Ω goes; what Ω stops there leaves the face. At a minimum
-/// those are released that are about as wrong as the worst, or, where that led nowhere, the worst alone (Nocedal, Wright, *Numerical Optimization*, 2006,
-/// 16.5). The objective falls, so that no face comes back.
+/// Where faces do not settle: from a point of Ω towards the minimum on its face, as far as Ω goes; what Ω
+/// stops there leaves the face. At a minimum those are released that are about as wrong as the worst, or,
+/// where that led nowhere, the worst alone (Nocedal, Wright, *Numerical Optimization*, 2006, 16.5). The
+/// objective falls, so that no face comes back.
 Status ActiveSetIteration::descend() {
   constexpr double aboutAsWrong = 0.1, roundOff = 1e-13;
   constexpr int maxSteps = 40; // of CG, which far from Ω would be for nothing
@@ -59,7 +60,8 @@ Status ActiveSetIteration::descend() {
   return Status::stagnated;
 }
 
-/// Where multipliers are more wrong than the face's minimum is inexact, those may move whose are so to a share of the worst one's. Collective.
+/// Where multipliers are more wrong than the face's minimum is inexact, those may move whose are so to a
+/// share of the worst one's. Collective.
 void ActiveSetIteration::release(double share) {
   set_.choppedGradient(inside_, on_.gradient(), negligibleShare * on_.gradientNorm(), work_);
   if (accurateNorm(work_) <= on_.gradientNorm())
@@ -72,7 +74,8 @@ void ActiveSetIteration::release(double share) {
       face[i] = 1;
 }
 
-/// Moves the point inside along −p, as far as Ω goes and at most so far; what Ω stops leaves the face. Returns how far. Collective.
+/// Moves the point inside along −p, as far as Ω goes and at most so far; what Ω stops leaves the face.
+/// Returns how far. Collective.
 double ActiveSetIteration::follow(const Vector& p, double most) {
   constexpr double onto = 1 + 1e-14; // and not just before it
   const double length = minOverRanks(*p.getMap()->getComm(), set_.maxFeasibleStep(inside_, p));

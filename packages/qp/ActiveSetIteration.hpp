@@ -1,7 +1,7 @@
 #pragma once
 
-/// The run of solveByActiveSets: `settle` goes from face to face through points that may lie outside of Ω (ActiveSets.cpp); where it finds no end,
-/// `descend` goes on through points of Ω (ActiveSetDescent.cpp).
+/// The run of solveByActiveSets: `settle` goes from face to face through points that may lie outside of Ω
+/// (ActiveSets.cpp); where it finds no end, `descend` goes on through points of Ω (ActiveSetDescent.cpp).
 
 #include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/FaceIteration.hpp"

@@ -21,7 +21,8 @@ constexpr int maxPredictionSteps = 30; ///< of CG in a face
 constexpr double reduction = 0.1;      ///< of the gradient in a face
 /// Multipliers as wrong as this share of the worst one come off their bounds.
 constexpr double wrongShare = 0.1;
-/// Less than this share of what a prediction has gained so far is no progress, but may be the last digits of a cycle.
+/// Less than this share of what a prediction has gained so far is no progress, but may be the last digits of
+/// a cycle.
 constexpr double progress = 0.1;
 constexpr double leastCurvature = 1e-12; ///< pᵀAp beside ‖A‖ pᵀp
 constexpr int mostDoublings = 6;         ///< of the pause after predictions that did not settle
@@ -119,8 +120,9 @@ void ActiveSetPrediction::takeBoundsOff(double negligible, double share) {
       face[i] = 1;
 }
 
-/// CG in the face, from the walker with its gradient, until rᵀMr has fallen below `reduction`² times itself or what it was
-/// in the first round, `target` (0: this is the first). False if it does not get there, or if the run is to end.
+/// CG in the face, from the walker with its gradient, until rᵀMr has fallen below `reduction`² times itself
+/// or what it was in the first round, `target` (0: this is the first). False if it does not get there, or if
+/// the run is to end.
 bool ActiveSetPrediction::minimiseOnFace(double& target, StepVectors& work) {
   double curvature = 0, goal = 0;
   for (int k = 0;; ++k) {

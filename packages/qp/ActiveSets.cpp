@@ -19,8 +19,9 @@ constexpr int caution = 4; ///< from so many idle faces on one bound is released
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
 constexpr double safety = 0.5;
 constexpr double roundOffOfX = 1e-13; ///< of x that leaves Ω by it
-/// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that nearly depend on each other, with forces
-/// out of all proportion. The faces that follow may make up for it; where it happens again and again they do not.
+/// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that
+/// nearly depend on each other, with forces out of all proportion. The faces that follow may make up for it;
+/// where it happens again and again they do not.
 constexpr double runaway = 1e3;
 constexpr int mostRunaways = 1, mostRunawayFaces = 8;
 
@@ -122,8 +123,8 @@ bool ActiveSetIteration::holdsEquality() const {
   return on_.constraintResidual() <= tolerances_.constraint * tolerances_.constraintReference;
 }
 
-/// Where the face cannot hold Bx = c, lets those move that first stop the motion which is left: along it the multipliers of bounds fall. False if
-/// nothing stops it.
+/// Where the face cannot hold Bx = c, lets those move that first stop the motion which is left: along it the
+/// multipliers of bounds fall. False if nothing stops it.
 bool ActiveSetIteration::balance() {
   constexpr double hindering = 1e-9; // beside what hinders it most
   on_.unbalanced(work_);
@@ -183,8 +184,8 @@ bool ActiveSetIteration::isNearlySmall() const {
                 : on_.gradientNorm() <= safety * enough();
 }
 
-/// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong sign; with caution
-/// only where it is the largest of these. False if that is the present face.
+/// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong
+/// sign; with caution only where it is the largest of these. False if that is the present face.
 bool ActiveSetIteration::chooseFace(bool isCautious) {
   copy(on_.x, inside_);
   set_.project(inside_);
@@ -243,7 +244,8 @@ bool ActiveSetIteration::isSolved() {
   return true;
 }
 
-/// Whether the tolerance is met. \param energy  an upper bound of the squared error, of a scaled gradient. Collective.
+/// Whether the tolerance is met. \param energy an upper bound of the squared error, of a scaled gradient.
+/// Collective.
 bool ActiveSetIteration::isSmall(double gradient, double energy) {
   return watch_ ? watch_->isSmallEnough(std::sqrt(std::max(0.0, energy)) / objective_.scale(), on_.x)
                 : gradient <= enough();

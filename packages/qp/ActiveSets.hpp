@@ -1,12 +1,14 @@
 #pragma once
 
-/// Primal–dual active sets for min ½xᵀAx − bᵀx, Bx = c, x in Ω. Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003); for FETI
-/// the planning steps of Avery, Rebel, Lesoinne, Farhat, *Comput. Methods Appl. Mech. Engrg* 193 (2004):
+/// Primal–dual active sets for min ½xᵀAx − bᵀx, Bx = c, x in Ω. Hintermüller, Ito, Kunisch, *SIAM J. Optim.*
+/// 13 (2003); for FETI the planning steps of Avery, Rebel, Lesoinne, Farhat, *Comput. Methods Appl. Mech.
+/// Engrg* 193 (2004):
 ///   minimise on the face as if it had no bounds, Bx = c held exactly, as far as the next decision needs;
-///   put the entries that left Ω on its boundary, and let those move whose multipliers have the wrong sign, all at once.
-/// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not settle, a primal method
-/// goes on in Ω (Nocedal, Wright, *Numerical Optimization*, 2006, 16.5), slower and with an objective that falls; where round-off
-/// ends that too, the method says so.
+///   put the entries that left Ω on its boundary, and let those move whose multipliers have the wrong sign,
+///   all at once.
+/// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not
+/// settle, a primal method goes on in Ω (Nocedal, Wright, *Numerical Optimization*, 2006, 16.5), slower and
+/// with an objective that falls; where round-off ends that too, the method says so.
 
 #include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
@@ -24,18 +26,20 @@ struct ActiveSetProblem {
   RCP<const ReplicatedEquality> equality; ///< Bx = c; null for none
   RCP<const Operator> preconditioner;     ///< M ≈ A⁻¹, or null; used as P_F M P_F
   double operatorNorm = 1;                ///< ‖A‖ on Ker B, about
-  /// What CG takes ‖Zg‖ and (gᵀMg)^½ down to before a face is looked at, a share of them where it was entered. Of both: the energy alone can be
-  /// that of one direction which M overrates, gone after a step; the norm alone, that of one which hardly moves x. With less reduction wrong
-  /// decisions are paid by further faces, with more right ones by steps.
+  /// What CG takes ‖Zg‖ and (gᵀMg)^½ down to before a face is looked at, a share of them where it was
+  /// entered. Of both: the energy alone can be that of one direction which M overrates, gone after a step;
+  /// the norm alone, that of one which hardly moves x. With less reduction wrong decisions are paid by
+  /// further faces, with more right ones by steps.
   double faceReduction = 0.1;
 };
 
 /// \param x     in: start; out: the last point, in Ω
-/// \param face  1 where x may move at first, else 0; if null the start's own, or, where that is 0, the face to which Mb points
-/// Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product (none at the start 0), 5 reductions (4 without rows). Allocates nothing on the way
-/// but what B's face inverse takes (FaceInverse.hpp).
-/// Returns converged only for a gradient computed afresh; with the best point met stagnated, where faces do not settle, and unbounded, where one
-/// seems to have no minimum (whether it has none says RecessionDirection.hpp). Collective.
+/// \param face  1 where x may move at first, else 0; if null the start's own, or, where that is 0, the face
+/// to which Mb points Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product
+/// (none at the start 0), 5 reductions (4 without rows). Allocates nothing on the way but what B's face
+/// inverse takes (FaceInverse.hpp). Returns converged only for a gradient computed afresh; with the best
+/// point met stagnated, where faces do not settle, and unbounded, where one seems to have no minimum (whether
+/// it has none says RecessionDirection.hpp). Collective.
 SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
                               const SmalbeTolerances& tolerances, const MprgpParameters& limits,
                               Observer* observer = nullptr);

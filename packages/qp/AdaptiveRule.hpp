@@ -12,8 +12,8 @@
 
 namespace epafi::qp {
 
-/// With an error's target: ‖Bx − c‖ relative to its reference at which x is worth being moved onto Bx = c, where the rows
-/// allow that. Whether the error is small enough shows there.
+/// With an error's target: ‖Bx − c‖ relative to its reference at which x is worth being moved onto Bx = c,
+/// where the rows allow that. Whether the error is small enough shows there.
 inline constexpr double worthRestoring = 1e-2;
 
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
@@ -43,7 +43,8 @@ public:
     isFinal_ = residualNorm_ <= constraint * tolerances_.constraintReference &&
                (watch_ ? watch_->isSmallEnough(gradient.energy, *x_)
                        : projectedGradient <= tolerances_.gradient * tolerances_.gradientReference);
-    // After a thousand steps it is time for another multiplier, if only the gradient is small enough for the end.
+    // After a thousand steps it is time for another multiplier, if only the gradient is small enough for the
+    // end.
     const bool isLong = ++steps_ > 1000;
     const double enough = isLong ? 0.1 * tolerances_.gradient * tolerances_.gradientReference : 0.0;
     return isFinal_ || projectedGradient <= std::max(std::min(balance_ * residualNorm_, forcing_), enough);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Belos' conjugate gradients, set up: for whoever has a test of its own for the end. Heavy: for sources alone.
+/// Belos' conjugate gradients, set up: for whoever has a test of its own for the end. Heavy: for sources
+/// alone.
 
 #include "epafi/base/Types.hpp"
 
@@ -21,8 +22,8 @@ struct BelosOutcome {
   bool isIndefinite = false; ///< ended by pᵀAp ≤ 0, rᵀMr < 0, or NaN
 };
 
-/// From the problem's present solution until the test has passed, columns side by side in one product a step, each with its
-/// own step lengths. \param columns  of the solution, which is updated. Collective.
+/// From the problem's present solution until the test has passed, columns side by side in one product a step,
+/// each with its own step lengths. \param columns of the solution, which is updated. Collective.
 BelosOutcome iterate(const RCP<BelosProblem>& problem, const std::vector<int>& columns,
                      const RCP<BelosTest>& test);
 

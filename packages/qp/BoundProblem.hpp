@@ -35,8 +35,8 @@ SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, StoppingRu
 SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, const GradientTolerance& tolerance,
                               const MprgpParameters& parameters, Observer* observer = nullptr);
 
-/// Fills what MPRGP and SMALBE report alike: the reason, the norm, a fresh gradient, a certificate. Not collective but for
-/// the certificate.
+/// Fills what MPRGP and SMALBE report alike: the reason, the norm, a fresh gradient, a certificate. Not
+/// collective but for the certificate.
 void describeEnd(Mprgp& solver, SolveReport& report);
 
 } // namespace epafi::qp

@@ -47,8 +47,8 @@ public:
     }
   };
 
-  /// \param lower, upper  vectors on the unknowns' map, −∞ and +∞ for "no bound"; null where no entry has one. Shared,
-  ///        never changed.
+  /// \param lower, upper  vectors on the unknowns' map, −∞ and +∞ for "no bound"; null where no entry has
+  /// one. Shared, never changed.
   explicit Box(RCP<const Vector> lower = Teuchos::null, RCP<const Vector> upper = Teuchos::null);
 
   /// This rank's bounds by local index; cheap to make, valid while the box lives.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The space of a few columns U beside a symmetric operator A: what deflation, projector preconditioning and coarse
-/// corrections compute with. With
+/// The space of a few columns U beside a symmetric operator A: what deflation, projector preconditioning and
+/// coarse corrections compute with. With
 ///   P = I − U(UᵀAU)⁻¹UᵀA
 /// x = Px + U(UᵀAU)⁻¹UᵀAx: the second part is what U can do for a solution of Ax = b, and costs no iteration.
 
@@ -14,8 +14,8 @@
 
 namespace epafi::qp {
 
-/// n × k. Entries of U that are 0 are not kept. Memory: AU, n k numbers shared by the ranks, and k² on every rank. A rank may
-/// have no rows. All results are the same on any number of ranks.
+/// n × k. Entries of U that are 0 are not kept. Memory: AU, n k numbers shared by the ranks, and k² on every
+/// rank. A rank may have no rows. All results are the same on any number of ranks.
 class ColumnSpace {
 public:
   /// k × (number of right-hand sides), column after column, on every rank.
@@ -24,10 +24,11 @@ public:
   /// Without columns. \param map  the n rows
   explicit ColumnSpace(RCP<const Map> map);
 
-  /// Further columns and what A makes of them, both on the map. One product with A for each, all in one pass. Collective.
+  /// Further columns and what A makes of them, both on the map. One product with A for each, all in one pass.
+  /// Collective.
   void add(const Operator& a, const MultiVector& columns);
-  /// The factor of UᵀAU, after the last `add` and before all that follows. Whether UᵀAU is positive definite, on all ranks
-  /// alike. Collective.
+  /// The factor of UᵀAU, after the last `add` and before all that follows. Whether UᵀAU is positive definite,
+  /// on all ranks alike. Collective.
   [[nodiscard]] bool factorize();
 
   /// k.

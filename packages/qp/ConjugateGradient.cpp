@@ -30,8 +30,8 @@ private:
   mutable int count_ = 0;
 };
 
-/// Passes where the residual is small enough, at the limit, or where a rank's observer wants to stop; tells it of every step.
-/// Belos leaves no room in its own messages for wishes: the ranks agree by one more a step.
+/// Passes where the residual is small enough, at the limit, or where a rank's observer wants to stop; tells
+/// it of every step. Belos leaves no room in its own messages for wishes: the ranks agree by one more a step.
 class ObservingTest final : public BelosTest {
 public:
   /// \param x           where the iterates are

@@ -1,17 +1,17 @@
 #pragma once
 
-/// The feasible set Ω of a problem, and all that MPRGP asks of it. The loops know no more than this, so that another
-/// set (a disc for friction) needs no change in them. `Box` is the set of bounds.
+/// The feasible set Ω of a problem, and all that MPRGP asks of it. The loops know no more than this, so that
+/// another set (a disc for friction) needs no change in them. `Box` is the set of bounds.
 ///
-/// At a feasible x with the gradient g (Dostál, *Optimal Quadratic Programming Algorithms*, 2009, ch. 5; for other
-/// sets Dostál, Kozubek, *Math. Program.* 135 (2012)):
-///   free gradient φ            what the iteration may follow without meeting the boundary; 0 on the active set
+/// At a feasible x with the gradient g (Dostál, *Optimal Quadratic Programming Algorithms*, 2009, ch. 5; for
+/// other sets Dostál, Kozubek, *Math. Program.* 135 (2012)):
+///   free gradient φ what the iteration may follow without meeting the boundary; 0 on the active set
 ///   chopped gradient β         what leads from the boundary into the set
 ///   reduced free gradient φ̃    φ, cut so that x − ᾱφ̃ stays feasible
 ///   projected gradient         g^P = φ + β; it vanishes exactly at a solution
 ///
-/// Unless said otherwise a function works on this rank's entries alone and is not collective. Vectors are on the map
-/// of the unknowns; x is feasible where a gradient is split.
+/// Unless said otherwise a function works on this rank's entries alone and is not collective. Vectors are on
+/// the map of the unknowns; x is feasible where a gradient is split.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Types.hpp"
@@ -52,7 +52,8 @@ public:
                                              double step) const = 0;
   /// y = φ − factor · y; with factor 0 the old y is not read.
   virtual void subtractFromFreeGradient(const Vector& x, const Vector& g, double factor, Vector& y) const = 0;
-  /// y = β, without what is no larger than `negligible`: a multiplier that is zero but for round-off releases nothing.
+  /// y = β, without what is no larger than `negligible`: a multiplier that is zero but for round-off releases
+  /// nothing.
   virtual void choppedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const = 0;
   /// y = g^P, likewise.
   virtual void projectedGradient(const Vector& x, const Vector& g, double negligible, Vector& y) const = 0;
@@ -62,18 +63,20 @@ public:
   virtual void restrictToReleased(const Vector& x, const Vector& g, double negligible, Vector& z) const = 0;
   /// y_i = 1 where x is free, else 0.
   virtual void freeIndicator(const Vector& x, Vector& y) const = 0;
-  /// y_i = a lower bound of how far x_i may move either way with the set kept, at most `atMost`; 0 on the active set.
+  /// y_i = a lower bound of how far x_i may move either way with the set kept, at most `atMost`; 0 on the
+  /// active set.
   virtual void distanceToBoundary(const Vector& x, double atMost, Vector& y) const = 0;
   /// x moves onto the boundary where `active` is not 0: to the side that is nearer.
   virtual void activate(const Vector& active, Vector& x) const = 0;
-  /// How far each entry is from "no gradient, or no room for it": the largest min(|g_i|, scale · s_i) over this rank's
-  /// entries, s_i the room that −g_i has before the boundary.
+  /// How far each entry is from "no gradient, or no room for it": the largest min(|g_i|, scale · s_i) over
+  /// this rank's entries, s_i the room that −g_i has before the boundary.
   [[nodiscard]] virtual double complementarity(const Vector& x, const Vector& g, double scale) const = 0;
-  /// Largest α with which the fixed x stays the minimiser over Ω when its gradient moves along s, from g to g + αs:
-  /// until the first multiplier changes its sign. 0 if s touches a free entry.
+  /// Largest α with which the fixed x stays the minimiser over Ω when its gradient moves along s, from g to g
+  /// + αs: until the first multiplier changes its sign. 0 if s touches a free entry.
   [[nodiscard]] virtual double longestMultiplierStep(const Vector& x, const Vector& g,
                                                      const Vector& s) const = 0;
-  /// The directions d along which the set has no end: x + αd stays in it for every α > 0, at every feasible x.
+  /// The directions d along which the set has no end: x + αd stays in it for every α > 0, at every feasible
+  /// x.
   /// \param map  of the unknowns
   [[nodiscard]] virtual RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const = 0;
 };

@@ -1,9 +1,11 @@
 #pragma once
 
-/// A with a few columns U taken out of the iteration (ColumnSpace.hpp): x = Pμ + U(UᵀAU)⁻¹Uᵀb, where μ is met by
+/// A with a few columns U taken out of the iteration (ColumnSpace.hpp): x = Pμ + U(UᵀAU)⁻¹Uᵀb, where μ is met
+/// by
 ///   A_U = PᵀAP = PᵀA = A − AU(UᵀAU)⁻¹UᵀA
-/// and by Pᵀb; the gradients A_U μ − Pᵀb and Ax − b are the same vector. Where U has no entries in rows with bounds, P leaves
-/// these alone, and bounds of x are bounds of μ: Domorádová, Dostál, *Numer. Linear Algebra Appl.* 14 (2007) 791–806.
+/// and by Pᵀb; the gradients A_U μ − Pᵀb and Ax − b are the same vector. Where U has no entries in rows with
+/// bounds, P leaves these alone, and bounds of x are bounds of μ: Domorádová, Dostál, *Numer. Linear Algebra
+/// Appl.* 14 (2007) 791–806.
 
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/qp/ColumnSpace.hpp"
@@ -14,8 +16,8 @@
 
 namespace epafi::qp {
 
-/// A_U, n × n, symmetric positive semidefinite, with the kernel Im U beside what A has. A product costs one with A and one
-/// message of k numbers a column.
+/// A_U, n × n, symmetric positive semidefinite, with the kernel Im U beside what A has. A product costs one
+/// with A and one message of k numbers a column.
 class DeflatedOperator final : public SymmetricOperator {
 public:
   /// \param a      A, symmetric positive semidefinite; kept

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The equality constraint Bx = c as SMALBE sees it. Residuals r = Bx − c and multipliers μ are spans of the entries
-/// that this rank keeps. Residuals are measured by a weight W, symmetric positive definite: ‖r‖ = (rᵀWr)^½, and Wr is what they add to
-/// multipliers.
+/// The equality constraint Bx = c as SMALBE sees it. Residuals r = Bx − c and multipliers μ are spans of the
+/// entries that this rank keeps. Residuals are measured by a weight W, symmetric positive definite: ‖r‖ =
+/// (rᵀWr)^½, and Wr is what they add to multipliers.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Types.hpp"
@@ -25,12 +25,13 @@ public:
   /// Over-estimate of ‖W^½B‖.
   [[nodiscard]] virtual double norm() const = 0;
 
-  /// r = Bx − c in two halves around a sum over the ranks that the caller makes anyway. The first adds this rank's
-  /// contributions to `numSums()` sums; all ranks call it together.
+  /// r = Bx − c in two halves around a sum over the ranks that the caller makes anyway. The first adds this
+  /// rank's contributions to `numSums()` sums; all ranks call it together.
   [[nodiscard]] virtual int numSums() const = 0;
   /// \param sums  numSums() of them
   virtual void addLocalSums(const Vector& x, std::span<AccurateSum> sums) const = 0;
-  /// The second fills r and Wr, and returns ‖r‖. Precondition: `addLocalSums` was called last with the same x. Collective.
+  /// The second fills r and Wr, and returns ‖r‖. Precondition: `addLocalSums` was called last with the same
+  /// x. Collective.
   virtual double finishResidual(std::span<const AccurateSum> sums, std::span<double> r,
                                 std::span<double> weighed) const = 0;
 
@@ -50,8 +51,8 @@ public:
   [[nodiscard]] double normOf(std::span<const double> r) const;
 };
 
-/// A few rows, known on every rank, with W = (BBᵀ)⁻¹, so that BᵀWB is a projector: I if they are orthonormal. A product takes part in the
-/// messages that a solver sends anyway.
+/// A few rows, known on every rank, with W = (BBᵀ)⁻¹, so that BᵀWB is a projector: I if they are orthonormal.
+/// A product takes part in the messages that a solver sends anyway.
 class ReplicatedEquality : public EqualityConstraint {
 public:
   /// Number of rows.
@@ -61,8 +62,8 @@ public:
   virtual void addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const = 0;
   /// bx = Bx from the sums over the ranks. Both have size() entries. Not collective.
   static void finishProduct(std::span<const AccurateSum> sums, std::span<double> bx);
-  /// For faces; by default of orthonormal rows, dense, with k² numbers in a message a face and k³ operations on every rank. It may keep a
-  /// reference to this. Collective.
+  /// For faces; by default of orthonormal rows, dense, with k² numbers in a message a face and k³ operations
+  /// on every rank. It may keep a reference to this. Collective.
   [[nodiscard]] virtual std::unique_ptr<FaceInverse> faceInverse(const RCP<const Map>& map) const;
 
   [[nodiscard]] std::size_t numEntries() const final { return static_cast<std::size_t>(size()); }

@@ -12,9 +12,9 @@
 
 namespace epafi::qp {
 
-/// x += δ with B(x + δ) = c, δ = −WBᵀ(BWBᵀ)⁻¹(Bx − c), where W holds each entry's distance to its nearer bound:
-/// entries at a bound stay there, and a δ that is small beside that distance keeps the others feasible. Does
-/// nothing where the free entries do not suffice or δ would cross a bound.
+/// x += δ with B(x + δ) = c, δ = −WBᵀ(BWBᵀ)⁻¹(Bx − c), where W holds each entry's distance to its nearer
+/// bound: entries at a bound stay there, and a δ that is small beside that distance keeps the others
+/// feasible. Does nothing where the free entries do not suffice or δ would cross a bound.
 /// \param residual  Bx − c, on every rank.
 /// Cost: k messages of 2k numbers for k rows. Collective.
 void restoreEquality(const EqualityConstraint& equality, const ConvexSet& set,

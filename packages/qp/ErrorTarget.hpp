@@ -6,8 +6,8 @@
 
 namespace epafi::qp {
 
-/// Says which error ‖x − x*‖_A is small enough. May look at the iterate, at a cost: it is asked once at the start and again
-/// whenever its last answer has been met.
+/// Says which error ‖x − x*‖_A is small enough. May look at the iterate, at a cost: it is asked once at the
+/// start and again whenever its last answer has been met.
 class ErrorTarget {
 public:
   virtual ~ErrorTarget() = default;

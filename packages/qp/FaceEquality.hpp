@@ -13,14 +13,15 @@
 
 namespace epafi::qp {
 
-/// With Z = 1 on the face and 0 off it, B_F = BZ, and P_F = Z − B_Fᵀ(B_F B_Fᵀ)⁺B_F, the projector onto what moves in the face and
-/// leaves Bx as it is. Without rows it is Z.
+/// With Z = 1 on the face and 0 off it, B_F = BZ, and P_F = Z − B_Fᵀ(B_F B_Fᵀ)⁺B_F, the projector onto what
+/// moves in the face and leaves Bx as it is. Without rows it is Z.
 class FaceEquality {
 public:
   /// \param equality  B of k rows; null for none
   FaceEquality(RCP<const ReplicatedEquality> equality, const RCP<const Map>& map);
 
-  /// From now on the face is where `face` is 1, not 0; kept by reference. One message, see the rows' face inverse. Collective.
+  /// From now on the face is where `face` is 1, not 0; kept by reference. One message, see the rows' face
+  /// inverse. Collective.
   void setFace(const Vector& face);
 
   [[nodiscard]] int numRows() const { return numRows_; } ///< k
@@ -30,7 +31,8 @@ public:
   void finish(std::span<const AccurateSum> sums, std::span<double> bx) const;
   /// x ← P_F x. One message of k numbers. Collective.
   void project(Vector& x);
-  /// μ with B_Fᵀμ nearest to x on the face, one of these if there are several (FaceInverse.hpp); x becomes 0 off the face. Valid until the next call. Likewise.
+  /// μ with B_Fᵀμ nearest to x on the face, one of these if there are several (FaceInverse.hpp); x becomes 0
+  /// off the face. Valid until the next call. Likewise.
   [[nodiscard]] std::span<const double> fit(Vector& x);
   /// μ = (B_F B_Fᵀ)⁻ b. Collective.
   void multiplierOf(std::span<const double> b, std::span<double> mu) const;

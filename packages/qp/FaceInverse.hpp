@@ -8,7 +8,8 @@
 
 namespace epafi::qp {
 
-/// A generalised inverse N⁻ of N = B_F B_Fᵀ, B_F = BZ with Z = 1 on the face and 0 off it: N N⁻ N = N, symmetric. B_FᵀN⁻B_F does not depend on the choice.
+/// A generalised inverse N⁻ of N = B_F B_Fᵀ, B_F = BZ with Z = 1 on the face and 0 off it: N N⁻ N = N,
+/// symmetric. B_FᵀN⁻B_F does not depend on the choice.
 class FaceInverse {
 public:
   virtual ~FaceInverse() = default;

@@ -63,7 +63,8 @@ void FaceIteration::enter(bool isOrigin) {
   precondition();
 }
 
-/// As Bx − c = (I − N N⁻)r for some r, with N = B_F B_Fᵀ, ν = (I − N⁻N)(Bx − c) has νᵀ(Bx − c) = ‖Bx − c‖² and Nν = 0.
+/// As Bx − c = (I − N N⁻)r for some r, with N = B_F B_Fᵀ, ν = (I − N⁻N)(Bx − c) has νᵀ(Bx − c) = ‖Bx − c‖²
+/// and Nν = 0.
 void FaceIteration::unbalanced(Vector& change) {
   change.putScalar(0.0);
   equality_.addTransposed(missing_, 1.0, change);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Conjugate gradients on a face, as if it had no bounds: min ½xᵀAx − bᵀx over the entries that may move, Bx = c held exactly.
+/// Conjugate gradients on a face, as if it had no bounds: min ½xᵀAx − bᵀx over the entries that may move, Bx
+/// = c held exactly.
 
 #include "epafi/qp/FaceEquality.hpp"
 #include "epafi/qp/Interruption.hpp"
@@ -12,8 +13,9 @@
 
 namespace epafi::qp {
 
-/// The point x, and the gradient g = Ax − b + Bᵀμ of the Lagrangian with the μ that makes it shortest on the face, scaled by 1/‖A‖
-/// (ScaledObjective.hpp); g is known off the face too, where it is the bounds' multiplier. Z, P_F: FaceEquality.hpp.
+/// The point x, and the gradient g = Ax − b + Bᵀμ of the Lagrangian with the μ that makes it shortest on the
+/// face, scaled by 1/‖A‖ (ScaledObjective.hpp); g is known off the face too, where it is the bounds'
+/// multiplier. Z, P_F: FaceEquality.hpp.
 class FaceIteration {
 public:
   /// Keeps references to objective, interruption and counts. \param m  M ≈ A⁻¹ or null
@@ -24,15 +26,17 @@ public:
   Vector x;    ///< the point; of the caller until `enter`
   Vector face; ///< 1 where x may move, else 0; likewise
 
-  /// x moves onto Bx = c within the face, and g is computed afresh. One product, or none at the origin. Collective.
+  /// x moves onto Bx = c within the face, and g is computed afresh. One product, or none at the origin.
+  /// Collective.
   /// \param isOrigin  whether x = 0
   void enter(bool isOrigin = false);
-  /// One step. One product, one application of M, two messages. Returns why there can be none: unbounded where there is no curvature, since the
-  /// face has no minimum or round-off allows no better one. Collective.
+  /// One step. One product, one application of M, two messages. Returns why there can be none: unbounded
+  /// where there is no curvature, since the face has no minimum or round-off allows no better one.
+  /// Collective.
   std::optional<Status> step();
 
-  /// Bᵀν of a ν with B_Fᵀν = 0 along which what of Bx − c the face cannot take away, found on entering it, is largest: μ + tν leaves g on the face as it is.
-  /// Two messages of k numbers. Collective.
+  /// Bᵀν of a ν with B_Fᵀν = 0 along which what of Bx − c the face cannot take away, found on entering it, is
+  /// largest: μ + tν leaves g on the face as it is. Two messages of k numbers. Collective.
   void unbalanced(Vector& change);
 
   /// The direction of the last step, against which x moves where its slope is positive.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Preconditioning in face: z = Mr for the part r of the gradient that an iteration follows, z restricted to entries that
-/// may move.
+/// Preconditioning in face: z = Mr for the part r of the gradient that an iteration follows, z restricted to
+/// entries that may move.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/qp/ConvexSet.hpp"

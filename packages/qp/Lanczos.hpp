@@ -1,7 +1,7 @@
 #pragma once
 
-/// Lanczos' iteration for the eigenvalues of MA in the inner product of M (Saad, *Iterative Methods for Sparse Linear
-/// Systems*, section 6.7); without M those of A.
+/// Lanczos' iteration for the eigenvalues of MA in the inner product of M (Saad, *Iterative Methods for
+/// Sparse Linear Systems*, section 6.7); without M those of A.
 
 #include "epafi/base/Types.hpp"
 
@@ -11,7 +11,8 @@
 
 namespace epafi::qp {
 
-/// A symmetric positive semidefinite, n × n; M symmetric positive definite on the range of A. Four vectors, five with M.
+/// A symmetric positive semidefinite, n × n; M symmetric positive definite on the range of A. Four vectors,
+/// five with M.
 class Lanczos {
 public:
   /// An eigenvalue of the tridiagonal matrix; one of MA is within the distance `error`.
@@ -25,8 +26,8 @@ public:
 
   /// Whether the space is exhausted but for round-off: no further step.
   [[nodiscard]] bool isExhausted() const { return !(beta_ > 1e-13 * largest_); }
-  /// One product with A, one with M. \throws Error if one of them returns NaN or infinity, or if M is not positive definite.
-  /// Collective.
+  /// One product with A, one with M. \throws Error if one of them returns NaN or infinity, or if M is not
+  /// positive definite. Collective.
   void step();
   /// Of the steps so far, in ascending order. Precondition: there was one. Not collective.
   [[nodiscard]] std::vector<RitzValue> ritzValues() const;

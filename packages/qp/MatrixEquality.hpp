@@ -24,10 +24,10 @@ struct PreparedEquality {
   RCP<Vector> certificate;   ///< then: y with Bᵀy = 0, yᵀc < 0, of length 1
 };
 
-/// Up to `maxDenseRows` rows are made orthonormal: with BBᵀ = VΛVᵀ (rows scaled to length 1 first) the constraint is
-/// Λ^{-½}Vᵀ(Bx − c) = 0 without the zero eigenvalues, that is without redundant rows; rows that contradict each other
-/// are found. Cost: as many products with Bᵀ and B as there are rows, their squared number in memory on each rank.
-/// More rows are only divided by ‖B‖.
+/// Up to `maxDenseRows` rows are made orthonormal: with BBᵀ = VΛVᵀ (rows scaled to length 1 first) the
+/// constraint is Λ^{-½}Vᵀ(Bx − c) = 0 without the zero eigenvalues, that is without redundant rows; rows that
+/// contradict each other are found. Cost: as many products with Bᵀ and B as there are rows, their squared
+/// number in memory on each rank. More rows are only divided by ‖B‖.
 ///
 /// \param b  B, m × n, with a transposed apply; its domain map is that of x
 /// \param c  on B's range map; null for 0

@@ -139,15 +139,15 @@ std::optional<Status> Mprgp::endingOf(const StepSizes& sizes) const {
   return std::nullopt;
 }
 
-/// Whether the step to the minimum along p stays in the set. Along the chopped gradient alone a step is cut at the
-/// boundary instead (Dostál's algorithm 5.8 does without the cut, for bounds on one side).
+/// Whether the step to the minimum along p stays in the set. Along the chopped gradient alone a step is cut
+/// at the boundary instead (Dostál's algorithm 5.8 does without the cut, for bounds on one side).
 bool Mprgp::fits(const StepSizes& sizes, StepKind intent) const {
   return sizes.slope <= sizes.feasible * sizes.curvature ||
          (intent == StepKind::proportioning && parameters_.release == Release::choppedGradient);
 }
 
-/// p for the step that is meant: in the face z = φ, or M φ on the free set; out of it z = φ + β, or M(φ + β) where the
-/// set lets it move, or β alone.
+/// p for the step that is meant: in the face z = φ, or M φ on the free set; out of it z = φ + β, or M(φ + β)
+/// where the set lets it move, or β alone.
 std::optional<Status> Mprgp::setDirection(StepKind intent) {
   const bool isInFace = intent == StepKind::conjugateGradient;
   const double negligible = negligibleShare * now_.projectedGradient;
@@ -268,8 +268,9 @@ void Mprgp::shiftLinearTerm(const Vector& shift, double objectiveShift) {
   iterate_.f += objective_.scale() * objectiveShift;
 }
 
-/// All that the loop asks of the split gradient, in one pass and one message. Streams x, g, Ap, l, u. Where the next
-/// step will most likely stay in the face, it is preconditioned now, so that its two sums travel along.
+/// All that the loop asks of the split gradient, in one pass and one message. Streams x, g, Ap, l, u. Where
+/// the next step will most likely stay in the face, it is preconditioned now, so that its two sums travel
+/// along.
 void Mprgp::measure(StoppingRule& rule, bool staysInFace) {
   const bool preconditions = staysInFace && preconditioner_.has_value();
   const GradientSums mine = set_->measure(iterate_.x, iterate_.g, work_.image, fixedStep());

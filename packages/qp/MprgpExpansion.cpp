@@ -10,8 +10,8 @@
 
 namespace epafi::qp {
 
-/// x^½ = x − α_f p, then, if that is only a small part of the step, a trial point beyond it that must not raise the
-/// objective.
+/// x^½ = x − α_f p, then, if that is only a small part of the step, a trial point beyond it that must not
+/// raise the objective.
 std::optional<Status> Mprgp::expand(const StepSizes& sizes, StepKind intent) {
   ++counts_.expansion;
   stepsInFace_ = 0;
@@ -38,8 +38,8 @@ std::optional<Status> Mprgp::expand(const StepSizes& sizes, StepKind intent) {
   return descend(fixedStep(), true); // P(x^½ − ᾱ φ(x^½))
 }
 
-/// x becomes P(x − length · p) if the objective does not grow by it; else a point nearer along φ, with ᾱ‖A‖ < 2:
-/// should that one raise the objective too, ‖A‖ was underestimated, and the step shows by how much.
+/// x becomes P(x − length · p) if the objective does not grow by it; else a point nearer along φ, with ᾱ‖A‖ <
+/// 2: should that one raise the objective too, ‖A‖ was underestimated, and the step shows by how much.
 /// \param isFixedStep  whether length = ᾱ, and p the gradient or its free part
 std::optional<Status> Mprgp::descend(double length, bool isFixedStep) {
   constexpr int maxCorrections = 40;
@@ -74,8 +74,8 @@ std::optional<Status> Mprgp::descend(double length, bool isFixedStep) {
   return Status::stagnated;
 }
 
-/// With `auto`, and a preconditioner, predictions take over from projections that fail: a few that raise the objective by
-/// a little, which a fixed step mends, or one that raises it by much, a sign of a wide contact.
+/// With `auto`, and a preconditioner, predictions take over from projections that fail: a few that raise the
+/// objective by a little, which a fixed step mends, or one that raises it by much, a sign of a wide contact.
 void Mprgp::noteRise(double rise, double size) {
   constexpr double slight = 1e-3; // of the objective's terms
   constexpr int patience = 3;

@@ -8,10 +8,12 @@ namespace epafi::qp {
 
 /// Where a conjugate gradient step that would leave the set goes from its feasible half step x^½ = x − α_f p.
 enum class Expansion {
-  automatic, ///< projectedCg; with a preconditioner, once one of its steps raised the objective by much, activeSet
+  /// projectedCg; with a preconditioner, once one of its steps raised the objective by much, activeSet
+  automatic,
   projectedCg, ///< P(x − α_cg p) (MPPCG; Kružík, Horák, Čermák, Pospíšil, Pecha 2020)
   fixedStep,   ///< P(x^½ − ᾱ φ(x^½)), ᾱ = Expansion Step/‖A‖ (Dostál, Schöberl 2005)
-  activeSet ///< where a primal–dual active set method leads (Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003))
+  /// Where a primal–dual active set method leads (Hintermüller, Ito, Kunisch, *SIAM J. Optim.* 13 (2003))
+  activeSet
 };
 
 /// The direction that leaves a face which is no longer proportional.
@@ -23,9 +25,9 @@ enum class Release {
 struct MprgpParameters {
   double proportioningConstant = 0; ///< Γ > 0; 0: not chosen, which is 1 but where the caller knows better
   Expansion expansion = Expansion::automatic;
-  /// Of a CG step that meets the boundary: with at least this share it is good enough, and ends there (a cut to the share
-  /// s has 1 − (1 − s)² of the decrease); 1: never; 0: not chosen, which is 1 but where the caller
-  /// knows better.
+  /// Of a CG step that meets the boundary: with at least this share it is good enough, and ends there (a cut
+  /// to the share s has 1 − (1 − s)² of the decrease); 1: never; 0: not chosen, which is 1 but where the
+  /// caller knows better.
   double sufficientShare = 0;
   double expansionStep = 1.9; ///< ᾱ‖A‖, in (0, 2)
   Release release = Release::projectedGradient;

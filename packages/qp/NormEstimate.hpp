@@ -27,11 +27,11 @@ struct NormEstimate {
 };
 
 /// Lanczos: largest Ritz value θ plus the residual norm r of its Ritz vector, but at least `safety` · θ: an
-/// eigenvalue lies within r of θ, yet it need not be the largest one. Stops when r ≤ `accuracy` · θ. No estimate from a few products is certain; MPRGP finds
-/// out and halves its step where one was too small. The start vector depends on global indices alone, so that
-/// every number of ranks gives the same
-/// estimate. Precondition: A symmetric positive semidefinite on its domain map. Memory: three vectors.
-/// Collective. \throws Error if A returns NaN or infinity.
+/// eigenvalue lies within r of θ, yet it need not be the largest one. Stops when r ≤ `accuracy` · θ. No
+/// estimate from a few products is certain; MPRGP finds out and halves its step where one was too small. The
+/// start vector depends on global indices alone, so that every number of ranks gives the same estimate.
+/// Precondition: A symmetric positive semidefinite on its domain map. Memory: three vectors. Collective.
+/// \throws Error if A returns NaN or infinity.
 NormEstimate estimateNorm(const Operator& a, const NormEstimateParameters& parameters);
 
 } // namespace epafi::qp

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Notices that an iteration gets nowhere any more: neither has the objective fallen by more than its round-off, nor
-/// the projected gradient below nine tenths of its best, for a number of steps in a row.
+/// Notices that an iteration gets nowhere any more: neither has the objective fallen by more than its
+/// round-off, nor the projected gradient below nine tenths of its best, for a number of steps in a row.
 
 #include <cmath>
 #include <limits>

@@ -16,8 +16,8 @@
 
 namespace epafi::qp {
 
-/// An iteration that ended without success far away from where it began may have followed a direction without end; and
-/// the direction in which MPRGP met no curvature still holds noise.
+/// An iteration that ended without success far away from where it began may have followed a direction without
+/// end; and the direction in which MPRGP met no curvature still holds noise.
 void QpSolver::Run::lookForUnboundedness() {
   SolveReport& report = solution.report;
   const bool isFarAway = operatorNorm * accurateNorm(x) > 1e3 * accurateNorm(*given.linearTerm);

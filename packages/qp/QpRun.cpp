@@ -76,8 +76,8 @@ bool QpSolver::Run::prepareConstraints() {
   return end(Status::infeasible, equality.contradiction);
 }
 
-/// A feasible start from the given one: projected, with the guess of the active set, and onto Bx = c where x and the set
-/// allow it.
+/// A feasible start from the given one: projected, with the guess of the active set, and onto Bx = c where x
+/// and the set allow it.
 bool QpSolver::Run::findStart() {
   set->project(x);
   if (!given.activeGuess.is_null())
@@ -150,8 +150,9 @@ void QpSolver::Run::deflate() {
   hessian = deflated;
 }
 
-/// What gradients are relative to: ‖b‖; where that is nothing beside the products with A that the bounds and rows force,
-/// the gradient at the feasible point nearest to 0. Where 0 is feasible and b = 0, it is the solution.
+/// What gradients are relative to: ‖b‖; where that is nothing beside the products with A that the bounds and
+/// rows force, the gradient at the feasible point nearest to 0. Where 0 is feasible and b = 0, it is the
+/// solution.
 bool QpSolver::Run::chooseReference() {
   reference = solver.reference_ > 0 ? solver.reference_ : accurateNorm(*given.linearTerm);
   const bool hasRows = !equality.constraint.is_null();

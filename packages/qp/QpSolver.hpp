@@ -26,8 +26,8 @@
 
 namespace epafi::qp {
 
-/// min ½xᵀAx − bᵀx subject to x in Ω and Bx = c. Everything is shared and never changed. Members that a problem has no
-/// use for stay null.
+/// min ½xᵀAx − bᵀx subject to x in Ω and Bx = c. Everything is shared and never changed. Members that a
+/// problem has no use for stay null.
 struct QuadraticProgram {
   RCP<const Operator> hessian;  ///< A, n × n, symmetric positive semidefinite; its domain map is that of x
   RCP<const Vector> linearTerm; ///< b
@@ -38,8 +38,8 @@ struct QuadraticProgram {
 
   /// M ≈ A⁻¹, symmetric positive definite; used restricted to the free set.
   RCP<const Operator> preconditioner;
-  /// Makes M for the face of the start: given 1 for every free entry and 0 for those at a bound. Called once a solve,
-  /// on all ranks; takes the place of `preconditioner`.
+  /// Makes M for the face of the start: given 1 for every free entry and 0 for those at a bound. Called once
+  /// a solve, on all ranks; takes the place of `preconditioner`.
   std::function<RCP<const Operator>(const Vector& freeIndicator)> facePreconditioner;
   /// Columns U of a coarse space for projector preconditioning; 0 in every entry that has a bound.
   RCP<const MultiVector> coarseSpace;
@@ -63,9 +63,9 @@ public:
   explicit QpSolver(const Teuchos::ParameterList& parameters = Teuchos::ParameterList());
 
   /// \param x  in: start, any finite vector; out: the last iterate, within the bounds and finite
-  /// \param observer  told of every step; may be null
-  /// Says `converged` only if the KKT residuals, recomputed, bear it out. A problem without a solution is named in the
-  /// status (infeasible, unbounded, indefiniteOperator), with a certificate.
+  /// \param observer  told of every step; may be null Says `converged` only if the KKT residuals, recomputed,
+  /// bear it out. A problem without a solution is named in the status (infeasible, unbounded,
+  /// indefiniteOperator), with a certificate.
   /// \throws InputError, on all ranks alike, if vectors do not fit or data are not finite. Collective.
   QpSolution solve(const QuadraticProgram& problem, Vector& x, Observer* observer = nullptr);
 

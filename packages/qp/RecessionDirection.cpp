@@ -44,8 +44,8 @@ private:
   mutable std::vector<double> bx_, weighed_;
 };
 
-/// How far d, made of length 1, is from Ad = 0 and Bd = 0: the larger of ‖Ad‖/‖A‖ and ‖Bd‖/‖B‖; infinity where d leads
-/// nowhere. One product.
+/// How far d, made of length 1, is from Ad = 0 and Bd = 0: the larger of ‖Ad‖/‖A‖ and ‖Bd‖/‖B‖; infinity
+/// where d leads nowhere. One product.
 double defect(const Operator& a, double operatorNorm, const Vector& target,
               const EqualityConstraint* equality, Vector& d) {
   const double norm = accurateNorm(d);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// f(x) = ½xᵀAx − bᵀx + constant as MPRGP works with it: divided by ‖A‖, as estimated at the start, so that gradients have
-/// the units of x and no threshold has any. The gradient is g = (Ax − b)/‖A‖.
+/// f(x) = ½xᵀAx − bᵀx + constant as MPRGP works with it: divided by ‖A‖, as estimated at the start, so that
+/// gradients have the units of x and no threshold has any. The gradient is g = (Ax − b)/‖A‖.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/qp/SolveReport.hpp"
@@ -63,7 +63,8 @@ public:
   [[nodiscard]] const Vector& linearTerm() const { return b_; }   ///< b, not scaled
   /// Whether the products are spent.
   [[nodiscard]] bool isSpent() const { return counts_.hessianMultiplications >= maxMultiplications_; }
-  /// A curvature pᵀAp no larger than this is zero, as far as products in double precision can tell. \param squared  pᵀp
+  /// A curvature pᵀAp no larger than this is zero, as far as products in double precision can tell. \param
+  /// squared pᵀp
   [[nodiscard]] double zeroCurvature(double squared) const { return 1e-14 * norm_ * squared; }
   /// A Rayleigh quotient as large as that was seen.
   void correctNorm(double rayleighQuotient);

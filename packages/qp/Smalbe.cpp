@@ -20,8 +20,8 @@ namespace {
 /// Largest ρ‖B‖² as a multiple of ‖A‖: the round-off of ρBᵀ(Bx − c) limits the gradient that can be reached.
 constexpr double maxPenalty = 1e4;
 
-/// Foresees where residual after residual is the last one times q, close to 1 (rows that the free entries can hardly serve):
-/// the sum of the steps to come is 1/(1 − q) of them.
+/// Foresees where residual after residual is the last one times q, close to 1 (rows that the free entries can
+/// hardly serve): the sum of the steps to come is 1/(1 − q) of them.
 class CreepingResidual {
 public:
   explicit CreepingResidual(const EqualityConstraint& equality)
@@ -185,15 +185,16 @@ Status OuterIteration::run(const Vector& start, Observer* observer) {
   return Status::maxIterations;
 }
 
-/// What MPRGP cannot improve any further is good enough for the next multiplier, as long as these make progress.
+/// What MPRGP cannot improve any further is good enough for the next multiplier, as long as these make
+/// progress.
 bool OuterIteration::toleratesRoundOff(const Progress& previous) {
   constexpr int maxIdle = 3;
   numIdle_ = rule_.residualNorm() > 0.9 * previous.residual ? numIdle_ + 1 : 0;
   return numIdle_ <= maxIdle;
 }
 
-/// M ← βM, or ρ ← βρ, when L grew by less than ρ/2‖Bx − c‖²; and where ρ may change, ρ ← βρ as well when ‖Bx − c‖ has
-/// twice in a row not been halved.
+/// M ← βM, or ρ ← βρ, when L grew by less than ρ/2‖Bx − c‖²; and where ρ may change, ρ ← βρ as well when ‖Bx
+/// − c‖ has twice in a row not been halved.
 void OuterIteration::adapt(const Progress& previous, const Progress& now) {
   const bool isFirst = inner_.counts().outer == 0;
   const double roundOff = 1e-14 * std::abs(now.lagrangian);
@@ -214,7 +215,8 @@ void OuterIteration::adapt(const Progress& previous, const Progress& now) {
   }
 }
 
-/// Gives a warm start the multiplier that belongs to it; without, the first outer iterations would lead away from it.
+/// Gives a warm start the multiplier that belongs to it; without, the first outer iterations would lead away
+/// from it.
 void OuterIteration::startMultiplier() {
   if (!equality_.isReplicated())
     return;
@@ -243,9 +245,10 @@ void OuterIteration::growPenalty() {
                        normOfLagrangian());
 }
 
-/// μ may go further than the paper's step ρW(Bx − c), to where `creep_` foresees it, as long as bounds hold what they hold, or where the inner solution x does not notice:
-/// while every entry that the shift touches is held at its bound, x stays the minimiser and L grows linearly in μ, until
-/// the first multiplier there changes its sign.
+/// μ may go further than the paper's step ρW(Bx − c), to where `creep_` foresees it, as long as bounds hold
+/// what they hold, or where the inner solution x does not notice: while every entry that the shift touches is
+/// held at its bound, x stays the minimiser and L grows linearly in μ, until the first multiplier there
+/// changes its sign.
 void OuterIteration::updateMultiplier(const Progress& previous) {
   const double residual = rule_.residualNorm();
   work_.putScalar(0.0);

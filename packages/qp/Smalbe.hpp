@@ -6,8 +6,9 @@
 ///
 /// Outer loop on the multiplier μ of Bx = c; the inner loop is MPRGP on the augmented Lagrangian
 ///   L(x, μ, ρ) = ½xᵀAx − bᵀx + μᵀ(Bx − c) + ρ/2 ‖Bx − c‖²,
-/// stopped at ‖g^P‖ ≤ min(M‖Bx − c‖, η). When both tolerances are met, x is moved within its face onto Bx = c (to
-/// round-off, where the rows are replicated) and the gradient computed afresh must still meet its tolerance.
+/// stopped at ‖g^P‖ ≤ min(M‖Bx − c‖, η). When both tolerances are met, x is moved within its face onto Bx = c
+/// (to round-off, where the rows are replicated) and the gradient computed afresh must still meet its
+/// tolerance.
 
 #include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
@@ -23,8 +24,8 @@ namespace epafi::qp {
 
 /// How multiplier, balance and penalty change.
 struct SmalbeParameters {
-  /// What changes when the augmented Lagrangian grew too little. `both`: the balance, and the penalty where the
-  /// residual of the constraint falls slowly.
+  /// What changes when the augmented Lagrangian grew too little. `both`: the balance, and the penalty where
+  /// the residual of the constraint falls slowly.
   enum class Update { both, balance, penalty };
   Update update = Update::both;
   double penalty = 1.0;          ///< ρ‖B‖² as a multiple of ‖A‖
@@ -58,8 +59,8 @@ struct EqualityBoundProblem {
   double operatorNorm = 1;                ///< over-estimate of ‖A‖
 };
 
-/// \param x           in: start (projected onto Ω; the multiplier starts from what suits it); out: the last iterate,
-///                    in Ω
+/// \param x  in: start (projected onto Ω; the multiplier starts from what suits it); out: the last iterate,
+/// in Ω
 /// \param multiplier  out: μ, in the constraint's own entries
 /// Returns converged only if a gradient computed afresh bears it out. Precondition: Ω is not empty.
 /// Collective.

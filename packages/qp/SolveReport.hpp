@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a solver says when it stops: a status, a reason, counts of steps by kind, KKT residuals, a certificate where
-/// there is no solution, and the history of the iteration.
+/// What a solver says when it stops: a status, a reason, counts of steps by kind, KKT residuals, a
+/// certificate where there is no solution, and the history of the iteration.
 
 #include "epafi/base/Types.hpp"
 
@@ -61,8 +61,9 @@ struct StepCounts {
   int normCorrections = 0; ///< times that ‖A‖ turned out to be larger than estimated
 };
 
-/// The conditions of Karush, Kuhn and Tucker at the point returned, recomputed from scratch. The gradients are those
-/// of the Lagrangian, g = Ax − b + Bᵀμ; all are relative: gradients to the stopping reference, Bx − c to its own.
+/// The conditions of Karush, Kuhn and Tucker at the point returned, recomputed from scratch. The gradients
+/// are those of the Lagrangian, g = Ax − b + Bᵀμ; all are relative: gradients to the stopping reference, Bx −
+/// c to its own.
 struct KktResiduals {
   double stationarity = 0;    ///< ‖φ‖, the gradient where no bound holds
   double dualFeasibility = 0; ///< ‖β‖, multipliers of bounds that have the wrong sign
@@ -80,27 +81,31 @@ struct SolveReport {
   double objective = 0;
   double operatorNorm = 0; ///< ‖A‖ as known at the end
   KktResiduals kkt;        ///< filled by QpSolver
-  /// Of length 1, or null. indefiniteOperator: d with dᵀAd < 0. unbounded: d with Ad = 0, Bd = 0, dᵀb > 0, along which
-  /// the set has no end. infeasible: y on the rows of B with yᵀ(Bx − c) > 0 for every x within the bounds.
+  /// Of length 1, or null. indefiniteOperator: d with dᵀAd < 0. unbounded: d with Ad = 0, Bd = 0, dᵀb > 0,
+  /// along which the set has no end. infeasible: y on the rows of B with yᵀ(Bx − c) > 0 for every x within
+  /// the bounds.
   RCP<Vector> certificate;
   RCP<Vector>
       gradient;    ///< of the Lagrangian at x, from a fresh product with A; null if the last one is not fresh
   History history; ///< every step, in order
 };
 
-/// Adds the steps of a further solve to a report, its history numbered on. The rest of the report stays as it is.
+/// Adds the steps of a further solve to a report, its history numbered on. The rest of the report stays as it
+/// is.
 void append(const SolveReport& further, SolveReport& report);
 
-/// Receives every step of a solver as it happens, and may ask for more. Called on all ranks that have one; must not throw.
+/// Receives every step of a solver as it happens, and may ask for more. Called on all ranks that have one;
+/// must not throw.
 class Observer {
 public:
   virtual ~Observer() = default;
   /// A step that was made.
   virtual void step(const StepRecord& record) = 0;
-  /// Whether this rank wants the iteration to end. Asked at every step; one rank is enough, and all stop at the same step
-  /// with the status `interrupted`: the wish travels with the sums that a step makes anyway.
+  /// Whether this rank wants the iteration to end. Asked at every step; one rank is enough, and all stop at
+  /// the same step with the status `interrupted`: the wish travels with the sums that a step makes anyway.
   [[nodiscard]] virtual bool wantsToStop() { return false; }
-  /// Whether this rank wants to see the iterate. Likewise; then `look` is called on all ranks that have an observer.
+  /// Whether this rank wants to see the iterate. Likewise; then `look` is called on all ranks that have an
+  /// observer.
   [[nodiscard]] virtual bool wantsToLook() { return false; }
   /// The iterate x, on the map of the unknowns; feasible but with CG's, which knows no bounds.
   virtual void look(const Vector& /*x*/) {}

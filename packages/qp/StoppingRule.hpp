@@ -13,10 +13,11 @@ namespace epafi::qp {
 /// The projected gradient in two norms.
 struct GradientNorms {
   double euclidean = 0; ///< ‖g^P‖
-  /// (g^Pᵀ M g^P)^½ with the preconditioner M, for rules that ask for it. Where M ≥ A⁻¹, as in FETI-DP, it bounds the error:
+  /// (g^Pᵀ M g^P)^½ with the preconditioner M, for rules that ask for it. Where M ≥ A⁻¹, as in FETI-DP, it
+  /// bounds the error:
   ///   ‖x − x*‖_A² ≤ gᵀ(x − x*) ≤ (g^P)ᵀ(x − x*) ≤ ‖g^P‖_{A⁻¹} ‖x − x*‖_A,
-  /// as g*ᵀ(x − x*) ≥ 0, and what g^P leaves out of g points out of the set. Between certificates it is estimated from
-  /// what M does to the steps' directions.
+  /// as g*ᵀ(x − x*) ≥ 0, and what g^P leaves out of g points out of the set. Between certificates it is
+  /// estimated from what M does to the steps' directions.
   double energy = 0;
 };
 
@@ -41,7 +42,8 @@ inline double relativeTo(double reference, double value) {
   return reference > 0 ? value / reference : value;
 }
 
-/// Stops when ‖g^P‖ ≤ max(relative · reference, absolute). A reference of 0 (no load) asks for ‖g^P‖ ≤ absolute.
+/// Stops when ‖g^P‖ ≤ max(relative · reference, absolute). A reference of 0 (no load) asks for ‖g^P‖ ≤
+/// absolute.
 class GradientRule final : public StoppingRule {
 public:
   /// \param relative, reference, absolute  as above

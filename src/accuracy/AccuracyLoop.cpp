@@ -24,8 +24,8 @@ double measuredEffectivity(const MeshResult& last, const MeshResult& next, doubl
   return std::clamp(std::sqrt(coarse * coarse - fine * fine) / next.change, least, most);
 }
 
-/// What is left of a quantity's error if it falls from mesh to mesh as its bars do, at least by 0.3: Δ r/(1 − r) of the last
-/// change Δ. Bars of meshes too coarse to see what they miss are smaller.
+/// What is left of a quantity's error if it falls from mesh to mesh as its bars do, at least by 0.3: Δ r/(1 −
+/// r) of the last change Δ. Bars of meshes too coarse to see what they miss are smaller.
 double leftOfChange(const MeshResult::Quantity& last, const MeshResult::Quantity& next) {
   constexpr double most = 0.7;
   const double ratio =
@@ -46,8 +46,8 @@ std::string rounded(double value) {
   return text.str();
 }
 
-/// Says so if a quantity grows with every mesh by a power of the width that it looks at, as at a sharp edge; else empty. On the way
-/// to a limit the powers fall to 0.
+/// Says so if a quantity grows with every mesh by a power of the width that it looks at, as at a sharp edge;
+/// else empty. On the way to a limit the powers fall to 0.
 std::string endlessGrowth(const std::vector<MeshResult>& meshes) {
   // A force on one element after another has the power 1, in space 2.
   constexpr double least = 0.08, alike = 0.7, most = 0.9, finer = 1.3;
@@ -94,8 +94,8 @@ double missedBy(const MeshResult& last, double expected) {
   return expected > 0 ? std::clamp(estimated(last) / expected, 1.0, most) : 1.0;
 }
 
-/// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d), that of a quantity with
-/// its square.
+/// Unknowns at which order 1 reaches the target, as far as one mesh tells: its error falls with N^(-1/d),
+/// that of a quantity with its square.
 double unknownsOfOrderOne(const MeshResult& result, int dimension, double target) {
   const double power = result.quantity ? 0.5 * dimension : dimension;
   return static_cast<double>(result.unknowns) * std::pow(result.relative() / target, power);

@@ -31,8 +31,8 @@ struct MeshResult {
   double algebraic = 0; ///< and of the iteration
   double seconds = 0;   ///< all that this mesh took, its making included
   double bytes = 0;     ///< most that all ranks together held so far; 0: not known
-  /// A number that is asked for in place of the energy norm, and how far it may be off: by the mesh (the loop corrects it by
-  /// the square of the effectivity), and by the iteration.
+  /// A number that is asked for in place of the energy norm, and how far it may be off: by the mesh (the loop
+  /// corrects it by the square of the effectivity), and by the iteration.
   struct Quantity {
     double value = 0, discretisation = 0, algebraic = 0;
     double width =
@@ -42,10 +42,12 @@ struct MeshResult {
   double change = 0;      ///< ‖u − u of the last mesh‖ in the energy norm; 0: not known
   double effectivity = 1; ///< estimate by error, as the loop takes it to be
   std::string failure;    ///< why the mesh has no error to go by; empty if it has
-  ElementErrors
-      elements; ///< of all bodies, their shares of the quantity's error for η²; the loop finds their orders, and keeps those of the last mesh alone
+  /// Of all bodies, their shares of the quantity's error for η²; the loop finds their orders, and keeps those
+  /// of the last mesh alone
+  ElementErrors elements;
 
-  /// Both errors, relative to the energy norm of the exact solution, or to the quantity; infinite if this is 0.
+  /// Both errors, relative to the energy norm of the exact solution, or to the quantity; infinite if this is
+  /// 0.
   [[nodiscard]] double relative() const;
 };
 
@@ -62,8 +64,9 @@ public:
   [[nodiscard]] virtual WantedSizes plan(const MeshResult& result, const RefinementGoal& goal) const {
     return wantedSizes(result.elements.squared, result.elements.orders, goal);
   }
-  /// Makes the next mesh: elements in the order of `MeshResult::elements`, parts of a halving rounded as suits. Returns for each
-  /// new element the old one that it, or its centre, lies in; nothing if sizes are the same everywhere. Collective.
+  /// Makes the next mesh: elements in the order of `MeshResult::elements`, parts of a halving rounded as
+  /// suits. Returns for each new element the old one that it, or its centre, lies in; nothing if sizes are
+  /// the same everywhere. Collective.
   virtual std::vector<LocalOrdinal> refine(const WantedSizes& wanted) = 0;
 };
 
@@ -86,11 +89,15 @@ struct LoopResult {
   std::string choice;     ///< why this order; empty if it was given
 };
 
-/// Solves and refines until the estimate is at most the target, or a limit is in the way. Each mesh tells how good the estimates are: with
-/// errors e_k = η_k/θ and e_{k−1}² = e_k² + ‖u_k − u_{k−1}‖² (what refinement adds is orthogonal to what is left, but for what contact
-/// changes), θ² = (η_{k−1}² − η_k²) / ‖u_k − u_{k−1}‖²; estimates are divided by it, those of a quantity by θ², and these are no less than what its last change lets expect, so that it takes two meshes. A quantity that looks at less and less is given up if it grows by the same power of that from mesh to mesh: it has no limit. With `order` = 0 the first mesh is
-/// solved on with elements of order 1: if these meet the target there, or are expected to with no more unknowns than order 2 has on
-/// the same mesh, they stay; else order 2 starts from their solution. Collective.
+/// Solves and refines until the estimate is at most the target, or a limit is in the way. Each mesh tells how
+/// good the estimates are: with errors e_k = η_k/θ and e_{k−1}² = e_k² + ‖u_k − u_{k−1}‖² (what refinement
+/// adds is orthogonal to what is left, but for what contact changes), θ² = (η_{k−1}² − η_k²) / ‖u_k −
+/// u_{k−1}‖²; estimates are divided by it, those of a quantity by θ², and these are no less than what its
+/// last change lets expect, so that it takes two meshes. A quantity that looks at less and less is given up
+/// if it grows by the same power of that from mesh to mesh: it has no limit. With `order` = 0 the first mesh
+/// is solved on with elements of order 1: if these meet the target there, or are expected to with no more
+/// unknowns than order 2 has on the same mesh, they stay; else order 2 starts from their solution.
+/// Collective.
 /// \param tell  is told of every mesh; may be empty
 /// \throws what the problem throws.
 LoopResult refineToTarget(RefinableProblem& problem, const LoopGoal& goal,

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The elements of a body, subdomain by subdomain, with what they are made of and how they are displaced: what everything
-/// that integrates over a solution walks along.
+/// The elements of a body, subdomain by subdomain, with what they are made of and how they are displaced:
+/// what everything that integrates over a solution walks along.
 
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
@@ -35,13 +35,14 @@ struct ElementView {
   std::size_t number = 0; ///< place among the subdomain's elements
   GlobalOrdinal region = 0;
   std::span<const int> nodes; ///< places among the subdomain's nodes
-  std::span<const fem::Point> points;
+  std::span<const Point> points;
   std::span<const double> displacements; ///< node by node, components in space
 };
 
 /// Where the points of an element view are.
 enum class Points {
-  shape, ///< up to a shift, which is all that integrals need: no point is looked up where elements are congruent
+  /// Up to a shift, which is all that integrals need: no point is looked up where elements are congruent
+  shape,
   inPlace ///< where they are
 };
 
@@ -82,7 +83,7 @@ public:
     const auto components = static_cast<std::size_t>(scene::componentsOf(physics_));
     const std::size_t perElement = elements.numbering->nodesPerElement();
     const bool looksUp = shape_.empty() || where == Points::inPlace;
-    std::vector<fem::Point> points(shape_);
+    std::vector<Point> points(shape_);
     points.resize(perElement);
     std::vector<double> values(perElement * components);
     for (std::size_t e = 0; e < elements.elements.size(); ++e) {
@@ -102,7 +103,7 @@ private:
   const model::BodyLayout& layout_;
   scene::Physics physics_;
   std::vector<scene::Material> materials_; ///< of each region
-  std::vector<fem::Point>
+  std::vector<Point>
       shape_; ///< corners of every element from the origin on, where all are congruent; else empty
   std::vector<fem::CongruentFluxes> congruent_; ///< of each region; empty of other meshes
   std::unique_ptr<fem::BodyModel> model_;       ///< tells regions apart; null where there is but one

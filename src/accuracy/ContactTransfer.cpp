@@ -16,9 +16,9 @@ using contact::ContactLayout;
 using model::Decomposition;
 
 /// Where the rows of a contact are.
-std::vector<fem::Point> placesOf(const Decomposition& decomposition, const ContactLayout& contact) {
+std::vector<Point> placesOf(const Decomposition& decomposition, const ContactLayout& contact) {
   const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
-  std::vector<fem::Point> places;
+  std::vector<Point> places;
   for (const GlobalOrdinal node : contact.firstNodes)
     places.push_back(mesh.point(node));
   return places;
@@ -51,7 +51,7 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
     if (pressure.empty())
       continue;
     const fem::PointTree tree(placesOf(from, coarse));
-    const std::vector<fem::Point> places = placesOf(to, fine);
+    const std::vector<Point> places = placesOf(to, fine);
     for (std::size_t row = 0; row < places.size(); ++row) {
       const LocalOrdinal local = map.getLocalElement(fine.firstRow + static_cast<GlobalOrdinal>(row));
       if (local < 0 || fine.portion(row) == 0)

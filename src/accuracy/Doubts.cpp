@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 Vector3d at(const fem::Mesh& mesh, GlobalOrdinal node) {
-  const fem::Point point = mesh.point(node);
+  const Point point = mesh.point(node);
   return {point[0], point[1], point[2]};
 }
 

@@ -2,10 +2,12 @@
 
 /// How far a solution is from the exact one of the scene's differential equations, in the energy norm
 /// ‖v‖_K = (∫ ε(v):C:ε(v))^½ (membranes: (∫ κ|∇v|²)^½). Two parts that add up to the whole, or nearly so:
-///   discretisation  u_h − u: what a finer mesh would mend. Estimated by a recovered flux (RecoveredFlux.hpp):
-///                   η² = Σ ∫ (q* − q_h):C⁻¹:(q* − q_h) over the elements. Not a bound: asymptotically exact where the
-///                   solution is smooth, too small by up to a factor 2 at corners and contact borders on coarse meshes
-///   algebraic       u_h − what the iteration has: see fetidp/AlgebraicError.hpp
+///   discretisation u_h − u: what a finer mesh would mend. Estimated by a recovered flux (RecoveredFlux.hpp):
+///                   η² = Σ ∫ (q* − q_h):C⁻¹:(q* − q_h) over the elements. Not a bound: asymptotically exact
+///                   where the
+///                   solution is smooth, too small by up to a factor 2 at corners and contact borders on
+///                   coarse meshes
+///   algebraic       u_h − what the iteration has: see fetidp::ContactSolution::algebraicError
 
 #include "epafi/accuracy/RecoveredFlux.hpp"
 
@@ -22,20 +24,21 @@ struct ErrorEstimate {
 
   /// η/(‖u_h‖² + η²)^½; 0 without any energy.
   [[nodiscard]] double relative() const;
-  /// η for an iteration to be balanced against: no less than 1e-5 of ‖u_h‖, where a mesh makes no error at all.
+  /// η for an iteration to be balanced against: no less than 1e-5 of ‖u_h‖, where a mesh makes no error at
+  /// all.
   [[nodiscard]] double toBalance() const { return std::max(discretisation, 1e-5 * energyNorm); }
 };
 
-/// Estimates the discretisation error of displacements, those of an unfinished iteration too, whose jumps between
-/// subdomains then count as errors.
+/// Estimates the discretisation error of displacements, those of an unfinished iteration too, whose jumps
+/// between subdomains then count as errors.
 class ErrorEstimator {
 public:
   /// Keeps references to both. Not collective.
   ErrorEstimator(const scene::Scene& scene, const model::Decomposition& decomposition);
 
-  /// \param displacement  u at all positions of each of this rank's subdomains, components in space
-  /// Two passes over the elements, one exchange of the nodes that subdomains share. Sums are the same on any number of
-  /// ranks but for round-off. Collective.
+  /// \param displacement  u at all positions of each of this rank's subdomains, components in space Two
+  /// passes over the elements, one exchange of the nodes that subdomains share. Sums are the same on any
+  /// number of ranks but for round-off. Collective.
   ErrorEstimate operator()(std::span<const Eigen::VectorXd> displacement);
 
 private:

@@ -20,9 +20,9 @@ ErrorNorms errorNorms(const scene::Scene& scene, const Decomposition& decomposit
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
       const decomposition::Subdomain& subdomain = problem.subdomains[s];
       BodyElements& body = bodies[static_cast<std::size_t>(subdomain.body)];
-      std::function<fem::FieldValue(const fem::Point&)> here;
+      std::function<fem::FieldValue(const Point&)> here;
       if (exact)
-        here = [&](const fem::Point& point) { return exact(subdomain.body, point); };
+        here = [&](const Point& point) { return exact(subdomain.body, point); };
       // A closed form needs the points where they are, not where the first of all congruent elements lies.
       body.visit(subdomain, body.elementsOf(subdomain), displacement[s],
                  exact ? Points::inPlace : Points::shape, [&](const ElementView& element) {

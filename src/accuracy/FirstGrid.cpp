@@ -91,7 +91,7 @@ fem::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body) {
   }
   fem::SimplexMesh mesh = simplicesOf(fem::StructuredMesh(places, counts));
   mesh.name = "Body '" + scene.bodies[body].name + "'";
-  for (fem::Point& point : mesh.points)
+  for (Point& point : mesh.points)
     for (std::size_t d = 0; d < 3; ++d)
       if (!lines[d].empty())
         point[d] = lines[d][static_cast<std::size_t>(std::lround(point[d]))];

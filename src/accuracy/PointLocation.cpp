@@ -16,7 +16,6 @@ namespace epafi::accuracy {
 namespace {
 
 using fem::Mesh;
-using fem::Point;
 
 /// Moves reference coordinates into the reference element; returns how far they were outside.
 template <int dim>
@@ -33,8 +32,8 @@ double pullIn(const fem::Shape<dim>& shape, fem::Coordinates<dim>& xi) {
   return outside;
 }
 
-/// Newton's method for x(ξ) = point, exact at once where the map is affine; not finite where it does not settle, as far outside of
-/// curved elements.
+/// Newton's method for x(ξ) = point, exact at once where the map is affine; not finite where it does not
+/// settle, as far outside of curved elements.
 template <int dim>
 fem::Coordinates<dim> coordinatesOf(const fem::Shape<dim>& shape, std::span<const Point> corners,
                                     const Point& point) {

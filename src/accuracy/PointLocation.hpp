@@ -22,12 +22,13 @@ public:
   /// Keeps the reference. Of a structured mesh nothing is stored, of another a tree of the elements' boxes.
   explicit PointLocation(const fem::Mesh& mesh);
 
-  /// The element that contains the point; for a point outside of the body, as finer meshes of round bodies have, that of a
-  /// near one, and the weights are those of a point of it; of a piece of a mesh, of the held ones. Not collective.
-  [[nodiscard]] Location find(const fem::Point& point) const;
+  /// The element that contains the point; for a point outside of the body, as finer meshes of round bodies
+  /// have, that of a near one, and the weights are those of a point of it; of a piece of a mesh, of the held
+  /// ones. Not collective.
+  [[nodiscard]] Location find(const Point& point) const;
 
 private:
-  [[nodiscard]] Location best(const fem::Point& point, const std::vector<std::size_t>& candidates,
+  [[nodiscard]] Location best(const Point& point, const std::vector<std::size_t>& candidates,
                               double& outside) const;
 
   const fem::Mesh& mesh_;

@@ -26,7 +26,7 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
     throw InputError("body '" + body.name + "' has no surface '" + name + "' to average a displacement over");
   const fem::Surface surface = body.mesh->surface(name);
   std::vector<Weight> weights;
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   std::vector<double> shares(static_cast<std::size_t>(surface.nodesPerFacet()));
   double area = 0;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
@@ -44,10 +44,10 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
 }
 
 /// Meshes of round bodies leave out points close to their border.
-std::vector<Weight> weightsAtPoint(const model::BodyLayout& body, const fem::Point& point) {
+std::vector<Weight> weightsAtPoint(const model::BodyLayout& body, const Point& point) {
   const Location location = PointLocation(*body.mesh).find(point);
   const fem::ElementNodes nodes(*body.mesh, location.element);
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   body.mesh->elementPoints(location.element, points);
   std::vector<Weight> weights;
   Eigen::Vector3d found(0, 0, 0);

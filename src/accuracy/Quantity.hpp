@@ -1,9 +1,9 @@
 #pragma once
 
-/// Errors of a number that a solution is wanted for: J = Σ wᵀu + Σ gᵀλ, linear in displacements and forces of contact. It is
-/// −dE/ds of the least energy E when the loads move by s w and the gaps by s g, and z = du/ds is its dual solution
-/// (fetidp/ContactResponse.hpp). As E_h − E = ½‖u_h − u‖², its derivative is the error (Becker, Rannacher, *Acta Numerica* 10
-/// (2001)):
+/// Errors of a number that a solution is wanted for: J = Σ wᵀu + Σ gᵀλ, linear in displacements and forces of
+/// contact. It is −dE/ds of the least energy E when the loads move by s w and the gaps by s g, and z = du/ds
+/// is its dual solution (fetidp/ContactResponse.hpp). As E_h − E = ½‖u_h − u‖², its derivative is the error
+/// (Becker, Rannacher, *Acta Numerica* 10 (2001)):
 ///   J − J_h = (u − u_h, z − z_h)_K ≈ Σ_T e_T,   e_T = ∫ (q*_u − q_u):C⁻¹:(q*_z − q_z) over an element T,
 /// with recovered fluxes q* as in ErrorEstimate.hpp.
 
@@ -23,13 +23,13 @@ namespace epafi::accuracy {
 struct DisplacementTerms {
   int body = 0;                          ///< of the scene
   std::string surface;                   ///< averaged over it; empty: at a point
-  fem::Point point{};                    ///< in the body
+  Point point{};                         ///< in the body
   Eigen::Vector3d direction = {0, 0, 1}; ///< of any length but 0; membranes do without
 };
 
-/// w of the mean ∫uᵀd / ∫1 over a surface, or of uᵀd at a point, d the direction at length 1: at all positions of each of this
-/// rank's subdomains, in space. Not collective. \throws InputError, the same on all ranks, if the surface is not there, or the
-/// point is outside of the body.
+/// w of the mean ∫uᵀd / ∫1 over a surface, or of uᵀd at a point, d the direction at length 1: at all
+/// positions of each of this rank's subdomains, in space. Not collective. \throws InputError, the same on all
+/// ranks, if the surface is not there, or the point is outside of the body.
 std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& decomposition,
                                                  const DisplacementTerms& terms);
 
@@ -41,7 +41,8 @@ struct QuantityError {
   std::vector<std::vector<double>> elements; ///< |e_T|, as ErrorEstimate::elements
 };
 
-/// By polarisation: 4t e_T = η_T²(u + tz) − η_T²(u − tz), t = ‖u‖/‖z‖, less where z is next to rigid. Three passes of the estimator. Collective.
+/// By polarisation: 4t e_T = η_T²(u + tz) − η_T²(u − tz), t = ‖u‖/‖z‖, less where z is next to rigid. Three
+/// passes of the estimator. Collective.
 /// \param norm  ‖u‖_K  \param u, z  at all positions of each of this rank's subdomains, in space
 QuantityError quantityError(const Comm& comm, ErrorEstimator& estimator, double norm,
                             std::span<const Eigen::VectorXd> u, std::span<const Eigen::VectorXd> z);

@@ -1,8 +1,9 @@
 #pragma once
 
-/// A flux (κ∇u or stress) that is continuous inside of each material: at a node the mean of the elements around it that
-/// are of the node's material there, weighted by their measures (Zienkiewicz, Zhu 1987); of order 2 at the nodes on edges and inside likewise. The flux itself jumps between
-/// elements; from its distance to the recovered one follows how much a finer mesh would change it.
+/// A flux (κ∇u or stress) that is continuous inside of each material: at a node the mean of the elements
+/// around it that are of the node's material there, weighted by their measures (Zienkiewicz, Zhu 1987); of
+/// order 2 at the nodes on edges and inside likewise. The flux itself jumps between elements; from its
+/// distance to the recovered one follows how much a finer mesh would change it.
 
 #include "epafi/accuracy/BodyElements.hpp"
 
@@ -32,13 +33,14 @@ struct SubdomainFlux {
   [[nodiscard]] GlobalOrdinal regionOf(std::size_t slot) const { return regions.empty() ? 0 : regions[slot]; }
 };
 
-/// Of one subdomain, from its own elements: Σ w q of those around each slot and, in the last row, Σ w, w their measures.
-/// Not collective.
+/// Of one subdomain, from its own elements: Σ w q of those around each slot and, in the last row, Σ w, w
+/// their measures. Not collective.
 SubdomainFlux sumFlux(BodyElements& body, const decomposition::Subdomain& subdomain,
                       const Eigen::VectorXd& displacement);
 
 /// Of each of this rank's subdomains, the same for every cut and number of ranks but for round-off.
-/// \param displacement  u at all positions of each of this rank's subdomains, components in space; it may jump between them
+/// \param displacement  u at all positions of each of this rank's subdomains, components in space; it may
+/// jump between them
 /// Collective; no rank holds more than the values of its own subdomains.
 std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies,
                                        const model::Decomposition& decomposition,

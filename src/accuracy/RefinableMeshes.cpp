@@ -19,8 +19,8 @@ namespace {
 
 using fem::SimplexMesh;
 
-std::vector<fem::Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
-  std::vector<fem::Point> corners;
+std::vector<Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
+  std::vector<Point> corners;
   for (int i = 0; i <= mesh.dimension; ++i)
     corners.push_back(mesh.points[index(element.corners[index(i)])]);
   return corners;
@@ -43,8 +43,8 @@ double sizeOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
   int number = 0;
   for (int i = 1; i <= mesh.dimension; ++i)
     for (int j = 0; j < i; ++j, ++number) {
-      const fem::Point &a = mesh.points[index(element.corners[index(i)])],
-                       &b = mesh.points[index(element.corners[index(j)])];
+      const Point &a = mesh.points[index(element.corners[index(i)])],
+                  &b = mesh.points[index(element.corners[index(j)])];
       sum += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
     }
   return sum / number;
@@ -157,8 +157,8 @@ std::vector<std::vector<double>> RefinableMeshes::parts(std::span<const std::vec
   return parts;
 }
 
-/// Each geometry once, with the sizes of all its bodies: of one body alone they would be carried on into the others, and these be meshed
-/// as finely as their contact.
+/// Each geometry once, with the sizes of all its bodies: of one body alone they would be carried on into the
+/// others, and these be meshed as finely as their contact.
 void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
                              std::span<std::vector<LocalOrdinal>> ancestors, const Comm& comm) {
   std::map<std::string, std::vector<std::size_t>> geometries; // and their bodies

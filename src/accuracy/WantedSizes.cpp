@@ -7,8 +7,8 @@
 namespace epafi::accuracy {
 namespace {
 
-// Of the search for what is to be asked for, where more comes: its first step down, as a power of two of the number of parts of elements
-// of order 1, and its steps.
+// Of the search for what is to be asked for, where more comes: its first step down, as a power of two of the
+// number of parts of elements of order 1, and its steps.
 constexpr double span = 2;
 constexpr int numTrials = 5;
 
@@ -48,8 +48,8 @@ public:
       sum += errors_[e] * std::pow(n[e], -decay_[e]);
     return sum;
   }
-  /// Whether the error is small enough, or most of it is in elements that can get no smaller at once: what the others add is
-  /// no matter then.
+  /// Whether the error is small enough, or most of it is in elements that can get no smaller at once: what
+  /// the others add is no matter then.
   [[nodiscard]] bool isFineEnough(double level, double squaredGoal) const {
     double free = 0, stuck = 0;
     for (std::size_t e = 0; e < errors_.size(); ++e) {

@@ -1,11 +1,13 @@
 #pragma once
 
-/// How small elements should be, from the error that each makes: the mesh that reaches an error with the fewest elements.
+/// How small elements should be, from the error that each makes: the mesh that reaches an error with the
+/// fewest elements.
 ///
-/// An element with the squared error η², cut into n parts, keeps η² n^(−2q/d): dimension d, and q the order at which the error
-/// falls there, that of the elements where the solution is smooth, less near edges and rims (LocalOrders.hpp). Of all meshes with the same
-/// error the one with n ~ (q η²)^(d/(d+2q)) has the fewest elements (Lagrange). Elements whose n would be below one stay as they
-/// are: what is marked is the bulk of the error.
+/// An element with the squared error η², cut into n parts, keeps η² n^(−2q/d): dimension d, and q the order
+/// at which the error falls there, that of the elements where the solution is smooth, less near edges and
+/// rims (LocalOrders.hpp). Of all meshes with the same error the one with n ~ (q η²)^(d/(d+2q)) has the
+/// fewest elements (Lagrange). Elements whose n would be below one stay as they are: what is marked is the
+/// bulk of the error.
 
 #include <functional>
 #include <span>
@@ -29,7 +31,8 @@ struct WantedSizes {
   double error = 0;             ///< discretisation error, expected; 0: not known
 };
 
-/// Into how many parts each element would really be cut if such halvings were asked for: neighbours follow where no node is to hang.
+/// Into how many parts each element would really be cut if such halvings were asked for: neighbours follow
+/// where no node is to hang.
 using Outcome = std::function<std::vector<double>(const std::vector<double>& halvings)>;
 
 /// \param squaredErrors  η² of each element, not negative  \param orders  q of each, > 0

@@ -10,9 +10,9 @@
 
 namespace epafi::adapters {
 
-/// Makes linear::BddcPreconditioner. The decomposition comes from the forward operator if that is asThyra(UnassembledOperator), or
-/// from the operator that the factory was given, whose K is then taken for the forward operator's, an assembled matrix on the same
-/// map, say.
+/// Makes linear::BddcPreconditioner. The decomposition comes from the forward operator if that is
+/// asThyra(UnassembledOperator), or from the operator that the factory was given, whose K is then taken for
+/// the forward operator's, an assembled matrix on the same map, say.
 class BddcFactory final
     : public ConfiguredFactory<Thyra::PreconditionerFactoryBase<double>, linear::BddcParameters> {
 public:
@@ -21,7 +21,8 @@ public:
 
   [[nodiscard]] bool isCompatible(const Thyra::LinearOpSourceBase<double>& source) const override;
   [[nodiscard]] RCP<Thyra::PreconditionerBase<double>> createPrec() const override;
-  /// Factorises. Collective. \throws what linear::BddcPreconditioner throws; InputError if the operator is not compatible
+  /// Factorises. Collective. \throws what linear::BddcPreconditioner throws; InputError if the operator is
+  /// not compatible
   void initializePrec(const RCP<const Thyra::LinearOpSourceBase<double>>& source,
                       Thyra::PreconditionerBase<double>* preconditioner,
                       Thyra::ESupportSolveUse use = Thyra::SUPPORT_SOLVE_UNSPECIFIED) const override;

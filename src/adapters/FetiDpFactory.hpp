@@ -12,8 +12,9 @@ namespace epafi::adapters {
 
 /// Makes solvers for asThyra(UnassembledOperator), scaled and transposed ones too, and says no to all others.
 ///
-/// Life cycle: createOp, then initializeOp, which factorises; any number of solves; initializeOp again for another operator, or for
-/// the same one when its matrices have changed, which keeps what still holds (linear::FetiDpSolver::update). An operator that was made stays good without the factory.
+/// Life cycle: createOp, then initializeOp, which factorises; any number of solves; initializeOp again for
+/// another operator, or for the same one when its matrices have changed, which keeps what still holds
+/// (linear::FetiDpSolver::update). An operator that was made stays good without the factory.
 class FetiDpFactory final
     : public ConfiguredFactory<Thyra::LinearOpWithSolveFactoryBase<double>, linear::FetiDpParameters> {
 public:

@@ -11,10 +11,12 @@
 
 namespace epafi::adapters {
 
-/// a K, symmetric, so that transposes are the same. As Thyra has it, one that is not initialised has no range.
+/// a K, symmetric, so that transposes are the same. As Thyra has it, one that is not initialised has no
+/// range.
 class FetiDpSolve final : public Thyra::LinearOpWithSolveBase<double> {
 public:
-  /// Factorises; for the same K and parameters as before, whose matrices may have changed, what still holds is kept. Collective.
+  /// Factorises; for the same K and parameters as before, whose matrices may have changed, what still holds
+  /// is kept. Collective.
   /// \throws what linear::FetiDpSolver throws
   void initialize(const RCP<const Thyra::LinearOpSourceBase<double>>& source,
                   const linear::FetiDpParameters& parameters);
@@ -38,9 +40,10 @@ protected:
                        Teuchos::Ptr<const Thyra::SolveCriteria<double>> criteria) const override;
   [[nodiscard]] bool solveSupportsSolveMeasureTypeImpl(Thyra::EOpTransp transposition,
                                                        const Thyra::SolveMeasureType& measure) const override;
-  /// Residuals relative to the right-hand side (default) or to the start residual; the tolerance asked for, or that of the
-  /// parameters. `achievedTol` is the largest of the columns', computed afresh; `extraParameters` has "Iteration Count".
-  /// Collective. \throws InputError, the same on all ranks, for other measures.
+  /// Residuals relative to the right-hand side (default) or to the start residual; the tolerance asked for,
+  /// or that of the parameters. `achievedTol` is the largest of the columns', computed afresh;
+  /// `extraParameters` has "Iteration Count". Collective. \throws InputError, the same on all ranks, for
+  /// other measures.
   Thyra::SolveStatus<double>
   solveImpl(Thyra::EOpTransp transposition, const Thyra::MultiVectorBase<double>& b,
             const Teuchos::Ptr<Thyra::MultiVectorBase<double>>& x,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// K, F, PFP and any other of our operators as Thyra sees it, for applications that speak Thyra, and the way back.
+/// K, F, PFP and any other of our operators as Thyra sees it, for applications that speak Thyra, and the way
+/// back.
 
 #include "epafi/linear/UnassembledOperator.hpp"
 

@@ -25,12 +25,12 @@ struct NodeForce {
 
 /// A contact: one inequality, a *row*, for each of some nodes of the first body's surface,
 ///   dᵀ(u_first − u_second) ≤ gap,
-/// d the direction in which the second body, or an obstacle, lies (1 for membranes), u_first and u_second values at nodes or
-/// means of some. Of a tied joint = takes the place of ≤, and a node has a row for each component. It is whole on every rank: of the size
-/// of the surfaces that may touch.
+/// d the direction in which the second body, or an obstacle, lies (1 for membranes), u_first and u_second
+/// values at nodes or means of some. Of a tied joint = takes the place of ≤, and a node has a row for each
+/// component. It is whole on every rank: of the size of the surfaces that may touch.
 ///
-/// Contacts between the same bodies whose surfaces go on in each other share rows, as if their surfaces were one: each has a layout with
-/// all of these, and `portions` say what of a row's force and area is its own.
+/// Contacts between the same bodies whose surfaces go on in each other share rows, as if their surfaces were
+/// one: each has a layout with all of these, and `portions` say what of a row's force and area is its own.
 struct ContactLayout {
   std::string name;
   int number = 0;             ///< of the contact, as the caller counts
@@ -51,12 +51,13 @@ struct ContactLayout {
       secondNodes;                ///< what the same rows face, one node or more; empty for an obstacle
   std::vector<double> directions; ///< d, `components` numbers a row
   std::vector<double> gaps;       ///< before supports are taken into account
-  /// Share of the first surface on which a row's force acts; in the plane of its length, times the thickness of the thinner body.
+  /// Share of the first surface on which a row's force acts; in the plane of its length, times the thickness
+  /// of the thinner body.
   std::vector<double> areas;
   /// Of areas what each of the united contacts has; empty: there is one alone.
   std::vector<std::vector<double>> areasOfParts;
-  /// What a row takes of the second body beside `secondNodes`, to be subtracted like these: forces that add up to none, and balance the
-  /// moment of the others (RigidLinks.hpp). Empty: nothing.
+  /// What a row takes of the second body beside `secondNodes`, to be subtracted like these: forces that add
+  /// up to none, and balance the moment of the others (RigidLinks.hpp). Empty: nothing.
   std::vector<std::vector<NodeForce>> secondLevers;
   GlobalOrdinal numBent = 0; ///< rows where a surface bends sharply, and has a mean normal
   /// Places of rows, with weights.
@@ -64,11 +65,11 @@ struct ContactLayout {
     std::size_t node;
     double weight;
   };
-  /// Of order 2, for each row k, W_kb: N̂_k = Σ W_kb N_b, the functions with which pressures and gaps are looked at
-  /// (QuadraticFaces.hpp); empty of order 1, whose own functions serve.
+  /// Of order 2, for each row k, W_kb: N̂_k = Σ W_kb N_b, the functions with which pressures and gaps are
+  /// looked at (QuadraticFaces.hpp); empty of order 1, whose own functions serve.
   std::vector<std::vector<Share>> smoothed;
-  /// Rows that are combinations of those of several nodes, Σ weight · (dᵀ(u_first − u_second) ≤ gap)_node: dual to N̂;
-  /// empty: each row is that of its own node.
+  /// Rows that are combinations of those of several nodes, Σ weight · (dᵀ(u_first − u_second) ≤ gap)_node:
+  /// dual to N̂; empty: each row is that of its own node.
   std::vector<std::vector<Share>> combinations;
   /// Whether rows are dual to N̂, and so their gaps are coefficients of N̂ instead of values at nodes.
   bool isDual = false;

@@ -12,8 +12,8 @@
 namespace epafi::contact {
 namespace {
 
-/// A node that can move in a row's direction by no more than this share of what it is moved by does not count in it: the
-/// rest is round-off of normals.
+/// A node that can move in a row's direction by no more than this share of what it is moved by does not count
+/// in it: the rest is round-off of normals.
 constexpr double heldDirection = 1e-6;
 /// Coefficients that would be 0 without round-off of normals and frames.
 constexpr double roundOffOfDirection = 1e-14;
@@ -81,8 +81,8 @@ std::vector<MatrixRow> ownRows(const std::vector<ContactLayout>& contacts, const
 
 } // namespace
 
-ContactMatrix contactMatrix(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns,
-                            const RCP<const Comm>& comm) {
+decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
+                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm) {
   const std::vector<MatrixRow> rows = ownRows(contacts, unknowns);
   std::vector<GlobalOrdinal> numbers, columns;
   std::size_t longest = 0;

@@ -3,7 +3,7 @@
 /// From pairs of nodes that may meet to rows of B_I over the unknowns of nodes.
 
 #include "epafi/contact/ContactLayout.hpp"
-#include "epafi/contact/ContactPlace.hpp"
+#include "epafi/decomposition/ConstraintMatrix.hpp"
 
 #include <Eigen/Core>
 
@@ -11,15 +11,6 @@
 #include <vector>
 
 namespace epafi::contact {
-
-/// B_I u ≤ c, with the prescribed values still among u. The unknown of a node's component is node × components + component,
-/// nodes numbered through all bodies.
-struct ContactMatrix {
-  RCP<const CrsMatrix> rows; ///< B_I, n_I × unknowns, fill-complete; its rows are numbered 0 … n_I − 1
-  RCP<const Vector> gap;     ///< c, on the row map of B_I
-  /// Of this rank's rows, as far as anyone knows: what tells bodies that only the facets of their surfaces hold.
-  std::vector<ContactPlace> places = {};
-};
 
 /// What rows have to know of nodes, which are named by body and number in the body.
 struct NodeUnknowns {
@@ -33,10 +24,10 @@ struct NodeUnknowns {
   std::function<bool(int body, GlobalOrdinal node)> isMine;
 };
 
-/// dᵀ(u_first − u_second) ≤ gap for all rows of all contacts. A node that supports hold in the row's direction has no entry but
-/// those of its prescribed values. Collective.
+/// dᵀ(u_first − u_second) ≤ gap for all rows of all contacts. A node that supports hold in the row's
+/// direction has no entry but those of its prescribed values. Collective.
 /// \param contacts  the same on all ranks
-ContactMatrix contactMatrix(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns,
-                            const RCP<const Comm>& comm);
+decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
+                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm);
 
 } // namespace epafi::contact

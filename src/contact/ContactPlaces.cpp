@@ -8,6 +8,7 @@
 namespace epafi::contact {
 namespace {
 
+using decomposition::ContactPlace;
 using Eigen::Vector3d;
 
 /// What a row takes of one side.
@@ -16,7 +17,7 @@ public:
   explicit Share(const SmoothSide& side) : side_(side) {}
 
   void add(const NodeShare& share) {
-    const fem::Point x = (*side_.pointAt)(share.node);
+    const Point x = (*side_.pointAt)(share.node);
     place_ += share.weight * Vector3d(x[0], x[1], x[2]);
     if (const auto& normal = side_.surface->at(share.node)) {
       normal_ += share.weight * normal->direction; // linear in the place on cylinders and spheres
@@ -41,8 +42,8 @@ private:
 
 } // namespace
 
-ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
-                     const SmoothSide& second) {
+decomposition::ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
+                                    const SmoothSide& second) {
   const std::size_t components = contact.directions.size() / contact.firstNodes.size();
   Vector3d direction(0, 0, 0);
   for (std::size_t c = 0; c < components; ++c)

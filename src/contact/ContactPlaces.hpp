@@ -3,8 +3,8 @@
 /// From rows of contact and smooth surfaces to places.
 
 #include "epafi/contact/ContactLayout.hpp"
-#include "epafi/contact/ContactPlace.hpp"
 #include "epafi/contact/SmoothSurface.hpp"
+#include "epafi/decomposition/ContactPlace.hpp"
 
 namespace epafi::contact {
 
@@ -16,7 +16,7 @@ struct SmoothSide {
 
 /// Of a row. Where a side has an edge, the other's normal counts, where both do, the row's direction.
 /// Precondition: of 2 or 3 components. Not collective.
-ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
-                     const SmoothSide& second);
+decomposition::ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
+                                    const SmoothSide& second);
 
 } // namespace epafi::contact

@@ -1,15 +1,15 @@
 #pragma once
 
-/// Which nodes of two surfaces, or of a surface and an obstacle, may meet, in which direction, and how far they are apart.
+/// Which nodes of two surfaces, or of a surface and an obstacle, may meet, in which direction, and how far
+/// they are apart.
 ///
-/// An obstacle's gap is the distance of a node from it, along its own normal, negative inside; nodes whose surface
-/// faces away from it get none. Two surfaces match if every
-/// node of one faces a node of the other along the normal, the mean of both surfaces' normals there; nodes that have no
-/// counterpart are left out as long as the other surface is used up, such as beside a punch. A row's area is its share of the
-/// facets that both surfaces have in common. Where a surface bends sharply, normal and area are those of the faces that face the other
-/// side best. Those that do not match meet by
-/// mortars (MortarRows.hpp). Nodes farther from the other
-/// side than the contact's `distance` get no row, and cost nothing.
+/// An obstacle's gap is the distance of a node from it, along its own normal, negative inside; nodes whose
+/// surface faces away from it get none. Two surfaces match if every node of one faces a node of the other
+/// along the normal, the mean of both surfaces' normals there; nodes that have no counterpart are left out as
+/// long as the other surface is used up, such as beside a punch. A row's area is its share of the facets that
+/// both surfaces have in common. Where a surface bends sharply, normal and area are those of the faces that
+/// face the other side best. Those that do not match meet by mortars (MortarRows.hpp). Nodes farther from the
+/// other side than the contact's `distance` get no row, and cost nothing.
 
 #include "epafi/contact/ContactLayout.hpp"
 #include "epafi/contact/ContactTerms.hpp"
@@ -30,12 +30,12 @@ struct Obstacle {
   double radius = 1;               ///< of the sphere
 };
 
-/// The rows of nodes that an obstacle may stop; bodies and `firstRow` are left to the caller. \throws InputError if no node is
-/// near enough, or the surface faces away. Not collective.
+/// The rows of nodes that an obstacle may stop; bodies and `firstRow` are left to the caller. \throws
+/// InputError if no node is near enough, or the surface faces away. Not collective.
 ContactLayout meetObstacle(const ContactTerms& contact, const SurfaceNodes& first, const Obstacle& obstacle);
 
-/// The rows of nodes that face each other; bodies and `firstRow` are left to the caller. \throws InputError if no node is near
-/// enough, or the surfaces do not match. Not collective.
+/// The rows of nodes that face each other; bodies and `firstRow` are left to the caller. \throws InputError
+/// if no node is near enough, or the surfaces do not match. Not collective.
 ContactLayout meetSurface(const ContactTerms& contact, const SurfaceNodes& first, const SurfaceNodes& second,
                           const FacingNodes& pairs);
 

@@ -22,7 +22,8 @@ struct ContactTerms {
   double gap = 0;     ///< added to that of geometry
   double distance = std::numeric_limits<double>::infinity(); ///< nodes farther from the other side get no row
   bool coincide = false; ///< the surfaces do, and their nodes meet in order
-  /// Of the thinner one of the bodies along a direction: overlaps are not deeper, what lies there is a far side. Empty: any depth.
+  /// Of the thinner one of the bodies along a direction: overlaps are not deeper, what lies there is a far
+  /// side. Empty: any depth.
   std::function<double(const Eigen::Vector3d& direction)> thickness{};
   /// Of each facet of the first surface the thickness of plane bodies that areas count; empty: 1.
   std::vector<double> thicknesses{};

@@ -54,7 +54,7 @@ ViewPlane CoveringFacets::viewPlane(std::size_t f) const {
 
 std::vector<FacetView> CoveringFacets::viewsOf(const PlacedSurface& placed) {
   std::vector<FacetView> views;
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   for (std::size_t f = 0; f < placed.surface.numFacets(); ++f) {
     points.clear();
     for (const GlobalOrdinal node : placed.surface.facet(f))
@@ -66,7 +66,7 @@ std::vector<FacetView> CoveringFacets::viewsOf(const PlacedSurface& placed) {
 
 /// The box of a facet moved along its normal, from behind it to ahead of it.
 fem::BoxTree::Box CoveringFacets::boxOf(const FacetView& view, double behind, double ahead) {
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   for (Eigen::Index a = 0; a < view.points().cols(); ++a)
     for (const double along : {-behind, ahead}) {
       const Vector3d x = view.points().col(a) + along * view.normal();
@@ -82,8 +82,8 @@ std::vector<fem::BoxTree::Box> CoveringFacets::boxesOf(const std::vector<FacetVi
   return boxes;
 }
 
-std::vector<fem::Point> CoveringFacets::boxOfAll() const {
-  std::vector<fem::Point> corners;
+std::vector<Point> CoveringFacets::boxOfAll() const {
+  std::vector<Point> corners;
   for (const auto* views : {&first_, &second_})
     for (const FacetView& view : *views) {
       const fem::BoxTree::Box box = boxOf(view, 0, 0);

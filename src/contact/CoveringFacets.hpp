@@ -1,6 +1,7 @@
 #pragma once
 
-/// Which facets of one surface lie across those of another, and where: seen along the normals of the first one's.
+/// Which facets of one surface lie across those of another, and where: seen along the normals of the first
+/// one's.
 
 #include "epafi/contact/ContactTerms.hpp"
 #include "epafi/contact/ConvexPolygon.hpp"
@@ -34,8 +35,8 @@ public:
   [[nodiscard]] double size() const { return size_; } ///< of both surfaces together
   /// Of a facet of the first surface, along its normal.
   [[nodiscard]] ViewPlane viewPlane(std::size_t f) const;
-  /// The facets that lie across facet f of the first surface, ascending; of several layers the nearest. \param allowed  how deep it may
-  /// lie behind them, where that is more than facets are large
+  /// The facets that lie across facet f of the first surface, ascending; of several layers the nearest.
+  /// \param allowed how deep it may lie behind them, where that is more than facets are large
   std::vector<Covered> covering(std::size_t f, const ViewPlane& plane, double allowed);
   /// Throws an InputError that says why no facet meets any other.
   [[noreturn]] void refuse();
@@ -45,7 +46,7 @@ private:
   static std::vector<FacetView> viewsOf(const PlacedSurface& placed);
   static std::vector<fem::BoxTree::Box> boxesOf(const std::vector<FacetView>& views);
   static fem::BoxTree::Box boxOf(const FacetView& view, double behind, double ahead);
-  [[nodiscard]] std::vector<fem::Point> boxOfAll() const;
+  [[nodiscard]] std::vector<Point> boxOfAll() const;
   [[nodiscard]] double deepestOf(const FacetView& own, const FacetView& other, double allowed) const;
   [[nodiscard]] Common commonOf(const FacetView& own, const FacetView& other, const ViewPlane& plane);
 

@@ -32,7 +32,7 @@ struct ViewPlane {
 class FacetView {
 public:
   /// Nodes in the order of Surface: the normal points outwards.
-  FacetView(fem::CellType type, std::span<const fem::Point> points);
+  FacetView(fem::CellType type, std::span<const Point> points);
 
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
   [[nodiscard]] const Eigen::Vector3d& normal() const { return normal_; } ///< mean, of length 1
@@ -42,7 +42,8 @@ public:
   [[nodiscard]] bool isAffine() const { return isAffine_; }
   /// Degree in x of its shape functions, if it is affine.
   [[nodiscard]] int degree() const;
-  /// Corners of convex pieces that make it up: itself if its edges are straight, else its halves along each axis.
+  /// Corners of convex pieces that make it up: itself if its edges are straight, else its halves along each
+  /// axis.
   [[nodiscard]] const std::vector<std::vector<Eigen::Vector3d>>& pieces() const { return pieces_; }
   /// Where its nodes lie, a column each.
   [[nodiscard]] const Eigen::Matrix3Xd& points() const { return points_; }

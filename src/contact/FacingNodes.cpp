@@ -19,20 +19,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Nodes face each other if what lies between them is normal to the surfaces up to this share of their spacing.
+/// Nodes face each other if what lies between them is normal to the surfaces up to this share of their
+/// spacing.
 constexpr double matchTolerance = 1e-2;
 
 /// Boxes of no extent around points.
 std::vector<fem::BoxTree::Box> boxesOf(const std::vector<Vector3d>& points) {
   std::vector<fem::BoxTree::Box> boxes;
   for (const Vector3d& x : points)
-    boxes.push_back({fem::Point{x[0], x[1], x[2]}, fem::Point{x[0], x[1], x[2]}});
+    boxes.push_back({Point{x[0], x[1], x[2]}, Point{x[0], x[1], x[2]}});
   return boxes;
 }
 
 /// The box around two points, with a margin.
 fem::BoxTree::Box boxAround(const Vector3d& a, const Vector3d& b, double margin) {
-  return fem::boxOf(std::array{fem::Point{a[0], a[1], a[2]}, fem::Point{b[0], b[1], b[2]}}, margin);
+  return fem::boxOf(std::array{Point{a[0], a[1], a[2]}, Point{b[0], b[1], b[2]}}, margin);
 }
 
 /// The first node that has no partner and is near to the other surface, or `alone`.
@@ -106,7 +107,8 @@ Corners usedNodes(const SurfaceNodes& second, const Corners& partner) {
   return itself;
 }
 
-/// See FacingNodes::isCommon. Where facets of different forms lie between the same nodes, all whose nodes have a partner are.
+/// See FacingNodes::isCommon. Where facets of different forms lie between the same nodes, all whose nodes
+/// have a partner are.
 std::vector<char> commonFacets(const SurfaceNodes& first, const SurfaceNodes& second,
                                const Corners& partner) {
   const std::vector<Corners> theirs = facetsAs(second, usedNodes(second, partner));

@@ -52,7 +52,8 @@ KnownRows::Entry KnownRows::entryOf(const ContactLayout& contact, std::size_t pl
   return {{from, to}, row};
 }
 
-/// Rows of one place in opposite directions leave a slot between them, which must not be narrower than nothing.
+/// Rows of one place in opposite directions leave a slot between them, which must not be narrower than
+/// nothing.
 void KnownRows::requireRoom(const Entry& entry, Iterator first, Iterator last) {
   for (auto other = first; other != last; ++other) {
     const double slot = entry.second.gap + other->second.gap;

@@ -13,12 +13,14 @@
 
 namespace epafi::contact {
 
-/// Leaves out all rows of a contact but those at some places, ascending. Precondition: rows are not combined (QuadraticFaces.hpp).
+/// Leaves out all rows of a contact but those at some places, ascending. Precondition: rows are not combined
+/// (QuadraticFaces.hpp).
 void keepRows(ContactLayout& contact, const std::vector<std::size_t>& places);
 
-/// Remembers the rows of contacts. Two that hold the same nodes apart in the same direction by the same gap would share one
-/// force in any proportion: the second one is left out, so that forces and active nodes are counted once. Its area counts with
-/// the row that stays. Rows that differ all stay, also several at one node.
+/// Remembers the rows of contacts. Two that hold the same nodes apart in the same direction by the same gap
+/// would share one force in any proportion: the second one is left out, so that forces and active nodes are
+/// counted once. Its area counts with the row that stays. Rows that differ all stay, also several at one
+/// node.
 class KnownRows {
 public:
   /// A row that is left out.
@@ -27,8 +29,9 @@ public:
     GlobalOrdinal row; ///< place there
     double area;
   };
-  /// Leaves out the rows that earlier contacts have, which it returns, and keeps the others in mind. \throws InputError if none is left,
-  /// SolvabilityError (no solution) if rows of two contacts at the same node oppose each other without room between them.
+  /// Leaves out the rows that earlier contacts have, which it returns, and keeps the others in mind. \throws
+  /// InputError if none is left, SolvabilityError (no solution) if rows of two contacts at the same node
+  /// oppose each other without room between them.
   /// \param spacing  of its nodes, beside which gaps agree or do not
   std::vector<Dropped> dropFrom(ContactLayout& contact, double spacing);
 

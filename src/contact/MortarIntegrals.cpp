@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Nodes this near to what the other side covers, beside their own facet's size, are reached: rims of curved surfaces that
-/// meet deviate as seen along facets' normals.
+/// Nodes this near to what the other side covers, beside their own facet's size, are reached: rims of curved
+/// surfaces that meet deviate as seen along facets' normals.
 constexpr double onRim = 0.01;
 /// Rules are exact to this degree beyond that of straight facets where the integrands are no polynomials.
 constexpr int beyond = 6;
@@ -37,7 +37,8 @@ private:
   int dimension_;
   const fem::Surface& surface_; ///< the first one
   CoveringFacets cover_;
-  /// Of each facet of the first surface how deep it may lie in the other body, if that is more than facets are large.
+  /// Of each facet of the first surface how deep it may lie in the other body, if that is more than facets
+  /// are large.
   std::vector<double> allowed_;
   std::vector<MortarFacet> facets_; ///< integrals over each of them
 };

@@ -1,12 +1,14 @@
 #pragma once
 
-/// Integrals of products of shape functions over what two surfaces, meshed apart, have in common: what mortars are made of.
+/// Integrals of products of shape functions over what two surfaces, meshed apart, have in common: what
+/// mortars are made of.
 ///
-/// Facets of the second surface that may lie across one of the first are found by their bounding boxes in a tree. Both are seen
-/// along the first facet's normal, clipped against each other there (in space convex polygons, in the plane intervals), and what
-/// is left is cut into simplices with a Gauss rule: exact for straight simplices and parallelograms, to round-off for
-/// other straight facets, and with an error that a finer mesh takes away for curved ones (Puso, *Int. J. Numer. Meth. Engng* 59
-/// (2004); Popp, Gitterle, Gee, Wall, *ibid.* 83 (2010)).
+/// Facets of the second surface that may lie across one of the first are found by their bounding boxes in a
+/// tree. Both are seen along the first facet's normal, clipped against each other there (in space convex
+/// polygons, in the plane intervals), and what is left is cut into simplices with a Gauss rule: exact for
+/// straight simplices and parallelograms, to round-off for other straight facets, and with an error that a
+/// finer mesh takes away for curved ones (Puso, *Int. J. Numer. Meth. Engng* 59 (2004); Popp, Gitterle, Gee,
+/// Wall, *ibid.* 83 (2010)).
 
 #include "epafi/contact/ContactTerms.hpp"
 #include "epafi/contact/SurfaceNodes.hpp"
@@ -43,11 +45,12 @@ struct PlacedSurface {
   const NodePoints& pointAt;
 };
 
-/// The facets of the first surface that are covered somewhere, ascending. A facet that several layers of the other surface lie
-/// across meets the nearest one. Overlaps may be deeper than facets are large where they are so around, from facet to facet, or
-/// where no facets of the two surfaces are nearer; else what lies there is the other's far side.
-/// Not collective. \throws InputError if nothing is covered, with the reason: the surfaces face away from each other, are
-/// farther apart than `distance`, overlap deeper than a body is thick, or miss each other; or if a facet is folded.
+/// The facets of the first surface that are covered somewhere, ascending. A facet that several layers of the
+/// other surface lie across meets the nearest one. Overlaps may be deeper than facets are large where they
+/// are so around, from facet to facet, or where no facets of the two surfaces are nearer; else what lies
+/// there is the other's far side. Not collective. \throws InputError if nothing is covered, with the reason:
+/// the surfaces face away from each other, are farther apart than `distance`, overlap deeper than a body is
+/// thick, or miss each other; or if a facet is folded.
 std::vector<MortarFacet> mortarIntegrals(const ContactTerms& terms, const PlacedSurface& first,
                                          const PlacedSurface& second);
 

@@ -139,9 +139,10 @@ std::vector<MortarRow> RowMaker::rows(const std::function<bool(std::size_t)>& is
   return rows;
 }
 
-/// Places relative to the row's node: far from the origin coordinates have lost the digits that sums of theirs would need.
+/// Places relative to the row's node: far from the origin coordinates have lost the digits that sums of
+/// theirs would need.
 Vector3d RowMaker::relativePlace(const NodePoints& pointAt, GlobalOrdinal node, const MortarRow& row) const {
-  const fem::Point x = pointAt(node);
+  const Point x = pointAt(node);
   return Vector3d(x[0], x[1], x[2]) - nodes_.points[row.place];
 }
 
@@ -154,7 +155,8 @@ Vector3d RowMaker::apart(const MortarRow& row) const {
   return apart;
 }
 
-/// Adds δ_l = cᵀ(x_l − x̄) to the second side's shares, which changes no force, so that its place lies across the first one's.
+/// Adds δ_l = cᵀ(x_l − x̄) to the second side's shares, which changes no force, so that its place lies across
+/// the first one's.
 void RowMaker::balanceMoment(MortarRow& row) const {
   const Vector3d normal = nodes_.normals[row.place];
   const auto across = [&](const Vector3d& x) -> Vector3d { return x - normal.dot(x) * normal; };

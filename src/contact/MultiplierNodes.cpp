@@ -89,7 +89,8 @@ std::vector<std::size_t> MultiplierNodes::representatives(const std::function<bo
   return representative;
 }
 
-/// Gives nodes without a representative that of the nearest one around, until all that can be reached have one.
+/// Gives nodes without a representative that of the nearest one around, until all that can be reached have
+/// one.
 void MultiplierNodes::spread(std::vector<std::size_t>& representative) const {
   for (bool isAnyNew = true; isAnyNew;) {
     isAnyNew = false;
@@ -138,7 +139,8 @@ std::vector<std::vector<std::size_t>> MultiplierNodes::patches() const {
   return result;
 }
 
-/// Mean square of nodes' distances from their middle, in space from the line that they are nearest to: 0 if a turn moves none.
+/// Mean square of nodes' distances from their middle, in space from the line that they are nearest to: 0 if a
+/// turn moves none.
 double MultiplierNodes::width(const std::vector<std::size_t>& places) const {
   const Vector3d& origin = nodes_.points[places.front()];
   const auto number = static_cast<double>(places.size());

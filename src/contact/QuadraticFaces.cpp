@@ -168,7 +168,8 @@ void adaptRows(const fem::Surface& surface, ContactLayout& contact) {
   combine(contact.areas);
   for (std::vector<double>& areas : contact.areasOfParts)
     combine(areas);
-  // A corner none of whose middles has a row has ∫N = 0, which nothing may be divided by: as much as others have, then.
+  // A corner none of whose middles has a row has ∫N = 0, which nothing may be divided by: as much as others
+  // have, then.
   const double mean = std::accumulate(contact.areas.begin(), contact.areas.end(), 0.0) /
                       static_cast<double>(contact.areas.size());
   for (std::size_t row = 0; row < contact.areas.size(); ++row)

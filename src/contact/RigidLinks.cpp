@@ -68,7 +68,7 @@ public:
 
 private:
   static Vector3d placeOf(const PlacedSurface& surface, GlobalOrdinal node) {
-    const fem::Point x = surface.pointAt(node);
+    const Point x = surface.pointAt(node);
     return {x[0], x[1], x[2]};
   }
 

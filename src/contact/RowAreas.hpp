@@ -11,7 +11,8 @@
 
 namespace epafi::contact {
 
-/// Sums for the nodes of a surface, with the thickness of facets, and what each of the united contacts has of them.
+/// Sums for the nodes of a surface, with the thickness of facets, and what each of the united contacts has of
+/// them.
 class RowAreas {
 public:
   /// Keeps a reference to the terms.

@@ -13,10 +13,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Errors on cylinders and spheres of 6 to 100 facets around, nodes moved by up to 0.3 of their spacing, are up to 0.24 bend³ of a quadric, and up to
-// 0.15 bend of the mean at a rim.
+// Errors on cylinders and spheres of 6 to 100 facets around, nodes moved by up to 0.3 of their spacing, are
+// up to 0.24 bend³ of a quadric, and up to 0.15 bend of the mean at a rim.
 constexpr double ofCube = 0.25, atRim = 0.25;
-/// A quadric that misses the nodes by more than the fourth power of their distance leaves its slope open, too.
+/// A quadric that misses the nodes by more than the fourth power of their distance leaves its slope open,
+/// too.
 constexpr double ofResidual = 2;
 
 double angleBetween(const Vector3d& a, const Vector3d& b) {
@@ -47,7 +48,7 @@ SmoothSurface::SmoothSurface(const NodePoints& pointAt, const fem::Surface& surf
     : isInSpace_(dimensionOf(surface.facetType) == 2) {
   for (const GlobalOrdinal node : surface.facetNodes)
     if (placeOf_.try_emplace(node, points_.size()).second) {
-      const fem::Point x = pointAt(node);
+      const Point x = pointAt(node);
       points_.emplace_back(x[0], x[1], isInSpace_ ? x[2] : 0.0);
     }
   pieces_.resize(points_.size());
@@ -123,7 +124,8 @@ SmoothSurface::Mean SmoothSurface::meanAt(std::size_t place) const {
   return mean;
 }
 
-/// Normal of the quadric z = ax + by + cx² + dxy + ey² that is nearest to the nodes around, z along about that normal; nothing if they do not tell.
+/// Normal of the quadric z = ax + by + cx² + dxy + ey² that is nearest to the nodes around, z along about
+/// that normal; nothing if they do not tell.
 std::optional<UncertainNormal> SmoothSurface::fitted(std::size_t place, Vector3d normal) const {
   std::set<std::size_t> around;
   for (const Piece& piece : pieces_[place])

@@ -2,10 +2,11 @@
 
 /// The smooth surface that facets stand for: its normals at nodes, and how far they may be off.
 ///
-/// The mean of facets' normals, along which contact is computed, is off by the order of the angle between them where nodes are unevenly
-/// spaced: enough to seem to hold a round body that nothing holds. The normal of a quadric through the nodes around is off by the
-/// third power of that angle; where these are too few, at rims, the mean with the weights of Max (*J. Graphics Tools* 4 (1999); exact on
-/// circles in the plane, and on spheres away from rims) by a seventh of it.
+/// The mean of facets' normals, along which contact is computed, is off by the order of the angle between
+/// them where nodes are unevenly spaced: enough to seem to hold a round body that nothing holds. The normal
+/// of a quadric through the nodes around is off by the third power of that angle; where these are too few, at
+/// rims, the mean with the weights of Max (*J. Graphics Tools* 4 (1999); exact on circles in the plane, and
+/// on spheres away from rims) by a seventh of it.
 
 #include "epafi/contact/SurfaceNodes.hpp"
 #include "epafi/fem/Mesh.hpp"
@@ -32,8 +33,8 @@ public:
   /// \param pointAt  of all the surface's nodes; asked for here alone
   SmoothSurface(const NodePoints& pointAt, const fem::Surface& surface);
 
-  /// Outwards; nothing where facets meet at an edge (their normals are farther than `edge` off the mean), which is no noise.
-  /// What is computed once is kept. Precondition: a node of the surface.
+  /// Outwards; nothing where facets meet at an edge (their normals are farther than `edge` off the mean),
+  /// which is no noise. What is computed once is kept. Precondition: a node of the surface.
   [[nodiscard]] const std::optional<UncertainNormal>& at(GlobalOrdinal node) const;
 
   /// A little less than half the angle between six facets around, which are a nut's.

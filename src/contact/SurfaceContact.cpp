@@ -28,7 +28,7 @@ CoupledSurfaces asMatrix(const ContactTerms& terms, ContactLayout layout, const 
     return place * static_cast<std::size_t>(comm->getSize()) / nodes.size() ==
            static_cast<std::size_t>(comm->getRank());
   };
-  ContactMatrix matrix = contactMatrix({layout}, unknowns, comm);
+  decomposition::ConstraintMatrix matrix = contactMatrix({layout}, unknowns, comm);
   return {std::move(matrix), std::move(layout)};
 }
 

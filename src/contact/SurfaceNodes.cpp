@@ -14,14 +14,14 @@ namespace epafi::contact {
 
 namespace {
 
-void pointsAt(const NodePoints& pointAt, std::span<const GlobalOrdinal> nodes,
-              std::vector<fem::Point>& points) {
+void pointsAt(const NodePoints& pointAt, std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) {
   points.clear();
   for (const GlobalOrdinal node : nodes)
     points.push_back(pointAt(node));
 }
 
-/// Facets of order 1 as those of order 2, with the points between their corners numbered on from the surface's nodes.
+/// Facets of order 1 as those of order 2, with the points between their corners numbered on from the
+/// surface's nodes.
 class Completion {
 public:
   Completion(const NodePoints& pointAt, const fem::Surface& surface)
@@ -29,7 +29,7 @@ public:
         next_(1 + *std::max_element(surface.facetNodes.begin(), surface.facetNodes.end())) {}
 
   /// Nodes and points of facet f. \param shares  what each stands for
-  void facet(std::size_t f, std::vector<GlobalOrdinal>& nodes, std::vector<fem::Point>& points,
+  void facet(std::size_t f, std::vector<GlobalOrdinal>& nodes, std::vector<Point>& points,
              std::vector<std::vector<NodeShare>>& shares) {
     const auto corners = surface_.facet(f);
     pointsAt(pointAt_, corners, points);
@@ -48,7 +48,7 @@ public:
 
 private:
   void add(std::span<const GlobalOrdinal> between, std::vector<GlobalOrdinal>& nodes,
-           std::vector<fem::Point>& points, std::vector<std::vector<NodeShare>>& shares) {
+           std::vector<Point>& points, std::vector<std::vector<NodeShare>>& shares) {
     std::vector<GlobalOrdinal> key(between.begin(), between.end());
     std::sort(key.begin(), key.end());
     std::vector<NodeShare> share;
@@ -57,7 +57,7 @@ private:
     const auto [place, isNew] = number_.try_emplace(std::move(key), next_);
     next_ += isNew ? 1 : 0;
     nodes.push_back(place->second);
-    std::vector<fem::Point> around;
+    std::vector<Point> around;
     pointsAt(pointAt_, between, around);
     points.push_back(fem::centreOf(around));
     shares.push_back(std::move(share));
@@ -75,7 +75,7 @@ void forEachFacet(const NodePoints& pointAt, const fem::Surface& surface, bool c
                   const Action& action) {
   Completion completion(pointAt, surface);
   std::vector<GlobalOrdinal> nodes;
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   std::vector<std::vector<NodeShare>> shares;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     if (complete) {

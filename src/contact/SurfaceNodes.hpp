@@ -13,7 +13,7 @@
 namespace epafi::contact {
 
 /// Where nodes lie, by their numbers.
-using NodePoints = std::function<fem::Point(GlobalOrdinal)>;
+using NodePoints = std::function<Point(GlobalOrdinal)>;
 
 struct SurfaceNodes {
   std::vector<GlobalOrdinal> nodes; ///< ascending
@@ -22,8 +22,9 @@ struct SurfaceNodes {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d>
       normals; ///< outwards, of length 1: the mean of the facets' normals there by area
-  std::vector<double>
-      areas; ///< ∫N_a: what of the area (in the plane: length) a node has, so that an even pressure p gives forces p · area
+  /// ∫N_a: what of the area (in the plane: length) a node has, so that an even pressure p gives forces p ·
+  /// area
+  std::vector<double> areas;
   std::vector<double> spacings; ///< of the nodes around each
   /// What a facet has to do with its nodes.
   struct Facet {
@@ -33,16 +34,16 @@ struct SurfaceNodes {
   };
   std::vector<Facet> facets;
   int numCorners = 2; ///< of each facet
-  /// Where a surface bends sharply, Σ of the facets' normals by area of each face that meets there, any two of which are
-  /// more than `sharpBend` apart; empty where it does not: `normals` says all.
+  /// Where a surface bends sharply, Σ of the facets' normals by area of each face that meets there, any two
+  /// of which are more than `sharpBend` apart; empty where it does not: `normals` says all.
   std::vector<std::vector<Eigen::Vector3d>> faces;
 };
 
 /// Cosine of the angle beyond which facets at a node belong to different faces: 30 degrees.
 constexpr double sharpBend = 0.86602540378443865;
 
-/// \param order  2: of facets of order 1 also the points where those of order 2 would have nodes, between the corners, with
-///               numbers beyond those of the surface; 0: that of the surface
+/// \param order  2: of facets of order 1 also the points where those of order 2 would have nodes, between the
+/// corners, with numbers beyond those of the surface; 0: that of the surface
 SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface, int order = 0);
 
 } // namespace epafi::contact

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/RigidModes.hpp"
+#include "epafi/decomposition/RigidModes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -17,14 +17,14 @@ bool movesRigidly(const Substructures& all) {
   return static_cast<int>(all.components) == all.places.dimension;
 }
 
-/// Of each body, about its middle and scaled by half of its largest extent; of unknowns that are no displacements none is
-/// asked for. Collective.
-std::vector<fem::RigidModes> rigidModesOf(const Substructures& all) {
+/// Of each body, about its middle and scaled by half of its largest extent; of unknowns that are no
+/// displacements none is asked for. Collective.
+std::vector<RigidModes> rigidModesOf(const Substructures& all) {
   if (!movesRigidly(all))
-    return std::vector<fem::RigidModes>(all.bodies.size(), {1, {}, 1.0});
-  std::vector<fem::RigidModes> modes;
+    return std::vector<RigidModes>(all.bodies.size(), {1, {}, 1.0});
+  std::vector<RigidModes> modes;
   for (std::size_t b = 0; b < all.bodies.size(); ++b) {
-    fem::Point centre{};
+    Point centre{};
     double size = 0;
     for (std::size_t d = 0; d < 3; ++d) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -47,12 +47,12 @@ std::vector<fem::RigidModes> rigidModesOf(const Substructures& all) {
 }
 
 /// Rigid motions of this rank's subdomains, or constants. \param modes  of each body
-std::vector<Motions> motionsOf(const Substructures& all, const std::vector<fem::RigidModes>& modes) {
+std::vector<Motions> motionsOf(const Substructures& all, const std::vector<RigidModes>& modes) {
   const bool isElastic = movesRigidly(all);
   std::vector<Motions> motions;
   for (std::size_t s = 0; s < all.size(); ++s) {
     const Subdomain& subdomain = all.subdomains[s];
-    const fem::RigidModes& own = modes[static_cast<std::size_t>(subdomain.body)];
+    const RigidModes& own = modes[static_cast<std::size_t>(subdomain.body)];
     std::map<std::size_t, const Eigen::Matrix3d*> axes;
     for (const NodeFrame& frame : subdomain.frames)
       axes.emplace(static_cast<std::size_t>(frame.node), &frame.axes);
@@ -131,7 +131,7 @@ BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMat
   BodyKernels result{{all.bodies.begin(), all.bodies.end()}, {}, {}};
   const std::size_t numBodies = result.bodies.size();
   const bool isElastic = movesRigidly(all);
-  const std::vector<fem::RigidModes> rigid = rigidModesOf(all);
+  const std::vector<RigidModes> rigid = rigidModesOf(all);
   std::vector<Motions> motions = motionsOf(all, rigid);
   for (std::size_t s = 0; s < matrices.size(); ++s)
     if (matrices[s].nearKernel.cols() > 0)
@@ -146,7 +146,7 @@ BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMat
     body.kernelOffset = offset;
     offset += body.kernelDimension;
     if (body.kernelDimension > 0 && isElastic && isRigid[b]) {
-      const fem::Point& centre = rigid[b].centre();
+      const Point& centre = rigid[b].centre();
       body.motions = {
           {centre[0], centre[1], centre[2]}, rigid[b].size(), rigid[b].twists() * combinations[b]};
     }

@@ -14,7 +14,8 @@
 namespace epafi::decomposition {
 namespace {
 
-/// Subdomains of one cluster that hold each other: this rank's with higher ones, at free nodes that no other cluster has.
+/// Subdomains of one cluster that hold each other: this rank's with higher ones, at free nodes that no other
+/// cluster has.
 std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
                           std::span<const int> clusterOf) {
   const auto cluster = [&](int number) { return clusterOf[static_cast<std::size_t>(number)]; };

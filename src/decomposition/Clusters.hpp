@@ -2,11 +2,12 @@
 
 /// Which subdomains share crosspoints, and how they move together.
 ///
-/// A *cluster* is a whole body (FETI-DP), one subdomain (FETI with its natural coarse space: Farhat, Mandel, Roux, *Comput.
-/// Methods Appl. Mech. Engrg.* 115 (1994)) or several that hang together (hybrid: Klawonn, Rheinbach, *ZAMM* 90 (2010);
-/// Kozubek et al., *Adv. Eng. Softw.* 60–61 (2013)). Crosspoints and averages join the subdomains of one cluster alone; between
-/// clusters there is gluing, at every node. So the coarse problem falls into one for each cluster, and what a cluster's
-/// own supports do not hold is a part of R, and of G.
+/// A *cluster* is a whole body (FETI-DP), one subdomain (FETI with its natural coarse space: Farhat, Mandel,
+/// Roux, *Comput. Methods Appl. Mech. Engrg.* 115 (1994)) or several that hang together (hybrid: Klawonn,
+/// Rheinbach, *ZAMM* 90 (2010); Kozubek et al., *Adv. Eng. Softw.* 60–61 (2013)). Crosspoints and averages
+/// join the subdomains of one cluster alone; between clusters there is gluing, at every node. So the coarse
+/// problem falls into one for each cluster, and what a cluster's own supports do not hold is a part of R, and
+/// of G.
 
 #include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/decomposition/SharedNodes.hpp"
@@ -23,11 +24,13 @@ struct Link {
   int subdomain, other;
 };
 
-/// What links join among so many subdomains: the piece of each, numbered in the order of their lowest members. Not collective.
+/// What links join among so many subdomains: the piece of each, numbered in the order of their lowest
+/// members. Not collective.
 std::vector<int> piecesOf(std::size_t numSubdomains, std::span<const Link> links);
 
-/// The cluster of each subdomain of the whole problem, on every rank: runs of subdomains of a body in the order of
-/// their numbers, cut where subdomains of a run do not hold each other at nodes that no other cluster has.
+/// The cluster of each subdomain of the whole problem, on every rank: runs of subdomains of a body in the
+/// order of their numbers, cut where subdomains of a run do not hold each other at nodes that no other
+/// cluster has.
 /// \param sizes  of the runs, of each body; 0: all of it
 /// Collective.
 std::vector<int> findClusters(const Substructures& all, const SharedNodes& shared,

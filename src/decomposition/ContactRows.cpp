@@ -21,7 +21,7 @@
 namespace epafi::decomposition {
 namespace {
 
-void requireRows(const ContactMatrix& contact) {
+void requireRows(const ConstraintMatrix& contact) {
   const Map& rows = *contact.rows->getRowMap();
   typename CrsMatrix::local_inds_host_view_type columns;
   typename CrsMatrix::values_host_view_type values;
@@ -117,8 +117,8 @@ RCP<const CrsMatrix> columnsAt(const CrsMatrix& b, const Substructures& all, std
   return Tpetra::importAndFillCompleteCrsMatrix<CrsMatrix>(transposed, plan, b.getRangeMap(), here);
 }
 
-/// The share δ_i / Σ δ_i that each copy has in the mean of its node, component by component, of the copies at some places; 1
-/// where there is one copy that counts. Collective.
+/// The share δ_i / Σ δ_i that each copy has in the mean of its node, component by component, of the copies at
+/// some places; 1 where there is one copy that counts. Collective.
 std::vector<double> sharesAt(const Substructures& all, const SharedNodes& shared,
                              const Crosspoints& crosspoints, std::span<const Place> places) {
   std::vector<char> isWanted(shared.numNodes(), 0);
@@ -169,7 +169,7 @@ RCP<const Vector> summed(const std::vector<std::pair<GlobalOrdinal, double>>& va
 
 } // namespace
 
-void requireSound(const ContactMatrix& contact, const RCP<const Map>& unknowns) {
+void requireSound(const ConstraintMatrix& contact, const RCP<const Map>& unknowns) {
   collectively(*unknowns->getComm(), [&] {
     if (!contact.rows->isFillComplete())
       throw InputError(
@@ -185,7 +185,7 @@ void requireSound(const ContactMatrix& contact, const RCP<const Map>& unknowns) 
 }
 
 ContactRows contactRows(const Substructures& all, const SharedNodes& shared, const Crosspoints& crosspoints,
-                        const ContactMatrix& contact) {
+                        const ConstraintMatrix& contact) {
   const std::vector<Place> places = placesOf(all, nodesOf(*contact.rows, all.components));
   const RCP<const CrsMatrix> columns = columnsAt(*contact.rows, all, places);
   const std::vector<double> shares = sharesAt(all, shared, crosspoints, places);

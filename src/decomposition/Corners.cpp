@@ -13,7 +13,7 @@ namespace {
 /// Points nearer to a line, beside those that span it, than this are on it.
 constexpr double onLine = 1e-3;
 
-Eigen::Vector3d toVector(const fem::Point& point) {
+Eigen::Vector3d toVector(const Point& point) {
   return {point[0], point[1], point[2]};
 }
 
@@ -46,7 +46,7 @@ std::vector<char> findCorners(const Substructures& all, const SharedNodes& share
 }
 
 /// How much farther from the others a point lies than one that adds nothing; 0 if it adds nothing.
-double HoldingPoints::gain(const fem::Point& point) const {
+double HoldingPoints::gain(const Point& point) const {
   const Eigen::Vector3d x = toVector(point);
   switch (points_.size()) {
   case 0:
@@ -63,20 +63,21 @@ double HoldingPoints::gain(const fem::Point& point) const {
   }
 }
 
-void HoldingPoints::add(const fem::Point& point) {
+void HoldingPoints::add(const Point& point) {
   if (!hold() && gain(point) > 0)
     points_.push_back(point);
 }
 
-std::vector<std::size_t> HoldingPoints::complete(const std::vector<fem::Point>& candidates) {
+std::vector<std::size_t> HoldingPoints::complete(const std::vector<Point>& candidates) {
   std::vector<std::size_t> places;
   if (hold() || candidates.empty())
     return places;
   Eigen::Vector3d centre(0, 0, 0);
-  for (const fem::Point& point : candidates)
+  for (const Point& point : candidates)
     centre += toVector(point) / static_cast<double>(candidates.size());
   while (!hold()) {
-    // The first point of a scalar field lies in the middle, that of a body at its end; the others far from those before.
+    // The first point of a scalar field lies in the middle, that of a body at its end; the others far from
+    // those before.
     double best = 0;
     std::size_t place = candidates.size();
     for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -26,7 +26,8 @@ bool isHeld(const Substructures& all, std::size_t s) {
   return points.hold();
 }
 
-/// Whether supports alone make each subdomain of the whole problem regular; the same on every rank. Collective.
+/// Whether supports alone make each subdomain of the whole problem regular; the same on every rank.
+/// Collective.
 std::vector<char> findHeld(const Substructures& all) {
   std::vector<char> held;
   for (std::size_t s = 0; s < all.size(); ++s)
@@ -51,8 +52,8 @@ void markCorners(const Substructures& all, const SharedNodes& shared, std::size_
     }
 }
 
-/// Marks and lists the nodes that a subdomain asks for, as far as no other cluster has them, and the ends of its interfaces
-/// where there is no mesh.
+/// Marks and lists the nodes that a subdomain asks for, as far as no other cluster has them, and the ends of
+/// its interfaces where there is no mesh.
 void markChosen(const Substructures& all, const SharedNodes& inside, const SharedNodes& shared, std::size_t s,
                 std::vector<char>& isCrosspoint, std::vector<CrosspointNode>& extra) {
   std::vector<std::size_t> chosen = all.nodal[s].crosspoints;
@@ -81,9 +82,9 @@ std::map<int, std::vector<std::size_t>> interfacesOf(const Substructures& all, c
   return interfaces;
 }
 
-/// Further crosspoints for the interfaces of a subdomain with higher ones: where one of the two sides leans on
-/// the other and the free crosspoints that join them do not hold it. The lower one's rank decides, so that both sides
-/// hear of the same nodes.
+/// Further crosspoints for the interfaces of a subdomain with higher ones: where one of the two sides leans
+/// on the other and the free crosspoints that join them do not hold it. The lower one's rank decides, so that
+/// both sides hear of the same nodes.
 void addInterfacePoints(const Substructures& all, const SharedNodes& shared, std::size_t s,
                         const std::vector<char>& isCrosspoint, const std::vector<char>& held,
                         std::vector<CrosspointNode>& extra) {
@@ -97,7 +98,7 @@ void addInterfacePoints(const Substructures& all, const SharedNodes& shared, std
         points.add(all.point(s, node));
     if (points.hold())
       continue;
-    std::vector<fem::Point> candidates;
+    std::vector<Point> candidates;
     for (const std::size_t node : nodes)
       candidates.push_back(all.point(s, node));
     for (const std::size_t place : points.complete(candidates))
@@ -109,7 +110,7 @@ void addInterfacePoints(const Substructures& all, const SharedNodes& shared, std
 void addPointsInside(const Substructures& all, const SharedNodes& shared, std::size_t s,
                      std::vector<char>& isCrosspoint, std::vector<CrosspointNode>& extra) {
   std::vector<std::size_t> free;
-  std::vector<fem::Point> candidates;
+  std::vector<Point> candidates;
   for (std::size_t node = 0; node < all.numNodes(s); ++node)
     if (all.isFree(s, node) && !shared.find(s, node)) {
       free.push_back(node);
@@ -154,7 +155,8 @@ void mark(const Substructures& all, const SharedNodes& shared, const std::vector
         isCrosspoint[s][copy.place] = 1;
 }
 
-/// Averages along edges become coarse unknowns in the place of one node's values, the carrier's: marks and lists them.
+/// Averages along edges become coarse unknowns in the place of one node's values, the carrier's: marks and
+/// lists them.
 std::vector<std::vector<EdgeAverage>> markCarriers(const Substructures& all, const SharedNodes& shared,
                                                    Marks& isCrosspoint,
                                                    std::vector<CrosspointNode>& carriers) {

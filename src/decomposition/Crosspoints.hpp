@@ -2,14 +2,16 @@
 
 /// Choice and numbering of the crosspoints.
 ///
-/// Crosspoints are the corners of subdomains (Corners.hpp, InterfaceEnds.hpp). More are chosen where these do not suffice:
-///  - an interface whose free crosspoints do not hold one side to the other (a closed loop, or supported ends) gets
-///    free nodes of its own that do, unless supports alone hold both its sides: each subdomain is then regular, and K̄ has
+/// Crosspoints are the corners of subdomains (Corners.hpp, InterfaceEnds.hpp). More are chosen where these do
+/// not suffice: - an interface whose free crosspoints do not hold one side to the other (a closed loop, or
+/// supported ends) gets
+///    free nodes of its own that do, unless supports alone hold both its sides: each subdomain is then
+///    regular, and K̄ has
 ///    no kernel but the bodies' own;
-///  - a floating cluster in one piece gets free nodes that hold it;
-///  - nodes that a subdomain asks for.
-/// In space, of elastic bodies in the plane, and where bodies are of several clusters, the averages along edges are coarse unknowns too (EdgeAverages.hpp): they
-/// take the place of one node's values on each edge, which counts as a crosspoint from then on.
+///  - a floating cluster in one piece gets free nodes that hold it; - nodes that a subdomain asks for. In
+///  space, of elastic bodies in the plane, and where bodies are of several clusters, the averages along edges
+///  are coarse unknowns too (EdgeAverages.hpp): they take the place of one node's values on each edge, which
+///  counts as a crosspoint from then on.
 
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/SharedNodes.hpp"
@@ -28,10 +30,11 @@ struct CrosspointNode {
 /// All crosspoints, on every rank: the coarse problem's size.
 class Crosspoints {
 public:
-  /// \param inside  the nodes that subdomains of one cluster share, and no others: the only ones that are crosspoints, but for
-  ///                those of a cluster in one piece, whose nodes no other has
+  /// \param inside  the nodes that subdomains of one cluster share, and no others: the only ones that are
+  /// crosspoints, but for those of a cluster in one piece, whose nodes no other has
   /// \param shared  all that subdomains share
-  /// Collective. \throws InputError, the same on all ranks, if a floating cluster in one piece has too few such nodes.
+  /// Collective. \throws InputError, the same on all ranks, if a floating cluster in one piece has too few
+  /// such nodes.
   Crosspoints(const Substructures& all, const SharedNodes& inside, const SharedNodes& shared);
 
   [[nodiscard]] bool isCrosspoint(SubdomainPlace subdomain, NodePlace place) const {

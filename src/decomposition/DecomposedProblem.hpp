@@ -3,17 +3,19 @@
 /// The waist of the house: everything that FETI-DP ever sees of a contact problem. It comes from `decompose`
 /// (a scene) or from an application that fills it itself; nothing in it knows the physics.
 ///
-/// An application that enters B itself may use any rows, those of gluing of full rank: answers are the same, and MPRGP and
-/// SMALBE converge with any of them. The preconditioner, though, is made for rows that are orthogonal in D⁻¹, D the diagonals
-/// of the K^s: copies of a node glued each to the mean of those before it, Σ δ_i u_i / Σ δ_i, δ = diag K^s (GluingRows.hpp),
-/// and contact acting on the mean of all copies (ContactRows.hpp); P, between clusters, for rows that are equally long in D⁻¹. Where rows share copies otherwise, as in chains
-/// u_1 = u_2 = u_3, or where contact acts on one of several copies, it is still symmetric positive definite, but eigenvalues
-/// of MF below 1 appear and products with F grow in number (from 20 to 36 in space, two blocks of 2 × 2 × 2 subdomains).
+/// An application that enters B itself may use any rows, those of gluing of full rank: answers are the same,
+/// and MPRGP and SMALBE converge with any of them. The preconditioner, though, is made for rows that are
+/// orthogonal in D⁻¹, D the diagonals of the K^s: copies of a node glued each to the mean of those before it,
+/// Σ δ_i u_i / Σ δ_i, δ = diag K^s (GluingRows.hpp), and contact acting on the mean of all copies
+/// (ContactRows.hpp); P, between clusters, for rows that are equally long in D⁻¹. Where rows share copies
+/// otherwise, as in chains u_1 = u_2 = u_3, or where contact acts on one of several copies, it is still
+/// symmetric positive definite, but eigenvalues of MF below 1 appear and products with F grow in number (from
+/// 20 to 36 in space, two blocks of 2 × 2 × 2 subdomains).
 
 #include "epafi/base/Types.hpp"
-#include "epafi/contact/ContactPlace.hpp"
+#include "epafi/decomposition/ContactPlace.hpp"
 #include "epafi/decomposition/Indices.hpp"
-#include "epafi/fem/RigidMotions.hpp"
+#include "epafi/decomposition/RigidMotions.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -29,7 +31,8 @@ namespace epafi::decomposition {
 /// Sparse symmetric matrix of one subdomain, both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// What a row of B asks for: that bodies do not penetrate, that they stay together, or that copies of a value agree.
+/// What a row of B asks for: that bodies do not penetrate, that they stay together, or that copies of a value
+/// agree.
 enum class RowKind { contact, tied, gluing };
 
 /// One entry of B in a subdomain: row, column, value.
@@ -47,8 +50,8 @@ struct Average {
   bool operator==(const Average& other) const = default;
 };
 
-/// A value on a face where an edge of a cluster ends at another one, and the edge's average, which follows the mean of these
-/// (EdgeEnds.hpp).
+/// A value on a face where an edge of a cluster ends at another one, and the edge's average, which follows
+/// the mean of these (EdgeEnds.hpp).
 struct EdgeEnd {
   Unknown unknown;
   CoarseNumber average;
@@ -90,13 +93,15 @@ void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u);
 /// Turns values at all positions of a subdomain (nodes × components) into components in space, in place.
 void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values);
 
-/// Values at all positions in space of unknowns ũ. \param all  what supported positions have, along the nodes' axes
+/// Values at all positions in space of unknowns ũ. \param all what supported positions have, along the nodes'
+/// axes
 Eigen::VectorXd atAllPositions(const Subdomain& subdomain, Eigen::VectorXd u, Eigen::VectorXd all);
 
 /// The other way round: unknowns ũ of values at all positions in space; supported values are left out.
 Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values);
 
-/// f^s of forces at all positions in space, such that f^sᵀũ is their work; those at supported values are left out.
+/// f^s of forces at all positions in space, such that f^sᵀũ is their work; those at supported values are left
+/// out.
 Eigen::VectorXd loadOf(const Subdomain& subdomain, Eigen::VectorXd forces);
 
 /// A body, of which only its rigid motions count.
@@ -107,7 +112,7 @@ struct Body {
   GlobalOrdinal firstNode = 0; ///< number of its node 0 among those of all bodies
   /// What the modes are in space, for errors that say how a body can move; most often there where a body with
   /// several unknowns a node floats. No number comes from it.
-  std::optional<fem::RigidMotions> motions = std::nullopt;
+  std::optional<RigidMotions> motions = std::nullopt;
 };
 
 /// Subdomains of one body that share crosspoints (Clusters.hpp): all of them, if nothing else is asked for.
@@ -152,7 +157,7 @@ struct DecomposedProblem {
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
   GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
   /// Of rows of contact that this rank owns, as far as anyone knows; no number comes from them, but refusals.
-  std::vector<contact::ContactPlace> places;
+  std::vector<ContactPlace> places;
   /// Of a row of B.
   [[nodiscard]] RowKind kindOf(MultiplierNumber row) const {
     return row < numInequalities             ? RowKind::contact

@@ -1,16 +1,17 @@
 #pragma once
 
-/// Averages along the edges of subdomains as coarse unknowns: in space, where corners alone do not make FETI-DP scalable
-/// (Klawonn, Widlund, Dryja, *SIAM J. Numer. Anal.* 40 (2002)), and for elastic bodies in the plane, where they take 40 % of
-/// the iterations away (22 become 14 products with F for two blocks, 1/H = 8, H/h = 8; METIS parts 25 become 16). Membranes
-/// in the plane do without: their corners suffice, and the coarse problem stays small; but for bodies of several clusters
-/// (Clusters.hpp), whose corners at other clusters are no crosspoints.
-/// Made by a change of basis (Klawonn, Widlund, *Comm. Pure Appl. Math.* 59 (2006); Li, Widlund, *Int. J. Numer. Meth.
-/// Engng* 66 (2006)).
+/// Averages along the edges of subdomains as coarse unknowns: in space, where corners alone do not make
+/// FETI-DP scalable (Klawonn, Widlund, Dryja, *SIAM J. Numer. Anal.* 40 (2002)), and for elastic bodies in
+/// the plane, where they take 40 % of the iterations away (22 become 14 products with F for two blocks, 1/H =
+/// 8, H/h = 8; METIS parts 25 become 16). Membranes in the plane do without: their corners suffice, and the
+/// coarse problem stays small; but for bodies of several clusters (Clusters.hpp), whose corners at other
+/// clusters are no crosspoints. Made by a change of basis (Klawonn, Widlund, *Comm. Pure Appl. Math.* 59
+/// (2006); Li, Widlund, *Int. J. Numer. Meth. Engng* 66 (2006)).
 ///
 /// On an edge of m nodes the unknowns of one component become the average a and m − 1 deviations ũ_i from it:
 ///   u_i = ũ_i + a for all but the carrier,   u_carrier = a − Σ ũ_i,   in short u = T ũ.
-/// a takes the carrier's place and belongs to the coarse problem; the deviations are glued like values of nodes.
+/// a takes the carrier's place and belongs to the coarse problem; the deviations are glued like values of
+/// nodes.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/decomposition/SharedNodes.hpp"
@@ -27,7 +28,8 @@ struct RowEntry {
   double coefficient;
 };
 
-/// The average of u along an edge of a subdomain, component by component, in the place of its carrier's values.
+/// The average of u along an edge of a subdomain, component by component, in the place of its carrier's
+/// values.
 struct EdgeAverage {
   std::size_t carrier = 0;         ///< place of a node
   std::vector<std::size_t> others; ///< places of the other nodes, ascending
@@ -36,8 +38,9 @@ struct EdgeAverage {
 /// Whether bodies of these dimensions and unknowns a node have averages in any case.
 bool hasEdgeAverages(const Substructures& all);
 
-/// The averages of a subdomain: an edge are the free nodes that just the same subdomains share, three or more in space and
-/// two in the plane, crosspoints left out, if they are two or more. All subdomains at an edge choose the same carrier.
+/// The averages of a subdomain: an edge are the free nodes that just the same subdomains share, three or more
+/// in space and two in the plane, crosspoints left out, if they are two or more. All subdomains at an edge
+/// choose the same carrier.
 std::vector<EdgeAverage> findEdgeAverages(const Substructures& all, const SharedNodes& shared,
                                           std::size_t subdomain, const std::vector<char>& isCrosspoint);
 

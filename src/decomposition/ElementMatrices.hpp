@@ -21,7 +21,8 @@ struct ElementMatrix {
   const Eigen::VectorXd& load;             ///< e
 };
 
-/// Adds up the elements of this rank's subdomains. Nothing is kept of an element but its entries; nothing is collective.
+/// Adds up the elements of this rank's subdomains. Nothing is kept of an element but its entries; nothing is
+/// collective.
 class ElementMatrices {
 public:
   /// \param dimension   of space
@@ -33,8 +34,8 @@ public:
   /// \throws InputError if the sizes do not fit, or for a second body in a subdomain.
   void add(int subdomain, const ElementMatrix& element, int body = 0);
 
-  /// The subdomains added, in the order of their numbers; leaves none here. The entries of K^s are summed in the order in
-  /// which elements came, as are the loads.
+  /// The subdomains added, in the order of their numbers; leaves none here. The entries of K^s are summed in
+  /// the order in which elements came, as are the loads.
   std::vector<SubdomainMatrix> take();
 
 private:

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Matrices that are equal to the last bit: regular meshes and cuts make many. Found by comparing, never assumed.
+/// Matrices that are equal to the last bit: regular meshes and cuts make many. Found by comparing, never
+/// assumed.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 

@@ -12,8 +12,8 @@
 namespace epafi::decomposition {
 namespace {
 
-/// A motion is free if the forces that it takes are this small beside those that its displacements alone would take: far
-/// above round-off, as fem::RigidModes::freeUpTo.
+/// A motion is free if the forces that it takes are this small beside those that its displacements alone
+/// would take: far above round-off, as RigidModes::freeUpTo.
 constexpr double freeUpTo = 1e-9;
 /// Likewise for a first look.
 constexpr double nearlyFreeUpTo = 1e-6;
@@ -69,8 +69,8 @@ Energies energiesOf(const std::vector<Motions>& motions, const Comm& comm, std::
   return energies;
 }
 
-/// Orthonormal combinations of the motions in the scalar product `size`, those that others make up left out. Motions may
-/// have very different units: each is scaled to length 1 first.
+/// Orthonormal combinations of the motions in the scalar product `size`, those that others make up left out.
+/// Motions may have very different units: each is scaled to length 1 first.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& size) {
   const Eigen::VectorXd scale =
       size.diagonal().unaryExpr([](double s) { return s > 0 ? 1 / std::sqrt(s) : 0.0; });
@@ -91,7 +91,8 @@ Eigen::MatrixXd freeCombinations(const Eigen::MatrixXd& size, const Eigen::Matri
     return basis;
   const direct::SymmetricEigen eigen = direct::eigenOf(basis.transpose() * force * basis);
   Eigen::MatrixXd free = basis * eigen.vectors.leftCols(eigen.numUpTo(bound * bound));
-  // A motion along x has no part along y: what is round-off beside the rest of a combination would couple what nothing couples.
+  // A motion along x has no part along y: what is round-off beside the rest of a combination would couple
+  // what nothing couples.
   const Eigen::VectorXd lengths = size.diagonal().cwiseMax(0.0).cwiseSqrt();
   for (Eigen::Index m = 0; m < free.cols(); ++m) {
     const Eigen::ArrayXd parts = (lengths.asDiagonal() * free.col(m)).array().abs();
@@ -113,7 +114,8 @@ std::vector<Eigen::MatrixXd> freeCombinations(const std::vector<Motions>& motion
 
 std::vector<Eigen::MatrixXd> findFreeMotions(const std::vector<Motions>& motions, const Comm& comm,
                                              std::size_t numGroups) {
-  // Squares beside larger ones tell no more than half of the digits: what they leave is looked at alone, once more.
+  // Squares beside larger ones tell no more than half of the digits: what they leave is looked at alone, once
+  // more.
   std::vector<Eigen::MatrixXd> combinations = freeCombinations(motions, comm, numGroups, nearlyFreeUpTo);
   std::vector<Motions> nearlyFree;
   for (const Motions& m : motions)

@@ -14,8 +14,8 @@
 namespace epafi::decomposition {
 namespace {
 
-/// The first row of each copy's link, that to the next copy of its node; −1 where it has none: the last copies, crosspoints,
-/// nodes without unknowns. Collective.
+/// The first row of each copy's link, that to the next copy of its node; −1 where it has none: the last
+/// copies, crosspoints, nodes without unknowns. Collective.
 std::vector<GlobalOrdinal> numberLinks(const Substructures& all, const SharedNodes& shared,
                                        const Crosspoints& crosspoints, GlobalOrdinal firstRow,
                                        GlobalOrdinal& numRows) {
@@ -39,7 +39,8 @@ std::vector<GlobalOrdinal> numberLinks(const Substructures& all, const SharedNod
   return rows;
 }
 
-/// Whether a node's rows have weights, shares of copies in means: those of nodes with two copies are u_0 − u_1 = 0.
+/// Whether a node's rows have weights, shares of copies in means: those of nodes with two copies are u_0 −
+/// u_1 = 0.
 bool hasMeans(const SharedNodes& shared, std::size_t node) {
   return shared.subdomainsAt(node).size() > 2;
 }
@@ -96,7 +97,8 @@ private:
   std::vector<double> values_;
 };
 
-/// Enters the rows at copies, which know those of all links at their nodes and the stiffness of all copies there.
+/// Enters the rows at copies, which know those of all links at their nodes and the stiffness of all copies
+/// there.
 class Entering {
 public:
   /// Collective.
@@ -136,7 +138,8 @@ private:
     return stiffness_.at(copy.node, copy.order, component) / stiffness_.upTo(copy.node, link, component);
   }
 
-  /// Whether a row is one between clusters, of things with stiffness: what has none is for the factorisations to refuse.
+  /// Whether a row is one between clusters, of things with stiffness: what has none is for the factorisations
+  /// to refuse.
   [[nodiscard]] bool hasSize(std::size_t node, std::size_t link, std::size_t component) const {
     const double stiffness = isBetween_[node] ? stiffness_.ofRow(node, link, component) : 0.0;
     return stiffness > 0 && std::isfinite(stiffness);
@@ -148,7 +151,8 @@ private:
                : 1.0;
   }
 
-  /// Of the stiffness of all rows between clusters the geometric mean, the same on any number of ranks. Collective.
+  /// Of the stiffness of all rows between clusters the geometric mean, the same on any number of ranks.
+  /// Collective.
   [[nodiscard]] double meanOfRows() const {
     std::array<AccurateSum, 2> sums; // of logarithms, and their number
     for (std::size_t s = 0; s < all_.size(); ++s)

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The index spaces of a decomposed problem. Functions name them in their parameters and structures in their members, so that
-/// a number of one space is not handed over as one of another.
+/// The index spaces of a decomposed problem. Functions name them in their parameters and structures in their
+/// members, so that a number of one space is not handed over as one of another.
 
 #include "epafi/base/Index.hpp"
 #include "epafi/base/Types.hpp"
@@ -26,11 +26,13 @@ using NodeNumber = Index<struct NodeNumberSpace, GlobalOrdinal>;
 using NodePlace = Index<struct NodePlaceSpace, std::size_t>;
 /// An unknown of a subdomain, 0 … n_s − 1.
 using Unknown = Index<struct UnknownSpace>;
-/// A row of B: its number in the whole problem, and its local indices in multiplierMap and in multiplierGhostMap.
+/// A row of B: its number in the whole problem, and its local indices in multiplierMap and in
+/// multiplierGhostMap.
 using MultiplierNumber = Index<struct MultiplierNumberSpace, GlobalOrdinal>;
 using OwnedMultiplier = Index<struct OwnedMultiplierSpace, LocalOrdinal>;
 using TouchedMultiplier = Index<struct TouchedMultiplierSpace, LocalOrdinal>;
-/// A coarse unknown: its number in the whole problem (crosspointMap), and its place among those of this rank's subdomains.
+/// A coarse unknown: its number in the whole problem (crosspointMap), and its place among those of this
+/// rank's subdomains.
 using CoarseNumber = Index<struct CoarseNumberSpace, GlobalOrdinal>;
 using CoarsePlace = Index<struct CoarsePlaceSpace>;
 

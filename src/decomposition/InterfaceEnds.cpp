@@ -7,7 +7,8 @@
 namespace epafi::decomposition {
 namespace {
 
-/// The graph of K^s among the free shared nodes of a subdomain; these are named by their places among its copies.
+/// The graph of K^s among the free shared nodes of a subdomain; these are named by their places among its
+/// copies.
 class SharedGraph {
 public:
   SharedGraph(const Substructures& all, const SharedNodes& shared, std::size_t subdomain)
@@ -78,8 +79,7 @@ private:
     return std::ranges::equal(subdomainsAt(a), subdomainsAt(b));
   }
   [[nodiscard]] double distance(std::size_t a, std::size_t b) const {
-    const fem::Point x = all_.point(subdomain_, copies_[a].place),
-                     y = all_.point(subdomain_, copies_[b].place);
+    const Point x = all_.point(subdomain_, copies_[a].place), y = all_.point(subdomain_, copies_[b].place);
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
       sum += (x[i] - y[i]) * (x[i] - y[i]);

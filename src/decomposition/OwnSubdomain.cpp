@@ -5,21 +5,23 @@
 
 namespace epafi::decomposition {
 
-OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, fem::AssembledSubdomain& assembled) {
+OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& subdomain,
+                           NodalSubdomain& nodal) {
   OwnSubdomain own;
+  subdomain.body = matrix.body;
   for (const GlobalOrdinal unknown : matrix.unknowns)
-    assembled.nodes.push_back(unknown / components);
-  std::sort(assembled.nodes.begin(), assembled.nodes.end());
-  assembled.nodes.erase(std::unique(assembled.nodes.begin(), assembled.nodes.end()), assembled.nodes.end());
+    subdomain.nodes.push_back(unknown / components);
+  std::sort(subdomain.nodes.begin(), subdomain.nodes.end());
+  subdomain.nodes.erase(std::unique(subdomain.nodes.begin(), subdomain.nodes.end()), subdomain.nodes.end());
 
   const auto n = static_cast<Eigen::Index>(matrix.unknowns.size());
-  const auto numPositions = assembled.nodes.size() * static_cast<std::size_t>(components);
+  const auto numPositions = subdomain.nodes.size() * static_cast<std::size_t>(components);
   std::vector<int> unknownAt(numPositions, -1); // of the application
   own.unknowns = matrix.unknowns;
   for (std::size_t i = 0; i < own.unknowns.size(); ++i) {
     const auto node =
-        std::lower_bound(assembled.nodes.begin(), assembled.nodes.end(), own.unknowns[i] / components) -
-        assembled.nodes.begin();
+        std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), own.unknowns[i] / components) -
+        subdomain.nodes.begin();
     own.position.push_back(
         static_cast<int>(node * components + static_cast<int>(own.unknowns[i] % components)));
     unknownAt[static_cast<std::size_t>(own.position.back())] = static_cast<int>(i);
@@ -33,26 +35,26 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, fem::Assembl
     own.prescribed[static_cast<Eigen::Index>(i)] = value;
   }
   own.row.assign(own.unknowns.size(), -1);
-  assembled.unknownOf.assign(numPositions, -1);
-  assembled.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
+  nodal.unknownOf.assign(numPositions, -1);
+  subdomain.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
   for (std::size_t position = 0; position < numPositions; ++position) {
     const int i = unknownAt[position];
     if (i < 0)
       continue;
     if (isFree[static_cast<std::size_t>(i)] == 0) {
-      assembled.prescribed[static_cast<Eigen::Index>(position)] = own.prescribed[i];
+      subdomain.prescribed[static_cast<Eigen::Index>(position)] = own.prescribed[i];
       continue;
     }
-    own.row[static_cast<std::size_t>(i)] = static_cast<int>(assembled.unknownPosition.size());
-    assembled.unknownOf[position] = own.row[static_cast<std::size_t>(i)];
-    assembled.unknownPosition.push_back(static_cast<int>(position));
+    own.row[static_cast<std::size_t>(i)] = static_cast<int>(subdomain.unknownPosition.size());
+    nodal.unknownOf[position] = own.row[static_cast<std::size_t>(i)];
+    subdomain.unknownPosition.push_back(static_cast<int>(position));
   }
   own.load = std::move(matrix.load);
   own.heldForce = matrix.stiffness * own.prescribed;
-  assembled.load.resize(static_cast<Eigen::Index>(assembled.unknownPosition.size()));
-  freeLoad(own, assembled.load);
-  assembled.energyOffset = prescribedEnergy(own);
-  assembled.heldLoad = heldLoad(own);
+  subdomain.load.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
+  freeLoad(own, subdomain.load);
+  subdomain.energyOffset = prescribedEnergy(own);
+  subdomain.heldLoad = heldLoad(own);
   return own;
 }
 

@@ -3,7 +3,7 @@
 /// From an application's subdomain to one in the order of its nodes, prescribed unknowns taken out.
 
 #include "epafi/decomposition/SubdomainMatrix.hpp"
-#include "epafi/fem/SubdomainAssembly.hpp"
+#include "epafi/decomposition/Substructures.hpp"
 
 #include <Eigen/Core>
 
@@ -20,8 +20,10 @@ struct OwnSubdomain {
   Eigen::VectorXd prescribed;      ///< u, 0 where free
 };
 
-/// Nodes, positions, load and prescribed values; takes the matrix's load. Precondition: the matrix is sound. Not collective.
-OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, fem::AssembledSubdomain& assembled);
+/// Enters body, nodes, positions, load and prescribed values; takes the matrix's load. Precondition: the
+/// matrix is sound. Not collective.
+OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& subdomain,
+                           NodalSubdomain& nodal);
 
 /// K^s without the rows and columns of prescribed unknowns, in the order of positions. Not collective.
 SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& own);

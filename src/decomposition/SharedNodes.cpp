@@ -62,8 +62,8 @@ struct Encounter {
   int rank;
 };
 
-/// The nodes of `here` that other ranks have, with each of these, ascending: each node has a rank, its number modulo the number
-/// of ranks, that hears who has it and tells them of each other. Collective.
+/// The nodes of `here` that other ranks have, with each of these, ascending: each node has a rank, its number
+/// modulo the number of ranks, that hears who has it and tells them of each other. Collective.
 std::vector<Encounter> encounters(const RCP<const Comm>& comm, std::span<const Sighting> here) {
   std::vector<Encounter> mine;
   std::vector<int> ranks;

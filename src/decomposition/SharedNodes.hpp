@@ -15,16 +15,17 @@
 
 namespace epafi::decomposition {
 
-/// The nodes of this rank's subdomains that several subdomains, of any rank, have. A *copy* is such a node in one of this
-/// rank's subdomains; copies are numbered subdomain by subdomain, in each by ascending places.
+/// The nodes of this rank's subdomains that several subdomains, of any rank, have. A *copy* is such a node in
+/// one of this rank's subdomains; copies are numbered subdomain by subdomain, in each by ascending places.
 class SharedNodes {
 public:
   SharedNodes() = default;
   /// The ranks tell each other the border nodes of their subdomains; each keeps lists of its own nodes only.
-  /// \throws InputError, the same on all ranks, if the subdomains at a node differ in its free unknowns. Collective.
-  explicit SharedNodes(const Substructures& all);
-  /// Those alone whose subdomains are all of one cluster. \param clusterOf  of each subdomain of the whole problem
+  /// \throws InputError, the same on all ranks, if the subdomains at a node differ in its free unknowns.
   /// Collective.
+  explicit SharedNodes(const Substructures& all);
+  /// Those alone whose subdomains are all of one cluster. \param clusterOf of each subdomain of the whole
+  /// problem Collective.
   SharedNodes(const Substructures& all, std::span<const int> clusterOf);
 
   struct Copy {
@@ -50,8 +51,9 @@ public:
   /// Whether no lower subdomain has the node at a place.
   [[nodiscard]] bool isLowest(SubdomainPlace subdomain, NodePlace place) const;
 
-  /// What the copies tell each other: `values` holds `columns` numbers a copy; those of all copies at this rank's shared nodes come
-  /// back, in the places that `slot` tells. Only the nodes for which `isWanted(node)`, the same on all ranks, send messages. Collective.
+  /// What the copies tell each other: `values` holds `columns` numbers a copy; those of all copies at this
+  /// rank's shared nodes come back, in the places that `slot` tells. Only the nodes for which
+  /// `isWanted(node)`, the same on all ranks, send messages. Collective.
   template <class T, class Wanted>
   [[nodiscard]] std::vector<T> exchange(std::vector<T> values, std::size_t columns, Wanted&& isWanted) const {
     values.resize((numCopies() + numGhosts_) * columns);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The parts of the DecomposedProblem that join subdomains: remainder and crosspoint values, and B over all of them.
+/// The parts of the DecomposedProblem that join subdomains: remainder and crosspoint values, and B over all
+/// of them.
 
 #include "epafi/decomposition/ContactRows.hpp"
 #include "epafi/decomposition/GluingRows.hpp"

@@ -14,7 +14,8 @@
 namespace epafi::decomposition {
 namespace {
 
-/// What K^s and its transpose may differ by, relative to its largest entry: far above round-off of an assembly.
+/// What K^s and its transpose may differ by, relative to its largest entry: far above round-off of an
+/// assembly.
 constexpr double asymmetry = 1e-10;
 
 std::string sizeOf(Eigen::Index rows, Eigen::Index columns) {
@@ -105,8 +106,8 @@ SubdomainMatrix subdomainMatrix(const CrsMatrix& local) {
   return result;
 }
 
-fem::Point pointAt(const Eigen::MatrixXd& coordinates, Eigen::Index row) {
-  fem::Point point{};
+Point pointAt(const Eigen::MatrixXd& coordinates, Eigen::Index row) {
+  Point point{};
   for (Eigen::Index c = 0; c < coordinates.cols(); ++c)
     point[static_cast<std::size_t>(c)] = coordinates(row, c);
   return point;

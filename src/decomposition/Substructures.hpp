@@ -1,10 +1,9 @@
 #pragma once
 
-/// This rank's subdomains each for itself, before they are joined: what the steps from here to the DecomposedProblem look at,
-/// and none of them changes.
+/// This rank's subdomains each for itself, before they are joined: what the steps from here to the
+/// DecomposedProblem look at, and none of them changes.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
-#include "epafi/fem/Mesh.hpp"
 
 #include <functional>
 #include <memory>
@@ -13,7 +12,8 @@
 
 namespace epafi::decomposition {
 
-/// What it takes to join a subdomain to others, beside what the DecomposedProblem keeps of it. Positions are nodes × components.
+/// What it takes to join a subdomain to others, beside what the DecomposedProblem keeps of it. Positions are
+/// nodes × components.
 struct NodalSubdomain {
   std::vector<int> unknownOf;   ///< unknown at each position, −1 where there is none
   std::vector<int> borderNodes; ///< places of the nodes that other subdomains may have, ascending
@@ -25,7 +25,7 @@ struct NodalSubdomain {
 /// Where nodes lie. Asked for at nodes of this rank's subdomains.
 struct NodePlaces {
   int dimension = 2; ///< of space
-  std::function<fem::Point(int body, GlobalOrdinal node)> point;
+  std::function<Point(int body, GlobalOrdinal node)> point;
   /// Empty if there is no mesh, and nobody knows.
   std::function<bool(int body, GlobalOrdinal node)> isBoundaryNode;
 };
@@ -51,7 +51,7 @@ struct Substructures {
     return globalNode(s, node) * static_cast<GlobalOrdinal>(components) +
            static_cast<GlobalOrdinal>(component);
   }
-  [[nodiscard]] fem::Point point(SubdomainPlace s, NodePlace node) const {
+  [[nodiscard]] Point point(SubdomainPlace s, NodePlace node) const {
     return places.point(subdomains[s].body, subdomains[s].nodes[node]);
   }
   /// Unknown of each component of a node, −1 where it has none.

@@ -89,20 +89,9 @@ void UnassembledProblem::add(SubdomainMatrix matrix) {
   added_.push_back(std::move(matrix));
 }
 
-void UnassembledProblem::add(NodeOrderedSubdomain subdomain) {
-  Subdomain& target = problem_.subdomains.emplace_back();
-  fem::AssembledSubdomain& values = subdomain.values;
-  target.body = subdomain.body;
-  target.nodes = std::move(values.nodes);
-  target.unknownPosition = std::move(values.unknownPosition);
-  target.load = std::move(values.load);
-  target.frames = std::move(subdomain.frames);
-  target.prescribed = std::move(values.prescribed);
-  target.energyOffset = values.energyOffset;
-  target.heldLoad = values.heldLoad;
-  target.kernel = std::move(values.kernel);
-  nodal_.push_back(
-      {std::move(values.unknownOf), std::move(values.borderNodes), std::move(subdomain.stiffness), {}});
+void UnassembledProblem::add(Subdomain subdomain, NodalSubdomain nodal) {
+  problem_.subdomains.push_back(std::move(subdomain));
+  nodal_.push_back(std::move(nodal));
 }
 
 void UnassembledProblem::requireComplete() const {
@@ -120,7 +109,7 @@ Substructures UnassembledProblem::view() const {
           problem_.numSubdomains};
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// ----------------------------------------------------------------------------------------------------------
 // Completing it.
 
 void UnassembledProblem::complete() {
@@ -169,7 +158,7 @@ int UnassembledProblem::firstNumber() {
 
 /// The subdomains in the order of their nodes, prescribed unknowns taken out; near-kernels stay. Collective.
 void UnassembledProblem::takeAdded(int first) {
-  const auto points = std::make_shared<std::unordered_map<GlobalOrdinal, fem::Point>>();
+  const auto points = std::make_shared<std::unordered_map<GlobalOrdinal, Point>>();
   collectively(*comm_, [&] {
     if (problem_.numSubdomains == 0)
       throw InputError("no rank has added a subdomain; call add first.");
@@ -178,21 +167,21 @@ void UnassembledProblem::takeAdded(int first) {
       const int components = problem_.components, number = first + static_cast<int>(own_.size());
       requireSound(matrix, places_.dimension, components, static_cast<int>(problem_.bodies.size()),
                    "subdomain " + std::to_string(number));
-      NodeOrderedSubdomain subdomain{matrix.body, {}, nullptr, {}};
-      own_.push_back(takeSubdomain(matrix, components, subdomain.values));
+      Subdomain subdomain;
+      NodalSubdomain nodal;
+      own_.push_back(takeSubdomain(matrix, components, subdomain, nodal));
       SparseMatrix free = freeStiffness(matrix.stiffness, own_.back());
-      subdomain.stiffness = known.store(free);
+      nodal.stiffness = known.store(free);
       for (std::size_t i = 0; i < matrix.unknowns.size(); ++i)
         points->try_emplace(matrix.unknowns[i] / components,
                             pointAt(matrix.coordinates, static_cast<Eigen::Index>(i)));
-      subdomain.values.borderNodes.resize(subdomain.values.nodes.size()); // nobody knows which others share
-      std::iota(subdomain.values.borderNodes.begin(), subdomain.values.borderNodes.end(), 0);
-      add(std::move(subdomain));
-      for (const GlobalOrdinal wanted : matrix.crosspoints) {
-        const std::vector<GlobalOrdinal>& nodes = problem_.subdomains.back().nodes;
-        nodal_.back().crosspoints.push_back(
+      const std::vector<GlobalOrdinal>& nodes = subdomain.nodes;
+      nodal.borderNodes.resize(nodes.size()); // nobody knows which others share
+      std::iota(nodal.borderNodes.begin(), nodal.borderNodes.end(), 0);
+      for (const GlobalOrdinal wanted : matrix.crosspoints)
+        nodal.crosspoints.push_back(
             static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), wanted) - nodes.begin()));
-      }
+      add(std::move(subdomain), std::move(nodal));
     }
   });
   places_.point = [points](int /*body*/, GlobalOrdinal node) { return points->at(node); };
@@ -263,11 +252,11 @@ void UnassembledProblem::split() {
                                       static_cast<std::size_t>(remainders), 0, comm_));
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// ----------------------------------------------------------------------------------------------------------
 // B, and what may change.
 
 /// Appends rows of contact or ties to those of B. Returns what prescribed values contribute. Collective.
-RCP<const Vector> UnassembledProblem::enter(const ContactMatrix& matrix, GlobalOrdinal firstRow,
+RCP<const Vector> UnassembledProblem::enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
                                             std::vector<GlobalOrdinal>& owned,
                                             std::vector<std::vector<RowEntry>>& rows) const {
   for (const GlobalOrdinal row : localIndices(*matrix.rows->getRowMap()))
@@ -283,7 +272,7 @@ RCP<const Vector> UnassembledProblem::enter(const ContactMatrix& matrix, GlobalO
 
 /// Rows of contact, ties and gluing, B and the gaps. Collective.
 void UnassembledProblem::attach() {
-  const auto numRows = [](const std::optional<ContactMatrix>& matrix) {
+  const auto numRows = [](const std::optional<ConstraintMatrix>& matrix) {
     return matrix ? static_cast<GlobalOrdinal>(matrix->rows->getGlobalNumRows()) : 0;
   };
   problem_.numInequalities = numRows(contact_);
@@ -315,7 +304,7 @@ void UnassembledProblem::attach() {
     enterGap(*ties_->gap, *heldTies, problem_.numInequalities, *problem_.gap);
 }
 
-void UnassembledProblem::setTies(const ContactMatrix& ties) {
+void UnassembledProblem::setTies(const ConstraintMatrix& ties) {
   if (crosspoints_)
     requireSound(ties, unknownMap_);
   ties_ = ties;
@@ -323,7 +312,7 @@ void UnassembledProblem::setTies(const ContactMatrix& ties) {
     attach();
 }
 
-void UnassembledProblem::setContact(const ContactMatrix& contact) {
+void UnassembledProblem::setContact(const ConstraintMatrix& contact) {
   if (!crosspoints_) {
     contact_ = contact;
     return;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A contact problem that an application hands over: subdomain matrices of its own, its own contact rows, and afterwards its
-/// own loads, gaps and matrices anew.
+/// A contact problem that an application hands over: subdomain matrices of its own, its own contact rows, and
+/// afterwards its own loads, gaps and matrices anew.
 ///
 ///     UnassembledProblem problem(comm, 2, 2, {"ring", "shaft"});
 ///     problem.add(std::move(matrix));          // once a subdomain, each on one rank
@@ -11,8 +11,8 @@
 ///     solver.setup(problem.problem());
 ///     const Vector u = problem.unknowns(solver.solve());
 ///
-/// Later problem.setLoad, setGap, setMatrix, setContact change it, and solver.update() follows (ContactSolver.hpp says what
-/// each costs).
+/// Later problem.setLoad, setGap, setMatrix, setContact change it, and solver.update() follows
+/// (ContactSolver.hpp says what each costs).
 
 #include "epafi/decomposition/ContactRows.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
@@ -21,7 +21,6 @@
 #include "epafi/decomposition/SharedNodes.hpp"
 #include "epafi/decomposition/SubdomainMatrix.hpp"
 #include "epafi/decomposition/Substructures.hpp"
-#include "epafi/fem/SubdomainAssembly.hpp"
 
 #include <Eigen/Core>
 
@@ -33,17 +32,8 @@
 
 namespace epafi::decomposition {
 
-/// A subdomain in the order of its nodes, with the kernel of its body known: what an assembly over a mesh has at hand. Nodes
-/// are numbered as in the body.
-struct NodeOrderedSubdomain {
-  int body = 0;
-  fem::AssembledSubdomain values;                ///< without its stiffness
-  std::shared_ptr<const SparseMatrix> stiffness; ///< K^s of its free unknowns; equal subdomains may share one
-  std::vector<NodeFrame> frames;
-};
-
-/// Subdomains are numbered rank by rank in the order in which they were added. Results do not depend on how subdomains go
-/// to ranks, as long as that order is the same. A rank may have none.
+/// Subdomains are numbered rank by rank in the order in which they were added. Results do not depend on how
+/// subdomains go to ranks, as long as that order is the same. A rank may have none.
 class UnassembledProblem {
 public:
   /// \param dimension   of space, 2 or 3
@@ -52,7 +42,7 @@ public:
   /// \throws InputError for other numbers, or without bodies. Not collective.
   UnassembledProblem(RCP<const Comm> comm, int dimension, int components,
                      std::vector<std::string> bodies = {"body"});
-  /// Of bodies whose kernels are known: all subdomains are node-ordered ones.
+  /// Of bodies whose kernels are known: all subdomains are in the order of their nodes.
   /// \param bodies  complete
   UnassembledProblem(RCP<const Comm> comm, int components, std::vector<Body> bodies, NodePlaces places);
   UnassembledProblem(const UnassembledProblem&) = delete;
@@ -61,29 +51,36 @@ public:
   UnassembledProblem& operator=(UnassembledProblem&&) = delete;
   ~UnassembledProblem();
 
-  /// Lets runs of so many subdomains of a body share crosspoints, no more (Clusters.hpp); 0, the default: all of it.
+  /// Lets runs of so many subdomains of a body share crosspoints, no more (Clusters.hpp); 0, the default: all
+  /// of it.
   /// \param sizes  of each body
-  /// \throws InputError if one is negative, or if they are not as many as bodies. Precondition: not yet complete. Not
-  /// collective; the same on all ranks.
+  /// \throws InputError if one is negative, or if they are not as many as bodies. Precondition: not yet
+  /// complete. Not collective; the same on all ranks.
   void setClusterSizes(std::vector<int> sizes);
 
   /// Takes one subdomain of this rank; what is wrong with it is said by `complete`. Not collective.
   /// Precondition: not yet complete.
   void add(SubdomainMatrix matrix);
-  /// Likewise. Precondition: the bodies' kernels are known.
-  void add(NodeOrderedSubdomain subdomain);
+  /// Takes one in the order of its nodes, which are numbered as in the body, with its kernel: what an
+  /// assembly over a mesh has at hand. Not collective. Precondition: not yet complete, the bodies' kernels
+  /// are known.
+  /// \param subdomain  its body, nodes, unknowns, load, frames, prescribed values and kernel; the rest is
+  /// found by `complete`
+  void add(Subdomain subdomain, NodalSubdomain nodal);
 
-  /// Takes B_I and c, both shared; without a call there is no contact. After `complete` the rows of B are made anew.
-  /// Collective then. \throws InputError (see requireSound), the same on all ranks.
-  void setContact(const ContactMatrix& contact);
+  /// Takes B_I and c, both shared; without a call there is no contact. After `complete` the rows of B are
+  /// made anew. Collective then. \throws InputError (see requireSound), the same on all ranks.
+  void setContact(const ConstraintMatrix& contact);
 
-  /// Takes B_T and c of tied joints, B_T u = c, both shared; rows as those of contact. Collective after `complete`, and
+  /// Takes B_T and c of tied joints, B_T u = c, both shared; rows as those of contact. Collective after
+  /// `complete`, and
   /// \throws InputError likewise.
-  void setTies(const ContactMatrix& ties);
+  void setTies(const ConstraintMatrix& ties);
 
-  /// Finds shared nodes, motions that supports leave free, and crosspoints, and makes the rows of B. Collective.
-  /// \throws InputError, the same on all ranks: what requireSound says of a subdomain or of contact, bodies that are not in
-  /// one piece each, or subdomains that disagree about the unknowns of a node.
+  /// Finds shared nodes, motions that supports leave free, and crosspoints, and makes the rows of B.
+  /// Collective.
+  /// \throws InputError, the same on all ranks: what requireSound says of a subdomain or of contact, bodies
+  /// that are not in one piece each, or subdomains that disagree about the unknowns of a node.
   void complete();
 
   /// What the solver takes; lives as long as this object. Precondition: complete.
@@ -94,26 +91,30 @@ public:
   [[nodiscard]] const RCP<const Map>& unknownMap() const { return unknownMap_; }
   /// Subdomains of this rank.
   [[nodiscard]] std::size_t numSubdomains() const { return own_.size(); }
-  /// Global unknown at every position (nodes × components) of a subdomain, as in ContactSolution::displacement; −1 where the
-  /// application has none. Precondition: complete.
+  /// Global unknown at every position (nodes × components) of a subdomain, as in
+  /// ContactSolution::displacement; −1 where the application has none. Precondition: complete.
   [[nodiscard]] std::vector<GlobalOrdinal> globalUnknowns(std::size_t subdomain) const;
 
-  // All of these: precondition: complete; not collective but for setContact. \throws InputError for wrong sizes.
+  // All of these: precondition: complete; not collective but for setContact. \throws InputError for wrong
+  // sizes.
 
   /// f^s in the order of SubdomainMatrix::unknowns.
   void setLoad(std::size_t subdomain, const Eigen::VectorXd& load);
-  /// K^s with the pattern it had, in the order of SubdomainMatrix::unknowns. Supports must leave the same motions free. The weights of gluing rows stay
-  /// those of the old matrices until setContact.
+  /// K^s with the pattern it had, in the order of SubdomainMatrix::unknowns. Supports must leave the same
+  /// motions free. The weights of gluing rows stay those of the old matrices until setContact.
   void setMatrix(std::size_t subdomain, const SparseMatrix& stiffness);
   /// c on the row map of the contact matrix.
   void setGap(const Vector& gap);
 
-  /// u of a subdomain in the order of SubdomainMatrix::unknowns, of ContactSolution::displacement. Not collective.
+  /// u of a subdomain in the order of SubdomainMatrix::unknowns, of ContactSolution::displacement. Not
+  /// collective.
   [[nodiscard]] Eigen::VectorXd unknowns(std::size_t subdomain,
                                          std::span<const Eigen::VectorXd> displacement) const;
-  /// u on unknownMap(), of shared ones the mean of their copies, which differ by the feasibility reached. Collective.
+  /// u on unknownMap(), of shared ones the mean of their copies, which differ by the feasibility reached.
+  /// Collective.
   [[nodiscard]] RCP<Vector> unknowns(std::span<const Eigen::VectorXd> displacement) const;
-  /// λ_I on the row map of the contact matrix: the forces of contact, ≥ 0, in the unit of the loads over that of B_I.
+  /// λ_I on the row map of the contact matrix: the forces of contact, ≥ 0, in the unit of the loads over that
+  /// of B_I.
   /// \param multiplier  ContactSolution::multiplier
   /// Collective.
   [[nodiscard]] RCP<Vector> contactForces(const Vector& multiplier) const;
@@ -128,7 +129,7 @@ private:
   void formClusters(std::vector<Motions> near);
   void split();
   void attach();
-  RCP<const Vector> enter(const ContactMatrix& matrix, GlobalOrdinal firstRow,
+  RCP<const Vector> enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
                           std::vector<GlobalOrdinal>& owned, std::vector<std::vector<RowEntry>>& rows) const;
   void refreshLoad(std::size_t subdomain);
   void requireComplete() const;
@@ -137,8 +138,8 @@ private:
   NodePlaces places_;
   std::vector<int> clusterSizes_;      ///< of each body
   std::vector<SubdomainMatrix> added_; ///< until complete
-  std::optional<ContactMatrix> contact_, ties_;
-  std::vector<OwnSubdomain> own_; ///< of those that were not node-ordered
+  std::optional<ConstraintMatrix> contact_, ties_;
+  std::vector<OwnSubdomain> own_; ///< of those that applications added
   std::vector<NodalSubdomain> nodal_;
   SharedNodes shared_;
   std::optional<Crosspoints> crosspoints_; ///< once complete

@@ -25,7 +25,8 @@ public:
     }
   }
 
-  /// A longest edge is cut after all that are longer, wherever they are: the chain of elements that wait for each other ends.
+  /// A longest edge is cut after all that are longer, wherever they are: the chain of elements that wait for
+  /// each other ends.
   std::vector<LocalOrdinal> run() {
     while (!queue_.empty()) {
       const std::size_t element = queue_.front();
@@ -55,7 +56,8 @@ private:
     return static_cast<float>(sum);
   }
 
-  /// Places of its ends among the corners. Edges are in one order, whichever element asks: by length, then by name.
+  /// Places of its ends among the corners. Edges are in one order, whichever element asks: by length, then by
+  /// name.
   [[nodiscard]] std::pair<std::size_t, std::size_t> longestEdge(std::size_t element) const {
     const auto& corners = mesh_.elements[element].corners;
     std::pair<std::size_t, std::size_t> longest;
@@ -106,7 +108,8 @@ private:
     return middle;
   }
 
-  /// Of the edge from the middle of an edge (a, b) to a corner c: the triangle's quadratic map in the middle of that line.
+  /// Of the edge from the middle of an edge (a, b) to a corner c: the triangle's quadratic map in the middle
+  /// of that line.
   void bendAcross(LocalOrdinal a, LocalOrdinal b, LocalOrdinal middle, LocalOrdinal c) {
     const Point ab = bendOf(a, b), bc = bendOf(b, c), ca = bendOf(c, a);
     Point bend{};

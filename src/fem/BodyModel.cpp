@@ -12,6 +12,9 @@
 namespace epafi::fem {
 namespace {
 
+using decomposition::FreeModes;
+using decomposition::RigidModes;
+
 /// \throws InputError if a plane physics meets a mesh in space, or the other way round.
 void requireDimension(const SolidBody& body) {
   const bool isPlane = dimensionOf(body.body.physics) == 2;
@@ -21,9 +24,9 @@ void requireDimension(const SolidBody& body) {
                        (isPlane ? "elasticity 3-D" : "membrane, plane strain or plane stress"));
 }
 
-/// Elements joined in facets move as one rigid body; those joined in less may turn about each other, which membranes
-/// cannot. \throws InputError if an elastic body is not joined in facets, or a membrane not even in nodes. Linear in the number
-/// of elements.
+/// Elements joined in facets move as one rigid body; those joined in less may turn about each other, which
+/// membranes cannot. \throws InputError if an elastic body is not joined in facets, or a membrane not even in
+/// nodes. Linear in the number of elements.
 void requireJoined(const SolidBody& body) {
   if (body.isCongruent() || body.mesh.part() != nullptr) // whoever dealt out the pieces has looked
     return;
@@ -56,8 +59,8 @@ SolidBody checked(SolidBody body) {
   return body;
 }
 
-/// ∫∇N_i·∇N_j over a rectangle of sides hx, hy in closed form: entries that symmetry makes equal are so to the last bit, which
-/// sums over Gauss points are not.
+/// ∫∇N_i·∇N_j over a rectangle of sides hx, hy in closed form: entries that symmetry makes equal are so to
+/// the last bit, which sums over Gauss points are not.
 Eigen::Matrix4d rectangleStiffness(double hx, double hy) {
   const double a = hy / (6 * hx), b = hx / (6 * hy);
   const double self = 2 * a + 2 * b, alongX = -2 * a + b, opposite = -a - b, alongY = a - 2 * b;
@@ -144,16 +147,16 @@ double BodyModel::kernelValue(GlobalOrdinal node, int component, int mode) const
                                                  : rigidModes_.at(point, component));
 }
 
-std::optional<RigidMotions> BodyModel::rigidMotions() const {
+std::optional<decomposition::RigidMotions> BodyModel::rigidMotions() const {
   if (components() == 1)
     return std::nullopt;
   const Point& centre = rigidModes_.centre();
-  return RigidMotions{
+  return decomposition::RigidMotions{
       {centre[0], centre[1], centre[2]}, rigidModes_.size(), rigidModes_.twists() * freeModes_};
 }
 
-/// Where elements are congruent the kind is the region, and behind the regions come those that turn into frames; else
-/// the kind is the element.
+/// Where elements are congruent the kind is the region, and behind the regions come those that turn into
+/// frames; else the kind is the element.
 void BodyModel::kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const {
   if (!body_.isCongruent()) {
     std::copy(elements.begin(), elements.end(), kinds.begin());

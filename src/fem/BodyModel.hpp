@@ -1,10 +1,10 @@
 #pragma once
 
-/// The physics of one body: element matrices and loads, supports, and the rigid modes that the supports leave free. What comes
-/// after `fem` never knows which physics it is.
+/// The physics of one body: element matrices and loads, supports, and the rigid modes that the supports leave
+/// free. What comes after `fem` never knows which physics it is.
 
-#include "epafi/fem/RigidModes.hpp"
-#include "epafi/fem/RigidMotions.hpp"
+#include "epafi/decomposition/RigidModes.hpp"
+#include "epafi/decomposition/RigidMotions.hpp"
 #include "epafi/fem/SolidBody.hpp"
 #include "epafi/fem/SolidDomains.hpp"
 #include "epafi/fem/SolidLoads.hpp"
@@ -20,14 +20,14 @@
 
 namespace epafi::fem {
 
-/// A node's unknowns are its displacement's components along the axes of space, or of its frame if it has one. Stiffness,
-/// loads, prescribed values and kernel are all in these unknowns.
+/// A node's unknowns are its displacement's components along the axes of space, or of its frame if it has
+/// one. Stiffness, loads, prescribed values and kernel are all in these unknowns.
 class BodyModel {
 public:
-  /// Keeps references to scene and mesh. \throws InputError, with the body's name, if a surface or group that the scene names is not in
-  /// the mesh, a region or load meets no element, a point load no node, supports contradict each other or hardly hold the
-  /// body, the physics does not go with the mesh's dimension, parts of the body are not joined, or
-  /// those of an elastic one in nodes or edges only: a mechanism.
+  /// Keeps references to scene and mesh. \throws InputError, with the body's name, if a surface or group that
+  /// the scene names is not in the mesh, a region or load meets no element, a point load no node, supports
+  /// contradict each other or hardly hold the body, the physics does not go with the mesh's dimension, parts
+  /// of the body are not joined, or those of an elastic one in nodes or edges only: a mechanism.
   BodyModel(const scene::Body& body, const Mesh& mesh);
 
   [[nodiscard]] const Mesh& mesh() const { return body_.mesh; } ///< that of the body
@@ -42,9 +42,9 @@ public:
   /// Value of a rigid mode at a node and component, mode < kernelDimension().
   [[nodiscard]] double kernelValue(GlobalOrdinal node, int component, int mode) const;
   /// The rigid motions as motions in space; nothing of a scalar field.
-  [[nodiscard]] std::optional<RigidMotions> rigidMotions() const;
-  /// The node's frame, a rotation whose columns are the axes of its unknowns, or null where these are those of space. In
-  /// the plane it turns about z.
+  [[nodiscard]] std::optional<decomposition::RigidMotions> rigidMotions() const;
+  /// The node's frame, a rotation whose columns are the axes of its unknowns, or null where these are those
+  /// of space. In the plane it turns about z.
   [[nodiscard]] const Eigen::Matrix3d* frame(GlobalOrdinal node) const { return supports_.frame(node); }
   /// Whether any node has one.
   [[nodiscard]] bool hasFrames() const { return supports_.hasFrames(); }
@@ -59,7 +59,8 @@ public:
 
   /// Kind of each element: elements of one kind have the same stiffness, to the last bit.
   void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const;
-  /// Region of the scene that each element lies in: the last one that contains it, counted from 1; 0 outside of all.
+  /// Region of the scene that each element lies in: the last one that contains it, counted from 1; 0 outside
+  /// of all.
   void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const {
     regions_.of(body_, elements, regions);
   }
@@ -91,7 +92,7 @@ private:
   SolidSupports supports_;
   std::vector<Eigen::MatrixXd> stiffnesses_;  ///< of each region, if elements are congruent
   std::vector<GlobalOrdinal> framedElements_; ///< ascending
-  RigidModes rigidModes_;
+  decomposition::RigidModes rigidModes_;
   Eigen::MatrixXd freeModes_; ///< columns: combinations of the rigid modes
 };
 

@@ -8,7 +8,8 @@
 /// then, of cells of order 2, one node on each edge, on each face of a hexahedron, and inside of bricks:
 ///   line3          2 between 0 and 1                 triangle6      edges 01 12 20
 ///   tetrahedron10  edges 01 12 20 03 13 23           quadrilateral9 edges 01 12 23 30, centre
-///   hexahedron27   edges 01 12 23 30, 45 56 67 74, 04 15 26 37; faces −x +x −y +y −z +z (x from 0 to 1, y from 0 to 3,
+///   hexahedron27 edges 01 12 23 30, 45 56 67 74, 04 15 26 37; faces −x +x −y +y −z +z (x from 0 to 1, y from
+///   0 to 3,
 ///                  z from 0 to 4); centre
 /// A *facet* is an edge of a plane element, a face of a solid one: a cell of one dimension less.
 ///
@@ -36,8 +37,8 @@ enum class CellType {
 /// One of the facets of a cell.
 struct Facet {
   CellType type;
-  /// Places of its nodes among those of the cell, such that the normal points outwards: an edge has the cell on its left, a
-  /// face is seen counter-clockwise from outside.
+  /// Places of its nodes among those of the cell, such that the normal points outwards: an edge has the cell
+  /// on its left, a face is seen counter-clockwise from outside.
   std::span<const int> nodes;
 
   [[nodiscard]] int operator[](std::size_t i) const { return nodes[i]; } ///< place of the i-th node

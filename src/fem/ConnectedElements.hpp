@@ -8,9 +8,10 @@
 
 namespace epafi::fem {
 
-/// The connected pieces of `numElements` elements, by their lowest elements; in no order inside. Linear in the number of neighbours.
-/// \param neighbours  neighbours(element, found) overwrites `found` with the elements that an element is joined with, each of
-///                    which must be joined with it
+/// The connected pieces of `numElements` elements, by their lowest elements; in no order inside. Linear in
+/// the number of neighbours.
+/// \param neighbours  neighbours(element, found) overwrites `found` with the elements that an element is
+/// joined with, each of which must be joined with it
 template <class Neighbours>
 std::vector<std::vector<GlobalOrdinal>> connectedElements(GlobalOrdinal numElements,
                                                           const Neighbours& neighbours) {

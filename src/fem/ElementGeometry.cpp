@@ -18,8 +18,9 @@ void noteJacobian(ElementShape& shape, double value, int corner) {
   }
 }
 
-/// Of a simplex of order 1 the determinant is the same everywhere; of a quadrilateral it is linear, so that its least value
-/// lies at a corner. Of order 2 samples come first: most elements that are not sound fail there.
+/// Of a simplex of order 1 the determinant is the same everywhere; of a quadrilateral it is linear, so that
+/// its least value lies at a corner. Of order 2 samples come first: most elements that are not sound fail
+/// there.
 template <int dim>
 void measure(const Shape<dim>& reference, std::span<const Point> points, ElementShape& shape) {
   const auto corners = relativeCorners<dim>(points);

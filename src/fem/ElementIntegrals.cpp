@@ -12,8 +12,8 @@ namespace {
 
 using scene::Physics;
 
-/// S: products of all shape functions' derivatives, row and column node × dimension + direction. Isotropic stiffnesses are
-/// sums of its entries.
+/// S: products of all shape functions' derivatives, row and column node × dimension + direction. Isotropic
+/// stiffnesses are sums of its entries.
 template <int dim>
 using GradientProducts = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                        dim* static_cast<int>(mostNodes), dim* static_cast<int>(mostNodes)>;

@@ -1,10 +1,11 @@
 #pragma once
 
 /// Stiffness and loads of one element of a body, and loads on its facets. Rows are node by node: node ×
-/// components + component, with one component for membranes and as many as the element has dimensions otherwise.
-/// Preconditions of those of elements: points are the element's nodes in the order of Cell.hpp; plane elements go with membranes, plane
-/// strain and plane stress, solid ones with elasticity in space; their leastJacobian (ElementGeometry.hpp) is positive. Nothing is allocated if
-/// the result has its size already; calls from several threads do not disturb each other.
+/// components + component, with one component for membranes and as many as the element has dimensions
+/// otherwise. Preconditions of those of elements: points are the element's nodes in the order of Cell.hpp;
+/// plane elements go with membranes, plane strain and plane stress, solid ones with elasticity in space;
+/// their leastJacobian (ElementGeometry.hpp) is positive. Nothing is allocated if the result has its size
+/// already; calls from several threads do not disturb each other.
 
 #include "epafi/fem/Cell.hpp"
 #include "epafi/fem/HookesLaw.hpp"
@@ -17,26 +18,28 @@
 
 namespace epafi::fem {
 
-/// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space), by full integration. Symmetric
-/// to the last bit. `stiffness` is overwritten, and resized if need be.
+/// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space), by full
+/// integration. Symmetric to the last bit. `stiffness` is overwritten, and resized if need be.
 void elementStiffness(CellType type, std::span<const Point> points, scene::Physics physics,
                       const scene::Material& material, Eigen::MatrixXd& stiffness);
 
-/// t∫N_a f of a constant force f per volume; of a membrane ∫N_a f₀, f₀ per area. Exact. `load` is overwritten.
+/// t∫N_a f of a constant force f per volume; of a membrane ∫N_a f₀, f₀ per area. Exact. `load` is
+/// overwritten.
 void bodyForceLoad(CellType type, std::span<const Point> points, scene::Physics physics,
                    const scene::Material& material, const scene::Vector3& force, Eigen::VectorXd& load);
 
-// Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has them, in an order that
-// makes the normal point outwards, as in Cell.hpp and Surface. Edges go with membranes, plane strain and plane stress, and their
-// points' third coordinate does not matter; faces go with elasticity in space.
+// Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has
+// them, in an order that makes the normal point outwards, as in Cell.hpp and Surface. Edges go with
+// membranes, plane strain and plane stress, and their points' third coordinate does not matter; faces go with
+// elasticity in space.
 
-/// t∫N_a q of a constant force q per area, t the thickness (1 in space); of a membrane ∫N_a q₀, q₀ per length. Exact on edges
-/// and plane faces. `load` is overwritten.
+/// t∫N_a q of a constant force q per area, t the thickness (1 in space); of a membrane ∫N_a q₀, q₀ per
+/// length. Exact on edges and plane faces. `load` is overwritten.
 void tractionLoad(CellType facet, std::span<const Point> points, scene::Physics physics,
                   const scene::Material& material, const scene::Vector3& traction, Eigen::VectorXd& load);
 
-/// −t∫N_a p n of a constant pressure p against the outward normal n, that of each point of the face. Exact. `load` is
-/// overwritten. Precondition: not a membrane.
+/// −t∫N_a p n of a constant pressure p against the outward normal n, that of each point of the face. Exact.
+/// `load` is overwritten. Precondition: not a membrane.
 void pressureLoad(CellType facet, std::span<const Point> points, scene::Physics physics,
                   const scene::Material& material, double pressure, Eigen::VectorXd& load);
 

@@ -53,8 +53,8 @@ private:
   Jacobian jacobian_;
 };
 
-/// Normal of a facet at a point, as long as the facet's length or area there is greater than the reference element's. It
-/// points to the right of an edge, and to where a face is seen counter-clockwise: outwards.
+/// Normal of a facet at a point, as long as the facet's length or area there is greater than the reference
+/// element's. It points to the right of an edge, and to where a face is seen counter-clockwise: outwards.
 template <int dim>
 Eigen::Matrix<double, dim + 1, 1> facetNormal(const NodalColumns<dim + 1>& corners,
                                               const ShapeSample<dim>& sample) {

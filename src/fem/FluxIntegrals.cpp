@@ -32,8 +32,8 @@ struct MembraneLaw {
   double conductivity;
 };
 
-/// Stress of an elastic body. For plane strain the stress across the plane is part of the sum, with which the law of
-/// space holds; for plane stress it is 0.
+/// Stress of an elastic body. For plane strain the stress across the plane is part of the sum, with which the
+/// law of space holds; for plane stress it is 0.
 template <int dim>
 struct ElasticLaw {
   static constexpr int numFluxes = numStresses, components = dim;
@@ -111,9 +111,9 @@ FluxEnergies energiesByRule(const Law& law, const Shape<dim>& shape, std::span<c
   return energies;
 }
 
-/// The flux as a function of one order less than the displacements: its values at the points where it is most accurate
-/// (Barlow, *Int. J. Numer. Meth. Engng* 10 (1976)), carried on to the nodes. Order 1: a constant, one column. Of simplices of
-/// order 2 with straight edges the flux is such a function itself.
+/// The flux as a function of one order less than the displacements: its values at the points where it is most
+/// accurate (Barlow, *Int. J. Numer. Meth. Engng* 10 (1976)), carried on to the nodes. Order 1: a constant,
+/// one column. Of simplices of order 2 with straight edges the flux is such a function itself.
 template <class Law, int dim>
 void sampleFlux(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
                 std::span<const double> displacements, Eigen::MatrixXd& fluxes) {
@@ -148,8 +148,8 @@ Eigen::MatrixXd columnsOf(Eigen::Index rows, Eigen::Index columns, const Apply& 
   return matrix;
 }
 
-/// D with density(q) = ‖Dq‖². The stress across the plane, which the others determine or which is 0, makes the form
-/// singular in no direction.
+/// D with density(q) = ‖Dq‖². The stress across the plane, which the others determine or which is 0, makes
+/// the form singular in no direction.
 template <class Law>
 Eigen::MatrixXd rootOfDensity(const Law& law) {
   constexpr int n = Law::numFluxes;
@@ -166,8 +166,8 @@ Eigen::MatrixXd rootOfDensity(const Law& law) {
 constexpr std::array<std::array<double, 2>, 3> gauss{
     {{0.11270166537925831, 5.0 / 18}, {0.5, 8.0 / 18}, {0.88729833462074169, 5.0 / 18}}};
 
-/// A point of the unit square or cube in the reference element; returns the factor of the weight. For a simplex the cube's top
-/// shrinks to a point (Duffy).
+/// A point of the unit square or cube in the reference element; returns the factor of the weight. For a
+/// simplex the cube's top shrinks to a point (Duffy).
 template <int dim>
 double carry(const Shape<dim>& shape, Coordinates<dim>& place) {
   if (!shape.isSimplex) {

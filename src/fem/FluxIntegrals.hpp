@@ -1,8 +1,8 @@
 #pragma once
 
 /// Fluxes (κ∇u of a membrane, the stress of an elastic body) inside one element, and how far they are from a
-/// recovered flux that is continuous: what an estimate of the discretisation error is made of (Zienkiewicz, Zhu,
-/// *Int. J. Numer. Meth. Engng* 24 (1987)). Preconditions are those of ElementIntegrals.hpp.
+/// recovered flux that is continuous: what an estimate of the discretisation error is made of (Zienkiewicz,
+/// Zhu, *Int. J. Numer. Meth. Engng* 24 (1987)). Preconditions are those of ElementIntegrals.hpp.
 
 #include "epafi/fem/Cell.hpp"
 #include "epafi/fem/Mesh.hpp"
@@ -16,14 +16,16 @@
 
 namespace epafi::fem {
 
-/// Components of a flux: 2 of a membrane (x, y), 6 of a stress (xx, yy, zz, xy, yz, zx; 0 what the plane has not).
+/// Components of a flux: 2 of a membrane (x, y), 6 of a stress (xx, yy, zz, xy, yz, zx; 0 what the plane has
+/// not).
 int numFluxes(scene::Physics physics);
 
 /// How many columns sampledFluxes() gives: 1 of order 1, else as many as nodes.
 int numSampledFluxes(CellType type);
 
-/// The flux as far as it is accurate, from the displacements at the nodes, node by node: of order 1 that at the centre, taken as
-/// constant; of order 2 values at the nodes, of bricks carried on from the points where the flux is most accurate.
+/// The flux as far as it is accurate, from the displacements at the nodes, node by node: of order 1 that at
+/// the centre, taken as constant; of order 2 values at the nodes, of bricks carried on from the points where
+/// the flux is most accurate.
 /// \param fluxes  numFluxes × numSampledFluxes, overwritten, and resized if need be
 void sampledFluxes(CellType type, std::span<const Point> points, scene::Physics physics,
                    const scene::Material& material, std::span<const double> displacements,
@@ -35,13 +37,14 @@ struct FluxEnergies {
   double flux = 0;       ///< of q_h
 };
 
-/// Exact on elements with straight edges (bricks: parallelepipeds). \param nodalFluxes  q* at the nodes, numFluxes × nodes
+/// Exact on elements with straight edges (bricks: parallelepipeds). \param nodalFluxes q* at the nodes,
+/// numFluxes × nodes
 FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, scene::Physics physics,
                           const scene::Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes);
 
-/// sampledFluxes and fluxEnergies of many congruent elements of one material at once, as products of matrices; a column an
-/// element.
+/// sampledFluxes and fluxEnergies of many congruent elements of one material at once, as products of
+/// matrices; a column an element.
 class CongruentFluxes {
 public:
   /// \param points  nodes of one of them. Precondition: it is a quadrilateral or hexahedron whose
@@ -79,8 +82,8 @@ struct FieldValue {
   std::array<double, 6> flux{};         ///< numFluxes(physics) of them
 };
 
-/// Norms of u_h − u, u given at points; by a rule that is exact for polynomials of degree 5 (of degree 3 on tetrahedra) of
-/// each coordinate, on elements of any form.
+/// Norms of u_h − u, u given at points; by a rule that is exact for polynomials of degree 5 (of degree 3 on
+/// tetrahedra) of each coordinate, on elements of any form.
 DisplacementNorms differenceNorms(CellType type, std::span<const Point> points, scene::Physics physics,
                                   const scene::Material& material, std::span<const double> displacements,
                                   const std::function<FieldValue(const Point&)>& exact);

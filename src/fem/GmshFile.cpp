@@ -212,7 +212,8 @@ void BodyMaker::chooseCellType() {
     arrays_.cellType = withOrder(arrays_.cellType, 2);
 }
 
-/// Places of a cell's nodes among those of Gmsh's element; of bricks without nodes inside as far as they have them.
+/// Places of a cell's nodes among those of Gmsh's element; of bricks without nodes inside as far as they have
+/// them.
 std::vector<std::size_t> placesInGmsh(CellType type, std::size_t count) {
   std::vector<std::size_t> places(count);
   std::iota(places.begin(), places.end(), std::size_t{0});

@@ -14,7 +14,8 @@
 namespace epafi::fem {
 namespace {
 
-/// Loaded at the first call, by the name that the run-time linker knows, wherever it lies; then where CMake found it.
+/// Loaded at the first call, by the name that the run-time linker knows, wherever it lies; then where CMake
+/// found it.
 void* gmshLibrary() {
   for (const char* name : {EPAFI_GMSH_SONAME, EPAFI_GMSH_FILE})
     if (void* library = ::dlopen(name, RTLD_NOW | RTLD_LOCAL))

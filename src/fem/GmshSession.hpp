@@ -12,9 +12,9 @@ namespace epafi::fem {
 /// Loads Gmsh's library. \throws Error if there is none
 void loadGmsh();
 
-/// From initialisation to its end: silent, with no configuration of the user read. One at a time, and in a process of its own
-/// (ChildProcess.hpp): geometries are programs that can end it.
-/// All functions throw InputError with the file's name and Gmsh's own first message where Gmsh has an error to tell of.
+/// From initialisation to its end: silent, with no configuration of the user read. One at a time, and in a
+/// process of its own (ChildProcess.hpp): geometries are programs that can end it. All functions throw
+/// InputError with the file's name and Gmsh's own first message where Gmsh has an error to tell of.
 class GmshSession {
 public:
   explicit GmshSession(std::string file);
@@ -23,11 +23,13 @@ public:
   GmshSession& operator=(const GmshSession&) = delete;
 
   void open(double meshSizeFactor) const;
-  /// Whether the shape of anything is that of a mesh: of an STL file, or of a mesh that the geometry merges. Without that mesh it has none.
+  /// Whether the shape of anything is that of a mesh: of an STL file, or of a mesh that the geometry merges.
+  /// Without that mesh it has none.
   [[nodiscard]] bool isDiscrete() const;
   /// Elements that the file does not make itself, split so many times, of an order unless it is 0.
   void mesh(int refinements, int order) const;
-  /// In simplices of given sizes, in the lengths of what is saved, and of order 2. Precondition: not isDiscrete()
+  /// In simplices of given sizes, in the lengths of what is saved, and of order 2. Precondition: not
+  /// isDiscrete()
   void meshWith(const SizeField& sizes) const;
   /// Throws InputError if elements of the highest dimension are of a kind that is not known.
   void requireKnown() const;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// A mesh of one body as the decomposition sees it. Nodes and elements are numbered from 0; every query is
-/// local (no communication) and cheap, so that each rank asks only about its own part of the body: more it need not hold
-/// (MeshPart.hpp).
+/// local (no communication) and cheap, so that each rank asks only about its own part of the body: more it
+/// need not hold (MeshPart.hpp).
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/Cell.hpp"
@@ -13,9 +13,6 @@
 #include <vector>
 
 namespace epafi::fem {
-
-/// A point in the plane or in space; unused coordinates are 0.
-using Point = std::array<double, 3>;
 
 /// A named part of a body's boundary, whole on every rank: facets, each with the element that it bounds.
 struct Surface {

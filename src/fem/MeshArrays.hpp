@@ -1,6 +1,7 @@
 #pragma once
 
-/// A body's mesh as plain arrays, as a file gives them: what UnstructuredMesh is made from, and MeshChecks looks at.
+/// A body's mesh as plain arrays, as a file gives them: what UnstructuredMesh is made from, and MeshChecks
+/// looks at.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/Cell.hpp"
@@ -12,7 +13,8 @@
 
 namespace epafi::fem {
 
-/// A named part of the boundary: facets by their corners, as many each as facets of the cells have, in any order round the facet.
+/// A named part of the boundary: facets by their corners, as many each as facets of the cells have, in any
+/// order round the facet.
 struct NamedFacets {
   std::string name;
   std::vector<LocalOrdinal> nodes;

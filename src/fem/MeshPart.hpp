@@ -1,7 +1,8 @@
 #pragma once
 
-/// A piece of a body's mesh, as one rank holds it where no rank is to hold the whole: some elements of its own, those around
-/// their nodes, and those at the body's named surfaces. Numbers are those of the whole mesh.
+/// A piece of a body's mesh, as one rank holds it where no rank is to hold the whole: some elements of its
+/// own, those around their nodes, and those at the body's named surfaces. Numbers are those of the whole
+/// mesh.
 
 #include "epafi/fem/Mesh.hpp"
 #include "epafi/fem/MeshTopology.hpp"
@@ -30,8 +31,9 @@ struct PartArrays {
   std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> groups; ///< as far as held, ascending
 };
 
-/// Every query may be asked of held nodes and elements. Of nodes of the own elements it has the same answer as of the whole mesh;
-/// at others elements may be missing, and the neighbours of elements that are not own ones.
+/// Every query may be asked of held nodes and elements. Of nodes of the own elements it has the same answer
+/// as of the whole mesh; at others elements may be missing, and the neighbours of elements that are not own
+/// ones.
 class MeshPart final : public Mesh {
 public:
   explicit MeshPart(PartArrays arrays);

@@ -7,8 +7,8 @@
 namespace epafi::fem {
 namespace {
 
-/// A facet in the bucket of its lowest corner: its other corners, ascending (those that it lacks: −1), and its place among
-/// the facets of all elements.
+/// A facet in the bucket of its lowest corner: its other corners, ascending (those that it lacks: −1), and
+/// its place among the facets of all elements.
 struct BucketEntry {
   std::array<LocalOrdinal, mostFacetCorners - 1> others;
   std::uint32_t place;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which elements touch a node, and which element lies across a facet. Made in O(n) from the elements' nodes; one million
-/// hexahedra take about 70 MB, and 100 MB more while it is made.
+/// Which elements touch a node, and which element lies across a facet. Made in O(n) from the elements' nodes;
+/// one million hexahedra take about 70 MB, and 100 MB more while it is made.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/Cell.hpp"

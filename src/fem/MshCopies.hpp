@@ -9,8 +9,8 @@
 
 namespace epafi::fem {
 
-/// Elements with the same nodes in different blocks become one, which has the first one's number, in a new block, whose entity is in the groups
-/// of all. Copies in one block stay: they are a mistake.
+/// Elements with the same nodes in different blocks become one, which has the first one's number, in a new
+/// block, whose entity is in the groups of all. Copies in one block stay: they are a mistake.
 /// \param groupEntities  by the group's number  \param numEntities  that the file has; new ones are added
 void joinCopies(std::vector<MshBlock>& blocks, std::map<int, std::vector<int>>& groupEntities,
                 int& numEntities);

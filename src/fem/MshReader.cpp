@@ -18,8 +18,8 @@ constexpr int pointType = 15; ///< Gmsh's number
 struct Kind {
   int numNodes, linear;
 };
-/// 1: line, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid; 8: the same of order 2; 15: point; then
-/// quadrilateral, hexahedron, prism, pyramid of order 2 without nodes inside.
+/// 1: line, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid; 8: the same of order 2; 15:
+/// point; then quadrilateral, hexahedron, prism, pyramid of order 2 without nodes inside.
 constexpr std::array<Kind, 20> kinds{{{0, 0},  {2, 1},  {3, 2}, {4, 3},  {4, 4},  {8, 5},  {6, 6},
                                       {5, 7},  {3, 1},  {6, 2}, {9, 3},  {10, 4}, {27, 5}, {18, 6},
                                       {14, 7}, {1, 15}, {8, 3}, {20, 5}, {15, 6}, {13, 7}}};

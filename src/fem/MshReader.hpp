@@ -1,7 +1,8 @@
 #pragma once
 
-/// Mesh files of Gmsh without Gmsh: the formats 2.2 and 4.1 (and 2 and 2.1, which are 2.2 but for partitions), in text or
-/// binary. Whatever the bytes, they are read or refused: nothing is taken for granted, since files get cut off and damaged.
+/// Mesh files of Gmsh without Gmsh: the formats 2.2 and 4.1 (and 2 and 2.1, which are 2.2 but for
+/// partitions), in text or binary. Whatever the bytes, they are read or refused: nothing is taken for
+/// granted, since files get cut off and damaged.
 
 #include "epafi/fem/MeshArrays.hpp"
 
@@ -32,7 +33,8 @@ struct GmshContents {
   GlobalOrdinal numPartitions = 0; ///< into which the whole mesh was cut; 0: the file does not say
   std::vector<Point> points;
   std::vector<GlobalOrdinal> nodeTags; ///< ascending, none twice
-  /// Geometric entity inside which each node lies: its dimension and number. Format 2.2 says neither: −1 and 0.
+  /// Geometric entity inside which each node lies: its dimension and number. Format 2.2 says neither: −1 and
+  /// 0.
   std::vector<std::array<int, 2>> nodeEntities;
   std::vector<GmshBlock> elements; ///< of dimension d
   std::vector<GmshGroup> groups;   ///< of dimension d
@@ -41,13 +43,13 @@ struct GmshContents {
   std::vector<GmshGroup> lesser;   ///< groups of lower dimension still: for errors
 };
 
-/// What the text of a mesh file says. It is all in memory, and what is made of it takes about twice as much again. Sections
-/// other than those of names, entities, nodes and elements are passed over.
+/// What the text of a mesh file says. It is all in memory, and what is made of it takes about twice as much
+/// again. Sections other than those of names, entities, nodes and elements are passed over.
 ///
 /// \param name  the file's name, for errors
-/// \throws InputError that names file and line (or byte) if the text is not in one of these formats, promises more than it
-///         holds, has sections twice or too few, an element of order 3 or more or whose nodes are not there, or none of
-///         dimension 2 or 3
+/// \throws InputError that names file and line (or byte) if the text is not in one of these formats, promises
+/// more than it holds, has sections twice or too few, an element of order 3 or more or whose nodes are not
+/// there, or none of dimension 2 or 3
 GmshContents readMsh(const std::string& name, std::string text);
 
 /// Nodes of an element of order 1 or 2 by Gmsh's number of its kind; 0 if it is of higher order or unknown.

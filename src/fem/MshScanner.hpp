@@ -9,8 +9,8 @@
 
 namespace epafi::fem {
 
-/// Reads from the front to the end. Every function throws InputError that names the file and the place in it (line, or byte
-/// of a binary file) if what is asked for is not there.
+/// Reads from the front to the end. Every function throws InputError that names the file and the place in it
+/// (line, or byte of a binary file) if what is asked for is not there.
 class MshScanner {
 public:
   /// \param name  the file's name, for errors

@@ -10,7 +10,8 @@
 namespace epafi::fem {
 namespace {
 
-/// Number of the physical group that a tag names; a negative one means that group, too, seen from the other side.
+/// Number of the physical group that a tag names; a negative one means that group, too, seen from the other
+/// side.
 int groupOfTag(const MshScanner& file, int tag) {
   if (tag == std::numeric_limits<int>::min())
     file.refuse("a physical group has the number " + std::to_string(tag) +
@@ -76,7 +77,8 @@ Header headerOf(MshScanner& file, LocalOrdinal numLeft) {
   return header;
 }
 
-/// The block of a kind and group in format 2.2; `places` says where those before are among the blocks of their dimension.
+/// The block of a kind and group in format 2.2; `places` says where those before are among the blocks of
+/// their dimension.
 MshBlock& blockOf(int type, int group, std::map<std::pair<int, int>, std::size_t>& places,
                   MshRecords& records) {
   const auto dimension = static_cast<std::size_t>(dimensionOfGmsh(type));
@@ -121,8 +123,9 @@ int dimensionIn(MshScanner& file) {
   return dimension;
 }
 
-/// Number, perhaps parent and partitions, extent, groups and, but for points, boundary. Where partitions touch, entities of lower
-/// dimension than their parent have the numbers of its groups, in which they are not.
+/// Number, perhaps parent and partitions, extent, groups and, but for points, boundary. Where partitions
+/// touch, entities of lower dimension than their parent have the numbers of its groups, in which they are
+/// not.
 void readEntity(MshScanner& file, MshRecords& records, std::size_t dimension, bool isPartitioned) {
   const int entity = file.integer();
   bool isInGroups = true;

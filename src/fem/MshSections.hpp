@@ -1,8 +1,8 @@
 #pragma once
 
-/// What the sections of a mesh file say, as they say it. One function a section; each begins behind the section's first line
-/// and ends before its last one. They throw InputError at what does not fit the format, and allocate in proportion to
-/// the file's size, whatever it promises.
+/// What the sections of a mesh file say, as they say it. One function a section; each begins behind the
+/// section's first line and ends before its last one. They throw InputError at what does not fit the format,
+/// and allocate in proportion to the file's size, whatever it promises.
 
 #include "epafi/fem/MshReader.hpp"
 #include "epafi/fem/MshScanner.hpp"
@@ -34,7 +34,8 @@ struct MshRecords {
 /// In both formats: numbers and names of physical groups.
 void readPhysicalNames(MshScanner& file, MshRecords& records);
 
-/// Format 2.2. It has no entities: here the elements of one kind and group, or of the same groups, are one, with a number of its own.
+/// Format 2.2. It has no entities: here the elements of one kind and group, or of the same groups, are one,
+/// with a number of its own.
 /// \param isParametric  whether the section is $ParametricNodes
 void readNodes2(MshScanner& file, MshRecords& records, bool isParametric);
 void readElements2(MshScanner& file, MshRecords& records);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Points sorted into a k-d tree, to find those in a box, or the nearest one, without looking at the others. Made in O(n log n), whatever the
-/// points' distribution; holds 29 bytes a point.
+/// Points sorted into a k-d tree, to find those in a box, or the nearest one, without looking at the others.
+/// Made in O(n log n), whatever the points' distribution; holds 29 bytes a point.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/Mesh.hpp"

@@ -31,8 +31,9 @@ struct RulePoint {
 template <int dim>
 using Rule = std::vector<RulePoint<dim>>;
 
-/// A rule that a simplex's symmetries do not change: the orbits of points with all barycentric coordinates `a` but one, and
-/// (tetrahedra) of those with two of each value. Weights are shares of the reference element's measure.
+/// A rule that a simplex's symmetries do not change: the orbits of points with all barycentric coordinates
+/// `a` but one, and (tetrahedra) of those with two of each value. Weights are shares of the reference
+/// element's measure.
 struct Orbit {
   double a, weight;
   bool isPaired = false; ///< a, a, ½ − a, ½ − a
@@ -77,8 +78,8 @@ Rule<dim> lowDegree(double measure) {
   }
 }
 
-/// Degree 4 on triangles (Strang, Fix 1973), 5 on tetrahedra (Walkington 2000); all weights are positive. None of an edge, where the
-/// other rule is as good.
+/// Degree 4 on triangles (Strang, Fix 1973), 5 on tetrahedra (Walkington 2000); all weights are positive.
+/// None of an edge, where the other rule is as good.
 template <int dim>
 Rule<dim> highDegree(double measure) {
   if constexpr (dim == 1)
@@ -107,7 +108,8 @@ Rule<dim> productRule(const Shape<dim>& shape) {
   return rule;
 }
 
-/// The order's function that is 1 at −1, 0 or 1 (`place` = −1, 0, 1) and 0 at the other nodes, and its derivative.
+/// The order's function that is 1 at −1, 0 or 1 (`place` = −1, 0, 1) and 0 at the other nodes, and its
+/// derivative.
 double along(int order, double place, double x) {
   if (order == 1)
     return 0.5 * (1 + place * x);

@@ -1,15 +1,17 @@
 #pragma once
 
-/// Shape functions of order 1 and 2 on reference elements, with Gauss rules. Two families make all cells and facets; their
-/// nodes are in the order of Cell.hpp:
-///   simplices  0 ≤ ξᵢ, Σξᵢ ≤ 1; corner 0 at the origin, corner i at 1 on axis i    edge, triangle, tetrahedron
-///   bricks     [−1, 1]^dim                                                          quadrilateral, hexahedron
-/// What is written for a dimension holds for all shapes of it: their numbers of nodes are known when the program runs, so that
-/// it is compiled once for each dimension, not for each shape (withShape, withFacetShape).
+/// Shape functions of order 1 and 2 on reference elements, with Gauss rules. Two families make all cells and
+/// facets; their nodes are in the order of Cell.hpp:
+///   simplices 0 ≤ ξᵢ, Σξᵢ ≤ 1; corner 0 at the origin, corner i at 1 on axis i edge, triangle, tetrahedron
+///   bricks [−1, 1]^dim quadrilateral, hexahedron
+/// What is written for a dimension holds for all shapes of it: their numbers of nodes are known when the
+/// program runs, so that it is compiled once for each dimension, not for each shape (withShape,
+/// withFacetShape).
 ///
-/// Two rules: that of *gaussSamples* serves stiffnesses and is exact for them on elements with straight edges (bricks:
-/// parallelepipeds), and for constant strains on curved ones; that of *fineSamples* serves measures, loads and estimates and is exact for squares of shape functions
-/// there, and for what curved edges make of measures and pressures. They are the same where one rule does both.
+/// Two rules: that of *gaussSamples* serves stiffnesses and is exact for them on elements with straight edges
+/// (bricks: parallelepipeds), and for constant strains on curved ones; that of *fineSamples* serves measures,
+/// loads and estimates and is exact for squares of shape functions there, and for what curved edges make of
+/// measures and pressures. They are the same where one rule does both.
 
 #include "epafi/fem/Cell.hpp"
 
@@ -47,11 +49,11 @@ constexpr int power(int base, int exponent) {
 
 /// One shape; see referenceShape.
 ///
-/// Simplices of order 1: N_0 = L_0 = 1 − Σξᵢ, N_i = L_i = ξᵢ; the rule is the centre, for both purposes. Order 2:
-/// L_a(2L_a − 1) at the corners, 4L_aL_b between them; the rules have degrees 2 and 4 (tetrahedron: 3 and 5).
-/// Bricks: products of the order's functions of each ξᵢ. The rule has order + 1 points along each axis, exact for degree
-/// 2 · order + 1 in each ξᵢ: for areas, volumes, constant loads and pressures on elements of any form. Each of its points is the
-/// one next to the node of its number.
+/// Simplices of order 1: N_0 = L_0 = 1 − Σξᵢ, N_i = L_i = ξᵢ; the rule is the centre, for both purposes.
+/// Order 2: L_a(2L_a − 1) at the corners, 4L_aL_b between them; the rules have degrees 2 and 4 (tetrahedron:
+/// 3 and 5). Bricks: products of the order's functions of each ξᵢ. The rule has order + 1 points along each
+/// axis, exact for degree 2 · order + 1 in each ξᵢ: for areas, volumes, constant loads and pressures on
+/// elements of any form. Each of its points is the one next to the node of its number.
 template <int dim>
 class Shape {
 public:
@@ -100,7 +102,8 @@ extern template const Shape<1>& referenceShape(CellType type);
 extern template const Shape<2>& referenceShape(CellType type);
 extern template const Shape<3>& referenceShape(CellType type);
 
-/// action(shape) for the shape of a plane or solid cell, a Shape<2> or Shape<3>. Returns what the action does.
+/// action(shape) for the shape of a plane or solid cell, a Shape<2> or Shape<3>. Returns what the action
+/// does.
 template <class Action>
 decltype(auto) withShape(CellType type, Action&& action) {
   assert(dimensionOf(type) > 1);

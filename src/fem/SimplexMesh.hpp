@@ -1,7 +1,7 @@
 #pragma once
 
-/// A body in triangles or tetrahedra that can be split where it matters: nodes at corners alone, surfaces and groups as marks
-/// that parts inherit, edges that need not be straight.
+/// A body in triangles or tetrahedra that can be split where it matters: nodes at corners alone, surfaces and
+/// groups as marks that parts inherit, edges that need not be straight.
 
 #include "epafi/fem/MeshArrays.hpp"
 
@@ -38,9 +38,9 @@ struct SimplexMesh {
   }
 };
 
-/// The same body in simplices: triangles and tetrahedra as they are, a quadrilateral as two triangles, a hexahedron as six
-/// tetrahedra round its lowest node, faces cut from their lowest node on, the same from both sides. Edges of elements of order
-/// 2 keep their curvature. O(n).
+/// The same body in simplices: triangles and tetrahedra as they are, a quadrilateral as two triangles, a
+/// hexahedron as six tetrahedra round its lowest node, faces cut from their lowest node on, the same from
+/// both sides. Edges of elements of order 2 keep their curvature. O(n).
 SimplexMesh simplicesOf(const Mesh& mesh);
 /// Whether its elements are triangles or tetrahedra, of any order.
 bool isOfSimplices(const Mesh& mesh);
@@ -48,8 +48,9 @@ bool isOfSimplices(const Mesh& mesh);
 /// As a mesh of an order. Elements keep their numbers.
 MeshArrays arraysOf(const SimplexMesh& mesh, int order);
 
-/// Bisects elements at their longest edges, of equal ones that between the higher nodes, and those around them as far as no
-/// node is to hang (Rivara 1984). Parts take over marks; a new node on a curved edge lies on its arc.
+/// Bisects elements at their longest edges, of equal ones that between the higher nodes, and those around
+/// them as far as no node is to hang (Rivara 1984). Parts take over marks; a new node on a curved edge lies
+/// on its arc.
 /// \param times  how often each element is to be split at least: it ends in 2^times parts or more
 /// Returns for each new element the old one of which it is a part.
 std::vector<LocalOrdinal> bisect(SimplexMesh& mesh, std::vector<int> times);

@@ -17,7 +17,8 @@ struct MeshSizes {
   std::vector<double> sizes;  ///< at each of them, > 0
 };
 
-/// Finds the simplex that a point lies in, of those that overlap the one with the smallest size, in a tree of their boxes.
+/// Finds the simplex that a point lies in, of those that overlap the one with the smallest size, in a tree of
+/// their boxes.
 class SizeField {
 public:
   /// Precondition: at least one simplex. Keeps the sizes.

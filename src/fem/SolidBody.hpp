@@ -16,7 +16,8 @@ namespace epafi::fem {
 struct SolidBody {
   const scene::Body& body;
   const Mesh& mesh;
-  /// Corners of every element, from the origin on, where the mesh is structured and all are congruent; else empty.
+  /// Corners of every element, from the origin on, where the mesh is structured and all are congruent; else
+  /// empty.
   std::vector<Point> shape;
 
   SolidBody(const scene::Body& ofScene, const Mesh& itsMesh)
@@ -33,7 +34,8 @@ struct SolidBody {
     bool isMet;
     std::string refusal; ///< a whole sentence
   };
-  /// Refuses the body for what it has no element or node for; of a piece it is noted, since another piece may have it.
+  /// Refuses the body for what it has no element or node for; of a piece it is noted, since another piece may
+  /// have it.
   void require(bool isMet, const std::string& why) const;
   /// What was noted; the same needs in the same order of all pieces.
   [[nodiscard]] const std::vector<Need>& needs() const { return *needs_; }
@@ -41,7 +43,8 @@ struct SolidBody {
   [[nodiscard]] Surface surfaceOf(const std::string& user, const std::string& surface) const;
   /// Ascending. \throws InputError if the mesh has no such group.
   [[nodiscard]] std::vector<GlobalOrdinal> groupOf(const std::string& user, const std::string& group) const;
-  /// Corners of an element up to a shift: what integrals need, and equal to the last bit where elements are congruent.
+  /// Corners of an element up to a shift: what integrals need, and equal to the last bit where elements are
+  /// congruent.
   void cornersOf(GlobalOrdinal element, std::vector<Point>& points) const;
 
 private:

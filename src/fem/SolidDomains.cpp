@@ -16,8 +16,8 @@ bool liesIn(const Point& point, const scene::Box& box, int dimension) {
   return true;
 }
 
-/// The columns, rows or layers whose middle lies in [low, high], the ends and round-off included: the first one, and the
-/// one after the last.
+/// The columns, rows or layers whose middle lies in [low, high], the ends and round-off included: the first
+/// one, and the one after the last.
 std::array<GlobalOrdinal, 2> rangeIn(const StructuredMesh& mesh, std::size_t axis, double low, double high) {
   const double roundOff = 1e-9 * mesh.elementSize()[axis];
   const auto middle = [&](GlobalOrdinal k) {

@@ -15,8 +15,8 @@ namespace epafi::fem {
 class SolidDomain {
 public:
   /// \param user  who asks, such as "region 'core'"; \param group  if empty, the box counts
-  /// \throws InputError if the mesh has no such group, or no element has its centre in the box; of a membrane on a
-  /// rectangle this may be so.
+  /// \throws InputError if the mesh has no such group, or no element has its centre in the box; of a membrane
+  /// on a rectangle this may be so.
   SolidDomain(const SolidBody& body, const std::string& user, const std::string& group,
               const scene::Box& box);
 

@@ -15,7 +15,8 @@
 namespace epafi::fem {
 namespace {
 
-/// ∫N over the part of the segment [a, b] that lies in [low, high], for the functions N of the segment of an order.
+/// ∫N over the part of the segment [a, b] that lies in [low, high], for the functions N of the segment of an
+/// order.
 std::array<double, 3> segmentLoad(double a, double b, double low, double high, int order) {
   const double from = std::max(a, low), to = std::min(b, high);
   if (to <= from)

@@ -14,7 +14,8 @@ namespace epafi::fem {
 
 class SolidLoads {
 public:
-  /// \throws InputError if a load names a surface or a group that is not there, meets no element or, a point load, no node.
+  /// \throws InputError if a load names a surface or a group that is not there, meets no element or, a point
+  /// load, no node.
   SolidLoads(const SolidBody& body, const SolidRegions& regions);
 
   /// Adds nothing: `loads` is overwritten, one column an element, rows node by node.
@@ -32,8 +33,9 @@ private:
     SolidDomain domain;
     scene::Vector3 value;
   };
-  /// The same on what of a structured mesh lies in a box: ∫N over the loaded part of each column, row and layer, for the functions N of one coordinate
-  /// there. Products of the three are the integrals of the elements' shape functions.
+  /// The same on what of a structured mesh lies in a box: ∫N over the loaded part of each column, row and
+  /// layer, for the functions N of one coordinate there. Products of the three are the integrals of the
+  /// elements' shape functions.
   struct GridForce {
     scene::Vector3 value;
     std::array<std::vector<std::array<double, 3>>, 3> shares;

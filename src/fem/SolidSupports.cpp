@@ -31,7 +31,8 @@ struct Known {
 /// Axes held at a node, orthonormal, and how far it is moved along them.
 class HeldAxes {
 public:
-  /// Takes directionᵀu = value in; returns what the axes before say of directionᵀu where they hold it already.
+  /// Takes directionᵀu = value in; returns what the axes before say of directionᵀu where they hold it
+  /// already.
   std::optional<Known> add(const Vector3d& direction, double value) {
     Vector3d rest = direction;
     double known = 0;
@@ -193,8 +194,8 @@ std::vector<GlobalOrdinal> SolidSupports::framedNodes() const {
   return nodes;
 }
 
-std::vector<HeldDirection> SolidSupports::directions(const Mesh& mesh) const {
-  std::vector<HeldDirection> directions;
+std::vector<decomposition::HeldDirection> SolidSupports::directions(const Mesh& mesh) const {
+  std::vector<decomposition::HeldDirection> directions;
   for (const Held& held : held_) {
     const Eigen::Matrix3d* own = frame(held.node);
     directions.push_back({mesh.point(held.node), own != nullptr ? Vector3d(own->col(held.component))

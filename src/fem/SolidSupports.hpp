@@ -1,8 +1,9 @@
 #pragma once
 
-/// What the supports of a body hold: components of nodes, in the axes of space or in a frame of the node's own.
+/// What the supports of a body hold: components of nodes, in the axes of space or in a frame of the node's
+/// own.
 
-#include "epafi/fem/RigidModes.hpp"
+#include "epafi/decomposition/RigidModes.hpp"
 #include "epafi/fem/SolidBody.hpp"
 
 #include <Eigen/Core>
@@ -30,14 +31,15 @@ public:
   /// See BodyModel::prescribed.
   void values(std::span<const GlobalOrdinal> nodes, std::vector<PrescribedValue>& values) const;
 
-  /// The frame of a node, or null where it is the axes of space: a rotation whose columns are the axes of its unknowns.
+  /// The frame of a node, or null where it is the axes of space: a rotation whose columns are the axes of its
+  /// unknowns.
   [[nodiscard]] const Eigen::Matrix3d* frame(GlobalOrdinal node) const;
   /// Nodes with frames, ascending.
   [[nodiscard]] std::vector<GlobalOrdinal> framedNodes() const;
   [[nodiscard]] bool hasFrames() const { return !frames_.empty(); }
 
   /// All that is held, as directions at points.
-  [[nodiscard]] std::vector<HeldDirection> directions(const Mesh& mesh) const;
+  [[nodiscard]] std::vector<decomposition::HeldDirection> directions(const Mesh& mesh) const;
 
 private:
   struct Held {

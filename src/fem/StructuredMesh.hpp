@@ -1,8 +1,9 @@
 #pragma once
 
-/// Structured mesh of quadrilaterals on a rectangle, or of hexahedra on an axis-parallel box, of order p. Nodes are numbered row
-/// by row and layer by layer from the lowest corner, x fastest, then y, then z: node (i,j,k) is
-/// i + (p n_x + 1)(j + (p n_y + 1)k); element (i,j,k) is i + n_x(j + n_y k). Nothing of the mesh's size is stored.
+/// Structured mesh of quadrilaterals on a rectangle, or of hexahedra on an axis-parallel box, of order p.
+/// Nodes are numbered row by row and layer by layer from the lowest corner, x fastest, then y, then z: node
+/// (i,j,k) is i + (p n_x + 1)(j + (p n_y + 1)k); element (i,j,k) is i + n_x(j + n_y k). Nothing of the mesh's
+/// size is stored.
 
 #include "epafi/fem/Mesh.hpp"
 #include "epafi/scene/Body.hpp"
@@ -47,7 +48,8 @@ class StructuredMesh final : public Mesh {
 public:
   /// \param elements  in x, y and z; z: 0 in the plane, where the box's third coordinates do not matter
   /// \param order  1 or 2
-  /// Precondition: elements ≥ 1 in all directions, box of positive and finite size (the scene's validation sees to both).
+  /// Precondition: elements ≥ 1 in all directions, box of positive and finite size (the scene's validation
+  /// sees to both).
   StructuredMesh(const scene::Box& box, const std::array<int, 3>& elements, int order = 1);
 
   [[nodiscard]] const StructuredMesh* structured() const override { return this; }
@@ -65,8 +67,8 @@ public:
   void numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const override;
   void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const override;
   [[nodiscard]] bool isBoundaryNode(GlobalOrdinal node) const override;
-  /// "left" and "right" (lowest and highest x); in the plane "bottom" and "top" (y), in space "front" and "back" (y), "bottom"
-  /// and "top" (z).
+  /// "left" and "right" (lowest and highest x); in the plane "bottom" and "top" (y), in space "front" and
+  /// "back" (y), "bottom" and "top" (z).
   [[nodiscard]] std::vector<std::string> surfaceNames() const override;
   /// Facets in the order of their elements, which ascend.
   [[nodiscard]] Surface surface(const std::string& name) const override;
@@ -79,8 +81,9 @@ public:
   [[nodiscard]] const std::array<int, 3>& elements() const { return elements_; }
   /// In the plane z is 0.
   [[nodiscard]] const scene::Box& box() const { return box_; }
-  /// Lengths of the sides of an element, 0 in z in the plane. All elements are congruent: what depends on size and shape
-  /// alone, such as a stiffness, is the same for all; the coordinates of point() differ from this by round-off only.
+  /// Lengths of the sides of an element, 0 in z in the plane. All elements are congruent: what depends on
+  /// size and shape alone, such as a stiffness, is the same for all; the coordinates of point() differ from
+  /// this by round-off only.
   [[nodiscard]] const scene::Vector3& elementSize() const { return elementSize_; }
   /// Nodes of every element, from its lowest corner on.
   [[nodiscard]] std::vector<Point> elementShape() const;
@@ -104,7 +107,8 @@ private:
   scene::Vector3 elementSize_{0, 0, 0};
 };
 
-/// Nodes of every element, from the origin on, where the mesh is structured and all are congruent; else empty.
+/// Nodes of every element, from the origin on, where the mesh is structured and all are congruent; else
+/// empty.
 std::vector<Point> congruentShape(const Mesh& mesh);
 
 } // namespace epafi::fem

@@ -6,8 +6,8 @@
 namespace epafi::fem {
 namespace {
 
-/// A grid that does not divide the mesh evenly has four shapes of subdomains in the plane, eight in space; shapes and ways
-/// to lie on the body's surfaces make 16 and 64 combinations.
+/// A grid that does not divide the mesh evenly has four shapes of subdomains in the plane, eight in space;
+/// shapes and ways to lie on the body's surfaces make 16 and 64 combinations.
 constexpr std::size_t maxNumberings = 8, maxPatterns = 64;
 /// Numbers of all that is kept: some 10 MB.
 constexpr std::size_t maxNumbers = 1U << 20U;

@@ -31,8 +31,8 @@ struct AssembledSubdomain {
 };
 
 /// Assembles the subdomains of one body. What depends on the connectivity and the supports alone is kept from
-/// one subdomain to the next and used again where both prove equal; every value is added up anew, in the order
-/// of the elements: subdomains that are equal in exact arithmetic are so to the last bit.
+/// one subdomain to the next and used again where both prove equal; every value is added up anew, in the
+/// order of the elements: subdomains that are equal in exact arithmetic are so to the last bit.
 class SubdomainAssembler {
 public:
   /// Keeps a reference.

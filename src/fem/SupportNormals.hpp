@@ -18,11 +18,11 @@ struct NodeNormal {
 
 /// The normals of a surface, by ascending node; several at a node on an edge of the surface.
 ///
-/// Facets that join in nodes and whose normals agree to 1e-6 make one plane, and all its nodes have its one normal, the mean
-/// by area: the rigid motions along it stay free exactly, however the file rounds the points. Where a surface bends, by less
-/// than 40° from facet to facet at a node, a node has the mean of its facets' normals by area, which approximates the
-/// curved surface's normal; planes that meet at more than that are an edge, and hold along both normals.
-/// An axis that a normal meets to 1e-12 is that normal.
+/// Facets that join in nodes and whose normals agree to 1e-6 make one plane, and all its nodes have its one
+/// normal, the mean by area: the rigid motions along it stay free exactly, however the file rounds the
+/// points. Where a surface bends, by less than 40° from facet to facet at a node, a node has the mean of its
+/// facets' normals by area, which approximates the curved surface's normal; planes that meet at more than
+/// that are an edge, and hold along both normals. An axis that a normal meets to 1e-12 is that normal.
 std::vector<NodeNormal> supportNormals(const Mesh& mesh, const Surface& surface);
 
 } // namespace epafi::fem

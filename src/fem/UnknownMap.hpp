@@ -1,8 +1,8 @@
 #pragma once
 
-/// Where a body's unknowns are. They belong to entities of its mesh; a *node* here is a point that carries unknowns, `components`
-/// of them. Shape functions are of the mesh's order, so that the nodes are those of the mesh, and nothing is stored or looked
-/// up beyond it.
+/// Where a body's unknowns are. They belong to entities of its mesh; a *node* here is a point that carries
+/// unknowns, `components` of them. Shape functions are of the mesh's order, so that the nodes are those of
+/// the mesh, and nothing is stored or looked up beyond it.
 
 #include "epafi/fem/Mesh.hpp"
 
@@ -25,7 +25,8 @@ public:
   [[nodiscard]] int nodesPerElement() const { return numNodesOf(mesh_->cellType()); }
   /// Unknowns an element: size of its stiffness.
   [[nodiscard]] int unknownsPerElement() const { return nodesPerElement() * components_; }
-  /// Nodes of elements, one element after the other, in the order of the shape functions; quickest where the elements ascend.
+  /// Nodes of elements, one element after the other, in the order of the shape functions; quickest where the
+  /// elements ascend.
   void elementNodes(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> nodes) const {
     mesh_->elementNodes(elements, nodes);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Mesh of any elements of one shape and order, held as arrays: about 140 bytes a hexahedron or 70 a tetrahedron, all told.
+/// Mesh of any elements of one shape and order, held as arrays: about 140 bytes a hexahedron or 70 a
+/// tetrahedron, all told.
 
 #include "epafi/fem/MeshArrays.hpp"
 #include "epafi/fem/MeshTopology.hpp"
@@ -11,8 +12,9 @@ namespace epafi::fem {
 
 class UnstructuredMesh final : public Mesh {
 public:
-  /// Throws InputError if the mesh is not sound (see checkMesh()), or a facet of a named surface is none of the mesh's
-  /// boundary or listed twice in it. Every error that the mesh can give, it gives here. O(n log n), local.
+  /// Throws InputError if the mesh is not sound (see checkMesh()), or a facet of a named surface is none of
+  /// the mesh's boundary or listed twice in it. Every error that the mesh can give, it gives here. O(n log
+  /// n), local.
   explicit UnstructuredMesh(MeshArrays arrays);
 
   [[nodiscard]] CellType cellType() const override { return arrays_.cellType; }

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Σ B_D S_Δ B_Dᵀ over the subdomains, what a preconditioner of F does at their boundaries: S_Δ is the stiffness of a
-/// subdomain condensed to its boundary, S_ΔΔ (dirichlet), or the block K_ΔΔ of the boundary alone (lumped).
+/// Σ B_D S_Δ B_Dᵀ over the subdomains, what a preconditioner of F does at their boundaries: S_Δ is the
+/// stiffness of a subdomain condensed to its boundary, S_ΔΔ (dirichlet), or the block K_ΔΔ of the boundary
+/// alone (lumped).
 
 #include "epafi/direct/SymmetricBlock.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"
@@ -22,9 +23,8 @@ public:
                          std::shared_ptr<const GeneralizedInverse> inverse, const ScaledConstraint& scaled,
                          const PreconditionerParameters& parameters);
 
-  /// y = Σ B_D S_Δ B_Dᵀ x, all columns in one pass: two neighbour exchanges, one dense product a subdomain and column, or two
-  /// triangular ones with its factor.
-  /// Collective.
+  /// y = Σ B_D S_Δ B_Dᵀ x, all columns in one pass: two neighbour exchanges, one dense product a subdomain
+  /// and column, or two triangular ones with its factor. Collective.
   void apply(const MultiVector& x, MultiVector& y) const;
   /// y = Σ B_D S_Δ u_Δ, u of n_s × 1. Collective.
   void applyTo(const SubdomainVectors& u, Vector& y) const;

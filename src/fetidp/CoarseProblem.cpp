@@ -25,8 +25,8 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 /// Place of a coarse unknown in the matrix.
 using PlaceOf = std::function<int(decomposition::CoarseNumber)>;
 
-/// The ranks that clusters join to this one. Whole bodies stay together: the factor of all is the same to the last digit on any
-/// number of ranks. Collective.
+/// The ranks that clusters join to this one. Whole bodies stay together: the factor of all is the same to the
+/// last digit on any number of ranks. Collective.
 RCP<const Comm> teamOf(const DecomposedProblem& problem) {
   const RCP<const Comm>& all = problem.comm;
   const int rank = all->getRank(), ranks = all->getSize();
@@ -70,8 +70,9 @@ SparseMatrix assemble(const DecomposedProblem& problem, const Comm& comm, int si
   return result;
 }
 
-/// R at the crosspoints: a row has the modes of its cluster, from the first column on, and coarse unknowns of other clusters
-/// have nothing to do with it; and the cluster of each coarse unknown that floats (−1 elsewhere).
+/// R at the crosspoints: a row has the modes of its cluster, from the first column on, and coarse unknowns of
+/// other clusters have nothing to do with it; and the cluster of each coarse unknown that floats (−1
+/// elsewhere).
 struct CoarseKernel {
   Eigen::MatrixXd modes;
   std::vector<int> cluster;
@@ -150,8 +151,9 @@ std::map<int, double> largestStiffness(const DecomposedProblem& problem, const C
   return largest;
 }
 
-/// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness of the same cluster: round-off of its stiff parts
-/// reaches its soft ones, wherever the crosspoints are. Not collective; the same on all ranks.
+/// Throws unless S_cc R_c = 0 to round-off, measured by the largest stiffness of the same cluster: round-off
+/// of its stiff parts reaches its soft ones, wherever the crosspoints are. Not collective; the same on all
+/// ranks.
 void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel,
                    const std::map<int, double>& stiffness) {
   if (kernel.modes.size() == 0)

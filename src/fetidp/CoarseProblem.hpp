@@ -1,15 +1,15 @@
 #pragma once
 
-/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. While it is small every rank
-/// holds it: all factorise and solve it alike, for the price of one message. A large one lies on
-/// rank 0, and the others send their shares and receive their values, by plans built once. Where bodies are of several
-/// clusters (Clusters.hpp), the coarse problem falls apart: ranks whose clusters hang together are a *team* that has the part of these
-/// clusters and sums within itself; a rank that shares no cluster needs no message.
+/// The coarse problem S_cc x_c = z_c on the crosspoint values v_c^g. While it is small every rank holds it:
+/// all factorise and solve it alike, for the price of one message. A large one lies on rank 0, and the others
+/// send their shares and receive their values, by plans built once. Where bodies are of several clusters
+/// (Clusters.hpp), the coarse problem falls apart: ranks whose clusters hang together are a *team* that has
+/// the part of these clusters and sums within itself; a rank that shares no cluster needs no message.
 ///
-/// Where a cluster floats, most often a whole body, S_cc is singular with the known kernel R_c (R at the crosspoints). A generalised
-/// inverse is then S_cc⁺ = (S_cc + τEEᵀ)⁻¹, where E picks as many crosspoint values of every floating cluster as
-/// it has rigid modes, so that EᵀR_c is regular: S S⁺ S = S exactly (Brzobohatý et al., *Int. J. Numer. Meth.
-/// Engng* 88 (2011), fixing nodes).
+/// Where a cluster floats, most often a whole body, S_cc is singular with the known kernel R_c (R at the
+/// crosspoints). A generalised inverse is then S_cc⁺ = (S_cc + τEEᵀ)⁻¹, where E picks as many crosspoint
+/// values of every floating cluster as it has rigid modes, so that EᵀR_c is regular: S S⁺ S = S exactly
+/// (Brzobohatý et al., *Int. J. Numer. Meth. Engng* 88 (2011), fixing nodes).
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
@@ -43,8 +43,9 @@ public:
   /// Whether there is more than one.
   [[nodiscard]] bool isSplit() const { return team_->getSize() < numRanks_; }
   [[nodiscard]] bool isReplicated() const { return !isSplit() && !isOnFirst(); } ///< on all ranks
-  /// X = S_cc⁺ Σ_ranks Z, both of this rank's crosspoints, with the columns of X, one after the other in Z. One sum over
-  /// the team if each of its ranks has the factor, and the same digits then on any number of ranks. Collective over the team.
+  /// X = S_cc⁺ Σ_ranks Z, both of this rank's crosspoints, with the columns of X, one after the other in Z.
+  /// One sum over the team if each of its ranks has the factor, and the same digits then on any number of
+  /// ranks. Collective over the team.
   void solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const;
   /// Of this rank.
   [[nodiscard]] std::size_t factorBytes() const;
@@ -69,8 +70,8 @@ private:
   mutable RCP<MultiVector> first_, mine_; ///< likewise
 };
 
-/// Diagonal of K̄ at some crosspoint values, before anything is eliminated: the yardstick for round-off in S_cc, which vanishes
-/// where a lone subdomain floats.
+/// Diagonal of K̄ at some crosspoint values, before anything is eliminated: the yardstick for round-off in
+/// S_cc, which vanishes where a lone subdomain floats.
 /// \param comm     of the ranks that have the values
 /// \param placeOf  of a coarse unknown among them, or −1
 /// Collective over `comm`.

@@ -1,11 +1,13 @@
 #pragma once
 
-/// One subdomain condensed: K_rr factorised with its boundary last, and what couples boundary and crosspoints.
+/// One subdomain condensed: K_rr factorised with its boundary last, and what couples boundary and
+/// crosspoints.
 ///
 /// The unknowns are remainders r = (I, Δ), of which B touches Δ, and crosspoints c. One factor gives
 ///   S_ΔΔ = K_ΔΔ − K_ΔI K_II⁻¹ K_IΔ,   (K_rr⁻¹)_ΔΔ = S_ΔΔ⁻¹,
 ///   Ψ = K_rr⁻¹ K_rc,                  S = K_cc − K_cr Ψ,
-/// and from these come F's local part, the coarse matrix and the Dirichlet preconditioner (theory: docs/theory.md).
+/// and from these come F's local part, the coarse matrix and the Dirichlet preconditioner (theory:
+/// docs/theory.md).
 
 #include "epafi/direct/SpdFactor.hpp"
 #include "epafi/fetidp/SubdomainInterface.hpp"
@@ -26,7 +28,8 @@ struct CondensedBoundary {
   Eigen::MatrixXd stiffness, flexibility; ///< S_ΔΔ and its inverse, n_Δ × n_Δ
 };
 
-/// Shared by all subdomains that are identical. n_r remainders, n_Δ of them in the boundary, n_c crosspoint values.
+/// Shared by all subdomains that are identical. n_r remainders, n_Δ of them in the boundary, n_c crosspoint
+/// values.
 class CondensedSubdomain {
 public:
   /// \param isShared  whether others are identical: then Ψ is kept for all of them, else Ψ_Δ alone

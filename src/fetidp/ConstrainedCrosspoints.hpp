@@ -1,8 +1,9 @@
 #pragma once
 
-/// How a body follows the crosspoints that contact moves (ContactCrosspoints.hpp) if it keeps adaptive constraints: with the
-/// least energy of all displacements with UᵀB w = 0. Without them a crosspoint's motion tears apart what the constraints hold
-/// together, and the preconditioner, which mends it edge by edge, overrates that motion.
+/// How a body follows the crosspoints that contact moves (ContactCrosspoints.hpp) if it keeps adaptive
+/// constraints: with the least energy of all displacements with UᵀB w = 0. Without them a crosspoint's motion
+/// tears apart what the constraints hold together, and the preconditioner, which mends it edge by edge,
+/// overrates that motion.
 ///
 /// Forces at these crosspoints cause the jumps D⁰ = (J + B_C) Ŝ⁻¹, and with the constraints
 ///   D = P_Uᵀ D⁰,   Ŝ_U⁻¹ = Ŝ⁻¹ − D⁰ᵀU(UᵀFU)⁻¹UᵀD⁰,   J_U = D Ŝ_U − B_C .

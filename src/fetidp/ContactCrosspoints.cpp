@@ -24,8 +24,8 @@ Unknowns unionOverRanks(const Comm& comm, const Unknowns& mine) {
   return unknowns;
 }
 
-/// Coarse unknowns that rows of contact touch, and those that follow faces at their edges' ends, which are added to them; all those
-/// of the clusters that these belong to. Collective over `comm`.
+/// Coarse unknowns that rows of contact touch, and those that follow faces at their edges' ends, which are
+/// added to them; all those of the clusters that these belong to. Collective over `comm`.
 /// \param clusters  of the last ones
 void findUnknowns(const decomposition::DecomposedProblem& problem, const Comm& comm, Unknowns& touched,
                   Unknowns& following, Unknowns& near, std::vector<int>& clusters) {
@@ -112,7 +112,8 @@ void ContactCrosspoints::findBlocks(const std::vector<int>& clusters) {
   nearWork_.resize(mostNear);
 }
 
-/// S_cc⁺ at the near ones, which the touched ones are among; each value from the rank that owns it. A column has one of each cluster.
+/// S_cc⁺ at the near ones, which the touched ones are among; each value from the rank that owns it. A column
+/// has one of each cluster.
 void ContactCrosspoints::fillBlocks(const decomposition::DecomposedProblem& problem,
                                     const GeneralizedInverse& inverse) {
   std::size_t numValues = 0, numColumns = 0;

@@ -1,14 +1,15 @@
 #pragma once
 
-/// The crosspoint values that contact touches. Gluing never asks a crosspoint to move, since its copies agree; contact
-/// does, and the body follows as a whole. A preconditioner made of single subdomains, the others held, would be far too
-/// stiff there: its condition would grow with the number of subdomains along the contact. So the displacement that
-/// contact asks of a body is split: the crosspoints that contact touches move against Ŝ, the stiffness of the whole body
-/// condensed to them (the Schur complement of S_cc), and take all others of the body along (a hierarchical basis, as in
-/// Smith, Widlund, *SIAM J. Sci. Stat. Comput.* 11 (1990)); DualPreconditioner.hpp says what is left for the boundaries.
+/// The crosspoint values that contact touches. Gluing never asks a crosspoint to move, since its copies
+/// agree; contact does, and the body follows as a whole. A preconditioner made of single subdomains, the
+/// others held, would be far too stiff there: its condition would grow with the number of subdomains along
+/// the contact. So the displacement that contact asks of a body is split: the crosspoints that contact
+/// touches move against Ŝ, the stiffness of the whole body condensed to them (the Schur complement of S_cc),
+/// and take all others of the body along (a hierarchical basis, as in Smith, Widlund, *SIAM J. Sci. Stat.
+/// Comput.* 11 (1990)); DualPreconditioner.hpp says what is left for the boundaries.
 ///
-/// Likewise at the borders of clusters, in whose jumps no crosspoint takes part: the averages of the edges that end there move with
-/// the faces around them (EdgeEnds.hpp), as far as no row touches them.
+/// Likewise at the borders of clusters, in whose jumps no crosspoint takes part: the averages of the edges
+/// that end there move with the faces around them (EdgeEnds.hpp), as far as no row touches them.
 
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 
@@ -20,8 +21,8 @@ namespace epafi::fetidp {
 
 class ContactCrosspoints {
 public:
-  /// Those of the clusters of so many ranks. Costs as many coarse solves, sixteen at once, as contact touches crosspoint values of one cluster
-  /// at most.
+  /// Those of the clusters of so many ranks. Costs as many coarse solves, sixteen at once, as contact touches
+  /// crosspoint values of one cluster at most.
   /// \param comm  these ranks: the team of the coarse problem (CoarseProblem.hpp), or all
   /// Collective.
   ContactCrosspoints(const decomposition::DecomposedProblem& problem, const GeneralizedInverse& inverse,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// In which directions contact hinders the rigid motions of the floating bodies: the columns of G̃, without repetitions.
+/// In which directions contact hinders the rigid motions of the floating bodies: the columns of G̃, without
+/// repetitions.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
@@ -14,12 +15,14 @@ namespace epafi::fetidp {
 /// Whether this rank's row (local index in multiplierMap) holds both ways.
 bool isTied(const decomposition::DecomposedProblem& problem, int row);
 
-/// Directions of length 1 in k dimensions, each with a number; those that agree to 1e-9 are one, with the least number.
+/// Directions of length 1 in k dimensions, each with a number; those that agree to 1e-9 are one, with the
+/// least number.
 class DistinctDirections {
 public:
   explicit DistinctDirections(Eigen::Index dimension) : dimension_(dimension) {}
 
-  /// Takes in `direction`/‖direction‖ with `value`/‖direction‖. A direction 0 is left out. Logarithmic in their number.
+  /// Takes in `direction`/‖direction‖ with `value`/‖direction‖. A direction 0 is left out. Logarithmic in
+  /// their number.
   void add(const Eigen::VectorXd& direction, double value);
   /// Takes in those of all ranks. Collective.
   void gather(const Comm& comm);
@@ -37,7 +40,8 @@ private:
       known_; ///< direction and number, by the rounded direction
 };
 
-/// The directions in which rows hinder motions, of ties both, k × (as many as differ): 𝒪(n log n) in the number of rows.
+/// The directions in which rows hinder motions, of ties both, k × (as many as differ): 𝒪(n log n) in the
+/// number of rows.
 /// \param rows  see ProblemScales::hinderingRows
 /// Collective.
 Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,

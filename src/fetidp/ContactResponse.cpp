@@ -50,7 +50,8 @@ public:
       throw UnheldResultant(
           "the load has a resultant on a floating body that its closed contacts cannot take");
   }
-  /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. x becomes 0 off the face. Collective.
+  /// α with G̃_aᵀ α = x on the face, by least squares; 0 for motions that it leaves free. x becomes 0 off the
+  /// face. Collective.
   [[nodiscard]] Eigen::VectorXd motionOf(Vector& x) {
     const std::span<const double> alpha = equality_.fit(x);
     return Eigen::Map<const Eigen::VectorXd>(alpha.data(), static_cast<Eigen::Index>(alpha.size()));
@@ -62,7 +63,8 @@ private:
   qp::FaceEquality equality_;
 };
 
-/// x ↦ Z P A P Z x, Z = 1 on the face and 0 off it. From both sides: of round-off off the face CG would make negative curvature.
+/// x ↦ Z P A P Z x, Z = 1 on the face and 0 off it. From both sides: of round-off off the face CG would make
+/// negative curvature.
 class FaceOperator final : public SymmetricOperator {
 public:
   FaceOperator(RCP<const Operator> a, Face& face)

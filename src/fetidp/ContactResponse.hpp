@@ -1,11 +1,12 @@
 #pragma once
 
-/// How a solution changes with its loads and gaps while contact stays as it is: the linear problem that is left when closed
-/// contacts are joints and open ones are not there,
+/// How a solution changes with its loads and gaps while contact stays as it is: the linear problem that is
+/// left when closed contacts are joints and open ones are not there,
 ///   min ½u̇ᵀKu̇ − ḟᵀu̇  subject to  B_a u̇ = ċ_a,   a: the closed rows of contact, ties and gluing,
-/// the derivative of u(f + sḟ, c + sċ) at s = 0 wherever every closed contact carries force and every open one has room.
-/// Sensitivities, and the dual solutions of error estimates for quantities: by the theorem of the envelope the least energy E
-/// has −dE/ds = ḟᵀu + ċᵀλ, so that data that move with a quantity J = ḟᵀu + ċᵀλ have its dual solution as response.
+/// the derivative of u(f + sḟ, c + sċ) at s = 0 wherever every closed contact carries force and every open
+/// one has room. Sensitivities, and the dual solutions of error estimates for quantities: by the theorem of
+/// the envelope the least energy E has −dE/ds = ḟᵀu + ċᵀλ, so that data that move with a quantity J = ḟᵀu +
+/// ċᵀλ have its dual solution as response.
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/ContactSolution.hpp"
@@ -45,8 +46,8 @@ struct UnknownsResponse {
   qp::SolveReport report;
 };
 
-/// CG on P F_aa P, P = I − G_aᵀG_a, with M restricted to a: equilibrium is held exactly, no outer iteration. Rigid motions that
-/// closed contacts leave free are left out of u̇.
+/// CG on P F_aa P, P = I − G_aᵀG_a, with M restricted to a: equilibrium is held exactly, no outer iteration.
+/// Rigid motions that closed contacts leave free are left out of u̇.
 /// \param closed     1 in the closed rows of contact, 0 in the open ones (ContactSolution::active)
 /// \param tolerance  on ‖residual‖ relative to ‖P d̃‖
 /// Collective. \throws UnheldResultant.

@@ -16,8 +16,9 @@ struct ContactSolution {
   std::vector<Eigen::VectorXd> displacement;
   RCP<Vector>
       multiplier; ///< λ on multiplierMap; a positive λ_I is the force that pushes the bodies apart at a node
-  RCP<Vector>
-      slack; ///< c − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E, times the row's size between clusters
+  /// C − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E, times the row's size
+  /// between clusters
+  RCP<Vector> slack;
   RCP<Vector> active; ///< 1 where contact is closed, 0 elsewhere, on multiplierMap
 
   // How accurate it is, recomputed from u and λ alone; all relative, without units.

@@ -28,7 +28,8 @@ using decomposition::DecomposedProblem;
 using decomposition::OwnedMultiplier;
 using decomposition::RowKind;
 
-/// Displacements may be so many times what overlaps: more, and only what is round-off in a row could make room.
+/// Displacements may be so many times what overlaps: more, and only what is round-off in a row could make
+/// room.
 constexpr double reach = 1e3;
 
 /// By how much u = 0 violates a row.
@@ -71,9 +72,9 @@ double violationOf(const DecomposedProblem& problem, LocalOrdinal row, double ga
                            std::move(names));
 }
 
-/// By how much rows are violated that no displacement can help: those without an unknown, and those that are much shorter than others and far more
-/// violated for their length, whose unknowns are there by round-off of weights. \param norms  of rows
-/// Collective.
+/// By how much rows are violated that no displacement can help: those without an unknown, and those that are
+/// much shorter than others and far more violated for their length, whose unknowns are there by round-off of
+/// weights. \param norms of rows Collective.
 Vector heldRows(const DecomposedProblem& problem, const Vector& norms, double roundOff) {
   const auto gaps = problem.gap->getData(), norm = norms.getData();
   AccurateSum sums[2]; // violation and length of violated rows

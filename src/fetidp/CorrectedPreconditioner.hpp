@@ -2,13 +2,13 @@
 
 /// A preconditioner M ≈ H⁻¹ corrected for a few jumps Y that it overrates: with V = M Y,
 ///   M_V = P M Pᵀ + V(VᵀHV)⁻¹Vᵀ,   P = I − V(VᵀHV)⁻¹VᵀH,
-/// (balancing: Mandel, *Comm. Numer. Methods Engrg.* 9 (1993); its spectrum: Nabben, Vuik, *SIAM J. Sci. Comput.* 27
-/// (2006)). M_V H is 1 on V, and what is left has the spectrum of H deflated by V. Where M ≥ H⁻¹, so is M_V, for
-/// M_V − H⁻¹ = P(M − H⁻¹)Pᵀ.
+/// (balancing: Mandel, *Comm. Numer. Methods Engrg.* 9 (1993); its spectrum: Nabben, Vuik, *SIAM J. Sci.
+/// Comput.* 27 (2006)). M_V H is 1 on V, and what is left has the spectrum of H deflated by V. Where M ≥ H⁻¹,
+/// so is M_V, for M_V − H⁻¹ = P(M − H⁻¹)Pᵀ.
 ///
-/// V may have entries in rows with bounds: H, and with it the problem, stays what it is. In a face M_V is used as any other
-/// preconditioner, restricted to the free set; that is no longer the correction of the restricted M, but it serves
-/// (docs/theory.md, "Jumps of the stiffness", has figures).
+/// V may have entries in rows with bounds: H, and with it the problem, stays what it is. In a face M_V is
+/// used as any other preconditioner, restricted to the free set; that is no longer the correction of the
+/// restricted M, but it serves (docs/theory.md, "Jumps of the stiffness", has figures).
 
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"

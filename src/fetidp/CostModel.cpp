@@ -5,7 +5,8 @@
 namespace epafi::fetidp {
 namespace {
 
-// Measured by `epafi-study scaling` on subdomains with H/h from 8 to 64 (docs/performance.md); within a factor of two.
+// Measured by `epafi-study scaling` on subdomains with H/h from 8 to 64 (docs/performance.md); within a
+// factor of two.
 constexpr double solveRate = 1.3e9;     ///< entries of a factor a second
 constexpr double streamRate = 3e9;      ///< entries of a dense block a second, one vector
 constexpr double productRate = 2.2e10;  ///< multiplications and additions a second, several vectors

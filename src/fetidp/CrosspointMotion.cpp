@@ -81,7 +81,8 @@ void CrosspointMotion::findFollowers() {
   work_.followers.resize(followers_.size());
 }
 
-/// Lets the boundaries that follow one crosspoint value after the other come apart, and constrains that. Collective.
+/// Lets the boundaries that follow one crosspoint value after the other come apart, and constrains that.
+/// Collective.
 void CrosspointMotion::constrain(const decomposition::DecomposedProblem& problem,
                                  const qp::DeflatedOperator& deflated) {
   const auto size = static_cast<std::size_t>(crosspoints_.size());

@@ -1,8 +1,8 @@
 #pragma once
 
-/// What a preconditioner of F does where contact touches crosspoints: these move by u = C λ, C = B_Dᵀ there, against Ŝ, the
-/// others of the body follow, X u (ContactCrosspoints.hpp), and the boundaries too, each subdomain for itself, −Ψ_Δ X u. So
-/// they come apart: they jump by J u.
+/// What a preconditioner of F does where contact touches crosspoints: these move by u = C λ, C = B_Dᵀ there,
+/// against Ŝ, the others of the body follow, X u (ContactCrosspoints.hpp), and the boundaries too, each
+/// subdomain for itself, −Ψ_Δ X u. So they come apart: they jump by J u.
 
 #include "epafi/fetidp/ConstrainedCrosspoints.hpp"
 #include "epafi/fetidp/ContactCrosspoints.hpp"
@@ -27,14 +27,14 @@ public:
                    std::shared_ptr<const GeneralizedInverse> inverse, ContactCrosspoints crosspoints,
                    const ScaledConstraint& scaled, const RCP<const qp::DeflatedOperator>& deflated);
 
-  /// u = C λ, n_C × k on every rank of the crosspoints' comm, and what is left for the boundaries, rest = λ − J u. Two messages, of n_C
-  /// numbers a column in this comm and to the neighbours, one more to these if it is not that of all ranks, and a product with Ψ_Δ a subdomain
-  /// and column. Collective.
+  /// u = C λ, n_C × k on every rank of the crosspoints' comm, and what is left for the boundaries, rest = λ −
+  /// J u. Two messages, of n_C numbers a column in this comm and to the neighbours, one more to these if it
+  /// is not that of all ranks, and a product with Ψ_Δ a subdomain and column. Collective.
   void split(const MultiVector& lambda, Eigen::MatrixXd& u, MultiVector& rest) const;
   /// y += Cᵀ(Ŝ u − Jᵀ y); likewise, with n_N numbers.
   void addForces(const Eigen::MatrixXd& u, MultiVector& y) const;
-  /// y += Cᵀ(Xᵀ(f − K v)_C − Jᵀ y), what crosspoints at rest miss for equilibrium where the bodies are displaced by v
-  /// (n_s × 1); without the first term under adaptive constraints. Collective.
+  /// y += Cᵀ(Xᵀ(f − K v)_C − Jᵀ y), what crosspoints at rest miss for equilibrium where the bodies are
+  /// displaced by v (n_s × 1); without the first term under adaptive constraints. Collective.
   void addForcesAtRest(const decomposition::DecomposedProblem& problem, const SubdomainVectors& v,
                        MultiVector& y) const;
 
@@ -67,8 +67,9 @@ private:
   std::shared_ptr<const GeneralizedInverse> inverse_;
   ContactCrosspoints crosspoints_;
   std::optional<ConstrainedCrosspoints> constrained_; ///< where there are adaptive constraints
-  bool
-      isLocal_; ///< whether the crosspoints are those of some ranks, whose subdomains then have C's rows, not the rows' owners
+  /// Whether the crosspoints are those of some ranks, whose subdomains then have C's rows, not the rows'
+  /// owners
+  bool isLocal_;
   std::vector<ScaledConstraint::CrosspointEntry>
       weights_; ///< C, row by row: of rows on the ghost map if local, else of this rank's
   std::vector<double> inverseShares_; ///< of the rows of this rank: 1/Σ b_i B_D,i over the boundary

@@ -12,9 +12,9 @@
 
 namespace epafi::fetidp {
 
-/// n_λ × n_λ, symmetric; positive definite without floating bodies, else positive definite on Ker G. A product takes all
-/// columns in one pass: two sparse triangular solves or one dense product a subdomain and column, two neighbour exchanges, one
-/// message of the coarse problem's size times the columns.
+/// n_λ × n_λ, symmetric; positive definite without floating bodies, else positive definite on Ker G. A
+/// product takes all columns in one pass: two sparse triangular solves or one dense product a subdomain and
+/// column, two neighbour exchanges, one message of the coarse problem's size times the columns.
 class DualOperator final : public SymmetricOperator {
 public:
   /// Shares the inverse. Collective.

@@ -50,7 +50,8 @@ RCP<const CorrectedPreconditioner> correctedPreconditioner(const DecomposedProbl
       spaceOf(columns, *inverse.multiplierPlan(), *operators.flexibility(), operators.preconditioner.get())));
 }
 
-/// G. What supports and ties hold is out of balance and contradicts itself at once, most often: the cause is told. Collective.
+/// G. What supports and ties hold is out of balance and contradicts itself at once, most often: the cause is
+/// told. Collective.
 RCP<const NaturalCoarseSpace> coarseSpace(const DecomposedProblem& problem,
                                           const std::vector<KernelEntry>& entries) try {
   requireContactForEveryMotion(problem, entries);

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Which algorithm solves the problem in the multipliers, and what its iteration works on, made of the matrices alone: F,
-/// deflated by adaptive constraints, between projectors where bodies float, its norm, and its preconditioner.
+/// Which algorithm solves the problem in the multipliers, and what its iteration works on, made of the
+/// matrices alone: F, deflated by adaptive constraints, between projectors where bodies float, its norm, and
+/// its preconditioner.
 
 #include "epafi/fetidp/CorrectedPreconditioner.hpp"
 #include "epafi/fetidp/DualOperator.hpp"
@@ -23,7 +24,8 @@ namespace epafi::fetidp {
 ///   no multiplier at all   direct solve, nothing to iterate
 ///   no contact             conjugate gradients on F (Belos)
 ///   contact, all supported MPRGP
-///   floating bodies        SMALBE with MPRGP inside, on PFP after the shift by λ̃; or active sets, with Gλ = e held exactly
+///   floating bodies SMALBE with MPRGP inside, on PFP after the shift by λ̃; or active sets, with Gλ = e held
+///   exactly
 enum class Algorithm { direct, conjugateGradient, mprgp, smalbe, activeSets };
 
 /// "Direct", "CG", "MPRGP", "SMALBE-M", "Active sets".
@@ -39,7 +41,8 @@ AlgorithmChoice leastAlgorithm(const decomposition::DecomposedProblem& problem);
 
 /// How the dual problem is solved, and how accurately.
 struct DualParameters {
-  /// Of problems with contact: active sets where bodies float and there is a preconditioner; MPRGP or SMALBE; active sets.
+  /// Of problems with contact: active sets where bodies float and there is a preconditioner; MPRGP or SMALBE;
+  /// active sets.
   enum class Method { automatic, mprgp, activeSets };
   Method method = Method::automatic;
   double tolerance = 1e-6;            ///< on ‖g^P‖ relative to ‖d̃‖ or ‖Pd‖

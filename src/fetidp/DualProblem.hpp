@@ -1,7 +1,7 @@
 #pragma once
 
-/// The problem in the multipliers, min ½λᵀFλ − λᵀd̃ with λ_I ≥ 0 (and Gλ = e where bodies float): the least algorithm that
-/// solves it and what it works on (DualOperators.hpp), and its solves.
+/// The problem in the multipliers, min ½λᵀFλ − λᵀd̃ with λ_I ≥ 0 (and Gλ = e where bodies float): the least
+/// algorithm that solves it and what it works on (DualOperators.hpp), and its solves.
 
 #include "epafi/fetidp/DualOperators.hpp"
 #include "epafi/fetidp/ErrorBalance.hpp"
@@ -17,8 +17,8 @@ namespace epafi::fetidp {
 /// λ and how it came about.
 struct DualSolution {
   RCP<Vector> lambda; ///< on multiplierMap, λ_I ≥ 0
-  /// ‖d̃‖ or ‖Pd‖, with Pᵀd̃ for d̃ where jumps are deflated: what residuals are relative to; the size of its terms if it
-  /// vanishes.
+  /// ‖d̃‖ or ‖Pd‖, with Pᵀd̃ for d̃ where jumps are deflated: what residuals are relative to; the size of its
+  /// terms if it vanishes.
   double reference = 0;
   double errorTarget = 0;   ///< with an ErrorBalance: the algebraic error that was small enough; else 0
   bool isEstimated = false; ///< the last answer of ErrorBalance::estimate was for this λ
@@ -42,16 +42,15 @@ public:
   /// \param start  λ to start from (a warm start), or null for 0
   /// \param observer  told of every step, shown λ where it wants to look; or null
   /// \param balance   if the parameters ask for balance
-  /// \throws SolvabilityError (see Solvability.hpp; also if the iteration proves that contact rows contradict each other),
-  ///         or InputError if a load or gap is not finite.
-  /// Collective.
+  /// \throws SolvabilityError (see Solvability.hpp; also if the iteration proves that contact rows contradict
+  /// each other), or InputError if a load or gap is not finite. Collective.
   DualSolution solve(const Vector* start, qp::Observer* observer,
                      const ErrorBalance* balance = nullptr) const;
 
-  /// λ of a guess of the displacements, to start from: Eᵀ(f − Ku), forces of contact that pull left out. Null without a
-  /// preconditioner of type dirichlet, which it takes.
-  /// \param displacement  u at all positions of each of this rank's subdomains, in space; what counts are the nodes that
-  ///                      subdomains share or contact touches
+  /// λ of a guess of the displacements, to start from: Eᵀ(f − Ku), forces of contact that pull left out. Null
+  /// without a preconditioner of type dirichlet, which it takes.
+  /// \param displacement  u at all positions of each of this rank's subdomains, in space; what counts are the
+  /// nodes that subdomains share or contact touches
   /// Collective.
   [[nodiscard]] RCP<Vector> startFrom(std::span<const Eigen::VectorXd> displacement) const;
 

@@ -31,8 +31,8 @@ namespace {
 
 using decomposition::DecomposedProblem;
 
-/// A fraction of the discretisation error η, of the displacements that go with an iterate. An algebraic error e blurs η by no
-/// more than about its own size: a look with e ≤ η/2 is enough.
+/// A fraction of the discretisation error η, of the displacements that go with an iterate. An algebraic error
+/// e blurs η by no more than about its own size: a look with e ≤ η/2 is enough.
 class BalancedTarget final : public qp::ErrorTarget {
 public:
   /// Keeps references. \param complete  makes λ of an iterate
@@ -90,7 +90,8 @@ private:
   Vector sum_;
 };
 
-/// A new face disturbs the forces between clusters, and these the contact. Membranes' contact hardly feels it.
+/// A new face disturbs the forces between clusters, and these the contact. Membranes' contact hardly feels
+/// it.
 constexpr double reductionWithClusters = 0.02;
 
 /// A right-hand side, and what it is the difference of.
@@ -177,8 +178,8 @@ void IterativeSolve::completeJumps(Vector& lambda) const {
     dual_.deflatedOperator()->complete(*wholeRhs_.values, lambda);
 }
 
-/// Residuals are relative to the size of d̃ or Pd (Balancing.hpp). One that is the round-off of its terms is set to zero, and their size
-/// becomes the measure; returns whether that is so. Collective.
+/// Residuals are relative to the size of d̃ or Pd (Balancing.hpp). One that is the round-off of its terms is
+/// set to zero, and their size becomes the measure; returns whether that is so. Collective.
 bool IterativeSolve::setReference() {
   constexpr double roundOff = 1e-13;
   const bool vanishes = rhs_->normInf() <= roundOff * wholeRhs_.termSize;
@@ -212,7 +213,8 @@ DualSolution IterativeSolve::finished() {
   return std::move(solution_);
 }
 
-/// Refuses constraints that contradict each other: then the objective falls without end along a direction. Collective.
+/// Refuses constraints that contradict each other: then the objective falls without end along a direction.
+/// Collective.
 /// \param maxMultiplications  that are left
 void IterativeSolve::refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications) {
   constexpr int patience = 2000; // products
@@ -240,15 +242,16 @@ void IterativeSolve::goOn(const Method& method, Vector& x, int most) {
   report = std::move(further);
 }
 
-/// Whether another method is to go on: there are products left after one that has used up its own, or that round-off has ended.
+/// Whether another method is to go on: there are products left after one that has used up its own, or that
+/// round-off has ended.
 bool IterativeSolve::isToGoOn() const {
   return (solution_.report.status == qp::Status::maxIterations ||
           solution_.report.status == qp::Status::stagnated) &&
          solution_.report.counts.hessianMultiplications < dual_.operators().mprgp.maxMultiplications;
 }
 
-/// What was chosen first. MPRGP gives way to active sets after so many products that these would most likely be there, and active sets where
-/// their faces do not settle to what always gets there.
+/// What was chosen first. MPRGP gives way to active sets after so many products that these would most likely
+/// be there, and active sets where their faces do not settle to what always gets there.
 /// \param always  MPRGP, or SMALBE
 void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances,
                              Vector& x, qp::Observer* observer, const Method& always) {

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Iterating no further than the mesh is worth: the algebraic error is to be a fraction of the discretisation error, which
-/// somebody who knows the physics estimates from displacements (accuracy/ErrorEstimate.hpp for scenes).
+/// Iterating no further than the mesh is worth: the algebraic error is to be a fraction of the discretisation
+/// error, which somebody who knows the physics estimates from displacements (accuracy/ErrorEstimate.hpp for
+/// scenes).
 
 #include <Eigen/Core>
 
@@ -10,8 +11,9 @@
 
 namespace epafi::fetidp {
 
-/// The discretisation error in the energy norm of displacements at all positions of each of this rank's subdomains, those
-/// of an unfinished iteration, up to a rigid motion of bodies that float. All ranks call it together and get the same value.
+/// The discretisation error in the energy norm of displacements at all positions of each of this rank's
+/// subdomains, those of an unfinished iteration, up to a rigid motion of bodies that float. All ranks call it
+/// together and get the same value.
 using DiscretisationError = std::function<double(std::span<const Eigen::VectorXd> displacement)>;
 
 struct ErrorBalance {
@@ -19,8 +21,8 @@ struct ErrorBalance {
   double fraction = 0.1; ///< of the discretisation error that the algebraic error may be
   double expected =
       0; ///< discretisation error as far as known before, say from a coarser mesh; 0: not at all
-  /// Where nothing is expected: the first look comes once the algebraic error has fallen to this share of the start's. Late looks
-  /// cost a few products, early ones have to be repeated.
+  /// Where nothing is expected: the first look comes once the algebraic error has fallen to this share of the
+  /// start's. Late looks cost a few products, early ones have to be repeated.
   double firstLook = 0.01;
 };
 

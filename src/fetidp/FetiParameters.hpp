@@ -8,7 +8,8 @@
 
 namespace epafi::fetidp {
 
-/// Names of the direct solvers (see direct::availableSolvers), and whether identical subdomains share their factor.
+/// Names of the direct solvers (see direct::availableSolvers), and whether identical subdomains share their
+/// factor.
 struct DirectSolvers {
   std::string subdomains = "CHOLMOD";
   std::string coarse = "CHOLMOD";
@@ -19,8 +20,8 @@ struct DirectSolvers {
 
 /// The form of F.
 struct DualOperatorParameters {
-  /// How a subdomain's part (K_rr⁻¹)_ΔΔ of F is multiplied with: by a pair of sparse triangular solves, by a dense block,
-  /// or by what is less work for so many products.
+  /// How a subdomain's part (K_rr⁻¹)_ΔΔ of F is multiplied with: by a pair of sparse triangular solves, by a
+  /// dense block, or by what is less work for so many products.
   enum class Mode { automatic, implicitSolves, explicitBlocks };
   Mode mode = Mode::automatic;
   int expectedProducts = 40; ///< that a setup must pay off in

@@ -1,7 +1,7 @@
 #pragma once
 
-/// K̄⁺: the inverse, or a generalised inverse, of the stiffness matrix after the crosspoints are merged; and B̄
-/// around it.
+/// K̄⁺: the inverse, or a generalised inverse, of the stiffness matrix after the crosspoints are merged; and
+/// B̄ around it.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/CoarseProblem.hpp"
@@ -31,20 +31,22 @@ public:
   };
 
   /// Factorises the subdomains and the coarse problem. Keeps a reference to `problem`. Collective; throws
-  /// alike on all ranks: Error if a factorisation fails. Precondition: all entries of K and B are finite (ProblemChecks.hpp).
-  /// \param earlier  of the same problem and solvers, before K^s or B changed, or null. What still holds is taken over,
-  ///                 subdomain by subdomain: the factor and the dense block where K^s is the same object and B touches the
-  ///                 same unknowns as before; the symbolic part of the factorisation where the pattern is the same; the
-  ///                 factor of the coarse problem if all factors and the crosspoints are the same on all ranks. Who shares
-  ///                 it keeps a valid inverse; if nobody does, its factors go one by one as they are replaced.
+  /// alike on all ranks: Error if a factorisation fails. Precondition: all entries of K and B are finite
+  /// (ProblemChecks.hpp).
+  /// \param earlier  of the same problem and solvers, before K^s or B changed, or null. What still holds is
+  /// taken over, subdomain by subdomain: the factor and the dense block where K^s is the same object and B
+  /// touches the same unknowns as before; the symbolic part of the factorisation where the pattern is the
+  /// same; the factor of the coarse problem if all factors and the crosspoints are the same on all ranks. Who
+  /// shares it keeps a valid inverse; if nobody does, its factors go one by one as they are replaced.
   GeneralizedInverse(const decomposition::DecomposedProblem& problem, const DirectSolvers& solvers,
                      std::shared_ptr<GeneralizedInverse> earlier = nullptr);
 
   /// Makes dense blocks where the mode asks for them, or where they pay off. Not collective.
   void prepareDual(const DualOperatorParameters& parameters);
 
-  /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap) with k columns, one after the other:
-  /// the sum of `result` over the ranks is Fλ. One message of k times the coarse problem's size. Collective.
+  /// result = B̄ K̄⁺ B̄ᵀ λ, both on this rank's multipliers (multiplierGhostMap) with k columns, one after
+  /// the other: the sum of `result` over the ranks is Fλ. One message of k times the coarse problem's size.
+  /// Collective.
   void applyDual(std::span<const double> lambda, std::span<double> result, int numColumns,
                  Workspace& work) const;
 
@@ -57,7 +59,8 @@ public:
     apply(b, u, 1, work);
   }
 
-  /// u with the crosspoint values of `u` and the others in equilibrium: u_r = K_rr⁻¹(b_r − K_rc u_c). Not collective.
+  /// u with the crosspoint values of `u` and the others in equilibrium: u_r = K_rr⁻¹(b_r − K_rc u_c). Not
+  /// collective.
   void solveRemainders(const SubdomainVectors& b, SubdomainVectors& u, int numColumns, Workspace& work) const;
 
   /// b −= B̄ᵀ λ (λ on the ghost map × k). Not collective.
@@ -65,8 +68,8 @@ public:
   /// result = this rank's part of B̄ u (on the ghost map × k). Not collective.
   void constraint(const SubdomainVectors& u, std::span<double> result) const;
 
-  /// S_cc⁺ of unit forces, at this rank's coarse unknowns. \param unknowns  where they act, for each column; the same on every rank of a team (CoarseProblem.hpp)
-  /// Collective.
+  /// S_cc⁺ of unit forces, at this rank's coarse unknowns. \param unknowns where they act, for each column;
+  /// the same on every rank of a team (CoarseProblem.hpp) Collective.
   [[nodiscard]] Eigen::MatrixXd
   coarseColumns(std::span<const std::vector<decomposition::CoarseNumber>> unknowns) const;
   /// Place of a coarse unknown among this rank's, or −1.

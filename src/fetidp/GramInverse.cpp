@@ -29,8 +29,8 @@ Triplets entriesOf(const Eigen::SparseMatrix<double>& matrix) {
   return entries;
 }
 
-/// What the leader of a group makes for each of its ranks, one after the other; nothing more from the one on that fails, which all are told of.
-/// Collective over `comm`.
+/// What the leader of a group makes for each of its ranks, one after the other; nothing more from the one on
+/// that fails, which all are told of. Collective over `comm`.
 template <class Value, class Make>
 std::vector<Value> ofLeader(const Comm& comm, const RankGroups& groups, const Make& make) {
   const Comm& group = *groups.group();
@@ -58,7 +58,8 @@ std::vector<Value> ofLeader(const Comm& comm, const RankGroups& groups, const Ma
   return mine;
 }
 
-/// How many of P ranks have N and its factor while rows are made: √P, or one of sixteen if these are more, so that none makes more than 16 ranks' rows.
+/// How many of P ranks have N and its factor while rows are made: √P, or one of sixteen if these are more, so
+/// that none makes more than 16 ranks' rows.
 int numLeaders(int ranks) {
   return std::max(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(ranks)))), ranks / 16);
 }

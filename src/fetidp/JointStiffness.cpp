@@ -65,11 +65,12 @@ void forEachTable(Part& part, const Action& action) {
   action(part.motions);
 }
 
-/// Far below what any threshold asks for, and above the round-off of S but where stiffness jumps by orders of magnitude.
+/// Far below what any threshold asks for, and above the round-off of S but where stiffness jumps by orders of
+/// magnitude.
 constexpr double leastSpring = 1e-12;
 
-/// What the subdomains' crosspoints, merged, add to the flexibility: R Rᵀ = H C⁻¹ Hᵀ with H = Σ B_E Ψ_Δ L_c, C = Σ L_cᵀ S L_c; motions
-/// without stiffness meet a spring.
+/// What the subdomains' crosspoints, merged, add to the flexibility: R Rᵀ = H C⁻¹ Hᵀ with H = Σ B_E Ψ_Δ L_c,
+/// C = Σ L_cᵀ S L_c; motions without stiffness meet a spring.
 Eigen::MatrixXd crosspointResponse(const std::vector<JointPart>& parts) {
   std::map<GlobalOrdinal, Eigen::Index> placeOf;
   for (const JointPart& part : parts)
@@ -186,7 +187,8 @@ Eigen::MatrixXd motionsOf(const std::vector<JointPart>& parts) {
 
 namespace {
 
-/// L of M_E = LLᵀ; what jumps of the stiffness leave of its smallest eigenvalues may be round-off, and gets a spring of that size.
+/// L of M_E = LLᵀ; what jumps of the stiffness leave of its smallest eigenvalues may be round-off, and gets a
+/// spring of that size.
 Eigen::MatrixXd preconditionerFactor(const Eigen::MatrixXd& preconditioner) {
   for (const double spring : {0.0, 1e-13, 1e-11, 1e-9}) {
     Eigen::MatrixXd held = preconditioner;

@@ -30,8 +30,9 @@ void maximiseOverRanks(const Import& plan, IntVector& values) {
   values.doImport(owned, plan, Tpetra::INSERT);
 }
 
-/// Numbers of the subdomains that touch each row of this rank, ascending, and behind them `numSubdomains` where one does at a
-/// crosspoint value: the largest first, then the largest of the others, until none is left. Collective.
+/// Numbers of the subdomains that touch each row of this rank, ascending, and behind them `numSubdomains`
+/// where one does at a crosspoint value: the largest first, then the largest of the others, until none is
+/// left. Collective.
 std::vector<std::vector<int>> subdomainsOfRows(const DecomposedProblem& problem, const Import& plan) {
   IntVector largest(plan.getTargetMap()); // number + 1; 0 where there is none
   std::vector<std::vector<int>> subdomains(largest.getLocalLength());
@@ -65,8 +66,8 @@ std::vector<std::vector<int>> subdomainsOfRows(const DecomposedProblem& problem,
   return subdomains;
 }
 
-/// The diagonal of K^s as it is for the values of nodes, n_s. Where unknowns are an average a and deviations, the value of
-/// one node alone is a = 1/n and deviations of −1/n, its own being 1 − 1/n.
+/// The diagonal of K^s as it is for the values of nodes, n_s. Where unknowns are an average a and deviations,
+/// the value of one node alone is a = 1/n and deviations of −1/n, its own being 1 − 1/n.
 Eigen::VectorXd nodalDiagonal(const Subdomain& subdomain) {
   Eigen::VectorXd diagonal = subdomain.stiffness->diagonal();
   for (const decomposition::Average& average : subdomain.averages) {

@@ -1,10 +1,10 @@
 #pragma once
 
-/// G̃ = Rᵀ B̄ᵀ and ẽ = Rᵀ f̄: what the motions R of the floating clusters of subdomains, most often whole bodies, do to the constraints, and
-/// the resultants of the loads on them.
+/// G̃ = Rᵀ B̄ᵀ and ẽ = Rᵀ f̄: what the motions R of the floating clusters of subdomains, most often whole
+/// bodies, do to the constraints, and the resultants of the loads on them.
 ///
-/// The kernel R of a cluster satisfies the gluing inside, so that G̃ has entries in the rows of contact and ties, and in those that
-/// glue clusters, each touching a few clusters: it is kept sparse, by rows of B.
+/// The kernel R of a cluster satisfies the gluing inside, so that G̃ has entries in the rows of contact and
+/// ties, and in those that glue clusters, each touching a few clusters: it is kept sparse, by rows of B.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
@@ -25,8 +25,8 @@ struct KernelEntry {
 /// G̃ᵀ by rows, this rank's. Collective.
 std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem& problem);
 
-/// The same of whole bodies, which gluing does not hold: columns are the bodies' modes. \param entries  see kernelConstraint
-/// Not collective.
+/// The same of whole bodies, which gluing does not hold: columns are the bodies' modes. \param entries see
+/// kernelConstraint Not collective.
 std::vector<KernelEntry> kernelConstraintOfBodies(const decomposition::DecomposedProblem& problem,
                                                   const std::vector<KernelEntry>& entries);
 

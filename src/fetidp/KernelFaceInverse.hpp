@@ -1,15 +1,18 @@
 #pragma once
 
-/// N_F⁻ of N_F = G̃ZG̃ᵀ on a face: Z = 1 where multipliers may move, 0 elsewhere. Only rows of contact leave faces, and so, with E the n of k modes
-/// that contact touches,
+/// N_F⁻ of N_F = G̃ZG̃ᵀ on a face: Z = 1 where multipliers may move, 0 elsewhere. Only rows of contact leave
+/// faces, and so, with E the n of k modes that contact touches,
 ///   N_F = N − E D Eᵀ,   D = Σ gᵢgᵢᵀ over the rows off the face (KernelGram.hpp).
 /// The Schur complement of N on these modes is S = (EᵀN⁻¹E)⁻¹, that of N_F is S_F = S − D, and
 ///   N_F⁻ = N⁻¹ + N⁻¹E K EᵀN⁻¹,   K = S S_F⁻ S − S.
-/// S_F is singular where the face leaves motions of bodies free. With A, modes that no motion of a body leaves at rest (its *anchors*), and δ > 0,
-/// S_δ = S_F + δAAᵀ is not, and S_F x = b is S_δ x = b + δA y with y = Aᵀx:
-///   (I − δAᵀS_δ⁻¹A) y = AᵀS_δ⁻¹ b,   singular just where S_F is, to be solved by a pseudo-inverse: anchors of free motions stay at rest
-/// (Farhat, Géradin, *Int. J. Numer. Meth. Engng* 41 (1998), for floating subdomains). N⁻¹ and S are the same for all faces. Where few contacts hold
-/// many clusters S_F is tiny beside S and the sum cancels: what is lost comes back by iterative refinement, μ += N_F⁻(b − N_F μ).
+/// S_F is singular where the face leaves motions of bodies free. With A, modes that no motion of a body
+/// leaves at rest (its *anchors*), and δ > 0, S_δ = S_F + δAAᵀ is not, and S_F x = b is S_δ x = b + δA y with
+/// y = Aᵀx:
+///   (I − δAᵀS_δ⁻¹A) y = AᵀS_δ⁻¹ b, singular just where S_F is, to be solved by a pseudo-inverse: anchors of
+///   free motions stay at rest
+/// (Farhat, Géradin, *Int. J. Numer. Meth. Engng* 41 (1998), for floating subdomains). N⁻¹ and S are the same
+/// for all faces. Where few contacts hold many clusters S_F is tiny beside S and the sum cancels: what is
+/// lost comes back by iterative refinement, μ += N_F⁻(b − N_F μ).
 
 #include "epafi/fetidp/GramInverse.hpp"
 #include "epafi/fetidp/KernelGram.hpp"
@@ -37,10 +40,11 @@ public:
   KernelFaceInverse(std::shared_ptr<const ContactGram> gram, std::shared_ptr<const GramInverse> inverse,
                     std::shared_ptr<const ContactStiffness> stiffness);
 
-  /// n³/3 operations on every rank, and if N⁻¹ is spread its share of 4n³. One message (ContactGram). Collective.
+  /// n³/3 operations on every rank, and if N⁻¹ is spread its share of 4n³. One message (ContactGram).
+  /// Collective.
   void setFace(const Vector& face) override;
-  /// Two products with N⁻¹ and one with K, by its rows, which are spread where those of N⁻¹ are, or by the factor of S_δ; as many for each refinement; a
-  /// product with N⁻¹ where no row has left. Collective.
+  /// Two products with N⁻¹ and one with K, by its rows, which are spread where those of N⁻¹ are, or by the
+  /// factor of S_δ; as many for each refinement; a product with N⁻¹ where no row has left. Collective.
   void apply(std::span<const double> b, std::span<double> mu) const override;
 
 private:

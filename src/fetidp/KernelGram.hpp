@@ -1,6 +1,7 @@
 #pragma once
 
-/// N = G̃G̃ᵀ, k × k and sparse: a row of B touches few clusters, and so a cluster of subdomains meets its neighbours alone.
+/// N = G̃G̃ᵀ, k × k and sparse: a row of B touches few clusters, and so a cluster of subdomains meets its
+/// neighbours alone.
 
 #include "epafi/base/RankGroups.hpp"
 #include "epafi/fetidp/KernelConstraint.hpp"
@@ -12,7 +13,8 @@
 
 namespace epafi::fetidp {
 
-/// N, lower triangle, the same to the last digit on all ranks that lead a group; without entries on the others.
+/// N, lower triangle, the same to the last digit on all ranks that lead a group; without entries on the
+/// others.
 /// \param entries  see kernelConstraint
 /// Collective.
 Eigen::SparseMatrix<double> kernelGram(const decomposition::DecomposedProblem& problem,
@@ -25,9 +27,11 @@ public:
   ContactGram(const decomposition::DecomposedProblem& problem, const std::vector<KernelEntry>& entries);
 
   [[nodiscard]] const std::vector<int>& modes() const { return modes_; } ///< ascending
-  /// Which of these modes hold the bodies: no motion of a body leaves all its *anchors* at rest. Indices into modes().
+  /// Which of these modes hold the bodies: no motion of a body leaves all its *anchors* at rest. Indices into
+  /// modes().
   [[nodiscard]] const std::vector<int>& anchors() const { return anchors_; }
-  /// Σ gᵢgᵢᵀ over the rows of contact off a face, gᵢ a column of G̃ at these modes, n × n: what N lacks there. The same on every rank.
+  /// Σ gᵢgᵢᵀ over the rows of contact off a face, gᵢ a column of G̃ at these modes, n × n: what N lacks
+  /// there. The same on every rank.
   /// \param face  1 where multipliers may move, else 0; rows of gluing and ties always may
   /// One message of the number of pairs of modes that contact joins. Collective.
   [[nodiscard]] Eigen::MatrixXd offFace(const Vector& face) const;

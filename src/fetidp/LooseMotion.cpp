@@ -25,8 +25,8 @@ ShortestMotion shortestMotion(const Eigen::MatrixXd& c, const Eigen::VectorXd& s
   for (Eigen::Index j = 0; j < dual.x.size(); ++j)
     if (dual.x[j] > least)
       none.excluding.push_back(j);
-  if (!none.excluding
-           .empty()) // a long way along directions that nearly oppose each other: the residual has few digits then
+  // a long way along directions that nearly oppose each other: the residual has few digits then
+  if (!none.excluding.empty())
     if (const Eigen::VectorXd x =
             direct::leastSquares(c(allOf, none.excluding).transpose(), s(none.excluding));
         isAllowed(x))

@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 /// Shares of a motion that are not worth a word.
 constexpr double small = 1e-6;
 
-/// Motions (columns) as lengths, body after body: displacement of its centre, then its rotation times its size; of a body
-/// without known motions the modes' amplitudes.
+/// Motions (columns) as lengths, body after body: displacement of its centre, then its rotation times its
+/// size; of a body without known motions the modes' amplitudes.
 Eigen::MatrixXd coordinatesOf(const DecomposedProblem& problem, const Eigen::MatrixXd& motions) {
   Eigen::MatrixXd coordinates(0, motions.cols());
   for (const Body& body : problem.bodies) {

@@ -12,16 +12,16 @@ namespace epafi::fetidp {
 
 struct MotionWords {
   std::string bodies; ///< that take part: "the floating body 'plate'"
-  /// What they do, such as "slide along x" or "turn about the axis through (0, 1, 0) along z"; of several bodies each with its
-  /// name. Empty where the problem does not say what the modes are.
+  /// What they do, such as "slide along x" or "turn about the axis through (0, 1, 0) along z"; of several
+  /// bodies each with its name. Empty where the problem does not say what the modes are.
   std::string motion;
 };
 
 /// Of a rigid motion α.
 MotionWords wordsOf(const decomposition::DecomposedProblem& problem, const Eigen::VectorXd& motion);
 
-/// All that bodies can do by combinations of some motions (columns), in the simplest ones: "the floating body 'cube' can
-/// slide along x, slide along y, turn about …".
+/// All that bodies can do by combinations of some motions (columns), in the simplest ones: "the floating body
+/// 'cube' can slide along x, slide along y, turn about …".
 /// \param accuracy  shares of a motion below this are 0
 std::string abilitiesOf(const decomposition::DecomposedProblem& problem, const Eigen::MatrixXd& motions,
                         double accuracy = 0);

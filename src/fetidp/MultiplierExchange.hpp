@@ -1,7 +1,7 @@
 #pragma once
 
-/// Between the multipliers that a rank owns and those that its subdomains touch, of several vectors at once. The plan is
-/// built once and shared.
+/// Between the multipliers that a rank owns and those that its subdomains touch, of several vectors at once.
+/// The plan is built once and shared.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
@@ -21,7 +21,8 @@ public:
   explicit MultiplierExchange(RCP<const Import> plan)
       : import_(std::move(plan)), ghost_(rcp(new MultiVector(import_->getTargetMap(), 1))) {}
 
-  /// Brings the owners' values to the ranks that touch them, column after column; valid until the next call. Collective.
+  /// Brings the owners' values to the ranks that touch them, column after column; valid until the next call.
+  /// Collective.
   std::span<const double> toSubdomains(const MultiVector& owned) {
     prepare(owned.getNumVectors());
     ghost_->doImport(owned, *import_, Tpetra::INSERT);

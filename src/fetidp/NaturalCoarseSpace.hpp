@@ -1,8 +1,9 @@
 #pragma once
 
-/// Equilibrium of the floating clusters of subdomains, most often whole bodies: G̃λ = ẽ (KernelConstraint.hpp), a row a motion. The paper's
-/// G = T̃G̃ with GGᵀ = I is not formed: what it is needed for is
-///   Q = GᵀG = G̃ᵀN⁻¹G̃,  P = I − Q,  ‖G̃λ − ẽ‖ = ‖Gλ − e‖ in the metric of N⁻¹,  N = G̃G̃ᵀ (GramInverse.hpp),
+/// Equilibrium of the floating clusters of subdomains, most often whole bodies: G̃λ = ẽ
+/// (KernelConstraint.hpp), a row a motion. The paper's G = T̃G̃ with GGᵀ = I is not formed: what it is needed
+/// for is
+///   Q = GᵀG = G̃ᵀN⁻¹G̃, P = I − Q, ‖G̃λ − ẽ‖ = ‖Gλ − e‖ in the metric of N⁻¹, N = G̃G̃ᵀ (GramInverse.hpp),
 /// and multipliers of G̃'s rows are the motions α of the clusters: G̃ᵀα.
 
 #include "epafi/fetidp/GramInverse.hpp"

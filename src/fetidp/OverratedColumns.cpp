@@ -46,10 +46,10 @@ std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Generali
   std::vector<Joint> all = jointsOf(problem, plan, kind);
   if (parameters.use == AdaptiveConstraintParameters::Use::yes)
     return all;
-  // Where a stiff subdomain touches a stiff one, and soft ones hold them, both would rather move: M, which stretches the
-  // contact alone, knows nothing of it. Scaling takes care of gluing. Membranes do without: they gain with checkerboards and
-  // lose with stripes.
-  // A correction at a contact costs products with F and M as it is made, and active sets on their way to the zone gain less by it.
+  // Where a stiff subdomain touches a stiff one, and soft ones hold them, both would rather move: M, which
+  // stretches the contact alone, knows nothing of it. Scaling takes care of gluing. Membranes do without:
+  // they gain with checkerboards and lose with stripes. A correction at a contact costs products with F and M
+  // as it is made, and active sets on their way to the zone gain less by it.
   constexpr double worthCorrecting = 10; // times the ratio from which on constraints pay
   const double ratio =
       kind == RowKind::contact ? worthCorrecting * parameters.stiffnessRatio : parameters.stiffnessRatio;
@@ -57,8 +57,8 @@ std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const Generali
   if (kind == RowKind::contact && problem.components > 1)
     always = bodiesOfVaryingStiffness(problem, ratio);
   std::vector<bool> varies = stiffnessVaries(problem, plan, all, ratio, always);
-  // What uneven meshes do to the diagonal costs up to a half more products, and constraints as much time as they save: they have to
-  // be cheap in memory.
+  // What uneven meshes do to the diagonal costs up to a half more products, and constraints as much time as
+  // they save: they have to be cheap in memory.
   constexpr double ofMeshes = 10, mostBytes = 1e9;
   if (kind == RowKind::gluing && bytesOfBlocks(problem, inverse, all, varies) > mostBytes)
     varies = stiffnessVaries(problem, plan, all, ofMeshes * ratio);

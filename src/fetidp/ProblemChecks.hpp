@@ -6,8 +6,8 @@
 
 namespace epafi::fetidp {
 
-/// \throws InputError on all ranks that names body and subdomain if an entry of a stiffness matrix is NaN or infinite, or
-/// one of a row of B. An infinite entry on the diagonal would pass for a support. Collective.
+/// \throws InputError on all ranks that names body and subdomain if an entry of a stiffness matrix is NaN or
+/// infinite, or one of a row of B. An infinite entry on the diagonal would pass for a support. Collective.
 void requireFiniteMatrices(const decomposition::DecomposedProblem& problem);
 
 /// The same for loads and gaps. Collective.

@@ -35,7 +35,8 @@ void ProblemScales::measureMotions(const DecomposedProblem& problem) {
 }
 
 void ProblemScales::measureLoads(const DecomposedProblem& problem) {
-  // Forces of prescribed displacements are sums that cancel where these move a body as a whole, or across them.
+  // Forces of prescribed displacements are sums that cancel where these move a body as a whole, or across
+  // them.
   constexpr double left = 1e-5; // times `resultant`: some round-off of the terms
   const std::size_t numClusters = problem.clusters.size();
   std::vector<double> sums(numClusters, 0.0), largest(numClusters + 1, 0.0);

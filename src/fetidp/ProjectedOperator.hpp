@@ -12,8 +12,8 @@
 
 namespace epafi::fetidp {
 
-/// n_λ × n_λ, symmetric positive semidefinite with the kernel Im Gᵀ. A product takes one with F and two messages of k
-/// numbers.
+/// n_λ × n_λ, symmetric positive semidefinite with the kernel Im Gᵀ. A product takes one with F and two
+/// messages of k numbers.
 class ProjectedOperator final : public SymmetricOperator {
 public:
   /// \param dualOperator  F, on the map of the multipliers

@@ -51,11 +51,12 @@ double largestOf(const Subdomain& subdomain, const VectorXd& unknowns) {
   return values.size() > 0 ? values.lpNorm<Eigen::Infinity>() : 0.0;
 }
 
-/// Bodies that meet surfaces whose normals are known but up to their facets. Where all are exact, the linear problem's answer stands. Collective.
+/// Bodies that meet surfaces whose normals are known but up to their facets. Where all are exact, the linear
+/// problem's answer stands. Collective.
 std::vector<double> uncertainBodies(const DecomposedProblem& problem) {
   constexpr double exact = 1e-6; // radians
   std::vector<double> isUncertain(problem.bodies.size(), 0.0);
-  for (const contact::ContactPlace& place : problem.places)
+  for (const decomposition::ContactPlace& place : problem.places)
     if (std::max(place.first.uncertainty, place.second.uncertainty) > exact)
       for (const int body : {place.first.body, place.second.body})
         isUncertain[static_cast<std::size_t>(body)] = 1;

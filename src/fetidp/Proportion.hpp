@@ -8,9 +8,10 @@
 
 namespace epafi::fetidp {
 
-/// \throws SolvabilityError (not unique), the same on all ranks, if a floating body whose motions are known (Body::motions), and which meets
-/// surfaces whose normals are not (ContactPlace::Side::uncertainty), moves almost rigidly by more than its
-/// size, and a hundred times farther than anything is deformed or gaps are wide that closed: something hinders it that does not hold it.
+/// \throws SolvabilityError (not unique), the same on all ranks, if a floating body whose motions are known
+/// (Body::motions), and which meets surfaces whose normals are not (ContactPlace::Side::uncertainty), moves
+/// almost rigidly by more than its size, and a hundred times farther than anything is deformed or gaps are
+/// wide that closed: something hinders it that does not hold it.
 /// \param u       unknowns of this rank's subdomains
 /// \param lambda  forces: gaps closed where they are positive
 /// Collective.

@@ -30,8 +30,8 @@ void slackOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse
   slack.update(1.0, *problem.gap, -1.0);
 }
 
-/// ½uᵀKu − fᵀu over all subdomains. Of u before its rigid part Rα, which has no energy but −ẽᵀα: in the sum it would
-/// only bring round-off, the more the stiffer the body.
+/// ½uᵀKu − fᵀu over all subdomains. Of u before its rigid part Rα, which has no energy but −ẽᵀα: in the sum
+/// it would only bring round-off, the more the stiffer the body.
 double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   AccurateSum energy;
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -44,7 +44,8 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
   return energy.value();
 }
 
-/// Largest |c| of the rows that hold or overlap: the distance of a contact that stays open is no size of the solution. Collective.
+/// Largest |c| of the rows that hold or overlap: the distance of a contact that stays open is no size of the
+/// solution. Collective.
 double largestGap(const DecomposedProblem& problem, const Vector& lambda) {
   const auto gap = problem.gap->getData(), force = lambda.getData();
   double largest = 0;
@@ -135,8 +136,8 @@ public:
       isHeld[i] = isContact(i) && !(force[i] > 0) ? 0.0 : 1.0;
   }
   [[nodiscard]] const Vector& indicator() const { return held_; } ///< 1 where they hold, else 0
-  /// Contacts that pull hold no longer, by more than round-off, and those that penetrate by more than `allowed` do; returns whether there
-  /// are any. Collective.
+  /// Contacts that pull hold no longer, by more than round-off, and those that penetrate by more than
+  /// `allowed` do; returns whether there are any. Collective.
   bool change(const Vector& lambda, const Vector& slack, double allowed) {
     const double leastForce = -1e-9 * lambda.normInf();
     const auto isHeld = held_.getDataNonConst();
@@ -174,8 +175,9 @@ private:
   Vector held_;
 };
 
-/// One step: u, λ and the slack by what follows where the held rows move by what they lack, so that Bu = c there, and the forces of the
-/// others become loads that go away. K(u̇) = −B̄ᵀ(λ̇), so that the energy grows by −½(λ + λ_new)ᵀB̄u̇. Collective.
+/// One step: u, λ and the slack by what follows where the held rows move by what they lack, so that Bu = c
+/// there, and the forces of the others become loads that go away. K(u̇) = −B̄ᵀ(λ̇), so that the energy grows
+/// by −½(λ + λ_new)ᵀB̄u̇. Collective.
 void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u, ContactSolution& solution,
                 qp::SolveReport& report) {
   constexpr double tolerance = 1e-3; // there are more steps
@@ -205,7 +207,8 @@ void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u
   solution.energy -= 0.5 * accurateDot(force, moved);
 }
 
-/// Whether the energy that was followed is that of u: else forces that were large on the way have left u and λ out of balance. Collective.
+/// Whether the energy that was followed is that of u: else forces that were large on the way have left u and
+/// λ out of balance. Collective.
 bool isBalanced(const DecomposedProblem& problem, const SubdomainVectors& u, double energy) {
   constexpr double share = 1e-7, roundOff = 1e-12;
   AccurateSum sums[2]; // uᵀKu, |u|ᵀ|K||u|
@@ -220,8 +223,9 @@ bool isBalanced(const DecomposedProblem& problem, const SubdomainVectors& u, dou
          share * (std::abs(energy) + std::abs(sums[0].value())) + roundOff * sums[1].value();
 }
 
-/// Steps until held rows are open by no more than is allowed, or by the round-off of u: a step is as exact as the last digits that it
-/// starts from. Then rows change until all contacts push and none penetrates; returns whether they do, in balance. Collective.
+/// Steps until held rows are open by no more than is allowed, or by the round-off of u: a step is as exact as
+/// the last digits that it starts from. Then rows change until all contacts push and none penetrates; returns
+/// whether they do, in balance. Collective.
 bool settle(const DualProblem& dual, const Settling& settling, const Vector& sizes, SubdomainVectors& u,
             ContactSolution& solution) {
   constexpr int maxSteps = 60;

@@ -11,8 +11,8 @@
 
 namespace epafi::fetidp {
 
-/// K̄⁺(f̄ − B̄ᵀλ) at all positions of this rank's subdomains, components in space: u but for rigid motions of floating bodies.
-/// Collective.
+/// K̄⁺(f̄ − B̄ᵀλ) at all positions of this rank's subdomains, components in space: u but for rigid motions of
+/// floating bodies. Collective.
 std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda);
 
 /// \param found  λ of `dual` and its reference
@@ -26,9 +26,10 @@ struct AllowedViolation {
   double absolute = 0; ///< 0: as the other says
 };
 
-/// The same, and what round-off leaves open of closed contacts and gluing is closed by responses of their own (ContactResponse.hpp). The last
-/// digit of λ moves a body that hardly anything holds by far more than its own last digit: u = K̄⁺(f̄ − B̄ᵀλ) has then fewer digits
-/// than the sum of what comes first and of what follows. Nothing where that does not end with contacts that all push and with none that penetrates.
+/// The same, and what round-off leaves open of closed contacts and gluing is closed by responses of their own
+/// (ContactResponse.hpp). The last digit of λ moves a body that hardly anything holds by far more than its
+/// own last digit: u = K̄⁺(f̄ − B̄ᵀλ) has then fewer digits than the sum of what comes first and of what
+/// follows. Nothing where that does not end with contacts that all push and with none that penetrates.
 /// \param allowed  what rows may be violated by
 /// \param report        where the products are added, and the status of an end before its time
 /// \param interruption  asked between the responses

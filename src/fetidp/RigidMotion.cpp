@@ -44,8 +44,9 @@ Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& ro
   return normal;
 }
 
-/// How far clusters move until they fit together: the least squares of G̃ᵀα = slack over the rows that glue them, where the
-/// bodies' own motions are left open the one that leaves a cluster of each in its place. Collective.
+/// How far clusters move until they fit together: the least squares of G̃ᵀα = slack over the rows that glue
+/// them, where the bodies' own motions are left open the one that leaves a cluster of each in its place.
+/// Collective.
 Eigen::VectorXd fittedClusters(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
                                const Vector& slack) {
   std::map<int, std::vector<KernelEntry>> rows;
@@ -106,8 +107,8 @@ Closing closing(const DecomposedProblem& problem, const Rows& rows, const std::s
           spectrum.vectors.leftCols(numOpen)};
 }
 
-/// Drops rows whose force is none: those that are none beside the others, and those that close less than their gap, where one of the two is 0
-/// in a solution. Returns whether there are any. Collective.
+/// Drops rows whose force is none: those that are none beside the others, and those that close less than
+/// their gap, where one of the two is 0 in a solution. Returns whether there are any. Collective.
 bool dropIdleRows(const DecomposedProblem& problem, const Rows& rows, const Vector& lambda,
                   const Vector& slack, const RestCheck& check, const Eigen::VectorXd& alpha,
                   std::set<int>& holding) {
@@ -122,7 +123,8 @@ bool dropIdleRows(const DecomposedProblem& problem, const Rows& rows, const Vect
   return holdsAnywhere(*problem.comm, dropped > 0);
 }
 
-/// What is left to contacts beside those that hold, directions of length 1 and the room along them. Collective.
+/// What is left to contacts beside those that hold, directions of length 1 and the room along them.
+/// Collective.
 DistinctDirections roomOf(const DecomposedProblem& problem, const Rows& rows, const Vector& slack,
                           const Eigen::VectorXd& alpha, double length) {
   const auto gap = slack.getData();
@@ -155,9 +157,9 @@ Eigen::MatrixXd acrossLoads(const DecomposedProblem& problem, const ProblemScale
   return open * direct::orthogonalComplement(works);
 }
 
-/// Small forces may be what the iteration has left of none, however well it has converged. Whether they are does not need their values: a
-/// motion β that ties and the larger forces allow, that opens no contact's other side, and that the loads do not work on, 0 = ẽᵀβ = Σ λ_i G̃_iᵀβ, opens only
-/// contacts without force.
+/// Small forces may be what the iteration has left of none, however well it has converged. Whether they are
+/// does not need their values: a motion β that ties and the larger forces allow, that opens no contact's
+/// other side, and that the loads do not work on, 0 = ẽᵀβ = Σ λ_i G̃_iᵀβ, opens only contacts without force.
 void refuseUnpressed(const DecomposedProblem& problem, const Rows& rows, const ProblemScales& scales,
                      const Vector& lambda, const Vector& slack, const RestCheck& check,
                      const Eigen::VectorXd& alpha, double length) {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// Rows of B by themselves: whether they can hold together at all is a matter of what they share, not of stiffness.
+/// Rows of B by themselves: whether they can hold together at all is a matter of what they share, not of
+/// stiffness.
 
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
@@ -18,8 +19,8 @@ public:
   /// Keeps a reference. Collective.
   explicit RowProducts(const decomposition::DecomposedProblem& problem);
 
-  /// Bᵀλ, n_s of each of this rank's subdomains; copies of a crosspoint have the sum. \param isMagnitude  |B|ᵀ|λ| instead
-  /// Collective.
+  /// Bᵀλ, n_s of each of this rank's subdomains; copies of a crosspoint have the sum. \param isMagnitude
+  /// |B|ᵀ|λ| instead Collective.
   [[nodiscard]] const std::vector<Eigen::VectorXd>& forces(const Vector& lambda,
                                                            bool isMagnitude = false) const;
   /// y = BBᵀλ. Collective.

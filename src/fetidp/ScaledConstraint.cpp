@@ -12,7 +12,8 @@ using decomposition::Subdomain;
 ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem,
                                  const ContactCrosspoints& crosspoints,
                                  PreconditionerParameters::Scaling scaling, const RCP<const Import>& plan) {
-  // B has an entry for one copy of each crosspoint value that contact touches, whose own stiffness may be far from that of all.
+  // B has an entry for one copy of each crosspoint value that contact touches, whose own stiffness may be far
+  // from that of all.
   const Eigen::VectorXd atCrosspoints =
       crosspointDiagonal(problem, *crosspoints.comm(), crosspoints.size(),
                          [&](GlobalOrdinal unknown) { return crosspoints.indexOf(unknown); });

@@ -2,10 +2,10 @@
 
 /// B_D, the matrix B with its entries scaled row by row,
 ///   b_i → (b_i/δ_i) / Σ_k b_k²/δ_k,
-/// k over all entries of the row, or, where rows share unknowns, over those that are its own (SharedRows.hpp): then
-/// B B_Dᵀ = I there too;
-/// δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at crosspoints, of K̄) for stiffness (ρ) scaling: what takes
-/// multipliers to displacements in preconditioners of F (Klawonn, Widlund, *Comm. Pure Appl. Math.* 54 (2001)).
+/// k over all entries of the row, or, where rows share unknowns, over those that are its own
+/// (SharedRows.hpp): then B B_Dᵀ = I there too; δ = 1 for multiplicity scaling, δ = the diagonal of K^s (at
+/// crosspoints, of K̄) for stiffness (ρ) scaling: what takes multipliers to displacements in preconditioners
+/// of F (Klawonn, Widlund, *Comm. Pure Appl. Math.* 54 (2001)).
 
 #include "epafi/fetidp/ContactCrosspoints.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"
@@ -16,8 +16,8 @@
 namespace epafi::fetidp {
 
 struct ScaledConstraint {
-  /// What moves a crosspoint, an entry there or a share of one on a face at its edge's end: multiplier (ghost map), index in
-  /// ContactCrosspoints, value.
+  /// What moves a crosspoint, an entry there or a share of one on a face at its edge's end: multiplier (ghost
+  /// map), index in ContactCrosspoints, value.
   struct CrosspointEntry {
     int multiplier, touched;
     double weight;

@@ -14,7 +14,8 @@ namespace epafi::fetidp {
 
 namespace {
 
-/// Entries of its own must make up this share of a row, Σb² over them beside Σb²: less is another row but for round-off.
+/// Entries of its own must make up this share of a row, Σb² over them beside Σb²: less is another row but for
+/// round-off.
 constexpr double leastOwnShare = 0.1;
 
 } // namespace

@@ -27,13 +27,13 @@ constexpr double safety = 1.5, roundOff = 1e-6;
 /// A place that sees a motion by more than this times its noise is no noise.
 constexpr double clearly = 3;
 
-/// Whose normals count. Where one body's surface slides along itself, it does so against whatever faces it: the other one's normals
-/// are then no matter. The mean is for motions that are such at some places by one side, at others by the other: it is off by no more than half the
-/// angle between the two.
+/// Whose normals count. Where one body's surface slides along itself, it does so against whatever faces it:
+/// the other one's normals are then no matter. The mean is for motions that are such at some places by one
+/// side, at others by the other: it is off by no more than half the angle between the two.
 enum class Sides { first, second, mean };
 
 /// A normal divided by its noise.
-Eigen::Vector3d normalByNoise(const contact::ContactPlace& place, Sides sides) {
+Eigen::Vector3d normalByNoise(const decomposition::ContactPlace& place, Sides sides) {
   const auto scaled = [](const Eigen::Vector3d& normal, double uncertainty) -> Eigen::Vector3d {
     return normal / (safety * uncertainty + roundOff);
   };
@@ -46,11 +46,12 @@ Eigen::Vector3d normalByNoise(const contact::ContactPlace& place, Sides sides) {
   return scaled((a + b).normalized(), 0.5 * (apart + place.first.uncertainty + place.second.uncertainty));
 }
 
-/// How the bodies' modes move the sides of a place against each other, and what it sees of that in units of its noise.
+/// How the bodies' modes move the sides of a place against each other, and what it sees of that in units of
+/// its noise.
 class Sight {
 public:
   /// Nothing if a body floats in modes that nobody knows.
-  static std::optional<Sight> of(const DecomposedProblem& problem, const contact::ContactPlace& place,
+  static std::optional<Sight> of(const DecomposedProblem& problem, const decomposition::ContactPlace& place,
                                  const VectorXd& units, Sides sides) {
     Sight sight;
     sight.normal_ = normalByNoise(place, sides);
@@ -104,7 +105,7 @@ public:
            const std::function<bool(int)>& counts, Sides sides)
       : comm_(*problem.comm) {
     std::map<int, VectorXd> others = rows;
-    for (const contact::ContactPlace& place : problem.places) {
+    for (const decomposition::ContactPlace& place : problem.places) {
       const int row = problem.multiplierMap->getLocalElement(place.row);
       if (rows.count(row) == 0 || !counts(row))
         continue;

@@ -88,7 +88,8 @@ void refuseFreeMotion(const RigidBalance& balance, const Eigen::MatrixXd& free) 
            " without meeting a support or a contact; add a support or a contact pair");
 }
 
-/// The same of motions that nothing but the facets of smooth surfaces hinders: where they lead to is the mesh's.
+/// The same of motions that nothing but the facets of smooth surfaces hinders: where they lead to is the
+/// mesh's.
 void refuseSlippingMotion(const RigidBalance& balance) {
   const Eigen::MatrixXd slipping =
       slippingMotions(balance.problem, balance.rows, balance.scales.motions(), [](int) { return true; });
@@ -99,8 +100,8 @@ void refuseSlippingMotion(const RigidBalance& balance) {
            facetsAlone);
 }
 
-/// Is ẽ in the cone of the directions? With each body's modes measured by the loads on it and the directions of length 1 again:
-/// neither changes the answer, but a heavy body does not hide a light one.
+/// Is ẽ in the cone of the directions? With each body's modes measured by the loads on it and the directions
+/// of length 1 again: neither changes the answer, but a heavy body does not hide a light one.
 struct ScaledCone {
   Eigen::VectorXd unit;       ///< by which a mode's resultant is divided
   Eigen::MatrixXd directions; ///< k × (as many as differ)
@@ -112,8 +113,8 @@ struct ScaledCone {
     resultant = balance.load.cwiseQuotient(unit);
   }
 
-  /// What of `target` no forces x ≥ 0 along the directions can balance: 0 where it is below the tolerance or within
-  /// round-off of the forces that pass through.
+  /// What of `target` no forces x ≥ 0 along the directions can balance: 0 where it is below the tolerance or
+  /// within round-off of the forces that pass through.
   [[nodiscard]] Eigen::VectorXd imbalance(const Eigen::VectorXd& target) const {
     const direct::NonNegativeSolution forces = direct::nonNegativeLeastSquares(directions, target);
     const Eigen::ArrayXd passing = (directions.cwiseAbs() * forces.x).array();
@@ -121,7 +122,8 @@ struct ScaledCone {
         .select(0.0, forces.residual.array());
   }
 
-  /// A motion β that opens contacts or leaves them as they are, directionsᵀβ ≤ 0, without work of the loads: ẽ is not in the cone's interior then.
+  /// A motion β that opens contacts or leaves them as they are, directionsᵀβ ≤ 0, without work of the loads:
+  /// ẽ is not in the cone's interior then.
   [[nodiscard]] std::optional<Eigen::VectorXd> looseMotion() const {
     const Eigen::VectorXd works =
         (resultant.array().abs() <= ProblemScales::resultant).select(0.0, resultant.array());

@@ -13,13 +13,13 @@
 
 namespace epafi::fetidp {
 
-/// Throws SolvabilityError, the same on all ranks, that names the body and the reason if
-///  - a rigid motion of the floating bodies meets no contact at all (no solution, or not unique),
-///  - the load pulls, turns or tips a floating body off its contacts (no solution),
-///  - the load on it has no resultant against its contacts, or against a motion that they do not hinder, such as one that
+/// Throws SolvabilityError, the same on all ranks, that names the body and the reason if - a rigid motion of
+/// the floating bodies meets no contact at all (no solution, or not unique), - the load pulls, turns or tips
+/// a floating body off its contacts (no solution), - the load on it has no resultant against its contacts, or
+/// against a motion that they do not hinder, such as one that
 ///    acts exactly above the edge of the base (not unique).
-/// Bodies whose modes are known as motions in space (Body::motions) are said to slide or turn, with direction and axis.
-/// What is small is so beside the problem's scales (ProblemScales.hpp).
+/// Bodies whose modes are known as motions in space (Body::motions) are said to slide or turn, with direction
+/// and axis. What is small is so beside the problem's scales (ProblemScales.hpp).
 /// \param entries  this rank's rows of G̃ᵀ, see kernelConstraint
 /// Collective.
 void requireUniqueSolution(const decomposition::DecomposedProblem& problem,

@@ -141,8 +141,8 @@ void SubdomainGroup::applyFlexibility(std::span<const double> lambda, std::span<
     solveForBoundary(work);
 }
 
-/// Number of columns, of those left, that are solved for at once; makes their work space, 0 in columns to spare. A
-/// shared factor always gets as many columns: CHOLMOD adds in another order for fewer.
+/// Number of columns, of those left, that are solved for at once; makes their work space, 0 in columns to
+/// spare. A shared factor always gets as many columns: CHOLMOD adds in another order for fewer.
 Eigen::Index SubdomainGroup::prepareBatch(Eigen::Index numLeft, Workspace& work) const {
   const Eigen::Index columns = std::min(batch, numLeft);
   const Eigen::Index width = use_ == direct::SymmetricBlock::Use::alone ? columns : batch;

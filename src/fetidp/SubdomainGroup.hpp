@@ -1,7 +1,7 @@
 #pragma once
 
-/// Identical subdomains of one rank, worked on together: one factor, one condensed block, and products with all of
-/// them at once as one matrix–matrix product.
+/// Identical subdomains of one rank, worked on together: one factor, one condensed block, and products with
+/// all of them at once as one matrix–matrix product.
 ///
 /// With B = [B_Δ B_C] and Ψ, S as in CondensedSubdomain.hpp the dual operator is
 ///   F = Σ B_Δ (K_rr⁻¹)_ΔΔ B_Δᵀ + (Σ W L_c) S_cc⁺ (Σ W L_c)ᵀ,   W = B_c − B_Δ Ψ_Δ,   S_cc = Σ L_cᵀ S L_c.
@@ -16,8 +16,8 @@
 
 namespace epafi::fetidp {
 
-/// An entry of B, or of a matrix with B's pattern, in a group: multiplier (ghost map), place in the members' boundary values
-/// (n_Δ × m) or crosspoint values (n_c × m), column by column, value.
+/// An entry of B, or of a matrix with B's pattern, in a group: multiplier (ghost map), place in the members'
+/// boundary values (n_Δ × m) or crosspoint values (n_c × m), column by column, value.
 struct InterfaceEntry {
   int multiplier, place;
   double coefficient;
@@ -30,9 +30,10 @@ void addTransposed(std::span<const InterfaceEntry> b, std::span<const double> la
 void addProduct(std::span<const InterfaceEntry> b, const Eigen::MatrixXd& values, Eigen::Index numColumns,
                 std::span<double> result);
 
-/// m members; n_r, n_Δ, n_c as in CondensedSubdomain. What is multiplied or solved for has k ≥ 1 columns; multipliers and
-/// coarse unknowns lie column by column. Products leave the group as it is: whoever multiplies owns the work space, which
-/// also carries the first half of a product to the second. Nothing here is collective.
+/// m members; n_r, n_Δ, n_c as in CondensedSubdomain. What is multiplied or solved for has k ≥ 1 columns;
+/// multipliers and coarse unknowns lie column by column. Products leave the group as it is: whoever
+/// multiplies owns the work space, which also carries the first half of a product to the second. Nothing here
+/// is collective.
 class SubdomainGroup {
 public:
   /// Of one product at a time; sized by the first half.
@@ -47,9 +48,9 @@ public:
 
   /// \param identical    see groupIdentical; at least one
   /// \param crosspoints  this rank's coarse unknowns, ascending: `coarse` below is numbered like them
-  /// \param previous     a group of earlier times, before K^s or B changed, or null: what still holds of its factor and its
-  ///                     block is used again
-  /// Keeps a reference to `subdomains`, which must outlive it. \throws Error if the factorisation fails.
+  /// \param previous  a group of earlier times, before K^s or B changed, or null: what still holds of its
+  /// factor and its block is used again Keeps a reference to `subdomains`, which must outlive it. \throws
+  /// Error if the factorisation fails.
   SubdomainGroup(const std::vector<decomposition::Subdomain>& subdomains, IdenticalSubdomains identical,
                  std::span<const decomposition::CoarseNumber> crosspoints, direct::Factorizer& factorizer,
                  const SubdomainGroup* previous = nullptr);
@@ -58,7 +59,8 @@ public:
   [[nodiscard]] std::span<const std::size_t> members() const { return members_; }
   /// How many are like the members, they included.
   [[nodiscard]] int numOnAllRanks() const { return numOnAllRanks_; }
-  /// How dense blocks of the group are used: the same on any number of ranks, and with it the last digit of products.
+  /// How dense blocks of the group are used: the same on any number of ranks, and with it the last digit of
+  /// products.
   [[nodiscard]] direct::SymmetricBlock::Use use() const { return use_; }
   /// Global coarse index of each crosspoint value of a member.
   [[nodiscard]] std::span<const decomposition::CoarseNumber> crosspointIndices(std::size_t member) const {
@@ -70,14 +72,16 @@ public:
   /// From now on (K_rr⁻¹)_ΔΔ is a dense block, not a pair of solves with the end of its factor.
   void makeExplicit();
   [[nodiscard]] bool isExplicit() const { return isExplicit_; }
-  /// S_ΔΔ and its inverse. A subdomain alone keeps them as blocks, for F and for preconditioners: they are there.
+  /// S_ΔΔ and its inverse. A subdomain alone keeps them as blocks, for F and for preconditioners: they are
+  /// there.
   [[nodiscard]] CondensedBoundary condensedBoundary();
   /// Whether both work with one factor.
   [[nodiscard]] bool sharesFactorWith(const SubdomainGroup& other) const {
     return condensed_ == other.condensed_;
   }
 
-  /// S_ΔΔ as a dense block for preconditioners, made when it is first asked for, and kept as long as the factor is.
+  /// S_ΔΔ as a dense block for preconditioners, made when it is first asked for, and kept as long as the
+  /// factor is.
   [[nodiscard]] std::shared_ptr<const direct::SymmetricBlock>
   boundaryStiffness(direct::SymmetricBlock::Precision precision) const;
 
@@ -99,7 +103,8 @@ public:
   void substitute(const Eigen::MatrixXd& coarse, const std::vector<Eigen::MatrixXd>& b,
                   std::vector<Eigen::MatrixXd>& u, Workspace& work) const;
 
-  /// x_c of the members' crosspoint values, which agree. \param coarse  this rank's coarse unknowns, with as many columns
+  /// x_c of the members' crosspoint values, which agree. \param coarse this rank's coarse unknowns, with as
+  /// many columns
   void takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eigen::MatrixXd& coarse) const;
 
   /// b −= Bᵀ λ in the members. \param lambda  on the ghost map × k

@@ -30,8 +30,9 @@ struct IdenticalSubdomains {
   [[nodiscard]] bool isShared() const { return numOnAllRanks > 1; }
 };
 
-/// This rank's subdomains in groups of identical ones: equal K^s, equal remainders and crosspoints, equal interface, all
-/// compared number by number. What does not enter the factors (loads, gaps, places) may differ.
+/// This rank's subdomains in groups of identical ones: equal K^s, equal remainders and crosspoints, equal
+/// interface, all compared number by number. What does not enter the factors (loads, gaps, places) may
+/// differ.
 /// \param share  false: every subdomain is a group of its own
 /// Returns the groups in the order of their first members. Collective.
 std::vector<IdenticalSubdomains> groupIdentical(const decomposition::DecomposedProblem& problem, bool share);

@@ -89,8 +89,8 @@ void BddcPreconditioner::multiply(const MultiVector& x, MultiVector& y) const {
   k_->copyIdentity(x, y);
 }
 
-/// The forces t = −K_ΔI K_II⁻¹ f_I that interiors pass on to their boundaries: K_rr w = (f_I, 0) moves a boundary, and t = S w_Δ
-/// holds it.
+/// The forces t = −K_ΔI K_II⁻¹ f_I that interiors pass on to their boundaries: K_rr w = (f_I, 0) moves a
+/// boundary, and t = S w_Δ holds it.
 void BddcPreconditioner::condenseInteriors(int numColumns) const {
   local_.resize(forces_.size());
   values_.resize(forces_.size());
@@ -105,8 +105,8 @@ void BddcPreconditioner::condenseInteriors(int numColumns) const {
   k_->exchange().toSubdomains(*sum_, shared_);
 }
 
-/// Each subdomain gets its share of the forces at boundaries and crosspoints. On the boundary t is taken off again, for K̄⁻¹
-/// condenses the interiors once more: f_Δ = D(f + Σt) − t.
+/// Each subdomain gets its share of the forces at boundaries and crosspoints. On the boundary t is taken off
+/// again, for K̄⁻¹ condenses the interiors once more: f_Δ = D(f + Σt) − t.
 void BddcPreconditioner::shareOut() const {
   const std::vector<Subdomain>& subdomains = k_->problem().subdomains;
   for (std::size_t s = 0; s < forces_.size(); ++s) {
@@ -128,7 +128,8 @@ void BddcPreconditioner::average() const {
   k_->exchange().toSubdomains(*sum_, shared_);
 }
 
-/// Boundaries go to their means, and interiors follow: by K_rr⁻¹ of the forces S δ that move the boundary by δ.
+/// Boundaries go to their means, and interiors follow: by K_rr⁻¹ of the forces S δ that move the boundary by
+/// δ.
 void BddcPreconditioner::extendIntoInteriors(int numColumns) const {
   for (std::size_t s = 0; s < values_.size(); ++s)
     local_[s] = shared_[s] - values_[s];

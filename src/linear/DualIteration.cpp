@@ -11,8 +11,8 @@
 namespace epafi::linear {
 namespace {
 
-/// Passes when every column has met its goal, when one has met it so far that its steps would soon divide zero by zero, or at the
-/// limit.
+/// Passes when every column has met its goal, when one has met it so far that its steps would soon divide
+/// zero by zero, or at the limit.
 class PrimalGoal final : public qp::BelosTest {
 public:
   PrimalGoal(PrimalResidual& primal, std::vector<double> goals, int maxSteps)

@@ -145,7 +145,8 @@ LinearReport FetiDpSolver::solve(const MultiVector& b, MultiVector& x, double to
   return report;
 }
 
-/// Corrects the columns that are open, as far as that is of use; returns whether the residual of one has fallen by half.
+/// Corrects the columns that are open, as far as that is of use; returns whether the residual of one has
+/// fallen by half.
 bool FetiDpSolver::improve(Columns& columns, int maxSteps, DualOutcome& outcome) {
   const std::vector<std::size_t> open = columns.open();
   const auto indices = Teuchos::arrayViewFromVector(open);

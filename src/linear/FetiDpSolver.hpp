@@ -1,7 +1,7 @@
 #pragma once
 
-/// K u = b by FETI-DP: conjugate gradients on F with a Dirichlet preconditioner, and u from λ. A linear problem without contact;
-/// contact is for ContactSolver.
+/// K u = b by FETI-DP: conjugate gradients on F with a Dirichlet preconditioner, and u from λ. A linear
+/// problem without contact; contact is for ContactSolver.
 
 #include "epafi/fetidp/DualProblem.hpp"
 #include "epafi/linear/DualIteration.hpp"
@@ -31,13 +31,13 @@ enum class ResidualReference { rightHandSide, startResidual };
 class FetiDpSolver {
 public:
   /// Factorises; shares k. Collective.
-  /// \throws InputError if the problem has rows of contact or an entry that is no finite number, SolvabilityError (not unique)
-  /// if a body floats, Error if a factorisation fails; the same on all ranks.
+  /// \throws InputError if the problem has rows of contact or an entry that is no finite number,
+  /// SolvabilityError (not unique) if a body floats, Error if a factorisation fails; the same on all ranks.
   FetiDpSolver(RCP<const UnassembledOperator> k, const FetiDpParameters& parameters);
 
-  /// Follows a change of the matrices in the problem of k: what still holds is kept (see GeneralizedInverse), the symbolic part
-  /// of factorisations where patterns are the same. Collective; throws as the constructor does, and solves have to wait until an
-  /// update succeeds.
+  /// Follows a change of the matrices in the problem of k: what still holds is kept (see GeneralizedInverse),
+  /// the symbolic part of factorisations where patterns are the same. Collective; throws as the constructor
+  /// does, and solves have to wait until an update succeeds.
   void update();
 
   /// Solves for all columns at once, none of which takes a factorisation.

@@ -11,24 +11,6 @@
 
 namespace epafi::linear {
 
-GlobalUnknowns globalUnknowns(const model::Decomposition& decomposition) {
-  const decomposition::DecomposedProblem& problem = decomposition.problem;
-  const auto components = static_cast<GlobalOrdinal>(problem.components);
-  std::vector<GlobalOrdinal> first{0}; // of each body
-  for (const model::BodyLayout& body : decomposition.bodies)
-    first.push_back(first.back() + components * static_cast<GlobalOrdinal>(body.mesh->numNodes()));
-  GlobalUnknowns unknowns;
-  unknowns.reserve(problem.subdomains.size());
-  for (const decomposition::Subdomain& subdomain : problem.subdomains) {
-    std::vector<GlobalOrdinal>& numbers = unknowns.emplace_back();
-    numbers.reserve(subdomain.nodes.size() * static_cast<std::size_t>(components));
-    for (const GlobalOrdinal node : subdomain.nodes)
-      for (GlobalOrdinal component = 0; component < components; ++component)
-        numbers.push_back(first[static_cast<std::size_t>(subdomain.body)] + components * node + component);
-  }
-  return unknowns;
-}
-
 namespace {
 
 std::vector<GlobalOrdinal> atUnknowns(const decomposition::Subdomain& subdomain,

@@ -1,8 +1,9 @@
 #pragma once
 
-/// Between values of nodes and the unknowns of a subdomain, some of which may stand for averages along edges and for deviations
-/// from them (decomposition/EdgeAverages.hpp): u = T ũ. Forces at nodes f do the work f·u, so that those at unknowns are Tᵀf.
-/// T is the identity where there are no averages. decomposition::toNodalValues is T itself. Nothing is collective.
+/// Between values of nodes and the unknowns of a subdomain, some of which may stand for averages along edges
+/// and for deviations from them (decomposition/EdgeAverages.hpp): u = T ũ. Forces at nodes f do the work f·u,
+/// so that those at unknowns are Tᵀf. T is the identity where there are no averages.
+/// decomposition::toNodalValues is T itself. Nothing is collective.
 
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 

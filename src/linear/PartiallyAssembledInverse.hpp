@@ -1,6 +1,7 @@
 #pragma once
 
-/// K̄⁺ as an operator: on the partially assembled functions, which agree at crosspoints and may jump elsewhere.
+/// K̄⁺ as an operator: on the partially assembled functions, which agree at crosspoints and may jump
+/// elsewhere.
 
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/linear/UnknownExchange.hpp"
@@ -9,10 +10,11 @@
 
 namespace epafi::linear {
 
-/// (n_r + n_c) × (n_r + n_c), symmetric, positive definite on the complement of the kernel: K̄ K̄⁺ K̄ = K̄. On its map the
-/// remainders of the subdomains come first, numbered as in DecomposedProblem::remainderMap, and then the crosspoint values as in
-/// crosspointMap, both in the problem's unknowns (averages and deviations where there are any). A product takes all columns in one pass: a
-/// sparse solve a subdomain and column, one message of the coarse problem's size times the columns, messages of crosspoints.
+/// (n_r + n_c) × (n_r + n_c), symmetric, positive definite on the complement of the kernel: K̄ K̄⁺ K̄ = K̄.
+/// On its map the remainders of the subdomains come first, numbered as in DecomposedProblem::remainderMap,
+/// and then the crosspoint values as in crosspointMap, both in the problem's unknowns (averages and
+/// deviations where there are any). A product takes all columns in one pass: a sparse solve a subdomain and
+/// column, one message of the coarse problem's size times the columns, messages of crosspoints.
 class PartiallyAssembledInverse final : public SymmetricOperator {
 public:
   /// Shares the inverse. Collective.

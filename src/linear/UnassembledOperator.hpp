@@ -1,6 +1,7 @@
 #pragma once
 
-/// K = Σ R^sᵀ K^s R^s, never assembled: what a Trilinos application takes for its matrix where FETI-DP is to solve with it.
+/// K = Σ R^sᵀ K^s R^s, never assembled: what a Trilinos application takes for its matrix where FETI-DP is to
+/// solve with it.
 
 #include "epafi/base/SymmetricOperator.hpp"
 #include "epafi/linear/GlobalUnknowns.hpp"
@@ -11,17 +12,18 @@
 
 namespace epafi::linear {
 
-/// n × n, symmetric, positive definite unless a body floats. Contact, if the problem has any, does not enter. Where the map has
-/// numbers that no unknown has, those of prescribed values in most applications, K is the identity. A product takes all columns in
-/// one pass: a sparse product a subdomain, two messages to each neighbour.
+/// n × n, symmetric, positive definite unless a body floats. Contact, if the problem has any, does not enter.
+/// Where the map has numbers that no unknown has, those of prescribed values in most applications, K is the
+/// identity. A product takes all columns in one pass: a sparse product a subdomain, two messages to each
+/// neighbour.
 class UnassembledOperator final : public SymmetricOperator {
 public:
   /// \param problem      shared; K follows its matrices, everything else but loads and gaps must stay
   /// \param atPositions  see GlobalUnknowns.hpp
   /// \param map          one-to-one, with the numbers of all unknowns; null: ownedUnknowns
-  /// \throws InputError, the same on all ranks, if lists are too short or too long, if the map lacks a number, or if copies of a
-  /// number are not joined by the problem's gluing rows and crosspoints, or those of different numbers are.
-  /// Collective.
+  /// \throws InputError, the same on all ranks, if lists are too short or too long, if the map lacks a
+  /// number, or if copies of a number are not joined by the problem's gluing rows and crosspoints, or those
+  /// of different numbers are. Collective.
   UnassembledOperator(const std::shared_ptr<const decomposition::DecomposedProblem>& problem,
                       const GlobalUnknowns& atPositions, const RCP<const Map>& map = Teuchos::null)
       : UnassembledOperator(problem, atUnknowns(*problem, atPositions), map, Checked{}) {}

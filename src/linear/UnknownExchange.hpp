@@ -1,6 +1,7 @@
 #pragma once
 
-/// Between vectors of the whole problem and this rank's subdomains: the restrictions R^s and their transposes. Built once.
+/// Between vectors of the whole problem and this rank's subdomains: the restrictions R^s and their
+/// transposes. Built once.
 
 #include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
@@ -36,12 +37,12 @@ private:
   mutable RCP<MultiVector> touched_;     ///< work
 };
 
-/// A partition of unity on the copies of unknowns: Σ R^sᵀ D^s R^s = I. It shares a force out among the subdomains that meet at an
-/// unknown, and makes one value of its copies, their mean Σ R^sᵀ D^s u^s.
+/// A partition of unity on the copies of unknowns: Σ R^sᵀ D^s R^s = I. It shares a force out among the
+/// subdomains that meet at an unknown, and makes one value of its copies, their mean Σ R^sᵀ D^s u^s.
 class CopyShares {
 public:
-  /// Shares proportional to the diagonals of K^s (stiffness) or equal (multiplicity). \param exchange  of the problem's unknowns
-  /// Collective.
+  /// Shares proportional to the diagonals of K^s (stiffness) or equal (multiplicity). \param exchange of the
+  /// problem's unknowns Collective.
   CopyShares(const decomposition::DecomposedProblem& problem, const UnknownExchange& exchange,
              fetidp::PreconditionerParameters::Scaling scaling);
 

@@ -46,7 +46,8 @@ std::array<int, 3> elementCounts(const fem::Mesh& mesh) {
   return mesh.structured() != nullptr ? mesh.structured()->elements() : std::array<int, 3>{0, 0, 0};
 }
 
-/// Unknowns of a subdomain: factors of many small ones cost less than those of a few large ones, in space above all.
+/// Unknowns of a subdomain: factors of many small ones cost less than those of a few large ones, in space
+/// above all.
 constexpr double unknownsPerPart(int dimension) {
   return dimension == 2 ? 4000 : 1000;
 }

@@ -25,12 +25,14 @@ struct BodyLayout {
 /// How the meshes of files and geometries lie on several ranks; structured meshes are numbers alone.
 enum class Meshes {
   whole, ///< all on each rank: for what looks at elements anywhere, as refinement does
-  pieces ///< rank 0 reads, checks and cuts them, or each rank some of several files (SplitFiles.hpp); all keep their own (MeshPieces.hpp)
+  /// Rank 0 reads, checks and cuts them, or each rank some of several files (SplitFiles.hpp); all keep their
+  /// own (MeshPieces.hpp).
+  pieces
 };
 
-/// Meshes the bodies and cuts them: the same parts in both forms and on any number of ranks. Collective. \throws InputError, the
-/// same on all ranks, if a body cannot be meshed or cut as the scene says, bodies differ in the unknowns of a node, or, where
-/// meshes go out in pieces, makeModel() refuses one.
+/// Meshes the bodies and cuts them: the same parts in both forms and on any number of ranks. Collective.
+/// \throws InputError, the same on all ranks, if a body cannot be meshed or cut as the scene says, bodies
+/// differ in the unknowns of a node, or, where meshes go out in pieces, makeModel() refuses one.
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm,
                                      Meshes meshes = Meshes::whole);
 
@@ -46,8 +48,8 @@ std::unique_ptr<const fem::Mesh> structuredMesh(const scene::MeshSource& source)
 /// How many parts METIS makes of a mesh where the scene leaves it open.
 int partsFor(const scene::Body& body, const fem::Mesh& mesh);
 
-/// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P), but that it begins with a cluster, where there are clusters, or
-/// shares one evenly with the others that would begin in it.
+/// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P), but that it begins with a
+/// cluster, where there are clusters, or shares one evenly with the others that would begin in it.
 struct Share {
   int begin = 0, end = 0; ///< this rank's numbers
 };
@@ -59,7 +61,8 @@ Share shareOf(const std::vector<BodyLayout>& bodies, const Comm& comm);
 /// First number of each body's nodes in the whole problem, and the number of them all.
 std::vector<GlobalOrdinal> firstNodes(const std::vector<BodyLayout>& bodies);
 
-/// The lowest part that has a node; of a piece of a mesh among the held elements, numParts() if none of them has it.
+/// The lowest part that has a node; of a piece of a mesh among the held elements, numParts() if none of them
+/// has it.
 int lowestPartAt(const BodyLayout& body, GlobalOrdinal node);
 
 /// The physics of a body; keeps references to both. \throws InputError if mesh and scene do not go together.

@@ -80,10 +80,10 @@ std::vector<double> Coupler::thicknesses(const Side& first, const fem::Surface& 
   const std::vector<double> theirs = supported_.thicknesses(second.body, facing);
   const auto middles = [&](const Side& side, const fem::Surface& of) {
     std::vector<Eigen::Vector2d> result;
-    std::vector<fem::Point> points;
+    std::vector<Point> points;
     for (std::size_t f = 0; f < of.numFacets(); ++f) {
       layoutOf(side).mesh->pointsAt(of.facet(f), points);
-      const fem::Point x = fem::centreOf(points);
+      const Point x = fem::centreOf(points);
       result.emplace_back(x[0], x[1]);
     }
     return result;
@@ -129,7 +129,8 @@ ContactLayout Coupler::finish(ContactLayout layout, const Side& first, const Sid
   return layout;
 }
 
-/// Whether supports hold a side wholly in the direction of contact, so that of rows at its nodes no single force is known.
+/// Whether supports hold a side wholly in the direction of contact, so that of rows at its nodes no single
+/// force is known.
 bool Coupler::isHeld(const Side& side) const {
   const contact::SurfaceNodes nodes = contact::surfaceNodes(pointsOf(layoutOf(side)), united(side).surface);
   for (std::size_t k = 0; k < nodes.nodes.size(); ++k)

@@ -32,7 +32,7 @@ struct Side {
 Side sideOf(const Terms& terms, const BodyLayout& body, const std::string& name) {
   const fem::Surface surface = surfaceOf(terms, body, name);
   Side side;
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
     body.mesh->pointsAt(nodes, points);
@@ -153,7 +153,8 @@ bool Groups::bringsFacets(std::span<const Member> members, const Member& added, 
   });
 }
 
-/// Whether one more contact goes on in those of a group, seen from the first bodies. Precondition: the same bodies in the same order.
+/// Whether one more contact goes on in those of a group, seen from the first bodies. Precondition: the same
+/// bodies in the same order.
 bool Groups::joins(const std::vector<Member>& members, const Member& added) const {
   const Terms &its = members.front().terms, &own = added.terms;
   if (its.kind != own.kind || its.gap != own.gap || its.distance != own.distance ||

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<fem::BoxTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface& surface, double margin) {
   std::vector<fem::BoxTree::Box> boxes;
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     mesh.pointsAt(surface.facet(f), points);
     boxes.push_back(fem::boxOf(points, margin));
@@ -27,7 +27,7 @@ struct Facets {
   double area = 0;
   int number = 0;
   void add(const fem::Mesh& mesh, const fem::Surface& surface, std::size_t facet) {
-    std::vector<fem::Point> points;
+    std::vector<Point> points;
     mesh.pointsAt(surface.facet(facet), points);
     area += fem::areaVector(surface.facetType, points).norm();
     ++number;
@@ -53,7 +53,8 @@ Facets facetsNear(const fem::Mesh& mesh, const fem::Surface& surface, const fem:
   return near;
 }
 
-/// Area of the facets of a side that the other one covers somewhere, by what it covers of them; 1 if nothing can be said.
+/// Area of the facets of a side that the other one covers somewhere, by what it covers of them; 1 if nothing
+/// can be said.
 double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
                 const scene::SurfaceContact& terms, int body, const std::string& surface) {
   const bool isFirst = body == terms.first;

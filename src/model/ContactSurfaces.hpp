@@ -1,6 +1,7 @@
 #pragma once
 
-/// The two surfaces of a scene's contact: which ones are meant, and which one is to carry multipliers if they are meshed apart.
+/// The two surfaces of a scene's contact: which ones are meant, and which one is to carry multipliers if they
+/// are meshed apart.
 
 #include "epafi/fem/Mesh.hpp"
 #include "epafi/model/BodyLayout.hpp"
@@ -11,16 +12,18 @@
 
 namespace epafi::model {
 
-/// A surface of a body by its name. \throws InputError if there is none, with the names that there are. Not collective.
+/// A surface of a body by its name. \throws InputError if there is none, with the names that there are. Not
+/// collective.
 fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
                        const std::string& surface);
 
 /// Mean distance of a surface's nodes.
 double spacingOf(const fem::Mesh& mesh, const fem::Surface& surface);
 
-/// Decides which surface is to carry multipliers: one that no support holds, then one that no other contact has, then one
-/// that is finer by half where they are near each other, then one of whose facets the other covers more, then that of the softer body, then the
-/// finer, then the first. Returns why, as words behind the body's name.
+/// Decides which surface is to carry multipliers: one that no support holds, then one that no other contact
+/// has, then one that is finer by half where they are near each other, then one of whose facets the other
+/// covers more, then that of the softer body, then the finer, then the first. Returns why, as words behind
+/// the body's name.
 /// \param[in,out] terms  one of the scene's contacts, between two bodies
 /// Not collective.
 std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,

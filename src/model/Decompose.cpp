@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
 #include "epafi/decomposition/UnassembledProblem.hpp"
+#include "epafi/fem/SubdomainAssembly.hpp"
 #include "epafi/model/SceneContacts.hpp"
 #include "epafi/model/ScenePlaces.hpp"
 
@@ -20,9 +21,10 @@ namespace epafi::model {
 namespace {
 
 using decomposition::Body;
+using decomposition::NodalSubdomain;
 using decomposition::NodeFrame;
-using decomposition::NodeOrderedSubdomain;
 using decomposition::SparseMatrix;
+using decomposition::Subdomain;
 
 using Models = std::vector<std::unique_ptr<fem::BodyModel>>;
 
@@ -84,15 +86,25 @@ void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, 
     const std::size_t b = bodyOf(bodies, number);
     if (std::exchange(last, b) != b)
       assembler.emplace(*models[b]);
-    NodeOrderedSubdomain subdomain{static_cast<int>(b), {}, nullptr, {}};
-    subdomain.values.stiffness.swap(scratch); // its memory is used again if the last matrix was a known one
-    assembler->assemble(bodies[b].partition->elementsOf(number - bodies[b].firstSubdomain), subdomain.values);
-    subdomain.stiffness = matrices.store(subdomain.values.stiffness);
-    scratch.swap(subdomain.values.stiffness);
+    fem::AssembledSubdomain values;
+    values.stiffness.swap(scratch); // its memory is used again if the last matrix was a known one
+    assembler->assemble(bodies[b].partition->elementsOf(number - bodies[b].firstSubdomain), values);
+    NodalSubdomain nodal{
+        std::move(values.unknownOf), std::move(values.borderNodes), matrices.store(values.stiffness), {}};
+    scratch.swap(values.stiffness);
+    Subdomain subdomain;
+    subdomain.body = static_cast<int>(b);
+    subdomain.nodes = std::move(values.nodes);
+    subdomain.unknownPosition = std::move(values.unknownPosition);
+    subdomain.load = std::move(values.load);
+    subdomain.frames = framesOf(*models[b], subdomain.nodes);
+    subdomain.prescribed = std::move(values.prescribed);
+    subdomain.energyOffset = values.energyOffset;
+    subdomain.heldLoad = values.heldLoad;
+    subdomain.kernel = std::move(values.kernel);
     if (models[b]->components() > 1) // of a scalar field R = 1, and nothing can go wrong
-      requireKernel(*subdomain.stiffness, subdomain.values.kernel, bodies[b].name);
-    subdomain.frames = framesOf(*models[b], subdomain.values.nodes);
-    problem.add(std::move(subdomain));
+      requireKernel(*nodal.stiffness, subdomain.kernel, bodies[b].name);
+    problem.add(std::move(subdomain), std::move(nodal));
   }
 }
 
@@ -163,7 +175,7 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   const Share share = shareOf(result.bodies, *comm);
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
   if (!result.contacts.empty()) {
-    contact::ContactMatrix matrix = contactMatrix(result.bodies, result.contacts, models, comm);
+    decomposition::ConstraintMatrix matrix = contactMatrix(result.bodies, result.contacts, models, comm);
     matrix.places = contactPlaces(result.bodies, result.contacts, models, *matrix.rows->getRowMap());
     problem.setContact(matrix);
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// From a scene to a DecomposedProblem: a scene is an application like others, which meshes bodies, cuts and assembles them,
-/// and hands over subdomains and a contact matrix.
+/// From a scene to a DecomposedProblem: a scene is an application like others, which meshes bodies, cuts and
+/// assembles them, and hands over subdomains and a contact matrix.
 
 #include "epafi/contact/ContactLayout.hpp"
 #include "epafi/decomposition/DecomposedProblem.hpp"
@@ -27,8 +27,8 @@ struct Decomposition {
 Decomposition decompose(const scene::Scene& scene, const RCP<const Comm>& comm,
                         Meshes meshes = Meshes::whole);
 
-/// The same of bodies that are meshed and cut already, on all ranks alike. Where the scene says how many parts share crosspoints, that holds instead of
-/// BodyLayout::cluster, by which they were dealt out.
+/// The same of bodies that are meshed and cut already, on all ranks alike. Where the scene says how many
+/// parts share crosspoints, that holds instead of BodyLayout::cluster, by which they were dealt out.
 Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodies,
                         const RCP<const Comm>& comm);
 

@@ -39,7 +39,8 @@ LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
 
 using LooseMeshes = std::vector<std::optional<LooseMesh>>; ///< of each body, if it comes from files
 
-/// Rank 0 makes a scene of the bodies that come from one file each, as a single rank would, and looks at them whole. Collective.
+/// Rank 0 makes a scene of the bodies that come from one file each, as a single rank would, and looks at them
+/// whole. Collective.
 void readOnFirst(const scene::Scene& scene, const Comm& comm, LooseMeshes& meshes) {
   scene::Scene fromFiles(scene);
   std::erase_if(fromFiles.bodies, [](const scene::Body& body) { return !isFromOneFile(body); });

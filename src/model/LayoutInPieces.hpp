@@ -6,8 +6,8 @@
 
 namespace epafi::model {
 
-/// layoutBodies() with Meshes::pieces: the meshes of one file each are read by rank 0, those of several files by all ranks, and all are dealt
-/// out. Collective. \throws InputError likewise.
+/// layoutBodies() with Meshes::pieces: the meshes of one file each are read by rank 0, those of several files
+/// by all ranks, and all are dealt out. Collective. \throws InputError likewise.
 std::vector<BodyLayout> layoutInPieces(const scene::Scene& scene, const Comm& comm);
 
 } // namespace epafi::model

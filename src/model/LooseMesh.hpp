@@ -16,7 +16,8 @@
 
 namespace epafi::model {
 
-/// Elements as they travel between ranks: of each its number in the body, its part, the groups that it is in, and its nodes.
+/// Elements as they travel between ranks: of each its number in the body, its part, the groups that it is in,
+/// and its nodes.
 class LooseElements {
 public:
   /// \param numNodes  of an element
@@ -90,8 +91,9 @@ struct MeshShare {
   std::function<GlobalOrdinal(GlobalOrdinal node)> keyOf;
 };
 
-/// Numbers elements and parts through all shares of all ranks, in this order. \param facets  of named surfaces; see gathered()
-/// Precondition: some rank has elements. Collective. \throws InputError, the same on all ranks, if they are not of one kind.
+/// Numbers elements and parts through all shares of all ranks, in this order. \param facets of named
+/// surfaces; see gathered() Precondition: some rank has elements. Collective. \throws InputError, the same on
+/// all ranks, if they are not of one kind.
 LooseMesh looseMeshOf(std::span<const MeshShare> shares, std::shared_ptr<const FacetList> facets,
                       const Comm& comm);
 

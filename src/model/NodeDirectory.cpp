@@ -48,7 +48,7 @@ void NodeDirectory::keep(std::vector<Node> nodes) {
 
 void NodeDirectory::number() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  box_ = {fem::Point{infinity, infinity, infinity}, fem::Point{-infinity, -infinity, -infinity}};
+  box_ = {Point{infinity, infinity, infinity}, Point{-infinity, -infinity, -infinity}};
   GlobalOrdinal corners = 0;
   for (const Entry& entry : entries_) {
     corners += entry.corner == 0 ? 1 : 0;

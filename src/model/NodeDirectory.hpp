@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which ranks have a node, and what is known of it, where no rank has all nodes: each is kept by the rank that its key tells, equal ranges
-/// of keys by each.
+/// Which ranks have a node, and what is known of it, where no rank has all nodes: each is kept by the rank
+/// that its key tells, equal ranges of keys by each.
 
 #include "epafi/base/Types.hpp"
 #include "epafi/fem/Mesh.hpp"
@@ -17,26 +17,27 @@ public:
   /// A node as a rank hands it in.
   struct Node {
     GlobalOrdinal key = 0; ///< ≥ 0, the same on all ranks; there may be gaps
-    fem::Point point{};
+    Point point{};
     bool isCorner = false; ///< of the element that brings it
   };
   /// What is known of one.
   struct Entry {
     GlobalOrdinal number = 0;  ///< from 0, in the order of the keys
     GlobalOrdinal corner = -1; ///< its number among the corners; −1: it is none
-    fem::Point point{};
+    Point point{};
     bool isOnBoundary = false;
   };
 
-  /// Takes in and numbers the nodes that the ranks have, each as often as it comes. Keeps the reference. Collective. \throws InputError,
-  /// the same on all ranks, if one lies at two places.
+  /// Takes in and numbers the nodes that the ranks have, each as often as it comes. Keeps the reference.
+  /// Collective. \throws InputError, the same on all ranks, if one lies at two places.
   NodeDirectory(const Comm& comm, std::vector<Node> nodes);
 
   [[nodiscard]] GlobalOrdinal numNodes() const { return numNodes_; }
   [[nodiscard]] GlobalOrdinal numCorners() const { return numCorners_; }
-  [[nodiscard]] const std::array<fem::Point, 2>& box() const { return box_; } ///< of all nodes
+  [[nodiscard]] const std::array<Point, 2>& box() const { return box_; } ///< of all nodes
 
-  /// Of the other ranks that ask for some of the same nodes, these, ascending. \param keys  ascending, none twice. Collective.
+  /// Of the other ranks that ask for some of the same nodes, these, ascending. \param keys ascending, none
+  /// twice. Collective.
   [[nodiscard]] std::map<int, std::vector<GlobalOrdinal>>
   shared(const std::vector<GlobalOrdinal>& keys) const;
   /// Notes that nodes lie on the body's boundary. \param keys  ascending. Collective.
@@ -60,7 +61,7 @@ private:
   std::vector<GlobalOrdinal> keys_; ///< of the kept nodes, ascending
   std::vector<Entry> entries_;      ///< likewise
   GlobalOrdinal numNodes_ = 0, numCorners_ = 0;
-  std::array<fem::Point, 2> box_{};
+  std::array<Point, 2> box_{};
 };
 
 } // namespace epafi::model

@@ -111,8 +111,8 @@ std::vector<std::vector<GlobalOrdinal>> piecesOf(const fem::Mesh& mesh, const st
   });
 }
 
-/// Moves the first piece that is not the largest of its part and has neighbours to the part with which it shares most
-/// facets, the lowest of equals. Returns false if there is no such piece.
+/// Moves the first piece that is not the largest of its part and has neighbours to the part with which it
+/// shares most facets, the lowest of equals. Returns false if there is no such piece.
 bool moveStray(const fem::Mesh& mesh, std::vector<int>& part) {
   const auto partOf = [&](GlobalOrdinal element) -> int& { return part[static_cast<std::size_t>(element)]; };
   const auto pieces = piecesOf(mesh, part);
@@ -155,12 +155,13 @@ int renumber(std::vector<int>& part) {
   return next;
 }
 
-/// Sorts parts along the axis on which their centres spread most, and so on in both halves, which end where runs of `size` do.
-void bisect(std::span<int> parts, std::size_t size, const std::vector<fem::Point>& centres) {
+/// Sorts parts along the axis on which their centres spread most, and so on in both halves, which end where
+/// runs of `size` do.
+void bisect(std::span<int> parts, std::size_t size, const std::vector<Point>& centres) {
   const std::size_t runs = (parts.size() + size - 1) / size;
   if (runs < 2)
     return;
-  const auto at = [&](int part) -> const fem::Point& { return centres[static_cast<std::size_t>(part)]; };
+  const auto at = [&](int part) -> const Point& { return centres[static_cast<std::size_t>(part)]; };
   std::size_t axis = 0;
   double widest = -1;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -196,7 +197,7 @@ void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
 
 GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const fem::Mesh& mesh, int size)
     : parts_(std::move(parts)), order_(static_cast<std::size_t>(parts_->numParts())), number_(order_.size()) {
-  std::vector<fem::Point> centres(order_.size());
+  std::vector<Point> centres(order_.size());
   std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
   for (std::size_t part = 0; part < centres.size(); ++part) {
     const std::vector<GlobalOrdinal> elements = parts_->elementsOf(static_cast<int>(part));

@@ -21,12 +21,13 @@ public:
   [[nodiscard]] virtual std::vector<GlobalOrdinal> elementsOf(int part) const = 0;
 };
 
-/// Cuts a rectangle into counts[0] × counts[1] rectangles, a box into counts[0] × counts[1] × counts[2] boxes,
-/// of as equal numbers of elements as possible; parts are numbered x fastest, then y, then z. Stores one number
-/// a column and one a row of elements, nothing of the mesh's size.
+/// Cuts a rectangle into counts[0] × counts[1] rectangles, a box into counts[0] × counts[1] × counts[2]
+/// boxes, of as equal numbers of elements as possible; parts are numbered x fastest, then y, then z. Stores
+/// one number a column and one a row of elements, nothing of the mesh's size.
 class GridPartition final : public Partition {
 public:
-  /// Precondition: 1 ≤ counts ≤ number of elements in each direction; in the plane the third count does not matter.
+  /// Precondition: 1 ≤ counts ≤ number of elements in each direction; in the plane the third count does not
+  /// matter.
   GridPartition(const fem::StructuredMesh& mesh, std::array<int, 3> counts);
   [[nodiscard]] int numParts() const override { return counts_[0] * counts_[1] * counts_[2]; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override;
@@ -61,8 +62,8 @@ private:
   std::vector<int> members_;       ///< elements, part by part, ascending in each
 };
 
-/// Another partition with its parts numbered anew: each run of `size` lies together, as recursive bisection of their centres
-/// has it, so that runs can be clusters, and ranks have neighbours.
+/// Another partition with its parts numbered anew: each run of `size` lies together, as recursive bisection
+/// of their centres has it, so that runs can be clusters, and ranks have neighbours.
 class GroupedPartition final : public Partition {
 public:
   /// \param size  > 0. Passes once over the mesh. Not collective.
@@ -80,7 +81,8 @@ private:
   std::vector<int> order_, number_; ///< old numbers of the parts, and new ones
 };
 
-/// Cuts a mesh that need not hang together, on one rank: each piece by METIS, into its share of the parts, one at least. Not collective. \throws InputError if METIS refuses.
+/// Cuts a mesh that need not hang together, on one rank: each piece by METIS, into its share of the parts,
+/// one at least. Not collective. \throws InputError if METIS refuses.
 std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts);
 
 /// Elements that a rank holds, and their parts.

@@ -44,7 +44,8 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
                      fault->objection);
 }
 
-/// Gaps are differences of coordinates, beside what the scene gives: what is round-off of these is neither a gap nor an overlap.
+/// Gaps are differences of coordinates, beside what the scene gives: what is round-off of these is neither a
+/// gap nor an overlap.
 void dropRoundOff(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
                   ContactLayout& contact) {
   constexpr double roundOff = 1e-13;
@@ -158,14 +159,14 @@ SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
       thicknesses[f] = model.materialOf(surface.elements[f]).thickness;
     return thicknesses;
   };
-  auto boxes = std::make_shared<std::map<int, std::array<fem::Point, 2>>>();
+  auto boxes = std::make_shared<std::map<int, std::array<Point, 2>>>();
   supported.extent = [&, boxes](int body, const Eigen::Vector3d& direction) {
     const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(body)].mesh;
     const auto [entry, isNew] = boxes->try_emplace(body);
     if (isNew && mesh.part() != nullptr) {
       entry->second = mesh.part()->box();
     } else if (isNew) {
-      std::vector<fem::Point> points;
+      std::vector<Point> points;
       for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
         points.push_back(mesh.point(node));
       entry->second = fem::boxOf(points);
@@ -267,10 +268,10 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
   return all;
 }
 
-contact::ContactMatrix contactMatrix(const std::vector<BodyLayout>& bodies,
-                                     const std::vector<ContactLayout>& contacts,
-                                     const std::vector<std::unique_ptr<fem::BodyModel>>& models,
-                                     const RCP<const Comm>& comm) {
+decomposition::ConstraintMatrix contactMatrix(const std::vector<BodyLayout>& bodies,
+                                              const std::vector<ContactLayout>& contacts,
+                                              const std::vector<std::unique_ptr<fem::BodyModel>>& models,
+                                              const RCP<const Comm>& comm) {
   contact::NodeUnknowns unknowns;
   unknowns.components = models.front()->components();
   unknowns.firstNode = firstNodes(bodies);

@@ -33,11 +33,10 @@ struct Smooth {
 
 } // namespace
 
-std::vector<contact::ContactPlace> contactPlaces(const std::vector<BodyLayout>& bodies,
-                                                 const std::vector<contact::ContactLayout>& contacts,
-                                                 const std::vector<std::unique_ptr<fem::BodyModel>>& models,
-                                                 const Map& rows) {
-  std::vector<contact::ContactPlace> places;
+std::vector<decomposition::ContactPlace>
+contactPlaces(const std::vector<BodyLayout>& bodies, const std::vector<contact::ContactLayout>& contacts,
+              const std::vector<std::unique_ptr<fem::BodyModel>>& models, const Map& rows) {
+  std::vector<decomposition::ContactPlace> places;
   const auto floats = [&](int body) {
     return body >= 0 && models[static_cast<std::size_t>(body)]->kernelDimension() > 0;
   };

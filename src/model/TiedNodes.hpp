@@ -21,7 +21,8 @@ public:
   [[nodiscard]] std::function<bool(GlobalOrdinal)> heldBetween(int body, int other) const;
   /// A tie between two bodies, in quotes.
   [[nodiscard]] std::string nameBetween(int body, int other) const;
-  /// Leaves out the rows of a contact by pairs of nodes that ties hold; their forces and areas are those of the ties' rows there.
+  /// Leaves out the rows of a contact by pairs of nodes that ties hold; their forces and areas are those of
+  /// the ties' rows there.
   /// \throws InputError if none is left.
   void dropFrom(contact::ContactLayout& contact) const;
 
@@ -30,7 +31,8 @@ private:
   std::map<std::pair<int, int>, std::set<GlobalOrdinal>> nodes_; ///< of a body that hang on another one
 };
 
-/// Notes in ties by pairs of nodes where other ties hold the same nodes together already: how they share the force there is not unique.
+/// Notes in ties by pairs of nodes where other ties hold the same nodes together already: how they share the
+/// force there is not unique.
 void noteCircles(std::vector<contact::ContactLayout>& ties);
 
 /// Refuses a contact all of whose nodes are tied.

@@ -17,16 +17,16 @@ namespace epafi::output {
 /// or if `file` is there and no regular file.
 void prepareTarget(const std::filesystem::path& file, const Comm& comm);
 
-/// A new name beside rank 0's `file` (same directory, hidden, ends in ".partial"), absolute and the same on all ranks. Makes
-/// no file. Collective.
+/// A new name beside rank 0's `file` (same directory, hidden, ends in ".partial"), absolute and the same on
+/// all ranks. Makes no file. Collective.
 std::filesystem::path temporaryBeside(const std::filesystem::path& file, const Comm& comm);
 
-/// Removes `temporary` and what MPI has made beside it (Open MPI's "<its name>-<job>-<process>.lock", which stays where a file could not be
-/// closed). Says nothing of failures. Not collective.
+/// Removes `temporary` and what MPI has made beside it (Open MPI's "<its name>-<job>-<process>.lock", which
+/// stays where a file could not be closed). Says nothing of failures. Not collective.
 void removeTemporary(const std::filesystem::path& temporary) noexcept;
 
-/// Makes `temporary`, empty, from rank 0, for all ranks to open. Collective. \throws InputError if a rank does not see it
-/// there, on a disk of its own perhaps; Error if it cannot be made.
+/// Makes `temporary`, empty, from rank 0, for all ranks to open. Collective. \throws InputError if a rank
+/// does not see it there, on a disk of its own perhaps; Error if it cannot be made.
 void createForAll(const std::filesystem::path& temporary, const Comm& comm);
 
 /// Makes sure that the file system has room for the first `bytes` bytes of the file `temporary`, which
@@ -39,13 +39,14 @@ void reserveSpace(const std::filesystem::path& temporary, std::uintmax_t bytes,
 /// fails. Collective. \throws Error naming the file.
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& file, const Comm& comm);
 
-/// Writes what is to become `file`, a text or any bytes, under a temporary name, which it returns. As writeTextFile.
+/// Writes what is to become `file`, a text or any bytes, under a temporary name, which it returns. As
+/// writeTextFile.
 /// \param syncs  whether it is on the disk then, not only on its way there
 std::filesystem::path writeTemporary(const std::filesystem::path& file,
                                      const std::function<std::string()>& text, bool syncs, const Comm& comm);
 
-/// Writes a text file (or any bytes) from rank 0, through prepareTarget, a temporary and publish. It is on the disk then, not
-/// only on its way there.
+/// Writes a text file (or any bytes) from rank 0, through prepareTarget, a temporary and publish. It is on
+/// the disk then, not only on its way there.
 ///
 /// \param text  makes the text; called on rank 0 only, must not call anything collective.
 /// Collective.

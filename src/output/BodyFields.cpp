@@ -50,7 +50,8 @@ struct NodeKinds {
   }
 };
 
-/// Values that this rank's subdomains send: node, u (components), 1 for a crosspoint, and the node's place, row by row.
+/// Values that this rank's subdomains send: node, u (components), 1 for a crosspoint, and the node's place,
+/// row by row.
 struct NodeValues {
   std::vector<GlobalOrdinal> nodes;
   std::vector<double> values;
@@ -75,7 +76,7 @@ void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
         isPlane && (parts.size() > 2 || (parts.size() == 2 && layout.mesh->isBoundaryNode(node)));
     const bool isCrosspoint = kinds.free[k] != 0 ? kinds.crosspoint[k] != 0 : wouldBe;
     result.values.push_back(isCrosspoint ? 1 : 0);
-    const fem::Point point = layout.mesh->point(node);
+    const Point point = layout.mesh->point(node);
     result.values.insert(result.values.end(), point.begin(), point.end());
   }
 }

@@ -31,9 +31,9 @@ struct BodyFields {
 /// Brings the fields of body `body` from the subdomains to the slabs. Each node's u is that of the
 /// lowest-numbered subdomain that holds it (copies agree up to the solver's tolerance). Crosspoints are the
 /// nodes with crosspoint unknowns, and, among the nodes without any unknown (supported), those that would be:
-/// shared by three parts, or by two on the body's boundary (in the plane only); nodes whose unknowns stand for averages
-/// along edges are none. Collective. \throws Error (the same on all ranks)
-/// if the solution does not fit the decomposition.
+/// shared by three parts, or by two on the body's boundary (in the plane only); nodes whose unknowns stand
+/// for averages along edges are none. Collective. \throws Error (the same on all ranks) if the solution does
+/// not fit the decomposition.
 BodyFields gatherBodyFields(const SolvedScene& solved, int body);
 
 } // namespace epafi::output

@@ -122,7 +122,8 @@ Header parsed(std::string_view text) {
   return header;
 }
 
-/// What a file holds. \throws InputError that says what is wrong, without the file's name: "is no checkpoint of Epafi".
+/// What a file holds. \throws InputError that says what is wrong, without the file's name: "is no checkpoint
+/// of Epafi".
 Checkpoint readOnThisRank(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);

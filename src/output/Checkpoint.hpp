@@ -2,9 +2,9 @@
 
 /// Multipliers in a file, for a run to go on from.
 ///
-/// The file is a text (checkpointHeader()), λ in the order of its rows, 8 bytes a number, and a checksum of all that. It does
-/// not depend on the number of ranks. That it is no HDF5 has a reason: damaged files must end with a sentence, and what HDF5
-/// does with them is not in our hands.
+/// The file is a text (checkpointHeader()), λ in the order of its rows, 8 bytes a number, and a checksum of
+/// all that. It does not depend on the number of ranks. That it is no HDF5 has a reason: damaged files must
+/// end with a sentence, and what HDF5 does with them is not in our hands.
 
 #include "epafi/output/Fingerprint.hpp"
 
@@ -39,16 +39,16 @@ private:
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-/// Writes λ; the file appears complete or not at all, and is on the disk then, not only on its way there. Creates its
-/// directory. Rank 0 writes; it holds λ whole while it does.
+/// Writes λ; the file appears complete or not at all, and is on the disk then, not only on its way there.
+/// Creates its directory. Rank 0 writes; it holds λ whole while it does.
 /// \param lambda  on the problem's multiplierMap
-/// Collective. \throws InputError if the directory cannot be made or written to, Error if writing fails; an older file is
-/// untouched then.
+/// Collective. \throws InputError if the directory cannot be made or written to, Error if writing fails; an
+/// older file is untouched then.
 void writeCheckpoint(const std::filesystem::path& file, const Fingerprint& fingerprint, const Vector& lambda);
 
 /// Rank 0 reads; nobody else needs to see the file. Collective.
-/// \throws InputError, the same on all ranks, if the file is missing, no checkpoint, cut off, too long, damaged, or
-/// holds a number that is not finite.
+/// \throws InputError, the same on all ranks, if the file is missing, no checkpoint, cut off, too long,
+/// damaged, or holds a number that is not finite.
 Checkpoint readCheckpoint(const std::filesystem::path& file, const Comm& comm);
 
 /// λ on the problem's multiplierMap. Collective.

@@ -89,7 +89,7 @@ FacingSurface facingSurface(const SolvedScene& solved, int contact) {
     place = next++;
     if (place < result.points.first || place >= result.points.first + result.points.count)
       continue;
-    const fem::Point point = mesh.point(node);
+    const Point point = mesh.point(node);
     result.places.insert(result.places.end(), point.begin(), point.end());
   }
   for (GlobalOrdinal f = result.facets.first; f < result.facets.first + result.facets.count; ++f)
@@ -112,7 +112,7 @@ ContactFields gatherContactFields(const SolvedScene& solved, int contact, const 
   for (GlobalOrdinal k = fields.rows.first; k < fields.rows.first + fields.rows.count; ++k) {
     const std::size_t row = own[static_cast<std::size_t>(k)];
     multipliers.push_back(layout.firstRow + static_cast<GlobalOrdinal>(row));
-    const fem::Point point = mesh.point(layout.firstNodes[row]);
+    const Point point = mesh.point(layout.firstNodes[row]);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
     const std::array<double, 3> normal = directionOf(layout, row);
     fields.normals.insert(fields.normals.end(), normal.begin(), normal.end());

@@ -18,24 +18,34 @@ struct FieldFiles {
   std::filesystem::path xdmf;
 };
 
-/// Writes `directory`/`name`.h5 and `directory`/`name`.xdmf; creates the directory, replaces older files. An XDMF file is never
-/// beside an HDF5 file of another call: the older one goes before that is replaced, the new one comes after it.
+/// Writes `directory`/`name`.h5 and `directory`/`name`.xdmf; creates the directory, replaces older files. An
+/// XDMF file is never beside an HDF5 file of another call: the older one goes before that is replaced, the
+/// new one comes after it.
 ///
 /// Datasets (lengths, deflections, forces and stresses in the scene's units; each body's nodes appear once):
-///  - `/bodies/<body>/points` n×3, `cells` n_e×nodes of a cell (int64, node numbers in the order of fem/Cell.hpp, which is VTK's),
-///    `u` n×components, `subdomain` n_e (int32, numbered over all bodies), `crosspoints` m×3 (where they lie, supported
+/// - `/bodies/<body>/points` n×3, `cells` n_e×nodes of a cell (int64, node numbers in the order of
+/// fem/Cell.hpp, which is VTK's),
+///    `u` n×components, `subdomain` n_e (int32, numbered over all bodies), `crosspoints` m×3 (where they lie,
+///    supported
 ///    ones too in the plane);
-///    of elastic bodies `von_mises` n (vonMisesAtNodes), and of plane ones `displacement` n×3: u with a third column of
+///    of elastic bodies `von_mises` n (vonMisesAtNodes), and of plane ones `displacement` n×3: u with a third
+///    column of
 ///    zeros, which viewers take as a vector (in space that is u itself);
 ///    attributes `name`, `cell_type` (as fem::toString says) and `physics` (as scene::toString says);
-///  - `/contact/<pair>/points` n×3 (nodes of the first body's surface), `cells` m×2, 3 or 4, of order 2 3, 6 or 9 (that surface's edges or
-///    faces, by rows; which, the attribute `cell_type` says; n×1, each point one, for pairs of membranes' edges), `normal` n×3 (of length 1, towards the other side; of
-///    membranes z), `area` n (each node's share of the surface; of plane bodies length times thickness, of membranes
-///    length), `initial_gap` c, `gap` c − Bu (what remains open), `multiplier` λ_I (force a node, positive pushes apart),
+///  - `/contact/<pair>/points` n×3 (nodes of the first body's surface), `cells` m×2, 3 or 4, of order 2 3, 6
+///  or 9 (that surface's edges or
+///    faces, by rows; which, the attribute `cell_type` says; n×1, each point one, for pairs of membranes'
+///    edges), `normal` n×3 (of length 1, towards the other side; of
+///    membranes z), `area` n (each node's share of the surface; of plane bodies length times thickness, of
+///    membranes
+///    length), `initial_gap` c, `gap` c − Bu (what remains open), `multiplier` λ_I (force a node, positive
+///    pushes apart),
 ///    `pressure` λ_I/area, `active` (int32, 1 where closed); the force on the first body, whose group the
 ///    attribute `first_body` names, is −λ_I `normal`;
-///  - `/history/iteration`, `outer`, `step` (int8, the code of the letter s, c, e or p), `projected_gradient`,
-///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a step.
+///  - `/history/iteration`, `outer`, `step` (int8, the code of the letter s, c, e or p),
+///  `projected_gradient`,
+///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a
+///    step.
 /// Groups of bodies and pairs are named as safeNames says; their attribute `name` is the scene's
 /// name. The file itself has attributes `program`, `format` (1), `components`, `energy` and `contact_force`.
 ///

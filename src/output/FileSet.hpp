@@ -11,9 +11,10 @@
 
 namespace epafi::output {
 
-/// Files that are put in place together: all are complete under temporary names before the first gets its own, and between the
-/// first and the last rank 0 does nothing but rename. Files get their names in the order in which they were added, so that the
-/// last one says that the others are there. All methods are collective, with the same arguments on all ranks.
+/// Files that are put in place together: all are complete under temporary names before the first gets its
+/// own, and between the first and the last rank 0 does nothing but rename. Files get their names in the order
+/// in which they were added, so that the last one says that the others are there. All methods are collective,
+/// with the same arguments on all ranks.
 class FileSet {
 public:
   /// \param syncs  whether texts are to be on the disk then, not only on their way there; that takes a while
@@ -23,8 +24,8 @@ public:
   FileSet(const FileSet&) = delete;
   FileSet& operator=(const FileSet&) = delete;
 
-  /// What an older file of the name does: a file that means something only beside others (an XDMF beside its HDF5 file) must not
-  /// be there when these are replaced, nor come where one of these does not.
+  /// What an older file of the name does: a file that means something only beside others (an XDMF beside its
+  /// HDF5 file) must not be there when these are replaced, nor come where one of these does not.
   enum class Older { staysTillReplaced, goesFirst };
 
   /// `temporary`, which is complete, is to become `file`.

@@ -9,8 +9,9 @@
 
 namespace epafi::output {
 
-/// What a problem's multipliers act on: the unknowns that each row of B joins, and the matrices K^s. Problems that differ in
-/// loads, gaps, prescribed values and directions of contact alone have the same fingerprint, on any number of ranks.
+/// What a problem's multipliers act on: the unknowns that each row of B joins, and the matrices K^s. Problems
+/// that differ in loads, gaps, prescribed values and directions of contact alone have the same fingerprint,
+/// on any number of ranks.
 struct Fingerprint {
   GlobalOrdinal numInequalities = 0, numEqualities = 0; ///< rows of contact and of gluing
   GlobalOrdinal primalDimension = 0, numSubdomains = 0, components = 0, kernelDimension = 0;
@@ -25,8 +26,8 @@ struct Fingerprint {
 /// Collective.
 Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem);
 
-/// In what `other` differs from `mine`, "has 369 multipliers of contact and gluing instead of 120"; empty if they agree
-/// (matrices to 1e-9: a mesh made anew differs in its last digits).
+/// In what `other` differs from `mine`, "has 369 multipliers of contact and gluing instead of 120"; empty if
+/// they agree (matrices to 1e-9: a mesh made anew differs in its last digits).
 std::string differenceBetween(const Fingerprint& mine, const Fingerprint& other);
 
 } // namespace epafi::output

@@ -72,8 +72,9 @@ std::string hdf5Reason() {
   return ends.first == ends.second ? ends.first : ends.first + " (" + ends.second + ")";
 }
 
-/// `result` if it is no HDF5 error; works for identifiers and return codes. Words are put together after HDF5 has
-/// failed, never before it is called: a rank without memory for them would stay behind, and HDF5 with the others wait.
+/// `result` if it is no HDF5 error; works for identifiers and return codes. Words are put together after HDF5
+/// has failed, never before it is called: a rank without memory for them would stay behind, and HDF5 with the
+/// others wait.
 template <class Result>
 Result checked(Result result, const std::filesystem::path& file, const char* what,
                const std::string& name = {}) {

@@ -19,11 +19,12 @@ namespace epafi::output {
 /// All methods, construction and destruction are collective over the communicator given, with the same
 /// arguments on all ranks (slab ranges and values apart). Their errors are agreed on by all ranks, so that
 /// all leave together. Code between the calls should keep to that rule: an exception on some ranks only
-/// leaves the others waiting for them. Destruction by such an exception is not collective, so that it gets out; HDF5 then
-/// keeps the nameless file until MPI ends. A rank may hold no rows. HDF5 itself leaves ranks waiting for each other when
-/// one of them cannot write, so room for all that comes is reserved before HDF5 hears of it: a full disk is
-/// an error before anything is written. (A disk that breaks is not covered, nor one whose file system cannot
-/// reserve.) The communicator must be an MPI one or a serial one in a program that has initialised MPI.
+/// leaves the others waiting for them. Destruction by such an exception is not collective, so that it gets
+/// out; HDF5 then keeps the nameless file until MPI ends. A rank may hold no rows. HDF5 itself leaves ranks
+/// waiting for each other when one of them cannot write, so room for all that comes is reserved before HDF5
+/// hears of it: a full disk is an error before anything is written. (A disk that breaks is not covered, nor
+/// one whose file system cannot reserve.) The communicator must be an MPI one or a serial one in a program
+/// that has initialised MPI.
 class Hdf5File {
 public:
   /// Opens the temporary.
@@ -49,8 +50,8 @@ public:
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, long long value);
 
-  /// Completes the file, and returns the temporary name that it has; whoever calls it gives it the other one, or removes it.
-  /// Nothing may be written afterwards. \throws Error; the file is not there then.
+  /// Completes the file, and returns the temporary name that it has; whoever calls it gives it the other one,
+  /// or removes it. Nothing may be written afterwards. \throws Error; the file is not there then.
   std::filesystem::path complete();
   /// Completes the file and gives it its name. Nothing may be written afterwards. \throws Error; the file is
   /// not there then.

@@ -25,7 +25,7 @@ using contact::ContactLayout;
 using Eigen::Vector3d;
 
 Vector3d placeOf(const SolvedScene& solved, int body, GlobalOrdinal node) {
-  const fem::Point x = solved.decomposition.bodies[static_cast<std::size_t>(body)].mesh->point(node);
+  const Point x = solved.decomposition.bodies[static_cast<std::size_t>(body)].mesh->point(node);
   return {x[0], x[1], x[2]};
 }
 
@@ -102,7 +102,8 @@ private:
   double size_ = 0;                         ///< of the surface, from the origin
 };
 
-/// Sums of a layout whose rows have global numbers from `offset` + firstRow on; `each` sees a row and its force. Collective.
+/// Sums of a layout whose rows have global numbers from `offset` + firstRow on; `each` sees a row and its
+/// force. Collective.
 template <class Action>
 JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalOrdinal offset,
                  const Action& each) {
@@ -121,12 +122,14 @@ JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalO
   return sums;
 }
 
-/// Areas below this share of the mean are round-off: a node without neighbours in the joint, which has no traction.
+/// Areas below this share of the mean are round-off: a node without neighbours in the joint, which has no
+/// traction.
 constexpr double roundOffOfArea = 1e-9;
 
 using Tractions = std::map<GlobalOrdinal, Vector3d>; ///< of nodes
 
-/// Sums of a tied joint, and the tractions on its nodes, ∫pN̂/∫N̂ (contact/QuadraticFaces.hpp): areas of nodes may be 0, these are not.
+/// Sums of a tied joint, and the tractions on its nodes, ∫pN̂/∫N̂ (contact/QuadraticFaces.hpp): areas of
+/// nodes may be 0, these are not.
 struct TieResult {
   JointSums sums;
   Tractions tractions;

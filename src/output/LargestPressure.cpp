@@ -132,7 +132,7 @@ MatrixXd Pressures::combined(const MatrixXd& x) const {
 }
 
 Vector3d Pressures::place(std::size_t row) const {
-  const fem::Point x = mesh_.point(layout_.firstNodes[row]);
+  const Point x = mesh_.point(layout_.firstNodes[row]);
   return {x[0], x[1], x[2]};
 }
 
@@ -175,7 +175,7 @@ Patch Pressures::patch(double share) const {
 
 MatrixXd Pressures::moments(const Patch& patch) const {
   MatrixXd sums = MatrixXd::Zero(numMonomials(), at(layout_.firstNodes.size()));
-  std::vector<fem::Point> points;
+  std::vector<Point> points;
   fem::withFacetShape(surface_.facetType, [&]<int dim>(const fem::Shape<dim>& shape) {
     const fem::Shape<dim>& fine = fem::referenceShape<dim>(fem::withOrder(shape.type, 2));
     for (std::size_t f = 0; f < facets_.size(); ++f) {

@@ -18,9 +18,9 @@ void writeReport(const Teuchos::ParameterList& report, const std::filesystem::pa
 /// The same, for a file that gets its name with others.
 void writeReport(const Teuchos::ParameterList& report, const std::filesystem::path& file, FileSet& together);
 
-/// Writes rank 0's history as comma-separated text with the columns iteration, outer, step (s, c, e or p), projected_gradient,
-/// constraint_residual, objective, active_bounds, hessian_multiplications; numbers in the shortest form that
-/// reads back exactly. Directory, collectivity and errors as above.
+/// Writes rank 0's history as comma-separated text with the columns iteration, outer, step (s, c, e or p),
+/// projected_gradient, constraint_residual, objective, active_bounds, hessian_multiplications; numbers in the
+/// shortest form that reads back exactly. Directory, collectivity and errors as above.
 void writeHistory(const qp::History& history, const std::filesystem::path& file, const Comm& comm);
 /// The same, for a file that gets its name with others.
 void writeHistory(const qp::History& history, const std::filesystem::path& file, FileSet& together);

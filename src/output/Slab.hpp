@@ -18,8 +18,8 @@ struct RowRange {
   GlobalOrdinal count = 0;
 };
 
-/// The share of `rows` rows that one of several ranks has: contiguous, in the order of the ranks, sizes differ by at most
-/// one.
+/// The share of `rows` rows that one of several ranks has: contiguous, in the order of the ranks, sizes
+/// differ by at most one.
 inline RowRange evenShare(GlobalOrdinal rows, GlobalOrdinal rank, GlobalOrdinal ranks) {
   const GlobalOrdinal least = rows / ranks;
   const GlobalOrdinal longer = rows % ranks;

@@ -9,7 +9,8 @@
 
 namespace epafi::output {
 
-/// References, no copies. Precondition: `decomposition` was made from `scene`, `solution` belongs to `decomposition`.
+/// References, no copies. Precondition: `decomposition` was made from `scene`, `solution` belongs to
+/// `decomposition`.
 struct SolvedScene {
   const scene::Scene& scene;
   const model::Decomposition& decomposition;

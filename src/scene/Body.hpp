@@ -1,7 +1,8 @@
 #pragma once
 
-/// A body of any shape and physics, as plain validated values: membranes are solids of one component. Lengths, forces and moduli share one consistent system of
-/// units of the user's choice (such as mm, N, MPa); nothing in Epafi depends on which. Angles do not occur.
+/// A body of any shape and physics, as plain validated values: membranes are solids of one component.
+/// Lengths, forces and moduli share one consistent system of units of the user's choice (such as mm, N, MPa);
+/// nothing in Epafi depends on which. Angles do not occur.
 
 #include <array>
 #include <limits>
@@ -28,7 +29,8 @@ int dimensionOf(Physics physics);
 
 using Vector3 = std::array<double, 3>; ///< x, y, z
 
-/// Axis-parallel box; the whole space unless said otherwise. In the plane the third coordinate does not matter.
+/// Axis-parallel box; the whole space unless said otherwise. In the plane the third coordinate does not
+/// matter.
 struct Box {
   Vector3 lower{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                 -std::numeric_limits<double>::infinity()};
@@ -44,8 +46,8 @@ struct Material {
   double thickness = 1;       ///< of plane bodies
 };
 
-/// Another material in the elements whose centre lies in a box, or that belong to a group of the mesh file; where several
-/// overlap, the last one in the file holds.
+/// Another material in the elements whose centre lies in a box, or that belong to a group of the mesh file;
+/// where several overlap, the last one in the file holds.
 struct SolidRegion {
   std::string name;
   Box box;           ///< counts if `group` is empty
@@ -53,8 +55,8 @@ struct SolidRegion {
   Material material;
 };
 
-/// Components of the displacement prescribed on a surface, or the displacement along its outward normal. One alone makes a
-/// sliding support.
+/// Components of the displacement prescribed on a surface, or the displacement along its outward normal. One
+/// alone makes a sliding support.
 struct SolidSupport {
   std::string name;
   std::string surface; ///< "left" … "top" of a structured mesh, or a physical group
@@ -77,8 +79,8 @@ struct SolidLoad {
   std::string where; ///< group (body; may be empty: the box counts) or surface
   Vector3 point{0, 0, 0};
   Vector3 value{0, 0, 0};
-  /// Kind body with a box: elements carry the load as a whole or not at all. If false, on structured meshes exactly the part of
-  /// the body that lies in the box does.
+  /// Kind body with a box: elements carry the load as a whole or not at all. If false, on structured meshes
+  /// exactly the part of the body that lies in the box does.
   bool wholeElements = true;
 };
 

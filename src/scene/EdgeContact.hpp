@@ -38,8 +38,8 @@ struct EdgeFault {
   std::string objection; ///< a sentence that begins behind "but", or, of both, behind the contact's name
 };
 
-/// An edge that is supported or in a contact before this one, two that do not coincide or have different numbers of elements.
-/// Precondition: isAlongEdges().
+/// An edge that is supported or in a contact before this one, two that do not coincide or have different
+/// numbers of elements. Precondition: isAlongEdges().
 std::optional<EdgeFault> faultOf(const Scene& scene, std::size_t contact);
 
 } // namespace epafi::scene

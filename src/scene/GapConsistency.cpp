@@ -21,7 +21,8 @@ struct Constraint {
   int pair, body; ///< one of them, the other is −1
 };
 
-/// Corners of an edge, in the order in which edges run: 0 lower left, 1 lower right, 2 upper left, 3 upper right.
+/// Corners of an edge, in the order in which edges run: 0 lower left, 1 lower right, 2 upper left, 3 upper
+/// right.
 std::array<int, 2> cornersOf(const std::string& edge) {
   if (edge == "left")
     return {0, 2};

@@ -24,9 +24,8 @@ Teuchos::ParameterList readParameterFile(const std::string& path, const Comm& co
 ///
 /// \param where  the file's name, with which messages begin
 /// \throws InputError if the text is no well-formed XML (with the line), holds other elements than those
-///         above, lacks an attribute, names a list or parameter twice or in more than 200 bytes, nests elements more than 100
-///         deep, or a value is not completely one of its type.
-/// Not collective.
+/// above, lacks an attribute, names a list or parameter twice or in more than 200 bytes, nests elements more
+/// than 100 deep, or a value is not completely one of its type. Not collective.
 Teuchos::ParameterList parseParameters(const std::string& text, const std::string& where);
 
 } // namespace epafi::scene

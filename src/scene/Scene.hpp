@@ -21,11 +21,13 @@ struct Obstacle {
   double radius = 1;       ///< of the sphere
 };
 
-/// Frictionless contact of a body's surface with another body's or with an obstacle, or a joint of two bodies.
+/// Frictionless contact of a body's surface with another body's or with an obstacle, or a joint of two
+/// bodies.
 struct SurfaceContact {
   /// Contact: bodies do not penetrate. Tied: they are bonded, whatever lies between them.
   enum class Kind { contact, tied };
-  /// How two surfaces are coupled: by pairs of nodes that face each other, by mortars, or as the meshes ask for.
+  /// How two surfaces are coupled: by pairs of nodes that face each other, by mortars, or as the meshes ask
+  /// for.
   enum class Coupling { automatic, nodes, mortar };
   /// Which of two surfaces carries the multipliers.
   enum class Side { automatic, first, second };

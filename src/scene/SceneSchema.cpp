@@ -18,8 +18,8 @@ const std::vector<std::string> edgeNames(edges.begin(), edges.end());
 /// What the arrays may hold, for the reference; ListReader checks it.
 const std::string box = "x0 < x1, y0 < y1, z0 < z1", counts = "each ≥ 1";
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Of the elements, unless the scene says otherwise: on every scene of docs/accuracy.md order 2 is sooner at an error that one
-/// would want.
+/// Of the elements, unless the scene says otherwise: on every scene of docs/accuracy.md order 2 is sooner at
+/// an error that one would want.
 constexpr int bestOrder = 2;
 
 void describeMaterial(ParameterList& list, const std::string& of) {

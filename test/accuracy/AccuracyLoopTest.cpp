@@ -50,7 +50,8 @@ TEST(AccuracyLoopTest, ReachesTheTargetOfASmoothSolutionWithLittleMoreThanItsLas
       }
 }
 
-/// A number that looks at one element, and grows by a power of its size to a limit of its own, or without one.
+/// A number that looks at one element, and grows by a power of its size to a limit of its own, or without
+/// one.
 class Peak : public Patches {
 public:
   Peak(double power, double limit) : power_(power), limit_(limit) {}
@@ -101,7 +102,8 @@ TEST(AccuracyLoopTest, TellsOfEveryMeshAndKeepsTheElementsOfTheLastAlone) {
   }
 }
 
-/// The error of a quantity is the square of the solution's; estimates are wrong by a factor that the meshes tell.
+/// The error of a quantity is the square of the solution's; estimates are wrong by a factor that the meshes
+/// tell.
 TEST(AccuracyLoopTest, ReachesATargetOfAQuantity) {
   for (const int order : {1, 2})
     for (const double estimateByError : {1.0, 0.7})
@@ -297,7 +299,8 @@ TEST(AccuracyLoopTest, NoMeshIsSolvedOnAgainAndAgain) {
   EXPECT_LE(result.meshes.size(), 2U);
 }
 
-/// 0.9 of the target is the mesh's; if that was missed by a factor the next is asked for as much more, within reason.
+/// 0.9 of the target is the mesh's; if that was missed by a factor the next is asked for as much more, within
+/// reason.
 TEST(AccuracyLoopTest, AimsFurtherAfterAMiss) {
   for (const auto& [surprise, more] : {std::pair{1.0, 1.0}, {1.1, 1.1}, {1.3, 1.15}, {2.0, 1.15}}) {
     Patches problem;

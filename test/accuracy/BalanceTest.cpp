@@ -2,7 +2,7 @@
 
 #include "Samples.hpp"
 
-#include "../base/Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/accuracy/ErrorEstimate.hpp"

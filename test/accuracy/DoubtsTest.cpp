@@ -9,7 +9,8 @@
 namespace epafi::accuracy {
 namespace {
 
-/// A ring sector of quadrilaterals between radii 1 and 2, or, extruded by 1, of hexahedra; its inner side is "inner".
+/// A ring sector of quadrilaterals between radii 1 and 2, or, extruded by 1, of hexahedra; its inner side is
+/// "inner".
 fem::MeshArrays sector(int parts, double step, bool isSolid) {
   fem::MeshArrays arrays;
   arrays.name = "sector";
@@ -55,7 +56,7 @@ TEST(DoubtsTest, SagIsWhatChordsDeviateFromTheirArc) {
 
 TEST(DoubtsTest, NeitherCurvedFacetsNorEdgesOfABodyHaveSag) {
   fem::MeshArrays arrays = fem::completed(sector(8, 0.1, false), false);
-  for (fem::Point& point : arrays.points) // onto the circles
+  for (Point& point : arrays.points) // onto the circles
     if (const double radius = std::hypot(point[0], point[1]), whole = std::round(radius);
         std::abs(radius - whole) < 0.01)
       for (double& coordinate : point)

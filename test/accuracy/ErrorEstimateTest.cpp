@@ -1,5 +1,5 @@
-// The estimate of the discretisation error: nothing where the flux is right already, also beside other materials; what it
-// should be where the solution is smooth; the same for every cut and number of ranks.
+// The estimate of the discretisation error: nothing where the flux is right already, also beside other
+// materials; what it should be where the solution is smooth; the same for every cut and number of ranks.
 
 #include "epafi/accuracy/ErrorEstimate.hpp"
 
@@ -16,7 +16,7 @@ using test::Field;
 using ErrorEstimateTest = test::AccuracyTest;
 
 TEST_F(ErrorEstimateTest, AStateOfConstantStressHasNoError) {
-  const Field field = [](const fem::Point& x) {
+  const Field field = [](const Point& x) {
     return std::array<double, 3>{0.1 * x[0] - 0.2 * x[1], 0.3 * x[0] + 0.4 * x[1] - 0.1 * x[2], 0.2 * x[2]};
   };
   for (const test::Kind& kind : test::kinds())
@@ -33,7 +33,7 @@ TEST_F(ErrorEstimateTest, AFluxThatJumpsWithTheMaterialHasNoError) {
   // κ = 1 left of x = 1 and 100 right of it; the flux along x is the same, that along y jumps.
   scene::Scene scene = test::membrane(6, 3);
   scene.bodies[0].regions.push_back({"right", scene::rectangle(1, 2, 0, 1), "", {100}});
-  const Field field = [](const fem::Point& x) {
+  const Field field = [](const Point& x) {
     return std::array<double, 3>{(x[0] < 1 ? x[0] : 1 + (x[0] - 1) / 100) + x[1], 0, 0};
   };
   const auto decomposition = model::decompose(scene, comm);
@@ -44,8 +44,8 @@ TEST_F(ErrorEstimateTest, AFluxThatJumpsWithTheMaterialHasNoError) {
 
 /// −u″ = sin: interpolated at the nodes, linear elements have their error to leading order in h.
 TEST_F(ErrorEstimateTest, IsAsymptoticallyExactForASmoothField) {
-  const auto value = [](const fem::Point& x) { return std::sin(x[0]) * std::cos(2 * x[1]); };
-  const ExactField exact = [&](int /*body*/, const fem::Point& x) {
+  const auto value = [](const Point& x) { return std::sin(x[0]) * std::cos(2 * x[1]); };
+  const ExactField exact = [&](int /*body*/, const Point& x) {
     fem::FieldValue field;
     field.displacement = {value(x)};
     field.flux = {std::cos(x[0]) * std::cos(2 * x[1]), -2 * std::sin(x[0]) * std::sin(2 * x[1])};
@@ -55,7 +55,7 @@ TEST_F(ErrorEstimateTest, IsAsymptoticallyExactForASmoothField) {
   for (const int elements : {8, 16, 32}) {
     const scene::Scene scene = test::membrane(elements, 4);
     const auto decomposition = model::decompose(scene, comm);
-    const auto u = displacement(decomposition, [&](const fem::Point& x) {
+    const auto u = displacement(decomposition, [&](const Point& x) {
       return std::array<double, 3>{value(x), 0, 0};
     });
     const double error = errorNorms(scene, decomposition, u, exact).energy;
@@ -67,7 +67,7 @@ TEST_F(ErrorEstimateTest, IsAsymptoticallyExactForASmoothField) {
 }
 
 TEST_F(ErrorEstimateTest, IsTheSameForEveryCutAndNumberOfRanks) {
-  const Field field = [](const fem::Point& x) {
+  const Field field = [](const Point& x) {
     return std::array<double, 3>{x[0] * x[0] - x[1] * x[2], std::sin(x[0] + 2 * x[1]), x[2] * x[0] * x[1]};
   };
   for (const test::Kind& kind : test::kinds()) {

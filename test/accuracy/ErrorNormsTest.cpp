@@ -14,16 +14,16 @@ using test::Field;
 using ErrorNormsTest = test::AccuracyTest;
 
 TEST_F(ErrorNormsTest, OfAQuadraticFieldAreTheIntegralsOfTheTextbook) {
-  // u = x² on (0, 2) × (0, 1) against 0: ∫|∇u|² = ∫4x² = 32/3, ∫u² = 32/5. Interpolated by elements of length h the
-  // field has ∫|u'|² less by Σ h³/3 · … = 2h²/3, which the error against x² is.
+  // u = x² on (0, 2) × (0, 1) against 0: ∫|∇u|² = ∫4x² = 32/3, ∫u² = 32/5. Interpolated by elements of length
+  // h the field has ∫|u'|² less by Σ h³/3 · … = 2h²/3, which the error against x² is.
   const int elements = 8;
   const double h = 1.0 / elements;
   const scene::Scene scene = test::membrane(elements, 2);
   const auto decomposition = model::decompose(scene, comm);
-  const auto u = displacement(decomposition, [](const fem::Point& x) {
+  const auto u = displacement(decomposition, [](const Point& x) {
     return std::array<double, 3>{x[0] * x[0], 0, 0};
   });
-  const ExactField square = [](int /*body*/, const fem::Point& x) {
+  const ExactField square = [](int /*body*/, const Point& x) {
     fem::FieldValue field;
     field.displacement = {x[0] * x[0]};
     field.flux = {2 * x[0]};
@@ -36,7 +36,7 @@ TEST_F(ErrorNormsTest, OfAQuadraticFieldAreTheIntegralsOfTheTextbook) {
 }
 
 TEST_F(ErrorNormsTest, OfALinearDisplacementAreExactOnAllElements) {
-  const Field field = [](const fem::Point& x) {
+  const Field field = [](const Point& x) {
     return std::array<double, 3>{0.1 * x[0] - 0.2 * x[1], 0.3 * x[0] + 0.4 * x[1] - 0.1 * x[2], 0.2 * x[2]};
   };
   Eigen::Matrix3d gradient;
@@ -51,7 +51,7 @@ TEST_F(ErrorNormsTest, OfALinearDisplacementAreExactOnAllElements) {
       inPlane.row(2).setZero();
       inPlane.col(2).setZero();
     }
-    const ExactField exact = [&](int body, const fem::Point& x) {
+    const ExactField exact = [&](int body, const Point& x) {
       const auto& solid = scene.bodies[static_cast<std::size_t>(body)];
       return fem::FieldValue{field(x), fem::stressOf(inPlane, solid.physics, solid.material)};
     };
@@ -65,9 +65,9 @@ TEST_F(ErrorNormsTest, OfALinearDisplacementAreExactOnAllElements) {
 }
 
 TEST_F(ErrorNormsTest, AgainstAFinerMeshIsTheDifferenceOfTheEnergies) {
-  // The interpolant of a quadratic on a coarse mesh and on a finer one: Galerkin-orthogonal, as interpolants in one
-  // dimension are, so that squares of errors subtract.
-  const Field field = [](const fem::Point& x) { return std::array<double, 3>{x[0] * x[0], 0, 0}; };
+  // The interpolant of a quadratic on a coarse mesh and on a finer one: Galerkin-orthogonal, as interpolants
+  // in one dimension are, so that squares of errors subtract.
+  const Field field = [](const Point& x) { return std::array<double, 3>{x[0] * x[0], 0, 0}; };
   const scene::Scene scene = test::membrane(4, 2), finer = refined(refined(scene));
   const auto coarse = model::decompose(scene, comm), fine = model::decompose(finer, comm);
   const auto u = displacement(coarse, field), reference = displacement(fine, field);

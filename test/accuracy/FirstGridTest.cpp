@@ -1,4 +1,5 @@
-// Meshes that bodies on rectangles and boxes begin with: lines where the scene needs them, surfaces that match.
+// Meshes that bodies on rectangles and boxes begin with: lines where the scene needs them, surfaces that
+// match.
 
 #include "epafi/accuracy/FirstGrid.hpp"
 
@@ -54,7 +55,7 @@ scene::Scene blocks(scene::Physics physics) {
 
 /// Whether no element has corners on both sides.
 bool isLine(const fem::Mesh& mesh, std::size_t axis, double place) {
-  for (const std::vector<fem::Point>& element : elementsOf(mesh)) {
+  for (const std::vector<Point>& element : elementsOf(mesh)) {
     const auto [lower, upper] = fem::boxOf(element);
     if (lower[axis] < place - roundOff && upper[axis] > place + roundOff)
       return false;
@@ -77,7 +78,7 @@ TEST_F(FirstGridTest, FirstMeshesHaveLinesWhereTheSceneNeedsThemAlsoOnceRefined)
     EXPECT_LT(nearest, roundOff);
     EXPECT_NEAR(sumOf(meshes.measures()[0]), 2, roundOff);
     EXPECT_NEAR(measureOf(mesh), 2, roundOff);
-    meshes.refine(halvings(meshes, [](const fem::Point& x) { return x[0] > 1 ? 0.5 : 0.0; }), *comm);
+    meshes.refine(halvings(meshes, [](const Point& x) { return x[0] > 1 ? 0.5 : 0.0; }), *comm);
   }
 }
 
@@ -86,7 +87,7 @@ TEST_F(FirstGridTest, ElementsOfTheFirstMeshAreNoLongerThanHalfTheBodyOrThoseOfT
     scene::Scene scene = loadedMembrane();
     scene.bodies[0].mesh.elements = {elements, 1, 0};
     const fem::UnstructuredMesh mesh(arraysOf(firstGrid(scene, 0), 1));
-    for (const std::vector<fem::Point>& element : elementsOf(mesh)) {
+    for (const std::vector<Point>& element : elementsOf(mesh)) {
       const auto [lower, upper] = fem::boxOf(element);
       EXPECT_LE(upper[0] - lower[0], std::max(0.5, 2.0 / elements) + roundOff);
       EXPECT_LE(upper[1] - lower[1], 1 + roundOff);
@@ -98,13 +99,12 @@ TEST_F(FirstGridTest, ElementsOfTheFirstMeshAreNoLongerThanHalfTheBodyOrThoseOfT
 }
 
 /// All facets of the one that lie within the other, by their centres.
-std::vector<fem::Point> centresWithin(const fem::Mesh& mesh, const std::string& surface,
-                                      const scene::Box& box) {
-  std::vector<fem::Point> centres, points;
+std::vector<Point> centresWithin(const fem::Mesh& mesh, const std::string& surface, const scene::Box& box) {
+  std::vector<Point> centres, points;
   const fem::Surface facets = mesh.surface(surface);
   for (std::size_t f = 0; f < facets.numFacets(); ++f) {
     mesh.pointsAt(facets.facet(f), points);
-    const fem::Point centre = fem::centreOf(points);
+    const Point centre = fem::centreOf(points);
     bool isWithin = true;
     for (std::size_t d = 0; d < 3; ++d)
       isWithin = isWithin && centre[d] >= box.lower[d] - roundOff && centre[d] <= box.upper[d] + roundOff;
@@ -123,13 +123,13 @@ TEST_F(FirstGridTest, SurfacesThatTouchMatchAtFirst) {
     const auto bodies = bodiesOf(meshes);
     for (const double place : {0.7, 1.0, 1.3, 2.2})
       EXPECT_TRUE(isLine(*bodies[0].mesh, 0, place)) << "x = " << place;
-    const std::vector<fem::Point> below = centresWithin(*bodies[0].mesh, "top", scene.bodies[1].mesh.box),
-                                  above = centresWithin(*bodies[1].mesh, "bottom", scene.bodies[0].mesh.box);
+    const std::vector<Point> below = centresWithin(*bodies[0].mesh, "top", scene.bodies[1].mesh.box),
+                             above = centresWithin(*bodies[1].mesh, "bottom", scene.bodies[0].mesh.box);
     EXPECT_EQ(below.size(), above.size());
     EXPECT_GT(below.size(), 3U);
-    for (const fem::Point& centre : below)
+    for (const Point& centre : below)
       EXPECT_TRUE(std::any_of(above.begin(), above.end(),
-                              [&](const fem::Point& other) { return distance(centre, other) < roundOff; }))
+                              [&](const Point& other) { return distance(centre, other) < roundOff; }))
           << centre[0] << ' ' << centre[1];
   }
 }

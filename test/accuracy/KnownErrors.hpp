@@ -12,9 +12,9 @@
 
 namespace epafi::accuracy::test {
 
-/// Patches in the plane or in space of any number of equal elements each: an exact solution of energy 1 whose error on a patch is
-/// η² = c |patch| h^(2p) c_p², h the size of its elements, which refinement makes exactly as small as is wanted. What a finer
-/// mesh adds is orthogonal to what is left.
+/// Patches in the plane or in space of any number of equal elements each: an exact solution of energy 1 whose
+/// error on a patch is η² = c |patch| h^(2p) c_p², h the size of its elements, which refinement makes exactly
+/// as small as is wanted. What a finer mesh adds is orthogonal to what is left.
 class Patches : public RefinableProblem {
 public:
   /// \param variety  how many different c there are
@@ -92,8 +92,8 @@ private:
   std::vector<double> weights_, sizes_;
 };
 
-/// A square in rectangles, with a solution that goes like r^α at the origin: η² = c² h^(2p) r^(2(α − 1 − p)) |K|. Elements are
-/// halved across their longer side, so that the mesh is seldom just what is wanted.
+/// A square in rectangles, with a solution that goes like r^α at the origin: η² = c² h^(2p) r^(2(α − 1 − p))
+/// |K|. Elements are halved across their longer side, so that the mesh is seldom just what is wanted.
 class Corner : public RefinableProblem {
 public:
   static constexpr double alpha = 0.5;

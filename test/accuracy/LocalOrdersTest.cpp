@@ -15,7 +15,8 @@ double squaredError(double measure, double order, int dimension) {
   return std::pow(measure, 2 * order / dimension) * measure;
 }
 
-/// One element of measure 1 with an order that was taken to be `before`, and its `number` equal parts of these measures.
+/// One element of measure 1 with an order that was taken to be `before`, and its `number` equal parts of
+/// these measures.
 double orderAfter(double order, double before, int dimension, std::size_t number, double measure,
                   int orderOfElements = 2) {
   const ElementErrors last{{squaredError(1, order, dimension)}, {1.0}, {before}};
@@ -54,7 +55,8 @@ TEST(LocalOrdersTest, WhereElementsAreAboutAsLargeTheOrderStaysAsItWas) {
 }
 
 TEST(LocalOrdersTest, EachElementHasItsOwnOrderWithAllPartsOfItTogether) {
-  // Four elements of measure 1: two cut in four, with q = 1 and q = 0.5; one not cut; one with a zero where none was.
+  // Four elements of measure 1: two cut in four, with q = 1 and q = 0.5; one not cut; one with a zero where
+  // none was.
   const ElementErrors last{{1, 1, 1, 0}, {1, 1, 1, 1}, {2, 2, 1.5, 1.5}};
   const std::vector<LocalOrdinal> ancestors{1, 0, 2, 1, 0, 3, 0, 1, 1, 0, 3, 3, 3};
   std::vector<double> squared, measures;

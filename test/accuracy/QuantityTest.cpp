@@ -23,17 +23,17 @@ double product(const std::vector<Eigen::VectorXd>& weights, const std::vector<Ei
   return sum.value();
 }
 
-double linear(const fem::Point& x) {
+double linear(const Point& x) {
   return 3 + 2 * x[0] - x[1];
 }
 
 TEST_F(QuantityTest, WeightsGiveValuesAndMeansOfLinearFields) {
   const scene::Scene scene = test::membrane(6, 3);
   const auto decomposition = model::decompose(scene, comm);
-  const auto u = displacement(decomposition, [](const fem::Point& x) {
+  const auto u = displacement(decomposition, [](const Point& x) {
     return std::array<double, 3>{linear(x), 0, 0};
   });
-  for (const fem::Point& point : {fem::Point{0.31, 0.77, 0}, {1, 0.5, 0}, {2, 1, 0}, {2.0 / 3, 1.0 / 3, 0}})
+  for (const Point& point : {Point{0.31, 0.77, 0}, {1, 0.5, 0}, {2, 1, 0}, {2.0 / 3, 1.0 / 3, 0}})
     EXPECT_NEAR(product(displacementWeights(decomposition, {0, "", point}), u, *comm), linear(point), 1e-12);
   EXPECT_NEAR(product(displacementWeights(decomposition, {0, "right", {}}), u, *comm), linear({2, 0.5, 0}),
               1e-12);
@@ -42,14 +42,14 @@ TEST_F(QuantityTest, WeightsGiveValuesAndMeansOfLinearFields) {
 }
 
 TEST_F(QuantityTest, WeightsOfElasticBodiesMeasureAlongADirectionOfAnyLength) {
-  const test::Field turned = [](const fem::Point& x) {
+  const test::Field turned = [](const Point& x) {
     return std::array<double, 3>{0.5 - 0.1 * x[1], 0.2 + 0.1 * x[0], 0};
   };
   for (const test::Kind& kind : test::kinds()) {
     const scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
     const auto decomposition = model::decompose(scene, comm);
     const auto u = displacement(decomposition, turned);
-    const fem::Point point{0.3, 0.2, 0};
+    const Point point{0.3, 0.2, 0};
     const double x = product(displacementWeights(decomposition, {0, "", point, {7, 0, 0}}), u, *comm),
                  y = product(displacementWeights(decomposition, {0, "", point, {0, 0.01, 0}}), u, *comm),
                  both = product(displacementWeights(decomposition, {0, "", point, {1, 1, 0}}), u, *comm);
@@ -69,10 +69,10 @@ TEST_F(QuantityTest, WhatIsNotThereIsRefused) {
 TEST_F(QuantityTest, ErrorsAreThoseOfTheEnergyWhereTheDualSolutionIsTheSolution) {
   const scene::Scene scene = test::membrane(6, 3);
   const auto decomposition = model::decompose(scene, comm);
-  const auto u = displacement(decomposition, [](const fem::Point& x) {
+  const auto u = displacement(decomposition, [](const Point& x) {
     return std::array<double, 3>{std::sin(2 * x[0]) * std::cos(x[1]), 0, 0};
   });
-  const auto v = displacement(decomposition, [](const fem::Point& x) {
+  const auto v = displacement(decomposition, [](const Point& x) {
     return std::array<double, 3>{std::cos(3 * x[0] * x[1]), 0, 0};
   });
   ErrorEstimator estimator(scene, decomposition);

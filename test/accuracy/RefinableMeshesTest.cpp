@@ -4,7 +4,7 @@
 
 #include "RefinementSamples.hpp"
 
-#include "../base/Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 
@@ -47,7 +47,7 @@ struct RefinableMeshesTest : test::RefinementTest {
   }
 };
 
-const auto everywhereOnce = [](const fem::Point& /*x*/) { return 1.0; };
+const auto everywhereOnce = [](const Point& /*x*/) { return 1.0; };
 
 TEST_F(RefinableMeshesTest, AllRanksHaveTheSameMeshes) {
   const auto expectSame = [&](const std::vector<double>& values) {
@@ -58,7 +58,7 @@ TEST_F(RefinableMeshesTest, AllRanksHaveTheSameMeshes) {
     Teuchos::broadcast(*comm, 0, size, ofFirst.data());
     EXPECT_EQ(values, ofFirst);
   };
-  const auto onRight = [](const fem::Point& x) { return x[0] > 0.7 ? 0.4 : 0.0; }; // once
+  const auto onRight = [](const Point& x) { return x[0] > 0.7 ? 0.4 : 0.0; }; // once
   std::vector<scene::Scene> scenes{membraneOn(geometry("square.geo", R"(
 SetFactory("OpenCASCADE");
 Rectangle(1) = {0, 0, 0, 1, 1};
@@ -75,8 +75,8 @@ Physical Surface("square") = {1};
         expectSame({own.begin(), own.end()});
       for (const model::BodyLayout& body : bodiesOf(meshes, 2)) {
         std::vector<double> points;
-        for (const std::vector<fem::Point>& element : elementsOf(*body.mesh))
-          for (const fem::Point& point : element)
+        for (const std::vector<Point>& element : elementsOf(*body.mesh))
+          for (const Point& point : element)
             points.insert(points.end(), point.begin(), point.end());
         expectSame(points);
       }
@@ -88,7 +88,7 @@ TEST_F(RefinableMeshesTest, PartsMakeUpTheirAncestorsAndSurfacesStay) {
   for (const test::Kind& kind : test::kinds()) {
     const scene::Scene scene = test::stackedBlocks(kind, 1, 1, directory, *comm);
     RefinableMeshes meshes(scene, *comm);
-    const auto wanted = halvings(meshes, [](const fem::Point& x) { return x[0] < 0.3 ? 1.0 : 0.0; });
+    const auto wanted = halvings(meshes, [](const Point& x) { return x[0] < 0.3 ? 1.0 : 0.0; });
     const std::vector<Values> before = meshes.measures();
     const std::vector<Ancestors> ancestors = meshes.refine(wanted, *comm);
     const std::vector<Values> after = meshes.measures();
@@ -111,7 +111,7 @@ TEST_F(RefinableMeshesTest, PartsMakeUpTheirAncestorsAndSurfacesStay) {
       for (const std::string name : {"left", "bottom", "top"}) {
         const fem::Surface surface = bodies[b].mesh->surface(name);
         double area = 0;
-        std::vector<fem::Point> points;
+        std::vector<Point> points;
         for (std::size_t f = 0; f < surface.numFacets(); ++f) {
           bodies[b].mesh->pointsAt(surface.facet(f), points);
           area += fem::areaVector(surface.facetType, points).norm();
@@ -126,9 +126,9 @@ TEST_F(RefinableMeshesTest, PartsMakeUpTheirAncestorsAndSurfacesStay) {
 TEST_F(RefinableMeshesTest, AGrowthThatIsWantedEverywhereIsMade) {
   for (const double halving : {0.2, 0.35}) {
     RefinableMeshes meshes(test::membrane(4, 2), *comm);
-    meshes.refine(halvings(meshes, [](const fem::Point& /*x*/) { return 1.0; }), *comm);
+    meshes.refine(halvings(meshes, [](const Point& /*x*/) { return 1.0; }), *comm);
     const auto before = static_cast<double>(meshes.measures()[0].size());
-    meshes.refine(halvings(meshes, [&](const fem::Point& /*x*/) { return halving; }), *comm);
+    meshes.refine(halvings(meshes, [&](const Point& /*x*/) { return halving; }), *comm);
     const auto after = static_cast<double>(meshes.measures()[0].size());
     EXPECT_GE(after / before, 0.95 * std::exp2(2 * halving));
     EXPECT_LE(after / before, 1.5 * std::exp2(2 * halving)) << "no more than keeps nodes from hanging";
@@ -136,7 +136,7 @@ TEST_F(RefinableMeshesTest, AGrowthThatIsWantedEverywhereIsMade) {
 }
 
 TEST_F(RefinableMeshesTest, PartsAreForetoldAsTheyAreMade) {
-  const auto inACorner = [](const fem::Point& x) { return x[0] + x[1] < 0.5 ? 1.3 : 0.0; };
+  const auto inACorner = [](const Point& x) { return x[0] + x[1] < 0.5 ? 1.3 : 0.0; };
   for (const test::Kind& kind : test::kinds()) {
     RefinableMeshes meshes(test::stackedBlocks(kind, 1, 1, directory, *comm), *comm);
     for (int round = 0; round < 2; ++round) {
@@ -160,7 +160,7 @@ TEST_F(RefinableMeshesTest, BodiesAreCutIntoMorePartsAsTheirMeshesGrow) {
   EXPECT_EQ(bodiesOf(meshes, 1)[0].partition->numParts(), 1);
   EXPECT_EQ(first.bodies[0].mesh.order, 1);
   EXPECT_EQ(first.bodies[0].name, "membrane");
-  meshes.refine(halvings(meshes, [](const fem::Point& /*x*/) { return 4.0; }), *comm);
+  meshes.refine(halvings(meshes, [](const Point& /*x*/) { return 4.0; }), *comm);
   const scene::Scene finer = meshes.scene(2);
   EXPECT_EQ(finer.bodies[0].mesh.order, 2);
   const auto bodies = bodiesOf(meshes, 2);
@@ -212,8 +212,8 @@ TEST_F(RefinableMeshesTest, ANewElementLiesInTheOneThatIsItsAncestor) {
   ASSERT_EQ(ancestors[0].size(), young.size());
   std::set<LocalOrdinal> parents;
   for (std::size_t e = 0; e < young.size(); ++e) {
-    const std::vector<fem::Point>& ancestor = old.at(static_cast<std::size_t>(ancestors[0][e]));
-    const fem::Point centre = fem::centreOf(young[e]);
+    const std::vector<Point>& ancestor = old.at(static_cast<std::size_t>(ancestors[0][e]));
+    const Point centre = fem::centreOf(young[e]);
     EXPECT_LT(distance(centre, fem::centreOf(ancestor)), fem::diameterOf(ancestor));
     parents.insert(ancestors[0][e]);
   }
@@ -225,7 +225,7 @@ TEST_F(RefinableMeshesTest, AGeometryGetsFinerWhereThatIsWantedAndCoarserElsewhe
   meshes.refine(halvings(meshes, everywhereOnce), *comm);
   const auto areaOn = [&](double side) { // mean area of the elements there
     double sum = 0, number = 0;
-    for (const std::vector<fem::Point>& element : elementsOf(*bodiesOf(meshes)[0].mesh))
+    for (const std::vector<Point>& element : elementsOf(*bodiesOf(meshes)[0].mesh))
       if (side * fem::centreOf(element)[0] > 0.5) {
         sum += fem::measureOf(fem::CellType::triangle, element);
         ++number;
@@ -233,7 +233,7 @@ TEST_F(RefinableMeshesTest, AGeometryGetsFinerWhereThatIsWantedAndCoarserElsewhe
     return sum / number;
   };
   const double left = areaOn(-1), right = areaOn(1);
-  meshes.refine(halvings(meshes, [](const fem::Point& x) { return x[0] > 0 ? 1.0 : -1.0; }), *comm);
+  meshes.refine(halvings(meshes, [](const Point& x) { return x[0] > 0 ? 1.0 : -1.0; }), *comm);
   EXPECT_LT(areaOn(1), 0.5 * right);
   EXPECT_GT(areaOn(-1), 1.5 * left);
 }
@@ -251,7 +251,7 @@ Physical Surface("east") = {2};
                          *comm);
   const auto before = meshes.measures();
   const std::vector<Ancestors> ancestors =
-      meshes.refine(halvings(meshes, [](const fem::Point& x) { return x[0] < 1.5 ? 1.0 : 0.0; }), *comm);
+      meshes.refine(halvings(meshes, [](const Point& x) { return x[0] < 1.5 ? 1.0 : 0.0; }), *comm);
   const auto after = meshes.measures();
   EXPECT_GT(after[0].size(), 2 * before[0].size());
   EXPECT_LT(after[1].size(), 2 * before[1].size());

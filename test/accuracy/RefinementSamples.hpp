@@ -21,8 +21,8 @@ inline double sumOf(const Values& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-inline std::vector<std::vector<fem::Point>> elementsOf(const fem::Mesh& mesh) {
-  std::vector<std::vector<fem::Point>> elements(static_cast<std::size_t>(mesh.numElements()));
+inline std::vector<std::vector<Point>> elementsOf(const fem::Mesh& mesh) {
+  std::vector<std::vector<Point>> elements(static_cast<std::size_t>(mesh.numElements()));
   for (std::size_t e = 0; e < elements.size(); ++e)
     mesh.elementPoints(static_cast<GlobalOrdinal>(e), elements[e]);
   return elements;
@@ -30,12 +30,12 @@ inline std::vector<std::vector<fem::Point>> elementsOf(const fem::Mesh& mesh) {
 
 inline double measureOf(const fem::Mesh& mesh) {
   double sum = 0;
-  for (const std::vector<fem::Point>& element : elementsOf(mesh))
+  for (const std::vector<Point>& element : elementsOf(mesh))
     sum += fem::measureOf(mesh.cellType(), element);
   return sum;
 }
 
-inline double distance(const fem::Point& a, const fem::Point& b) {
+inline double distance(const Point& a, const Point& b) {
   return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
 }
 
@@ -48,11 +48,10 @@ struct RefinementTest : AccuracyTest {
 
   /// Halvings by the centre of an element, of all bodies.
   [[nodiscard]] std::vector<Values> halvings(const RefinableMeshes& meshes,
-                                             const std::function<double(const fem::Point&)>& wanted) const {
+                                             const std::function<double(const Point&)>& wanted) const {
     std::vector<Values> result;
     for (const model::BodyLayout& body : bodiesOf(meshes))
-      for (Values& own = result.emplace_back();
-           const std::vector<fem::Point>& element : elementsOf(*body.mesh))
+      for (Values& own = result.emplace_back(); const std::vector<Point>& element : elementsOf(*body.mesh))
         own.push_back(wanted(fem::centreOf(element)));
     return result;
   }

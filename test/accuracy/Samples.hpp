@@ -2,7 +2,7 @@
 
 /// Scenes and fields that several tests of this room look at.
 
-#include "../output/ElasticSample.hpp"
+#include "support/ElasticSample.hpp"
 
 #include "epafi/model/Decompose.hpp"
 #include "epafi/scene/ModelProblem.hpp"

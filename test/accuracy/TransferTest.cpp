@@ -4,7 +4,7 @@
 
 #include "Samples.hpp"
 
-#include "../fem/SimplexSamples.hpp"
+#include "support/SimplexSamples.hpp"
 
 #include "epafi/accuracy/PointLocation.hpp"
 #include "epafi/accuracy/Refinement.hpp"
@@ -20,11 +20,11 @@ namespace {
 using test::Field;
 using TransferTest = test::AccuracyTest;
 
-fem::Point pointAt(const fem::Mesh& mesh, const Location& location) {
+Point pointAt(const fem::Mesh& mesh, const Location& location) {
   std::array<GlobalOrdinal, fem::mostNodes> nodes{};
   const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
   mesh.elementNodes(location.element, std::span(nodes).first(number));
-  fem::Point point{};
+  Point point{};
   for (std::size_t i = 0; i < number; ++i)
     for (std::size_t d = 0; d < 3; ++d)
       point[d] += location.weights[i] * mesh.point(nodes[i])[d];
@@ -39,16 +39,16 @@ TEST_F(TransferTest, EveryPointOfABodyIsFoundWhereItIs) {
     const fem::Mesh& mesh = *decomposition.bodies[0].mesh;
     PointLocation location(mesh);
     for (int k = 0; k < 200; ++k) {
-      fem::Point point{inside(random), inside(random), inside(random)};
+      Point point{inside(random), inside(random), inside(random)};
       if (fem::dimensionOf(kind.cell) == 2)
         point[2] = 0;
       if (k == 0)
         point = mesh.point(0);
-      const fem::Point found = pointAt(mesh, location.find(point));
+      const Point found = pointAt(mesh, location.find(point));
       for (std::size_t d = 0; d < 3; ++d)
         EXPECT_NEAR(found[d], point[d], 1e-12) << fem::toString(kind.cell);
     }
-    const fem::Point outside =
+    const Point outside =
         pointAt(mesh, location.find({1.05, 0.5, kind.physics == scene::Physics::elasticity3d ? 0.5 : 0}));
     EXPECT_NEAR(outside[0], 1, 0.2); // near, and in the body
     EXPECT_LE(outside[0], 1 + 1e-12);
@@ -75,11 +75,11 @@ TEST_F(TransferTest, PointsAreFoundAmongElementsOfAllSizes) {
     const PointLocation location(mesh);
     for (int k = 0; k < 200; ++k) {
       const double scale = std::exp2(-k % (steps + 1));
-      fem::Point point{scale * inside(random), scale * inside(random), scale * inside(random)};
+      Point point{scale * inside(random), scale * inside(random), scale * inside(random)};
       if (simplices.dimension == 2)
         point[2] = 0;
       const Location found = location.find(point);
-      const fem::Point place = pointAt(mesh, found);
+      const Point place = pointAt(mesh, found);
       for (std::size_t d = 0; d < 3; ++d)
         EXPECT_NEAR(place[d], point[d], 1e-12);
       EXPECT_GE(*std::min_element(found.weights.begin(), found.weights.end()), -1e-9);
@@ -97,22 +97,22 @@ TEST_F(TransferTest, PointsOfCurvedElementsAreFoundAndNearOnesOfThoseBeyond) {
     for (int k = 0; k < 200; ++k) {
       const double angle = 0.5 * std::numbers::pi * inside(random);
       const auto at = [&, z = elements[2] == 0 ? 0 : inside(random)](double radius) {
-        return fem::Point{radius * std::cos(angle), radius * std::sin(angle), z};
+        return Point{radius * std::cos(angle), radius * std::sin(angle), z};
       };
-      const fem::Point point = at(1.001 + 0.998 * inside(random));
-      const fem::Point found = pointAt(mesh, location.find(point));
+      const Point point = at(1.001 + 0.998 * inside(random));
+      const Point found = pointAt(mesh, location.find(point));
       for (std::size_t d = 0; d < 3; ++d)
         EXPECT_NEAR(found[d], point[d], 1e-10);
       const Location beyond = location.find(at(2.01));
       EXPECT_NEAR(std::accumulate(beyond.weights.begin(), beyond.weights.end(), 0.0), 1, 1e-12);
-      const fem::Point near = pointAt(mesh, beyond), wanted = at(2);
+      const Point near = pointAt(mesh, beyond), wanted = at(2);
       EXPECT_LT(std::hypot(near[0] - wanted[0], near[1] - wanted[1], near[2] - wanted[2]), 0.05);
     }
   }
 }
 
 TEST_F(TransferTest, LinearFieldsAndCoarseOnesAreCarriedOverWithoutError) {
-  const Field field = [](const fem::Point& x) {
+  const Field field = [](const Point& x) {
     return std::array<double, 3>{0.1 * x[0] - 0.2 * x[1], 0.3 * x[0] + 0.4 * x[1] - 0.1 * x[2], 0.2 * x[2]};
   };
   for (const test::Kind& kind : test::kinds()) {

@@ -96,8 +96,8 @@ TEST(WantedSizesTest, ReachesTheGoalIfNoLimitIsInTheWay) {
   }
 }
 
-/// Karush, Kuhn, Tucker: one more part pays everywhere alike, −∂η²/∂n = 2q/d η² n^(−2q/d − 1), less where n cannot fall, more where
-/// it cannot rise.
+/// Karush, Kuhn, Tucker: one more part pays everywhere alike, −∂η²/∂n = 2q/d η² n^(−2q/d − 1), less where n
+/// cannot fall, more where it cannot rise.
 TEST(WantedSizesTest, NoElementWouldUseAPartBetterThanAnother) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const Sample sample(seed);

@@ -1,5 +1,5 @@
-#include "../base/Refusal.hpp"
-#include "../linear/Samples.hpp"
+#include "support/LinearSamples.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/adapters/BddcFactory.hpp"
 #include "epafi/adapters/ThyraOperators.hpp"

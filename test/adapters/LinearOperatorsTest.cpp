@@ -1,4 +1,4 @@
-#include "../linear/Samples.hpp"
+#include "support/LinearSamples.hpp"
 
 #include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/fetidp/Projector.hpp"

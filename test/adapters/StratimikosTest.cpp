@@ -1,6 +1,6 @@
-#include "../base/Refusal.hpp"
-#include "../linear/Samples.hpp"
 #include "Builder.hpp"
+#include "support/LinearSamples.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/adapters/Stratimikos.hpp"
 #include "epafi/adapters/ThyraOperators.hpp"

@@ -1,4 +1,4 @@
-#include "../fetidp/DenseProblem.hpp"
+#include "support/DenseProblem.hpp"
 
 #include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/fetidp/DualOperator.hpp"

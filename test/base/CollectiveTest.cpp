@@ -1,6 +1,6 @@
 #include "epafi/base/Collective.hpp"
 
-#include "Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>

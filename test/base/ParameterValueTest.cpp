@@ -1,6 +1,6 @@
 #include "epafi/base/ParameterValue.hpp"
 
-#include "Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include <Teuchos_Array.hpp>
 

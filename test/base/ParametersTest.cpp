@@ -1,7 +1,7 @@
 #include "epafi/base/Parameters.hpp"
 
-#include "Arrays.hpp"
-#include "Refusal.hpp"
+#include "support/Arrays.hpp"
+#include "support/Refusal.hpp"
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 

@@ -8,7 +8,8 @@ namespace {
 
 using namespace epafi;
 
-/// What rank `from` sends to rank `to`: as many numbers as the ranks differ by, less one, so that neighbours send nothing.
+/// What rank `from` sends to rank `to`: as many numbers as the ranks differ by, less one, so that neighbours
+/// send nothing.
 std::vector<double> message(int from, int to) {
   std::vector<double> values;
   for (int i = 1; i < std::abs(from - to); ++i)

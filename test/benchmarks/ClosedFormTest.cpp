@@ -1,5 +1,5 @@
 #include "ClosedForms.hpp"
-#include "Solving.hpp"
+#include "support/Solving.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,9 @@ Errors errorsOf(const KnownBenchmark& benchmark) {
   return {error->normInf(), error->norm2() / std::sqrt(static_cast<double>(problem.grid.size()))};
 }
 
-/// The orders in h of both errors, from meshes of about n and 4n unknowns a side. The error of one mesh depends on
-/// where in its element the contact ends (it may all but vanish), so error/h² is averaged over six meshes.
+/// The orders in h of both errors, from meshes of about n and 4n unknowns a side. The error of one mesh
+/// depends on where in its element the contact ends (it may all but vanish), so error/h² is averaged over six
+/// meshes.
 Errors observedOrders(const std::function<KnownBenchmark(int)>& make, int n) {
   const auto average = [&](int first) {
     Errors sum;
@@ -43,8 +44,8 @@ Errors observedOrders(const std::function<KnownBenchmark(int)>& make, int n) {
 }
 
 TEST(ClosedFormTest, StringIsAsFarOffAsTheEndOfItsContactIsFromAMeshPoint) {
-  // Linear elements are exact at the mesh points but for the contact's end, which falls at a fraction θ of an element:
-  // the error is at most fh² θ(1−θ)/2 ≤ fh²/8.
+  // Linear elements are exact at the mesh points but for the contact's end, which falls at a fraction θ of an
+  // element: the error is at most fh² θ(1−θ)/2 ≤ fh²/8.
   for (const int n : {9, 24, 39, 80, 127}) {
     const KnownBenchmark benchmark = stringOverObstacle(n, allRanks());
     const double h = benchmark.problem.grid.hx;
@@ -71,8 +72,8 @@ TEST(ClosedFormTest, BallConvergesWithSecondOrder) {
   const Errors order = observedOrders([](int n) { return ballObstacle(n, allRanks()); }, 12);
 
   EXPECT_NEAR(order.rootMeanSquare, 2, 0.25);
-  // In theory the largest error has a power of |ln h| beside h² (Baiocchi 1977; Nitsche 1977): 1.7 is what meshes of
-  // this size show.
+  // In theory the largest error has a power of |ln h| beside h² (Baiocchi 1977; Nitsche 1977): 1.7 is what
+  // meshes of this size show.
   EXPECT_GE(order.largest, 1.5);
   EXPECT_LE(order.largest, 2.25);
 }

@@ -1,5 +1,5 @@
 #include "ClosedForms.hpp"
-#include "Solving.hpp"
+#include "support/Solving.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/benchmarks/PublishedProblems.hpp"

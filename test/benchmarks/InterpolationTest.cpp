@@ -1,4 +1,4 @@
-#include "Solving.hpp"
+#include "support/Solving.hpp"
 
 #include "epafi/benchmarks/Grid.hpp"
 

@@ -1,6 +1,6 @@
 // Clusters of subdomains: what joins them inside, what glues them, and how they move.
 
-#include "Gathered.hpp"
+#include "support/Gathered.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"

@@ -1,4 +1,4 @@
-#include "Gathered.hpp"
+#include "support/Gathered.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
@@ -125,7 +125,8 @@ TEST(ContactTest, NonMatchingNodesAreRefusedWithBothNumbers) {
   EXPECT_TRUE(mentions(refusal(scene), {"interface", "left", "right", "4", "6"})) << refusal(scene);
 }
 
-/// Whichever body has them, the nodes of order 2 have the rows; those between corners meet the middle of two nodes.
+/// Whichever body has them, the nodes of order 2 have the rows; those between corners meet the middle of two
+/// nodes.
 TEST(ContactTest, BodiesOfOrderOneAndTwoMeetAtTheNodesOfOrderTwo) {
   for (const std::size_t quadratic : {0U, 1U}) {
     scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
@@ -136,7 +137,7 @@ TEST(ContactTest, BodiesOfOrderOneAndTwoMeetAtTheNodesOfOrderTwo) {
     EXPECT_EQ(contact.firstSurface, quadratic == 0 ? "right" : "left");
     ASSERT_EQ(contact.numRows(), 9);
     for (std::size_t row = 0; row < 9; ++row) {
-      const fem::Point own = result.bodies[quadratic].mesh->point(contact.firstNodes[row]);
+      const Point own = result.bodies[quadratic].mesh->point(contact.firstNodes[row]);
       double height = 0, weight = 0;
       for (const contact::NodeShare& share : contact.secondNodes[row]) {
         height += share.weight * result.bodies[1 - quadratic].mesh->point(share.node)[1];

@@ -1,4 +1,4 @@
-#include "Gathered.hpp"
+#include "support/Gathered.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"

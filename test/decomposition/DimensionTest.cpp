@@ -1,4 +1,4 @@
-#include "Gathered.hpp"
+#include "support/Gathered.hpp"
 
 #include "epafi/base/Compatibility.hpp"
 

@@ -149,8 +149,8 @@ TEST(EdgeAveragesTest, GluingRowsAreOrthogonalInTheStiffness) {
 }
 
 TEST(HoldingPointsTest, TakeAsManyPointsAsHoldABody) {
-  const std::vector<fem::Point> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-  std::vector<fem::Point> plane = line;
+  const std::vector<Point> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  std::vector<Point> plane = line;
   plane.push_back({1, 2, 0});
   EXPECT_EQ(HoldingPoints(1).complete(line).size(), 1U);
   EXPECT_EQ(HoldingPoints(2).complete(line).size(), 2U);

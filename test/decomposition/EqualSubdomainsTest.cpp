@@ -1,4 +1,4 @@
-#include "Gathered.hpp"
+#include "support/Gathered.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Simplices split in two, again and again: no node hangs, nothing is lost, no element gets flat.
 
-#include "SimplexSamples.hpp"
+#include "support/SimplexSamples.hpp"
 
 #include <gtest/gtest.h>
 
@@ -169,7 +169,8 @@ TEST(BisectionTest, PartsMakeUpTheirAncestorsAndAreAsManyAsWereAskedFor) {
   }
 }
 
-/// Rosenberg, Stenger: A lower bound on the angles of triangles constructed by bisecting the longest side (1975).
+/// Rosenberg, Stenger: A lower bound on the angles of triangles constructed by bisecting the longest side
+/// (1975).
 TEST(BisectionTest, AnglesInThePlaneStayAboveHalfOfTheSmallest) {
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
     SimplexMesh mesh = unevenGrid({4, 4, 0}, seed);
@@ -267,7 +268,8 @@ TEST(BisectionTest, CurvedElementsKeepTheirSize) {
   }
 }
 
-/// Lengths that differ by a part in 10⁹, as in files with ten digits: both sides of a face have to agree on which edge is longest.
+/// Lengths that differ by a part in 10⁹, as in files with ten digits: both sides of a face have to agree on
+/// which edge is longest.
 TEST(BisectionTest, EdgesThatAreAlmostEquallyLongLeaveNoCracks) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed)
     for (const double step : {2e-10, 3e-10}) {

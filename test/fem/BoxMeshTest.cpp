@@ -167,8 +167,8 @@ TEST(BoxMeshTest, ElementsFillTheBox) {
   }
 }
 
-/// Each facet lies on its element; what they enclose has the box's volume, each face the area and the direction
-/// that its name says.
+/// Each facet lies on its element; what they enclose has the box's volume, each face the area and the
+/// direction that its name says.
 TEST(BoxMeshTest, SurfacesLookOutwards) {
   const std::map<std::string, Eigen::Vector3d> area{{"left", {-0.5, 0, 0}},   {"right", {0.5, 0, 0}},
                                                     {"front", {0, -1.5, 0}},  {"back", {0, 1.5, 0}},

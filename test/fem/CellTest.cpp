@@ -1,4 +1,4 @@
-#include "SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,8 @@ TEST(CellTest, FacetsCloseTheBoundary) {
   }
 }
 
-/// The nodes between corners lie in the middle of the unit cell's edges and faces, in the facets as in the cell.
+/// The nodes between corners lie in the middle of the unit cell's edges and faces, in the facets as in the
+/// cell.
 TEST(CellTest, NodesOfOrderTwoLieBetweenTheCorners) {
   for (const CellType linear : linearCellTypes) {
     const CellType type = withOrder(linear, 2);

@@ -1,7 +1,7 @@
 #include "epafi/fem/ElementGeometry.hpp"
 
-#include "SampleCells.hpp"
-#include "SimplexSamples.hpp"
+#include "support/SampleCells.hpp"
+#include "support/SimplexSamples.hpp"
 
 #include <gtest/gtest.h>
 
@@ -74,8 +74,9 @@ TEST(ElementGeometryTest, CentreIsTheMeanOfTheCorners) {
   EXPECT_EQ(centreOf(triangle), (Point{1, 2, 0}));
 }
 
-/// Of a trapezium of parallel sides 3 and 1 and height 1: N at the ends of the longer one falls from 1 to 0 with the height,
-/// and is 1/2 of what a line across it has there: ½∫(1 − y)(3 − 2y) dy = 7/12; at the shorter one ½∫y(3 − 2y) dy = 5/12.
+/// Of a trapezium of parallel sides 3 and 1 and height 1: N at the ends of the longer one falls from 1 to 0
+/// with the height, and is 1/2 of what a line across it has there: ½∫(1 − y)(3 − 2y) dy = 7/12; at the
+/// shorter one ½∫y(3 − 2y) dy = 5/12.
 TEST(ElementGeometryTest, NodesShareAFacetAsTheirShapeFunctionsDo) {
   const Points trapezium{{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}},
       triangle{{0, 0, 0}, {3, 0, 0}, {0, 0, 2}};

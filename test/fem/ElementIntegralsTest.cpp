@@ -3,7 +3,7 @@
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/ElementGeometry.hpp"
 
-#include "SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -128,7 +128,8 @@ TEST(ElementStiffnessTest, FollowsTheUnits) {
   });
 }
 
-/// ∫∇N_i·∇N_j over a rectangle in closed form; each row: node with itself, its x-neighbour, the opposite node, its y-neighbour.
+/// ∫∇N_i·∇N_j over a rectangle in closed form; each row: node with itself, its x-neighbour, the opposite
+/// node, its y-neighbour.
 Eigen::Matrix4d rectangleStiffness(double hx, double hy) {
   const double a = hy / (6 * hx), b = hx / (6 * hy);
   const double self = 2 * a + 2 * b, alongX = -2 * a + b, opposite = -a - b, alongY = a - 2 * b;
@@ -218,7 +219,8 @@ TEST(BodyForceLoadTest, SumsToForceTimesMeasure) {
   });
 }
 
-/// First moments of a trapezium (sides 3 and 1, height 1; centroid at height 5/12) and of a frustum of a pyramid.
+/// First moments of a trapezium (sides 3 and 1, height 1; centroid at height 5/12) and of a frustum of a
+/// pyramid.
 TEST(BodyForceLoadTest, ActsAtTheCentroid) {
   const std::vector<Point> trapezium{{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}};
   const Eigen::VectorXd plane = bodyLoadOf(CellType::quadrilateral, trapezium, Physics::membrane, {6, 0, 0});

@@ -1,11 +1,12 @@
-/// Elements in a state of constant stress: what the stiffness, the stresses and the loads on facets say must agree.
+/// Elements in a state of constant stress: what the stiffness, the stresses and the loads on facets say must
+/// agree.
 
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 
 #include "epafi/fem/ElementGeometry.hpp"
 
-#include "SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,8 @@ Eigen::Matrix3d gradientIn(CellType type) {
   return gradient;
 }
 
-/// Hooke's law as the textbooks write it, E ε = (1 + ν) σ − ν tr(σ) I, solved for σ; in the plane by the 3 × 3 matrices.
+/// Hooke's law as the textbooks write it, E ε = (1 + ν) σ − ν tr(σ) I, solved for σ; in the plane by the 3 ×
+/// 3 matrices.
 Eigen::Matrix3d hooke(const Eigen::Matrix3d& gradient, Physics physics) {
   const Eigen::Matrix3d strain = (gradient + gradient.transpose()) / 2;
   const double modulus = material.youngsModulus, ratio = material.poissonsRatio;

@@ -1,6 +1,6 @@
 #include "epafi/fem/ElementGeometry.hpp"
 
-#include "SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include "epafi/fem/ElementMap.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "epafi/fem/ElementGeometry.hpp"
 
-#include "SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,8 @@ TEST(FacetLoadsTest, TractionsSumToForceTimesMeasure) {
     }
 }
 
-/// The centroid of a trapezium of parallel sides 3 and 1 and height 1: (3 + 2·1)/(3(3 + 1)) above the longer one.
+/// The centroid of a trapezium of parallel sides 3 and 1 and height 1: (3 + 2·1)/(3(3 + 1)) above the longer
+/// one.
 TEST(FacetLoadsTest, TractionsActAtTheCentroidOfTheFacet) {
   const std::vector<Point> trapezium{{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}};
   const Eigen::Vector3d centroid(1.5, 5.0 / 12, 0), force(0, 0, 2 * 6);

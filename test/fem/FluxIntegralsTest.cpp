@@ -2,7 +2,7 @@
 
 #include "epafi/fem/FluxIntegrals.hpp"
 
-#include "SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include "epafi/fem/ElementIntegrals.hpp"
 
@@ -47,7 +47,8 @@ TEST(FluxIntegralsTest, TheEnergyOfADisplacementIsThatOfTheStiffness) {
     }
 }
 
-/// q* as a function of space is what differenceNorms can integrate with a rule of its own: on simplices q* is linear.
+/// q* as a function of space is what differenceNorms can integrate with a rule of its own: on simplices q* is
+/// linear.
 TEST(FluxIntegralsTest, TheDifferenceOnASimplexIsIntegratedExactly) {
   for (const CellType type : {CellType::triangle, CellType::tetrahedron})
     for (const Physics physics : allPhysics(type)) {

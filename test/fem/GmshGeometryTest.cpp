@@ -16,8 +16,8 @@ using test::vectorOf;
 
 using GmshGeometryTest = test::GmshTest;
 
-/// Neighbours are mutual and share a facet's nodes; nodes and elements know each other; boundary nodes are those of
-/// facets without a neighbour.
+/// Neighbours are mutual and share a facet's nodes; nodes and elements know each other; boundary nodes are
+/// those of facets without a neighbour.
 void expectConsistent(const Mesh& mesh) {
   std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement())), other = nodes, list,
                                                                                       back;
@@ -47,8 +47,8 @@ void expectConsistent(const Mesh& mesh) {
   }
 }
 
-/// All surfaces together enclose the body: Σ a = 0 and ⅓ Σ x·a (in the plane ½) is its volume, which is positive only if
-/// normals point outwards; their nodes are the boundary nodes.
+/// All surfaces together enclose the body: Σ a = 0 and ⅓ Σ x·a (in the plane ½) is its volume, which is
+/// positive only if normals point outwards; their nodes are the boundary nodes.
 void expectEnclosed(const Mesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double measure = 0;
@@ -174,7 +174,8 @@ Physical Surface("sides") = {out(2), out(3), out(4), out(5)};
   expectEnclosed(mesh);
 }
 
-/// Every element of a file, of a geometry and of an old mesh alike, is split; groups and surfaces keep their names and places.
+/// Every element of a file, of a geometry and of an old mesh alike, is split; groups and surfaces keep their
+/// names and places.
 TEST_F(GmshGeometryTest, RefinesMeshesByHalvingAllEdges) {
   const std::string plate = folder.write("plate.msh", test::plate41);
   const UnstructuredMesh coarse = GmshFile(plate).body(""),
@@ -207,7 +208,8 @@ Physical Curve("rim") = {1};
 TEST_F(GmshGeometryTest, KeepsTheScaleOfAGeometry) {
   const std::string plate = folder.write("plate.geo", R"(
 Mesh.ScalingFactor = 0.001;
-Point(1) = {0, 0, 0, 50}; Point(2) = {200, 0, 0, 50}; Point(3) = {200, 100, 0, 50}; Point(4) = {0, 100, 0, 50};
+Point(1) = {0, 0, 0, 50}; Point(2) = {200, 0, 0, 50};
+Point(3) = {200, 100, 0, 50}; Point(4) = {0, 100, 0, 50};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
 )");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "MeshFiles.hpp"
+#include "support/MeshFiles.hpp"
 
 #include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/GmshFile.hpp"

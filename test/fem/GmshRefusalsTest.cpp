@@ -151,7 +151,8 @@ Mesh.ElementOrder = 2;
   expectRefused(cam, {"cam.geo", "too coarse", "Mesh Size Factor"}, "", "cam.geo");
 }
 
-/// Mistakes of geometries, and what Gmsh makes of them: errors in its threads over surfaces, its end, nothing at all.
+/// Mistakes of geometries, and what Gmsh makes of them: errors in its threads over surfaces, its end, nothing
+/// at all.
 TEST_F(GmshRefusalsTest, OutlivesGmshAndLeavesNoFiles) {
   const std::string square = R"(
 Point(1) = {0, 0, 0, 0.5}; Point(2) = {1, 0, 0, 0.5}; Point(3) = {1, 1, 0, 0.5}; Point(4) = {0, 1, 0, 0.5};

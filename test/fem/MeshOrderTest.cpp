@@ -1,8 +1,8 @@
 #include "epafi/fem/MeshOrder.hpp"
 
 #include "GmshPlate.hpp"
-#include "SampleCells.hpp"
-#include "TurnedMesh.hpp"
+#include "support/SampleCells.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include "epafi/fem/GmshReader.hpp"
 

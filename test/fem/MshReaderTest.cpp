@@ -34,7 +34,8 @@ void expectMshRefused(const std::string& text, const std::vector<std::string>& p
   expectRefusal([&] { (void)readMsh("a.msh", text); }, all);
 }
 
-/// An element: its kind, and its nodes by their places in units of 1e-9, since Gmsh numbers anew what it saves.
+/// An element: its kind, and its nodes by their places in units of 1e-9, since Gmsh numbers anew what it
+/// saves.
 using Element = std::vector<std::array<long long, 3>>;
 
 std::multiset<Element> elementsOf(const GmshContents& file, const GmshBlock& block) {
@@ -183,7 +184,8 @@ TEST_F(MshReaderTest, RefusesElementsThatCannotBe) {
   expectMshRefused(head41 + elements41, {"node 1, but no such node"});
 }
 
-/// As Gmsh writes groups that overlap in format 2.2: one element of two groups, whatever order its nodes are in.
+/// As Gmsh writes groups that overlap in format 2.2: one element of two groups, whatever order its nodes are
+/// in.
 TEST_F(MshReaderTest, ReadsElementsListedOncePerGroupAsOne) {
   const std::string text = replaced(replaced(plate22, "$Elements\n4", "$Elements\n5"), "3 3 2 3 2 2 3 6 5",
                                     "3 3 2 3 2 2 3 6 5\n7 3 2 2 2 3 6 5 2");

@@ -2,7 +2,7 @@
 
 #include "epafi/fem/ElementMap.hpp"
 
-#include "SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -123,7 +123,8 @@ TEST(ShapeOfCellTest, HasTheNodesAndTheDimensionOfTheCellAndItsFacets) {
   }
 }
 
-/// Corners of the reference element look as in Cell.hpp: Jacobian of the unit cell is a positive multiple of the identity.
+/// Corners of the reference element look as in Cell.hpp: Jacobian of the unit cell is a positive multiple of
+/// the identity.
 TEST(ElementMapTest, MapsTheReferenceElementOntoTheUnitCell) {
   for (const CellType type : allCellTypes)
     withShape(type, [&]<int dim>(const Shape<dim>& shape) {

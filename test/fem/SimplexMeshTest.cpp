@@ -2,7 +2,7 @@
 
 #include "epafi/fem/SimplexMesh.hpp"
 
-#include "SimplexSamples.hpp"
+#include "support/SimplexSamples.hpp"
 
 #include <gtest/gtest.h>
 
@@ -129,8 +129,8 @@ TEST(SimplexMeshTest, StraightEdgesAreNotBent) {
     EXPECT_TRUE(simplicesOf(StructuredMesh(box, elements, 2)).bends.empty());
 }
 
-/// The nodes of bricks of order 2 are those of their simplices: in the middle of edges, of the diagonals that cut faces, and of
-/// the one through the brick.
+/// The nodes of bricks of order 2 are those of their simplices: in the middle of edges, of the diagonals that
+/// cut faces, and of the one through the brick.
 TEST(SimplexMeshTest, CurvedBricksKeepTheirNodesTheirArcsAndTheirSize) {
   for (const std::array<int, 3>& elements : {std::array{2, 3, 0}, std::array{1, 2, 2}}) {
     const UnstructuredMesh ring(quarterRing(elements));

@@ -104,7 +104,8 @@ TEST_F(SizeFieldTest, BeyondTheBodyASmallSimplexCanBeNearerThanALargeOne) {
   EXPECT_NEAR(field.at({-0.05, 0, 0}), 0.01, 1e-14); // 0.05 from the one, 0.95 from the other
 }
 
-/// Two bodies of one geometry that touch, each with its own sizes: a point of both is outside of either by round-off.
+/// Two bodies of one geometry that touch, each with its own sizes: a point of both is outside of either by
+/// round-off.
 TEST_F(SizeFieldTest, WhereBodiesTouchTheSmallerSizeHolds) {
   const Point a{0.1, 0.3, 0}, b{0.7, 0.8, 0}, below{0.9, 0.1, 0}, above{0.2, 0.9, 0};
   const SizeField field({2, {a, below, b, a, b, above}, {1, 1, 1, 0.1, 0.1, 0.1}});

@@ -1,8 +1,8 @@
 // Surfaces that slide along themselves, in any direction, and the rigid motions that supports leave.
 
-#include "MeshFiles.hpp"
-#include "TurnedMesh.hpp"
 #include "WholeBody.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/BodyModel.hpp"
@@ -50,7 +50,8 @@ scene::Body solidWith(int dimension, std::vector<SolidSupport> supports) {
   return solid;
 }
 
-/// The kernel that geometry tells must be the kernel of the matrix: K R = 0, and no further eigenvalue vanishes.
+/// The kernel that geometry tells must be the kernel of the matrix: K R = 0, and no further eigenvalue
+/// vanishes.
 void expectKernelOfMatrix(const BodyModel& model) {
   const AssembledSubdomain whole = assembled(model);
   ASSERT_EQ(whole.kernel.cols(), model.kernelDimension());
@@ -302,25 +303,9 @@ TEST(SolidSupportsTest, TinyChangesOfTheGeometryKeepTheMotionsOfSlidingPlanes) {
     }
 }
 
-TEST(RigidModesTest, ALineHoldsNothingAboutItselfUntilItClearlyBends) {
-  const RigidModes modes(3, {0, 0, 0}, 1);
-  const auto numFree = [&](double bend) -> int {
-    std::vector<HeldDirection> held;
-    for (const Point& point : {Point{-1, 0, 0}, Point{0, bend, 0}, Point{1, 0, 0}})
-      for (int c = 0; c < 3; ++c)
-        held.push_back({point, Eigen::Vector3d::Unit(c)});
-    const FreeModes free = modes.freeOf(held);
-    return free.leastHold < RigidModes::heldFrom ? -1 : static_cast<int>(free.modes.cols());
-  };
-  for (const double bend : {0.0, 1e-15, 1e-12, 1e-10})
-    EXPECT_EQ(numFree(bend), 1) << bend; // turns about the line
-  for (const double bend : {1e-5, 1e-3, 1.0})
-    EXPECT_EQ(numFree(bend), 0) << bend;
-  EXPECT_EQ(numFree(1e-7), -1); // in between it is said, not guessed
-}
-
 TEST(SolidSupportsTest, ABodyThatIsHardlyHeldIsRefused) {
-  // A long strip slides on two planes at its ends that meet at an angle of 1e-7 only: too little to hold its height.
+  // A long strip slides on two planes at its ends that meet at an angle of 1e-7 only: too little to hold its
+  // height.
   MeshArrays arrays = arraysOf(*structured(2), {}, false);
   for (Point& point : arrays.points)
     if (point[0] == 2)

@@ -41,7 +41,8 @@ TEST(RectangleTest, NodesKnowExactlyTheElementsThatKnowThem) {
   }
 }
 
-/// In the plane and in space, for all sizes that are special: what elements, nodes, sides and points say of each other.
+/// In the plane and in space, for all sizes that are special: what elements, nodes, sides and points say of
+/// each other.
 TEST(StructuredMeshTest, OfOrderTwoEverythingFitsTogether) {
   for (const std::array<int, 3>& size : {std::array{3, 2, 0}, {1, 1, 0}, {1, 4, 0}, {2, 3, 2}, {1, 1, 1}}) {
     SCOPED_TRACE(testing::Message() << size[0] << size[1] << size[2]);

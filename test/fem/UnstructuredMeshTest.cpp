@@ -1,6 +1,6 @@
 #include "epafi/fem/UnstructuredMesh.hpp"
 
-#include "MeshFiles.hpp"
+#include "support/MeshFiles.hpp"
 
 #include <gtest/gtest.h>
 

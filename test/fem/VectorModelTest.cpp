@@ -12,7 +12,8 @@
 namespace epafi::fem {
 namespace {
 
-/// A plate that is held in y along its bottom and may slide in x: a kernel of one mode, nodes that are held in part.
+/// A plate that is held in y along its bottom and may slide in x: a kernel of one mode, nodes that are held
+/// in part.
 scene::Body slidingPlate() {
   scene::Body body = plainBody(); // 4 × 3 elements
   body.physics = scene::Physics::planeStress;

@@ -1,5 +1,5 @@
-#include "Preconditioned.hpp"
-#include "Reference.hpp"
+#include "support/Preconditioned.hpp"
+#include "support/Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"

@@ -1,4 +1,4 @@
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"

@@ -1,4 +1,4 @@
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
@@ -121,7 +121,8 @@ TEST(ContactCrosspointsTest, TheirStiffnessIsTheSchurComplementOfTheCoarseProble
   }
 }
 
-/// S_cc⁺ holds a floating body at as many places as it has rigid modes: that is what may be added, and nothing else.
+/// S_cc⁺ holds a floating body at as many places as it has rigid modes: that is what may be added, and
+/// nothing else.
 TEST(ContactCrosspointsTest, OnFloatingBodiesItIsThatAndAHoldOnTheRigidModes) {
   for (const ContactCase& c : crosspointCases()) {
     const Crosspoints crosspoints(c.scene);
@@ -151,7 +152,8 @@ TEST(ContactCrosspointsTest, TheirStiffnessIsSymmetricPositiveDefinite) {
   }
 }
 
-/// Near crosspoints: those that are touched themselves stay with their values, the others go where no force acts.
+/// Near crosspoints: those that are touched themselves stay with their values, the others go where no force
+/// acts.
 TEST(ContactCrosspointsTest, TheOthersFollowWithoutForce) {
   for (const ContactCase& c : crosspointCases()) {
     const Crosspoints crosspoints(c.scene);
@@ -189,7 +191,8 @@ TEST(ContactCrosspointsTest, BodiesMoveByThemselves) {
       }
 }
 
-/// Averages of edges that end at another cluster follow the faces there, where no row touches them: each a mean of jumps.
+/// Averages of edges that end at another cluster follow the faces there, where no row touches them: each a
+/// mean of jumps.
 TEST(ContactCrosspointsTest, EdgesFollowTheFacesOfOtherClusters) {
   for (const ContactCase& c : clusteredCases()) {
     SCOPED_TRACE(c.name);

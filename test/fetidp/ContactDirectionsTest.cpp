@@ -1,6 +1,6 @@
 #include "epafi/fetidp/ContactDirections.hpp"
 
-#include "DenseProblem.hpp"
+#include "support/DenseProblem.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Responses to changes of loads and gaps beside differences of two solutions.
 
-#include "Reference.hpp"
+#include "support/Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"

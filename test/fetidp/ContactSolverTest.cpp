@@ -1,6 +1,6 @@
-#include "Reference.hpp"
+#include "support/Reference.hpp"
 
-#include "../base/Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
@@ -232,7 +232,8 @@ TEST(ContactSolverTest, MatricesAndRowsThatAreNoNumbersAreRefused) {
 }
 
 TEST(ContactSolverTest, ABodyThatHardlyAnythingHoldsIsSolvedToItsDisplacements) {
-  // Held by springs of 1e-8, the right body makes ‖d̃‖ 1e8 times as large as any displacement of the solution.
+  // Held by springs of 1e-8, the right body makes ‖d̃‖ 1e8 times as large as any displacement of the
+  // solution.
   scene::Scene scene = membranes(true);
   scene::Body& right = scene.bodies[1];
   const double h = (right.mesh.box.upper[0] - right.mesh.box.lower[0]) / right.mesh.elements[0];

@@ -1,5 +1,5 @@
-#include "../decomposition/HandedOver.hpp"
-#include "Reference.hpp"
+#include "support/HandedOver.hpp"
+#include "support/Reference.hpp"
 
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(CyclesTest, MemoryStaysFlatWhateverIsSetUpSolvedAndUpdated) {
   setHalves(scene.bodies[0], 4.0, -5.0);
   setHalves(scene.bodies[1], -3.0, 2.0);
   const Decomposition cut = decompose(scene, world());
-  const ContactMatrix contact = contactOf(scene, cut, Supports::prescribed);
+  const ConstraintMatrix contact = contactOf(scene, cut, Supports::prescribed);
   const std::vector<SubdomainMatrix> matrices = matricesOf(scene, Supports::prescribed);
   const auto handed = handOver(scene, matrices);
   handed->setContact(contact);

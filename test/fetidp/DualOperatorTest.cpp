@@ -1,4 +1,4 @@
-#include "DenseProblem.hpp"
+#include "support/DenseProblem.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Compatibility.hpp"

@@ -1,4 +1,4 @@
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
@@ -22,8 +22,8 @@ std::vector<ContactCase> allCases() {
   return cases;
 }
 
-/// Where the conductivity jumps inside a subdomain, multiplicity scaling lets the softest value decide, and what follows
-/// crosspoints on one side of the jump may be far stiffer than on the other.
+/// Where the conductivity jumps inside a subdomain, multiplicity scaling lets the softest value decide, and
+/// what follows crosspoints on one side of the jump may be far stiffer than on the other.
 double smallestEigenvalue(const PreconditionerParameters& parameters) {
   return parameters.scaling == Scaling::stiffness ? 1e-7 : 1e-8;
 }

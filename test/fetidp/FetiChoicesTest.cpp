@@ -1,7 +1,7 @@
 // Whatever FETI-DP is told to do, the solution is that of the problem.
 
-#include "Preconditioned.hpp"
-#include "Reference.hpp"
+#include "support/Preconditioned.hpp"
+#include "support/Reference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "Reference.hpp"
+#include "support/Reference.hpp"
 
-#include "../base/Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/direct/SpdFactor.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"

@@ -1,4 +1,4 @@
-#include "Reference.hpp"
+#include "support/Reference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
@@ -159,7 +159,8 @@ TEST(JointStiffnessTest, RefusesAPreconditionerThatIsNotPositive) {
   EXPECT_THROW(overratedJumps(joint, 10), Error);
 }
 
-/// Two elastic subdomains joined at one crosspoint, the second one otherwise free, turn about it against no stiffness at all.
+/// Two elastic subdomains joined at one crosspoint, the second one otherwise free, turn about it against no
+/// stiffness at all.
 TEST(JointStiffnessTest, AHingeIsOneJumpWithoutEnergy) {
   const Preconditioned p(elasticBar(2, 1), {}, thisRankOnly());
   const Joint joint = jointsOf(p.problem, *p.inverse->multiplierPlan(), RowKind::gluing).front();

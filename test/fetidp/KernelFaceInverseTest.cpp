@@ -1,4 +1,4 @@
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
@@ -97,7 +97,8 @@ TEST(KernelFaceInverseTest, IsAGeneralisedInverseOnEveryFace) {
   EXPECT_GE(numSingular, 3); // nothing closed under a floating body
 }
 
-/// A beam of many clusters, each with three motions, on another: where few contacts are left what holds the face is tiny beside what holds the whole.
+/// A beam of many clusters, each with three motions, on another: where few contacts are left what holds the
+/// face is tiny beside what holds the whole.
 TEST(KernelFaceInverseTest, KeepsItsDigitsWhereFewContactsHoldManyClusters) {
   scene::Scene scene = twoMembranes(false, 2, clustered(grid(32, 1), 1));
   for (scene::Body& body : scene.bodies) {
@@ -142,7 +143,8 @@ TEST(KernelFaceInverseTest, KeepsItsDigitsWhereFewContactsHoldManyClusters) {
   }
 }
 
-/// Where nothing asks for it no body moves: a body that is one cluster not at all, the clusters of one not at as many modes as it has.
+/// Where nothing asks for it no body moves: a body that is one cluster not at all, the clusters of one not at
+/// as many modes as it has.
 TEST(KernelFaceInverseTest, LeavesBodiesThatAreFreeAtRest) {
   for (const bool isWhole : {true, false}) {
     const Cut cut(twoMembranes(false, 6, isWhole ? grid(3, 3) : clustered(grid(3, 3), 1)));

@@ -1,4 +1,4 @@
-#include "DenseProblem.hpp"
+#include "support/DenseProblem.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"

@@ -1,6 +1,6 @@
 // F in all its forms: sparse solves or dense blocks, factors shared or not, by any direct solver.
 
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -1,7 +1,7 @@
-// How well M and F go together: the condition number of MF on Ker G. The bounds here are those measured, with a margin
-// of a fifth; where the theory knows the growth, it is compared as well.
+// How well M and F go together: the condition number of MF on Ker G. The bounds here are those measured, with
+// a margin of a fifth; where the theory knows the growth, it is compared as well.
 
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/direct/DenseSymmetric.hpp"
 
@@ -14,7 +14,8 @@
 namespace epafi::fetidp {
 namespace {
 
-/// Of the dirichlet preconditioner with 1/H subdomains a side, H/h elements in each; computed once. Collective.
+/// Of the dirichlet preconditioner with 1/H subdomains a side, H/h elements in each; computed once.
+/// Collective.
 double conditionOf(bool coercive, int cuts, int elements) {
   static std::map<std::array<int, 3>, double> known;
   const auto [entry, isNew] = known.try_emplace({coercive ? 1 : 0, cuts, elements}, 0.0);
@@ -66,8 +67,8 @@ TEST(PreconditionerConditionTest, NoEigenvalueIsBelowOneWhereAllBodiesAreHeld) {
       }
 }
 
-/// Mortars: each row takes several nodes of the other side, and these are in several rows. 3.7 to 5.3 were measured; pairs of nodes have 4.1,
-/// 5.8 and 6.3.
+/// Mortars: each row takes several nodes of the other side, and these are in several rows. 3.7 to 5.3 were
+/// measured; pairs of nodes have 4.1, 5.8 and 6.3.
 TEST(PreconditionerConditionTest, MortarsKeepTheFloorOfTheSpectrumAndHardlyRaiseItsTop) {
   for (const auto& [cuts, elements] : {std::pair(2, 4), {2, 8}, {4, 4}})
     for (const int apart : {2, 6}) // elements a subdomain, beside 4 or 8 of the other side

@@ -1,4 +1,4 @@
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 #include "epafi/fetidp/ProjectedPreconditioner.hpp"

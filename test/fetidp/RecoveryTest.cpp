@@ -1,4 +1,4 @@
-#include "Reference.hpp"
+#include "support/Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/Recovery.hpp"

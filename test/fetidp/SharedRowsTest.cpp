@@ -1,4 +1,4 @@
-#include "Reference.hpp"
+#include "support/Reference.hpp"
 
 #include "epafi/fetidp/DualOperator.hpp"
 #include "epafi/fetidp/SharedRows.hpp"

@@ -1,4 +1,4 @@
-#include "Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/SubdomainInterface.hpp"
@@ -64,8 +64,8 @@ TEST(GroupIdenticalTest, TheInnerSubdomainsOfAUniformGridAreOneGroup) {
   const auto decomposition = plate();
   const auto groups = groupIdentical(decomposition.problem, true);
 
-  // Nine that touch no edge; the edges and corners of the body differ in what is glued or supported, the edges without
-  // their corners are alike.
+  // Nine that touch no edge; the edges and corners of the body differ in what is glued or supported, the
+  // edges without their corners are alike.
   const std::vector<std::size_t> inner{6, 7, 8, 11, 12, 13, 16, 17, 18};
   EXPECT_EQ(groups[groupOf(groups, 12)].members, inner);
   EXPECT_EQ(groups.size(), 9U);

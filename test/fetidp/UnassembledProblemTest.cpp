@@ -1,6 +1,6 @@
-#include "../base/Refusal.hpp"
-#include "../system/SolidScenes.hpp"
-#include "Twice.hpp"
+#include "support/Refusal.hpp"
+#include "support/SolidScenes.hpp"
+#include "support/Twice.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
@@ -90,7 +90,7 @@ TEST(UnassembledProblemTest, SurfacesMeshedApartAreCoupledAsInAScene) {
         contact::ContactTerms terms{"joint", "right"};
         terms.dimension = terms.components = dimension;
         const contact::HeldNodes isHeld = [&](GlobalOrdinal node, const Eigen::Vector3d& direction) {
-          const fem::Point x = points(node); // by the floor and, in space, the front
+          const Point x = points(node); // by the floor and, in space, the front
           return (x[1] == 0 && std::abs(direction[1]) == 1) ||
                  (dimension == 3 && x[2] == 0 && std::abs(direction[2]) == 1);
         };
@@ -135,8 +135,8 @@ TEST(UnassembledProblemTest, WrongInputIsRefusedOnAllRanks) {
 TEST(UnassembledProblemTest, WrongContactIsRefusedOnAllRanks) {
   const scene::Scene scene = twoMembranes(true, 4, grid(2, 1));
   const Decomposition decomposition = decompose(scene, world());
-  const ContactMatrix contact = contactOf(scene, decomposition, Supports::prescribed);
-  const auto completed = [&](const ContactMatrix& given) {
+  const ConstraintMatrix contact = contactOf(scene, decomposition, Supports::prescribed);
+  const auto completed = [&](const ConstraintMatrix& given) {
     const auto problem = handOver(scene, matricesOf(scene, Supports::prescribed));
     problem->setContact(given);
     problem->complete();
@@ -149,7 +149,7 @@ TEST(UnassembledProblemTest, WrongContactIsRefusedOnAllRanks) {
       matrix->insertGlobalValues(rows->getGlobalElement(static_cast<LocalOrdinal>(i)), Teuchos::tuple(column),
                                  Teuchos::tuple(value));
     matrix->fillComplete(domain, rows);
-    return ContactMatrix{matrix, contact.gap};
+    return ConstraintMatrix{matrix, contact.gap};
   };
   expectSays(refusal([&] { completed(withColumn(77777, 1.0)); }), {"77777", "no subdomain"});
   expectSays(refusal([&] { completed(withColumn(3, 0.0)); }), {"row", "empty"});

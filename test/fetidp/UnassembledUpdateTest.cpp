@@ -1,6 +1,6 @@
 // Changes of problems that an application hands over, beside solvers made anew.
 
-#include "Twice.hpp"
+#include "support/Twice.hpp"
 
 #include "epafi/base/Compatibility.hpp"
 
@@ -35,7 +35,7 @@ void expectEqualFields(const UnassembledProblem& handed, const ContactSolution& 
 }
 
 /// Every second row of a contact matrix, numbered anew, with as much gap again. Collective.
-ContactMatrix everySecondRow(const ContactMatrix& contact) {
+ConstraintMatrix everySecondRow(const ConstraintMatrix& contact) {
   const CrsMatrix& all = *contact.rows;
   const auto number = static_cast<GlobalOrdinal>(all.getGlobalNumRows() + 1) / 2;
   std::vector<GlobalOrdinal> mine;
@@ -66,7 +66,7 @@ TEST(UnassembledUpdateTest, UpdatesGiveWhatASolverMadeAnewGives) {
     Twice twice(c.scene, Supports::prescribed);
     UnassembledProblem& handed = *twice.handed;
     std::vector<SubdomainMatrix> matrices = matricesOf(c.scene, Supports::prescribed);
-    ContactMatrix contact = contactOf(c.scene, twice.direct.decomposition, Supports::prescribed);
+    ConstraintMatrix contact = contactOf(c.scene, twice.direct.decomposition, Supports::prescribed);
     const auto expectAsAnew = [&] {
       const ContactSolution updated = twice.solver->solve();
       expectEqualFields(handed, updated, solvedAnew(handed));

@@ -1,5 +1,5 @@
-/// Any bytes as a checkpoint: as they are, and with the checksum that they would need, which gets them past the last check
-/// but one. They are read, or refused in a sentence; nothing else may happen.
+/// Any bytes as a checkpoint: as they are, and with the checksum that they would need, which gets them past
+/// the last check but one. They are read, or refused in a sentence; nothing else may happen.
 
 #include "Refusals.hpp"
 

@@ -1,5 +1,5 @@
-/// Any bytes as a mesh file: what it says, its checks, and the meshes of its bodies. They are made, or refused in a
-/// sentence; nothing else may happen.
+/// Any bytes as a mesh file: what it says, its checks, and the meshes of its bodies. They are made, or
+/// refused in a sentence; nothing else may happen.
 
 #include "Refusals.hpp"
 

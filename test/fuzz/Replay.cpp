@@ -1,5 +1,5 @@
-/// Calls a fuzz target with the files of its corpus, one after the other: what a fuzzer found stays found, whichever
-/// compiler builds it. Any exception that the target lets through, any crash and any hang fails.
+/// Calls a fuzz target with the files of its corpus, one after the other: what a fuzzer found stays found,
+/// whichever compiler builds it. Any exception that the target lets through, any crash and any hang fails.
 
 #include <cstdint>
 #include <filesystem>

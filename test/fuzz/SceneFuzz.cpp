@@ -1,5 +1,5 @@
-/// Any bytes as the text of a scene file: parameter list, scene, and the models of small bodies. They are read, or
-/// refused in a sentence; nothing else may happen.
+/// Any bytes as the text of a scene file: parameter list, scene, and the models of small bodies. They are
+/// read, or refused in a sentence; nothing else may happen.
 
 #include "Refusals.hpp"
 

@@ -1,7 +1,7 @@
-#include "Samples.hpp"
+#include "support/LinearSamples.hpp"
 
-#include "../base/Refusal.hpp"
-#include "../fetidp/Preconditioned.hpp"
+#include "support/Preconditioned.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/base/Parameters.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"

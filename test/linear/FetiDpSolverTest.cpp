@@ -1,6 +1,6 @@
-#include "Samples.hpp"
+#include "support/LinearSamples.hpp"
 
-#include "../base/Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"

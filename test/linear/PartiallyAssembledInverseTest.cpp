@@ -1,4 +1,4 @@
-#include "Samples.hpp"
+#include "support/LinearSamples.hpp"
 
 #include "epafi/fetidp/DualOperator.hpp"
 #include "epafi/linear/PartiallyAssembledInverse.hpp"

@@ -1,7 +1,7 @@
-#include "Samples.hpp"
+#include "support/LinearSamples.hpp"
 
-#include "../base/Refusal.hpp"
-#include "../decomposition/HandedOver.hpp"
+#include "support/HandedOver.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"

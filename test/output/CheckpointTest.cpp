@@ -1,10 +1,10 @@
 // Checkpoints: the same file on any number of ranks, and a sentence for whatever else is given for one.
 
 #include "SampleRun.hpp"
-#include "TemporaryDirectory.hpp"
+#include "support/TemporaryDirectory.hpp"
 
-#include "../base/Refusal.hpp"
-#include "../system/OneRank.hpp"
+#include "support/OneRank.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/output/Checkpoint.hpp"
 #include "epafi/output/Slab.hpp"

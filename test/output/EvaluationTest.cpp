@@ -1,6 +1,7 @@
-// Stress at nodes, contact pressure and the report's results: closed forms, whatever the cells, the cut and the ranks.
+// Stress at nodes, contact pressure and the report's results: closed forms, whatever the cells, the cut and
+// the ranks.
 
-#include "ElasticSample.hpp"
+#include "support/ElasticSample.hpp"
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/base/Collective.hpp"
@@ -38,7 +39,7 @@ struct EvaluationTest : testing::Test {
 TEST_F(EvaluationTest, StressOfALinearDisplacementIsExactAtEveryNode) {
   // ε_xy = γ/2 alone: √3 μ γ, beside a turn and a shift, which have no stress.
   const double shear = 0.02, turn = 0.3;
-  const auto field = [&](const fem::Point& x) {
+  const auto field = [&](const Point& x) {
     return std::array<double, 3>{1 + (shear - turn) * x[1], 2 + turn * x[0], 0.0};
   };
   for (const test::Kind& kind : test::kinds())
@@ -57,7 +58,7 @@ TEST_F(EvaluationTest, StressOfALinearDisplacementIsExactAtEveryNode) {
 }
 
 TEST_F(EvaluationTest, ErrorsOfCellsAddUpToTheEstimateAndAreTheSameForEveryCutAndNumberOfRanks) {
-  const auto field = [](const fem::Point& x) {
+  const auto field = [](const Point& x) {
     return std::array<double, 3>{x[0] * x[0] - x[1] * x[2], std::sin(x[0] + 2 * x[1]), x[2] * x[0] * x[1]};
   };
   for (const test::Kind& kind : test::kinds()) {
@@ -90,7 +91,7 @@ TEST_F(EvaluationTest, ErrorsOfCellsAddUpToTheEstimateAndAreTheSameForEveryCutAn
 }
 
 TEST_F(EvaluationTest, StressIsTheSameForEveryCutAndNumberOfRanks) {
-  const auto field = [](const fem::Point& x) {
+  const auto field = [](const Point& x) {
     return std::array<double, 3>{x[0] * x[0] - x[1] * x[2], std::sin(x[0] + 2 * x[1]), x[2] * x[0] * x[1]};
   };
   for (const test::Kind& kind : test::kinds()) {
@@ -111,7 +112,8 @@ TEST_F(EvaluationTest, StressIsTheSameForEveryCutAndNumberOfRanks) {
 }
 
 TEST_F(EvaluationTest, ElementsCountByTheirSize) {
-  // Cells of width 1 and 3, stretched by 1 and 2 of a hundred: in between the stress is (1 · 1 + 3 · 2)/4 of E/100.
+  // Cells of width 1 and 3, stretched by 1 and 2 of a hundred: in between the stress is (1 · 1 + 3 · 2)/4 of
+  // E/100.
   const test::Kind kind{Physics::planeStress, fem::CellType::quadrilateral};
   scene::Scene scene;
   scene.bodies = {test::elasticBlock(kind, "strip", 0, 1, directory, *comm)};
@@ -120,7 +122,7 @@ TEST_F(EvaluationTest, ElementsCountByTheirSize) {
   solid.mesh.file =
       test::writeMesh(directory, *comm, "strip.msh", kind.cell, test::GridLines{{{0, 1, 4}, {0, 1}, {}}});
   solid.material.poissonsRatio = 0;
-  const auto field = [](const fem::Point& x) {
+  const auto field = [](const Point& x) {
     return std::array<double, 3>{0.01 * (x[0] + std::max(0.0, x[0] - 1)), 0, 0};
   };
   const std::vector<double> values = stress(scene, field, 0, comm->split(comm->getRank(), 0));
@@ -138,7 +140,7 @@ TEST_F(EvaluationTest, StressKnowsTheMaterialOfRegions) {
   stiff.material = scene.bodies[0].material;
   stiff.material.youngsModulus *= 3;
   scene.bodies[0].regions.push_back(stiff);
-  const auto field = [](const fem::Point& x) { return std::array<double, 3>{0, 0.01 * x[2], 0}; };
+  const auto field = [](const Point& x) { return std::array<double, 3>{0, 0.01 * x[2], 0}; };
   const double soft = std::sqrt(3.0) * 200 / 2.6 * 0.01;
   const std::vector<double> values = stress(scene, field, 0, comm);
   const GlobalOrdinal first = evenShare(125, *comm).first;
@@ -156,7 +158,7 @@ TEST_F(EvaluationTest, MembranesHaveNoStress) {
   scene.bodies[0].mesh.elements = {8, 8, 0};
   scene.bodies[0].supports = {{"wall", "left", {0.0}}};
   const auto decomposition = model::decompose(scene, comm);
-  const auto solution = test::solutionWith(decomposition, [](const fem::Point& x) {
+  const auto solution = test::solutionWith(decomposition, [](const Point& x) {
     return std::array{x[0], 0.0, 0.0};
   });
   const Evaluation evaluation = evaluate({scene, decomposition, solution});
@@ -226,7 +228,7 @@ TEST_F(EvaluationTest, ReportCountsActiveRowsAndSumsAllForces) {
   for (scene::Body& body : scene.bodies)
     body.regions.push_back(thick);
   const auto decomposition = model::decompose(scene, comm);
-  const auto solution = test::solutionWith(decomposition, [](const fem::Point&) {
+  const auto solution = test::solutionWith(decomposition, [](const Point&) {
     return std::array{3.0, 4.0, 0.0};
   });
   for (GlobalOrdinal row = 0; row < 5; ++row)

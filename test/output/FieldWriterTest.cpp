@@ -2,7 +2,7 @@
 
 #include "Hdf5Reading.hpp"
 #include "SampleRun.hpp"
-#include "TemporaryDirectory.hpp"
+#include "support/TemporaryDirectory.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/FieldWriter.hpp"
@@ -47,7 +47,7 @@ TEST_F(FieldWriterTest, EveryNodeAppearsOnceWithItsOwnDisplacement) {
   ASSERT_EQ(u.extent, (std::vector<std::size_t>{30, 1}));
   std::set<std::pair<double, double>> different;
   for (std::size_t k = 0; k < 30; ++k) {
-    const fem::Point point{points.values[3 * k], points.values[3 * k + 1], points.values[3 * k + 2]};
+    const Point point{points.values[3 * k], points.values[3 * k + 1], points.values[3 * k + 2]};
     different.emplace(point[0], point[1]);
     EXPECT_NEAR(u.values[k], test::sampleField(point), 1e-14) << "node " << k;
   }

@@ -1,6 +1,6 @@
 // Text files: atomic writing, names, history table, XML report.
 
-#include "TemporaryDirectory.hpp"
+#include "support/TemporaryDirectory.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"

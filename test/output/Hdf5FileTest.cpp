@@ -1,7 +1,7 @@
 // The HDF5 file that all ranks write together, read back by rank-local HDF5.
 
 #include "Hdf5Reading.hpp"
-#include "TemporaryDirectory.hpp"
+#include "support/TemporaryDirectory.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/Hdf5File.hpp"

@@ -3,7 +3,7 @@
 #include "epafi/output/JointResults.hpp"
 #include "epafi/output/ContactFields.hpp"
 
-#include "../system/SolidScenes.hpp"
+#include "support/SolidScenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-// The largest pressure of a contact from its multipliers: exact where the pressure is quadratic round its peak, whatever the order
-// of the elements, the cut, the ranks, and the place of the peak among the nodes.
+// The largest pressure of a contact from its multipliers: exact where the pressure is quadratic round its
+// peak, whatever the order of the elements, the cut, the ranks, and the place of the peak among the nodes.
 
-#include "ElasticSample.hpp"
+#include "support/ElasticSample.hpp"
 
 #include "epafi/output/LargestPressure.hpp"
 
@@ -18,7 +18,7 @@ constexpr int cells = 14;
 /// p = p₀ − Σ a_d (x_d − c_d)²
 struct Bowl {
   double peak = 0;
-  fem::Point centre{}, slope{};
+  Point centre{}, slope{};
 };
 
 /// ∫N and ∫N (x − c)² over the unit interval, N the function of the node at `x` of elements of an order.
@@ -45,7 +45,7 @@ std::array<double, 2> moments(double x, double c, int order) {
 }
 
 /// ∫pN, in the plane times the thickness.
-double multiplier(const Bowl& bowl, const fem::Point& x, int dimension, int order) {
+double multiplier(const Bowl& bowl, const Point& x, int dimension, int order) {
   std::array<std::array<double, 2>, 2> along{{{1, 0}, {1, 0}}};
   for (std::size_t d = 0; d + 1 < static_cast<std::size_t>(dimension); ++d)
     along[d] = moments(x[d], bowl.centre[d], order);
@@ -97,8 +97,8 @@ TEST_F(LargestPressureTest, AQuadraticPeakIsFoundExactlyAndIsASumOfMultipliers) 
         const int dimension = fem::dimensionOf(kind.cell);
         const scene::Scene scene = block(kind, order, parts);
         const auto decomposition = model::decompose(scene, comm);
-        auto solution = test::solutionWith(decomposition, [](const fem::Point&) { return fem::Point{}; });
-        for (const fem::Point& centre : {fem::Point{0.5, 0.5, 0}, fem::Point{0.43, 0.57, 0}}) {
+        auto solution = test::solutionWith(decomposition, [](const Point&) { return Point{}; });
+        for (const Point& centre : {Point{0.5, 0.5, 0}, Point{0.43, 0.57, 0}}) {
           const Bowl bowl{100, centre, {120, 80, 0}};
           press(bowl, decomposition, dimension, order, *solution.multiplier);
           const LargestPressure found =
@@ -114,7 +114,7 @@ TEST_F(LargestPressureTest, AQuadraticPeakIsFoundExactlyAndIsASumOfMultipliers) 
 TEST_F(LargestPressureTest, WithoutForceThereIsNone) {
   const scene::Scene scene = block({}, 1, 1);
   const auto decomposition = model::decompose(scene, comm);
-  const auto solution = test::solutionWith(decomposition, [](const fem::Point&) { return fem::Point{}; });
+  const auto solution = test::solutionWith(decomposition, [](const Point&) { return Point{}; });
   const LargestPressure found =
       largestPressure({scene, decomposition, solution}, decomposition.contacts.front());
   EXPECT_EQ(found.value, 0);

@@ -32,7 +32,7 @@ inline scene::Scene sampleScene() {
 }
 
 /// The linear field that the sample's displacement takes.
-inline double sampleField(const fem::Point& point) {
+inline double sampleField(const Point& point) {
   return 1 + 2 * point[0] - 3 * point[1];
 }
 

@@ -1,8 +1,8 @@
 // Writes the sample run into the directory named by its argument, for tests that look at the files from
 // outside; or, if a cell type is named too, the patch test of two elastic blocks of such cells.
 
-#include "ElasticSample.hpp"
 #include "SampleRun.hpp"
+#include "support/ElasticSample.hpp"
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/output/FieldWriter.hpp"

@@ -1,5 +1,5 @@
-// Expansions that predict the active set, on a problem like that of a wide contact: forces between a punch and an elastic
-// ground, each of which moves the ground everywhere.
+// Expansions that predict the active set, on a problem like that of a wide contact: forces between a punch
+// and an elastic ground, each of which moves the ground everywhere.
 
 #include "QpProblems.hpp"
 
@@ -15,8 +15,8 @@ namespace {
 using namespace epafi;
 using namespace epafi::test;
 
-/// n forces x ≥ 0 on a line. What one does to the ground falls with the logarithm of the distance; the punch is a parabola; a
-/// stiff spring stands for its equilibrium.
+/// n forces x ≥ 0 on a line. What one does to the ground falls with the logarithm of the distance; the punch
+/// is a parabola; a stiff spring stands for its equilibrium.
 DenseProgram pressedGround(Eigen::Index n) {
   Eigen::MatrixXd influence(n, n);
   Eigen::VectorXd shape(n);
@@ -78,7 +78,8 @@ TEST(ActiveSetExpansionTest, ItsIterationEndsWhereItIsToldTo) {
   }
 }
 
-/// With a preconditioner that knows little of the problem a face takes many steps, and predictions go in circles.
+/// With a preconditioner that knows little of the problem a face takes many steps, and predictions go in
+/// circles.
 TEST(ActiveSetExpansionTest, CostsLittleWherePredictionsFail) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE(seed);

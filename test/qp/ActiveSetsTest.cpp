@@ -84,7 +84,8 @@ TEST(ActiveSetsTest, TellsADirectionWithoutEndFromOneThatBoundsEnd) {
   }
 }
 
-/// x₀ = 0, x₁ = x₂. With x₁ and x₂ on their bounds nothing can make them equal: x₁, whose bound is the lower one, has to move.
+/// x₀ = 0, x₁ = x₂. With x₁ and x₂ on their bounds nothing can make them equal: x₁, whose bound is the lower
+/// one, has to move.
 TEST(ActiveSetsTest, AFaceThatCannotHoldTheRowsTakesInWhatStopsTheMotionThatIsLeft) {
   const double root = std::sqrt(0.5);
   const Problem problem{Eigen::Matrix3d::Identity(),
@@ -97,7 +98,8 @@ TEST(ActiveSetsTest, AFaceThatCannotHoldTheRowsTakesInWhatStopsTheMotionThatIsLe
   EXPECT_LE((answer.x - Eigen::Vector3d(0, -0.5, -0.5)).norm(), 1e-12);
 }
 
-/// Entries that nearly depend on each other may get forces out of all proportion; then the way leads through points of the set.
+/// Entries that nearly depend on each other may get forces out of all proportion; then the way leads through
+/// points of the set.
 TEST(ActiveSetsTest, GoesOnInTheSetWhereFacesDoNotSettle) {
   std::mt19937 random(7);
   for (int problemNumber = 0; problemNumber < 60; ++problemNumber) {
@@ -150,7 +152,8 @@ TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
   EXPECT_GE(numSettled, 36);
 }
 
-/// Where all wrong multipliers at once lead in circles one after the other leads on (33 of 200 settle without, 191 with).
+/// Where all wrong multipliers at once lead in circles one after the other leads on (33 of 200 settle
+/// without, 191 with).
 TEST(ActiveSetsTest, SettlesOnMostProblemsOfBadCondition) {
   std::mt19937 random(5);
   int numSettled = 0;

@@ -2,7 +2,7 @@
 
 /// Bound-constrained problems with dense copies, solved by MPRGP.
 
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"

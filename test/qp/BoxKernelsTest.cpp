@@ -1,4 +1,4 @@
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/qp/Box.hpp"
 
@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-/// The passes of Box over its vectors, each alone: two-sided, lower, upper, no bounds and a fixed entry in turn.
+/// The passes of Box over its vectors, each alone: two-sided, lower, upper, no bounds and a fixed entry in
+/// turn.
 namespace {
 
 using namespace epafi;

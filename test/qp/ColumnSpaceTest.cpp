@@ -1,6 +1,6 @@
 #include "epafi/qp/DeflatedOperator.hpp"
 
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/base/Maps.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"

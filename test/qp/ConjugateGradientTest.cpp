@@ -1,4 +1,4 @@
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/qp/ConjugateGradient.hpp"
 

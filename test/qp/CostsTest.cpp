@@ -1,8 +1,8 @@
-/// What a step costs beside its product: messages and allocations, counted by taking the place of MPI_Allreduce and of
-/// operator new.
+/// What a step costs beside its product: messages and allocations, counted by taking the place of
+/// MPI_Allreduce and of operator new.
 
 #include "CountingAllocator.hpp"
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/base/Columns.hpp"
 #include "epafi/qp/Box.hpp"

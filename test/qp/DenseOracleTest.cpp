@@ -1,4 +1,4 @@
-#include "DenseOracle.hpp"
+#include "support/DenseOracle.hpp"
 #include "RandomPrograms.hpp"
 
 #include <gtest/gtest.h>

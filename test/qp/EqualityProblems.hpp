@@ -5,7 +5,7 @@
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
 
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include <cmath>
 #include <limits>

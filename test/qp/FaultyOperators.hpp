@@ -2,7 +2,7 @@
 
 /// Operators that go wrong, are slow, or count.
 
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include <chrono>
 #include <limits>

@@ -1,5 +1,5 @@
-#include "DenseProgram.hpp"
-#include "Problems.hpp"
+#include "support/DenseProgram.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/qp/Box.hpp"
 #include "epafi/qp/Feasibility.hpp"

@@ -168,7 +168,8 @@ TEST(QpInputTest, ACoarseSpaceGoesWithBoundsAlone) {
 }
 
 TEST(QpInputTest, ACoarseSpaceMustVanishWhereThereIsABound) {
-  // Entries 3 and 8 of the mixed program are free of bounds; 0 has two, 1 a lower and 2 an upper one, 4 is fixed.
+  // Entries 3 and 8 of the mixed program are free of bounds; 0 has two, 1 a lower and 2 an upper one, 4 is
+  // fixed.
   for (const int touched : {0, 1, 2, 4}) {
     const std::string text = errorOf(
         [touched](qp::QuadraticProgram& problem, Vector& x) {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <tuple>
 
-/// Units change nothing: with the objective, the variables or the rows in other units the iteration makes the same steps
-/// to the same answer. Powers of two change no digit, so the answer is the same to the last one.
+/// Units change nothing: with the objective, the variables or the rows in other units the iteration makes the
+/// same steps to the same answer. Powers of two change no digit, so the answer is the same to the last one.
 namespace {
 
 using namespace epafi;
@@ -136,7 +136,8 @@ TEST(QpInvarianceTest, RowsMayHaveUnitsOfTheirOwn) {
   }
 }
 
-/// Steel in metres and newtons, in millimetres and megapascals, in nanometres: a spring of 2e11 and a gap of 1e-6.
+/// Steel in metres and newtons, in millimetres and megapascals, in nanometres: a spring of 2e11 and a gap of
+/// 1e-6.
 TEST(QpInvarianceTest, TheSystemOfUnitsOfAContactProblemDoesNotMatter) {
   const DenseProgram program = mixedProgramWithRows(30, 2, 100, 101);
   const QpAnswer plain = solveQp(program, {withTolerance(1e-8)});

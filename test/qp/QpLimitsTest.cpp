@@ -1,6 +1,6 @@
-#include "DenseOracle.hpp"
 #include "FaultyOperators.hpp"
 #include "QpProblems.hpp"
+#include "support/DenseOracle.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-/// Operators that return NaN or infinity, at once or later: x stays finite and within the bounds, and nobody calls it
-/// a solution.
+/// Operators that return NaN or infinity, at once or later: x stays finite and within the bounds, and nobody
+/// calls it a solution.
 namespace {
 
 using namespace epafi;

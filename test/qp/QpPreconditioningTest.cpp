@@ -1,5 +1,5 @@
-#include "DenseOracle.hpp"
 #include "QpProblems.hpp"
+#include "support/DenseOracle.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
@@ -10,8 +10,8 @@
 
 #include <cmath>
 
-/// Preconditioning in face, by a conjugate projector, and starts from a guess of the active set: the answer stays, the
-/// number of products falls.
+/// Preconditioning in face, by a conjugate projector, and starts from a guess of the active set: the answer
+/// stays, the number of products falls.
 namespace {
 
 using namespace epafi;

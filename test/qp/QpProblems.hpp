@@ -1,9 +1,10 @@
 #pragma once
 
-/// Dense quadratic programs for QpSolver on any number of ranks, and its answers back as dense data on every rank.
+/// Dense quadratic programs for QpSolver on any number of ranks, and its answers back as dense data on every
+/// rank.
 
-#include "DenseProgram.hpp"
-#include "Problems.hpp"
+#include "support/DenseProgram.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/qp/QpSolver.hpp"
 
@@ -43,12 +44,13 @@ QpAnswer solveQp(const DenseProgram& program, const QpCall& call = {});
 /// 'Tolerance' and 'Constraint Tolerance' alike.
 Teuchos::ParameterList withTolerance(double tolerance);
 
-/// Compares an answer that says it converged with the dense data: feasible, KKT residuals recomputed within `tolerance`
-/// and as reported, multipliers with the right signs. Empty if all is well, else what is not. Where b = 0 the gradients are
-/// compared with ‖A‖‖x‖.
+/// Compares an answer that says it converged with the dense data: feasible, KKT residuals recomputed within
+/// `tolerance` and as reported, multipliers with the right signs. Empty if all is well, else what is not.
+/// Where b = 0 the gradients are compared with ‖A‖‖x‖.
 std::string whyNoSolution(const DenseProgram& program, const QpAnswer& answer, double tolerance);
 
-/// l, u, b, A without equality rows: two-sided, lower, upper, no bounds and fixed entries in turn; A of norm 1.
+/// l, u, b, A without equality rows: two-sided, lower, upper, no bounds and fixed entries in turn; A of norm
+/// 1.
 DenseProgram mixedProgram(int n, double condition, unsigned seed);
 /// The same with m random rows that a point inside the bounds satisfies.
 DenseProgram mixedProgramWithRows(int n, int m, double condition, unsigned seed);

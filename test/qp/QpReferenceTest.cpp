@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-/// What a residual is relative to must not vanish with the data: loads and right-hand sides that are 0, or nearly.
+/// What a residual is relative to must not vanish with the data: loads and right-hand sides that are 0, or
+/// nearly.
 namespace {
 
 using namespace epafi;
@@ -52,7 +53,8 @@ TEST(QpReferenceTest, WithoutLoadAndRightHandSideZeroIsTheAnswerFromAnyStart) {
   }
 }
 
-/// Loads from none to some that are far below everything else in the problem: the same answer, and never "stagnated".
+/// Loads from none to some that are far below everything else in the problem: the same answer, and never
+/// "stagnated".
 class QpSmallLoadTest : public testing::TestWithParam<double> {};
 
 TEST_P(QpSmallLoadTest, BoundsThatExcludeZero) {

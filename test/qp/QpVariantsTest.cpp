@@ -1,5 +1,5 @@
-#include "DenseOracle.hpp"
 #include "QpProblems.hpp"
+#include "support/DenseOracle.hpp"
 
 #include <gtest/gtest.h>
 

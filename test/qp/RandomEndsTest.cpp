@@ -5,8 +5,8 @@
 
 #include <string>
 
-/// Random programs without a solution, every one from its seed alone: named, and with a certificate that holds for the
-/// dense data.
+/// Random programs without a solution, every one from its seed alone: named, and with a certificate that
+/// holds for the dense data.
 namespace {
 
 using namespace epafi;

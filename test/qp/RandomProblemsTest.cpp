@@ -1,6 +1,6 @@
-#include "DenseOracle.hpp"
 #include "QpProblems.hpp"
 #include "RandomPrograms.hpp"
+#include "support/DenseOracle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,11 @@
 #include <random>
 #include <string>
 
-/// QpSolver against the dense oracle, 1600 programs that have a solution. Every program comes from its seed alone.
+/// QpSolver against the dense oracle, 1600 programs that have a solution. Every program comes from its seed
+/// alone.
 ///
-/// What may differ. An answer x with Bx = c + e and ‖g^P(x)‖ = ‖r‖ is the exact solution for b + r and c + e, so that with
-/// the oracle's x* and any multipliers of either
+/// What may differ. An answer x with Bx = c + e and ‖g^P(x)‖ = ‖r‖ is the exact solution for b + r and c + e,
+/// so that with the oracle's x* and any multipliers of either
 ///   d = x − x*:   ‖d‖_A² ≤ ‖r‖‖d‖ + ‖μ − μ*‖‖e‖,   |f(x) − f(x*)| ≤ ‖r‖‖d‖ + (‖μ‖ + ‖μ*‖)‖e‖,
 /// and, A being definite with the smallest eigenvalue λ,   λ‖d‖ ≤ ‖r‖ + √(λ‖μ − μ*‖‖e‖).
 /// For r stands what was asked for, tolerance · ‖b‖ and the round-off of a product; for e what Bx − c is.
@@ -28,9 +29,9 @@ unsigned stride() {
   return Tpetra::getDefaultComm()->getSize() == 1 ? 1 : 20;
 }
 
-/// What is asked for: 1e-9, or what double precision allows. The number of products grows with the condition number κ,
-/// from √κ in a face to κ in an iteration that changes faces without an end, as a degenerate one does; so beyond
-/// κ = 1e7 the tolerance grows with κ, from 1e6 on if degenerate.
+/// What is asked for: 1e-9, or what double precision allows. The number of products grows with the condition
+/// number κ, from √κ in a face to κ in an iteration that changes faces without an end, as a degenerate one
+/// does; so beyond κ = 1e7 the tolerance grows with κ, from 1e6 on if degenerate.
 double attainableTolerance(const RandomProgram& random, const OracleAnswer& oracle) {
   const DenseProgram& program = random.program;
   const double load = program.linear.norm(), size = program.hessian.norm();
@@ -42,8 +43,8 @@ double attainableTolerance(const RandomProgram& random, const OracleAnswer& orac
   return reference > 0 ? std::max(asked, 100 * roundOff / reference) : asked;
 }
 
-/// Three of four with the default parameters; a start of noise every third time. A penalty that does not grow where the
-/// residual falls slowly takes thousands of outer iterations on some programs.
+/// Three of four with the default parameters; a start of noise every third time. A penalty that does not grow
+/// where the residual falls slowly takes thousands of outer iterations on some programs.
 QpCall callFor(unsigned seed, double tolerance, Eigen::Index n, double length) {
   static constexpr std::array<const char*, 3> expansions{"projected CG", "fixed step", "active set"};
   static constexpr std::array<const char*, 3> updates{"both", "balance", "penalty"};

@@ -2,7 +2,7 @@
 
 #include "epafi/direct/DenseSymmetric.hpp"
 
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@
 namespace epafi::test {
 namespace {
 
-/// Draws; numbers on a coarse binary grid make sums and products exact, so that redundant rows are redundant to the bit.
+/// Draws; numbers on a coarse binary grid make sums and products exact, so that redundant rows are redundant
+/// to the bit.
 class Draw {
 public:
   explicit Draw(unsigned seed) : random_(seed) {}

@@ -2,7 +2,7 @@
 
 /// Random quadratic programs of every kind that a solver has to answer, each from its seed alone.
 
-#include "DenseProgram.hpp"
+#include "support/DenseProgram.hpp"
 
 #include <string>
 
@@ -16,9 +16,9 @@ struct RandomProgram {
   std::string kind;              ///< in words, for a message
 };
 
-/// Feasible, with a solution: sizes 1 to 200, condition 1 to 1e10; degenerate, active everywhere or nowhere, fixed
-/// entries, without bounds, b = 0, b of noise, A semidefinite; without rows, with rows of full rank, redundant ones,
-/// badly scaled ones; in units over 12 orders of magnitude.
+/// Feasible, with a solution: sizes 1 to 200, condition 1 to 1e10; degenerate, active everywhere or nowhere,
+/// fixed entries, without bounds, b = 0, b of noise, A semidefinite; without rows, with rows of full rank,
+/// redundant ones, badly scaled ones; in units over 12 orders of magnitude.
 RandomProgram randomSolvableProgram(unsigned seed);
 
 /// Crossing bounds, rows that contradict each other, or bounds that leave the rows no solution.

@@ -1,4 +1,4 @@
-#include "Problems.hpp"
+#include "support/Problems.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"

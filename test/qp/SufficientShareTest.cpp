@@ -1,6 +1,6 @@
 #include "BoundProblems.hpp"
 
-#include "../base/Refusal.hpp"
+#include "support/Refusal.hpp"
 
 #include "epafi/qp/QpSolver.hpp"
 
@@ -102,7 +102,8 @@ TEST(SufficientShareTest, TheObjectiveNeverGrows) {
   }
 }
 
-/// Expansions by products: one where the step is cut, two where it is followed by a trial, more where that is repeated.
+/// Expansions by products: one where the step is cut, two where it is followed by a trial, more where that is
+/// repeated.
 TEST(SufficientShareTest, ItIsAskedForLessOftenTheMoreItAsks) {
   std::mt19937 random(47);
   double average[3] = {0, 0, 0};

@@ -71,7 +71,8 @@ Eigen::VectorXd imbalance(const Eigen::MatrixXd& a, const Eigen::VectorXd& targe
 
 namespace {
 
-/// Length of the shortest x with Cx ≤ s, Cx = s; infinite if there is none. By least distance programming, in the space of the rows.
+/// Length of the shortest x with Cx ≤ s, Cx = s; infinite if there is none. By least distance programming, in
+/// the space of the rows.
 double shortest(const Eigen::MatrixXd& c, const Eigen::VectorXd& s, Eigen::Index numInequalities) {
   const Eigen::Index rank = std::min(c.rows(), c.cols()), numEqualities = c.rows() - numInequalities;
   const Eigen::MatrixXd rows = direct::triangularFactor(c.transpose());

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Small questions of linear algebra and of cones that have an answer only where it is certain: numbers between "zero" and "not zero"
-/// make it uncertain.
+/// Small questions of linear algebra and of cones that have an answer only where it is certain: numbers
+/// between "zero" and "not zero" make it uncertain.
 
 #include <Eigen/Core>
 
@@ -27,8 +27,8 @@ Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& matrix, const char* of);
 /// What no x ≥ 0 makes of `target`: target − Ax of least length (Lawson, Hanson).
 Eigen::VectorXd imbalance(const Eigen::MatrixXd& a, const Eigen::VectorXd& target);
 
-/// Whether there is x with Cx ≤ s in the first rows and Cx = s in those from `numInequalities` on. Rows of length 1 and s of about 1 at
-/// most. \throws Uncertain
+/// Whether there is x with Cx ≤ s in the first rows and Cx = s in those from `numInequalities` on. Rows of
+/// length 1 and s of about 1 at most. \throws Uncertain
 bool isFeasible(const Eigen::MatrixXd& c, const Eigen::VectorXd& s, Eigen::Index numInequalities);
 
 /// Whether x = 0 alone satisfies Ax ≤ 0 and Ex = 0. Rows of length 1 or less. \throws Uncertain

@@ -10,7 +10,8 @@
 
 namespace epafi::test {
 
-/// The system with rows of length 1, gaps that are round-off of places set to 0, and the rigid motions that supports leave.
+/// The system with rows of length 1, gaps that are round-off of places set to 0, and the rigid motions that
+/// supports leave.
 struct Measured {
   drivers::UndecomposedSystem system;
   double size = 0;              ///< of the scene

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Small scenes of elastic bodies, drawn from a seed: one to three blocks on top of each other, in the plane or in space, between
-/// obstacles, with supports and loads as chance has them. And copies of a scene that have the same answer.
+/// Small scenes of elastic bodies, drawn from a seed: one to three blocks on top of each other, in the plane
+/// or in space, between obstacles, with supports and loads as chance has them. And copies of a scene that
+/// have the same answer.
 
 #include <Eigen/Core>
 #include <Teuchos_ParameterList.hpp>
@@ -81,7 +82,8 @@ struct DrawnScene {
 
 DrawnScene drawnScene(std::uint64_t seed, int maxRanks);
 
-/// The same scene in other units: lengths, stiffness and, where all is linear in them, loads, gaps and prescribed displacements.
+/// The same scene in other units: lengths, stiffness and, where all is linear in them, loads, gaps and
+/// prescribed displacements.
 struct Units {
   double length = 1, stiffness = 1, load = 1;
 };

@@ -1,10 +1,11 @@
-// Verdicts, energies, forces and displacements of random scenes beside an exact reference. EPAFI_RANDOM_SCENES is their number, 60 if not given;
-// EPAFI_RANDOM_FIRST the first of them; EPAFI_RANDOM_SEED runs one alone, and EPAFI_RANDOM_FOLDER keeps its files.
+// Verdicts, energies, forces and displacements of random scenes beside an exact reference.
+// EPAFI_RANDOM_SCENES is their number, 60 if not given; EPAFI_RANDOM_FIRST the first of them;
+// EPAFI_RANDOM_SEED runs one alone, and EPAFI_RANDOM_FOLDER keeps its files.
 
-#include "../fem/MeshFiles.hpp"
 #include "Cones.hpp"
 #include "RandomNumbers.hpp"
 #include "SceneOutcome.hpp"
+#include "support/MeshFiles.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_XMLParameterListHelpers.hpp>

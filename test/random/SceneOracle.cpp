@@ -1,8 +1,8 @@
 #include "SceneOracle.hpp"
 
-#include "../qp/DenseOracle.hpp"
 #include "Cones.hpp"
 #include "MeasuredSystem.hpp"
+#include "support/DenseOracle.hpp"
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
@@ -28,7 +28,8 @@ struct Solution {
   Eigen::VectorXd slack;    ///< of the contacts, c − Bu
 };
 
-/// K with springs at as many unknowns as there are motions, which these do not leave at rest: a generalised inverse of K.
+/// K with springs at as many unknowns as there are motions, which these do not leave at rest: a generalised
+/// inverse of K.
 class GeneralisedInverse {
 public:
   explicit GeneralisedInverse(const Measured& measured)
@@ -200,7 +201,8 @@ void fill(const Measured& measured, const Solution& solution, double force, Trut
     truth.largest = std::max(truth.largest, values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0);
 }
 
-/// The solution, if bodies do not rest anywhere. \param along  rows of the contacts by the motions that ties leave
+/// The solution, if bodies do not rest anywhere. \param along rows of the contacts by the motions that ties
+/// leave
 Truth restOf(const Measured& measured, const Eigen::MatrixXd& along) {
   Truth truth;
   Solution solution;

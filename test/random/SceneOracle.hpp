@@ -1,7 +1,7 @@
 #pragma once
 
-/// What is true of a scene: decided from K, f, B, c of the bodies in one piece by small dense algebra that shares nothing with the
-/// program's own checks.
+/// What is true of a scene: decided from K, f, B, c of the bodies in one piece by small dense algebra that
+/// shares nothing with the program's own checks.
 
 #include "epafi/scene/Scene.hpp"
 

@@ -1,6 +1,6 @@
 #include "SceneOutcome.hpp"
 
-#include "../system/WholeRun.hpp"
+#include "support/WholeRun.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/scene/SceneReader.hpp"
@@ -64,7 +64,8 @@ std::string faultOf(const Outcome& outcome, const Truth& truth, bool withPlaces)
   }
   if (truth.verdict != Verdict::solved)
     return "";
-  // Iterates that were stopped at 1e-9 have jumps of that size beside the largest displacement, and an energy that is off in the first order.
+  // Iterates that were stopped at 1e-9 have jumps of that size beside the largest displacement, and an energy
+  // that is off in the first order.
   constexpr double energyTolerance = 3e-6, tolerance = 1e-4;
   if (!(std::abs(outcome.energy - truth.energy) <= energyTolerance * truth.energyScale))
     text << "energy: " << outcome.energy << " for " << truth.energy << ", off by "

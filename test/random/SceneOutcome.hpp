@@ -29,7 +29,8 @@ Outcome outcomeOf(const Teuchos::ParameterList& list, const std::string& folder,
 /// The scene of a list.
 scene::Scene sceneOf(const Teuchos::ParameterList& list, const std::string& folder);
 
-/// What is wrong with the outcome; empty if nothing is. \param withPlaces  whether displacements are to be the same, too
+/// What is wrong with the outcome; empty if nothing is. \param withPlaces whether displacements are to be the
+/// same, too
 std::string faultOf(const Outcome& outcome, const Truth& truth, bool withPlaces);
 
 } // namespace epafi::test

@@ -1,6 +1,6 @@
 #include "RandomScene.hpp"
 
-#include "../fem/TurnedMesh.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include <Teuchos_Array.hpp>
 

@@ -1,15 +1,15 @@
 #include "epafi/scene/GapConsistency.hpp"
 
-#include "../base/Refusal.hpp"
 #include "epafi/base/Errors.hpp"
+#include "support/Refusal.hpp"
 
 #include <gtest/gtest.h>
 
 namespace epafi::scene {
 namespace {
 
-/// Four unit squares a, b, c, d around the point (1, 1), each resting on the one before: u_a ≤ u_b + g, u_b ≤ u_c,
-/// u_c ≤ u_d, u_d ≤ u_a.
+/// Four unit squares a, b, c, d around the point (1, 1), each resting on the one before: u_a ≤ u_b + g, u_b ≤
+/// u_c, u_c ≤ u_d, u_d ≤ u_a.
 Scene ring(double gap) {
   Scene scene;
   const Box places[] = {rectangle(0, 1, 0, 1), rectangle(1, 2, 0, 1), rectangle(1, 2, 1, 2),

@@ -1,7 +1,7 @@
 #include "epafi/scene/ParameterFile.hpp"
 
-#include "../base/Arrays.hpp"
-#include "../base/Refusal.hpp"
+#include "support/Arrays.hpp"
+#include "support/Refusal.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>

@@ -2,9 +2,9 @@
 
 /// Small lists that tests change in one place.
 
-#include "../base/Arrays.hpp"
-#include "../base/Refusal.hpp"
 #include "epafi/scene/SceneReader.hpp"
+#include "support/Arrays.hpp"
+#include "support/Refusal.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 

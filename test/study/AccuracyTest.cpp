@@ -1,6 +1,6 @@
 // The accuracy study: what it knows of its problems, what it measures, and how it judges.
 
-#include "../output/TemporaryDirectory.hpp"
+#include "support/TemporaryDirectory.hpp"
 
 #include "AccuracyCase.hpp"
 #include "AccuracyPeers.hpp"
@@ -196,7 +196,8 @@ TEST(EffectivityTest, OfCurvedMeshesIsNearOne) {
   EXPECT_LT(rows[0].number("effectivity"), 1.5);
 }
 
-/// The error falls with the number of unknowns as where nothing is singular, and no claim fails by more than a tenth.
+/// The error falls with the number of unknowns as where nothing is singular, and no claim fails by more than
+/// a tenth.
 TEST(AccuracyTargetsTest, ErrorsAreBelowTheirTargetsAndFallAsOnSmoothSolutions) {
   const RCP<const Comm> comm = Tpetra::getDefaultComm();
   const auto rowsOf = [&](const std::string& name, int order, const std::vector<double>& targets,

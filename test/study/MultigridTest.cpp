@@ -1,4 +1,4 @@
-#include "../benchmarks/Solving.hpp"
+#include "support/Solving.hpp"
 
 #include "Multigrid.hpp"
 

@@ -1,6 +1,6 @@
 // Nodes that take part in several contacts, or carry supports as well.
 
-#include "SolidScenes.hpp"
+#include "support/SolidScenes.hpp"
 
 #include <cmath>
 
@@ -53,7 +53,8 @@ TEST(ContactNodesTest, ARowThatTwoContactsBringCountsOnce) {
   expectSameRun(reference, run);
 }
 
-/// The distance of what stays open is no measure of what is solved: held and floating, in the plane and in space.
+/// The distance of what stays open is no measure of what is solved: held and floating, in the plane and in
+/// space.
 TEST(ContactNodesTest, AContactThatStaysOpenDoesNotSpoilTheOthers) {
   constexpr double tolerance = 1e-6;
   for (const int dimension : {2, 3})

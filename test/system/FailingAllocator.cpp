@@ -1,5 +1,6 @@
-// Linked with the driver's main program, this makes a driver that runs out of memory on one rank: the allocation number n of
-// rank r fails, EPAFI_TEST_FAIL=r:n. With n = 0 it tells at the end how many there were.
+// Linked with the driver's main program, this makes a driver that runs out of memory on one rank: the
+// allocation number n of rank r fails, EPAFI_TEST_FAIL=r:n. With n = 0 it tells at the end how many there
+// were.
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 #include "UndecomposedSolution.hpp"
-#include "WholeRun.hpp"
+#include "support/WholeRun.hpp"
 
 #include "epafi/base/Errors.hpp"
 

@@ -1,8 +1,8 @@
 // Bodies with one, three and six rigid modes: which scenes have one solution, and what is said of the others.
 
-#include "../fem/MeshFiles.hpp"
-#include "../fem/TurnedMesh.hpp"
-#include "SolidScenes.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/SolidScenes.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include <cmath>
 #include <limits>
@@ -62,8 +62,8 @@ TEST(FloatingSolidTest, APulledBodyFliesOff) {
   expectNotUnique(scene, {"'cube'", "does not press", "slide along z"});
 }
 
-/// A square on a floor, leaning against a wall at its left, with a load of 1 down at x and one against the wall. Three
-/// modes, no supports.
+/// A square on a floor, leaning against a wall at its left, with a load of 1 down at x and one against the
+/// wall. Three modes, no supports.
 scene::Scene leaning(double x, double unit = 1, double force = 1,
                      const scene::Decomposition& cut = cutInGrid({2, 2, 1})) {
   scene::Scene scene;

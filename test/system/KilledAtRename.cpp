@@ -1,5 +1,6 @@
-// Linked with the driver's main program, this makes a driver that is killed right before a file gets its name: in place of the rename
-// number n of rank r, EPAFI_TEST_KILL=r:n. With n = 0 it tells at the end how many there were.
+// Linked with the driver's main program, this makes a driver that is killed right before a file gets its
+// name: in place of the rename number n of rank r, EPAFI_TEST_KILL=r:n. With n = 0 it tells at the end how
+// many there were.
 
 #include <fcntl.h>
 

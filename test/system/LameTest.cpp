@@ -1,9 +1,9 @@
-// A thick ring under inner pressure (Lamé), a solution without singularities on a body with curved sides: errors fall as fast as the
-// order of the elements lets them.
+// A thick ring under inner pressure (Lamé), a solution without singularities on a body with curved sides:
+// errors fall as fast as the order of the elements lets them.
 
-#include "../fem/MeshFiles.hpp"
-#include "../fem/TurnedMesh.hpp"
-#include "SolidScenes.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/SolidScenes.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include "epafi/accuracy/ErrorEstimate.hpp"
 #include "epafi/accuracy/ErrorNorms.hpp"
@@ -22,7 +22,7 @@ using fem::CellType;
 constexpr double inner = 1, outer = 2, pressure = 3, young = 200, poisson = 0.3;
 
 /// u_r = ((1 − 2ν) A r + B/r)(1 + ν)/E, σ_r = A − B/r², σ_θ = A + B/r², σ_z = 2νA.
-fem::FieldValue lame(int /*body*/, const fem::Point& point) {
+fem::FieldValue lame(int /*body*/, const Point& point) {
   constexpr double share = inner * inner / (outer * outer - inner * inner), a = pressure * share,
                    b = a * outer * outer;
   const double r = std::hypot(point[0], point[1]), cosine = point[0] / r, sine = point[1] / r;
@@ -33,7 +33,8 @@ fem::FieldValue lame(int /*body*/, const fem::Point& point) {
            2 * poisson * a, (radial - around) * sine * cosine, 0, 0}};
 }
 
-/// A quarter of the ring: n elements across and n around, in space n/2 along the axis; all nodes where they belong.
+/// A quarter of the ring: n elements across and n around, in space n/2 along the axis; all nodes where they
+/// belong.
 scene::Scene quarter(CellType cell, int order, int n, const fem::test::MeshFolder& folder) {
   const bool isSpace = fem::dimensionOf(cell) == 3,
              isSimplex = cell == CellType::triangle || cell == CellType::tetrahedron;
@@ -44,7 +45,7 @@ scene::Scene quarter(CellType cell, int order, int n, const fem::test::MeshFolde
   arrays.nodeTags.clear();
   for (std::size_t node = 0; node < arrays.points.size(); ++node) {
     arrays.nodeTags.push_back(static_cast<GlobalOrdinal>(node) + 1);
-    fem::Point& x = arrays.points[node];
+    Point& x = arrays.points[node];
     const double r = inner + (outer - inner) * x[0], angle = x[1] * std::numbers::pi / 2;
     x = {r * std::cos(angle), r * std::sin(angle), x[2]};
   }
@@ -80,7 +81,8 @@ TEST_P(LameTest, EnergyAndL2ErrorsFallWithTheOrder) {
     errors.push_back(accuracy::errorNorms(scene, run.decomposition, run.solution.displacement, lame));
     const double estimate =
         accuracy::ErrorEstimator(scene, run.decomposition)(run.solution.displacement).discretisation;
-    // Of order 2 without singularities the estimate is a rougher one: triangles have too little, bricks too much.
+    // Of order 2 without singularities the estimate is a rougher one: triangles have too little, bricks too
+    // much.
     EXPECT_GT(estimate, (order == 1 ? 0.5 : 0.4) * errors.back().energy) << n;
     EXPECT_LT(estimate, (order == 1 ? 2 : 3) * errors.back().energy) << n;
   }

@@ -1,4 +1,4 @@
-#include "WholeRun.hpp"
+#include "support/WholeRun.hpp"
 
 #include "epafi/scene/ModelProblem.hpp"
 
@@ -103,7 +103,8 @@ TEST(MembranesApartTest, EnergiesConvergeWhicheverSideHasTheMultipliers) {
   }
 }
 
-/// A membrane in two parts that are tied is one membrane: with parts meshed alike to round-off, else up to the mesh's error.
+/// A membrane in two parts that are tied is one membrane: with parts meshed alike to round-off, else up to
+/// the mesh's error.
 TEST(MembranesApartTest, TiedPartsAreOneMembrane) {
   const auto energyOf = [](const scene::Scene& scene) {
     return test::solve(test::cutInGrid(scene, 3), 1e-11).solution.energy;

@@ -1,4 +1,4 @@
-#include "WholeRun.hpp"
+#include "support/WholeRun.hpp"
 
 #include "epafi/scene/ModelProblem.hpp"
 
@@ -10,8 +10,9 @@ namespace {
 using namespace epafi;
 using test::number;
 
-/// A line of paper_tables.csv. plain_method.csv holds the products with F that a dense implementation of the plain method
-/// needs (fixed expansion steps of 1.9/‖F‖, release along the chopped gradient, penalty 10‖PFP‖).
+/// A line of paper_tables.csv. plain_method.csv holds the products with F that a dense implementation of the
+/// plain method needs (fixed expansion steps of 1.9/‖F‖, release along the chopped gradient, penalty
+/// 10‖PFP‖).
 class PaperTablesTest : public testing::TestWithParam<test::Row> {
 protected:
   static void TearDownTestSuite() {

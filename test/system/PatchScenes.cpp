@@ -1,6 +1,6 @@
 #include "PatchScenes.hpp"
 
-#include "../fem/SampleCells.hpp"
+#include "support/SampleCells.hpp"
 
 #include "epafi/fem/MeshOrder.hpp"
 #include "epafi/fem/MeshTopology.hpp"
@@ -133,8 +133,7 @@ scene::Scene stack(const Kind& kind, Below below, const MeshFolder& folder) {
     scene.bodies.erase(scene.bodies.begin());
     const Placement placement = kind.placement();
     const Eigen::Vector3d up = placement.turn.col(kind.dimension() - 1),
-                          point =
-                              placement.of(kind.dimension() == 3 ? fem::Point{0, 0, 1} : fem::Point{0, 1, 0});
+                          point = placement.of(kind.dimension() == 3 ? Point{0, 0, 1} : Point{0, 1, 0});
     scene.contacts = {onPlane("joint", 0, "bottom", {point[0], point[1], point[2]}, {up[0], up[1], up[2]})};
   }
   return scene;

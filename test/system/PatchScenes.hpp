@@ -2,16 +2,17 @@
 
 /// What the patch tests solve: two blocks under pressure, of any elements, from any source, one on the other.
 
-#include "../fem/MeshFiles.hpp"
-#include "../fem/TurnedMesh.hpp"
-#include "SolidScenes.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/SolidScenes.hpp"
+#include "support/TurnedMesh.hpp"
 
 namespace epafi::test {
 
 inline constexpr double pressure = 3;
 
-/// Where the elements come from: the program's own boxes (of simplices: the same in a file), a file of them turned and
-/// moved away, the same of curved elements of order 2, or a geometry that Gmsh meshes as it likes but for the joint.
+/// Where the elements come from: the program's own boxes (of simplices: the same in a file), a file of them
+/// turned and moved away, the same of curved elements of order 2, or a geometry that Gmsh meshes as it likes
+/// but for the joint.
 enum class Source { structured, turned, curved, gmsh };
 
 struct Kind {
@@ -39,8 +40,8 @@ enum class Below { block, tiedBlock, blockAtADistance, plane };
 
 inline constexpr double distance = 0.01;
 
-/// Two blocks, one on the other, on a sliding floor, or the upper one alone on a plane in the lower one's place; the upper
-/// one floats and is pressed down.
+/// Two blocks, one on the other, on a sliding floor, or the upper one alone on a plane in the lower one's
+/// place; the upper one floats and is pressed down.
 scene::Scene stack(const Kind& kind, Below below, const fem::test::MeshFolder& folder);
 
 } // namespace epafi::test

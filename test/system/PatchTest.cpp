@@ -1,8 +1,9 @@
-// Patch tests: a stack of two blocks under pressure has the same stress everywhere, and elements of order 1 and 2 have its
-// displacement exactly, whatever their shapes, the way the blocks are cut, and the direction of the stack.
+// Patch tests: a stack of two blocks under pressure has the same stress everywhere, and elements of order 1
+// and 2 have its displacement exactly, whatever their shapes, the way the blocks are cut, and the direction
+// of the stack.
 
-#include "../fem/SampleCells.hpp"
 #include "PatchScenes.hpp"
+#include "support/SampleCells.hpp"
 
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/fem/HookesLaw.hpp"
@@ -27,7 +28,7 @@ class UniaxialStress {
 public:
   UniaxialStress(const Kind& kind, Below below) : kind_(kind), below_(below) {}
 
-  [[nodiscard]] Eigen::Vector3d displacement(int body, const fem::Point& point) const {
+  [[nodiscard]] Eigen::Vector3d displacement(int body, const Point& point) const {
     const Placement placement = kind_.placement();
     const int up = kind_.dimension() - 1;
     const double e = 200, nu = 0.3;
@@ -94,7 +95,7 @@ double stressError(const SolidRun& run, const scene::Scene& scene, int body, con
   double error = 0;
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     mesh.elementNodes(element, nodes);
-    std::vector<fem::Point> points;
+    std::vector<Point> points;
     std::vector<double> values;
     for (const GlobalOrdinal node : nodes) {
       points.push_back(mesh.point(node));
@@ -114,10 +115,11 @@ double stressError(const SolidRun& run, const scene::Scene& scene, int body, con
 
 void expectConstantStress(const scene::Scene& scene, const Kind& kind, Below below) {
   const bool isLinear = kind.order + kind.lowerOrder == 2, isUneven = kind.source == Source::gmsh;
+  // uneven elements: larger forces
   const double least = isLinear                            ? 1e-13
                        : isUneven && below == Below::block ? 2e-13
-                       : kind.upperElements > 0            ? 1e-12      // ragged parts of a mesh apart
-                                                           : 5e-13;                // uneven elements: larger forces
+                       : kind.upperElements > 0            ? 1e-12 // ragged parts of a mesh apart
+                                                           : 5e-13;
   const SolidRun run(scene, below == Below::tiedBlock ? 2e-12 : least); // round-off allows no less
   const UniaxialStress exact(kind, below);
   EXPECT_EQ(run.solver.report().status, qp::Status::converged) << run.solver.report().reason;

@@ -1,4 +1,4 @@
-#include "WholeRun.hpp"
+#include "support/WholeRun.hpp"
 
 #include "epafi/scene/ModelProblem.hpp"
 

@@ -1,7 +1,7 @@
-// Two elastic blocks, one on the other: the number of products with F hardly depends on how many subdomains there are,
-// nor on their shape, and the answer not at all.
+// Two elastic blocks, one on the other: the number of products with F hardly depends on how many subdomains
+// there are, nor on their shape, and the answer not at all.
 
-#include "SolidScenes.hpp"
+#include "support/SolidScenes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,8 @@ namespace {
 
 using scene::Decomposition;
 
-/// How the upper block is loaded: its lid pressed down, so that all contact closes, or half of the block lifted.
+/// How the upper block is loaded: its lid pressed down, so that all contact closes, or half of the block
+/// lifted.
 enum class Load { pressed, halfLifted };
 
 /// \param cuts  1/H; METIS makes as many parts as a grid would. \param elements  H/h

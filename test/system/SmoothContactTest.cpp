@@ -1,7 +1,8 @@
-// Round bodies that only their facets hold are refused, whatever the mesh; bodies that really hold each other are solved.
+// Round bodies that only their facets hold are refused, whatever the mesh; bodies that really hold each other
+// are solved.
 
-#include "../fem/MeshFiles.hpp"
-#include "SolidScenes.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/SolidScenes.hpp"
 
 #include <cmath>
 #include <functional>
@@ -25,8 +26,8 @@ Radius lobed(double radius, double ovality, int lobes) {
   return [=](double angle) { return radius * (1 + ovality * std::cos(lobes * angle)); };
 }
 
-/// A ring between two radii: `around` elements along it, two across, with nodes off their even places and all of it turned by an angle;
-/// of a height it is as many layers of bricks.
+/// A ring between two radii: `around` elements along it, two across, with nodes off their even places and all
+/// of it turned by an angle; of a height it is as many layers of bricks.
 struct Ring {
   Radius inner, outer;
   int around = 24;

@@ -1,8 +1,9 @@
-// Elastic contacts that are partly open: how the bodies are cut and how many ranks share them changes nothing.
+// Elastic contacts that are partly open: how the bodies are cut and how many ranks share them changes
+// nothing.
 
-#include "../fem/MeshFiles.hpp"
-#include "OneRank.hpp"
-#include "SolidScenes.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/OneRank.hpp"
+#include "support/SolidScenes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,8 @@ namespace {
 using namespace test;
 using fem::test::MeshFolder;
 
-/// How the upper of two blocks is held: its lid pressed down, or by a plane along which it slides up and down; it weighs
-/// down at the left and is pulled up at the right.
+/// How the upper of two blocks is held: its lid pressed down, or by a plane along which it slides up and
+/// down; it weighs down at the left and is pulled up at the right.
 enum class Upper { held, floating };
 
 struct Case {
@@ -137,8 +138,8 @@ TEST_P(SolidCutsTest, TheAnswerIsThatOfOneSubdomainABody) {
   }
 }
 
-/// In the plane to the last digit; in space nodes of three subdomains and more have rows whose few terms are added rank by
-/// rank.
+/// In the plane to the last digit; in space nodes of three subdomains and more have rows whose few terms are
+/// added rank by rank.
 TEST_P(SolidCutsTest, AllRanksTogetherSayWhatOneSays) {
   for (const int parts : {1, 7}) {
     cutAlike(scene_, cutByMetis(parts));

@@ -1,6 +1,6 @@
 // Sliding planes of symmetry: half and quarter of a model have the solution of the whole.
 
-#include "SolidScenes.hpp"
+#include "support/SolidScenes.hpp"
 
 #include "epafi/fem/Mesh.hpp"
 
@@ -13,8 +13,8 @@ namespace {
 
 using namespace test;
 
-/// A narrow block on a wide one, pressed down in its middle, so that its rim lifts; its top cannot move sideways. Symmetric
-/// to x = 0 and, in space, to y = 0.
+/// A narrow block on a wide one, pressed down in its middle, so that its rim lifts; its top cannot move
+/// sideways. Symmetric to x = 0 and, in space, to y = 0.
 /// \param half  the directions in which half of it is left out, behind a sliding plane
 scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
   const bool isSpace = dimension == 3;
@@ -58,7 +58,7 @@ scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
 }
 
 /// Places of points whatever their round-off.
-std::array<long, 3> keyOf(const fem::Point& x) {
+std::array<long, 3> keyOf(const Point& x) {
   return {std::lround(1e6 * x[0]), std::lround(1e6 * x[1]), std::lround(1e6 * x[2])};
 }
 

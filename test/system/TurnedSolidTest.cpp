@@ -1,8 +1,8 @@
 // Scenes turned by any angle and moved far away have turned solutions.
 
-#include "../fem/MeshFiles.hpp"
-#include "../fem/TurnedMesh.hpp"
-#include "SolidScenes.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/SolidScenes.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include "epafi/fem/MeshOrder.hpp"
 
@@ -130,7 +130,7 @@ TEST(TurnedContactTest, AFloatingBlockOnATurnedPlaneKeepsItsModes) {
     scene::Scene scene = stack(c, placement, folder);
     scene.bodies.erase(scene.bodies.begin()); // the upper one on an obstacle in the lower one's place
     const Eigen::Vector3d up = placement.turn.col(dimension - 1),
-                          point = placement.of(dimension == 3 ? fem::Point{0, 0, 1} : fem::Point{0, 1, 0});
+                          point = placement.of(dimension == 3 ? Point{0, 0, 1} : Point{0, 1, 0});
     scene.contacts = {onPlane("floor", 0, "bottom", {point[0], point[1], point[2]}, {up[0], up[1], up[2]})};
     const SolidRun run(scene);
     EXPECT_EQ(run.decomposition.problem.kernelDimension, 1);

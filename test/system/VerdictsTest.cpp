@@ -1,8 +1,9 @@
-// What is decided does not depend on what happens to be exactly 0: not on the axes, on the place, on units, on the cut or on the algorithm.
+// What is decided does not depend on what happens to be exactly 0: not on the axes, on the place, on units,
+// on the cut or on the algorithm.
 
-#include "../fem/MeshFiles.hpp"
-#include "../fem/TurnedMesh.hpp"
-#include "SolidScenes.hpp"
+#include "support/MeshFiles.hpp"
+#include "support/SolidScenes.hpp"
+#include "support/TurnedMesh.hpp"
 
 #include <cmath>
 #include <optional>
@@ -159,7 +160,8 @@ TEST(VerdictsTest, ForcesWithinTheToleranceHoldNothing) {
         }
 }
 
-/// Two squares, one tied onto the other; the lower one's left side is held `apart` from that of the upper one.
+/// Two squares, one tied onto the other; the lower one's left side is held `apart` from that of the upper
+/// one.
 scene::Scene tiedApart(double apart, bool floats, bool isOverlap) {
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {

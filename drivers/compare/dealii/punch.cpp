@@ -1,6 +1,7 @@
-/// `punch DEGREE local|even SECONDS`: xml/punch.xml by deal.II, with elements Q1 or Q2, mesh after mesh: a primal-dual active set on
-/// pairs of nodes that face each other, UMFPACK, and Kelly's estimate of the error, by which three tenths of the cells are refined.
-/// Prints a line of JSON a mesh, seconds since the start; no mesh is begun that would be ready later than SECONDS.
+/// `punch DEGREE local|even SECONDS`: xml/punch.xml by deal.II, with elements Q1 or Q2, mesh after mesh: a
+/// primal-dual active set on pairs of nodes that face each other, UMFPACK, and Kelly's estimate of the error,
+/// by which three tenths of the cells are refined. Prints a line of JSON a mesh, seconds since the start; no
+/// mesh is begun that would be ready later than SECONDS.
 
 #include "ContactPairs.hpp"
 

@@ -27,9 +27,10 @@ using decomposition::DecomposedProblem;
 
 constexpr double secondsOfIteration = 60;
 
-/// What is allowed of a solution to the tolerance ε on the dual residual, ‖r‖ ≤ ε‖d̃‖. Its error in the energy norm is
-/// rᵀF⁻¹r, relative to d̃ᵀF⁻¹d̃ no more than ε²κ(F); κ(F) grows with the contrast of materials and with H/h: up to 1e4 times
-/// the contrast here. No less is asked for than 100 times the error of sparse LU without refinement.
+/// What is allowed of a solution to the tolerance ε on the dual residual, ‖r‖ ≤ ε‖d̃‖. Its error in the
+/// energy norm is rᵀF⁻¹r, relative to d̃ᵀF⁻¹d̃ no more than ε²κ(F); κ(F) grows with the contrast of materials
+/// and with H/h: up to 1e4 times the contrast here. No less is asked for than 100 times the error of sparse
+/// LU without refinement.
 struct Allowance {
   Allowance(double tolerance, double contrast)
       : balance(std::max(100 * tolerance * std::sqrt(std::max(contrast, 1 / contrast)), 1e-8)),
@@ -46,8 +47,8 @@ void sum(const Comm& comm, Eigen::VectorXd& values) {
   sumOverRanks(comm, {values.data(), static_cast<std::size_t>(values.size())});
 }
 
-/// Values of each body at its nodes, on every rank: the mean of the copies of a node, weighted by their stiffness as the
-/// rows of gluing weigh them. Collective.
+/// Values of each body at its nodes, on every rank: the mean of the copies of a node, weighted by their
+/// stiffness as the rows of gluing weigh them. Collective.
 std::vector<Eigen::VectorXd> nodalValues(const model::Decomposition& decomposition,
                                          const fetidp::ContactSolution& solution) {
   const auto& problem = decomposition.problem;
@@ -166,8 +167,8 @@ void write(const std::string& what, double value, DecomposedProblem& problem) {
   }
 }
 
-/// The pressed squares as membranes in one place, each of which is to lie above the other one by 1: along one edge the first,
-/// along the next one the second.
+/// The pressed squares as membranes in one place, each of which is to lie above the other one by 1: along one
+/// edge the first, along the next one the second.
 void layCrosswise(scene::Scene& scene) {
   for (scene::Body& body : scene.bodies) {
     body.physics = scene::Physics::membrane;

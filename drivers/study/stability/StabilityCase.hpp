@@ -11,8 +11,8 @@
 
 namespace epafi::drivers {
 
-/// How a run may end. `solved` is what a check that knows nothing of the solver's bookkeeping has confirmed; an answer
-/// that is claimed but not confirmed is `wrongAnswer`, the worst of all.
+/// How a run may end. `solved` is what a check that knows nothing of the solver's bookkeeping has confirmed;
+/// an answer that is claimed but not confirmed is `wrongAnswer`, the worst of all.
 enum class Outcome { solved, noSolution, notUnique, wrongInput, stopped, wrongAnswer, failed };
 
 /// "solved", "refused: no solution", …
@@ -64,7 +64,8 @@ struct StabilityCase {
 /// Those of a family, or all if it is empty. Quick ones are small enough for tests.
 std::vector<StabilityCase> stabilityCases(const std::string& family, bool quick);
 
-/// Runs it; whatever is thrown becomes an outcome. Collective over `comm`, which has the ranks that the case takes.
+/// Runs it; whatever is thrown becomes an outcome. Collective over `comm`, which has the ranks that the case
+/// takes.
 CaseResult runCase(const StabilityCase& trial, const RCP<const Comm>& comm);
 
 [[nodiscard]] bool isAsExpected(const Expectation& expectation, const CaseResult& result);

@@ -7,8 +7,8 @@ epafi::RCP<epafi::Operator> makeMueLu(const epafi::RCP<epafi::CrsMatrix>& a) {
   Teuchos::ParameterList parameters;
   parameters.set("verbosity", "none");
   parameters.set("problem: symmetric", true);
-  // Symmetric, and the same on any number of ranks; KLU2 on the coarsest level, the default, is wrong on more than one
-  // rank in Trilinos 13.2.
+  // Symmetric, and the same on any number of ranks; KLU2 on the coarsest level, the default, is wrong on more
+  // than one rank in Trilinos 13.2.
   parameters.set("smoother: type", "CHEBYSHEV");
   parameters.sublist("smoother: params").set("chebyshev: degree", 3);
   parameters.set("coarse: max size", 100);

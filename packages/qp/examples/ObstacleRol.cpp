@@ -1,6 +1,8 @@
-/// A membrane over an obstacle, by Epafi's MPRGP and by methods of ROL for problems with bounds, to the same accuracy:
+/// A membrane over an obstacle, by Epafi's MPRGP and by methods of ROL for problems with bounds, to the same
+/// accuracy:
 ///     ObstacleRol [N] [REPEATS]
-/// N × N unknowns; times are medians of REPEATS runs of each, in turns. Ends with 1 if one misses the accuracy.
+/// N × N unknowns; times are medians of REPEATS runs of each, in turns. Ends with 1 if one misses the
+/// accuracy.
 
 #include "MueLuPreconditioner.hpp"
 #include "Obstacle.hpp"
@@ -77,8 +79,8 @@ void solveByEpafi(const Obstacle& obstacle, const RCP<const Operator>& a, const 
   qp::QpSolver(parameters).solve(problem, *u);
 }
 
-/// A method of ROL. The Krylov method inside of it ends at a share 0.3 of the residual, and after `limit` steps: these took
-/// the fewest products of what was tried.
+/// A method of ROL. The Krylov method inside of it ends at a share 0.3 of the residual, and after `limit`
+/// steps: these took the fewest products of what was tried.
 Method rol(const Obstacle& obstacle, const std::string& name, Teuchos::ParameterList parameters, int limit) {
   Teuchos::ParameterList& krylov = parameters.sublist("General").sublist("Krylov");
   krylov.set("Relative Tolerance", 0.3);

@@ -23,8 +23,8 @@ MultiVector& tpetra(ROL::Vector<Scalar>& x) {
   return *dynamic_cast<RolVector&>(x).getVector();
 }
 
-/// ½uᵀAu − bᵀu. ROL asks for the value of a trial point and, once it has accepted it, for the gradient: both come from
-/// one product Au.
+/// ½uᵀAu − bᵀu. ROL asks for the value of a trial point and, once it has accepted it, for the gradient: both
+/// come from one product Au.
 class Quadratic : public ROL::Objective<Scalar> {
 public:
   explicit Quadratic(const RolProblem& problem)
@@ -79,7 +79,8 @@ private:
   bool known_ = false, trial_ = false;
 };
 
-/// ROL's bounds for Tpetra vectors, which do not show their bounds; the primal-dual active set method asks for them.
+/// ROL's bounds for Tpetra vectors, which do not show their bounds; the primal-dual active set method asks
+/// for them.
 class Bounds : public RolBounds {
 public:
   Bounds(const RCP<Vector>& lower, const RCP<Vector>& upper) : RolBounds(lower, upper) {

@@ -1,0 +1,338 @@
+#include "support/Gathered.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/fem/LocalNumbering.hpp"
+#include "epafi/fem/UnstructuredMesh.hpp"
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace epafi::decomposition {
+namespace {
+
+/// Every element is in exactly one part, as both queries say, and every part is non-empty and connected.
+void expectSound(const Partition& partition, const fem::Mesh& mesh) {
+  GlobalOrdinal total = 0;
+  std::vector<GlobalOrdinal> neighbours;
+  for (int part = 0; part < partition.numParts(); ++part) {
+    const std::vector<GlobalOrdinal> elements = partition.elementsOf(part);
+    ASSERT_FALSE(elements.empty()) << part;
+    EXPECT_TRUE(std::is_sorted(elements.begin(), elements.end()));
+    std::set<GlobalOrdinal> unseen(elements.begin(), elements.end());
+    total += static_cast<GlobalOrdinal>(unseen.size());
+    std::vector<GlobalOrdinal> stack{elements.front()};
+    unseen.erase(elements.front());
+    while (!stack.empty()) {
+      const GlobalOrdinal element = stack.back();
+      stack.pop_back();
+      EXPECT_EQ(partition.partOf(element), part);
+      mesh.elementNeighbours(element, neighbours);
+      for (const GlobalOrdinal other : neighbours)
+        if (unseen.erase(other) > 0)
+          stack.push_back(other);
+    }
+    EXPECT_TRUE(unseen.empty()) << "part " << part << " is not connected";
+  }
+  EXPECT_EQ(total, mesh.numElements());
+}
+
+TEST(PartitionTest, GridsCutIntoEqualPartsThatCoverTheBody) {
+  for (const auto& [n, m] : {std::pair{8, 8}, {7, 5}, {3, 11}})
+    for (const auto& [a, b] : {std::pair{1, 1}, {2, 2}, {3, 5}, {3, 1}}) {
+      const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {n, m, 0});
+      const GridPartition partition(mesh, {a, b, 1});
+      EXPECT_EQ(partition.numParts(), a * b);
+      expectSound(partition, mesh);
+      for (int part = 0; part < a * b; ++part) {
+        const auto size = static_cast<int>(partition.elementsOf(part).size());
+        EXPECT_GE(size, (n / a) * (m / b));
+        EXPECT_LE(size, (n / a + 1) * (m / b + 1));
+      }
+    }
+}
+
+fem::StructuredMesh boxMesh(int nx, int ny, int nz) {
+  return {{{0, 0, 0}, {1, 1, 1}}, {nx, ny, nz}};
+}
+
+TEST(PartitionTest, GridsCutBoxesXFirstThenYThenZ) {
+  const fem::StructuredMesh mesh = boxMesh(4, 3, 2);
+  const GridPartition partition(mesh, {2, 3, 2});
+  EXPECT_EQ(partition.numParts(), 12);
+  EXPECT_EQ(partition.elementsOf(0), (std::vector<GlobalOrdinal>{0, 1}));
+  EXPECT_EQ(partition.elementsOf(1), (std::vector<GlobalOrdinal>{2, 3}));
+  EXPECT_EQ(partition.elementsOf(2), (std::vector<GlobalOrdinal>{4, 5}));
+  EXPECT_EQ(partition.elementsOf(6), (std::vector<GlobalOrdinal>{12, 13}));
+  EXPECT_EQ(partition.elementsOf(11), (std::vector<GlobalOrdinal>{22, 23}));
+  EXPECT_EQ(GridPartition(mesh, {1, 1, 2}).elementsOf(1),
+            (std::vector<GlobalOrdinal>{12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23}));
+}
+
+TEST(PartitionTest, GridsCutBoxesIntoEqualPartsThatCoverTheBody) {
+  for (const auto& size : {std::array{6, 6, 6}, {7, 5, 4}, {3, 8, 5}})
+    for (const auto& counts : {std::array{1, 1, 1}, {2, 2, 2}, {3, 5, 4}, {3, 1, 2}, {1, 4, 1}}) {
+      const fem::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
+      const GridPartition partition(mesh, counts);
+      ASSERT_EQ(partition.numParts(), counts[0] * counts[1] * counts[2]);
+      expectSound(partition, mesh);
+      int least = 1, most = 1;
+      for (std::size_t d = 0; d < 3; ++d) {
+        least *= size[d] / counts[d];
+        most *= (size[d] + counts[d] - 1) / counts[d];
+      }
+      for (int part = 0; part < partition.numParts(); ++part) {
+        const auto number = static_cast<int>(partition.elementsOf(part).size());
+        EXPECT_GE(number, least);
+        EXPECT_LE(number, most);
+      }
+    }
+}
+
+TEST(PartitionTest, OneLayerIsCutAsARectangle) {
+  const fem::StructuredMesh rectangle(scene::rectangle(0, 1, 0, 1), {7, 5, 0});
+  const GridPartition flat(rectangle, {3, 2, 1}), solid(boxMesh(7, 5, 1), {3, 2, 1});
+  ASSERT_EQ(solid.numParts(), flat.numParts());
+  for (int part = 0; part < flat.numParts(); ++part)
+    EXPECT_EQ(solid.elementsOf(part), flat.elementsOf(part));
+  for (GlobalOrdinal element = 0; element < rectangle.numElements(); ++element)
+    EXPECT_EQ(solid.partOf(element), flat.partOf(element));
+}
+
+/// Numberings that are different from each other, and how often each of them was found.
+std::vector<std::pair<fem::LocalNumbering, int>> numberingsOf(const Partition& partition,
+                                                              const fem::Mesh& mesh) {
+  std::vector<std::pair<fem::LocalNumbering, int>> known;
+  for (int part = 0; part < partition.numParts(); ++part) {
+    const std::vector<GlobalOrdinal> elements = partition.elementsOf(part);
+    std::vector<GlobalOrdinal> corners(8 * elements.size());
+    mesh.elementNodes(elements, corners);
+    auto found = std::find_if(known.begin(), known.end(), [&](const auto& entry) {
+      return entry.first.firstNodeIfShifted(corners).has_value();
+    });
+    if (found == known.end())
+      found = known.insert(known.end(), {fem::LocalNumbering(corners, 8), 0});
+    ++found->second;
+    const GlobalOrdinal first = *std::min_element(corners.begin(), corners.end());
+    EXPECT_EQ(found->first.firstNodeIfShifted(corners), first) << part;
+    const std::vector<GlobalOrdinal> nodes = found->first.nodes(first);
+    for (std::size_t c = 0; c < corners.size(); ++c)
+      EXPECT_EQ(nodes[static_cast<std::size_t>(found->first.corners()[c])], corners[c]);
+  }
+  return known;
+}
+
+TEST(PartitionTest, EqualBoxesOfAMeshAreNumberedAlike) {
+  const fem::StructuredMesh mesh = boxMesh(6, 9, 8);
+  const auto equal = numberingsOf(GridPartition(mesh, {2, 3, 4}), mesh);
+  ASSERT_EQ(equal.size(), 1u);
+  EXPECT_EQ(equal[0].second, 24);
+  EXPECT_EQ(equal[0].first.numNodes(), 4u * 4 * 3);
+  EXPECT_EQ(equal[0].first.numElements(), 3u * 3 * 2);
+  // Two widths, two depths, two heights.
+  EXPECT_EQ(numberingsOf(GridPartition(mesh, {4, 4, 3}), mesh).size(), 8u);
+}
+
+TEST(PartitionTest, GraphPartsAreConnectedAndCoverTheBody) {
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {13, 9, 0});
+  for (const int parts : {1, 2, 3, 7, 16, 40, 117}) {
+    const GraphPartition partition(mesh, parts, *world());
+    EXPECT_LE(partition.numParts(), parts);
+    // METIS leaves parts empty when few elements are left for each; with three or more it does not waste half
+    // of them.
+    EXPECT_GE(partition.numParts(), parts <= 40 ? (parts + 1) / 2 : 40);
+    expectSound(partition, mesh);
+  }
+}
+
+TEST(PartitionTest, GraphPartsAreTheSameOnEveryRank) {
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {13, 9, 0});
+  const GraphPartition partition(mesh, 7, *world());
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    const double part = partition.partOf(element);
+    EXPECT_EQ(maxOverRanks(*world(), part), minOverRanks(*world(), part));
+  }
+}
+
+/// The largest number of elements of a part over the mean.
+double imbalanceOf(const Partition& partition) {
+  double largest = 0, sum = 0;
+  for (int part = 0; part < partition.numParts(); ++part) {
+    const auto size = static_cast<double>(partition.elementsOf(part).size());
+    largest = std::max(largest, size);
+    sum += size;
+  }
+  return largest * partition.numParts() / sum;
+}
+
+std::vector<int> partsOf(const Partition& partition, const fem::Mesh& mesh) {
+  std::vector<int> parts(static_cast<std::size_t>(mesh.numElements()));
+  for (std::size_t element = 0; element < parts.size(); ++element)
+    parts[element] = partition.partOf(static_cast<GlobalOrdinal>(element));
+  return parts;
+}
+
+TEST(PartitionTest, GraphPartsOfBoxesAreConnectedAndBalanced) {
+  for (const auto& size : {std::array{12, 12, 12}, {20, 9, 5}, {31, 30, 1}}) {
+    const fem::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
+    for (const int parts : {1, 2, 5, 8, 13}) {
+      const GraphPartition partition(mesh, parts, *world());
+      EXPECT_EQ(partition.numParts(), parts);
+      expectSound(partition, mesh);
+      EXPECT_LE(imbalanceOf(partition), 1.1) << size[0] << ' ' << parts;
+    }
+  }
+  const fem::StructuredMesh tiny = boxMesh(3, 3, 3);
+  for (const int parts : {1, 2, 9, 20, 27})
+    expectSound(GraphPartition(tiny, parts, *world()), tiny);
+}
+
+TEST(PartitionTest, GraphPartsDoNotDependOnTheNumberOfRanks) {
+  const Teuchos::MpiComm<int> alone(MPI_COMM_SELF);
+  const fem::StructuredMesh mesh = boxMesh(9, 8, 7);
+  EXPECT_EQ(partsOf(GraphPartition(mesh, 6, *world()), mesh), partsOf(GraphPartition(mesh, 6, alone), mesh));
+}
+
+/// Number of parts that have elements; each of them connected.
+int expectConnected(const fem::Mesh& mesh, const std::vector<int>& part) {
+  std::set<int> begun;
+  std::vector<char> seen(part.size(), 0);
+  std::vector<GlobalOrdinal> neighbours;
+  for (std::size_t seed = 0; seed < part.size(); ++seed) {
+    if (seen[seed] != 0)
+      continue;
+    EXPECT_TRUE(begun.insert(part[seed]).second) << "part " << part[seed] << " is not connected";
+    std::vector<GlobalOrdinal> stack{static_cast<GlobalOrdinal>(seed)};
+    seen[seed] = 1;
+    while (!stack.empty()) {
+      mesh.elementNeighbours(stack.back(), neighbours);
+      stack.pop_back();
+      for (const GlobalOrdinal other : neighbours)
+        if (part[static_cast<std::size_t>(other)] == part[seed] &&
+            seen[static_cast<std::size_t>(other)]++ == 0)
+          stack.push_back(other);
+    }
+  }
+  return static_cast<int>(begun.size());
+}
+
+TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {12, 11, 0});
+  const auto size = static_cast<std::size_t>(mesh.numElements());
+  std::vector<int> checkerboard(size), stripes(size), scattered(size);
+  for (std::size_t e = 0; e < size; ++e) {
+    checkerboard[e] = static_cast<int>((e % 12 + e / 12) % 2);
+    stripes[e] = static_cast<int>(e / 12 % 2);
+    scattered[e] = static_cast<int>(e * 7919 % 13 * (e % 5) % 6);
+  }
+  for (std::vector<int>* part : {&checkerboard, &stripes, &scattered}) {
+    model::makeConnected(mesh, *part);
+    EXPECT_GE(expectConnected(mesh, *part), 1);
+  }
+  // A stray element goes where most of its edges are.
+  std::vector<int> halves(size, 0);
+  for (std::size_t e = 0; e < size; ++e)
+    halves[e] = e % 12 < 6 ? 0 : 1;
+  std::vector<int> withStray = halves;
+  withStray[12 * 5 + 2] = 1;
+  model::makeConnected(mesh, withStray);
+  EXPECT_EQ(withStray, halves);
+}
+
+TEST(PartitionTest, PartsOfABoxInManyPiecesAreMadeConnectedThroughFaces) {
+  const fem::StructuredMesh mesh = boxMesh(5, 4, 6);
+  const auto size = static_cast<std::size_t>(mesh.numElements());
+  std::vector<int> checkerboard(size), scattered(size), halves(size);
+  for (std::size_t e = 0; e < size; ++e) {
+    checkerboard[e] = static_cast<int>((e % 5 + e / 5 % 4 + e / 20) % 2);
+    scattered[e] = static_cast<int>(e * 7919 % 13 * (e % 5) % 6);
+    halves[e] = e < size / 2 ? 0 : 1;
+  }
+  for (std::vector<int>* part : {&checkerboard, &scattered}) {
+    model::makeConnected(mesh, *part);
+    EXPECT_GE(expectConnected(mesh, *part), 1);
+  }
+  // A stray element goes where most of its faces are.
+  std::vector<int> withStray = halves;
+  withStray[2 + 5 * (1 + 4 * 1)] = 1;
+  model::makeConnected(mesh, withStray);
+  EXPECT_EQ(withStray, halves);
+}
+
+TEST(PartitionTest, BoxesThatTouchInAnEdgeOrACornerAreNotConnected) {
+  std::vector<int> edge{0, 1, 1, 1, 1, 1, 0, 1}, corner{0, 1, 1, 1, 1, 1, 1, 0}; // part 0 is two of 2 × 2 × 2
+  for (std::vector<int>* part : {&edge, &corner}) {
+    model::makeConnected(boxMesh(2, 2, 2), *part);
+    EXPECT_EQ(*part, (std::vector<int>{0, 1, 1, 1, 1, 1, 1, 1})); // of equal pieces, the first one stays
+  }
+}
+
+TEST(PartitionTest, BodiesThatAreMeshedAndCutAlikeShareTheirPartition) {
+  scene::Scene scene = twoMembranes(true, 9, metis(7));
+  const auto alike = decompose(scene, world());
+  EXPECT_EQ(alike.bodies[0].partition, alike.bodies[1].partition);
+  scene.bodies[1].decomposition = metis(6);
+  const auto different = decompose(scene, world());
+  EXPECT_NE(different.bodies[0].partition, different.bodies[1].partition);
+  scene.bodies[1].decomposition = grid(3, 3);
+  EXPECT_EQ(decompose(scene, world()).bodies[1].partition->numParts(), 9);
+}
+
+TEST(PartitionTest, ImpossibleCountsAreRefused) {
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {3, 2, 0});
+  EXPECT_THROW(GraphPartition(mesh, 0, *world()), InputError);
+  EXPECT_THROW(GraphPartition(mesh, 7, *world()), InputError);
+  EXPECT_NO_THROW(GraphPartition(mesh, 6, *world()));
+}
+
+TEST(PartitionTest, MeshesInPiecesAreNotCut) {
+  fem::MeshArrays arrays;
+  arrays.name = "hinge";
+  arrays.cellType = fem::CellType::triangle;
+  arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  arrays.cells = {0, 1, 2, 0, 3, 4}; // joined in a node
+  arrays.nodeTags = {1, 2, 3, 4, 5};
+  arrays.elementTags = {1, 2};
+  const fem::UnstructuredMesh mesh(arrays);
+  EXPECT_EQ(GraphPartition(mesh, 1, *world()).numParts(), 1);
+  try {
+    const GraphPartition partition(mesh, 2, *world());
+    ADD_FAILURE() << "not refused, but cut into " << partition.numParts();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("only 1 of its 2 elements are joined"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(PartitionTest, AGroupedGridFallsIntoBlocks) {
+  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {16, 16, 0}, 1);
+  const auto parts = std::make_shared<const GridPartition>(mesh, std::array{8, 8, 1});
+  const model::GroupedPartition grouped(parts, mesh, 16);
+  std::vector<int> elements(64, 0);
+  for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
+    const int part = grouped.partOf(element);
+    ++elements[static_cast<std::size_t>(part)];
+    const GlobalOrdinal i = element % 16, j = element / 16;
+    EXPECT_EQ(part / 16, grouped.partOf((j / 8 * 8) * 16 + i / 8 * 8) / 16); // four blocks of 4 × 4 parts
+  }
+  EXPECT_EQ(elements, std::vector<int>(64, 4));
+  for (int part = 0; part < 64; ++part)
+    for (const GlobalOrdinal element : grouped.elementsOf(part))
+      EXPECT_EQ(grouped.partOf(element), part);
+}
+
+TEST(PartitionTest, PartsAreAsManyAsSuitWhereNoneAreAskedFor) {
+  for (const int elements : {10, 70, 140}) {
+    const scene::Scene scene = oneBody(elements, elements, metis(0), {});
+    const int nodes = (elements + 1) * (elements + 1);
+    EXPECT_EQ(layoutBodies(scene, *world()).front().partition->numParts(), (nodes + 3999) / 4000);
+  }
+}
+
+} // namespace
+} // namespace epafi::decomposition

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/fem/Mesh.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace epafi::fem::test {
+
+/// A folder for mesh files that goes with the object.
+class MeshFolder {
+public:
+  MeshFolder() {
+    static int count = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("epafi-mesh-" + std::to_string(::getpid()) + "-" + std::to_string(++count));
+    std::filesystem::create_directories(path_);
+  }
+  ~MeshFolder() { std::filesystem::remove_all(path_); }
+  MeshFolder(const MeshFolder&) = delete;
+  MeshFolder& operator=(const MeshFolder&) = delete;
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (path_ / name).string(); }
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return path(name);
+  }
+
+private:
+  std::filesystem::path path_;
+};
+
+/// Expects that `work` throws an InputError whose text holds every one of `parts`.
+template <class Work>
+void expectRefusal(const Work& work, const std::vector<std::string>& parts) {
+  try {
+    work();
+    ADD_FAILURE() << "not refused; expected: " << parts.front();
+  } catch (const InputError& error) {
+    for (const std::string& part : parts)
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+          << '"' << part << "\" is not in: " << error.what();
+  }
+}
+
+inline Eigen::Vector3d vectorOf(const Point& point) {
+  return {point[0], point[1], point[2]};
+}
+
+/// Area vectors (in the plane: normal times length) of a surface's facets, outward if the facets are ordered
+/// so.
+inline std::vector<Eigen::Vector3d> areaVectors(const Mesh& mesh, const Surface& surface) {
+  std::vector<Eigen::Vector3d> vectors;
+  const auto count = static_cast<std::size_t>(surface.nodesPerFacet());
+  for (std::size_t f = 0; f < surface.elements.size(); ++f) {
+    std::vector<Eigen::Vector3d> x;
+    for (std::size_t i = 0; i < count; ++i)
+      x.push_back(vectorOf(mesh.point(surface.facetNodes[count * f + i])));
+    if (count == 2)
+      vectors.emplace_back(x[1][1] - x[0][1], x[0][0] - x[1][0], 0.0);
+    else if (count == 3)
+      vectors.emplace_back((x[1] - x[0]).cross(x[2] - x[0]) / 2);
+    else
+      vectors.emplace_back((x[2] - x[0]).cross(x[3] - x[1]) / 2);
+  }
+  return vectors;
+}
+
+} // namespace epafi::fem::test
