@@ -36,26 +36,22 @@ std::string line(std::string label, const std::string& text) {
   return "  " + label + text + '\n';
 }
 
-/// The list Levels of a report as a table.
-std::string tableOfMeshes(const Teuchos::ParameterList& levels) {
+std::string tableOf(const std::vector<accuracy::MeshResult>& meshes) {
   std::ostringstream table;
   table << "mesh,order,unknowns,hessian_multiplications,relative_error,discretisation_error,algebraic_error,"
            "effectivity,seconds";
-  const bool haveQuantity =
-      Teuchos::getValue<Teuchos::ParameterList>(levels.entry(levels.begin())).isParameter("Quantity");
+  const bool haveQuantity = meshes.front().quantity.has_value();
   table << (haveQuantity ? ",quantity,error_bar\n" : "\n");
   table.precision(6);
-  int number = 0;
-  for (auto entry = levels.begin(); entry != levels.end(); ++entry, ++number) {
-    const auto& mesh = Teuchos::getValue<Teuchos::ParameterList>(levels.entry(entry));
-    table << number << ',' << mesh.get<int>("Order") << ',' << mesh.get<GlobalOrdinal>("Primal Dimension")
-          << ',' << mesh.get<int>("Hessian Multiplications");
-    for (const char* name :
-         {"Relative Error", "Discretisation Error", "Algebraic Error", "Effectivity", "Seconds"})
-      table << ',' << mesh.get<double>(name);
-    if (haveQuantity && mesh.isParameter("Quantity"))
-      table << ',' << std::setprecision(9) << mesh.get<double>("Quantity") << std::setprecision(6) << ','
-            << mesh.get<double>("Error Bar");
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const accuracy::MeshResult& mesh = meshes[i];
+    table << i << ',' << mesh.order << ',' << mesh.unknowns << ',' << mesh.multiplications;
+    for (const double number :
+         {mesh.relative(), mesh.discretisation, mesh.algebraic, mesh.effectivity, mesh.seconds})
+      table << ',' << number;
+    if (haveQuantity && mesh.quantity)
+      table << ',' << std::setprecision(9) << mesh.quantity->value << std::setprecision(6) << ','
+            << mesh.quantity->discretisation + mesh.quantity->algebraic;
     else if (haveQuantity)
       table << ",,";
     table << '\n';
@@ -89,7 +85,7 @@ void RunFiles::publish(output::FileSet& files) {
 
 /// All but the checkpoint, which is of the mesh that the iteration is on, and says which, get their names
 /// later; reports last.
-void RunFiles::prepare(SceneRun& run, output::FileSet& files) {
+void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
   lines_.clear();
   failures_.clear();
   std::string checkpoint;
@@ -102,19 +98,19 @@ void RunFiles::prepare(SceneRun& run, output::FileSet& files) {
     });
     prepareFields(run, files);
   }
-  if (std::string& reason = run.report.sublist("Status").get<std::string>("Reason");
-      hasMesh_ && !failures_.empty())
-    reason += "; not all files of this mesh could be written: what is missing may be there of a mesh before";
+  if (hasMesh_ && !failures_.empty())
+    run.result.reason +=
+        "; not all files of this mesh could be written: what is missing may be there of a mesh before";
   enterTimes(run);
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
-      output::writeReport(run.report, file, files);
+      output::writeReport(simulation::reportOf(run.result), file, files);
       return line("report", file.string());
     });
   lines_ += checkpoint;
 }
 
-void RunFiles::prepareFields(SceneRun& run, output::FileSet& files) {
+void RunFiles::prepareFields(simulation::SceneRun& run, output::FileSet& files) {
   const std::filesystem::path directory = options_.output, history = directory / "history.csv";
   std::string table;
   attempt(history, [&] {
@@ -129,28 +125,25 @@ void RunFiles::prepareFields(SceneRun& run, output::FileSet& files) {
     return line("fields", fields.hdf5.string() + " and " + fields.xdmf.string());
   });
   lines_ += table;
-  if (run.report.isSublist("Levels"))
+  if (run.result.target)
     attempt(directory / "meshes.csv", [&] {
-      const Teuchos::ParameterList& levels = run.report.sublist("Levels");
-      files.write(directory / "meshes.csv", [&] { return tableOfMeshes(levels); });
+      files.write(directory / "meshes.csv", [&] { return tableOf(run.result.target->meshes); });
       return line("meshes", (directory / "meshes.csv").string());
     });
 }
 
-void RunFiles::enterTimes(SceneRun& run) {
+void RunFiles::enterTimes(simulation::SceneRun& run) {
   const double now = Teuchos::Time::wallTime();
-  run.report.sublist("Time")
-      .set("Output", maxOverRanks(*comm_, output_ + now - began_))
-      .set("Total", maxOverRanks(*comm_, now - started_));
+  run.result.times.output = maxOverRanks(*comm_, output_ + now - began_);
+  run.result.times.total = maxOverRanks(*comm_, now - started_);
 }
 
 /// Whoever finds this report when the run was killed is warned.
-void RunFiles::announce(const SceneRun& run) {
-  Teuchos::ParameterList report(run.report);
-  report.sublist("Status").set(
-      "Reason",
-      std::string("the files of this mesh are being put in place: each is complete, and of this mesh or "
-                  "older; where none puts them there any more the run was killed just then"));
+void RunFiles::announce(const simulation::SceneRun& run) {
+  simulation::RunResult result(run.result);
+  result.reason = "the files of this mesh are being put in place: each is complete, and of this mesh or "
+                  "older; where none puts them there any more the run was killed just then";
+  const Teuchos::ParameterList report = simulation::reportOf(result);
   output::FileSet files(comm_, false); // for less than a millisecond
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
@@ -160,7 +153,7 @@ void RunFiles::announce(const SceneRun& run) {
   publish(files);
 }
 
-void RunFiles::writeMesh(SceneRun& run) {
+void RunFiles::writeMesh(simulation::SceneRun& run) {
   constexpr double often = 1; // seconds; what fewer of them brought is not worth a wait for the disk
   began_ = Teuchos::Time::wallTime();
   output::FileSet files(comm_, maxOverRanks(*comm_, began_ - lastMesh_) > often);
@@ -178,7 +171,7 @@ void RunFiles::writeMesh(SceneRun& run) {
   output_ += lastMesh_ - began_;
 }
 
-void RunFiles::finish(SceneRun& run) {
+void RunFiles::finish(simulation::SceneRun& run) {
   began_ = Teuchos::Time::wallTime();
   if (!isOfThisMesh_) {
     output::FileSet files(comm_);
@@ -189,7 +182,7 @@ void RunFiles::finish(SceneRun& run) {
   enterTimes(run);
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
-      output::writeReport(run.report, file, *comm_);
+      output::writeReport(simulation::reportOf(run.result), file, *comm_);
       return std::string();
     });
 }

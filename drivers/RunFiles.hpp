@@ -4,7 +4,7 @@
 
 #include "Options.hpp"
 #include "RunWatch.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/output/FileSet.hpp"
 
@@ -28,10 +28,10 @@ public:
   /// The files of a mesh of several, in place of those of the mesh before: all, with a report that says that
   /// the run goes on, or none, and the run goes on without, of which rank 0 tells once. They are put in place
   /// together, between a report that says so and the one that is to stay.
-  void writeMesh(SceneRun& run);
+  void writeMesh(simulation::SceneRun& run);
   /// Those of a run that is over; of its last mesh, if that has them, the reports alone. Enters Time/Output,
   /// that of all meshes, and Time/Total in the run's report, as writeMesh() does.
-  void finish(SceneRun& run);
+  void finish(simulation::SceneRun& run);
 
   [[nodiscard]] const std::string& lines() const { return lines_; } ///< for people: what was written where
   /// Sentences about what could not be written, by finish().
@@ -41,10 +41,10 @@ private:
   template <class Work>
   void attempt(const std::filesystem::path& file, const Work& work);
   void publish(output::FileSet& files);
-  void prepare(SceneRun& run, output::FileSet& files);
-  void prepareFields(SceneRun& run, output::FileSet& files);
-  void enterTimes(SceneRun& run);
-  void announce(const SceneRun& run);
+  void prepare(simulation::SceneRun& run, output::FileSet& files);
+  void prepareFields(simulation::SceneRun& run, output::FileSet& files);
+  void enterTimes(simulation::SceneRun& run);
+  void announce(const simulation::SceneRun& run);
 
   const Options& options_;
   const RunWatch& watch_;

@@ -30,8 +30,8 @@ std::string RunWatch::signal() const {
 
 void RunWatch::requireNoSignal(const std::string& when) const {
   if (const std::string name = signal(); !name.empty())
-    throw Interrupted("stopped by " + name + ' ' + when +
-                      ", before the iteration: there is nothing to keep; start again");
+    throw simulation::Interrupted("stopped by " + name + ' ' + when +
+                                  ", before the iteration: there is nothing to keep; start again");
 }
 
 RCP<const Vector> RunWatch::begin(const decomposition::DecomposedProblem& problem) {

@@ -3,7 +3,7 @@
 /// What the driver does while a run goes on: lines for people, signals, checkpoints, and the start from one.
 
 #include "Options.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/Checkpoint.hpp"
@@ -13,22 +13,16 @@
 
 namespace epafi::drivers {
 
-/// A signal came where nothing of the mesh at hand is worth keeping.
-class Interrupted : public Error {
-public:
-  using Error::Error;
-};
-
-class RunWatch final : public RunCompanion {
+class RunWatch final : public simulation::RunCompanion {
 public:
   /// Reads the checkpoint of --restart. Precondition: listenToStopSignals() was called. Collective. \throws
   /// InputError if it cannot be read.
   RunWatch(const Options& options, RCP<const Comm> comm);
 
-  /// λ of that checkpoint. \throws InputError if it does not fit the problem, Interrupted if a signal has
-  /// come.
+  /// λ of that checkpoint. \throws InputError if it does not fit the problem, simulation::Interrupted if a
+  /// signal has come.
   RCP<const Vector> begin(const decomposition::DecomposedProblem& problem) override;
-  /// \throws Interrupted if a signal has come.
+  /// \throws simulation::Interrupted if a signal has come.
   void beforeIteration() override;
 
   void meshing() override;

@@ -1,13 +1,17 @@
 #include "Summary.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <sstream>
+#include <vector>
 
 namespace epafi::drivers {
 namespace {
 
-using Teuchos::ParameterList;
+using simulation::RunResult;
 
 /// "1.2 GB", "3.4 MB".
 std::string bytes(double value) {
@@ -20,88 +24,22 @@ std::string bytes(double value) {
   return text.str();
 }
 
-std::string seconds(const ParameterList& list, const char* name) {
-  const double value = list.get<double>(name);
+std::string seconds(double value) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(value < 1 ? 3 : 2) << value << " s";
   return text.str();
 }
 
-std::string scientific(const ParameterList& list, const char* name, int digits) {
+std::string scientific(double value, int digits) {
   std::ostringstream text;
-  text << std::scientific << std::setprecision(digits) << list.get<double>(name);
+  text << std::scientific << std::setprecision(digits) << value;
   return text.str();
 }
 
-GlobalOrdinal count(const ParameterList& list, const char* name) {
-  return list.isType<int>(name) ? list.get<int>(name) : list.get<GlobalOrdinal>(name);
-}
-
-/// "1 rank", "2 ranks".
-std::string counted(GlobalOrdinal number, const std::string& noun) {
-  return std::to_string(number) + ' ' + noun + (number == 1 ? "" : "s");
-}
-
-std::string counted(const ParameterList& list, const char* name, const std::string& noun) {
-  return counted(count(list, name), noun);
-}
-
-/// Names of the floating bodies; empty if there are none.
-std::string floatingBodies(const SceneRun& run) {
-  std::string names;
-  for (const auto& body : run.decomposition->problem.bodies)
-    if (body.kernelDimension > 0)
-      names += (names.empty() ? "" : ", ") + body.name;
-  return names;
-}
-
-void describeProblem(std::ostream& text, const SceneRun& run) {
-  const ParameterList& problem = run.report.sublist("Problem");
-  text << "  problem     " << counted(problem, "Primal Dimension", "primal unknown") << " in "
-       << counted(problem, "Subdomains", "subdomain") << " on " << counted(problem, "Ranks", "rank") << ", "
-       << counted(problem, "Crosspoints", "crosspoint") << "\n              "
-       << counted(problem, "Dual Dimension", "multiplier") << ": " << count(problem, "Inequality Multipliers")
-       << " of contact, ";
-  const GlobalOrdinal ties = run.decomposition->problem.numTies;
-  if (ties > 0)
-    text << ties << " of tied joints, ";
-  text << count(problem, "Equality Multipliers") - ties << " of gluing\n";
-  for (std::size_t b = 0; b < run.scene.bodies.size(); ++b) {
-    const scene::Decomposition& asked = run.scene.bodies[b].decomposition;
-    const int parts = run.decomposition->bodies[b].partition->numParts();
-    if (asked.method == scene::Decomposition::Method::metis && asked.parts > 0 && asked.parts != parts)
-      text << "              METIS cut body '" << run.scene.bodies[b].name << "' into "
-           << counted(parts, "connected part") << ", not the " << asked.parts << " asked for\n";
-  }
-  const bool isChosen = std::any_of(run.scene.bodies.begin(), run.scene.bodies.end(),
-                                    [](const scene::Body& body) { return body.decomposition.cluster < 0; });
-  if (const auto clusters = run.decomposition->problem.clusters.size(); clusters > run.scene.bodies.size())
-    text << "  clusters    " << clusters << " of subdomains that share crosspoints, "
-         << counted(problem, "Kernel Dimension", "rigid motion") << " of them"
-         << (isChosen ? ": with so many subdomains and ranks faster than crosspoints of whole bodies\n"
-                      : "\n");
-  const std::string floating = floatingBodies(run);
-  text << "  floating    " << (floating.empty() ? "no body" : floating) << '\n';
-}
-
-void describeSolution(std::ostream& text, const SceneRun& run) {
-  const ParameterList& algorithm = run.report.sublist("Algorithm");
-  const ParameterList& iterations = run.report.sublist("Iterations");
-  text << "  algorithm   " << algorithm.get<std::string>("Name") << ": "
-       << algorithm.get<std::string>("Reason") << "\n              preconditioner "
-       << algorithm.get<std::string>("Preconditioner") << ", subdomains by "
-       << algorithm.get<std::string>("Subdomain Solver") << ", coarse problem by "
-       << algorithm.get<std::string>("Coarse Solver") << "\n              F "
-       << algorithm.get<std::string>("Dual Operator") << '\n';
-  if (run.start)
-    text << "  start       contact zone of " << run.start->means << ": "
-         << counted(run.start->unknowns, "primal unknown") << ", "
-         << counted(run.start->multiplications, "product") << " with F\n";
-  text << "  iterations  " << counted(iterations, "Hessian Multiplications", "product") << " with F (and "
-       << count(iterations, "Norm Estimate Multiplications")
-       << " to estimate its norm): " << count(iterations, "CG Steps") << " CG + "
-       << count(iterations, "Expansion Steps") << " expansion + " << count(iterations, "Proportioning Steps")
-       << " proportioning steps, " << count(iterations, "Outer") << " outer\n";
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(5) << value;
+  return text.str();
 }
 
 /// "1.2 %", "0.00034 %".
@@ -120,7 +58,67 @@ std::string valueWithBar(double value, double bar) {
   return text.str();
 }
 
-void describeQuantity(std::ostream& text, const Quantity& quantity) {
+/// "1 rank", "2 ranks".
+std::string counted(GlobalOrdinal number, const std::string& noun) {
+  return std::to_string(number) + ' ' + noun + (number == 1 ? "" : "s");
+}
+
+/// Names of the floating bodies; empty if there are none.
+std::string floatingBodies(const RunResult& result) {
+  std::string names;
+  for (const simulation::BodyResult& body : result.bodies)
+    if (body.floats)
+      names += (names.empty() ? "" : ", ") + body.name;
+  return names;
+}
+
+void describeProblem(std::ostream& text, const RunResult& result) {
+  const SolveFacts& solve = result.solve;
+  text << "  problem     " << counted(solve.primalDimension, "primal unknown") << " in "
+       << counted(solve.numSubdomains, "subdomain") << " on " << counted(solve.numRanks, "rank") << ", "
+       << counted(solve.numCrosspoints, "crosspoint") << "\n              "
+       << counted(solve.dualDimension, "multiplier") << ": " << solve.numInequalities << " of contact, ";
+  if (solve.numTies > 0)
+    text << solve.numTies << " of tied joints, ";
+  text << solve.numEqualities - solve.numTies << " of gluing\n";
+  for (const simulation::BodyResult& body : result.bodies)
+    if (body.askedParts > 0 && body.askedParts != body.parts)
+      text << "              METIS cut body '" << body.name << "' into "
+           << counted(body.parts, "connected part") << ", not the " << body.askedParts << " asked for\n";
+  if (solve.numClusters > static_cast<int>(result.bodies.size()))
+    text << "  clusters    " << solve.numClusters << " of subdomains that share crosspoints, "
+         << counted(solve.kernelDimension, "rigid motion") << " of them"
+         << (result.choosesClusters
+                 ? ": with so many subdomains and ranks faster than crosspoints of whole bodies\n"
+                 : "\n");
+  const std::string floating = floatingBodies(result);
+  text << "  floating    " << (floating.empty() ? "no body" : floating) << '\n';
+}
+
+void describeStart(std::ostream& text, const simulation::CoarserStart& start) {
+  text << "  start       ";
+  if (start.failure.empty())
+    text << "contact zone of " << start.means << ": " << counted(start.unknowns, "primal unknown") << ", "
+         << counted(start.multiplications, "product") << " with F\n";
+  else
+    text << "from nothing, as a coarser mesh failed: " << start.failure << '\n';
+}
+
+void describeSolution(std::ostream& text, const RunResult& result) {
+  const SolveFacts& solve = result.solve;
+  text << "  algorithm   " << fetidp::toString(solve.algorithm) << ": " << solve.reason
+       << "\n              preconditioner " << solve.preconditioner << ", subdomains by "
+       << solve.subdomainSolver << ", coarse problem by " << solve.coarseSolver << "\n              F "
+       << solve.dualOperator << '\n';
+  if (result.start)
+    describeStart(text, *result.start);
+  text << "  iterations  " << counted(solve.counts.hessianMultiplications, "product") << " with F (and "
+       << solve.normMultiplications << " to estimate its norm): " << solve.counts.conjugateGradient
+       << " CG + " << solve.counts.expansion << " expansion + " << solve.counts.proportioning
+       << " proportioning steps, " << solve.counts.outer << " outer\n";
+}
+
+void describeQuantity(std::ostream& text, const simulation::Quantity& quantity) {
   text << "\n  quantity    " << quantity.name << ": ";
   if (quantity.failure.empty())
     text << valueWithBar(quantity.value, quantity.bar + quantity.algebraic)
@@ -130,152 +128,141 @@ void describeQuantity(std::ostream& text, const Quantity& quantity) {
 }
 
 /// What of the error the mesh and what the iteration is to blame for.
-void describeError(std::ostream& text, const SceneRun& run) {
-  const accuracy::ErrorEstimate& error = *run.error;
+void describeError(std::ostream& text, const simulation::ErrorResult& error) {
   const double whole = std::hypot(error.energyNorm, error.discretisation);
-  text << "\n              estimated error " << percent(run.relativeError())
-       << " of the energy norm: " << percent(error.relative()) << " of the mesh, ";
-  if (std::isfinite(run.solution.algebraicError))
-    text << percent(whole > 0 ? run.solution.algebraicError / whole : 0) << " of the iteration";
+  const auto share = [whole](double absolute) { return percent(whole > 0 ? absolute / whole : 0); };
+  text << "\n              estimated error " << percent(error.relative())
+       << " of the energy norm: " << share(error.discretisation) << " of the mesh, ";
+  if (std::isfinite(error.algebraic))
+    text << share(error.algebraic) << " of the iteration";
   else
     text << "that of the iteration not measured without preconditioner";
 }
 
-void describeAccuracy(std::ostream& text, const SceneRun& run) {
-  const ParameterList& accuracy = run.report.sublist("Accuracy");
+void describeAccuracy(std::ostream& text, const RunResult& result) {
   std::ostringstream asked;
-  if (run.solver->isBalanced())
+  if (result.solve.isBalanced)
     asked << "balanced";
   else
-    asked << run.solver->tolerance();
-  text << "  accuracy    projected gradient " << scientific(accuracy, "Relative Projected Gradient", 2)
-       << " (asked " << asked.str() << "), feasibility " << scientific(accuracy, "Feasibility", 2)
-       << ", complementarity " << scientific(accuracy, "Complementarity", 2);
-  if (!floatingBodies(run).empty())
-    text << ", equilibrium " << scientific(accuracy, "Equilibrium", 2);
-  if (run.error)
-    describeError(text, run);
-  if (accuracy.isParameter("Doubts"))
-    text << "\n  doubts      " << accuracy.get<std::string>("Doubts");
-  if (run.quantity)
-    describeQuantity(text, *run.quantity);
-  if (accuracy.isParameter("Choice of Order"))
-    text << "\n  order       " << accuracy.get<std::string>("Choice of Order");
-  text << "\n  solution    energy " << scientific(accuracy, "Energy", 9);
-  if (count(run.report.sublist("Problem"), "Inequality Multipliers") > 0)
-    text << ", contact force " << scientific(accuracy, "Contact Force", 9) << " on "
-         << counted(accuracy, "Active Contact Nodes", "closed node");
+    asked << result.solve.tolerance;
+  text << "  accuracy    projected gradient " << scientific(result.relativeProjectedGradient, 2) << " (asked "
+       << asked.str() << "), feasibility " << scientific(result.feasibility, 2) << ", complementarity "
+       << scientific(result.complementarity, 2);
+  if (!floatingBodies(result).empty())
+    text << ", equilibrium " << scientific(result.equilibrium, 2);
+  if (result.error)
+    describeError(text, *result.error);
+  if (!result.doubts.empty())
+    text << "\n  doubts      " << result.doubts;
+  if (result.quantity)
+    describeQuantity(text, *result.quantity);
+  if (result.target && !result.target->choiceOfOrder.empty())
+    text << "\n  order       " << result.target->choiceOfOrder;
+  text << "\n  solution    energy " << scientific(result.energy, 9);
+  if (result.solve.numInequalities > 0)
+    text << ", contact force " << scientific(result.contactForce, 9) << " on "
+         << counted(result.activeContactNodes, "closed node");
   text << '\n';
 }
 
-std::string rounded(const ParameterList& list, const char* name) {
-  std::ostringstream text;
-  text << std::setprecision(5) << list.get<double>(name);
-  return text.str();
+double lengthOf(const std::array<double, 3>& force) {
+  return std::hypot(force[0], force[1], force[2]);
 }
 
 /// ", resultant 256.76" where it is another thing than the sum of the nodes' forces: these turn with the
 /// surface, and their resultant is what a load holds.
-std::string resultantOf(const ParameterList& contact) {
+std::string resultantOf(const simulation::ContactResult& contact) {
   constexpr double alike = 0.02;
-  const auto& force = contact.get<Teuchos::Array<double>>("Resultant");
-  const double sum = contact.get<double>("Force"), resultant = std::hypot(force[0], force[1], force[2]);
-  if (std::abs(sum - resultant) <= alike * std::abs(sum))
+  const double resultant = lengthOf(contact.resultant);
+  if (std::abs(contact.force - resultant) <= alike * std::abs(contact.force))
     return "";
-  std::ostringstream text;
-  text << std::setprecision(5) << ", resultant " << resultant;
-  return text.str();
+  return ", resultant " + rounded(resultant);
 }
 
-/// One line a list, the first ones only if there are many. `line` adds what a list says.
-template <class Line>
-void describeEach(std::ostream& text, const ParameterList& lists, const std::string& label, Line line) {
-  constexpr int most = 8;
-  int number = 0;
-  for (auto entry = lists.begin(); entry != lists.end(); ++entry)
-    if (++number <= most) {
-      text << "  " << std::left << std::setw(12) << label << lists.name(entry) << ": ";
-      line(Teuchos::getValue<ParameterList>(lists.entry(entry)));
-      text << '\n';
-    }
-  if (number > most)
-    text << "              and " << number - most << " more in the report\n";
+/// One line an entry, the first ones only if there are many. `line` adds what an entry says.
+template <class Entries, class Line>
+void describeEach(std::ostream& text, const Entries& entries, const std::string& label, Line line) {
+  constexpr std::size_t most = 8;
+  for (std::size_t i = 0; i < std::min(most, entries.size()); ++i) {
+    text << "  " << std::left << std::setw(12) << label << entries[i].name << ": ";
+    line(entries[i]);
+    text << '\n';
+  }
+  if (entries.size() > most)
+    text << "              and " << entries.size() - most << " more in the report\n";
 }
 
-/// What a user should know of a contact or joint beside its numbers.
-void addNotes(std::ostream& text, const ParameterList& list) {
+const char* const noteIndent = "\n                ";
+
+void addBalance(std::ostream& text, const simulation::JointBalance& balance) {
   constexpr double balanced = 1e-3;
-  const std::string indent = "\n                ";
-  if (list.isParameter("Note"))
-    text << indent << list.get<std::string>("Note");
-  if (list.isParameter("Bent Nodes"))
-    text << indent << "a surface bends sharply at " << counted(list, "Bent Nodes", "contact node")
+  if (balance.moment > balanced)
+    text << noteIndent << "the forces on both sides are out of balance by " << percent(balance.moment)
+         << " in moment: they do not lie across each other";
+}
+
+void describeContact(std::ostream& text, const simulation::ContactResult& contact) {
+  text << contact.activeNodes << " of " << counted(contact.candidates, "node") << " closed, area "
+       << rounded(contact.area) << ", force " << rounded(contact.force) << resultantOf(contact)
+       << ", largest pressure " << rounded(contact.largestPressure);
+  if (contact.penetration)
+    text << ", penetration " << rounded(*contact.penetration);
+  if (contact.balance)
+    text << "; " << contact.balance->coupling;
+  if (!contact.note.empty())
+    text << noteIndent << contact.note;
+  if (contact.numBent > 0)
+    text << noteIndent << "a surface bends sharply at " << counted(contact.numBent, "contact node")
          << " more than one face of which meets the other side; the normal there is their mean: give the "
-            "faces "
-            "contacts of their own";
-  if (list.isParameter("Moment Imbalance") && list.get<double>("Moment Imbalance") > balanced)
-    text << indent << "the forces on both sides are out of balance by "
-         << percent(list.get<double>("Moment Imbalance")) << " in moment: they do not lie across each other";
+            "faces contacts of their own";
+  if (contact.balance)
+    addBalance(text, *contact.balance);
 }
 
-void describeResults(std::ostream& text, const SceneRun& run) {
-  if (run.report.isSublist("Body"))
-    describeEach(text, run.report.sublist("Body"), "body", [&](const ParameterList& body) {
-      text << "largest displacement " << rounded(body, "Largest Displacement")
-           << ", largest von Mises stress " << rounded(body, "Largest von Mises Stress");
-    });
-  if (run.report.isSublist("Contact"))
-    describeEach(text, run.report.sublist("Contact"), "contact", [&](const ParameterList& contact) {
-      text << count(contact, "Active Nodes") << " of " << counted(contact, "Candidates", "node")
-           << " closed, area " << rounded(contact, "Contact Area") << ", force " << rounded(contact, "Force")
-           << resultantOf(contact) << ", largest pressure " << rounded(contact, "Largest Pressure");
-      if (contact.isParameter("Largest Penetration"))
-        text << ", penetration " << rounded(contact, "Largest Penetration");
-      if (contact.isParameter("Coupling"))
-        text << "; " << contact.get<std::string>("Coupling");
-      addNotes(text, contact);
-    });
-  if (run.report.isSublist("Tied"))
-    describeEach(text, run.report.sublist("Tied"), "tied", [&](const ParameterList& tie) {
-      const auto& force = tie.get<Teuchos::Array<double>>("Resultant");
-      text << counted(tie, "Nodes", "node") << ", force " << std::setprecision(5)
-           << std::hypot(force[0], force[1], force[2]) << ", largest traction "
-           << rounded(tie, "Largest Traction") << "; " << tie.get<std::string>("Coupling");
-      addNotes(text, tie);
-    });
+void describeResults(std::ostream& text, const RunResult& result) {
+  std::vector<simulation::BodyResult> elastic;
+  std::copy_if(result.bodies.begin(), result.bodies.end(), std::back_inserter(elastic),
+               [](const simulation::BodyResult& body) { return body.isElastic; });
+  describeEach(text, elastic, "body", [&](const simulation::BodyResult& body) {
+    text << "largest displacement " << rounded(body.largestDisplacement) << ", largest von Mises stress "
+         << rounded(body.largestStress);
+  });
+  describeEach(text, result.contacts, "contact",
+               [&](const simulation::ContactResult& contact) { describeContact(text, contact); });
+  describeEach(text, result.ties, "tied", [&](const simulation::TieResult& tie) {
+    text << counted(tie.nodes, "node") << ", force " << rounded(lengthOf(tie.resultant))
+         << ", largest traction " << rounded(tie.largestTraction) << "; " << tie.balance.coupling;
+    if (!tie.note.empty())
+      text << noteIndent << tie.note;
+    addBalance(text, tie.balance);
+  });
 }
 
-void describeCosts(std::ostream& text, const SceneRun& run) {
-  const ParameterList& time = run.report.sublist("Time");
-  const ParameterList& memory = run.report.sublist("Memory");
-  const bool isLastOfMany = run.report.isSublist("Levels");
-  text << "  time        " << (isLastOfMany ? "last mesh: " : "") << "assembly " << seconds(time, "Assembly")
-       << ", setup " << seconds(time, "Setup");
-  if (time.isParameter("Start"))
-    text << ", start " << seconds(time, "Start");
-  text << ", solve " << seconds(time, "Solve") << ", recovery " << seconds(time, "Recovery");
-  if (time.isParameter("Error Estimate"))
-    text << ", error estimate " << seconds(time, "Error Estimate");
-  if (time.isParameter("Output"))
-    text << ", output " << seconds(time, "Output");
-  if (time.isParameter("Total"))
-    text << (isLastOfMany ? "; total of all meshes " : "; total ") << seconds(time, "Total");
-  text << "\n  memory      " << bytes(memory.get<double>("Peak Bytes"))
-       << " at most over all ranks, of which factors " << bytes(memory.get<double>("Factor Bytes")) << '\n';
+void describeCosts(std::ostream& text, const RunResult& result) {
+  const bool isLastOfMany = result.target.has_value();
+  text << "  time        " << (isLastOfMany ? "last mesh: " : "") << "assembly "
+       << seconds(result.times.assembly) << ", setup " << seconds(result.solve.times.setup);
+  if (result.start)
+    text << ", start " << seconds(result.start->seconds);
+  text << ", solve " << seconds(result.solve.times.solve) << ", recovery " << seconds(result.times.recovery);
+  if (result.error)
+    text << ", error estimate " << seconds(result.times.errorEstimate);
+  text << ", output " << seconds(result.times.output)
+       << (isLastOfMany ? "; total of all meshes " : "; total ") << seconds(result.times.total)
+       << "\n  memory      " << bytes(result.solve.peakBytes) << " at most over all ranks, of which factors "
+       << bytes(result.solve.factorBytes) << '\n';
 }
 
 } // namespace
 
-std::string summary(const SceneRun& run) {
+std::string summary(const RunResult& result) {
   std::ostringstream text;
-  describeProblem(text, run);
-  describeSolution(text, run);
-  describeAccuracy(text, run);
-  describeResults(text, run);
-  describeCosts(text, run);
-  const ParameterList& status = run.report.sublist("Status");
-  text << "  status      " << status.get<std::string>("Status") << ": " << status.get<std::string>("Reason")
-       << '\n';
+  describeProblem(text, result);
+  describeSolution(text, result);
+  describeAccuracy(text, result);
+  describeResults(text, result);
+  describeCosts(text, result);
+  text << "  status      " << simulation::statusOf(result) << ": " << result.reason << '\n';
   return text.str();
 }
 

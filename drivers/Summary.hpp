@@ -2,15 +2,14 @@
 
 /// What a finished run tells its user.
 
-#include "AccurateRun.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/RunResult.hpp"
 
 #include <string>
 
 namespace epafi::drivers {
 
-/// The report in lines for people: problem, algorithm and why, iterations, accuracy, time, memory, status.
-std::string summary(const SceneRun& run);
+/// A result in lines for people: problem, algorithm and why, iterations, accuracy, time, memory, status.
+std::string summary(const simulation::RunResult& result);
 
 /// One line about a mesh of a run with an accuracy target, ends with a newline.
 std::string describe(const accuracy::MeshResult& mesh);

@@ -1,13 +1,13 @@
 /// `epafi SCENE.xml`: one contact problem from its XML scene to fields, report and exit code.
 
-#include "AccurateRun.hpp"
 #include "JointEnd.hpp"
 #include "Options.hpp"
 #include "RunFiles.hpp"
 #include "RunWatch.hpp"
-#include "SceneRun.hpp"
 #include "StopSignals.hpp"
 #include "Summary.hpp"
+#include "epafi/simulation/AccurateRun.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
@@ -37,7 +37,7 @@ std::string information(const Options& options) {
     return usage();
   if (options.version)
     return std::string("epafi ") + version() + '\n';
-  return describeParameters(driverSchema(),
+  return describeParameters(simulation::driverSchema(),
                             "All parameters of a scene file with type, default, allowed values and meaning, "
                             "as `epafi --print-parameters` prints them.");
 }
@@ -64,24 +64,26 @@ bool print(const std::string& text) {
 }
 
 /// On the scene's own mesh, or on finer ones until the error is small enough.
-SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& list,
-                      const RCP<const Comm>& comm, RunWatch& watch, RunFiles& files, bool speaks) {
-  const auto accuracy = AccuracyParameters::from(list.sublist("Accuracy"));
+simulation::SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& list,
+                                  const RCP<const Comm>& comm, RunWatch& watch, RunFiles& files,
+                                  bool speaks) {
+  const auto accuracy = simulation::AccuracyParameters::from(list.sublist("Accuracy"));
   const Teuchos::ParameterList& solver = list.sublist("Solver");
   if (accuracy.target == 0)
-    return solveScene(scene, solver, comm,
-                      {.estimatesError = accuracy.estimate,
-                       .quantity = accuracy.quantity,
-                       .coarserFrom = accuracy.coarserFrom,
-                       .companion = &watch,
-                       .meshes = model::Meshes::pieces});
+    return simulation::solveScene(scene, solver, comm,
+                                  {.estimatesError = accuracy.estimate,
+                                   .quantity = accuracy.quantity,
+                                   .coarserFrom = accuracy.coarserFrom,
+                                   .companion = &watch,
+                                   .meshes = model::Meshes::pieces});
   watch.expectSeries();
-  const auto tell = [&](const accuracy::MeshResult& mesh, SceneRun& run) {
+  const auto tell = [&](const accuracy::MeshResult& mesh, simulation::SceneRun& run) {
     files.writeMesh(run);
     if (speaks) // of a mesh whose files are there
       std::cout << describe(mesh) << std::flush;
   };
-  SceneRun run = std::move(solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
+  simulation::SceneRun run =
+      std::move(simulation::solveToTarget(scene, solver, accuracy, comm, &watch, tell).run);
   if (watch.restarts() && speaks)
     std::cout << "  restart     the checkpoint belongs to none of these meshes: all was done anew\n";
   return run;
@@ -91,7 +93,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   const bool speaks = comm->getRank() == 0 && !options.quiet;
   const double start = Teuchos::Time::wallTime();
   Teuchos::ParameterList given = scene::readParameterFile(options.scene, *comm);
-  const Teuchos::ParameterList schema = driverSchema();
+  const Teuchos::ParameterList schema = simulation::driverSchema();
   for (const std::string& text : options.overrides)
     scene::applyOverride(given, schema, text);
   const Teuchos::ParameterList list = validated(given, schema, options.scene);
@@ -112,12 +114,12 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
 
   RunWatch watch(options, comm);
   RunFiles files(options, watch, comm, start);
-  SceneRun run = solveAsAsked(scene, list, comm, watch, files, speaks);
-  const bool isInterrupted = run.report.sublist("Status").get<std::string>("Status") == "Interrupted";
+  simulation::SceneRun run = solveAsAsked(scene, list, comm, watch, files, speaks);
+  const bool isInterrupted = run.result.status == simulation::RunStatus::interrupted;
   const std::string signal = isInterrupted ? watch.signal() : "";
   files.finish(run);
-  bool isComplete = run.report.sublist("Status").get<bool>("Converged") && files.failures().empty();
-  if (speaks && !print(summary(run) + files.lines() + (isInterrupted ? farewell(signal, watch) : "")))
+  bool isComplete = run.result.status == simulation::RunStatus::converged && files.failures().empty();
+  if (speaks && !print(summary(run.result) + files.lines() + (isInterrupted ? farewell(signal, watch) : "")))
     isComplete = false;
   for (const std::string& failure : files.failures())
     if (comm->getRank() == 0)

@@ -28,6 +28,28 @@ struct SolverTimes {
   double setup = 0, solve = 0, recovery = 0;
 };
 
+/// What a problem was, how it was solved and what that took, in numbers; over all ranks.
+struct SolveFacts {
+  GlobalOrdinal primalDimension = 0, dualDimension = 0;              ///< DecomposedProblem has the meaning
+  GlobalOrdinal numInequalities = 0, numTies = 0, numEqualities = 0; ///< rows of B; ties are equalities, too
+  GlobalOrdinal numCrosspoints = 0;
+  int numAdaptiveConstraints = 0, numSubdomains = 0, numClusters = 0, numFloatingBodies = 0;
+  int kernelDimension = 0, numRanks = 0;
+  fetidp::Algorithm algorithm = fetidp::Algorithm::direct;
+  std::string reason;                        ///< why this algorithm
+  std::string preconditioner, dualOperator;  ///< in some words
+  std::string subdomainSolver, coarseSolver; ///< names of direct solvers
+  double tolerance = 0;                      ///< that the iteration was asked for
+  bool isBalanced = false;                   ///< or a share of the discretisation error instead
+  double operatorNorm = 0;                   ///< estimate of ‖F‖
+  int normMultiplications = 0;               ///< products with F that it took
+  qp::StepCounts counts;                     ///< of the iteration
+  SolverTimes times;
+  double peakBytes = 0, factorBytes = 0; ///< most that the processes ever held; factors and dense blocks
+  qp::Status status = qp::Status::maxIterations;
+  std::string statusReason; ///< one sentence
+};
+
 class ContactSolver {
 public:
   /// All parameters with defaults, ranges and meaning.
@@ -97,9 +119,8 @@ public:
   /// That fraction.
   [[nodiscard]] double algebraicFraction() const { return algebraicFraction_; }
 
-  /// The report of the last solve as a list: Epafi (Version), Problem, Algorithm, Iterations, Accuracy, Time,
-  /// Memory, Status. Collective.
-  [[nodiscard]] Teuchos::ParameterList reportList(const fetidp::ContactSolution& solution) const;
+  /// Of the last solve. Collective. Precondition: there was one.
+  [[nodiscard]] SolveFacts facts() const;
 
 private:
   void factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier);

@@ -5,8 +5,8 @@
 #include "CommandLine.hpp"
 #include "JointEnd.hpp"
 #include "PetscFile.hpp"
-#include "SceneRun.hpp"
 #include "UndecomposedSystem.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/scene/ParameterFile.hpp"
@@ -58,7 +58,7 @@ Request parse(int argc, const char* const* argv) {
 
 scene::Scene read(const Request& request) {
   Teuchos::ParameterList list = scene::readParameterFile(request.scene, *Tpetra::getDefaultComm());
-  const Teuchos::ParameterList schema = driverSchema();
+  const Teuchos::ParameterList schema = simulation::driverSchema();
   for (const std::string& text : request.overrides)
     scene::applyOverride(list, schema, text);
   scene::Scene scene = scene::readScene(list, request.scene);

@@ -4,9 +4,9 @@
 #include "CommandLine.hpp"
 #include "JointEnd.hpp"
 #include "LinearSolve.hpp"
-#include "PeakMemory.hpp"
 #include "PeerStrategies.hpp"
 #include "PoissonProblem.hpp"
+#include "epafi/simulation/PeakMemory.hpp"
 
 #include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/base/Collective.hpp"
@@ -159,7 +159,7 @@ std::string measure(const Request& request, const RCP<const Comm>& comm) {
   const double assemblySeconds = since(*comm, start);
   const Measurements found = isDirect ? byCholmod(dynamic_cast<const CrsMatrix&>(*k), *load)
                                       : byStratimikos(*strategyAmongPeers(list, problem.k), k, load);
-  const double peak = sumOverRanks(*comm, peakBytes());
+  const double peak = sumOverRanks(*comm, simulation::peakBytes());
   std::ostringstream line;
   line.precision(16);
   line << R"({"unknowns": )" << load->getGlobalLength() << R"(, "ranks": )" << comm->getSize()

@@ -1,7 +1,7 @@
 #include "AccuracyCase.hpp"
 
-#include "AccurateRun.hpp"
 #include "Median.hpp"
+#include "epafi/simulation/AccurateRun.hpp"
 
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@ constexpr std::size_t mostRounds = 7;
 
 /// One run with what it took.
 struct TimedRun {
-  SceneRun run;
+  simulation::SceneRun run;
   double seconds = 0;       ///< all meshes, estimates of their errors included
   double finestSeconds = 0; ///< likewise, on the last mesh
   double allProducts = 0;
@@ -44,12 +44,12 @@ Teuchos::ParameterList parametersOf(const Case& variant) {
 TimedRun timedRun(const AccuracyProblem& problem, int level, const Case& variant,
                   const RCP<const Comm>& comm) {
   const int coarsest = variant.list.isParameter("Nested") ? 0 : level;
-  AccuracyParameters accuracy;
+  simulation::AccuracyParameters accuracy;
   accuracy.target = std::numeric_limits<double>::min(); // never met: all meshes that are allowed
   accuracy.maxLevels = level - coarsest + 1;
-  accuracy.refinement = AccuracyParameters::Refinement::even;
-  AccurateRun result =
-      solveToTarget(problem.onMesh(coarsest), parametersOf(variant), accuracy, comm, nullptr, {});
+  accuracy.refinement = simulation::AccuracyParameters::Refinement::even;
+  simulation::AccurateRun result =
+      simulation::solveToTarget(problem.onMesh(coarsest), parametersOf(variant), accuracy, comm, nullptr, {});
   TimedRun timed;
   for (const accuracy::MeshResult& one : result.loop.meshes) {
     timed.seconds += one.seconds;
@@ -62,7 +62,7 @@ TimedRun timedRun(const AccuracyProblem& problem, int level, const Case& variant
 }
 
 /// Both run on the same mesh, cut alike.
-accuracy::ErrorNorms algebraicError(const SceneRun& run, const SceneRun& tight) {
+accuracy::ErrorNorms algebraicError(const simulation::SceneRun& run, const simulation::SceneRun& tight) {
   std::vector<Eigen::VectorXd> difference = run.solution.displacement;
   for (std::size_t s = 0; s < difference.size(); ++s)
     difference[s] -= tight.solution.displacement[s];
@@ -75,7 +75,7 @@ double relativeDistance(double value, double exact) {
 
 /// All of a row but times.
 Row errorsOf(const TimedRun& timed, const AccuracyReference& reference, const TightSolution& tight) {
-  const SceneRun& run = timed.run;
+  const simulation::SceneRun& run = timed.run;
   const accuracy::ErrorNorms& norms = reference.norms();
   const accuracy::ErrorNorms algebraic = algebraicError(run, tight.run);
   const ContactResult contact = contactOf(run);
@@ -92,7 +92,7 @@ Row errorsOf(const TimedRun& timed, const AccuracyReference& reference, const Ti
           {"l2_error", std::hypot(algebraic.l2, tight.error.l2) / norms.l2},
           {"contact_zone_error", relativeDistance(contact.area, reference.contact().area)},
           {"force_error", relativeDistance(contact.force, reference.contact().force)},
-          {"estimated_error", run.relativeError()},
+          {"estimated_error", run.result.error->relative()},
           {"estimated_discretisation_error", run.error->discretisation / norms.energy},
           {"estimated_algebraic_error", run.solution.algebraicError / norms.energy}};
 }
@@ -116,7 +116,7 @@ std::vector<Row> measureVariants(const AccuracyProblem& problem, int level,
         rows[v] = errorsOf(timed, reference, reference.tight(level));
       times[v].all.push_back(timed.seconds);
       times[v].finest.push_back(timed.finestSeconds);
-      times[v].solve.push_back(timed.run.report.sublist("Time").get<double>("Solve"));
+      times[v].solve.push_back(timed.run.result.solve.times.solve);
       spent += timed.seconds; // the same on all ranks
     }
   for (std::size_t v = 0; v < variants.size(); ++v) {

@@ -8,16 +8,11 @@
 
 namespace epafi::drivers {
 
-ContactResult contactOf(const SceneRun& run) {
+ContactResult contactOf(const simulation::SceneRun& run) {
   ContactResult sum;
-  const Teuchos::ParameterList& report = run.report;
-  if (!report.isSublist("Contact"))
-    return sum;
-  const Teuchos::ParameterList& contacts = report.sublist("Contact");
-  for (auto entry = contacts.begin(); entry != contacts.end(); ++entry) {
-    const auto& contact = Teuchos::getValue<Teuchos::ParameterList>(contacts.entry(entry));
-    sum.area += contact.get<double>("Contact Area");
-    sum.force += contact.get<double>("Force");
+  for (const simulation::ContactResult& contact : run.result.contacts) {
+    sum.area += contact.area;
+    sum.force += contact.force;
   }
   return sum;
 }
@@ -27,10 +22,12 @@ double referenceError(double distance2, double distance4) {
   return distance2 / std::sqrt(ratio - 2);
 }
 
-SceneRun solveTightly(const scene::Scene& scene, const SceneRun* coarser, const RCP<const Comm>& comm) {
+simulation::SceneRun solveTightly(const scene::Scene& scene, const simulation::SceneRun* coarser,
+                                  const RCP<const Comm>& comm) {
   Teuchos::ParameterList parameters;
   parameters.set("Tolerance", 1e-10).set("Equilibrium Tolerance", 1e-10);
-  SceneRun run = solveScene(scene, parameters, comm, {.estimatesError = true, .coarser = coarser});
+  simulation::SceneRun run =
+      simulation::solveScene(scene, parameters, comm, {.estimatesError = true, .coarser = coarser});
   if (run.solver->report().status != qp::Status::converged)
     throw Error("the reference solution of \"" + scene.title +
                 "\" was not reached: " + run.solver->report().reason);
@@ -39,7 +36,7 @@ SceneRun solveTightly(const scene::Scene& scene, const SceneRun* coarser, const 
 }
 
 AccuracyReference::AccuracyReference(const AccuracyProblem& problem, const RCP<const Comm>& comm) {
-  const SceneRun* last = nullptr;
+  const simulation::SceneRun* last = nullptr;
   tight_.reserve(static_cast<std::size_t>(problem.meshes)); // `last` stays where it is
   for (int level = 0; level < problem.meshes; ++level) {
     tight_.push_back({solveTightly(problem.onMesh(level), last, comm), {}, {}});
@@ -58,8 +55,8 @@ AccuracyReference::AccuracyReference(const AccuracyProblem& problem, const RCP<c
     contact_ = finest.contact; // exact at the nodes
     return;
   }
-  const SceneRun between = solveTightly(problem.onMesh(problem.meshes), last, comm);
-  const SceneRun reference = solveTightly(problem.onMesh(problem.meshes + 1), &between, comm);
+  const simulation::SceneRun between = solveTightly(problem.onMesh(problem.meshes), last, comm);
+  const simulation::SceneRun reference = solveTightly(problem.onMesh(problem.meshes + 1), &between, comm);
   const double distance2 =
       accuracy::errorAgainst(reference.scene, *reference.decomposition, reference.solution.displacement,
                              *between.decomposition, between.solution.displacement)

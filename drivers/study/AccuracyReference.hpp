@@ -3,7 +3,7 @@
 /// What the errors of a problem are measured against, and what each mesh of its ladder can do at best.
 
 #include "AccuracyProblem.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include <vector>
 
@@ -13,11 +13,11 @@ namespace epafi::drivers {
 struct ContactResult {
   double area = 0, force = 0;
 };
-ContactResult contactOf(const SceneRun& run);
+ContactResult contactOf(const simulation::SceneRun& run);
 
 /// The solution of the discrete problem on one mesh, with an iteration that leaves no error to speak of.
 struct TightSolution {
-  SceneRun run;
+  simulation::SceneRun run;
   accuracy::ErrorNorms error; ///< of discretisation, absolute
   ContactResult contact;
 };
@@ -47,7 +47,7 @@ public:
   [[nodiscard]] double ownError() const { return ownError_; }
 
 private:
-  void measureAgainst(const SceneRun& reference);
+  void measureAgainst(const simulation::SceneRun& reference);
 
   std::vector<TightSolution> tight_;
   accuracy::ErrorNorms norms_;
@@ -57,6 +57,7 @@ private:
 
 /// Solves to tolerance 1e-10, from a coarser solution if there is one. The solver's factors are given up
 /// again. Collective. \throws Error if it does not get there.
-SceneRun solveTightly(const scene::Scene& scene, const SceneRun* coarser, const RCP<const Comm>& comm);
+simulation::SceneRun solveTightly(const scene::Scene& scene, const simulation::SceneRun* coarser,
+                                  const RCP<const Comm>& comm);
 
 } // namespace epafi::drivers

@@ -1,7 +1,7 @@
 #include "AccuracyTargets.hpp"
 
-#include "AccurateRun.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/AccurateRun.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/accuracy/ErrorNorms.hpp"
 #include "epafi/base/Parameters.hpp"
@@ -19,19 +19,21 @@ std::vector<Row> measureTargets(const std::string& name, int order, const std::v
   const std::string file = (scenes / (name + ".xml")).string();
   const Teuchos::ParameterList given = scene::readParameterFile(file, *comm);
   const scene::Scene scene = scene::readScene(given, file);
-  const Teuchos::ParameterList complete = validated(given, driverSchema(), file);
+  const Teuchos::ParameterList complete = validated(given, simulation::driverSchema(), file);
   const Teuchos::ParameterList solver = complete.sublist("Solver");
   const auto solve = [&](double target, int elements) {
-    AccuracyParameters accuracy = AccuracyParameters::from(complete.sublist("Accuracy")); // memory free now
+    // memory free now
+    simulation::AccuracyParameters accuracy =
+        simulation::AccuracyParameters::from(complete.sublist("Accuracy"));
     accuracy.target = target;
     accuracy.order = elements;
-    return solveToTarget(scene, solver, accuracy, comm, nullptr, {});
+    return simulation::solveToTarget(scene, solver, accuracy, comm, nullptr, {});
   };
-  const AccurateRun best = solve(reference, 2);
+  const simulation::AccurateRun best = solve(reference, 2);
   const double norm = best.run.error->energyNorm;
   std::vector<Row> rows;
   for (const double target : targets) {
-    const AccurateRun result = solve(target, order);
+    const simulation::AccurateRun result = solve(target, order);
     const std::vector<accuracy::MeshResult>& meshes = result.loop.meshes;
     if (best.loop.meshes.back().relative() > 0.7 * meshes.back().relative())
       continue; // memory has kept the reference as coarse as that

@@ -17,13 +17,13 @@ std::vector<Row> measureEffectivity(const std::string& name, int refinements, do
   scene::Scene scene = scene::readScene(scene::readParameterFile(file, *comm), file);
   for (scene::Body& body : scene.bodies)
     body.mesh.sizeFactor *= meshSize;
-  std::vector<SceneRun> runs;
+  std::vector<simulation::SceneRun> runs;
   runs.reserve(static_cast<std::size_t>(refinements) + 1);
   for (int level = 0; level <= refinements; ++level) {
     runs.push_back(solveTightly(scene, level > 0 ? &runs.back() : nullptr, comm));
     scene = accuracy::refined(std::move(scene));
   }
-  const SceneRun& reference = runs.back();
+  const simulation::SceneRun& reference = runs.back();
   std::vector<double> distances; // from coarse to fine, without the reference itself
   for (int level = 0; level < refinements; ++level)
     distances.push_back(accuracy::errorAgainst(reference.scene, *reference.decomposition,
@@ -36,7 +36,7 @@ std::vector<Row> measureEffectivity(const std::string& name, int refinements, do
                          : distances.back() / std::sqrt(3.0); // as errors of order h are
   std::vector<Row> rows;
   for (int level = 0; level < refinements; ++level) {
-    const SceneRun& run = runs[static_cast<std::size_t>(level)];
+    const simulation::SceneRun& run = runs[static_cast<std::size_t>(level)];
     const double norm = reference.error->energyNorm, estimated = run.error->discretisation / norm,
                  error = std::hypot(distances[static_cast<std::size_t>(level)], own) / norm;
     rows.push_back(

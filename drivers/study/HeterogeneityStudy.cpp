@@ -1,7 +1,7 @@
 #include "CaseTable.hpp"
-#include "SceneRun.hpp"
 #include "Studies.hpp"
 #include "Table.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/qp/SpectrumEstimate.hpp"
 #include "epafi/scene/SceneReader.hpp"
@@ -19,7 +19,8 @@ namespace {
 Row measure(const Case& which, const std::string& use, const RCP<const Comm>& comm) {
   Teuchos::ParameterList parameters;
   parameters.sublist("Adaptive Constraints").set("Use", use);
-  const SceneRun run = solveScene(scene::readScene(which.scene(), which.name), parameters, comm);
+  const simulation::SceneRun run =
+      simulation::solveScene(scene::readScene(which.scene(), which.name), parameters, comm);
   const fetidp::DualProblem& dual = run.solver->dualProblem();
   const qp::SpectrumEstimate spectrum = qp::estimateSpectrum(*dual.hessian(), dual.preconditioner());
   return {{"bodies", which.name},
@@ -27,7 +28,7 @@ Row measure(const Case& which, const std::string& use, const RCP<const Comm>& co
           {"cut", which.list.sublist("Decomposition").isParameter("Parts") ? "METIS" : "grid"},
           {"jump", which.value},
           {"adaptive", use},
-          {"constraints", run.report.sublist("Problem").get<int>("Adaptive Constraints")},
+          {"constraints", run.result.solve.numAdaptiveConstraints},
           {"hessian_multiplications", run.solver->report().counts.hessianMultiplications},
           {"condition", spectrum.largest / spectrum.smallest},
           {"smallest_eigenvalue", spectrum.smallest},

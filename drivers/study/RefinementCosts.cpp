@@ -1,8 +1,8 @@
 #include "RefinementCosts.hpp"
 
-#include "AccurateRun.hpp"
 #include "Median.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/AccurateRun.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/accuracy/ErrorNorms.hpp"
 #include "epafi/base/Errors.hpp"
@@ -21,7 +21,7 @@ namespace {
 constexpr double longRun = 30;
 
 struct Measured {
-  SceneRun run;
+  simulation::SceneRun run;
   Row row;
 };
 
@@ -51,16 +51,16 @@ public:
     const std::string file = (scenes / (name + ".xml")).string();
     const Teuchos::ParameterList given = scene::readParameterFile(file, *comm_);
     scene_ = scene::readScene(given, file);
-    solver_ = validated(given, driverSchema(), file).sublist("Solver");
+    solver_ = validated(given, simulation::driverSchema(), file).sublist("Solver");
   }
 
   [[nodiscard]] Measured local(double target, int order) const {
-    AccuracyParameters accuracy;
+    simulation::AccuracyParameters accuracy;
     accuracy.target = target;
     accuracy.order = order;
-    AccurateRun result = solveToTarget(scene_, solver_, accuracy, comm_, nullptr, {});
+    simulation::AccurateRun result = simulation::solveToTarget(scene_, solver_, accuracy, comm_, nullptr, {});
     if (!result.loop.isMet)
-      throw Error(scene_.title + ": " + result.run.report.sublist("Status").get<std::string>("Reason"));
+      throw Error(scene_.title + ": " + result.run.result.reason);
     const int meshes = static_cast<int>(result.loop.meshes.size());
     return {std::move(result.run),
             {{"refinement", "local"},
@@ -70,10 +70,11 @@ public:
   }
 
   [[nodiscard]] Measured even(double size, int order) const {
-    SceneRun run = solveScene(onEvenMesh(scene_, order, size), solver_, comm_,
-                              {.estimatesError = true, .coarserFrom = AccuracyParameters().coarserFrom});
-    if (!run.report.sublist("Status").get<bool>("Converged"))
-      throw Error(scene_.title + ": " + run.report.sublist("Status").get<std::string>("Reason"));
+    simulation::SceneRun run = simulation::solveScene(
+        onEvenMesh(scene_, order, size), solver_, comm_,
+        {.estimatesError = true, .coarserFrom = simulation::AccuracyParameters().coarserFrom});
+    if (run.result.status != simulation::RunStatus::converged)
+      throw Error(scene_.title + ": " + run.result.reason);
     return {std::move(run), {{"refinement", "even"}, {"size", size}, {"order", order}, {"meshes", 1}}};
   }
 
@@ -84,18 +85,18 @@ private:
 };
 
 /// What is known of a run, beside the reference.
-void compare(Measured& measured, const SceneRun& reference) {
-  const SceneRun& run = measured.run;
+void compare(Measured& measured, const simulation::SceneRun& reference) {
+  const simulation::SceneRun& run = measured.run;
   Row& row = measured.row;
-  const double own = reference.relativeError(), norm = reference.error->energyNorm;
+  const double own = reference.result.error->relative(), norm = reference.error->energyNorm;
   const double distance =
       accuracy::errorAgainst(reference.scene, *reference.decomposition, reference.solution.displacement,
                              *run.decomposition, run.solution.displacement)
           .energy;
   row["unknowns"] = static_cast<double>(run.decomposition->problem.primalDimension);
-  row["estimated_error"] = run.relativeError();
+  row["estimated_error"] = run.result.error->relative();
   row["energy_error"] = std::hypot(distance / norm, own);
-  row["energy"] = run.report.sublist("Accuracy").get<double>("Energy");
+  row["energy"] = run.result.energy;
   row["energy_norm"] = std::hypot(norm, own * norm);
   row["reference_error"] = own;
   row["reference_unknowns"] = static_cast<double>(reference.decomposition->problem.primalDimension);
@@ -112,7 +113,7 @@ std::vector<Row> measureRefinement(const std::string& name, const Teuchos::Param
   for (const int order : {1, 2})
     for (const double size : list.get<Teuchos::Array<double>>("Sizes"))
       work.emplace_back([&runs, size, order] { return runs.even(size, order); });
-  const SceneRun reference = std::move(runs.local(list.get<double>("Reference"), 2).run);
+  const simulation::SceneRun reference = std::move(runs.local(list.get<double>("Reference"), 2).run);
   std::vector<Row> rows(work.size());
   std::vector<std::vector<double>> seconds(work.size());
   const int repeats = static_cast<int>(list.get<double>("Repeats"));

@@ -2,9 +2,9 @@
 
 #include "Median.hpp"
 #include "MessageCounts.hpp"
-#include "PeakMemory.hpp"
 #include "ScalingScene.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/fetidp/DualPreconditioner.hpp"
 
@@ -35,7 +35,7 @@ Teuchos::ParameterList parametersOf(const Row& run) {
 }
 
 /// Reductions that conjugate gradient steps make, products included.
-class ReductionCount final : public RunCompanion {
+class ReductionCount final : public simulation::RunCompanion {
 public:
   void step(const qp::StepRecord& record) override {
     const MessageCounts now = messageCounts(), ofStep = now - last_;
@@ -64,12 +64,11 @@ struct RunTimes {
   std::vector<double> assembly, setup, solve, total;
   double sum = 0;
 
-  void add(const Teuchos::ParameterList& report) {
-    const auto time = [&](const char* phase) { return report.sublist("Time").get<double>(phase); };
-    assembly.push_back(time("Assembly"));
-    setup.push_back(time("Setup"));
-    solve.push_back(time("Solve"));
-    total.push_back(assembly.back() + setup.back() + solve.back() + time("Recovery"));
+  void add(const simulation::RunResult& result) {
+    assembly.push_back(result.times.assembly);
+    setup.push_back(result.solve.times.setup);
+    solve.push_back(result.solve.times.solve);
+    total.push_back(assembly.back() + setup.back() + solve.back() + result.times.recovery);
     sum += total.back();
   }
 };
@@ -131,11 +130,12 @@ double vectorBytes(const decomposition::DecomposedProblem& problem) {
 /// One run from the scene to the solution. Returns whether it converged.
 bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const Comm>& comm, RunTimes& times,
              Row& row) {
-  row["base_bytes"] = sumOverRanks(*comm, resetPeakBytes());
+  row["base_bytes"] = sumOverRanks(*comm, simulation::resetPeakBytes());
   ReductionCount reductions;
-  const SceneRun run = solveScene(scene, parametersOf(row), comm, {.companion = &reductions});
-  row["peak_bytes"] = sumOverRanks(*comm, peakBytes());
-  times.add(run.report);
+  const simulation::SceneRun run =
+      simulation::solveScene(scene, parametersOf(row), comm, {.companion = &reductions});
+  row["peak_bytes"] = sumOverRanks(*comm, simulation::peakBytes());
+  times.add(run.result);
   row["hessian_multiplications"] = run.solver->report().counts.hessianMultiplications;
   row["energy"] = run.solution.energy;
   reductions.addTo(row);

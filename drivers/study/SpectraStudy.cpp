@@ -1,7 +1,7 @@
 #include "CaseTable.hpp"
-#include "SceneRun.hpp"
 #include "Studies.hpp"
 #include "Table.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
@@ -71,7 +71,7 @@ std::vector<Row> measure(const Case& which, const char* preconditioner, const RC
   parameters.sublist("Preconditioner").set("Type", preconditioner);
   parameters.set("Algorithm", "MPRGP");
   const scene::Scene scene = scene::readScene(which.scene(), which.name);
-  const SceneRun run = solveScene(scene, parameters, comm);
+  const simulation::SceneRun run = simulation::solveScene(scene, parameters, comm);
   const fetidp::DualProblem& dual = run.solver->dualProblem();
   const int cluster = std::max(0, scene.bodies.front().decomposition.cluster);
   std::vector<Row> rows;

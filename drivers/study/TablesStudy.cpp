@@ -1,6 +1,6 @@
-#include "SceneRun.hpp"
 #include "Studies.hpp"
 #include "Table.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/scene/ModelProblem.hpp"
 
@@ -50,9 +50,9 @@ Row solveCell(const Cell& cell, const RCP<const Comm>& comm) {
   Teuchos::ParameterList method, plainMethod;
   method.set("Algorithm", "MPRGP");
   plainMethod.sublist("Preconditioner").set("Type", "none");
-  const SceneRun run = solveScene(scene, plainMethod, comm);
-  const SceneRun preconditioned = solveScene(scene, method, comm);
-  const SceneRun byDefault = solveScene(scene, {}, comm);
+  const simulation::SceneRun run = simulation::solveScene(scene, plainMethod, comm);
+  const simulation::SceneRun preconditioned = simulation::solveScene(scene, method, comm);
+  const simulation::SceneRun byDefault = simulation::solveScene(scene, {}, comm);
   const auto& problem = run.decomposition->problem;
   const qp::SolveReport& report = run.solver->report();
   return {{"problem", cell.coercive ? "coercive" : "semicoercive"},

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,27 @@ struct ContactLayout {
   /// Whether rows are dual to N̂, and so their gaps are coefficients of N̂ instead of values at nodes.
   bool isDual = false;
 
+  [[nodiscard]] std::size_t numComponents() const {
+    return directions.size() / std::max<std::size_t>(1, firstNodes.size());
+  }
+  /// d of a node with a row, the components beyond numComponents() being 0.
+  [[nodiscard]] Eigen::Vector3d directionAt(std::size_t place) const {
+    Eigen::Vector3d direction(0, 0, 0);
+    for (std::size_t c = 0; c < numComponents(); ++c)
+      direction[static_cast<Eigen::Index>(c)] = directions[place * numComponents() + c];
+    return direction;
+  }
+  /// The same in space, where the deflection of membranes is along z.
+  [[nodiscard]] Eigen::Vector3d spatialDirectionAt(std::size_t place) const {
+    return numComponents() == 1 ? Eigen::Vector3d(0, 0, directions[place]) : directionAt(place);
+  }
+  /// Direction in space of a row, of those of its nodes as they are combined.
+  [[nodiscard]] Eigen::Vector3d spatialDirectionOf(std::size_t row) const {
+    Eigen::Vector3d direction(0, 0, 0);
+    forEachShare(row,
+                 [&](std::size_t place, double weight) { direction += weight * spatialDirectionAt(place); });
+    return direction;
+  }
   /// Number of inequalities.
   [[nodiscard]] GlobalOrdinal numRows() const { return static_cast<GlobalOrdinal>(firstNodes.size()); }
   /// What of a row's force and area is the contact's.

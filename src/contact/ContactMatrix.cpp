@@ -26,14 +26,6 @@ struct MatrixRow {
   std::vector<double> coefficients;
 };
 
-Eigen::Vector3d directionAt(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns) {
-  const auto components = static_cast<std::size_t>(unknowns.components);
-  Eigen::Vector3d direction(0, 0, 0);
-  for (std::size_t c = 0; c < components; ++c)
-    direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];
-  return direction;
-}
-
 /// Enters a node along d, times a factor, in its unknowns: its components, or Qᵀd where it has a frame Q.
 void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, GlobalOrdinal node,
            double factor, MatrixRow& row) {
@@ -62,7 +54,7 @@ std::vector<MatrixRow> ownRows(const std::vector<ContactLayout>& contacts, const
       MatrixRow& row =
           rows.emplace_back(MatrixRow{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
       contact.forEachShare(place, [&](std::size_t node, double weight) {
-        const Eigen::Vector3d direction = directionAt(contact, node, unknowns);
+        const Eigen::Vector3d direction = contact.directionAt(node);
         row.gap += weight * contact.gaps[node];
         contact.forEachFirst(node, [&](const NodeShare& share) {
           enter(direction, unknowns, contact.firstBody, share.node, weight * share.weight, row);

@@ -44,10 +44,7 @@ private:
 
 decomposition::ContactPlace placeOf(const ContactLayout& contact, std::size_t row, const SmoothSide& first,
                                     const SmoothSide& second) {
-  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
-  Vector3d direction(0, 0, 0);
-  for (std::size_t c = 0; c < components; ++c)
-    direction[static_cast<Eigen::Index>(c)] = contact.directions[row * components + c];
+  const Vector3d direction = contact.directionAt(row);
   Share mine(first), theirs(second);
   contact.forEachFirst(row, [&](const NodeShare& share) { mine.add(share); });
   for (const NodeShare& share : contact.secondNodes[row])

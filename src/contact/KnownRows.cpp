@@ -17,8 +17,7 @@ constexpr double same = 1e-9;
 } // namespace
 
 void keepRows(ContactLayout& contact, const std::vector<std::size_t>& places) {
-  const std::size_t components =
-      contact.directions.size() / std::max<std::size_t>(1, contact.firstNodes.size());
+  const std::size_t components = contact.numComponents();
   const auto keep = [&](auto& values, std::size_t perRow) {
     if (values.empty())
       return;
@@ -39,12 +38,9 @@ void keepRows(ContactLayout& contact, const std::vector<std::size_t>& places) {
 }
 
 KnownRows::Entry KnownRows::entryOf(const ContactLayout& contact, std::size_t place) {
-  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
   Place from{contact.firstBody, contact.firstNodes[place]},
       to{contact.secondBody, contact.secondBody < 0 ? 0 : contact.secondNodes[place].front().node};
-  Row row{contact.name, contact.number, 0, {0, 0, 0}, contact.gaps[place], 0};
-  for (std::size_t c = 0; c < components; ++c)
-    row.direction[static_cast<Eigen::Index>(c)] = contact.directions[place * components + c];
+  Row row{contact.name, contact.number, 0, contact.directionAt(place), contact.gaps[place], 0};
   if (contact.secondBody >= 0 && to < from) { // the same row, seen from the other side
     std::swap(from, to);
     row.direction = -row.direction;

@@ -38,7 +38,7 @@ public:
 
   /// e of a row; empty if it has no couple.
   [[nodiscard]] std::vector<NodeForce> levers(const ContactLayout& tie, std::size_t row) const {
-    const Vector3d origin = placeOf(first_, tie.firstNodes[row]), direction = directionAt(tie, row);
+    const Vector3d origin = placeOf(first_, tie.firstNodes[row]), direction = tie.directionAt(row);
     Vector3d apart(0, 0, 0);
     tie.forEachFirst(
         row, [&](const NodeShare& share) { apart += share.weight * (placeOf(first_, share.node) - origin); });
@@ -70,14 +70,6 @@ private:
   static Vector3d placeOf(const PlacedSurface& surface, GlobalOrdinal node) {
     const Point x = surface.pointAt(node);
     return {x[0], x[1], x[2]};
-  }
-
-  static Vector3d directionAt(const ContactLayout& tie, std::size_t row) {
-    const std::size_t components = tie.directions.size() / tie.firstNodes.size();
-    Vector3d direction(0, 0, 0);
-    for (std::size_t c = 0; c < components; ++c)
-      direction[static_cast<Eigen::Index>(c)] = tie.directions[row * components + c];
-    return direction;
   }
 
   [[nodiscard]] std::set<GlobalOrdinal> withNeighbours(const std::set<GlobalOrdinal>& nodes) const {

@@ -81,7 +81,7 @@ void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
   }
 }
 
-NodeValues valuesOfSubdomains(const SolvedScene& solved, int body) {
+NodeValues valuesOfSubdomains(const simulation::SolvedScene& solved, int body) {
   const auto& [scene, decomposition, solution] = solved;
   const auto& problem = decomposition.problem;
   if (solution.displacement.size() != problem.subdomains.size())
@@ -142,7 +142,7 @@ void fillNodes(const MultiVector& values, int components, BodyFields& fields) {
 }
 
 /// The cells go from their subdomains to the slabs: number, subdomain, nodes. Collective.
-void fillCells(const SolvedScene& solved, int body, BodyFields& fields) {
+void fillCells(const simulation::SolvedScene& solved, int body, BodyFields& fields) {
   const auto& problem = solved.decomposition.problem;
   const BodyLayout& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
   const auto perCell = static_cast<std::size_t>(numNodesOf(fields.cellType)), width = perCell + 2;
@@ -187,7 +187,7 @@ void numberCrosspoints(const Comm& comm, BodyFields& fields) {
 
 } // namespace
 
-BodyFields gatherBodyFields(const SolvedScene& solved, int body) {
+BodyFields gatherBodyFields(const simulation::SolvedScene& solved, int body) {
   const auto& problem = solved.decomposition.problem;
   const BodyLayout& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
   NodeValues sent;

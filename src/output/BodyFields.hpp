@@ -2,9 +2,9 @@
 
 /// The fields of one body, each rank holding a contiguous slab of its nodes and of its cells.
 
+#include "epafi/base/Slab.hpp"
 #include "epafi/fem/Cell.hpp"
-#include "epafi/output/Slab.hpp"
-#include "epafi/output/SolvedScene.hpp"
+#include "epafi/simulation/SolvedScene.hpp"
 
 #include <vector>
 
@@ -34,6 +34,6 @@ struct BodyFields {
 /// shared by three parts, or by two on the body's boundary (in the plane only); nodes whose unknowns stand
 /// for averages along edges are none. Collective. \throws Error (the same on all ranks) if the solution does
 /// not fit the decomposition.
-BodyFields gatherBodyFields(const SolvedScene& solved, int body);
+BodyFields gatherBodyFields(const simulation::SolvedScene& solved, int body);
 
 } // namespace epafi::output

@@ -2,8 +2,8 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Slab.hpp"
 #include "epafi/output/AtomicFile.hpp"
-#include "epafi/output/Slab.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Import.hpp>

@@ -23,13 +23,13 @@ std::vector<double> rowsOf(const Vector& whole, const Import& toSlab) {
   return {data.begin(), data.end()};
 }
 
-void fillFacets(const SolvedScene& solved, int contact, ContactFields& fields) {
+void fillFacets(const simulation::SolvedScene& solved, int contact, ContactFields& fields) {
   const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
   std::vector<long long> corners;
   if (!solved.isAlongEdges(contact)) {
     const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
     const fem::Surface surface = mesh.surface(layout.firstSurface);
-    const std::vector<long long> all = completeFacets(layout, surface);
+    const std::vector<long long> all = simulation::completeFacets(layout, surface);
     const std::vector<std::size_t> own = layout.ownRows();
     const auto perFacet = static_cast<std::ptrdiff_t>(surface.nodesPerFacet());
     for (auto begin = all.begin(); begin != all.end(); begin += perFacet) {
@@ -56,17 +56,7 @@ void fillFacets(const SolvedScene& solved, int contact, ContactFields& fields) {
 
 } // namespace
 
-std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::size_t row) {
-  const std::size_t components = contact.directions.size() / contact.firstNodes.size();
-  std::array<double, 3> direction{};
-  contact.forEachShare(row, [&](std::size_t node, double weight) {
-    for (std::size_t c = 0; c < components; ++c) // of membranes along z
-      direction[components == 1 ? 2 : c] += weight * contact.directions[node * components + c];
-  });
-  return direction;
-}
-
-FacingSurface facingSurface(const SolvedScene& solved, int contact) {
+FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) {
   const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
   FacingSurface result;
   if (layout.firstShares.empty())
@@ -99,7 +89,8 @@ FacingSurface facingSurface(const SolvedScene& solved, int contact) {
   return result;
 }
 
-ContactFields gatherContactFields(const SolvedScene& solved, int contact, const ContactState& state) {
+ContactFields gatherContactFields(const simulation::SolvedScene& solved, int contact,
+                                  const simulation::ContactState& state) {
   const auto& problem = solved.decomposition.problem;
   const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
   const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
@@ -114,7 +105,7 @@ ContactFields gatherContactFields(const SolvedScene& solved, int contact, const 
     multipliers.push_back(layout.firstRow + static_cast<GlobalOrdinal>(row));
     const Point point = mesh.point(layout.firstNodes[row]);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
-    const std::array<double, 3> normal = directionOf(layout, row);
+    const Eigen::Vector3d normal = layout.spatialDirectionOf(row);
     fields.normals.insert(fields.normals.end(), normal.begin(), normal.end());
     fields.areas.push_back(state.areas[row]);
   }

@@ -2,10 +2,10 @@
 
 /// The fields of one contact, each rank holding a contiguous slab of its rows.
 
+#include "epafi/base/Slab.hpp"
 #include "epafi/fem/Cell.hpp"
-#include "epafi/output/ContactState.hpp"
-#include "epafi/output/Slab.hpp"
-#include "epafi/output/SolvedScene.hpp"
+#include "epafi/simulation/ContactState.hpp"
+#include "epafi/simulation/SolvedScene.hpp"
 
 #include <array>
 #include <optional>
@@ -38,9 +38,6 @@ struct ContactFields {
   [[nodiscard]] int nodesPerFacet() const { return facetType ? fem::numNodesOf(*facetType) : 1; }
 };
 
-/// Direction from the first body to the other side at a row; deflections of membranes are along z.
-std::array<double, 3> directionOf(const contact::ContactLayout& contact, std::size_t row);
-
 /// The other surface of a contact by mortars, which has a mesh of its own; each rank holds slabs.
 struct FacingSurface {
   GlobalOrdinal numPoints = 0, numFacets = 0; ///< 0 where pairs of nodes or an obstacle face the rows
@@ -51,11 +48,12 @@ struct FacingSurface {
 };
 
 /// Not collective.
-FacingSurface facingSurface(const SolvedScene& solved, int contact);
+FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact);
 
 /// Brings the rows of contact `contact` from multiplierMap to the slabs.
 /// \param state  of that contact
 /// Collective. Precondition: the solution's vectors lie on the problem's multiplierMap.
-ContactFields gatherContactFields(const SolvedScene& solved, int contact, const ContactState& state);
+ContactFields gatherContactFields(const simulation::SolvedScene& solved, int contact,
+                                  const simulation::ContactState& state);
 
 } // namespace epafi::output

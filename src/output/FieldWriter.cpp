@@ -4,8 +4,8 @@
 #include "epafi/output/BodyFields.hpp"
 #include "epafi/output/ContactFields.hpp"
 #include "epafi/output/Hdf5File.hpp"
-#include "epafi/output/JointResults.hpp"
 #include "epafi/output/Xdmf.hpp"
+#include "epafi/simulation/JointResults.hpp"
 
 #include <algorithm>
 #include <set>
@@ -47,8 +47,8 @@ void putElastic(Hdf5File& file, const std::string& group, const BodyFields& fiel
       {"von_mises", Center::node, put(file, group + "/von_mises", n, 0, fields.nodes, vonMises)});
 }
 
-XdmfGrid putBody(Hdf5File& file, const std::string& group, const SolvedScene& solved,
-                 const Evaluation& evaluation, int body) {
+XdmfGrid putBody(Hdf5File& file, const std::string& group, const simulation::SolvedScene& solved,
+                 const simulation::Evaluation& evaluation, int body) {
   const BodyFields fields = gatherBodyFields(solved, body);
   const auto place = static_cast<std::size_t>(body);
   const std::string& name = solved.decomposition.bodies[place].name;
@@ -118,7 +118,8 @@ void putFacing(Hdf5File& file, const std::string& group, const FacingSurface& fa
   put(file, group + "/cells", facing.numFacets, facing.cornersPerFacet, facing.facets, facing.corners);
 }
 
-XdmfGrid putTie(Hdf5File& file, const std::string& group, const std::string& name, const TieFields& fields) {
+XdmfGrid putTie(Hdf5File& file, const std::string& group, const std::string& name,
+                const simulation::TieFields& fields) {
   file.createGroup(group);
   file.attribute(group, "name", name);
   std::vector<long long> cells;
@@ -198,7 +199,8 @@ std::vector<std::string> safeNames(const std::vector<std::string>& names) {
 }
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
-                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history) {
+                       const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
+                       const qp::History& history) {
   FileSet own(solved.decomposition.problem.comm);
   FieldFiles files = writeFields(directory, name, solved, evaluation, history, own);
   own.publish();
@@ -206,8 +208,8 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
 }
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
-                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history,
-                       FileSet& together) {
+                       const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
+                       const qp::History& history, FileSet& together) {
   if (name.empty() || name.find('/') != std::string::npos) // the same on all ranks
     throw InputError("'" + name + "' is no name for an output file; it must not be empty nor contain '/'.");
   const model::Decomposition& decomposition = solved.decomposition;
@@ -234,7 +236,7 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
     file.createGroup("/tied");
   for (std::size_t t = 0; t < tieGroups.size(); ++t)
     grids.push_back(putTie(file, "/tied/" + tieGroups[t], decomposition.ties[t].name,
-                           gatherTieFields(solved, decomposition.ties[t])));
+                           simulation::gatherTieFields(solved, decomposition.ties[t])));
   putHistory(file, history, *problem.comm);
   FileSet both(problem.comm, together.syncs());
   both.add(file.complete(), files.hdf5);

@@ -2,9 +2,9 @@
 
 /// The solution of a scene as files that other programs open.
 
-#include "epafi/output/Evaluation.hpp"
 #include "epafi/output/FileSet.hpp"
 #include "epafi/qp/SolveReport.hpp"
+#include "epafi/simulation/Evaluation.hpp"
 
 #include <filesystem>
 #include <string>
@@ -55,11 +55,12 @@ struct FieldFiles {
 /// contains '/';
 ///             Error if writing fails; then no incomplete file is left.
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
-                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history);
+                       const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
+                       const qp::History& history);
 /// The same, for files that get their names with others of `together`, of which there is none if it throws.
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
-                       const SolvedScene& solved, const Evaluation& evaluation, const qp::History& history,
-                       FileSet& together);
+                       const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
+                       const qp::History& history, FileSet& together);
 
 /// Names that are safe in HDF5 and XDMF paths, one for each name, all different: letters, digits, '_', '-',
 /// '.' and anything beyond ASCII stay, every other character ('/', ':', blanks, quotes, …) becomes '_'. A

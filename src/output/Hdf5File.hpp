@@ -2,8 +2,8 @@
 
 /// One HDF5 file that all ranks write together.
 
+#include "epafi/base/Slab.hpp"
 #include "epafi/base/Types.hpp"
-#include "epafi/output/Slab.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -106,7 +106,7 @@ class Places(unittest.TestCase):
                      "share/doc/epafi/LICENSE", "share/doc/epafi/docs/user-guide.md", "include/epafi/ContactSolver.hpp",
                      "include/epafi/qp/QpSolver.hpp"):
             self.assertTrue((PREFIX / name).is_file(), name)
-        rooms = {"base", "direct", "qp", "benchmarks", "scene", "fem", "decomposition", "accuracy", "fetidp", "output"}
+        rooms = {"base", "direct", "qp", "benchmarks", "scene", "decomposition", "fem", "contact", "model", "accuracy", "fetidp", "simulation", "output"}
         if has_adapters():
             rooms |= {"linear", "adapters"}
         ending = f"so.{version()}" if is_shared() else "a"

@@ -320,18 +320,13 @@ TEST(AdaptiveConstraintsTest, TheyServeOtherLoadsAndWarmStarts) {
 
 TEST(AdaptiveConstraintsTest, TheReportCountsThem) {
   Solution solution(channels(true, 1e5, grid(3, 3)), parameters("auto", 10));
-  const Teuchos::ParameterList report = solution.solver.reportList(solution.solution);
-  const int number = report.sublist("Problem").get<int>("Adaptive Constraints");
-  EXPECT_GT(number, 0);
-  EXPECT_NE(report.sublist("Algorithm")
-                .get<std::string>("Preconditioner")
-                .find(std::to_string(number) + " adaptive constraint"),
+  const SolveFacts facts = solution.solver.facts();
+  EXPECT_GT(facts.numAdaptiveConstraints, 0);
+  EXPECT_NE(facts.preconditioner.find(std::to_string(facts.numAdaptiveConstraints) + " adaptive constraint"),
             std::string::npos);
   const Solution uniform(channels(true, 1, grid(3, 3)), parameters("auto", 10));
-  const Teuchos::ParameterList plain = uniform.solver.reportList(uniform.solution);
-  EXPECT_EQ(plain.sublist("Problem").get<int>("Adaptive Constraints"), 0);
-  EXPECT_EQ(plain.sublist("Algorithm").get<std::string>("Preconditioner").find("adaptive"),
-            std::string::npos);
+  EXPECT_EQ(uniform.solver.facts().numAdaptiveConstraints, 0);
+  EXPECT_EQ(uniform.solver.facts().preconditioner.find("adaptive"), std::string::npos);
 }
 
 TEST(AdaptiveConstraintsTest, AutoNeedsAPreconditioner) {

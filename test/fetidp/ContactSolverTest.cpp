@@ -186,7 +186,7 @@ TEST(ContactSolverTest, AMissedToleranceIsAStatusNotAnError) {
     solver.setup(decomposition.problem);
     const ContactSolution solution = solver.solve();
     EXPECT_EQ(solver.report().status, qp::Status::maxIterations);
-    EXPECT_FALSE(solver.reportList(solution).sublist("Status").get<bool>("Converged"));
+    EXPECT_EQ(solver.facts().status, qp::Status::maxIterations);
     EXPECT_GT(solution.relativeProjectedGradient, solver.tolerance());
   }
 }
@@ -357,41 +357,21 @@ TEST(ContactSolverTest, AnInterruptedSolveGoesOnFromWhatItsObserverSaw) {
   }
 }
 
-TEST(ContactSolverTest, ReportsEverythingThatTheSolveKnows) {
-  const std::vector<std::pair<std::string, std::vector<std::string>>> contract{
-      {"Epafi", {"Version"}},
-      {"Problem",
-       {"Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers", "Crosspoints",
-        "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"}},
-      {"Algorithm", {"Name", "Reason"}},
-      {"Iterations",
-       {"Outer", "CG Steps", "Expansion Steps", "Proportioning Steps", "Hessian Multiplications",
-        "Preconditioner Applications"}},
-      {"Accuracy",
-       {"Relative Projected Gradient", "Feasibility", "Complementarity", "Energy", "Active Contact Nodes",
-        "Contact Force"}},
-      {"Time", {"Setup", "Solve", "Recovery"}}, // who assembles and writes adds the rest
-      {"Memory", {"Peak Bytes", "Factor Bytes"}},
-      {"Status", {"Converged", "Reason"}}};
+TEST(ContactSolverTest, FactsSayWhatWasSolvedAndHow) {
   const Solved solved(membranes(false), 1e-6);
-  const Teuchos::ParameterList report = solved.solver.reportList(solved.solution);
-  for (const auto& [list, names] : contract) {
-    ASSERT_TRUE(report.isSublist(list)) << list;
-    for (const std::string& name : names)
-      EXPECT_TRUE(report.sublist(list).isParameter(name)) << list << ": " << name;
-  }
-  const Teuchos::ParameterList& problem = report.sublist("Problem");
-  EXPECT_EQ(problem.get<GlobalOrdinal>("Dual Dimension"),
-            problem.get<GlobalOrdinal>("Equality Multipliers") +
-                problem.get<GlobalOrdinal>("Inequality Multipliers"));
-  EXPECT_EQ(problem.get<GlobalOrdinal>("Inequality Multipliers"), 7);
-  EXPECT_EQ(problem.get<int>("Subdomains"), 8);
-  EXPECT_EQ(problem.get<int>("Floating Bodies"), 1);
-  EXPECT_EQ(problem.get<int>("Kernel Dimension"), 1);
-  EXPECT_EQ(problem.get<int>("Ranks"), world()->getSize());
-  EXPECT_TRUE(report.sublist("Status").get<bool>("Converged"));
-  EXPECT_GT(report.sublist("Memory").get<double>("Factor Bytes"), 0);
-  EXPECT_GE(report.sublist("Time").get<double>("Setup"), 0);
+  const SolveFacts facts = solved.solver.facts();
+  EXPECT_EQ(facts.dualDimension, facts.numEqualities + facts.numInequalities);
+  EXPECT_EQ(facts.numInequalities, 7);
+  EXPECT_EQ(facts.numSubdomains, 8);
+  EXPECT_EQ(facts.numFloatingBodies, 1);
+  EXPECT_EQ(facts.kernelDimension, 1);
+  EXPECT_EQ(facts.numRanks, world()->getSize());
+  EXPECT_EQ(facts.status, qp::Status::converged);
+  EXPECT_FALSE(facts.statusReason.empty());
+  EXPECT_EQ(facts.counts.hessianMultiplications, solved.solver.report().counts.hessianMultiplications);
+  EXPECT_GT(facts.factorBytes, 0);
+  EXPECT_GE(facts.peakBytes, facts.factorBytes);
+  EXPECT_GE(facts.times.setup, 0);
 }
 
 } // namespace

@@ -104,12 +104,13 @@ TEST(FetiParametersTest, AutoIsASolverThatThereIs) {
   }
 }
 
-/// The report's list "Algorithm" of a solve with these parameters.
-Teuchos::ParameterList algorithmOf(const scene::Scene& scene, const Teuchos::ParameterList& parameters) {
+/// What a solve with these parameters was.
+SolveFacts factsOf(const scene::Scene& scene, const Teuchos::ParameterList& parameters) {
   const auto decomposition = decompose(scene, world());
   ContactSolver solver(parameters);
   solver.setup(decomposition.problem);
-  return solver.reportList(solver.solve()).sublist("Algorithm");
+  solver.solve();
+  return solver.facts();
 }
 
 TEST(FetiParametersTest, TheReportSaysWhatWasDone) {
@@ -121,22 +122,21 @@ TEST(FetiParametersTest, TheReportSaysWhatWasDone) {
       .set("Type", "lumped")
       .set("Scaling", "multiplicity")
       .set("Precision", "single");
-  Teuchos::ParameterList said = algorithmOf(scene, list);
-  EXPECT_EQ(said.get<std::string>("Subdomain Solver"), "KLU2");
-  EXPECT_EQ(said.get<std::string>("Coarse Solver"), direct::fastestSolver());
-  EXPECT_EQ(said.get<std::string>("Preconditioner"), "lumped, multiplicity scaling, single precision");
-  test::expectSays(said.get<std::string>("Dual Operator"),
-                   {"explicit, ", "factorisations, the others alike"});
+  SolveFacts said = factsOf(scene, list);
+  EXPECT_EQ(said.subdomainSolver, "KLU2");
+  EXPECT_EQ(said.coarseSolver, direct::fastestSolver());
+  EXPECT_EQ(said.preconditioner, "lumped, multiplicity scaling, single precision");
+  test::expectSays(said.dualOperator, {"explicit, ", "factorisations, the others alike"});
 
   list.sublist("Dual Operator").set("Mode", "implicit");
   list.sublist("Preconditioner").set("Type", "none");
   list.sublist("Direct Solvers").set("Share Identical Subdomains", "no");
-  said = algorithmOf(scene, list);
-  EXPECT_EQ(said.get<std::string>("Preconditioner"), "none");
-  EXPECT_EQ(said.get<std::string>("Dual Operator"), "implicit");
+  said = factsOf(scene, list);
+  EXPECT_EQ(said.preconditioner, "none");
+  EXPECT_EQ(said.dualOperator, "implicit");
 
-  said = algorithmOf(decomposition::oneBody(3, 3, grid(1, 1), {{"wall", "left", {0.0}}}), list);
-  EXPECT_EQ(said.get<std::string>("Dual Operator"), "none");
+  said = factsOf(decomposition::oneBody(3, 3, grid(1, 1), {{"wall", "left", {0.0}}}), list);
+  EXPECT_EQ(said.dualOperator, "none");
 }
 
 } // namespace

@@ -6,8 +6,8 @@
 #include "support/OneRank.hpp"
 #include "support/Refusal.hpp"
 
+#include "epafi/base/Slab.hpp"
 #include "epafi/output/Checkpoint.hpp"
-#include "epafi/output/Slab.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>

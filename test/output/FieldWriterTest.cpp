@@ -24,8 +24,8 @@ struct FieldWriterTest : testing::Test {
   scene::Scene scene = test::sampleScene();
   model::Decomposition decomposition = model::decompose(scene, comm);
   fetidp::ContactSolution solution = test::sampleSolution(decomposition);
-  SolvedScene solved{scene, decomposition, solution};
-  Evaluation evaluation = evaluate(solved);
+  simulation::SolvedScene solved{scene, decomposition, solution};
+  simulation::Evaluation evaluation = simulation::evaluate(solved);
 
   [[nodiscard]] FieldFiles write() const {
     return writeFields(directory.path(), "run", solved, evaluation, test::sampleHistory());

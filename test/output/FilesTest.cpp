@@ -3,11 +3,11 @@
 #include "support/TemporaryDirectory.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Slab.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/FileSet.hpp"
 #include "epafi/output/Report.hpp"
-#include "epafi/output/Slab.hpp"
 
 #include <Teuchos_XMLParameterListHelpers.hpp>
 #include <Tpetra_Core.hpp>

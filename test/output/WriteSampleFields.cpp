@@ -23,8 +23,8 @@ void writeMembranes(const std::filesystem::path& directory, const RCP<const Comm
   const scene::Scene scene = test::sampleScene();
   const auto decomposition = model::decompose(scene, comm);
   const auto solution = test::sampleSolution(decomposition);
-  const SolvedScene solved{scene, decomposition, solution};
-  writeFields(directory, "run", solved, evaluate(solved), test::sampleHistory());
+  const simulation::SolvedScene solved{scene, decomposition, solution};
+  writeFields(directory, "run", solved, simulation::evaluate(solved), test::sampleHistory());
   writeHistory(test::sampleHistory(), directory / "history.csv", *comm);
 }
 
@@ -41,8 +41,8 @@ void writeBlocks(const std::filesystem::path& directory, const std::string& cell
   ContactSolver solver{Teuchos::ParameterList()};
   solver.setup(decomposition.problem);
   const auto solution = solver.solve();
-  const SolvedScene solved{scene, decomposition, solution};
-  writeFields(directory, "run", solved, evaluate(solved), solver.report().history);
+  const simulation::SolvedScene solved{scene, decomposition, solution};
+  writeFields(directory, "run", solved, simulation::evaluate(solved), solver.report().history);
 }
 
 } // namespace

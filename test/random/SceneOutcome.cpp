@@ -19,7 +19,7 @@ Outcome outcomeOf(const Teuchos::ParameterList& list, const std::string& folder,
   Outcome outcome;
   try {
     const scene::Scene scene = sceneOf(list, folder);
-    const drivers::SceneRun run = drivers::solveScene(scene, list.sublist("Solver"), comm);
+    const simulation::SceneRun run = simulation::solveScene(scene, list.sublist("Solver"), comm);
     const qp::SolveReport& report = run.solver->report();
     outcome.verdict = report.status == qp::Status::converged ? Verdict::solved : Verdict::notConverged;
     outcome.reason = qp::toString(report.status) + ": " + report.reason;

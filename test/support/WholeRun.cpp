@@ -54,17 +54,17 @@ scene::Scene cutByMetis(scene::Scene scene, int parts) {
   return scene;
 }
 
-drivers::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm,
-                        Teuchos::ParameterList solver) {
+simulation::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm,
+                           Teuchos::ParameterList solver) {
   solver.set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance);
-  return drivers::solveScene(scene, solver, comm);
+  return simulation::solveScene(scene, solver, comm);
 }
 
-drivers::SceneRun solve(const scene::Scene& scene, double tolerance) {
+simulation::SceneRun solve(const scene::Scene& scene, double tolerance) {
   return solve(scene, tolerance, Tpetra::getDefaultComm());
 }
 
-Eigen::VectorXd deflection(const drivers::SceneRun& run, int body) {
+Eigen::VectorXd deflection(const simulation::SceneRun& run, int body) {
   const auto& problem = run.decomposition->problem;
   const auto& mesh = *run.decomposition->bodies[static_cast<std::size_t>(body)].mesh;
   const Eigen::Index n = problem.components;

@@ -3,7 +3,7 @@
 /// Whole runs for the system tests, and what they are compared with.
 
 #include "OneRank.hpp"
-#include "SceneRun.hpp"
+#include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/base/Types.hpp"
 #include "epafi/scene/Scene.hpp"
@@ -30,13 +30,13 @@ scene::Scene cutByMetis(scene::Scene scene, int parts);
 
 /// Solves the scene to a relative tolerance (that of the equilibrium too). Collective over `comm`.
 /// \param solver  what else the solver is told
-drivers::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm,
-                        Teuchos::ParameterList solver = Teuchos::ParameterList());
+simulation::SceneRun solve(const scene::Scene& scene, double tolerance, const RCP<const Comm>& comm,
+                           Teuchos::ParameterList solver = Teuchos::ParameterList());
 /// Over all ranks.
-drivers::SceneRun solve(const scene::Scene& scene, double tolerance);
+simulation::SceneRun solve(const scene::Scene& scene, double tolerance);
 
 /// u at the nodes of a body, component by component, each node once, in the order of its mesh, on every rank.
 /// Collective.
-Eigen::VectorXd deflection(const drivers::SceneRun& run, int body);
+Eigen::VectorXd deflection(const simulation::SceneRun& run, int body);
 
 } // namespace epafi::test

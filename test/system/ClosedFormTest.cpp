@@ -39,7 +39,7 @@ scene::Scene sceneOf(const Column& column, int elements) {
 }
 
 void expectExact(const Column& column, const scene::Scene& scene) {
-  const drivers::SceneRun run = test::solve(scene, 1e-12);
+  const simulation::SceneRun run = test::solve(scene, 1e-12);
 
   EXPECT_EQ(run.solver->report().status, qp::Status::converged) << run.solver->report().reason;
   EXPECT_NEAR(run.solution.contactForce, column.force(), 1e-9);
@@ -85,7 +85,7 @@ TEST(SmallResultantTest, ABodyThatBarelyRestsOnItsContactIsSolvedInFewOuterItera
       scene.bodies[1].loads = {scene::loadInside("down", scene::rectangle(1, 2, 0, 0.25), -1),
                                scene::loadInside("up", scene::rectangle(1, 2, 0.75, 1), 1 - 4 * rest)};
 
-      const drivers::SceneRun run = test::solve(scene, tolerance);
+      const simulation::SceneRun run = test::solve(scene, tolerance);
 
       EXPECT_EQ(run.solver->report().status, qp::Status::converged) << run.solver->report().reason;
       EXPECT_NEAR(run.solution.contactForce, rest, 1e-12);

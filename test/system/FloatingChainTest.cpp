@@ -35,7 +35,7 @@ scene::Scene chain(const std::vector<double>& loads, int elements) {
 void expectSolved(const scene::Scene& scene, const std::string& what) {
   const drivers::UndecomposedSolution expected =
       drivers::solveUndecomposed(drivers::undecomposedSystem(scene));
-  const drivers::SceneRun run = test::solve(scene, 1e-10);
+  const simulation::SceneRun run = test::solve(scene, 1e-10);
   EXPECT_EQ(run.solver->report().status, qp::Status::converged) << what << run.solver->report().reason;
   EXPECT_NEAR(run.solution.energy, expected.energy, 1e-8 * std::abs(expected.energy)) << what;
 }
@@ -86,7 +86,7 @@ TEST(FloatingChainTest, FlatElementsEndWithAnHonestStatus) {
   for (scene::Body& body : scene.bodies)
     body.loads[0].box = body.mesh.box;
 
-  const drivers::SceneRun run = test::solve(test::cutInGrid(scene, 2), 1e-10);
+  const simulation::SceneRun run = test::solve(test::cutInGrid(scene, 2), 1e-10);
 
   if (run.solver->report().status == qp::Status::converged) {
     EXPECT_LE(run.solution.relativeProjectedGradient, 2e-10);

@@ -32,7 +32,7 @@ TEST_P(MembraneTest, AgreesWithTheUndecomposedReference) {
   const scene::Scene scene =
       cut.isGrid ? test::cutInGrid(whole, cut.number) : test::cutByMetis(whole, cut.number);
 
-  const drivers::SceneRun run = test::solve(scene, 1e-10);
+  const simulation::SceneRun run = test::solve(scene, 1e-10);
 
   EXPECT_EQ(run.decomposition->problem.numSubdomains, 2 * cut.number * (cut.isGrid ? cut.number : 1));
   EXPECT_EQ(run.solver->report().status, qp::Status::converged);
@@ -59,7 +59,7 @@ TEST(QuadraticMembraneTest, EnergiesAreNearTheLimit) {
       scene::Scene scene = scene::modelProblem(isCoercive, 1, elements);
       for (scene::Body& body : scene.bodies)
         body.mesh.order = 2;
-      const drivers::SceneRun run = test::solve(
+      const simulation::SceneRun run = test::solve(
           cut.isGrid ? test::cutInGrid(scene, cut.number) : test::cutByMetis(scene, cut.number), 1e-10);
       EXPECT_EQ(run.solver->report().status, qp::Status::converged);
       EXPECT_NEAR(run.solution.energy, energy, error) << elements;
@@ -93,7 +93,8 @@ TEST(MembranesApartTest, EnergiesConvergeWhicheverSideHasTheMultipliers) {
     const double limit = apart.isCoercive ? -0.119219355 : -0.543820777;
     double last = first;
     for (const int elements : {16, 32, 64}) {
-      const drivers::SceneRun run = test::solve(test::cutInGrid(membranesApart(apart, elements), 4), 1e-10);
+      const simulation::SceneRun run =
+          test::solve(test::cutInGrid(membranesApart(apart, elements), 4), 1e-10);
       EXPECT_EQ(run.solver->report().status, qp::Status::converged);
       const double error = std::abs(run.solution.energy - limit);
       EXPECT_LE(error, last) << apart.isCoercive << apart.order << ' ' << elements;
@@ -125,7 +126,7 @@ TEST(MembranesApartTest, TiedPartsAreOneMembrane) {
     const double expected = energyOf(whole);
     EXPECT_NEAR(energyOf(parts), expected, 1e-11 * std::abs(expected));
     parts.bodies[1].mesh.elements = {8, 8, 0}; // what hangs on the joint alone floats, if not held
-    const drivers::SceneRun run = test::solve(test::cutInGrid(parts, 3), 1e-11);
+    const simulation::SceneRun run = test::solve(test::cutInGrid(parts, 3), 1e-11);
     EXPECT_EQ(run.decomposition->problem.kernelDimension, isHeld ? 0 : 1);
     EXPECT_EQ(run.solver->report().status, qp::Status::converged);
     EXPECT_NEAR(run.solution.energy, expected, 2e-3 * std::abs(expected));

@@ -41,7 +41,7 @@ TEST_P(PaperTablesTest, DimensionsAreThePapersAndTheWorkIsLess) {
   Teuchos::ParameterList plain; // the paper's method
   plain.sublist("Preconditioner").set("Type", "none");
 
-  const drivers::SceneRun run = test::solve(scene, 1e-6, Tpetra::getDefaultComm(), plain);
+  const simulation::SceneRun run = test::solve(scene, 1e-6, Tpetra::getDefaultComm(), plain);
 
   const auto& problem = run.decomposition->problem;
   EXPECT_EQ(static_cast<double>(problem.primalDimension), number(row, "primal_dimension"));

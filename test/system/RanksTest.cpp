@@ -10,9 +10,9 @@ using namespace epafi;
 
 /// All ranks together, and each rank for itself: the same to the last digit, see AccurateSum.hpp.
 void expectTheAnswerOfOneRank(const scene::Scene& scene) {
-  const drivers::SceneRun alone = test::solve(scene, 1e-12, test::thisRankOnly());
+  const simulation::SceneRun alone = test::solve(scene, 1e-12, test::thisRankOnly());
 
-  const drivers::SceneRun together = test::solve(scene, 1e-12);
+  const simulation::SceneRun together = test::solve(scene, 1e-12);
 
   EXPECT_EQ(together.solver->report().status, qp::Status::converged);
   for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {

@@ -51,7 +51,7 @@ TEST_P(SceneFilesTest, AgreesWithTheUndecomposedSolution) {
   const drivers::UndecomposedSolution expected =
       drivers::solveUndecomposed(drivers::undecomposedSystem(scene));
 
-  const drivers::SceneRun run = test::solve(scene, 1e-10);
+  const simulation::SceneRun run = test::solve(scene, 1e-10);
 
   EXPECT_EQ(run.solver->report().status, qp::Status::converged);
   EXPECT_NEAR(run.solution.energy, expected.energy, 1e-8 * std::abs(expected.energy));

@@ -1,0 +1,102 @@
+// What ContactSolver tells of a solve.
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/base/Collective.hpp"
+
+#include <Teuchos_Comm.hpp>
+
+#include <sys/resource.h>
+
+#include <sstream>
+
+namespace epafi {
+namespace {
+
+/// Most memory that this rank's process ever held, in bytes.
+double peakBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+} // namespace
+
+/// How many of the subdomains are multiplied with as dense blocks, and how many different ones there are.
+/// Collective.
+std::string ContactSolver::describeDualOperator() const {
+  if (dual_->algorithm() == fetidp::Algorithm::direct)
+    return "none";
+  int explicitOnes = 0, different = 0;
+  for (const fetidp::SubdomainGroup& group : inverse_->groups()) {
+    different += 1;
+    explicitOnes += group.isExplicit() ? static_cast<int>(group.members().size()) : 0;
+  }
+  explicitOnes = sumOverRanks(*problem_->comm, explicitOnes);
+  different = sumOverRanks(*problem_->comm, different);
+  std::ostringstream text;
+  text << (explicitOnes == 0                         ? "implicit"
+           : explicitOnes == problem_->numSubdomains ? "explicit"
+                                                     : "partly explicit");
+  if (explicitOnes > 0 && explicitOnes < problem_->numSubdomains)
+    text << " (" << explicitOnes << " of " << problem_->numSubdomains << " subdomains)";
+  if (different < problem_->numSubdomains)
+    text << ", " << different << " factorisations, the others alike";
+  return text.str();
+}
+
+int ContactSolver::numAdaptiveConstraints() const {
+  return dual_->deflatedOperator().is_null() ? 0 : dual_->deflatedOperator()->space().size();
+}
+
+/// "dirichlet, stiffness scaling, 12 adaptive constraints".
+std::string ContactSolver::describePreconditioner() const {
+  std::ostringstream text;
+  text << (dual_->preconditioner().is_null() ? std::string("none")
+                                             : fetidp::describe(dualParameters_.preconditioner));
+  if (const int number = numAdaptiveConstraints(); number > 0)
+    text << ", " << number << (number == 1 ? " adaptive constraint" : " adaptive constraints");
+  if (const auto& corrected = dual_->operators().corrected; !corrected.is_null())
+    text << ", corrected for " << corrected->space().size() << " jumps of contact";
+  return text.str();
+}
+
+SolveFacts ContactSolver::facts() const {
+  const auto& problem = *problem_;
+  const Comm& comm = *problem.comm;
+  SolveFacts facts;
+  facts.primalDimension = problem.primalDimension;
+  facts.dualDimension = problem.dualDimension();
+  facts.numInequalities = problem.numInequalities;
+  facts.numTies = problem.numTies;
+  facts.numEqualities = problem.numEqualities;
+  facts.numCrosspoints = problem.numCrosspoints;
+  facts.numAdaptiveConstraints = numAdaptiveConstraints();
+  facts.numSubdomains = problem.numSubdomains;
+  facts.numClusters = static_cast<int>(problem.clusters.size());
+  for (const auto& body : problem.bodies)
+    facts.numFloatingBodies += body.kernelDimension > 0 ? 1 : 0;
+  facts.kernelDimension = problem.kernelDimension;
+  facts.numRanks = comm.getSize();
+  facts.algorithm = dual_->algorithm();
+  facts.reason = dual_->reason();
+  facts.preconditioner = describePreconditioner();
+  facts.dualOperator = describeDualOperator();
+  facts.subdomainSolver = directSolvers_.subdomains;
+  facts.coarseSolver = directSolvers_.coarse;
+  facts.tolerance = dualParameters_.tolerance;
+  facts.isBalanced = dualParameters_.isBalanced;
+  facts.operatorNorm = dual_->norm().norm;
+  facts.normMultiplications = dual_->norm().multiplications;
+  facts.counts = report_.counts;
+  facts.times = times_;
+  const std::size_t deflated =
+      dual_->deflatedOperator().is_null() ? 0 : dual_->deflatedOperator()->space().bytes();
+  facts.peakBytes = sumOverRanks(comm, peakBytes());
+  facts.factorBytes = sumOverRanks(
+      comm, static_cast<double>(inverse_->factorBytes() + dual_->preconditionerBytes() + deflated));
+  facts.status = report_.status;
+  facts.statusReason = report_.reason;
+  return facts;
+}
+
+} // namespace epafi

@@ -1,0 +1,189 @@
+#include "epafi/simulation/ContactState.hpp"
+
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Maps.hpp"
+#include "epafi/base/Slab.hpp"
+#include "epafi/fem/ShapeFunctions.hpp"
+
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace epafi::simulation {
+namespace {
+
+using contact::ContactLayout;
+using Shares = std::vector<std::vector<ContactLayout::Share>>;
+
+/// Penetration is looked for at this many points and one along each edge of a facet.
+constexpr int latticeSteps = 8;
+
+const fem::Mesh& meshOf(const SolvedScene& solved, const ContactLayout& layout) {
+  return *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
+}
+
+/// Values of all rows that combinations of some rows name, wherever they lie.
+class RowValues {
+public:
+  /// Collective.
+  RowValues(const Vector& whole, const ContactLayout& layout, const std::vector<std::size_t>& rows,
+            const Shares& combinations)
+      : combinations_(combinations) {
+    std::vector<GlobalOrdinal> needed;
+    for (const std::size_t row : rows)
+      forEach(row, [&](std::size_t other, double) {
+        needed.push_back(layout.firstRow + static_cast<GlobalOrdinal>(other));
+      });
+    const auto map = makeMap(std::move(needed), whole.getMap()->getComm());
+    Vector here(map);
+    here.doImport(whole, Import(whole.getMap(), map), Tpetra::INSERT);
+    const auto data = here.getData();
+    for (Teuchos::Ordinal i = 0; i < data.size(); ++i)
+      values_.emplace(
+          static_cast<std::size_t>(map->getGlobalElement(static_cast<LocalOrdinal>(i)) - layout.firstRow),
+          data[i]);
+  }
+
+  /// Σ weight · value of a row's combination.
+  [[nodiscard]] double at(std::size_t row) const {
+    double sum = 0;
+    forEach(row, [&](std::size_t other, double weight) { sum += weight * values_.at(other); });
+    return sum;
+  }
+
+private:
+  template <class Action>
+  void forEach(std::size_t row, const Action& action) const {
+    if (combinations_.empty())
+      return action(row, 1.0);
+    for (const ContactLayout::Share& share : combinations_[row])
+      action(share.node, share.weight);
+  }
+
+  const Shares& combinations_;
+  std::unordered_map<std::size_t, double> values_;
+};
+
+Shares transposed(const Shares& shares) {
+  Shares result(shares.size());
+  for (std::size_t row = 0; row < shares.size(); ++row)
+    for (const ContactLayout::Share& share : shares[row])
+      result[share.node].push_back({row, share.weight});
+  return result;
+}
+
+/// What rows contribute to the forces on the nodes that have one; empty: each row is that of its own node.
+Shares forceShares(const ContactLayout& layout) {
+  if (layout.firstShares.empty())
+    return transposed(layout.combinations);
+  std::unordered_map<GlobalOrdinal, std::size_t> rowOf;
+  for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
+    rowOf.emplace(layout.firstNodes[row], row);
+  Shares result(layout.firstNodes.size());
+  for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
+    for (const contact::NodeShare& share : layout.firstShares[row])
+      if (const auto place = rowOf.find(share.node); place != rowOf.end())
+        result[place->second].push_back({row, share.weight});
+      else // a node beyond the rim or held, which has no row: its force counts with the row's own node
+        result[row].push_back({row, share.weight});
+  return result;
+}
+
+/// Values of a facet's shape functions at a lattice of points.
+std::vector<Eigen::VectorXd> latticeOn(fem::CellType facet) {
+  return withFacetShape(facet, []<int dim>(const fem::Shape<dim>& shape) {
+    constexpr int across = dim == 1 ? 0 : latticeSteps;
+    std::vector<Eigen::VectorXd> values;
+    for (int i = 0; i <= latticeSteps; ++i)
+      for (int j = 0; j <= across && (!shape.isSimplex || i + j <= latticeSteps); ++j) {
+        fem::Coordinates<dim> xi = fem::Coordinates<dim>::Constant(static_cast<double>(j) / latticeSteps);
+        xi[0] = static_cast<double>(i) / latticeSteps;
+        if (!shape.isSimplex)
+          xi = (2 * xi.array() - 1).matrix();
+        values.emplace_back(shape.values(xi));
+      }
+    return values;
+  });
+}
+
+/// Of the facets that are this rank's. Collective.
+double penetrationOn(const fem::Surface& surface, const ContactLayout& layout, const Shares& toNodes,
+                     const Vector& slack) {
+  const std::vector<long long> all = completeFacets(layout, surface);
+  const auto perFacet = static_cast<std::size_t>(surface.nodesPerFacet());
+  const RowRange mine =
+      evenShare(static_cast<GlobalOrdinal>(all.size() / perFacet), *slack.getMap()->getComm());
+  const auto begin = all.begin() + mine.first * static_cast<GlobalOrdinal>(perFacet);
+  const std::vector<std::size_t> rows(begin, begin + mine.count * static_cast<GlobalOrdinal>(perFacet));
+  const RowValues gaps(slack, layout, rows, toNodes);
+  const std::vector<Eigen::VectorXd> lattice = latticeOn(surface.facetType);
+  Eigen::VectorXd gap(lattice.front().size());
+  double deepest = 0;
+  for (std::size_t facet = 0; facet < rows.size(); facet += perFacet) {
+    for (std::size_t a = 0; a < perFacet; ++a)
+      gap[static_cast<Eigen::Index>(a)] = gaps.at(rows[facet + a]);
+    for (const Eigen::VectorXd& shape : lattice)
+      deepest = std::max(deepest, -shape.dot(gap));
+  }
+  return deepest;
+}
+
+} // namespace
+
+std::vector<long long> completeFacets(const ContactLayout& layout, const fem::Surface& surface) {
+  std::unordered_map<GlobalOrdinal, long long> rowOf;
+  for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
+    rowOf.emplace(layout.firstNodes[row], static_cast<long long>(row));
+  std::vector<long long> corners;
+  for (std::size_t f = 0; f < surface.numFacets(); ++f) {
+    const auto nodes = surface.facet(f);
+    if (std::all_of(nodes.begin(), nodes.end(), [&](GlobalOrdinal node) { return rowOf.contains(node); }))
+      for (const GlobalOrdinal node : nodes)
+        corners.push_back(rowOf.at(node));
+  }
+  return corners;
+}
+
+ContactState contactState(const SolvedScene& solved, int contact) {
+  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+  const Vector &slack = *solved.solution.slack, &multiplier = *solved.solution.multiplier;
+  const Shares none, toNodes = layout.isDual ? transposed(layout.smoothed) : none;
+  const Shares& around = layout.isDual ? none : layout.smoothed;
+
+  const std::vector<std::size_t> own = layout.ownRows();
+  const RowRange slab = evenShare(static_cast<GlobalOrdinal>(own.size()), solved.comm());
+  const std::vector<std::size_t> rows(own.begin() + slab.first, own.begin() + slab.first + slab.count);
+  const Shares onNodes = forceShares(layout);
+  const RowValues forces(multiplier, layout, rows, onNodes), pushes(multiplier, layout, rows, around),
+      gaps(slack, layout, rows, toNodes);
+
+  ContactState state;
+  state.areas = layout.areas;
+  for (const std::size_t row : rows) {
+    double area = 0;
+    if (around.empty())
+      area = state.areas[row];
+    else
+      for (const ContactLayout::Share& share : around[row])
+        area += share.weight * state.areas[share.node];
+    state.force.push_back(layout.portion(row) * forces.at(row));
+    state.pressure.push_back(pushes.at(row) / area);
+    state.gap.push_back(gaps.at(row));
+    state.largestPressure = std::max(state.largestPressure, state.pressure.back());
+    state.penetration = std::max(state.penetration, -state.gap.back());
+  }
+  if (!layout.smoothed.empty())
+    state.penetration =
+        std::max(state.penetration,
+                 penetrationOn(meshOf(solved, layout).surface(layout.firstSurface), layout, toNodes, slack));
+  for (std::size_t row = 0; row < state.areas.size(); ++row)
+    state.areas[row] *= layout.portion(row);
+  state.largestPressure = maxOverRanks(solved.comm(), state.largestPressure);
+  state.penetration = maxOverRanks(solved.comm(), state.penetration);
+  return state;
+}
+
+} // namespace epafi::simulation

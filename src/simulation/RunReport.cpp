@@ -1,0 +1,212 @@
+// A result as the list that a report shows.
+
+#include "epafi/base/Version.hpp"
+#include "epafi/simulation/RunResult.hpp"
+
+#include <Teuchos_Array.hpp>
+
+#include <cmath>
+
+namespace epafi::simulation {
+namespace {
+
+using Teuchos::ParameterList;
+
+Teuchos::Array<double> arrayOf(const std::array<double, 3>& values) {
+  return Teuchos::Array<double>(values.begin(), values.end());
+}
+
+void enterSolve(const SolveFacts& solve, ParameterList& list) {
+  list.sublist("Epafi").set("Version", std::string(version()));
+  list.sublist("Problem")
+      .set("Primal Dimension", solve.primalDimension)
+      .set("Dual Dimension", solve.dualDimension)
+      .set("Equality Multipliers", solve.numEqualities)
+      .set("Inequality Multipliers", solve.numInequalities)
+      .set("Crosspoints", solve.numCrosspoints)
+      .set("Adaptive Constraints", solve.numAdaptiveConstraints)
+      .set("Subdomains", solve.numSubdomains)
+      .set("Clusters", solve.numClusters)
+      .set("Floating Bodies", solve.numFloatingBodies)
+      .set("Kernel Dimension", solve.kernelDimension)
+      .set("Ranks", solve.numRanks);
+  list.sublist("Algorithm")
+      .set("Name", fetidp::toString(solve.algorithm))
+      .set("Reason", solve.reason)
+      .set("Preconditioner", solve.preconditioner)
+      .set("Dual Operator", solve.dualOperator)
+      .set("Subdomain Solver", solve.subdomainSolver)
+      .set("Coarse Solver", solve.coarseSolver)
+      .set("Operator Norm", solve.operatorNorm);
+  list.sublist("Iterations")
+      .set("Outer", solve.counts.outer)
+      .set("CG Steps", solve.counts.conjugateGradient)
+      .set("Expansion Steps", solve.counts.expansion)
+      .set("Proportioning Steps", solve.counts.proportioning)
+      .set("Hessian Multiplications", solve.counts.hessianMultiplications)
+      .set("Norm Estimate Multiplications", solve.normMultiplications)
+      .set("Preconditioner Applications", solve.counts.preconditionerApplications);
+}
+
+void enterAccuracy(const RunResult& result, ParameterList& list) {
+  list.set("Relative Projected Gradient", result.relativeProjectedGradient)
+      .set("Feasibility", result.feasibility)
+      .set("Complementarity", result.complementarity)
+      .set("Equilibrium", result.equilibrium)
+      .set("Energy", result.energy)
+      .set("Active Contact Nodes", result.activeContactNodes)
+      .set("Contact Force", result.contactForce);
+  if (std::isfinite(result.algebraicError))
+    list.set("Algebraic Error", result.algebraicError);
+  if (result.error)
+    list.set("Energy Norm", result.error->energyNorm)
+        .set("Discretisation Error", result.error->discretisation)
+        .set("Relative Error", result.error->relative());
+  if (result.target) {
+    list.set("Effectivity", result.error->effectivity).set("Target", result.target->asked);
+    if (!result.target->choiceOfOrder.empty())
+      list.set("Choice of Order", result.target->choiceOfOrder);
+  }
+  if (!result.doubts.empty())
+    list.set("Doubts", result.doubts);
+}
+
+void enterQuantity(const Quantity& quantity, ParameterList& list) {
+  list.set("Name", quantity.name).set("Value", quantity.value);
+  if (quantity.failure.empty())
+    list.set("Error Bar", quantity.bar + quantity.algebraic)
+        .set("Estimated Error", quantity.error)
+        .set("Hessian Multiplications", quantity.multiplications);
+  else
+    list.set("Reason", quantity.failure);
+}
+
+void enterStart(const CoarserStart& start, ParameterList& list) {
+  if (!start.failure.empty())
+    list.set("Failure", start.failure);
+  if (!start.means.empty())
+    list.set("Mesh", start.means)
+        .set("Primal Dimension", start.unknowns)
+        .set("Hessian Multiplications", start.multiplications);
+}
+
+void enterBalance(const JointBalance& balance, ParameterList& list) {
+  list.set("Coupling", balance.coupling)
+      .set("Force Imbalance", balance.force)
+      .set("Moment Imbalance", balance.moment);
+}
+
+void enterContact(const ContactResult& contact, ParameterList& list) {
+  list.set("Candidates", contact.candidates)
+      .set("Active Nodes", contact.activeNodes)
+      .set("Force", contact.force)
+      .set("Resultant", arrayOf(contact.resultant))
+      .set("Largest Pressure", contact.largestPressure)
+      .set("Contact Area", contact.area);
+  if (!contact.note.empty())
+    list.set("Note", contact.note);
+  if (contact.numBent > 0)
+    list.set("Bent Nodes", contact.numBent);
+  if (contact.penetration)
+    list.set("Largest Penetration", *contact.penetration);
+  if (contact.balance)
+    enterBalance(*contact.balance, list);
+}
+
+void enterTie(const TieResult& tie, ParameterList& list) {
+  list.set("Nodes", tie.nodes)
+      .set("Resultant", arrayOf(tie.resultant))
+      .set("Largest Traction", tie.largestTraction);
+  if (!tie.note.empty())
+    list.set("Note", tie.note);
+  enterBalance(tie.balance, list);
+}
+
+void enterMesh(const accuracy::MeshResult& mesh, ParameterList& list) {
+  if (mesh.quantity)
+    list.set("Quantity", mesh.quantity->value)
+        .set("Error Bar", mesh.quantity->discretisation + mesh.quantity->algebraic);
+  list.set("Order", mesh.order)
+      .set("Primal Dimension", mesh.unknowns)
+      .set("Hessian Multiplications", mesh.multiplications)
+      .set("Relative Error", mesh.relative())
+      .set("Discretisation Error", mesh.discretisation)
+      .set("Algebraic Error", mesh.algebraic)
+      .set("Effectivity", mesh.effectivity)
+      .set("Seconds", mesh.seconds);
+}
+
+void enterCosts(const RunResult& result, ParameterList& list) {
+  ParameterList& times = list.sublist("Time");
+  times.set("Assembly", result.times.assembly)
+      .set("Setup", result.solve.times.setup)
+      .set("Solve", result.solve.times.solve)
+      .set("Recovery", result.times.recovery);
+  if (result.start)
+    times.set("Start", result.start->seconds);
+  if (result.error)
+    times.set("Error Estimate", result.times.errorEstimate);
+  if (result.times.output > 0)
+    times.set("Output", result.times.output);
+  if (result.times.total > 0)
+    times.set("Total", result.times.total);
+  list.sublist("Memory")
+      .set("Peak Bytes", result.solve.peakBytes)
+      .set("Factor Bytes", result.solve.factorBytes);
+}
+
+} // namespace
+
+double ErrorResult::relative() const {
+  const double absolute = std::hypot(discretisation, std::isfinite(algebraic) ? algebraic : 0);
+  const double whole = std::hypot(energyNorm, absolute);
+  return whole > 0 ? absolute / whole : 0;
+}
+
+std::string statusOf(const RunResult& result) {
+  switch (result.status) {
+  case RunStatus::converged:
+    return "Converged";
+  case RunStatus::targetMissed:
+    return "TargetMissed";
+  case RunStatus::interrupted:
+    return "Interrupted";
+  case RunStatus::running:
+    return "Running";
+  case RunStatus::notConverged:
+    break;
+  }
+  return qp::toString(result.solve.status);
+}
+
+ParameterList reportOf(const RunResult& result) {
+  ParameterList list("Report");
+  enterSolve(result.solve, list);
+  list.sublist("Problem").set("Title", result.title);
+  enterAccuracy(result, list.sublist("Accuracy"));
+  if (result.start)
+    enterStart(*result.start, list.sublist("Start"));
+  if (result.quantity)
+    enterQuantity(*result.quantity, list.sublist("Quantity"));
+  for (const ContactResult& contact : result.contacts)
+    enterContact(contact, list.sublist("Contact").sublist(contact.name));
+  for (const TieResult& tie : result.ties)
+    enterTie(tie, list.sublist("Tied").sublist(tie.name));
+  for (const BodyResult& body : result.bodies)
+    if (body.isElastic)
+      list.sublist("Body")
+          .sublist(body.name)
+          .set("Largest Displacement", body.largestDisplacement)
+          .set("Largest von Mises Stress", body.largestStress);
+  if (result.target)
+    for (std::size_t i = 0; i < result.target->meshes.size(); ++i)
+      enterMesh(result.target->meshes[i], list.sublist("Levels").sublist("level " + std::to_string(i)));
+  enterCosts(result, list);
+  list.sublist("Status")
+      .set("Converged", result.status == RunStatus::converged)
+      .set("Status", statusOf(result))
+      .set("Reason", result.reason);
+  return list;
+}
+
+} // namespace epafi::simulation

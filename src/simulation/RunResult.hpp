@@ -1,0 +1,91 @@
+#pragma once
+
+/// What a run has come to, in plain numbers, the same on all ranks: what reports, summaries and scripts are
+/// made of.
+
+#include "epafi/ContactSolver.hpp"
+#include "epafi/accuracy/AccuracyLoop.hpp"
+#include "epafi/simulation/Evaluation.hpp"
+#include "epafi/simulation/JointResults.hpp"
+#include "epafi/simulation/Quantity.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epafi::simulation {
+
+/// How a run stands.
+enum class RunStatus {
+  converged,    ///< to all that was asked for
+  notConverged, ///< SolveFacts::status says why
+  targetMissed, ///< solved, but not as accurately as was asked for
+  interrupted,  ///< by a signal
+  running       ///< on to the next mesh
+};
+
+/// A coarser mesh on which the contact zone was found first.
+struct CoarserStart {
+  std::string failure; ///< why the run started without its solution; empty if it did not
+  std::string means;   ///< what made it coarser
+  GlobalOrdinal unknowns = 0;
+  int multiplications = 0; ///< products with F
+  double energy = 0;
+  double seconds = 0;
+};
+
+/// Both errors in the energy norm, as they are estimated.
+struct ErrorResult {
+  double energyNorm = 0;     ///< ‖u_h‖_K
+  double discretisation = 0; ///< of the mesh, divided by the effectivity
+  double algebraic = 0;      ///< of the iteration at most; NaN: not known
+  double effectivity = 1;    ///< estimate by error, as a series of meshes tells
+
+  /// Both together, relative to the norm of the exact solution.
+  [[nodiscard]] double relative() const;
+};
+
+/// Seconds, the largest over the ranks; 0 where nothing was done.
+struct RunTimes {
+  double assembly = 0, recovery = 0, errorEstimate = 0, output = 0, total = 0;
+};
+
+/// A run that refined its mesh until an error was small enough.
+struct TargetResult {
+  double asked = 0;                         ///< relative error
+  std::vector<accuracy::MeshResult> meshes; ///< that it went through, without their elements
+  std::string choiceOfOrder;                ///< why this order; empty if it was given
+};
+
+struct RunResult {
+  std::string title; ///< of the scene
+  SolveFacts solve;
+  double relativeProjectedGradient = 0, feasibility = 0, complementarity = 0; ///< as ContactSolution
+  double equilibrium = 0, algebraicError = std::numeric_limits<double>::quiet_NaN(), energy = 0;
+  GlobalOrdinal activeContactNodes = 0;
+  double contactForce = 0;
+  std::optional<ErrorResult> error; ///< if asked for
+  std::string doubts;               ///< what an estimate does not see; perhaps empty
+  std::optional<Quantity> quantity; ///< if asked for
+  std::optional<CoarserStart> start;
+  std::vector<BodyResult> bodies;
+  bool choosesClusters = false; ///< whether some body's clusters were left to choose
+  std::vector<ContactResult> contacts;
+  std::vector<TieResult> ties;
+  std::optional<TargetResult> target;
+  RunTimes times;
+  RunStatus status = RunStatus::notConverged;
+  std::string reason; ///< one sentence
+};
+
+/// "Converged", "TargetMissed", "Interrupted", "Running", or what the iteration ended with.
+std::string statusOf(const RunResult& result);
+
+/// The report of a run: the lists Epafi, Problem, Algorithm, Iterations, Accuracy, Start, Quantity, Body,
+/// Contact, Tied, Levels, Time, Memory and Status, as far as there is something to say.
+Teuchos::ParameterList reportOf(const RunResult& result);
+
+} // namespace epafi::simulation

@@ -1,0 +1,294 @@
+#include "epafi/simulation/SceneRun.hpp"
+
+#include "epafi/simulation/CoarserScene.hpp"
+#include "epafi/simulation/RowWords.hpp"
+
+#include "epafi/accuracy/ContactTransfer.hpp"
+#include "epafi/accuracy/Doubts.hpp"
+#include "epafi/accuracy/Transfer.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Slab.hpp"
+#include "epafi/model/ClusterSize.hpp"
+#include "epafi/scene/SceneSchema.hpp"
+
+#include <Teuchos_Comm.hpp>
+#include <Teuchos_Time.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace epafi::simulation {
+
+Teuchos::ParameterList driverSchema() {
+  Teuchos::ParameterList schema = scene::sceneSchema();
+  schema.sublist("Solver", false, "How the problem is solved; the defaults suit most scenes.")
+      .setParameters(ContactSolver::validParameters());
+  AccuracyParameters::addTo(schema);
+  return schema;
+}
+
+void SceneRun::correctEstimate(double effectivity) {
+  result.error->discretisation /= effectivity;
+  result.error->effectivity = effectivity;
+  for (std::vector<double>& cells : evaluation.errors)
+    for (double& cell : cells)
+      cell /= effectivity;
+}
+
+void SceneRun::correctQuantity(double effectivity, double bar) {
+  result.quantity->error /= effectivity * effectivity;
+  result.quantity->bar = bar;
+}
+
+namespace {
+
+/// The solution on a coarser mesh as λ of a run that is set up; null if that has no use for it, or if it
+/// cannot be carried over, of which the run's result tells: there are other starts. Collective.
+RCP<Vector> startFrom(const SceneRun& coarser, SceneRun& run) try {
+  const RCP<Vector> start =
+      run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
+                                                  *run.decomposition, accuracy::NodesOf::interfaces));
+  if (!start.is_null())
+    accuracy::transferContact(*coarser.decomposition, *coarser.solution.multiplier, *run.decomposition,
+                              *start);
+  return start;
+} catch (const Error& error) { // on all ranks
+  if (!run.result.start)
+    run.result.start.emplace();
+  run.result.start->failure = error.what();
+  return Teuchos::null;
+}
+
+/// Passes on the wish to stop, and nothing else.
+class Silent final : public RunCompanion {
+public:
+  explicit Silent(RunCompanion* of) : of_(of) {}
+  void step(const qp::StepRecord& /*record*/) override {}
+  [[nodiscard]] bool wantsToStop() override { return of_ != nullptr && of_->wantsToStop(); }
+
+private:
+  RunCompanion* of_;
+};
+
+/// Whether a run looks for the contact zone on a coarser mesh first. Membranes are solved in less time than
+/// it takes.
+bool beginsOnCoarserMesh(const decomposition::DecomposedProblem& problem, const RunOptions& options) {
+  return options.coarser == nullptr && problem.components > 1 && problem.numInequalities > 0 &&
+         problem.primalDimension >= options.coarserFrom;
+}
+
+/// From a good start active sets need the fewest products where bodies are held, too; from none MPRGP does.
+Teuchos::ParameterList chosenFor(const decomposition::DecomposedProblem& problem,
+                                 Teuchos::ParameterList parameters, const RunOptions& options) {
+  const bool isOpen = parameters.get<std::string>("Algorithm", "auto") == "auto",
+             isPreconditioned =
+                 parameters.sublist("Preconditioner").get<std::string>("Type", "dirichlet") != "none";
+  if (isOpen && isPreconditioned && beginsOnCoarserMesh(problem, options))
+    parameters.set("Algorithm", std::string("active set"));
+  return parameters;
+}
+
+/// A few subdomains need no clusters, which cost products. Ranks keep the subdomains that they have. Not
+/// collective.
+void joinClusters(CoarserScene& coarser, int numRanks) {
+  GlobalOrdinal number = 0;
+  for (const model::BodyLayout& body : coarser.bodies)
+    number += body.partition->numParts();
+  for (scene::Body& body : coarser.scene.bodies)
+    if (!model::clustersPay(scene::dimensionOf(body.physics), number, numRanks))
+      body.decomposition.cluster = 0;
+}
+
+/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Before
+/// the run is set up, and without its factors: there is memory for one set of them. What goes wrong there is
+/// no matter. Collective.
+std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
+                                           const RCP<const Comm>& comm, const RunOptions& options) {
+  constexpr double enough = 1e-4; // meshes differ by more
+  if (run.solver->algorithmFor(run.decomposition->problem) != fetidp::Algorithm::activeSets ||
+      !beginsOnCoarserMesh(run.decomposition->problem, options))
+    return std::nullopt;
+  const double began = Teuchos::Time::wallTime();
+  try {
+    std::optional<CoarserScene> coarser = coarserScene(run.scene, run.decomposition->bodies, *comm);
+    if (!coarser)
+      return std::nullopt;
+    joinClusters(*coarser, comm->getSize());
+    Teuchos::ParameterList parameters(solverParameters);
+    parameters.set("Tolerance", enough);
+    Silent silent(options.companion);
+    SceneRun coarse = solveScene(
+        coarser->scene, parameters, comm,
+        {.coarserFrom = 4 * options.coarserFrom, .companion = &silent, .bodies = &coarser->bodies});
+    run.result.start = {"",
+                        coarser->means,
+                        coarse.decomposition->problem.primalDimension,
+                        coarse.solver->report().counts.hessianMultiplications,
+                        coarse.solution.energy,
+                        maxOverRanks(*comm, Teuchos::Time::wallTime() - began)};
+    coarse.solver.reset();
+    return coarse;
+  } catch (const Error& error) { // on all ranks
+    run.result.start = {.failure = error.what(),
+                        .seconds = maxOverRanks(*comm, Teuchos::Time::wallTime() - began)};
+    return std::nullopt;
+  }
+}
+
+/// A guess of the discretisation error relative to the solution, from nothing but the number of nodes: h of
+/// even meshes of bodies of size 1, as edges and borders of contact leave it to any order.
+double guessedError(const SceneRun& run) {
+  const decomposition::DecomposedProblem& problem = run.decomposition->problem;
+  const auto& bodies = run.scene.bodies;
+  const double nodes =
+      static_cast<double>(problem.primalDimension) / problem.components / static_cast<double>(bodies.size());
+  return std::pow(nodes, -1.0 / scene::dimensionOf(bodies.front().physics));
+}
+
+/// Of each contact: the most by which a closed node has changed its gap. Collective.
+std::vector<double> closingOf(const SceneRun& run) {
+  std::vector<double> closing;
+  const Comm& comm = *run.decomposition->problem.comm;
+  for (std::size_t c = 0; c < run.decomposition->contacts.size(); ++c) {
+    const contact::ContactLayout& layout = run.decomposition->contacts[c];
+    const ContactState& state = run.evaluation.contacts[c];
+    const std::vector<std::size_t> own = layout.ownRows();
+    const auto first =
+        static_cast<std::size_t>(evenShare(static_cast<GlobalOrdinal>(own.size()), comm).first);
+    double most = 0;
+    for (std::size_t i = 0; i < state.gap.size(); ++i)
+      if (state.force[i] > 0)
+        most = std::max(most, std::abs(layout.gaps[own[first + i]] - state.gap[i]));
+    closing.push_back(maxOverRanks(comm, most));
+  }
+  return closing;
+}
+
+/// How far the iteration has to go. `looked` becomes the last estimate. Keeps references.
+fetidp::ErrorBalance balanceOf(const SceneRun& run, std::optional<accuracy::ErrorEstimator>& estimator,
+                               std::optional<accuracy::ErrorEstimate>& looked, const RunOptions& options) {
+  fetidp::ErrorBalance balance;
+  balance.fraction = run.solver->algebraicFraction();
+  balance.estimate = [&](std::span<const Eigen::VectorXd> u) {
+    looked = (*estimator)(u);
+    return looked->toBalance();
+  };
+  const double guess = std::min(guessedError(run), 0.1);
+  balance.firstLook =
+      0.2 * balance.fraction * guess; // without any coupling the energy is some times the solution's
+  if (options.coarser != nullptr && options.coarser->error) // of linear elements it is halved at best
+    balance.expected = 0.5 * options.coarser->error->discretisation;
+  else if (run.result.start && run.result.start->failure.empty())
+    balance.expected = guess * std::sqrt(2 * std::abs(run.result.start->energy));
+  return balance;
+}
+
+/// What the solve and its certificate have come to.
+void enterSolution(SceneRun& run) {
+  RunResult& result = run.result;
+  const fetidp::ContactSolution& solution = run.solution;
+  result.title = run.scene.title;
+  result.solve = run.solver->facts();
+  result.relativeProjectedGradient = solution.relativeProjectedGradient;
+  result.feasibility = solution.feasibility;
+  result.complementarity = solution.complementarity;
+  result.equilibrium = solution.equilibrium;
+  result.algebraicError = solution.algebraicError;
+  result.energy = solution.energy;
+  result.activeContactNodes = solution.activeContactNodes;
+  result.contactForce = solution.contactForce;
+  result.reason = result.solve.statusReason;
+  result.status = result.solve.status == qp::Status::converged     ? RunStatus::converged
+                  : result.solve.status == qp::Status::interrupted ? RunStatus::interrupted
+                                                                   : RunStatus::notConverged;
+}
+
+/// What follows from the solution. Collective.
+void evaluateRun(SceneRun& run) {
+  const double began = Teuchos::Time::wallTime();
+  const SolvedScene solved = run.solved();
+  run.evaluation = evaluate(solved, run.error ? &*run.error : nullptr);
+  enterSolution(run);
+  RunResult& result = run.result;
+  result.contacts = contactResults(solved, run.evaluation);
+  result.ties = tieResults(solved);
+  result.bodies = bodyResults(solved, run.evaluation);
+  result.choosesClusters =
+      std::any_of(run.scene.bodies.begin(), run.scene.bodies.end(),
+                  [](const scene::Body& body) { return body.decomposition.cluster < 0; });
+  if (run.error)
+    result.error = {run.error->energyNorm, run.error->discretisation, run.solution.algebraicError, 1};
+  result.times.recovery =
+      run.solver->times().recovery + maxOverRanks(solved.comm(), Teuchos::Time::wallTime() - began);
+  result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
+}
+
+/// Where the iteration starts: a checkpoint's λ, or the solution on a coarser mesh. Sets the solver up.
+/// Collective.
+RCP<const Vector> prepareSolve(SceneRun& run, const Teuchos::ParameterList& solverParameters,
+                               const RCP<const Comm>& comm, const RunOptions& options) {
+  RCP<const Vector> start;
+  if (options.companion != nullptr)
+    start = options.companion->begin(run.decomposition->problem);
+  std::optional<SceneRun> coarse;
+  if (start.is_null())
+    coarse = solveOnCoarserMesh(run, solverParameters, comm, options);
+  run.solver->setup(run.decomposition->problem);
+  if (options.companion != nullptr)
+    options.companion->beforeIteration();
+  const double began = Teuchos::Time::wallTime();
+  if (const SceneRun* const coarser = coarse ? &*coarse : options.coarser;
+      coarser != nullptr && start.is_null())
+    start = startFrom(*coarser, run);
+  if (run.result.start)
+    run.result.start->seconds += maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
+  return start;
+}
+
+} // namespace
+
+SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
+                    const RCP<const Comm>& comm, const RunOptions& options) {
+  SceneRun run;
+  const auto secondsSince = [&](double began) {
+    return maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
+  };
+  double began = Teuchos::Time::wallTime();
+  run.scene = scene;
+  const model::Meshes meshes = options.quantity.point.empty() ? options.meshes : model::Meshes::whole;
+  run.decomposition = std::make_unique<model::Decomposition>(
+      options.bodies == nullptr ? model::decompose(scene, comm, meshes)
+                                : model::decompose(scene, std::move(*options.bodies), comm));
+  run.solver =
+      std::make_unique<ContactSolver>(chosenFor(run.decomposition->problem, solverParameters, options));
+  std::optional<QuantityOfScene> quantity;
+  if (options.quantity.kind != QuantityParameters::Kind::none)
+    quantity.emplace(options.quantity, run.scene, *run.decomposition);
+  const bool estimatesError = options.estimatesError || quantity;
+  run.result.times.assembly = secondsSince(began);
+  std::optional<accuracy::ErrorEstimator> estimator;
+  try {
+    const RCP<const Vector> start = prepareSolve(run, solverParameters, comm, options);
+    if (estimatesError || run.solver->isBalanced())
+      estimator.emplace(run.scene, *run.decomposition);
+    const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
+    run.solution =
+        run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
+  } catch (const fetidp::ContradictionError& error) { // on all ranks
+    throw inWordsOf(*run.decomposition, error);
+  }
+  began = Teuchos::Time::wallTime();
+  if (!estimatesError)
+    run.error.reset(); // the iteration's last look, if it took one
+  else if (!run.solution.isEstimated)
+    run.error = (*estimator)(run.solution.displacement);
+  if (quantity)
+    run.result.quantity = (*quantity)(*run.solver, run.solved(), *estimator, run.error->energyNorm);
+  if (estimatesError)
+    run.result.times.errorEstimate = secondsSince(began);
+  evaluateRun(run);
+  return run;
+}
+
+} // namespace epafi::simulation

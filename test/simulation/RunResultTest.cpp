@@ -1,0 +1,89 @@
+// What a run tells: the report's contract, and starts that fail.
+
+#include "support/SolidScenes.hpp"
+
+#include "epafi/scene/ModelProblem.hpp"
+#include "epafi/simulation/AccurateRun.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace epafi::simulation {
+namespace {
+
+const std::vector<std::pair<std::string, std::vector<std::string>>> contract{
+    {"Epafi", {"Version"}},
+    {"Problem",
+     {"Title", "Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers",
+      "Crosspoints", "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"}},
+    {"Algorithm", {"Name", "Reason", "Preconditioner", "Dual Operator"}},
+    {"Iterations",
+     {"Outer", "CG Steps", "Expansion Steps", "Proportioning Steps", "Hessian Multiplications",
+      "Preconditioner Applications"}},
+    {"Accuracy",
+     {"Relative Projected Gradient", "Feasibility", "Complementarity", "Equilibrium", "Energy",
+      "Active Contact Nodes", "Contact Force"}},
+    {"Time", {"Assembly", "Setup", "Solve", "Recovery"}},
+    {"Memory", {"Peak Bytes", "Factor Bytes"}},
+    {"Status", {"Converged", "Status", "Reason"}}};
+
+TEST(RunResultTest, TheReportHasWhatItPromises) {
+  const auto comm = Tpetra::getDefaultComm();
+  const SceneRun run = solveScene(scene::modelProblem(false, 2, 4), {}, comm);
+  const Teuchos::ParameterList report = reportOf(run.result);
+  for (const auto& [list, names] : contract) {
+    ASSERT_TRUE(report.isSublist(list)) << list;
+    for (const std::string& name : names)
+      EXPECT_TRUE(report.sublist(list).isParameter(name)) << list << ": " << name;
+  }
+  EXPECT_EQ(report.sublist("Accuracy").get<double>("Energy"), run.solution.energy);
+  EXPECT_EQ(report.sublist("Problem").get<int>("Ranks"), comm->getSize());
+  EXPECT_EQ(report.sublist("Status").get<std::string>("Status"), "Converged");
+  EXPECT_TRUE(report.sublist("Status").get<bool>("Converged"));
+  EXPECT_FALSE(report.isSublist("Start"));
+}
+
+TEST(RunResultTest, AMissedTargetIsAStatusOfItsOwn) {
+  AccuracyParameters accuracy;
+  accuracy.target = 1e-3;
+  accuracy.maxLevels = 2;
+  accuracy.refinement = AccuracyParameters::Refinement::even;
+  const AccurateRun accurate =
+      solveToTarget(scene::modelProblem(true, 1, 2), {}, accuracy, Tpetra::getDefaultComm(), nullptr, {});
+  const RunResult& result = accurate.run.result;
+  EXPECT_EQ(result.status, RunStatus::targetMissed);
+  ASSERT_TRUE(result.target && result.error);
+  EXPECT_EQ(result.target->meshes.size(), 2U);
+  EXPECT_NEAR(result.error->relative(), result.target->meshes.back().relative(), 1e-12);
+  const Teuchos::ParameterList report = reportOf(result);
+  EXPECT_EQ(report.sublist("Status").get<std::string>("Status"), "TargetMissed");
+  EXPECT_FALSE(report.sublist("Status").get<bool>("Converged"));
+  EXPECT_EQ(report.sublist("Levels").sublist("level 1").get<double>("Relative Error"),
+            report.sublist("Accuracy").get<double>("Relative Error"));
+}
+
+/// Nodes face each other on the scene's mesh, and do not on one with elements twice as large.
+TEST(RunResultTest, ACoarserMeshThatFailsIsToldAndTheRunGoesOn) {
+  scene::Scene scene;
+  scene.bodies = {test::block("lower", {{0, 0, 0}, {4, 1, 0}}, {4, 2, 0}, test::cutInGrid({2, 1, 1})),
+                  test::block("upper", {{0, 1, 0}, {3, 2, 0}}, {3, 2, 0}, test::cutInGrid({1, 1, 1}))};
+  scene.bodies[0].supports = {test::slide("bottom"), test::slide("left")};
+  scene.bodies[1].supports = {test::slide("left")};
+  scene.bodies[1].loads = {test::weight({0, -1, 0})};
+  scene.contacts = {test::between("joint", 0, "top", 1, "bottom")};
+  scene.contacts[0].coupling = scene::SurfaceContact::Coupling::nodes;
+  const auto comm = Tpetra::getDefaultComm();
+  const SceneRun plain = solveScene(scene, {}, comm);
+  const SceneRun run = solveScene(scene, {}, comm, {.coarserFrom = 0});
+  ASSERT_TRUE(run.result.start);
+  EXPECT_NE(run.result.start->failure.find("joint"), std::string::npos) << run.result.start->failure;
+  EXPECT_EQ(run.result.status, RunStatus::converged);
+  EXPECT_NEAR(run.result.energy, plain.result.energy, 1e-9 * std::abs(plain.result.energy));
+  EXPECT_EQ(reportOf(run.result).sublist("Start").get<std::string>("Failure"), run.result.start->failure);
+}
+
+} // namespace
+} // namespace epafi::simulation
