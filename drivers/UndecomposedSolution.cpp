@@ -44,7 +44,7 @@ SaddlePoint::SaddlePoint(const UndecomposedSystem& system, const std::vector<boo
   rhs_.head(n) = system.load;
   for (int i = 0; i < m; ++i) {
     const int line = static_cast<int>(n) + i;
-    if (!active[static_cast<std::size_t>(i)] || isEmpty(system.constraint, i)) {
+    if (!active[i] || isEmpty(system.constraint, i)) {
       triplets.emplace_back(line, line, 1.0);
       continue;
     }
@@ -91,7 +91,7 @@ double squared(const Eigen::VectorXd& r, const Eigen::VectorXd& diagonal) {
 
 UndecomposedSolution solveUndecomposed(const UndecomposedSystem& system) {
   const Eigen::Index n = system.load.size(), m = system.gap.size();
-  std::vector<bool> active(static_cast<std::size_t>(m), true);
+  std::vector<bool> active(m, true);
   UndecomposedSolution solution;
   for (int iteration = 0;; ++iteration) {
     if (iteration == 100)
@@ -104,7 +104,7 @@ UndecomposedSolution solveUndecomposed(const UndecomposedSystem& system) {
     const Eigen::VectorXd slack = system.gap - system.constraint * solution.unknowns;
     std::vector<bool> next(active.size());
     for (Eigen::Index i = 0; i < m; ++i)
-      next[static_cast<std::size_t>(i)] = i >= system.numContacts || solution.multiplier[i] - slack[i] > 0;
+      next[i] = i >= system.numContacts || solution.multiplier[i] - slack[i] > 0;
     if (next == active)
       break;
     active = next;
@@ -114,8 +114,7 @@ UndecomposedSolution solveUndecomposed(const UndecomposedSystem& system) {
   solution.energy = 0.5 * u.dot(system.stiffness * u) - system.load.dot(u) + system.energyOffset;
   solution.deflection = system.valuesOf(u);
   for (Eigen::Index i = 0; i < system.numContacts; ++i)
-    solution.activeContactNodes +=
-        active[static_cast<std::size_t>(i)] && !isEmpty(system.constraint, i) ? 1 : 0;
+    solution.activeContactNodes += active[i] && !isEmpty(system.constraint, i) ? 1 : 0;
   return solution;
 }
 

@@ -68,16 +68,16 @@ UndecomposedSystem::Matrix contactRows(const DecomposedProblem& problem, const s
 /// Body, node, place and direction of the unknowns of one subdomain.
 void locate(const Decomposition& decomposition, const Subdomain& subdomain, int first,
             UndecomposedSystem& system) {
-  const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(subdomain.body)].mesh;
+  const fem::Mesh& mesh = *decomposition.bodies[subdomain.body].mesh;
   const int components = decomposition.problem.components;
   std::vector<const Eigen::Matrix3d*> axes(subdomain.nodes.size(), nullptr);
   for (const decomposition::NodeFrame& frame : subdomain.frames)
-    axes[static_cast<std::size_t>(frame.node)] = &frame.axes;
+    axes[frame.node] = &frame.axes;
   for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
-    const auto node = static_cast<std::size_t>(subdomain.unknownPosition[i] / components);
+    const std::size_t node = subdomain.unknownPosition[i] / components;
     const int component = subdomain.unknownPosition[i] % components;
     const auto unknown = static_cast<std::size_t>(first) + i;
-    const auto column = static_cast<Eigen::Index>(unknown);
+    const Eigen::Index column = unknown;
     const Point point = mesh.point(subdomain.nodes[node]);
     system.body[unknown] = subdomain.body;
     system.node[unknown] = static_cast<int>(subdomain.nodes[node]);
@@ -94,8 +94,8 @@ void locate(const Decomposition& decomposition, const Subdomain& subdomain, int 
 std::vector<Eigen::VectorXd> UndecomposedSystem::valuesOf(const Eigen::VectorXd& u) const {
   std::vector<Eigen::VectorXd> values = prescribed;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const auto unknown = static_cast<std::size_t>(i);
-    values[static_cast<std::size_t>(body[unknown])].segment(node[unknown] * components, components) +=
+    const std::size_t unknown = i;
+    values[body[unknown]].segment(node[unknown] * components, components) +=
         u[i] * direction.col(i).head(components);
   }
   return values;
@@ -133,7 +133,7 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
   const auto gap = problem.gap->getData();
   system.gap = Eigen::Map<const Eigen::VectorXd>(gap.getRawPtr(), gap.size());
   system.load.resize(first.back());
-  system.body.resize(static_cast<std::size_t>(first.back()));
+  system.body.resize(first.back());
   system.node.resize(system.body.size());
   system.place.resize(3, first.back());
   system.direction.resize(3, first.back());
@@ -143,7 +143,7 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
     system.energyOffset += subdomain.energyOffset;
     Eigen::VectorXd prescribed = subdomain.prescribed;
     decomposition::toSpace(subdomain, prescribed);
-    Eigen::VectorXd& all = system.prescribed[static_cast<std::size_t>(subdomain.body)];
+    Eigen::VectorXd& all = system.prescribed[subdomain.body];
     for (std::size_t k = 0; k < subdomain.nodes.size(); ++k)
       all.segment(static_cast<Eigen::Index>(subdomain.nodes[k]) * problem.components, problem.components) =
           prescribed.segment(static_cast<Eigen::Index>(k) * problem.components, problem.components);

@@ -37,8 +37,8 @@ PetscFile::PetscFile(const std::filesystem::path& file)
 }
 
 void PetscFile::write(const Eigen::SparseMatrix<double, Eigen::RowMajor, int>& matrix) {
-  const auto rows = static_cast<std::size_t>(matrix.rows());
-  const auto entries = static_cast<std::size_t>(matrix.nonZeros());
+  const std::size_t rows = matrix.rows();
+  const std::size_t entries = matrix.nonZeros();
   std::vector<int> lengths(rows);
   for (std::size_t row = 0; row < rows; ++row)
     lengths[row] = matrix.outerIndexPtr()[row + 1] - matrix.outerIndexPtr()[row];

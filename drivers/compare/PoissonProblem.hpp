@@ -3,6 +3,7 @@
 /// −Δu = 1 on the unit square, u = 0 on all its sides: what linear solvers are commonly measured by.
 
 #include "epafi/linear/UnassembledOperator.hpp"
+#include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>
 

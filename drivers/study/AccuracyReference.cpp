@@ -37,7 +37,7 @@ simulation::SceneRun solveTightly(const scene::Scene& scene, const simulation::S
 
 AccuracyReference::AccuracyReference(const AccuracyProblem& problem, const RCP<const Comm>& comm) {
   const simulation::SceneRun* last = nullptr;
-  tight_.reserve(static_cast<std::size_t>(problem.meshes)); // `last` stays where it is
+  tight_.reserve(problem.meshes); // `last` stays where it is
   for (int level = 0; level < problem.meshes; ++level) {
     tight_.push_back({solveTightly(problem.onMesh(level), last, comm), {}, {}});
     tight_.back().contact = contactOf(tight_.back().run);

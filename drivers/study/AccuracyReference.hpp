@@ -37,9 +37,7 @@ public:
   AccuracyReference(const AccuracyProblem& problem, const RCP<const Comm>& comm);
 
   /// On a mesh of the ladder.
-  [[nodiscard]] const TightSolution& tight(int level) const {
-    return tight_[static_cast<std::size_t>(level)];
-  }
+  [[nodiscard]] const TightSolution& tight(int level) const { return tight_[level]; }
   /// Norms of the solution itself, which errors are relative to.
   [[nodiscard]] const accuracy::ErrorNorms& norms() const { return norms_; }
   [[nodiscard]] const ContactResult& contact() const { return contact_; }

@@ -22,7 +22,7 @@ namespace {
 double secondsPerProduct(const fetidp::GeneralizedInverse& inverse,
                          const decomposition::DecomposedProblem& problem) {
   const std::vector<double> lambda(numLocal(*problem.multiplierGhostMap), 1.0);
-  std::vector<AccurateSum> coarse(static_cast<std::size_t>(inverse.coarseProblem().size()));
+  std::vector<AccurateSum> coarse(inverse.coarseProblem().size());
   std::vector<fetidp::SubdomainGroup::Workspace> work(inverse.groups().size());
   return medianSeconds(*problem.comm, 0.2, [&] {
     for (std::size_t g = 0; g < work.size(); ++g)

@@ -27,18 +27,17 @@ std::vector<Row> measureEffectivity(const std::string& name, int refinements, do
   std::vector<double> distances; // from coarse to fine, without the reference itself
   for (int level = 0; level < refinements; ++level)
     distances.push_back(accuracy::errorAgainst(reference.scene, *reference.decomposition,
-                                               reference.solution.displacement,
-                                               *runs[static_cast<std::size_t>(level)].decomposition,
-                                               runs[static_cast<std::size_t>(level)].solution.displacement)
+                                               reference.solution.displacement, *runs[level].decomposition,
+                                               runs[level].solution.displacement)
                             .energy);
   const double own = refinements > 1
                          ? referenceError(distances[distances.size() - 1], distances[distances.size() - 2])
                          : distances.back() / std::sqrt(3.0); // as errors of order h are
   std::vector<Row> rows;
   for (int level = 0; level < refinements; ++level) {
-    const simulation::SceneRun& run = runs[static_cast<std::size_t>(level)];
+    const simulation::SceneRun& run = runs[level];
     const double norm = reference.error->energyNorm, estimated = run.error->discretisation / norm,
-                 error = std::hypot(distances[static_cast<std::size_t>(level)], own) / norm;
+                 error = std::hypot(distances[level], own) / norm;
     rows.push_back(
         {{"scene", name},
          {"level", level},

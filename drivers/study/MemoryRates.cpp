@@ -59,7 +59,7 @@ Table timeBlockProducts(double bytes, double streamRate) {
   const std::vector<double> numbers(static_cast<std::size_t>(bytes / sizeof(double)), 1e-3);
   Table products("n,kernel,seconds,bytes_per_second,stream_bytes_per_second");
   for (const int size : sizes) {
-    const std::vector<double> x(static_cast<std::size_t>(columns * size), 1.0);
+    const std::vector<double> x(columns * size, 1.0);
     std::vector<double> y(x.size());
     const auto add = [&](const char* name, std::size_t entries, int numColumns, const Kernel& kernel) {
       const std::size_t numBlocks = numbers.size() / entries;

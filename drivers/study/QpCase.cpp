@@ -36,7 +36,6 @@ Teuchos::ParameterList parametersOf(const QpCase& row, double operatorNorm) {
   list.set("Operator Norm", operatorNorm);
   Teuchos::ParameterList& mprgp = list.sublist("MPRGP");
   mprgp.set("Expansion", row.expansion);
-  mprgp.set("Release", row.release);
   mprgp.set("Proportioning Constant", row.proportioningConstant);
   mprgp.set("Expansion Step", row.expansionStep);
   return list;
@@ -117,7 +116,6 @@ std::vector<QpCase> qpCases(bool quick) {
   for (Case& one : expandCases(caseText("qp"), "qp", quick)) {
     QpCase row{one.name, static_cast<int>(one.value)};
     row.expansion = one.list.get("Expansion", row.expansion);
-    row.release = one.list.get("Release", row.release);
     row.preconditioner = one.list.get("Preconditioner", row.preconditioner);
     row.start = one.list.get("Start", row.start);
     row.proportioningConstant = one.list.get("Proportioning Constant", row.proportioningConstant);
@@ -132,11 +130,9 @@ QpResult solveCase(const QpCase& row, const RCP<const Comm>& comm) {
 }
 
 std::string methodName(const QpCase& row) {
-  if (row.expansion == "fixed step" && row.release == "chopped gradient")
-    return "published";
   std::string name = row.expansion == "projected CG" ? "projected_cg" : row.expansion;
   std::replace(name.begin(), name.end(), ' ', '_');
-  return row.release == "chopped gradient" ? name + "_chopped" : name;
+  return name;
 }
 
 } // namespace epafi::drivers

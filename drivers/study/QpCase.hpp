@@ -11,9 +11,9 @@
 namespace epafi::drivers {
 
 struct QpCase {
-  std::string problem; ///< journal_bearing, obstacle or torsion
-  int size = 0;        ///< unknowns a side
-  std::string expansion = "projected CG", release = "projected gradient"; ///< as MPRGP's parameters name them
+  std::string problem;                    ///< journal_bearing, obstacle or torsion
+  int size = 0;                           ///< unknowns a side
+  std::string expansion = "projected CG"; ///< as MPRGP's parameter names it
   /// none; multigrid, of the whole matrix; face_multigrid, of the matrix restricted to the face of the start
   std::string preconditioner = "none";
   /// zero; unconstrained, the solution without bounds, projected; nested, the solution on a mesh of twice the
@@ -39,7 +39,7 @@ std::vector<QpCase> qpCases(bool quick);
 /// \throws InputError if the problem is unknown. Collective.
 QpResult solveCase(const QpCase& row, const RCP<const Comm>& comm);
 
-/// The method in one word, for the table: "projected_cg", "published" (fixed step, chopped gradient), …
+/// The method in one word, for the table: "projected_cg", "fixed_step", …
 std::string methodName(const QpCase& row);
 
 } // namespace epafi::drivers

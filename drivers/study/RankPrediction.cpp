@@ -60,7 +60,7 @@ Row timeCrosspoints(const std::string& problem, const model::Decomposition& cut,
   const double begin = Teuchos::Time::wallTime();
   const fetidp::CoarseProblem coarse(cut.problem, inverse.groups(), crosspoints, solvers);
   const double setup = Teuchos::Time::wallTime() - begin;
-  std::vector<AccurateSum> z(static_cast<std::size_t>(coarse.size()), AccurateSum(1.0));
+  std::vector<AccurateSum> z(coarse.size(), AccurateSum(1.0));
   Eigen::MatrixXd x(coarse.size(), 1);
   return coarseRow(problem, "crosspoints", cut, coarse.size(), setup,
                    medianSeconds(alone, secondsOfSolves, [&] { coarse.solve(z, x); }),

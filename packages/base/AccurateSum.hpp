@@ -51,7 +51,7 @@ public:
   /// The rank's own contributions to the sums before `reduce`, the sums over all ranks after it.
   [[nodiscard]] std::span<AccurateSum> sums() { return {values_.data(), values_.size() - 1}; }
   /// The sums after `reduce`, rounded.
-  [[nodiscard]] double sum(int i) const { return values_[static_cast<std::size_t>(i)].value(); }
+  [[nodiscard]] double sum(int i) const { return values_[i].value(); }
   void setMinimum(double candidate) { values_.back() = AccurateSum(candidate); } ///< this rank's
   [[nodiscard]] double minimum() const { return values_.back().value(); }        ///< of all ranks
 

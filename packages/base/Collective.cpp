@@ -40,7 +40,7 @@ int lowestRank(const Comm& comm, bool holds) {
 std::string broadcastText(const Comm& comm, int root, std::string text) {
   int size = static_cast<int>(text.size());
   Teuchos::broadcast(comm, root, 1, &size);
-  text.resize(static_cast<std::size_t>(size));
+  text.resize(size);
   if (size > 0)
     Teuchos::broadcast(comm, root, size, text.data());
   return text;
@@ -97,7 +97,7 @@ bool holdsAnywhere(const Comm& comm, bool here) {
 namespace detail {
 
 std::vector<int> countsOfRanks(const Comm& comm, std::size_t mine) {
-  std::vector<int> counts(static_cast<std::size_t>(comm.getSize()));
+  std::vector<int> counts(comm.getSize());
   const int count = static_cast<int>(mine);
   Teuchos::gatherAll(comm, 1, &count, comm.getSize(), counts.data());
   return counts;
@@ -105,7 +105,7 @@ std::vector<int> countsOfRanks(const Comm& comm, std::size_t mine) {
 
 void gather(const Comm& comm, const void* mine, std::span<const int> counts, std::size_t size, bool isForAll,
             void* all) {
-  const int count = counts[static_cast<std::size_t>(comm.getRank())];
+  const int count = counts[comm.getRank()];
   if (comm.getSize() == 1) {
     if (count > 0)
       std::memcpy(all, mine, static_cast<std::size_t>(count) * size);

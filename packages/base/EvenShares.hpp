@@ -16,12 +16,10 @@ public:
   /// \param number  N, the same on every rank. Not collective.
   EvenShares(RCP<const Comm> comm, int number);
 
-  [[nodiscard]] int first() const; ///< this rank's first row
-  [[nodiscard]] int size() const;  ///< and how many it has
-  [[nodiscard]] int first(int rank) const {
-    return offsets_[static_cast<std::size_t>(rank)];
-  }                                                                                          ///< of any rank
-  [[nodiscard]] int size(int rank) const { return counts_[static_cast<std::size_t>(rank)]; } ///< likewise
+  [[nodiscard]] int first() const;                                   ///< this rank's first row
+  [[nodiscard]] int size() const;                                    ///< and how many it has
+  [[nodiscard]] int first(int rank) const { return offsets_[rank]; } ///< of any rank
+  [[nodiscard]] int size(int rank) const { return counts_[rank]; }   ///< likewise
   /// Puts each rank's numbers into `all`, N of them, on every rank; one message, and nothing is allocated.
   /// Collective.
   void gather(std::span<const double> mine, std::span<double> all) const;

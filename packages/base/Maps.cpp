@@ -31,8 +31,7 @@ std::vector<int> ownersOf(const Map& map, std::span<const GlobalOrdinal> indices
   map.getRemoteIndexList(Teuchos::arrayViewFromVector(numbers), Teuchos::arrayViewFromVector(owners));
   ranks.reserve(indices.size());
   for (const GlobalOrdinal index : indices)
-    ranks.push_back(owners[static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), index) -
-                                                    numbers.begin())]);
+    ranks.push_back(owners[std::lower_bound(numbers.begin(), numbers.end(), index) - numbers.begin()]);
   return ranks;
 }
 

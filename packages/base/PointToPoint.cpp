@@ -43,13 +43,13 @@ void exchange(const Comm& comm, std::span<const Message> outgoing, const std::se
 } // namespace detail
 
 std::set<int> sendersTo(const Comm& comm, const std::set<int>& receivers) {
-  std::vector<char> isSentTo(static_cast<std::size_t>(comm.getSize()), 0), sends(isSentTo);
+  std::vector<char> isSentTo(comm.getSize(), 0), sends(isSentTo);
   for (const int rank : receivers)
-    isSentTo[static_cast<std::size_t>(rank)] = 1;
+    isSentTo[rank] = 1;
   MPI_Alltoall(isSentTo.data(), 1, MPI_CHAR, sends.data(), 1, MPI_CHAR, rawCommunicator(comm));
   std::set<int> senders;
   for (int rank = 0; rank < comm.getSize(); ++rank)
-    if (sends[static_cast<std::size_t>(rank)] != 0)
+    if (sends[rank] != 0)
       senders.insert(rank);
   return senders;
 }

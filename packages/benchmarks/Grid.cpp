@@ -48,8 +48,8 @@ FivePointSystem assembleFivePoint(const Grid& grid, const RCP<const Comm>& comm,
     const auto addNeighbour = [&](int column, int line, double weight) {
       if (weight == 0 || column < 0 || column >= grid.nx || line < 0 || line >= grid.ny)
         return;
-      columns.at(static_cast<std::size_t>(count)) = column + static_cast<GlobalOrdinal>(grid.nx) * line;
-      values.at(static_cast<std::size_t>(count)) = weight;
+      columns.at(count) = column + static_cast<GlobalOrdinal>(grid.nx) * line;
+      values.at(count) = weight;
       ++count;
     };
     addNeighbour(i, j - 1, s.south);

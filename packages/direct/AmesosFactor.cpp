@@ -20,11 +20,11 @@ using AmesosSolver = Amesos2::Solver<CrsMatrix, MultiVector>;
 /// The matrix as Amesos2 wants it: a Tpetra matrix on a communicator of this rank alone. By symmetry the
 /// columns of A are its rows.
 RCP<CrsMatrix> toTpetra(const SparseMatrix& matrix) {
-  const auto n = static_cast<std::size_t>(matrix.rows());
+  const std::size_t n = matrix.rows();
   const RCP<const Comm> self = rcp(new Teuchos::SerialComm<int>());
   const RCP<const Map> map = rcp(new Map(n, 0, self, Tpetra::LocallyReplicated));
 
-  const auto nonZeros = static_cast<std::size_t>(matrix.nonZeros());
+  const std::size_t nonZeros = matrix.nonZeros();
   Teuchos::ArrayRCP<std::size_t> rowStart(n + 1);
   Teuchos::ArrayRCP<LocalOrdinal> columns(static_cast<Teuchos::ArrayRCP<LocalOrdinal>::size_type>(nonZeros));
   Teuchos::ArrayRCP<double> values(static_cast<Teuchos::ArrayRCP<double>::size_type>(nonZeros));
@@ -50,7 +50,7 @@ public:
   [[nodiscard]] int size() const override { return size_; }
 
   void solve(const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> x) override {
-    const auto numColumns = static_cast<std::size_t>(b.cols());
+    const std::size_t numColumns = b.cols();
     if (numColumns == 0)
       return;
     if (b_.getNumVectors() != numColumns) {
@@ -58,10 +58,10 @@ public:
       b_ = MultiVector(matrix_->getRangeMap(), numColumns);
     }
     for (std::size_t j = 0; j < numColumns; ++j)
-      std::copy_n(b.col(static_cast<Eigen::Index>(j)).data(), size_, b_.getDataNonConst(j).begin());
+      std::copy_n(b.col(j).data(), size_, b_.getDataNonConst(j).begin());
     solver_->solve(&x_, &b_);
     for (std::size_t j = 0; j < numColumns; ++j)
-      std::copy_n(x_.getData(j).begin(), size_, x.col(static_cast<Eigen::Index>(j)).data());
+      std::copy_n(x_.getData(j).begin(), size_, x.col(j).data());
   }
 
   Eigen::MatrixXd schurComplement() override { return inverseOfSpd(inverseOfKept()); }
@@ -69,13 +69,13 @@ public:
   /// Amesos2 shows no factors: a solve for each kept unknown, some at once.
   Eigen::MatrixXd inverseOfKept() override {
     constexpr Eigen::Index width = 32;
-    const auto k = static_cast<Eigen::Index>(kept_.size());
+    const Eigen::Index k = kept_.size();
     Eigen::MatrixXd result(k, k);
     for (Eigen::Index first = 0; first < k; first += width) {
       const Eigen::Index columns = std::min(width, k - first);
       Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size_, columns), image(size_, columns);
       for (Eigen::Index j = 0; j < columns; ++j)
-        unit(kept_[static_cast<std::size_t>(first + j)], j) = 1;
+        unit(kept_[first + j], j) = 1;
       solve(unit, image);
       result.middleCols(first, columns) = image(kept_, allOf);
     }

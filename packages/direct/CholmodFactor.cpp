@@ -120,10 +120,10 @@ public:
   CholmodPattern(const SparseMatrix& matrix, std::vector<int> kept)
       : start_(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.rows() + 1),
         rows_(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()), kept_(std::move(kept)) {
-    std::vector<int> group(static_cast<std::size_t>(matrix.rows()), 0), order(group.size());
+    std::vector<int> group(matrix.rows(), 0), order(group.size());
     if (kept_.size() < group.size()) // CAMD takes groups below n only
       for (const int unknown : kept_)
-        group[static_cast<std::size_t>(unknown)] = 1;
+        group[unknown] = 1;
     cholmod_sparse view = viewOf(matrix);
     if (cholmod_camd(&view, nullptr, 0, group.data(), order.data(), common()) == 0)
       throw Error("a matrix of " + std::to_string(matrix.rows()) +
@@ -136,10 +136,10 @@ public:
     // Position of each kept unknown, in the order given, within the last block.
     std::vector<int> position(group.size(), 0);
     for (std::size_t i = 0; i < order.size(); ++i)
-      position[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+      position[order[i]] = static_cast<int>(i);
     const int first = static_cast<int>(order.size() - kept_.size());
     for (const int unknown : kept_)
-      place_.push_back(position[static_cast<std::size_t>(unknown)] - first);
+      place_.push_back(position[unknown] - first);
   }
 
   [[nodiscard]] bool fits(const SparseMatrix& matrix, const std::vector<int>& kept) const {
@@ -172,7 +172,7 @@ public:
     if (factor_->minor < factor_->n)
       throw Error("the matrix is not positive definite");
     lastBlock_.emplace(*factor_, static_cast<int>(pattern_->place().size()));
-    kept_.resize(static_cast<Eigen::Index>(pattern_->place().size()));
+    kept_.resize(pattern_->place().size());
   }
   [[nodiscard]] int size() const override { return static_cast<int>(factor_->n); }
 

@@ -101,8 +101,8 @@ SymmetricEigen eigenOf(Eigen::MatrixXd matrix) {
     if (pass == 0) {
       numWork = static_cast<int>(work[0]);
       numIntegers = integers[0];
-      work.resize(static_cast<std::size_t>(numWork));
-      integers.resize(static_cast<std::size_t>(numIntegers));
+      work.resize(numWork);
+      integers.resize(numIntegers);
     }
   }
   return eigen;

@@ -31,7 +31,7 @@ LastBlock::LastBlock(const cholmod_factor_struct& factor, int k) : offset_(stati
   int largest = 0;
   for (const Panel& panel : panels_)
     largest = std::max(largest, panel.numBelow);
-  below_.resize(static_cast<std::size_t>(largest));
+  below_.resize(largest);
 }
 
 /// Columns before the k are left out.
@@ -88,7 +88,7 @@ void LastBlock::addBelow(const Panel& panel, double factor, double* x) const {
   Teuchos::BLAS<int, double>().GEMV(Teuchos::NO_TRANS, panel.numBelow, panel.width, factor, values,
                                     panel.stride, own, 1, 0.0, below_.data(), 1);
   for (int i = 0; i < panel.numBelow; ++i)
-    x[panel.below[i] - offset_] += below_[static_cast<std::size_t>(i)];
+    x[panel.below[i] - offset_] += below_[i];
 }
 
 /// x_own += factor · Vᵀ x_below.
@@ -105,7 +105,7 @@ void LastBlock::addFromBelow(const Panel& panel, double factor, double* x) const
   if (panel.numBelow == 0)
     return;
   for (int i = 0; i < panel.numBelow; ++i)
-    below_[static_cast<std::size_t>(i)] = x[panel.below[i] - offset_];
+    below_[i] = x[panel.below[i] - offset_];
   Teuchos::BLAS<int, double>().GEMV(Teuchos::TRANS, panel.numBelow, panel.width, factor, values, panel.stride,
                                     below_.data(), 1, 1.0, own, 1);
 }
@@ -135,7 +135,7 @@ void LastBlock::multiply(double* x) const {
 std::size_t LastBlock::numEntries() const {
   std::size_t entries = 0;
   for (const Panel& panel : panels_) {
-    const auto width = static_cast<std::size_t>(panel.width);
+    const std::size_t width = panel.width;
     entries += width * (width + 1) / 2 + width * static_cast<std::size_t>(panel.numBelow);
   }
   return entries;

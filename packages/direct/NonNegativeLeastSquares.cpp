@@ -21,16 +21,15 @@ Eigen::VectorXd solveOn(const std::vector<Eigen::Index>& passive, const Eigen::M
 /// The passive set that a step of Lawson and Hanson ends with.
 class PassiveSet {
 public:
-  PassiveSet(const Eigen::MatrixXd& a, const Eigen::VectorXd& b)
-      : a_(a), b_(b), isIn_(static_cast<std::size_t>(a.cols()), 0) {}
+  PassiveSet(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) : a_(a), b_(b), isIn_(a.cols(), 0) {}
 
-  [[nodiscard]] bool contains(Eigen::Index j) const { return isIn_[static_cast<std::size_t>(j)] != 0; }
+  [[nodiscard]] bool contains(Eigen::Index j) const { return isIn_[j] != 0; }
 
   /// Lets a column in, and goes from x as far as feasible towards the least squares solution, letting go of
   /// what becomes zero on the way. Returns whether the column is still in.
   bool enter(Eigen::Index entering, Eigen::VectorXd& x) {
     columns_.push_back(entering);
-    isIn_[static_cast<std::size_t>(entering)] = 1;
+    isIn_[entering] = 1;
     for (;;) {
       const Eigen::VectorXd candidate = solveOn(columns_, a_, b_);
       double length = 1.0;
@@ -50,7 +49,7 @@ public:
       x += length * (candidate - x);
       x[blocking] = 0;
       columns_.erase(std::find(columns_.begin(), columns_.end(), blocking));
-      isIn_[static_cast<std::size_t>(blocking)] = 0;
+      isIn_[blocking] = 0;
     }
   }
 
@@ -67,14 +66,14 @@ NonNegativeSolution nonNegativeLeastSquares(const Eigen::MatrixXd& a, const Eige
   NonNegativeSolution solution{Eigen::VectorXd::Zero(a.cols()), b};
   const double tolerance = 1e-14 * std::max(a.norm(), 1e-300) * b.norm();
   PassiveSet passive(a, b);
-  std::vector<char> isBarred(static_cast<std::size_t>(a.cols()),
+  std::vector<char> isBarred(a.cols(),
                              0); // left at once: dependent, up to round-off
   for (Eigen::Index step = 0; step < 3 * a.cols() + 10; ++step) {
     const Eigen::VectorXd gradient = a.transpose() * solution.residual;
     Eigen::Index entering = -1;
     double steepest = tolerance;
     for (Eigen::Index j = 0; j < a.cols(); ++j)
-      if (gradient[j] > steepest && !passive.contains(j) && isBarred[static_cast<std::size_t>(j)] == 0) {
+      if (gradient[j] > steepest && !passive.contains(j) && isBarred[j] == 0) {
         steepest = gradient[j];
         entering = j;
       }
@@ -86,7 +85,7 @@ NonNegativeSolution nonNegativeLeastSquares(const Eigen::MatrixXd& a, const Eige
     if (solution.residual.squaredNorm() < before * (1 - 1e-14))
       std::fill(isBarred.begin(), isBarred.end(), 0);
     if (!isIn)
-      isBarred[static_cast<std::size_t>(entering)] = 1;
+      isBarred[entering] = 1;
   }
   return solution;
 }

@@ -43,7 +43,7 @@ void multiply(SymmetricBlock::Use use, int size, int numColumns, const Scalar* a
     multiplyColumns(x + column * size, y + column * size);
   if (column < numColumns) {
     const std::ptrdiff_t numRest = (numColumns - column) * size, numPadded = std::ptrdiff_t{width} * size;
-    padded.resize(static_cast<std::size_t>(2 * numPadded));
+    padded.resize(2 * numPadded);
     std::fill(std::copy_n(x + column * size, numRest, padded.begin()), padded.begin() + numPadded, zero);
     multiplyColumns(padded.data(), padded.data() + numPadded);
     std::copy_n(padded.begin() + numPadded, numRest, y + column * size);
@@ -66,7 +66,7 @@ void multiplyPacked(int size, const float* a, const float* x, float* y) {
 template <class Scalar>
 std::vector<Scalar> stored(const Eigen::MatrixXd& matrix, bool isPacked) {
   std::vector<Scalar> values;
-  values.reserve(static_cast<std::size_t>(isPacked ? (matrix.size() + matrix.rows()) / 2 : matrix.size()));
+  values.reserve(isPacked ? (matrix.size() + matrix.rows()) / 2 : matrix.size());
   for (Eigen::Index column = 0; column < matrix.cols(); ++column)
     for (Eigen::Index row = isPacked ? column : 0; row < matrix.rows(); ++row)
       values.push_back(static_cast<Scalar>(matrix(row, column)));
@@ -124,7 +124,7 @@ void SymmetricBlock::apply(const Eigen::MatrixXd& x, Eigen::MatrixXd& y) const {
     applyStored(values_, numColumns, x.data(), y.data(), padded_);
     return;
   }
-  const auto numEntries = static_cast<std::size_t>(x.size());
+  const std::size_t numEntries = x.size();
   singleX_.resize(std::max(singleX_.size(), numEntries));
   singleY_.resize(singleX_.size());
   std::transform(x.data(), x.data() + numEntries, singleX_.begin(),

@@ -16,12 +16,14 @@ namespace epafi::qp {
 /// where the rows allow that. Whether the error is small enough shows there.
 inline constexpr double worthRestoring = 1e-2;
 
+/// η as a multiple of the gradient's reference.
+inline constexpr double forcing = 0.1;
+
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
 class AdaptiveRule final : public StoppingRule {
 public:
-  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance,
-               double forcing)
-      : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance), forcing_(forcing),
+  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance)
+      : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance),
         residual_(equality_->numEntries()), weighed_(residual_.size()) {
     if (tolerances.error != nullptr)
       watch_.emplace(*tolerances.error);
@@ -47,7 +49,9 @@ public:
     // end.
     const bool isLong = ++steps_ > 1000;
     const double enough = isLong ? 0.1 * tolerances_.gradient * tolerances_.gradientReference : 0.0;
-    return isFinal_ || projectedGradient <= std::max(std::min(balance_ * residualNorm_, forcing_), enough);
+    return isFinal_ ||
+           projectedGradient <=
+               std::max(std::min(balance_ * residualNorm_, forcing * tolerances_.gradientReference), enough);
   }
 
   void describe(StepRecord& record) const override {
@@ -71,7 +75,7 @@ public:
 private:
   RCP<const EqualityConstraint> equality_;
   SmalbeTolerances tolerances_;
-  double balance_, forcing_;
+  double balance_;
   std::vector<double> residual_, weighed_;
   double residualNorm_ = 0;
   std::optional<ErrorWatch> watch_;

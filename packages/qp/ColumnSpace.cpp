@@ -32,7 +32,7 @@ void ColumnSpace::add(const Operator& a, const MultiVector& columns) {
 }
 
 bool ColumnSpace::factorize() {
-  const auto k = static_cast<std::size_t>(size());
+  const std::size_t k = size();
   constexpr std::size_t batch = 32; // columns in a message
   factor_.resize(k * k);
   for (std::size_t first = 0; first < k; first += batch) {
@@ -65,7 +65,7 @@ bool ColumnSpace::factorize() {
 
 /// c = (UᵀAU)⁻¹ times the sums over the ranks.
 void ColumnSpace::solve(Coefficients& c) const {
-  const auto k = static_cast<std::size_t>(size());
+  const std::size_t k = size();
   sumOverRanks(*map_->getComm(), sums_);
   c.resize(sums_.size());
   for (std::size_t i = 0; i < c.size(); ++i)
@@ -79,7 +79,7 @@ void ColumnSpace::solve(Coefficients& c) const {
 }
 
 void ColumnSpace::coefficients(const MultiVector& d, Coefficients& c) const {
-  const auto k = static_cast<std::size_t>(size());
+  const std::size_t k = size();
   sums_.assign(k * d.getNumVectors(), AccurateSum());
   for (std::size_t j = 0; j < d.getNumVectors(); ++j) {
     const std::span<const double> values = localColumn(d, j);
@@ -91,7 +91,7 @@ void ColumnSpace::coefficients(const MultiVector& d, Coefficients& c) const {
 }
 
 void ColumnSpace::imageCoefficients(const MultiVector& x, Coefficients& c) const {
-  const auto k = static_cast<std::size_t>(size());
+  const std::size_t k = size();
   sums_.assign(k * x.getNumVectors(), AccurateSum());
   for (std::size_t j = 0; j < x.getNumVectors(); ++j) {
     const std::span<const double> values = localColumn(x, j);
@@ -105,7 +105,7 @@ void ColumnSpace::imageCoefficients(const MultiVector& x, Coefficients& c) const
 }
 
 void ColumnSpace::addColumns(const Coefficients& c, MultiVector& x) const {
-  const auto k = static_cast<std::size_t>(size());
+  const std::size_t k = size();
   for (std::size_t j = 0; j < x.getNumVectors(); ++j) {
     const std::span<double> values = localColumnNonConst(x, j);
     for (std::size_t i = 0; i < k; ++i)
@@ -116,7 +116,7 @@ void ColumnSpace::addColumns(const Coefficients& c, MultiVector& x) const {
 
 /// Entry by entry in the same order whatever the number of rows, so that ranks do not matter.
 void ColumnSpace::subtractImage(const Coefficients& c, MultiVector& y) const {
-  const auto k = static_cast<std::size_t>(size());
+  const std::size_t k = size();
   for (std::size_t j = 0; j < y.getNumVectors(); ++j) {
     const std::span<double> values = localColumnNonConst(y, j);
     const double* const factors = c.data() + j * k;

@@ -17,7 +17,7 @@ namespace {
 /// A⁺ of a symmetric positive semidefinite A, k × k, both triangles stored.
 std::vector<double> pseudoInverse(std::vector<double> a, int k) {
   constexpr double roundOff = 1e-12; // of the largest eigenvalue
-  const auto size = static_cast<std::size_t>(k);
+  const std::size_t size = k;
   std::vector<double> values(size), work(3 * size), result(size * size, 0.0);
   int info = 0;
   Teuchos::LAPACK<int, double>().SYEV('V', 'L', k, a.data(), k, values.data(), work.data(),

@@ -229,7 +229,7 @@ PreparedEquality prepareEquality(const RCP<const Operator>& b, const RCP<const V
   if (!c.is_null() && !c->getMap()->isSameAs(*b->getRangeMap()))
     throw InputError(
         "the right-hand side of the equality constraints is not on the range map of their matrix");
-  const auto m = static_cast<std::size_t>(b->getRangeMap()->getGlobalNumElements());
+  const std::size_t m = b->getRangeMap()->getGlobalNumElements();
   if (m == 0)
     return {};
   return m <= static_cast<std::size_t>(maxDenseRows) ? orthonormal(b, c, m) : scaled(b, c, norm);

@@ -74,7 +74,7 @@ Status Mprgp::run(StoppingRule& rule, Observer* observer) {
     const StepSizes sizes = stepSizes(); // pᵀAp, gᵀp, α_f
     if (const auto status = endingOf(sizes))
       return *status;
-    if (fits(sizes, intent)) { // α_cg = gᵀp/pᵀAp ≤ α_f
+    if (fits(sizes)) { // α_cg = gᵀp/pᵀAp ≤ α_f
       // so far from leaving the face that the next iterate will hardly do so either
       const bool staysInFace = intent == StepKind::conjugateGradient && isProportional(0.1);
       step(sizes, intent); // x −= α_cg p, g −= α_cg Ap
@@ -139,24 +139,20 @@ std::optional<Status> Mprgp::endingOf(const StepSizes& sizes) const {
   return std::nullopt;
 }
 
-/// Whether the step to the minimum along p stays in the set. Along the chopped gradient alone a step is cut
-/// at the boundary instead (Dostál's algorithm 5.8 does without the cut, for bounds on one side).
-bool Mprgp::fits(const StepSizes& sizes, StepKind intent) const {
-  return sizes.slope <= sizes.feasible * sizes.curvature ||
-         (intent == StepKind::proportioning && parameters_.release == Release::choppedGradient);
+/// Whether the step to the minimum along p stays in the set.
+bool Mprgp::fits(const StepSizes& sizes) const {
+  return sizes.slope <= sizes.feasible * sizes.curvature;
 }
 
 /// p for the step that is meant: in the face z = φ, or M φ on the free set; out of it z = φ + β, or M(φ + β)
-/// where the set lets it move, or β alone.
+/// where the set lets it move.
 std::optional<Status> Mprgp::setDirection(StepKind intent) {
   const bool isInFace = intent == StepKind::conjugateGradient;
   const double negligible = negligibleShare * now_.projectedGradient;
   const auto& [x, g, f, isFresh] = iterate_;
-  if (!isInFace && parameters_.release == Release::choppedGradient)
-    set_->choppedGradient(x, g, negligible, work_.p);
-  else if (preconditioner_)
+  if (preconditioner_)
     return setPreconditionedDirection(isInFace, negligible);
-  else if (isInFace)
+  if (isInFace)
     set_->subtractFromFreeGradient(x, g, conjugation(now_.freeTimesImage), work_.p);
   else
     set_->projectedGradient(x, g, negligible, work_.p);
@@ -201,9 +197,7 @@ void Mprgp::step(const StepSizes& sizes, StepKind kind) {
   const bool hasCurvature = sizes.curvature > objective_.zeroCurvature(sizes.squared);
   const double exact = hasCurvature ? sizes.slope / sizes.curvature : sizes.feasible;
   move(std::min(exact, sizes.feasible), sizes);
-  lastCurvature_.reset();
-  if (isConjugateGradient || (parameters_.release == Release::projectedGradient && exact <= sizes.feasible))
-    lastCurvature_ = sizes.curvature;
+  lastCurvature_ = sizes.curvature;
 }
 
 /// x −= αp, g −= αAp, f follows: f(x − αp) = f − α gᵀp + ½α² pᵀAp. Streams x, g, p, Ap, l, u.

@@ -118,7 +118,7 @@ private:
   std::optional<Status> ending(StoppingRule& rule, ProgressWatch& progress, int& refreshes);
   [[nodiscard]] bool isProportional(double margin) const;
   [[nodiscard]] std::optional<Status> endingOf(const StepSizes& sizes) const;
-  [[nodiscard]] bool fits(const StepSizes& sizes, StepKind intent) const;
+  [[nodiscard]] bool fits(const StepSizes& sizes) const;
   // Its steps.
   std::optional<Status> setDirection(StepKind intent);
   std::optional<Status> setPreconditionedDirection(bool isInFace, double negligible);

@@ -9,7 +9,6 @@ namespace epafi::qp {
 namespace {
 
 const std::vector<std::string> expansions = {"auto", "projected CG", "fixed step", "active set"};
-const std::vector<std::string> releases = {"projected gradient", "chopped gradient"};
 
 } // namespace
 
@@ -37,10 +36,6 @@ Teuchos::ParameterList MprgpParameters::validParameters() {
   addReal(list, "Expansion Step", defaults.expansionStep,
           "Fixed step length of expansions as a multiple of 1/‖A‖; convergence is proved below 2.", 0.0, 2.0,
           true, true);
-  addChoice(list, "Release", releases.front(),
-            "Direction that leaves a face which is no longer proportional: the projected gradient "
-            "(preconditioned if there is a preconditioner), or the chopped gradient alone.",
-            releases);
   addInteger(list, "Maximum Multiplications", defaults.maxMultiplications,
              "Products with the operator at most, over all outer iterations together; limits CG too. Looked "
              "at before each step, which takes one to three.",
@@ -56,7 +51,6 @@ MprgpParameters MprgpParameters::from(const Teuchos::ParameterList& list) {
   parameters.expansion = enumeratorFrom<Expansion>(list, "Expansion", expansions);
   parameters.sufficientShare = list.get<double>("Sufficient Share");
   parameters.expansionStep = list.get<double>("Expansion Step");
-  parameters.release = enumeratorFrom<Release>(list, "Release", releases);
   parameters.maxMultiplications = list.get<int>("Maximum Multiplications");
   parameters.timeLimit = list.get<double>("Time Limit");
   return parameters;

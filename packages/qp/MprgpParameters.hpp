@@ -16,12 +16,6 @@ enum class Expansion {
   activeSet
 };
 
-/// The direction that leaves a face which is no longer proportional.
-enum class Release {
-  projectedGradient, ///< the projected gradient φ + β, preconditioned if there is a preconditioner
-  choppedGradient    ///< β alone (Dostál, Schöberl 2005)
-};
-
 struct MprgpParameters {
   double proportioningConstant = 0; ///< Γ > 0; 0: not chosen, which is 1 but where the caller knows better
   Expansion expansion = Expansion::automatic;
@@ -29,8 +23,7 @@ struct MprgpParameters {
   /// to the share s has 1 − (1 − s)² of the decrease); 1: never; 0: not chosen, which is 1 but where the
   /// caller knows better.
   double sufficientShare = 0;
-  double expansionStep = 1.9; ///< ᾱ‖A‖, in (0, 2)
-  Release release = Release::projectedGradient;
+  double expansionStep = 1.9;     ///< ᾱ‖A‖, in (0, 2)
   int maxMultiplications = 10000; ///< products with A at most
   double timeLimit = 0;           ///< seconds; 0 for none
 

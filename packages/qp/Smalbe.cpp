@@ -119,8 +119,7 @@ OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<
       multiplier_(multiplier),
       hessian_(rcp(new PenalizedOperator(problem.hessian, problem.hessian->getDomainMap(), problem.equality,
                                          penalty_))),
-      rule_(problem.equality, tolerances, parameters.balance * problem.operatorNorm / equality_.norm(),
-            parameters.forcing * tolerances.gradientReference),
+      rule_(problem.equality, tolerances, parameters.balance * problem.operatorNorm / equality_.norm()),
       inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
       work_(problem.hessian->getDomainMap()), creep_(equality_) {
   multiplier_.assign(equality_.numEntries(), 0.0);

@@ -32,7 +32,6 @@ struct SmalbeParameters {
   double balance = 0.3;          ///< M‖B‖ at the start, as a multiple of ‖A‖
   double balanceReduction = 0.5; ///< factor on M (SMALBE-M)
   double penaltyGrowth = 10;     ///< factor on ρ (SMALBE-ρ)
-  double forcing = 0.1;          ///< η as a multiple of the gradient's reference
   int maxOuterIterations = 200;
 
   /// All of them with defaults, ranges and meaning.

@@ -27,7 +27,6 @@ Teuchos::ParameterList SmalbeParameters::validParameters() {
           "Factor on M, with Update 'balance' or 'both'.", 0.0, 1.0, true, true);
   addReal(list, "Penalty Growth", defaults.penaltyGrowth, "Factor on ρ, with Update 'penalty' or 'both'.",
           1.0, 1e6, true);
-  addReal(list, "Forcing", defaults.forcing, "η as a multiple of the gradient's reference.", 0.0, 1e12, true);
   addInteger(list, "Maximum Outer Iterations", defaults.maxOuterIterations,
              "Updates of the multiplier of the equality constraints at most.", 1);
   return list;
@@ -40,7 +39,6 @@ SmalbeParameters SmalbeParameters::from(const Teuchos::ParameterList& list) {
   parameters.balance = list.get<double>("Balance");
   parameters.balanceReduction = list.get<double>("Balance Reduction");
   parameters.penaltyGrowth = list.get<double>("Penalty Growth");
-  parameters.forcing = list.get<double>("Forcing");
   parameters.maxOuterIterations = list.get<int>("Maximum Outer Iterations");
   return parameters;
 }

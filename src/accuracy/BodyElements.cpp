@@ -57,8 +57,8 @@ std::vector<std::size_t> BodyElements::inRegion(const SubdomainElements& element
 
 Eigen::MatrixXd BodyElements::gather(const SubdomainElements& elements, std::span<const std::size_t> which,
                                      const Eigen::VectorXd& displacement) const {
-  const auto components = static_cast<Eigen::Index>(scene::componentsOf(physics_));
-  const auto perElement = static_cast<Eigen::Index>(elements.numbering->nodesPerElement());
+  const Eigen::Index components = scene::componentsOf(physics_);
+  const Eigen::Index perElement = elements.numbering->nodesPerElement();
   Eigen::MatrixXd gathered(perElement * components, static_cast<Eigen::Index>(which.size()));
   double* value = gathered.data();
   for (const std::size_t element : which)

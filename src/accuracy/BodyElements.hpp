@@ -55,9 +55,7 @@ public:
   [[nodiscard]] fem::CellType cellType() const { return layout_.mesh->cellType(); }
   [[nodiscard]] const fem::Mesh& mesh() const { return *layout_.mesh; }
   /// What a region is made of.
-  [[nodiscard]] const scene::Material& materialOf(GlobalOrdinal region) const {
-    return materials_[static_cast<std::size_t>(region)];
-  }
+  [[nodiscard]] const scene::Material& materialOf(GlobalOrdinal region) const { return materials_[region]; }
   [[nodiscard]] GlobalOrdinal numRegions() const { return static_cast<GlobalOrdinal>(materials_.size()); }
 
   /// Precondition: the subdomain is one of this body's.
@@ -65,7 +63,7 @@ public:
 
   /// Elements of a structured mesh, region by region; null of another.
   [[nodiscard]] const fem::CongruentFluxes* congruentFluxes(GlobalOrdinal region) const {
-    return congruent_.empty() ? nullptr : &congruent_[static_cast<std::size_t>(region)];
+    return congruent_.empty() ? nullptr : &congruent_[region];
   }
   /// Area or volume of each element of a structured mesh.
   [[nodiscard]] double measure() const { return fem::measureOf(cellType(), shape_); }
@@ -80,7 +78,7 @@ public:
   template <class Action>
   void visit(const decomposition::Subdomain& subdomain, const SubdomainElements& elements,
              const Eigen::VectorXd& displacement, Points where, Action&& action) const {
-    const auto components = static_cast<std::size_t>(scene::componentsOf(physics_));
+    const std::size_t components = scene::componentsOf(physics_);
     const std::size_t perElement = elements.numbering->nodesPerElement();
     const bool looksUp = shape_.empty() || where == Points::inPlace;
     std::vector<Point> points(shape_);
@@ -89,11 +87,11 @@ public:
     for (std::size_t e = 0; e < elements.elements.size(); ++e) {
       const std::span<const int> nodes = elements.numbering->elementNodes(e);
       for (std::size_t i = 0; i < perElement; ++i) {
-        const auto node = static_cast<std::size_t>(nodes[i]);
+        const std::size_t node = nodes[i];
         if (looksUp)
           points[i] = layout_.mesh->point(subdomain.nodes[node]);
         for (std::size_t c = 0; c < components; ++c)
-          values[i * components + c] = displacement[static_cast<Eigen::Index>(node * components + c)];
+          values[i * components + c] = displacement[node * components + c];
       }
       action(ElementView{e, elements.regionOf(e), nodes, points, values});
     }

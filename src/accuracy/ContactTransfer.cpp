@@ -17,7 +17,7 @@ using model::Decomposition;
 
 /// Where the rows of a contact are.
 std::vector<Point> placesOf(const Decomposition& decomposition, const ContactLayout& contact) {
-  const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
+  const fem::Mesh& mesh = *decomposition.bodies[contact.firstBody].mesh;
   std::vector<Point> places;
   for (const GlobalOrdinal node : contact.firstNodes)
     places.push_back(mesh.point(node));
@@ -56,7 +56,7 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
       const LocalOrdinal local = map.getLocalElement(fine.firstRow + static_cast<GlobalOrdinal>(row));
       if (local < 0 || fine.portion(row) == 0)
         continue;
-      const double nearest = pressure[static_cast<std::size_t>(tree.nearest(places[row]))];
+      const double nearest = pressure[tree.nearest(places[row])];
       values[local] = std::max(0.0, nearest) * fine.areas[row];
     }
   }

@@ -22,8 +22,7 @@ Vector3d at(const fem::Mesh& mesh, GlobalOrdinal node) {
 
 std::vector<Vector3d> cornersOf(const fem::Mesh& mesh, const fem::Surface& surface, std::size_t facet) {
   std::vector<Vector3d> corners;
-  for (const GlobalOrdinal node :
-       surface.facet(facet).first(static_cast<std::size_t>(numCornersOf(surface.facetType))))
+  for (const GlobalOrdinal node : surface.facet(facet).first(numCornersOf(surface.facetType)))
     corners.push_back(at(mesh, node));
   return corners;
 }
@@ -64,7 +63,7 @@ std::string inWords(double value) {
 double sagOf(const model::Decomposition& decomposition, int body, const std::string& surface) {
   if (body < 0)
     return 0;
-  const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(body)].mesh;
+  const fem::Mesh& mesh = *decomposition.bodies[body].mesh;
   if (mesh.structured() != nullptr) // flat
     return 0;
   return facetSag(mesh, mesh.surface(surface));
@@ -84,7 +83,7 @@ bool locks(const scene::Body& body) {
 double facetSag(const fem::Mesh& mesh, const fem::Surface& surface) {
   constexpr double edgeOfBody = 0.7; // rad
   std::map<std::array<GlobalOrdinal, 2>, std::vector<std::size_t>> joints;
-  const auto count = static_cast<std::size_t>(numCornersOf(surface.facetType));
+  const std::size_t count = numCornersOf(surface.facetType);
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     if (isCurved(mesh, surface, f))
       continue;
@@ -122,7 +121,7 @@ std::string doubts(const scene::Scene& scene, const model::Decomposition& decomp
   constexpr double ofItsSize = 0.25;
   for (std::size_t c = 0; c < decomposition.contacts.size(); ++c) {
     const contact::ContactLayout& layout = decomposition.contacts[c];
-    const scene::SurfaceContact& pair = scene.contacts[static_cast<std::size_t>(layout.number)];
+    const scene::SurfaceContact& pair = scene.contacts[layout.number];
     if (scene::isAlongEdges(scene, pair))
       continue;
     const double sag = std::max(sagOf(decomposition, pair.first, pair.firstSurface),

@@ -29,10 +29,9 @@ double estimateElements(const BodyElements& body, const decomposition::Subdomain
                         static_cast<Eigen::Index>(flux.elements.numbering->nodesPerElement()));
   double energy = 0;
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
-    const auto corners = static_cast<std::size_t>(nodal.cols());
+    const std::size_t corners = nodal.cols();
     for (std::size_t i = 0; i < corners; ++i)
-      nodal.col(static_cast<Eigen::Index>(i)) =
-          flux.values.col(slots[element.number * corners + i]).head(nodal.rows());
+      nodal.col(i) = flux.values.col(slots[element.number * corners + i]).head(nodal.rows());
     const fem::FluxEnergies energies =
         fem::fluxEnergies(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
                           element.displacements, nodal);
@@ -47,7 +46,7 @@ double estimateCongruentElements(const BodyElements& body, const SubdomainFlux& 
                                  const Eigen::VectorXd& displacement, std::vector<double>& estimates) {
   const std::span<const int> slots = flux.cornerSlots();
   const Eigen::Index numFluxes = flux.values.rows() - 1;
-  const auto perElement = static_cast<Eigen::Index>(flux.elements.numbering->nodesPerElement());
+  const Eigen::Index perElement = flux.elements.numbering->nodesPerElement();
   double energy = 0;
   for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
     const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
@@ -61,7 +60,7 @@ double estimateCongruentElements(const BodyElements& body, const SubdomainFlux& 
     const Eigen::MatrixXd u = body.gather(flux.elements, which, displacement);
     const Eigen::VectorXd differences = body.congruentFluxes(region)->differences(u, nodal);
     for (std::size_t k = 0; k < which.size(); ++k)
-      estimates[which[k]] = differences[static_cast<Eigen::Index>(k)];
+      estimates[which[k]] = differences[k];
     energy += body.congruentFluxes(region)->energy(u);
   }
   return energy;
@@ -76,7 +75,7 @@ ErrorEstimate ErrorEstimator::operator()(std::span<const Eigen::VectorXd> displa
   AccurateSum sums[2]; // η², ‖u_h‖²
   for (std::size_t s = 0; s < fluxes.size(); ++s) {
     const SubdomainFlux& flux = fluxes[s];
-    const BodyElements& body = bodies_[static_cast<std::size_t>(problem.subdomains[s].body)];
+    const BodyElements& body = bodies_[problem.subdomains[s].body];
     std::vector<double> estimates(flux.elements.elements.size());
     sums[1].add(body.congruentFluxes(0) != nullptr
                     ? estimateCongruentElements(body, flux, displacement[s], estimates)

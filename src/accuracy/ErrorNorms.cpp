@@ -19,7 +19,7 @@ ErrorNorms errorNorms(const scene::Scene& scene, const Decomposition& decomposit
     std::vector<BodyElements> bodies = elementsOfBodies(scene, decomposition);
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
       const decomposition::Subdomain& subdomain = problem.subdomains[s];
-      BodyElements& body = bodies[static_cast<std::size_t>(subdomain.body)];
+      BodyElements& body = bodies[subdomain.body];
       std::function<fem::FieldValue(const Point&)> here;
       if (exact)
         here = [&](const Point& point) { return exact(subdomain.body, point); };

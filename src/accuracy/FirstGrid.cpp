@@ -94,7 +94,7 @@ fem::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body) {
   for (Point& point : mesh.points)
     for (std::size_t d = 0; d < 3; ++d)
       if (!lines[d].empty())
-        point[d] = lines[d][static_cast<std::size_t>(std::lround(point[d]))];
+        point[d] = lines[d][std::lround(point[d])];
   return mesh;
 }
 

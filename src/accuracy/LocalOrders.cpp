@@ -13,7 +13,7 @@ std::vector<double> localOrders(const ElementErrors& last, std::span<const Local
   };
   std::vector<Heirs> heirs(last.squared.size());
   for (std::size_t e = 0; e < ancestors.size(); ++e) {
-    Heirs& own = heirs[static_cast<std::size_t>(ancestors[e])];
+    Heirs& own = heirs[ancestors[e]];
     own.squaredError += squaredErrors[e];
     own.measure += measures[e];
     ++own.number;
@@ -34,7 +34,7 @@ std::vector<double> localOrders(const ElementErrors& last, std::span<const Local
   }
   std::vector<double> result;
   for (const LocalOrdinal ancestor : ancestors)
-    result.push_back(orders[static_cast<std::size_t>(ancestor)]);
+    result.push_back(orders[ancestor]);
   return result;
 }
 

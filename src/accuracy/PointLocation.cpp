@@ -40,7 +40,7 @@ fem::Coordinates<dim> coordinatesOf(const fem::Shape<dim>& shape, std::span<cons
   const auto relative = fem::relativeCorners<dim>(corners);
   fem::Coordinates<dim> wanted, xi = shape.centre();
   for (int i = 0; i < dim; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
+    const std::size_t axis = i;
     wanted[i] = point[axis] - corners[0][axis];
   }
   for (int iteration = 0; iteration < 20; ++iteration) {
@@ -84,7 +84,7 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
   const GlobalOrdinal numHeld =
       part == nullptr ? mesh.numElements() : static_cast<GlobalOrdinal>(part->elements().size());
   for (GlobalOrdinal held = 0; held < numHeld; ++held) {
-    const GlobalOrdinal element = part == nullptr ? held : part->elements()[static_cast<std::size_t>(held)];
+    const GlobalOrdinal element = part == nullptr ? held : part->elements()[held];
     mesh.elementPoints(element, nodes);
     auto [lower, upper] = fem::boxOf(nodes);
     constexpr double margin = 0.01; // curved edges bulge beyond their nodes

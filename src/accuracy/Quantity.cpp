@@ -27,7 +27,7 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
   const fem::Surface surface = body.mesh->surface(name);
   std::vector<Weight> weights;
   std::vector<Point> points;
-  std::vector<double> shares(static_cast<std::size_t>(surface.nodesPerFacet()));
+  std::vector<double> shares(surface.nodesPerFacet());
   double area = 0;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
@@ -78,10 +78,10 @@ double largestOf(const Comm& comm, std::span<const Eigen::VectorXd> u) {
 
 std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& decomposition,
                                                  const DisplacementTerms& terms) {
-  const model::BodyLayout& body = decomposition.bodies[static_cast<std::size_t>(terms.body)];
+  const model::BodyLayout& body = decomposition.bodies[terms.body];
   const std::vector<Weight> weights =
       terms.surface.empty() ? weightsAtPoint(body, terms.point) : weightsOverSurface(body, terms.surface);
-  const auto components = static_cast<Eigen::Index>(decomposition.problem.components);
+  const Eigen::Index components = decomposition.problem.components;
   const Eigen::VectorXd direction = components == 1
                                         ? Eigen::VectorXd::Ones(1)
                                         : Eigen::VectorXd(terms.direction.normalized().head(components));

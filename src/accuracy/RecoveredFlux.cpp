@@ -76,8 +76,7 @@ void addCongruentElements(const BodyElements& body, const Eigen::VectorXd& displ
     for (std::size_t k = 0; k < which.size(); ++k)
       for (std::size_t i = 0; i < perElement; ++i) {
         auto sum = flux.values.col(slots[which[k] * perElement + i]);
-        sum.head(numFluxes) +=
-            sampled.col(static_cast<Eigen::Index>(k)).segment(static_cast<Eigen::Index>(i) * step, numFluxes);
+        sum.head(numFluxes) += sampled.col(k).segment(static_cast<Eigen::Index>(i) * step, numFluxes);
         sum[numFluxes] += measure;
       }
   }
@@ -103,7 +102,7 @@ std::vector<SharedSlot> sharedSlots(const Decomposition& decomposition,
   std::vector<int> numElementsAt;
   for (std::size_t s = 0; s < fluxes.size(); ++s) {
     const Subdomain& subdomain = decomposition.problem.subdomains[s];
-    const auto body = static_cast<std::size_t>(subdomain.body);
+    const std::size_t body = subdomain.body;
     const SubdomainFlux& flux = fluxes[s];
     numElementsAt.resize(subdomain.nodes.size());
     decomposition.bodies[body].mesh->numNodeElements(subdomain.nodes, numElementsAt);
@@ -167,8 +166,7 @@ std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies, const 
   std::vector<SubdomainFlux> fluxes;
   collectively(*problem.comm, [&] {
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
-      fluxes.push_back(sumFlux(bodies[static_cast<std::size_t>(problem.subdomains[s].body)],
-                               problem.subdomains[s], displacement[s]));
+      fluxes.push_back(sumFlux(bodies[problem.subdomains[s].body], problem.subdomains[s], displacement[s]));
   });
   const int numFluxes = fem::numFluxes(bodies.front().physics()); // all bodies have as many unknowns a node
   addShared(decomposition, fluxes, static_cast<std::size_t>(numFluxes) + 1);

@@ -34,8 +34,8 @@ struct Guess {
 std::vector<std::size_t> interfaceNodes(const Subdomain& subdomain, int components) {
   std::vector<char> isWanted(subdomain.nodes.size(), 0);
   const auto want = [&](int unknown) {
-    const int position = subdomain.unknownPosition[static_cast<std::size_t>(unknown)];
-    isWanted[static_cast<std::size_t>(position / components)] = 1;
+    const int position = subdomain.unknownPosition[unknown];
+    isWanted[position / components] = 1;
   };
   for (const int unknown : subdomain.crosspointUnknowns)
     want(unknown);
@@ -65,7 +65,7 @@ std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, No
   std::vector<Guess> guesses;
   for (std::size_t s = 0; s < to.problem.subdomains.size(); ++s) {
     const Subdomain& subdomain = to.problem.subdomains[s];
-    const auto body = static_cast<std::size_t>(subdomain.body);
+    const std::size_t body = subdomain.body;
     const fem::Mesh &coarse = *from.bodies[body].mesh, &fine = *to.bodies[body].mesh;
     if (nodes == NodesOf::subdomains && coarse.part() != nullptr)
       throw Error("The values of a mesh are asked for at nodes anywhere, but no rank holds it whole.");
@@ -93,20 +93,20 @@ RCP<MultiVector> gatherSources(const Decomposition& from, std::span<const Eigen:
   std::vector<GlobalOrdinal> here, wanted;
   for (const Subdomain& subdomain : problem.subdomains)
     for (const GlobalOrdinal node : subdomain.nodes)
-      here.push_back(first[static_cast<std::size_t>(subdomain.body)] + node);
+      here.push_back(first[subdomain.body] + node);
   for (const Guess& guess : guesses)
     wanted.insert(wanted.end(), guess.sources.begin(),
                   guess.sources.begin() + static_cast<std::ptrdiff_t>(guess.numSources));
   const RCP<const Map> local = makeMap(std::move(here), problem.comm);
-  const auto components = static_cast<std::size_t>(problem.components);
+  const std::size_t components = problem.components;
   MultiVector mine(local, components);
   for (std::size_t c = 0; c < components; ++c) {
     const auto values = mine.getDataNonConst(c);
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
       const Subdomain& subdomain = problem.subdomains[s];
       for (std::size_t i = 0; i < subdomain.nodes.size(); ++i)
-        values[local->getLocalElement(first[static_cast<std::size_t>(subdomain.body)] + subdomain.nodes[i])] =
-            displacement[s][static_cast<Eigen::Index>(i * components + c)];
+        values[local->getLocalElement(first[subdomain.body] + subdomain.nodes[i])] =
+            displacement[s][i * components + c];
     }
   }
   const RCP<const Map> owned = Tpetra::createOneToOne(local),
@@ -127,7 +127,7 @@ std::vector<Eigen::VectorXd> interpolate(const Decomposition& from,
   collectively(*to.problem.comm, [&] { guesses = locate(from, to, nodes); });
   const RCP<const MultiVector> sources = gatherSources(from, displacement, guesses);
   const Map& map = *sources->getMap();
-  const auto components = static_cast<std::size_t>(to.problem.components);
+  const std::size_t components = to.problem.components;
   std::vector<Eigen::VectorXd> result;
   for (const Subdomain& subdomain : to.problem.subdomains)
     result.emplace_back(
@@ -135,7 +135,7 @@ std::vector<Eigen::VectorXd> interpolate(const Decomposition& from,
   for (std::size_t c = 0; c < components; ++c) {
     const auto values = sources->getData(c);
     for (const Guess& guess : guesses) {
-      double& value = result[guess.subdomain][static_cast<Eigen::Index>(guess.node * components + c)];
+      double& value = result[guess.subdomain][guess.node * components + c];
       for (std::size_t i = 0; i < guess.numSources; ++i)
         value += guess.weights[i] * values[map.getLocalElement(guess.sources[i])];
     }

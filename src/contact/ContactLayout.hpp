@@ -75,6 +75,7 @@ struct ContactLayout {
   /// Whether rows are dual to N̂, and so their gaps are coefficients of N̂ instead of values at nodes.
   bool isDual = false;
 
+  /// Components of a direction: unknowns a node.
   [[nodiscard]] std::size_t numComponents() const {
     return directions.size() / std::max<std::size_t>(1, firstNodes.size());
   }
@@ -82,7 +83,7 @@ struct ContactLayout {
   [[nodiscard]] Eigen::Vector3d directionAt(std::size_t place) const {
     Eigen::Vector3d direction(0, 0, 0);
     for (std::size_t c = 0; c < numComponents(); ++c)
-      direction[static_cast<Eigen::Index>(c)] = directions[place * numComponents() + c];
+      direction[c] = directions[place * numComponents() + c];
     return direction;
   }
   /// The same in space, where the deflection of membranes is along z.

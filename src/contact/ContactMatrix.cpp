@@ -38,8 +38,7 @@ void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, Gl
   for (int c = 0; c < unknowns.components; ++c)
     if (std::abs(direction[c]) > roundOffOfDirection &&
         (free > heldDirection || unknowns.isHeld(body, node, c))) {
-      row.unknowns.push_back(
-          (unknowns.firstNode[static_cast<std::size_t>(body)] + node) * unknowns.components + c);
+      row.unknowns.push_back((unknowns.firstNode[body] + node) * unknowns.components + c);
       row.coefficients.push_back(factor * direction[c]);
     }
 }

@@ -66,7 +66,7 @@ ViewPlane ViewPlane::across(const Vector3d& origin, const Vector3d& normal, int 
 FacetView::FacetView(fem::CellType type, std::span<const Point> points)
     : type_(type), points_(3, static_cast<Eigen::Index>(points.size())) {
   for (std::size_t a = 0; a < points.size(); ++a)
-    points_.col(static_cast<Eigen::Index>(a)) = Vector3d(points[a][0], points[a][1], points[a][2]);
+    points_.col(a) = Vector3d(points[a][0], points[a][1], points[a][2]);
   centre_ = points_.leftCols(numCornersOf(type)).rowwise().mean();
   const Vector3d vector = fem::areaVector(type, points);
   area_ = vector.norm();

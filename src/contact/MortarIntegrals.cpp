@@ -97,7 +97,7 @@ MortarFacet Integrator::integrateOver(std::size_t f) {
     facet.deepest = std::max(facet.deepest, -common.nearest);
     for (Eigen::Index a = 0; a < n; ++a)
       if (reaches(common, plane.seen(own.points().col(a)), onRim * own.diameter()))
-        facet.isReached[static_cast<std::size_t>(a)] = 1;
+        facet.isReached[a] = 1;
   }
   return facet;
 }

@@ -84,11 +84,11 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
       rows.push_back(representative[k]);
   if (rows.empty())
     return;
-  const auto numRows = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Index numRows = rows.size();
   MatrixXd sum = MatrixXd::Zero(numRows, basis_.rows());
   for (std::size_t a = 0; a < places.size(); ++a)
     for (Eigen::Index r = 0; r < numRows; ++r)
-      if (representative[places[a]] == rows[static_cast<std::size_t>(r)])
+      if (representative[places[a]] == rows[r])
         sum(r, static_cast<Eigen::Index>(a)) = 1;
   const MatrixXd functions = sum * basis_;
   const VectorXd integrals = functions * facet.shares;
@@ -102,8 +102,8 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
   const MatrixXd own = psi * facet.mass;
   const auto nodes = first_.surface.facet(facet.facet);
   for (Eigen::Index r = 0; r < numRows; ++r) {
-    const std::size_t row = rows[static_cast<std::size_t>(r)];
-    integralsOfRows[static_cast<Eigen::Index>(row)] += integrals[r];
+    const std::size_t row = rows[r];
+    integralsOfRows[row] += integrals[r];
     areas.add(facet.facet, row, integrals[r]);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       first[row][nodes[a]] += own(r, static_cast<Eigen::Index>(a));
@@ -113,7 +113,7 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
     const auto others = second_.surface.facet(across.facet);
     for (Eigen::Index r = 0; r < numRows; ++r)
       for (std::size_t a = 0; a < others.size(); ++a)
-        second[rows[static_cast<std::size_t>(r)]][others[a]] += theirs(r, static_cast<Eigen::Index>(a));
+        second[rows[r]][others[a]] += theirs(r, static_cast<Eigen::Index>(a));
   }
 }
 
@@ -129,7 +129,7 @@ std::vector<MortarRow> RowMaker::rows(const std::function<bool(std::size_t)>& is
   for (std::size_t k = 0; k < n; ++k) {
     if (first[k].empty())
       continue;
-    MortarRow& row = rows.emplace_back(MortarRow{k, integrals[static_cast<Eigen::Index>(k)], {}, {}});
+    MortarRow& row = rows.emplace_back(MortarRow{k, integrals[k], {}, {}});
     for (const auto& [sums, shares] : {std::pair(&first[k], &row.first), std::pair(&second[k], &row.second)})
       for (const auto& [node, weight] : *sums)
         if (std::abs(weight) > roundOffOfWeights * row.area)

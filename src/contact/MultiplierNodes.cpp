@@ -29,7 +29,7 @@ MultiplierNodes::MultiplierNodes(const SurfaceNodes& nodes, const Eigen::MatrixX
     const VectorXd values = basis * shares;
     const std::vector<std::size_t>& places = nodes.facets[facet].nodes;
     for (std::size_t a = 0; a < places.size(); ++a)
-      sums[places[a]] += values[static_cast<Eigen::Index>(a)];
+      sums[places[a]] += values[a];
   };
   for (std::size_t f = 0; f < nodes.facets.size(); ++f)
     addTo(f, VectorXd::Map(nodes.facets[f].shares.data(), basis.rows()), whole);

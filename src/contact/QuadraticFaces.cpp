@@ -30,7 +30,7 @@ public:
 
   /// \param rows  of the facet's nodes, −1: none
   void add(std::span<const std::ptrdiff_t> rows) {
-    const auto numCorners = static_cast<std::size_t>(numCornersOf(facet_));
+    const std::size_t numCorners = numCornersOf(facet_);
     const std::span<const int> ends = edgesOf(facet_);
     bool isComplete = true;
     for (std::size_t c = 0; c < numCorners; ++c) {
@@ -39,8 +39,7 @@ public:
     }
     for (std::size_t edge = 0; 2 * edge < ends.size(); ++edge) {
       const std::ptrdiff_t middle = rows[numCorners + edge];
-      const std::ptrdiff_t first = rows[static_cast<std::size_t>(ends[2 * edge])],
-                           second = rows[static_cast<std::size_t>(ends[2 * edge + 1])];
+      const std::ptrdiff_t first = rows[ends[2 * edge]], second = rows[ends[2 * edge + 1]];
       isComplete = isComplete && middle >= 0;
       const bool isWhole = first >= 0 && second >= 0;
       set(middle, middle, isWhole ? 1 - 2 * alpha_ : 1);
@@ -106,8 +105,7 @@ Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
   const std::size_t numRows = contact.firstNodes.size();
   const bool hasComponents =
       std::set<GlobalOrdinal>(contact.firstNodes.begin(), contact.firstNodes.end()).size() < numRows;
-  const auto components =
-      static_cast<std::ptrdiff_t>(contact.directions.size() / std::max<std::size_t>(1, numRows));
+  const std::ptrdiff_t components = contact.directions.size() / std::max<std::size_t>(1, numRows);
   std::map<std::vector<double>, std::map<GlobalOrdinal, std::ptrdiff_t>>
       rowsAlong; // directions, if there are several
   for (std::ptrdiff_t row = 0; row < static_cast<std::ptrdiff_t>(numRows); ++row) {
@@ -115,7 +113,7 @@ Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
     std::vector<double> along;
     if (hasComponents)
       along.assign(direction, direction + components);
-    rowsAlong[along].emplace(contact.firstNodes[static_cast<std::size_t>(row)], row);
+    rowsAlong[along].emplace(contact.firstNodes[row], row);
   }
   Weights weights;
   for (const auto& [along, rowOf] : rowsAlong)

@@ -75,12 +75,12 @@ SmoothSurface::SmoothSurface(const NodePoints& pointAt, const fem::Surface& surf
 bool SmoothSurface::noteMiddles(fem::CellType type, const std::vector<std::size_t>& facet) {
   constexpr double straight = 1e-9;
   const std::span<const int> edges = edgesOf(type);
-  const auto numCorners = static_cast<std::size_t>(numCornersOf(type));
+  const std::size_t numCorners = numCornersOf(type);
   for (std::size_t node = numCorners; node < facet.size(); ++node) {
     std::vector<std::size_t>& ends = middles_[facet[node]];
     ends.clear();
     if (const std::size_t e = 2 * (node - numCorners); e < edges.size())
-      ends = {facet[static_cast<std::size_t>(edges[e])], facet[static_cast<std::size_t>(edges[e + 1])]};
+      ends = {facet[edges[e]], facet[edges[e + 1]]};
     else
       ends.assign(facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(numCorners));
     Vector3d middle(0, 0, 0);

@@ -23,8 +23,7 @@ CoupledSurfaces asMatrix(const ContactTerms& terms, ContactLayout layout, const 
   unknowns.frame = [](int, GlobalOrdinal) { return nullptr; };
   unknowns.isHeld = [](int, GlobalOrdinal, int) { return false; };
   unknowns.isMine = [&](int, GlobalOrdinal node) {
-    const auto place =
-        static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    const std::size_t place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
     return place * static_cast<std::size_t>(comm->getSize()) / nodes.size() ==
            static_cast<std::size_t>(comm->getRank());
   };

@@ -39,9 +39,7 @@ public:
       shares.push_back({{node, 1.0}});
     const std::span<const int> edges = edgesOf(surface_.facetType);
     for (std::size_t e = 0; e < edges.size(); e += 2)
-      add(std::array{corners[static_cast<std::size_t>(edges[e])],
-                     corners[static_cast<std::size_t>(edges[e + 1])]},
-          nodes, points, shares);
+      add(std::array{corners[edges[e]], corners[edges[e + 1]]}, nodes, points, shares);
     if (surface_.facetType == fem::CellType::quadrilateral)
       add(corners, nodes, points, shares);
   }
@@ -121,7 +119,7 @@ SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface
   result.faces.resize(result.nodes.size());
   result.numCorners = numCornersOf(facetType);
   std::vector<Eigen::Vector3d> normals;
-  std::vector<double> areas(static_cast<std::size_t>(numNodesOf(facetType)));
+  std::vector<double> areas(numNodesOf(facetType));
   forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto& points, const auto& shares) {
     fem::nodalNormals(facetType, points, normals);
     fem::nodalShares(facetType, points, areas);

@@ -52,7 +52,7 @@ std::vector<Motions> motionsOf(const Substructures& all, const std::vector<Rigid
   std::vector<Motions> motions;
   for (std::size_t s = 0; s < all.size(); ++s) {
     const Subdomain& subdomain = all.subdomains[s];
-    const RigidModes& own = modes[static_cast<std::size_t>(subdomain.body)];
+    const RigidModes& own = modes[subdomain.body];
     std::map<std::size_t, const Eigen::Matrix3d*> axes;
     for (const NodeFrame& frame : subdomain.frames)
       axes.emplace(static_cast<std::size_t>(frame.node), &frame.axes);
@@ -60,11 +60,11 @@ std::vector<Motions> motionsOf(const Substructures& all, const std::vector<Rigid
     target.near.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()),
                        isElastic ? own.number() : static_cast<Eigen::Index>(all.components));
     for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
-      const auto position = static_cast<std::size_t>(subdomain.unknownPosition[i]);
+      const std::size_t position = subdomain.unknownPosition[i];
       const std::size_t node = position / all.components;
       const auto component = static_cast<int>(position % all.components);
       const auto found = axes.find(node);
-      const auto row = static_cast<Eigen::Index>(i);
+      const Eigen::Index row = i;
       if (!isElastic)
         target.near.row(row) = Eigen::RowVectorXd::Unit(target.near.cols(), component);
       else if (found != axes.end())
@@ -82,7 +82,7 @@ Eigen::MatrixXd givenNearKernel(const SubdomainMatrix& matrix, const OwnSubdomai
   Eigen::MatrixXd near = Eigen::MatrixXd::Zero(numFree, matrix.nearKernel.cols());
   for (std::size_t i = 0; i < own.row.size(); ++i)
     if (own.row[i] >= 0)
-      near.row(own.row[i]) = matrix.nearKernel.row(static_cast<Eigen::Index>(i));
+      near.row(own.row[i]) = matrix.nearKernel.row(i);
   return near;
 }
 
@@ -90,15 +90,14 @@ Eigen::MatrixXd givenNearKernel(const SubdomainMatrix& matrix, const OwnSubdomai
 void requireEqualNumbers(const std::vector<Motions>& motions, const Substructures& all) {
   std::vector<GlobalOrdinal> numModes(all.bodies.size(), -1);
   for (const Motions& m : motions) {
-    GlobalOrdinal& number = numModes[static_cast<std::size_t>(m.group)];
+    GlobalOrdinal& number = numModes[m.group];
     number = std::max(number, static_cast<GlobalOrdinal>(m.near.cols()));
   }
   for (GlobalOrdinal& number : numModes)
     number = maxOverRanks(*all.comm, number);
   collectively(*all.comm, [&] {
     for (std::size_t s = 0; s < motions.size(); ++s)
-      if (const GlobalOrdinal number = numModes[static_cast<std::size_t>(motions[s].group)];
-          motions[s].near.cols() != number)
+      if (const GlobalOrdinal number = numModes[motions[s].group]; motions[s].near.cols() != number)
         throw InputError("subdomain " + std::to_string(all.subdomains[s].number) + " has a near-kernel of " +
                          std::to_string(motions[s].near.cols()) + " columns, another one of its body has " +
                          std::to_string(number) + ".");
@@ -152,7 +151,7 @@ BodyKernels findKernels(const Substructures& all, const std::vector<SubdomainMat
     }
   }
   for (const Motions& m : motions)
-    result.kernels.emplace_back(m.near * combinations[static_cast<std::size_t>(m.group)]);
+    result.kernels.emplace_back(m.near * combinations[m.group]);
   result.near = std::move(motions);
   return result;
 }

@@ -18,7 +18,7 @@ namespace {
 /// cluster has.
 std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
                           std::span<const int> clusterOf) {
-  const auto cluster = [&](int number) { return clusterOf[static_cast<std::size_t>(number)]; };
+  const auto cluster = [&](int number) { return clusterOf[number]; };
   std::vector<Link> links;
   for (std::size_t s = 0; s < all.size(); ++s) {
     const int own = static_cast<int>(all.subdomains[s].number);
@@ -95,14 +95,14 @@ std::vector<int> findClusters(const Substructures& all, const SharedNodes& share
   std::vector<Link> whole; // what is not to be cut, whatever holds it
   int next = 0;
   for (std::size_t s = 0; s < clusterOf.size(); ++s) {
-    const auto body = static_cast<std::size_t>(clusterOf[s]);
+    const std::size_t body = clusterOf[s];
     const int number = count[body]++;
     if (number == 0 || (sizes[body] > 0 && number % sizes[body] == 0)) {
       first[body] = static_cast<int>(s);
       clusterOf[s] = next++;
       continue;
     }
-    clusterOf[s] = clusterOf[static_cast<std::size_t>(first[body])];
+    clusterOf[s] = clusterOf[first[body]];
     if (sizes[body] == 0)
       whole.push_back({first[body], static_cast<int>(s)});
   }
@@ -135,9 +135,9 @@ ClusterKernels findClusterKernels(const Substructures& all, std::vector<Motions>
     bodies.push_back(all.subdomains[s].body);
   bodies = gatherOnAll(*all.comm, bodies);
   for (std::size_t s = 0; s < bodies.size(); ++s)
-    result.clusters[static_cast<std::size_t>(clusterOf[s])].body = bodies[s];
+    result.clusters[clusterOf[s]].body = bodies[s];
   for (std::size_t s = 0; s < motions.size(); ++s)
-    motions[s].group = clusterOf[static_cast<std::size_t>(all.subdomains[s].number)];
+    motions[s].group = clusterOf[all.subdomains[s].number];
   const std::vector<Eigen::MatrixXd> free = findFreeMotions(motions, *all.comm, result.clusters.size());
   std::vector<Eigen::Index> own, ofBody; // numbers of modes
   int offset = 0;
@@ -147,10 +147,10 @@ ClusterKernels findClusterKernels(const Substructures& all, std::vector<Motions>
     cluster.kernelOffset = offset;
     offset += cluster.kernelDimension;
     own.push_back(cluster.kernelDimension);
-    ofBody.push_back(all.bodies[static_cast<std::size_t>(cluster.body)].kernelDimension);
+    ofBody.push_back(all.bodies[cluster.body].kernelDimension);
   }
   for (const Motions& m : motions)
-    result.kernels.emplace_back(m.near * free[static_cast<std::size_t>(m.group)]);
+    result.kernels.emplace_back(m.near * free[m.group]);
   const auto sums = [&](const std::vector<Eigen::Index>& columns, const auto& factor) {
     return clusterSums(*all.comm, motions, result.kernels, result.clusters, columns, factor);
   };

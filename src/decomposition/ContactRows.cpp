@@ -25,7 +25,7 @@ void requireRows(const ConstraintMatrix& contact) {
   const Map& rows = *contact.rows->getRowMap();
   typename CrsMatrix::local_inds_host_view_type columns;
   typename CrsMatrix::values_host_view_type values;
-  const auto numRows = static_cast<GlobalOrdinal>(rows.getGlobalNumElements());
+  const GlobalOrdinal numRows = rows.getGlobalNumElements();
   for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(numLocal(rows)); ++row) {
     const GlobalOrdinal number = rows.getGlobalElement(row);
     if (number < 0 || number >= numRows)
@@ -202,8 +202,7 @@ ContactRows contactRows(const Substructures& all, const SharedNodes& shared, con
       columns->getLocalRowView(columns->getRowMap()->getLocalElement(unknown), rows, values);
       const int free = all.unknownsAt(s, node)[c];
       const double share = shares[k * all.components + c],
-                   prescribed =
-                       all.subdomains[s].prescribed[static_cast<Eigen::Index>(node * all.components + c)];
+                   prescribed = all.subdomains[s].prescribed[node * all.components + c];
       for (std::size_t entry = 0; entry < rows.extent(0); ++entry) {
         const GlobalOrdinal row = columns->getColMap()->getGlobalElement(rows(entry));
         if (values(entry) == 0)

@@ -24,7 +24,7 @@ std::vector<char> findCorners(const Substructures& all, const SharedNodes& share
 class HoldingPoints {
 public:
   /// \param components  unknowns a node: 1, 2 or 3
-  explicit HoldingPoints(int components) : needed_(static_cast<std::size_t>(components)) {}
+  explicit HoldingPoints(int components) : needed_(components) {}
 
   /// A point that holds no more than those before it is forgotten.
   void add(const Point& point);

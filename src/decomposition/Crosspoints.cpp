@@ -88,9 +88,9 @@ std::map<int, std::vector<std::size_t>> interfacesOf(const Substructures& all, c
 void addInterfacePoints(const Substructures& all, const SharedNodes& shared, std::size_t s,
                         const std::vector<char>& isCrosspoint, const std::vector<char>& held,
                         std::vector<CrosspointNode>& extra) {
-  const bool isHeldHere = held[static_cast<std::size_t>(all.subdomains[s].number)] != 0;
+  const bool isHeldHere = held[all.subdomains[s].number] != 0;
   for (const auto& [other, nodes] : interfacesOf(all, shared, s)) {
-    if (isHeldHere && held[static_cast<std::size_t>(other)] != 0)
+    if (isHeldHere && held[other] != 0)
       continue;
     HoldingPoints points(static_cast<int>(all.components));
     for (const std::size_t node : nodes)
@@ -208,7 +208,7 @@ Crosspoints::Crosspoints(const Substructures& all, const SharedNodes& inside, co
 
 CoarseNumber Crosspoints::firstIndex(NodeNumber node) const {
   const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), CrosspointNode{node, 0});
-  return firstIndex_[static_cast<std::size_t>(found - nodes_.begin())];
+  return firstIndex_[found - nodes_.begin()];
 }
 
 } // namespace epafi::decomposition

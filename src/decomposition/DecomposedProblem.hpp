@@ -175,7 +175,7 @@ struct DecomposedProblem {
     return multiplierGhostMap->getGlobalElement(row);
   }
   [[nodiscard]] const Cluster& clusterAt(const Subdomain& subdomain) const { ///< that it is in
-    return clusters[static_cast<std::size_t>(clusterOf[static_cast<std::size_t>(subdomain.number)])];
+    return clusters[clusterOf[subdomain.number]];
   }
   /// Columns of R that a subdomain's kernel stands in: number of the first.
   [[nodiscard]] int kernelOffsetOf(const Subdomain& subdomain) const {

@@ -56,10 +56,9 @@ std::vector<EdgeEnd> findEdgeEnds(const Substructures& all, const SharedNodes& i
                                   const SharedNodes& shared, std::span<const int> clusterOf,
                                   const Crosspoints& crosspoints, SubdomainPlace subdomain) {
   Edges edges = edgesOf(inside, crosspoints, subdomain);
-  const int own = clusterOf[static_cast<std::size_t>(all.subdomains[subdomain].number)];
+  const int own = clusterOf[all.subdomains[subdomain].number];
   findEnds(
-      shared, subdomain, [&](int number) { return clusterOf[static_cast<std::size_t>(number)] != own; },
-      edges);
+      shared, subdomain, [&](int number) { return clusterOf[number] != own; }, edges);
   std::vector<EdgeEnd> result;
   for (const auto& [subdomains, edge] : edges) {
     const double share = 1.0 / static_cast<double>(subdomains.size() * edge.around.size());

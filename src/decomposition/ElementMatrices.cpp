@@ -8,7 +8,7 @@
 namespace epafi::decomposition {
 
 void ElementMatrices::add(int subdomain, const ElementMatrix& element, int body) {
-  const auto n = static_cast<Eigen::Index>(element.unknowns.size());
+  const Eigen::Index n = element.unknowns.size();
   if (element.stiffness.rows() != n || element.stiffness.cols() != n || element.load.size() != n ||
       element.coordinates.rows() != n || element.coordinates.cols() != dimension_)
     throw InputError(
@@ -27,7 +27,7 @@ void ElementMatrices::add(int subdomain, const ElementMatrix& element, int body)
                      "; a subdomain belongs to one body.");
   std::vector<int> place;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const GlobalOrdinal unknown = element.unknowns[static_cast<std::size_t>(i)];
+    const GlobalOrdinal unknown = element.unknowns[i];
     const auto [entry, isFirst] = sum.place.try_emplace(unknown, static_cast<int>(sum.unknowns.size()));
     place.push_back(entry->second);
     if (isFirst) {
@@ -36,19 +36,18 @@ void ElementMatrices::add(int subdomain, const ElementMatrix& element, int body)
       for (Eigen::Index c = 0; c < dimension_; ++c)
         sum.coordinates.push_back(element.coordinates(i, c));
     }
-    sum.load[static_cast<std::size_t>(place.back())] += element.load[i];
+    sum.load[place.back()] += element.load[i];
   }
   for (Eigen::Index j = 0; j < n; ++j)
     for (Eigen::Index i = 0; i < n; ++i)
-      sum.entries.emplace_back(place[static_cast<std::size_t>(i)], place[static_cast<std::size_t>(j)],
-                               element.stiffness(i, j));
+      sum.entries.emplace_back(place[i], place[j], element.stiffness(i, j));
 }
 
 std::vector<SubdomainMatrix> ElementMatrices::take() {
   std::vector<SubdomainMatrix> result;
   for (auto& [subdomain, sum] : sums_) {
     SubdomainMatrix& matrix = result.emplace_back();
-    const auto n = static_cast<Eigen::Index>(sum.unknowns.size());
+    const Eigen::Index n = sum.unknowns.size();
     matrix.body = sum.body;
     matrix.unknowns = std::move(sum.unknowns);
     matrix.stiffness.resize(n, n);

@@ -27,7 +27,7 @@ std::vector<Eigen::Index> numbersOfModes(const std::vector<Motions>& motions, co
                                          std::size_t numGroups) {
   std::vector<GlobalOrdinal> sums(2 * numGroups, 0); // of modes, and of subdomains, which agree
   for (const Motions& m : motions) {
-    sums[static_cast<std::size_t>(m.group)] += m.near.cols();
+    sums[m.group] += m.near.cols();
     ++sums[numGroups + static_cast<std::size_t>(m.group)];
   }
   sumOverRanks(comm, std::span(sums));
@@ -54,7 +54,7 @@ Energies energiesOf(const std::vector<Motions>& motions, const Comm& comm, std::
                                        k, k);
   };
   for (const Motions& m : motions) {
-    const auto group = static_cast<std::size_t>(m.group);
+    const std::size_t group = m.group;
     const Eigen::VectorXd d = Eigen::VectorXd(m.stiffness->diagonal()).cwiseMax(1e-300);
     const Eigen::MatrixXd forces = *m.stiffness * m.near;
     matrix(group, 0) += m.near.transpose() * d.asDiagonal() * m.near;
@@ -119,7 +119,7 @@ std::vector<Eigen::MatrixXd> findFreeMotions(const std::vector<Motions>& motions
   std::vector<Eigen::MatrixXd> combinations = freeCombinations(motions, comm, numGroups, nearlyFreeUpTo);
   std::vector<Motions> nearlyFree;
   for (const Motions& m : motions)
-    nearlyFree.push_back({m.group, m.stiffness, m.near * combinations[static_cast<std::size_t>(m.group)]});
+    nearlyFree.push_back({m.group, m.stiffness, m.near * combinations[m.group]});
   const std::vector<Eigen::MatrixXd> among = freeCombinations(nearlyFree, comm, numGroups, freeUpTo);
   for (std::size_t group = 0; group < numGroups; ++group)
     combinations[group] = (combinations[group] * among[group]).eval();
@@ -143,12 +143,11 @@ void requireConnected(const Substructures& all, const SharedNodes& shared) {
   std::vector<int> pieceOf(all.bodies.size(), -1); // the first of each body
   for (std::size_t s = 0; s < pieces.size(); ++s) {
     const int known = bodyOf.try_emplace(pieces[s], owner[s]).first->second;
-    const Body &own = all.bodies[static_cast<std::size_t>(owner[s])],
-               &other = all.bodies[static_cast<std::size_t>(known)];
+    const Body &own = all.bodies[owner[s]], &other = all.bodies[known];
     if (known != owner[s])
       throw InputError("subdomains of the bodies '" + own.name + "' and '" + other.name +
                        "' share nodes; what is joined is one body.");
-    int& first = pieceOf[static_cast<std::size_t>(owner[s])];
+    int& first = pieceOf[owner[s]];
     if (first < 0)
       first = pieces[s];
     if (first != pieces[s])

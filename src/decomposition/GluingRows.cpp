@@ -50,9 +50,8 @@ std::vector<bool> nodesBetweenClusters(const SharedNodes& shared, std::span<cons
   std::vector<bool> between(shared.numNodes());
   for (std::size_t node = 0; node < between.size(); ++node) {
     const std::span<const int> at = shared.subdomainsAt(node);
-    between[node] = std::any_of(at.begin(), at.end(), [&](int number) {
-      return clusterOf[static_cast<std::size_t>(number)] != clusterOf[static_cast<std::size_t>(at.front())];
-    });
+    between[node] = std::any_of(at.begin(), at.end(),
+                                [&](int number) { return clusterOf[number] != clusterOf[at.front()]; });
   }
   return between;
 }

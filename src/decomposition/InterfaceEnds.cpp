@@ -19,14 +19,14 @@ public:
     for (std::size_t k = 0; k < copies_.size(); ++k)
       copyAt[copies_[k].place] = static_cast<int>(k);
     const auto copyOf = [&](int unknown) {
-      return copyAt[static_cast<std::size_t>(positions[static_cast<std::size_t>(unknown)]) / all.components];
+      return copyAt[static_cast<std::size_t>(positions[unknown]) / all.components];
     };
     const SparseMatrix& stiffness = *all.nodal[subdomain].stiffness;
     for (int column = 0; column < stiffness.outerSize(); ++column) {
       const int k = copyOf(column);
       if (k < 0)
         continue;
-      auto& list = neighbours_[static_cast<std::size_t>(k)];
+      auto& list = neighbours_[k];
       for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry) {
         const int other = copyOf(static_cast<int>(entry.row()));
         if (other >= 0 && other != k && std::find(list.begin(), list.end(), other) == list.end())
@@ -40,7 +40,7 @@ public:
     std::vector<std::size_t> reached{start};
     for (std::size_t next = 0; next < reached.size(); ++next)
       for (const int neighbour : neighbours_[reached[next]]) {
-        const auto k = static_cast<std::size_t>(neighbour);
+        const std::size_t k = neighbour;
         if (isSameChain(k, start) && std::find(reached.begin(), reached.end(), k) == reached.end())
           reached.push_back(k);
       }
@@ -53,7 +53,7 @@ public:
     std::size_t farthest = start;
     for (const std::size_t k : chainFrom(start)) {
       for (const int neighbour : neighbours_[k])
-        if (const auto other = static_cast<std::size_t>(neighbour); isSameChain(other, start))
+        if (const std::size_t other = neighbour; isSameChain(other, start))
           steps.try_emplace(other, steps[k] + 1);
       if (steps[k] > steps[farthest] ||
           (steps[k] == steps[farthest] && distance(start, k) > distance(start, farthest)))

@@ -14,7 +14,7 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   std::sort(subdomain.nodes.begin(), subdomain.nodes.end());
   subdomain.nodes.erase(std::unique(subdomain.nodes.begin(), subdomain.nodes.end()), subdomain.nodes.end());
 
-  const auto n = static_cast<Eigen::Index>(matrix.unknowns.size());
+  const Eigen::Index n = matrix.unknowns.size();
   const auto numPositions = subdomain.nodes.size() * static_cast<std::size_t>(components);
   std::vector<int> unknownAt(numPositions, -1); // of the application
   own.unknowns = matrix.unknowns;
@@ -24,15 +24,14 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
         subdomain.nodes.begin();
     own.position.push_back(
         static_cast<int>(node * components + static_cast<int>(own.unknowns[i] % components)));
-    unknownAt[static_cast<std::size_t>(own.position.back())] = static_cast<int>(i);
+    unknownAt[own.position.back()] = static_cast<int>(i);
   }
   own.prescribed = Eigen::VectorXd::Zero(n);
   std::vector<char> isFree(own.unknowns.size(), 1);
   for (const auto& [unknown, value] : matrix.prescribed) {
-    const auto i = static_cast<std::size_t>(std::find(own.unknowns.begin(), own.unknowns.end(), unknown) -
-                                            own.unknowns.begin());
+    const std::size_t i = std::find(own.unknowns.begin(), own.unknowns.end(), unknown) - own.unknowns.begin();
     isFree[i] = 0;
-    own.prescribed[static_cast<Eigen::Index>(i)] = value;
+    own.prescribed[i] = value;
   }
   own.row.assign(own.unknowns.size(), -1);
   nodal.unknownOf.assign(numPositions, -1);
@@ -41,17 +40,17 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
     const int i = unknownAt[position];
     if (i < 0)
       continue;
-    if (isFree[static_cast<std::size_t>(i)] == 0) {
-      subdomain.prescribed[static_cast<Eigen::Index>(position)] = own.prescribed[i];
+    if (isFree[i] == 0) {
+      subdomain.prescribed[position] = own.prescribed[i];
       continue;
     }
-    own.row[static_cast<std::size_t>(i)] = static_cast<int>(subdomain.unknownPosition.size());
-    nodal.unknownOf[position] = own.row[static_cast<std::size_t>(i)];
+    own.row[i] = static_cast<int>(subdomain.unknownPosition.size());
+    nodal.unknownOf[position] = own.row[i];
     subdomain.unknownPosition.push_back(static_cast<int>(position));
   }
   own.load = std::move(matrix.load);
   own.heldForce = matrix.stiffness * own.prescribed;
-  subdomain.load.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
+  subdomain.load.resize(subdomain.unknownPosition.size());
   freeLoad(own, subdomain.load);
   subdomain.energyOffset = prescribedEnergy(own);
   subdomain.heldLoad = heldLoad(own);
@@ -60,18 +59,17 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
 
 SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& own) {
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(stiffness.nonZeros()));
+  entries.reserve(stiffness.nonZeros());
   for (int column = 0; column < stiffness.outerSize(); ++column)
     for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry) {
-      const int i = own.row[static_cast<std::size_t>(entry.row())],
-                j = own.row[static_cast<std::size_t>(column)];
+      const int i = own.row[entry.row()], j = own.row[column];
       if (i >= 0 && j >= 0) { // the mean of both triangles: symmetric to the last digit
         entries.emplace_back(i, j, 0.5 * entry.value());
         entries.emplace_back(j, i, 0.5 * entry.value());
       }
     }
-  const auto numFree = static_cast<Eigen::Index>(
-      own.row.size() - static_cast<std::size_t>(std::count(own.row.begin(), own.row.end(), -1)));
+  const Eigen::Index numFree =
+      own.row.size() - static_cast<std::size_t>(std::count(own.row.begin(), own.row.end(), -1));
   SparseMatrix result(numFree, numFree);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
@@ -80,7 +78,7 @@ SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& ow
 void freeLoad(const OwnSubdomain& own, Eigen::VectorXd& load) {
   for (std::size_t i = 0; i < own.row.size(); ++i)
     if (own.row[i] >= 0)
-      load[own.row[i]] = own.load[static_cast<Eigen::Index>(i)] - own.heldForce[static_cast<Eigen::Index>(i)];
+      load[own.row[i]] = own.load[i] - own.heldForce[i];
 }
 
 double prescribedEnergy(const OwnSubdomain& own) {
@@ -90,7 +88,7 @@ double prescribedEnergy(const OwnSubdomain& own) {
 double heldLoad(const OwnSubdomain& own) {
   double sum = 0;
   for (std::size_t i = 0; i < own.row.size(); ++i)
-    sum += own.row[i] < 0 ? std::abs(own.load[static_cast<Eigen::Index>(i)]) : 0.0;
+    sum += own.row[i] < 0 ? std::abs(own.load[i]) : 0.0;
   return sum;
 }
 

@@ -48,7 +48,7 @@ std::vector<Sighting> sightingsHere(const Substructures& all) {
   std::vector<Sighting> sightings;
   for (std::size_t s = 0; s < all.size(); ++s)
     for (const int place : all.nodal[s].borderNodes) {
-      const auto node = static_cast<std::size_t>(place);
+      const std::size_t node = place;
       sightings.push_back({all.globalNode(s, node), all.subdomains[s].number, all.comm->getRank(),
                            freeComponents(all, s, node)});
     }
@@ -120,9 +120,7 @@ std::vector<Sighting> ofSharedNodes(const RCP<const Comm>& comm, std::span<const
 std::vector<Sighting> insideClusters(std::span<const Sighting> shared, std::span<const int> clusterOf) {
   std::vector<Sighting> inside;
   forEachNode(shared, [&](std::span<const Sighting> atNode) {
-    const auto cluster = [&](const Sighting& sighting) {
-      return clusterOf[static_cast<std::size_t>(sighting.number)];
-    };
+    const auto cluster = [&](const Sighting& sighting) { return clusterOf[sighting.number]; };
     if (std::all_of(atNode.begin(), atNode.end(),
                     [&](const Sighting& sighting) { return cluster(sighting) == cluster(atNode.front()); }))
       inside.insert(inside.end(), atNode.begin(), atNode.end());
@@ -177,7 +175,7 @@ SharedNodes::SharedNodes(const Substructures& all, std::span<const int> clusterO
         neighbours[sighting.rank].received.emplace_back(slots_.back(), node);
         continue;
       }
-      const auto s = static_cast<std::size_t>(sighting.number - firstNumber);
+      const std::size_t s = sighting.number - firstNumber;
       const std::vector<int>& candidates = all.nodal[s].borderNodes;
       while (all.globalNode(s, static_cast<std::size_t>(candidates[border[s]])) != sighting.node)
         ++border[s];

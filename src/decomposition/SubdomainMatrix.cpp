@@ -64,8 +64,8 @@ SparseMatrix fromCompressedRows(std::span<const int> starts, std::span<const int
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(values.size());
   for (int row = 0; row < n; ++row)
-    for (int k = starts[static_cast<std::size_t>(row)]; k < starts[static_cast<std::size_t>(row) + 1]; ++k) {
-      const auto place = static_cast<std::size_t>(k);
+    for (int k = starts[row]; k < starts[static_cast<std::size_t>(row) + 1]; ++k) {
+      const std::size_t place = k;
       if (columns[place] < 0 || columns[place] >= n)
         throw InputError("row " + std::to_string(row) + " of a matrix of " + std::to_string(n) +
                          " compressed rows has an entry in column " + std::to_string(columns[place]) + ".");
@@ -109,13 +109,13 @@ SubdomainMatrix subdomainMatrix(const CrsMatrix& local) {
 Point pointAt(const Eigen::MatrixXd& coordinates, Eigen::Index row) {
   Point point{};
   for (Eigen::Index c = 0; c < coordinates.cols(); ++c)
-    point[static_cast<std::size_t>(c)] = coordinates(row, c);
+    point[c] = coordinates(row, c);
   return point;
 }
 
 void requireSound(const SubdomainMatrix& matrix, int dimension, int components, int numBodies,
                   const std::string& where) {
-  const auto n = static_cast<Eigen::Index>(matrix.unknowns.size());
+  const Eigen::Index n = matrix.unknowns.size();
   if (matrix.body < 0 || matrix.body >= numBodies)
     throw InputError(where + " belongs to body " + std::to_string(matrix.body) + ", but there are " +
                      std::to_string(numBodies) + " bodies, counted from 0.");

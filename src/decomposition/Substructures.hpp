@@ -44,7 +44,7 @@ struct Substructures {
   [[nodiscard]] std::size_t size() const { return subdomains.size(); }
   [[nodiscard]] std::size_t numNodes(SubdomainPlace s) const { return subdomains[s].nodes.size(); }
   [[nodiscard]] NodeNumber globalNode(SubdomainPlace s, NodePlace node) const {
-    return bodies[static_cast<std::size_t>(subdomains[s].body)].firstNode + subdomains[s].nodes[node];
+    return bodies[subdomains[s].body].firstNode + subdomains[s].nodes[node];
   }
   /// Number of an unknown, or prescribed value, among those of all bodies.
   [[nodiscard]] GlobalOrdinal globalUnknown(SubdomainPlace s, NodePlace node, std::size_t component) const {

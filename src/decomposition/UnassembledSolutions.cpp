@@ -16,7 +16,7 @@ std::vector<GlobalOrdinal> UnassembledProblem::globalUnknowns(std::size_t subdom
       static_cast<std::size_t>(problem_.subdomains[subdomain].prescribed.size()), -1);
   const OwnSubdomain& own = own_[subdomain];
   for (std::size_t i = 0; i < own.unknowns.size(); ++i)
-    result[static_cast<std::size_t>(own.position[i])] = own.unknowns[i];
+    result[own.position[i]] = own.unknowns[i];
   return result;
 }
 
@@ -31,7 +31,7 @@ RCP<Vector> UnassembledProblem::unknowns(std::span<const Eigen::VectorXd> displa
   for (std::size_t s = 0; s < own_.size(); ++s) {
     const Eigen::VectorXd u = unknowns(s, displacement);
     for (std::size_t i = 0; i < own_[s].unknowns.size(); ++i)
-      sums.sumIntoGlobalValue(own_[s].unknowns[i], u[static_cast<Eigen::Index>(i)]);
+      sums.sumIntoGlobalValue(own_[s].unknowns[i], u[i]);
   }
   const RCP<Vector> result = rcp(new Vector(unknownMap_));
   result->doExport(sums, Export(map, unknownMap_), Tpetra::ADD);

@@ -169,9 +169,9 @@ void BodyModel::kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalO
 }
 
 void BodyModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const {
-  const auto numShared = static_cast<GlobalOrdinal>(stiffnesses_.size());
+  const GlobalOrdinal numShared = stiffnesses_.size();
   if (kind < numShared) {
-    stiffness = stiffnesses_[static_cast<std::size_t>(kind)];
+    stiffness = stiffnesses_[kind];
     return;
   }
   const GlobalOrdinal element = kind - numShared;
@@ -197,7 +197,7 @@ void BodyModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& 
     return;
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (isFramed(elements[e]))
-      turnIntoFrames(elements[e], loads.col(static_cast<Eigen::Index>(e)));
+      turnIntoFrames(elements[e], loads.col(e));
 }
 
 /// QᵀKQ, Q of the element's nodes.

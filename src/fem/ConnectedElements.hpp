@@ -15,19 +15,19 @@ namespace epafi::fem {
 template <class Neighbours>
 std::vector<std::vector<GlobalOrdinal>> connectedElements(GlobalOrdinal numElements,
                                                           const Neighbours& neighbours) {
-  std::vector<char> isReached(static_cast<std::size_t>(numElements), 0);
+  std::vector<char> isReached(numElements, 0);
   std::vector<std::vector<GlobalOrdinal>> pieces;
   std::vector<GlobalOrdinal> found;
   for (GlobalOrdinal seed = 0; seed < numElements; ++seed) {
-    if (isReached[static_cast<std::size_t>(seed)] != 0)
+    if (isReached[seed] != 0)
       continue;
     std::vector<GlobalOrdinal>& piece = pieces.emplace_back(1, seed);
-    isReached[static_cast<std::size_t>(seed)] = 1;
+    isReached[seed] = 1;
     for (std::size_t next = 0; next < piece.size(); ++next) {
       neighbours(piece[next], found);
       for (const GlobalOrdinal other : found)
-        if (isReached[static_cast<std::size_t>(other)] == 0) {
-          isReached[static_cast<std::size_t>(other)] = 1;
+        if (isReached[other] == 0) {
+          isReached[other] = 1;
           piece.push_back(other);
         }
     }

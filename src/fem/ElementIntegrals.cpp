@@ -29,12 +29,12 @@ using GradientProducts = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0
 /// Load of a constant force of which each node bears its share.
 void shareOut(std::span<const double> shares, Physics physics, const scene::Material& material,
               const scene::Vector3& force, Eigen::VectorXd& load) {
-  const auto components = static_cast<std::size_t>(componentsOf(physics));
+  const std::size_t components = componentsOf(physics);
   const double thickness = thicknessOf(physics, material);
-  load.resize(static_cast<Eigen::Index>(shares.size() * components));
+  load.resize(shares.size() * components);
   for (std::size_t a = 0; a < shares.size(); ++a)
     for (std::size_t i = 0; i < components; ++i)
-      load[static_cast<Eigen::Index>(a * components + i)] = thickness * shares[a] * force[i];
+      load[a * components + i] = thickness * shares[a] * force[i];
 }
 
 /// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its blocks on the diagonal and above.

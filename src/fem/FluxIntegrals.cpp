@@ -125,12 +125,12 @@ void sampleFlux(const Law& law, const Shape<dim>& shape, std::span<const Point> 
     fluxes = at(shape.centreSample());
   } else if (shape.isSimplex) {
     for (int a = 0; a < shape.numNodes; ++a)
-      fluxes.col(a) = at(shape.nodeSamples()[static_cast<std::size_t>(a)]);
+      fluxes.col(a) = at(shape.nodeSamples()[a]);
   } else {
     const Shape<dim>& linear = referenceShape<dim>(withOrder(shape.type, 1));
     Eigen::Matrix<double, Law::numFluxes, 1 << dim> sampled;
     for (int g = 0; g < linear.numNodes; ++g)
-      sampled.col(g) = at(shape.sampleAt(linear.gaussSamples()[static_cast<std::size_t>(g)].xi));
+      sampled.col(g) = at(shape.sampleAt(linear.gaussSamples()[g].xi));
     for (int a = 0; a < shape.numNodes; ++a)
       fluxes.col(a) = sampled.lazyProduct(linear.values(std::sqrt(3.0) * shape.node(a)));
   }
@@ -141,8 +141,8 @@ template <class Apply>
 Eigen::MatrixXd columnsOf(Eigen::Index rows, Eigen::Index columns, const Apply& apply) {
   Eigen::MatrixXd matrix(rows, columns);
   for (Eigen::Index j = 0; j < columns; ++j) {
-    std::vector<double> unit(static_cast<std::size_t>(columns), 0.0);
-    unit[static_cast<std::size_t>(j)] = 1;
+    std::vector<double> unit(columns, 0.0);
+    unit[j] = 1;
     matrix.col(j) = apply(std::span<const double>(unit));
   }
   return matrix;
@@ -196,7 +196,7 @@ DisplacementNorms normsOf(const Law& law, const Shape<dim>& shape, std::span<con
     Coordinates<dim> place;
     double weight = 1;
     for (int i = 0, rest = k; i < dim; ++i, rest /= 3) {
-      const auto& [at, share] = gauss[static_cast<std::size_t>(rest % 3)];
+      const auto& [at, share] = gauss[rest % 3];
       place[i] = at;
       weight *= share;
     }
@@ -209,7 +209,7 @@ DisplacementNorms normsOf(const Law& law, const Shape<dim>& shape, std::span<con
       const Coordinates<dim> relative = corners.lazyProduct(sample.values);
       Point point = points[0];
       for (int i = 0; i < dim; ++i)
-        point[static_cast<std::size_t>(i)] += relative[i];
+        point[i] += relative[i];
       const FieldValue given = exact(point);
       flux -= Eigen::Map<const typename Law::Flux>(given.flux.data());
       value -= Eigen::Map<const Eigen::Matrix<double, Law::components, 1>>(given.displacement.data());
@@ -279,7 +279,7 @@ CongruentFluxes::CongruentFluxes(CellType type, std::span<const Point> points, P
       sampleFlux(law, shape, points, u, fluxes);
       return Eigen::VectorXd(fluxes.reshaped());
     });
-    const auto numSamples = static_cast<Eigen::Index>(shape.fineSamples().size());
+    const Eigen::Index numSamples = shape.fineSamples().size();
     ofFluxes_.resize(numFluxes * numSamples, numFluxes * shape.numNodes);
     ofDisplacement_.resize(numFluxes * numSamples, unknowns);
     Eigen::Index row = 0;

@@ -197,7 +197,7 @@ void BodyMaker::chooseCellType() {
   if (shapes.size() > 1) {
     std::vector<std::string> found;
     for (const int shape : shapes)
-      found.push_back(names[static_cast<std::size_t>(shape)]);
+      found.push_back(names[shape]);
     throw InputError(arrays_.name + " mixes " + listed(found, false) + "; " + allowed);
   }
   if (kinds.size() > 1)
@@ -206,8 +206,8 @@ void BodyMaker::chooseCellType() {
                      "in one order");
   const int kind = *shapes.begin();
   if (kind > 5)
-    throw InputError(arrays_.name + " is made of " + names[static_cast<std::size_t>(kind)] + "; " + allowed);
-  arrays_.cellType = types[static_cast<std::size_t>(kind - 2)];
+    throw InputError(arrays_.name + " is made of " + names[kind] + "; " + allowed);
+  arrays_.cellType = types[kind - 2];
   if (kind != *kinds.begin())
     arrays_.cellType = withOrder(arrays_.cellType, 2);
 }

@@ -34,11 +34,11 @@ Coordinates<dim> clamped(const Shape<dim>& shape, Coordinates<dim> xi) {
 /// Distance from a node to the nearest of those that share an element with it.
 double distanceToNeighbours(LocalOrdinal node, const MeshArrays& mesh, const MeshTopology& topology) {
   double nearest = std::numeric_limits<double>::infinity();
-  const Vector3 own = vectorOf(mesh.points[static_cast<std::size_t>(node)]);
+  const Vector3 own = vectorOf(mesh.points[node]);
   for (const LocalOrdinal element : topology.elementsOf(node))
     for (const LocalOrdinal other : nodesOf(mesh.cellType, mesh.cells, element))
       if (other != node)
-        nearest = std::min(nearest, (vectorOf(mesh.points[static_cast<std::size_t>(other)]) - own).norm());
+        nearest = std::min(nearest, (vectorOf(mesh.points[other]) - own).norm());
   return nearest;
 }
 
@@ -77,7 +77,7 @@ std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTop
         continue;
       corners.clear();
       for (const int place : facets[f])
-        corners.push_back(mesh.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(place)])]);
+        corners.push_back(mesh.points[nodes[place]]);
       const double tolerance = facetTolerance * diameterOf(corners);
       const auto [lower, upper] = boxOf(corners, tolerance);
       tree.inBox(lower, upper, found);
@@ -85,8 +85,7 @@ std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTop
       for (const LocalOrdinal node : found) {
         if (!topology.isOnBoundary(node) || std::find(nodes.begin(), nodes.end(), node) != nodes.end())
           continue; // inner nodes touch no unmatched facet
-        const double distance =
-            distanceFrom(facetTypeOf(mesh.cellType), corners, mesh.points[static_cast<std::size_t>(node)]);
+        const double distance = distanceFrom(facetTypeOf(mesh.cellType), corners, mesh.points[node]);
         if (distance <= tolerance &&
             distance <= neighbourTolerance * distanceToNeighbours(node, mesh, topology))
           return HangingNode{node, element};

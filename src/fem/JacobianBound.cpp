@@ -26,8 +26,8 @@ struct Part {
       Eigen::Index axis = 0;
       axes.colwise().squaredNorm().maxCoeff(&axis);
       for (int side = 0; side < 2; ++side) {
-        both[static_cast<std::size_t>(side)].axes.col(axis) *= 0.5;
-        both[static_cast<std::size_t>(side)].origin += (side - 0.5) * axes.col(axis);
+        both[side].axes.col(axis) *= 0.5;
+        both[side].origin += (side - 0.5) * axes.col(axis);
       }
     } else {
       const auto [a, b] = longestEdge();
@@ -84,7 +84,7 @@ public:
       all.push_back(exponents);
       Coordinates<dim> point;
       for (std::size_t i = 0; i < dim; ++i)
-        point[static_cast<Eigen::Index>(i)] = static_cast<double>(exponents[i]) / degree_;
+        point[i] = static_cast<double>(exponents[i]) / degree_;
       points_.push_back(isSimplex_ ? point : Coordinates<dim>(2 * point - Coordinates<dim>::Ones()));
     }
     Eigen::MatrixXd values(all.size(), all.size());
@@ -100,7 +100,7 @@ public:
   std::pair<double, double> least(const Part<dim>& part, const Polynomial& polynomial) const {
     Eigen::VectorXd values(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i)
-      values[static_cast<Eigen::Index>(i)] = polynomial(part.origin + part.axes * points_[i]);
+      values[i] = polynomial(part.origin + part.axes * points_[i]);
     return {values.minCoeff(), (toCoefficients_ * values).minCoeff()};
   }
 
@@ -111,7 +111,7 @@ private:
   [[nodiscard]] double at(const Coordinates<dim>& xi, const Exponents& exponents) const {
     double value = 1;
     for (int i = 0; i < dim; ++i) {
-      const int k = exponents[static_cast<std::size_t>(i)];
+      const int k = exponents[i];
       const double x = isSimplex_ ? xi[i] : 0.5 * (1 + xi[i]);
       value *= std::pow(x, k) / factorial(k);
       if (!isSimplex_)

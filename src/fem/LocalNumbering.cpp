@@ -42,9 +42,8 @@ std::size_t locate(const Nodes& nodes, std::size_t near, GlobalOrdinal node) {
 } // namespace
 
 LocalNumbering::LocalNumbering(std::span<const GlobalOrdinal> corners, int nodesPerElement)
-    : nodesPerElement_(static_cast<std::size_t>(nodesPerElement)),
-      offsets_(distinctNodes(corners, nodesPerElement_)), corners_(corners.size()),
-      numElementsAt_(offsets_.size(), 0) {
+    : nodesPerElement_(nodesPerElement), offsets_(distinctNodes(corners, nodesPerElement_)),
+      corners_(corners.size()), numElementsAt_(offsets_.size(), 0) {
   for (std::size_t k = 0; k < nodesPerElement_; ++k) {
     std::size_t place = 0;
     for (std::size_t c = k; c < corners.size(); c += nodesPerElement_) {
@@ -62,9 +61,9 @@ std::optional<GlobalOrdinal>
 LocalNumbering::firstNodeIfShifted(std::span<const GlobalOrdinal> corners) const {
   if (corners.size() != corners_.size())
     return std::nullopt;
-  const GlobalOrdinal first = corners[0] - offsets_[static_cast<std::size_t>(corners_[0])];
+  const GlobalOrdinal first = corners[0] - offsets_[corners_[0]];
   for (std::size_t c = 0; c < corners.size(); ++c)
-    if (corners[c] != first + offsets_[static_cast<std::size_t>(corners_[c])])
+    if (corners[c] != first + offsets_[corners_[c]])
       return std::nullopt;
   return first;
 }

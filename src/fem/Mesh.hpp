@@ -25,7 +25,7 @@ struct Surface {
   [[nodiscard]] std::size_t numFacets() const { return elements.size(); }   ///< of the whole surface
   /// Nodes of one facet.
   [[nodiscard]] std::span<const GlobalOrdinal> facet(std::size_t number) const {
-    const auto count = static_cast<std::size_t>(nodesPerFacet());
+    const std::size_t count = nodesPerFacet();
     return std::span(facetNodes).subspan(number * count, count);
   }
 };
@@ -80,8 +80,7 @@ public:
 class ElementNodes {
 public:
   /// Of the element of a mesh.
-  ElementNodes(const Mesh& mesh, GlobalOrdinal element)
-      : number_(static_cast<std::size_t>(mesh.nodesPerElement())) {
+  ElementNodes(const Mesh& mesh, GlobalOrdinal element) : number_(mesh.nodesPerElement()) {
     mesh.elementNodes(element, std::span(nodes_).first(number_));
   }
   [[nodiscard]] std::size_t size() const { return number_; } ///< nodes an element

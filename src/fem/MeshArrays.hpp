@@ -43,7 +43,7 @@ struct MeshArrays {
 /// The nodes of one element among those of all.
 inline std::span<const LocalOrdinal> nodesOf(CellType type, std::span<const LocalOrdinal> cells,
                                              LocalOrdinal element) {
-  const auto count = static_cast<std::size_t>(numNodesOf(type));
+  const std::size_t count = numNodesOf(type);
   return cells.subspan(static_cast<std::size_t>(element) * count, count);
 }
 

@@ -63,7 +63,7 @@ private:
 };
 
 std::string Checker::place(LocalOrdinal number) const {
-  return text(std::span(mesh_.points[index(number)]).first(static_cast<std::size_t>(dimension_)));
+  return text(std::span(mesh_.points[index(number)]).first(dimension_));
 }
 
 ElementShape Checker::shape(LocalOrdinal number) const {

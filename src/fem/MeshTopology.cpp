@@ -17,8 +17,8 @@ struct BucketEntry {
 /// Calls `visit(place, corners)` for every facet of every element; the corners ascend.
 template <class Visit>
 void forEachFacet(CellType type, std::span<const LocalOrdinal> cells, const Visit& visit) {
-  const auto perElement = static_cast<std::size_t>(numNodesOf(type));
-  const auto perFacet = static_cast<std::size_t>(numCornersOf(facetTypeOf(type)));
+  const std::size_t perElement = numNodesOf(type);
+  const std::size_t perFacet = numCornersOf(facetTypeOf(type));
   const auto facets = facetsOf(type);
   std::array<LocalOrdinal, mostFacetCorners> nodes{};
   std::uint32_t number = 0;
@@ -51,7 +51,7 @@ MeshTopology::MeshTopology(CellType type, LocalOrdinal numNodes, std::span<const
 }
 
 std::span<const LocalOrdinal> MeshTopology::elementsOf(LocalOrdinal node) const {
-  const auto n = static_cast<std::size_t>(node);
+  const std::size_t n = node;
   return std::span(elements_).subspan(firstElement_[n], firstElement_[n + 1] - firstElement_[n]);
 }
 
@@ -62,9 +62,9 @@ void MeshTopology::findElementsOfNodes(LocalOrdinal numNodes, std::span<const Lo
   accumulate(firstElement_);
   elements_.resize(cells.size());
   std::vector<std::size_t> next(firstElement_.begin(), firstElement_.end() - 1);
-  const auto perElement = static_cast<std::size_t>(numNodesOf(type_));
+  const std::size_t perElement = numNodesOf(type_);
   for (std::size_t i = 0; i < cells.size(); ++i)
-    elements_[next[static_cast<std::size_t>(cells[i])]++] = static_cast<LocalOrdinal>(i / perElement);
+    elements_[next[cells[i]]++] = static_cast<LocalOrdinal>(i / perElement);
 }
 
 void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
@@ -77,7 +77,7 @@ void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdina
   std::vector<BucketEntry> facets(first.back());
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   forEachFacet(type_, cells, [&](std::uint32_t place, std::span<const LocalOrdinal> nodes) {
-    BucketEntry& facet = facets[next[static_cast<std::size_t>(nodes[0])]++];
+    BucketEntry& facet = facets[next[nodes[0]]++];
     facet = {{-1, -1, -1}, place};
     std::copy(nodes.begin() + 1, nodes.end(), facet.others.begin());
   });
@@ -108,13 +108,12 @@ void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdina
 
 void MeshTopology::markBoundary(std::span<const LocalOrdinal> cells) {
   isOnBoundary_.assign(firstElement_.size() - 1, 0);
-  const auto perElement = static_cast<std::size_t>(numNodesOf(type_));
+  const std::size_t perElement = numNodesOf(type_);
   const auto facets = facetsOf(type_);
   for (std::size_t place = 0; place < across_.size(); ++place)
     if (across_[place] < 0)
       for (const int node : facets[place % facetsPerElement_])
-        isOnBoundary_[static_cast<std::size_t>(
-            cells[place / facetsPerElement_ * perElement + static_cast<std::size_t>(node)])] = 1;
+        isOnBoundary_[cells[place / facetsPerElement_ * perElement + static_cast<std::size_t>(node)]] = 1;
 }
 
 } // namespace epafi::fem

@@ -29,9 +29,7 @@ public:
     return across_[static_cast<std::size_t>(element) * facetsPerElement_ + facet];
   }
   /// Whether a node belongs to a facet on the boundary.
-  [[nodiscard]] bool isOnBoundary(LocalOrdinal node) const {
-    return isOnBoundary_[static_cast<std::size_t>(node)] != 0;
-  }
+  [[nodiscard]] bool isOnBoundary(LocalOrdinal node) const { return isOnBoundary_[node] != 0; }
   /// One facet that more than two elements share, if there is any: then across() is not to be used.
   [[nodiscard]] const std::optional<Crowd>& crowdedFacet() const { return crowdedFacet_; }
 

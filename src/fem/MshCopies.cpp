@@ -16,7 +16,7 @@ struct Place {
 };
 
 std::span<const GlobalOrdinal> nodesOf(const MshBlock& block, std::size_t element) {
-  const auto count = static_cast<std::size_t>(numNodesOfGmsh(block.block.type));
+  const std::size_t count = numNodesOfGmsh(block.block.type);
   return std::span(block.nodes).subspan(element * count, count);
 }
 

@@ -139,7 +139,7 @@ private:
 
 GmshContents Contents::make() {
   const int d = contents_.dimension = records_.blocks[3].empty() ? 2 : 3;
-  if (records_.blocks[static_cast<std::size_t>(d)].empty())
+  if (records_.blocks[d].empty())
     throw InputError("The mesh file " + inQuotes(contents_.file) +
                      " holds no elements of dimension 2 or 3; mesh its surfaces or volumes, and save all of "
                      "them or those in physical groups");
@@ -154,7 +154,7 @@ GmshContents Contents::make() {
   std::set<int> named;
   for (const GmshGroup& surface : contents_.surfaces)
     named.insert(surface.entities.begin(), surface.entities.end());
-  std::erase_if(records_.blocks[static_cast<std::size_t>(d - 1)],
+  std::erase_if(records_.blocks[d - 1],
                 [&](const MshBlock& made) { return !named.contains(made.block.entity); });
   contents_.facets = blocksOf(d - 1);
   return std::move(contents_);
@@ -181,7 +181,7 @@ LocalOrdinal Contents::nodeOf(GlobalOrdinal tag) const {
   const std::vector<GlobalOrdinal>& tags = contents_.nodeTags;
   // Mostly numbers have no gaps, and there is nothing to search.
   if (!tags.empty() && tag >= tags.front()) {
-    const auto guess = static_cast<std::size_t>(tag - tags.front());
+    const std::size_t guess = tag - tags.front();
     if (guess < tags.size() && tags[guess] == tag)
       return static_cast<LocalOrdinal>(guess);
   }
@@ -195,7 +195,7 @@ LocalOrdinal Contents::nodeOf(GlobalOrdinal tag) const {
 /// A group without a name is called by its number.
 std::vector<GmshGroup> Contents::groupsOf(int dimension) const {
   std::vector<GmshGroup> groups;
-  for (auto [number, entities] : records_.groupEntities[static_cast<std::size_t>(dimension)]) {
+  for (auto [number, entities] : records_.groupEntities[dimension]) {
     std::sort(entities.begin(), entities.end());
     entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
     const auto found = records_.groupNames.find({dimension, number});
@@ -212,7 +212,7 @@ std::vector<GmshGroup> Contents::groupsOf(int dimension) const {
 
 std::vector<GmshBlock> Contents::blocksOf(int dimension) {
   std::vector<GmshBlock> blocks;
-  for (MshBlock& made : records_.blocks[static_cast<std::size_t>(dimension)]) {
+  for (MshBlock& made : records_.blocks[dimension]) {
     made.block.nodes.reserve(made.nodes.size());
     for (const GlobalOrdinal tag : made.nodes)
       made.block.nodes.push_back(nodeOf(tag));
@@ -225,12 +225,11 @@ std::vector<GmshBlock> Contents::blocksOf(int dimension) {
 } // namespace
 
 int numNodesOfGmsh(int type) {
-  return type > 0 && type < static_cast<int>(kinds.size()) ? kinds[static_cast<std::size_t>(type)].numNodes
-                                                           : 0;
+  return type > 0 && type < static_cast<int>(kinds.size()) ? kinds[type].numNodes : 0;
 }
 
 int linearKindOfGmsh(int type) {
-  return kinds[static_cast<std::size_t>(type)].linear;
+  return kinds[type].linear;
 }
 
 int dimensionOfGmsh(int type) {

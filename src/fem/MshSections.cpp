@@ -81,7 +81,7 @@ Header headerOf(MshScanner& file, LocalOrdinal numLeft) {
 /// their dimension.
 MshBlock& blockOf(int type, int group, std::map<std::pair<int, int>, std::size_t>& places,
                   MshRecords& records) {
-  const auto dimension = static_cast<std::size_t>(dimensionOfGmsh(type));
+  const std::size_t dimension = dimensionOfGmsh(type);
   std::vector<MshBlock>& blocks = records.blocks[dimension];
   const auto [found, isNew] = places.try_emplace({type, group}, blocks.size());
   if (isNew) {
@@ -249,7 +249,7 @@ void readElements4(MshScanner& file, MshRecords& records) {
     }
     found += number;
     if (number > 0)
-      records.blocks[static_cast<std::size_t>(dimension)].push_back(std::move(made));
+      records.blocks[dimension].push_back(std::move(made));
   }
   requireTotal(file, "elements", totals.things, found);
 }

@@ -21,14 +21,14 @@ PointTree::PointTree(std::span<const Point> points)
   std::iota(index_.begin(), index_.end(), 0);
   sort(0, points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    points_[i] = points[static_cast<std::size_t>(index_[i])];
+    points_[i] = points[index_[i]];
 }
 
 void PointTree::sort(std::size_t begin, std::size_t end) {
   if (end - begin <= shortRange)
     return;
   const auto pointOf = [&](std::size_t i) -> const Point& {
-    return points_[static_cast<std::size_t>(index_[i])]; // not in the order of index_ yet
+    return points_[index_[i]]; // not in the order of index_ yet
   };
   Point lower = pointOf(begin), upper = lower;
   for (std::size_t i = begin + 1; i < end; ++i)
@@ -42,9 +42,8 @@ void PointTree::sort(std::size_t begin, std::size_t end) {
       widest = axis;
   const std::size_t middle = middleOf(begin, end);
   const auto at = [&](std::size_t i) { return index_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [&](LocalOrdinal a, LocalOrdinal b) {
-    return points_[static_cast<std::size_t>(a)][widest] < points_[static_cast<std::size_t>(b)][widest];
-  });
+  std::nth_element(at(begin), at(middle), at(end),
+                   [&](LocalOrdinal a, LocalOrdinal b) { return points_[a][widest] < points_[b][widest]; });
   axis_[middle] = static_cast<std::uint8_t>(widest);
   sort(begin, middle);
   sort(middle + 1, end);

@@ -249,12 +249,12 @@ MeshArrays arraysOf(const SimplexMesh& mesh, int order) {
     const SimplexMesh::Element& element = mesh.elements[e];
     arrays.cells.insert(arrays.cells.end(), element.corners.begin(),
                         element.corners.begin() + mesh.dimension + 1);
-    arrays.elementTags.push_back(static_cast<GlobalOrdinal>(e));
+    arrays.elementTags.push_back(e);
     for (const int group : mesh.groupMarks[index(element.group)])
       arrays.groups[index(group)].elements.push_back(static_cast<LocalOrdinal>(e));
   }
   for (std::size_t node = 0; node < arrays.points.size(); ++node)
-    arrays.nodeTags.push_back(static_cast<GlobalOrdinal>(node));
+    arrays.nodeTags.push_back(node);
   addSurfaces(mesh, arrays);
   std::erase_if(arrays.surfaces, [](const NamedFacets& surface) { return surface.nodes.empty(); });
   if (order == 1)

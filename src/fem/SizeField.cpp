@@ -30,7 +30,7 @@ double SizeField::sizeIn(std::size_t simplex, const Point& point, double& outsid
   Eigen::Matrix3d edges = Eigen::Matrix3d::Identity();
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   for (int d = 0; d < n; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
+    const std::size_t axis = d;
     place[d] = point[axis] - corners[0][axis];
     for (int i = 0; i < n; ++i)
       edges(d, i) = corners[i + 1][axis] - corners[0][axis];

@@ -66,7 +66,7 @@ bool SolidDomain::contains(const SolidBody& body, GlobalOrdinal element) const {
   std::vector<Point> points;
   body.mesh.elementPoints(element, points);
   const CellType type = body.mesh.cellType();
-  const auto corners = std::span(points).first(static_cast<std::size_t>(numCornersOf(type)));
+  const auto corners = std::span(points).first(numCornersOf(type));
   return liesIn(centreOf(corners), box_, dimensionOf(type));
 }
 

@@ -39,8 +39,7 @@ std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoa
   const GlobalOrdinal numHeld =
       mesh.part() == nullptr ? mesh.numNodes() : static_cast<GlobalOrdinal>(mesh.part()->nodes().size());
   for (GlobalOrdinal held = 0; held < numHeld; ++held) {
-    const GlobalOrdinal node =
-        mesh.part() == nullptr ? held : mesh.part()->nodes()[static_cast<std::size_t>(held)];
+    const GlobalOrdinal node = mesh.part() == nullptr ? held : mesh.part()->nodes()[held];
     const Point point = mesh.point(node);
     double distance = 0;
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
@@ -91,7 +90,7 @@ void SolidLoads::addGridForce(const SolidBody& body, const scene::SolidLoad& loa
   const StructuredMesh& mesh = *body.mesh.structured();
   GridForce force{load.value, {}};
   for (std::size_t d = 0; d < 3; ++d)
-    force.shares[d].assign(static_cast<std::size_t>(mesh.elements()[d]), {0, 0, 0});
+    force.shares[d].assign(mesh.elements()[d], {0, 0, 0});
   for (std::size_t d = 0; d < 3; ++d)
     for (std::size_t k = 0; k < force.shares[d].size(); ++k)
       force.shares[d][k] = segmentLoad(mesh.coordinate(d, static_cast<GlobalOrdinal>(k)),
@@ -120,7 +119,7 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions,
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       NodalForce force{surface.elements[f], nodes[i], {0, 0, 0}};
       for (int c = 0; c < components; ++c)
-        force.force[static_cast<std::size_t>(c)] = values[static_cast<Eigen::Index>(i) * components + c];
+        force.force[c] = values[static_cast<Eigen::Index>(i) * components + c];
       forces_.push_back(force);
     }
   }
@@ -158,13 +157,13 @@ void SolidLoads::addGridForces(const SolidBody& body, const SolidRegions& region
     for (const GlobalOrdinal r : region)
       thickness.push_back(thicknessOf(body.body.physics, materialIn(body.body, static_cast<std::size_t>(r))));
   }
-  const auto perElement = static_cast<std::size_t>(loads.rows());
+  const std::size_t perElement = loads.rows();
   for (const GridForce& force : gridForces_) {
     GridWalk walk = mesh.elementWalk();
     double* load = loads.data();
     for (std::size_t e = 0; e < elements.size(); ++e, load += perElement) {
       walk.to(elements[e]);
-      const auto share = [&](std::size_t d) { return force.shares[d][static_cast<std::size_t>(walk[d])]; };
+      const auto share = [&](std::size_t d) { return force.shares[d][walk[d]]; };
       const auto x = share(0), y = share(1), z = share(2);
       const auto isBeside = [](const auto& part) { return part[0] == 0 && part[1] == 0 && part[2] == 0; };
       if (isBeside(x) || isBeside(y) || isBeside(z))
@@ -172,10 +171,9 @@ void SolidLoads::addGridForces(const SolidBody& body, const SolidRegions& region
       const double factor = thickness.empty() ? 1 : thickness[e];
       double* next = load;
       for (const auto& place : mesh.places()) {
-        const double product = x[static_cast<std::size_t>(place[0])] * y[static_cast<std::size_t>(place[1])] *
-                               z[static_cast<std::size_t>(place[2])];
+        const double product = x[place[0]] * y[place[1]] * z[place[2]];
         for (int c = 0; c < components; ++c)
-          *next++ += factor * force.value[static_cast<std::size_t>(c)] * product;
+          *next++ += factor * force.value[c] * product;
       }
     }
   }
@@ -190,7 +188,7 @@ void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& region
       body.cornersOf(elements[e], points);
       bodyForceLoad(body.mesh.cellType(), points, body.body.physics,
                     materialIn(body.body, regions.of(body, elements[e])), force.value, values);
-      loads.col(static_cast<Eigen::Index>(e)) += values;
+      loads.col(e) += values;
     });
 }
 
@@ -206,8 +204,7 @@ void SolidLoads::addNodalForces(const Mesh& mesh, int components, std::span<cons
     for (; force != forces_.end() && force->element == elements[e]; ++force) {
       const auto corner = std::find(nodes.begin(), nodes.end(), force->node) - nodes.begin();
       for (int c = 0; c < components; ++c)
-        loads(corner * components + c, static_cast<Eigen::Index>(e)) +=
-            force->force[static_cast<std::size_t>(c)];
+        loads(corner * components + c, static_cast<Eigen::Index>(e)) += force->force[c];
     }
   }
 }

@@ -78,7 +78,7 @@ std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBod
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     for (const GlobalOrdinal node : nodes)
       for (int c = 0; c < body.components(); ++c)
-        if (const auto& value = support.value[static_cast<std::size_t>(c)])
+        if (const auto& value = support.value[c])
           conditions.push_back({node, Vector3d::Unit(c), *value, c, &support});
     if (!support.normal)
       continue;
@@ -138,7 +138,7 @@ void SolidSupports::holdInFrame(GlobalOrdinal node, int components, std::span<co
   Eigen::Matrix3d frame;
   int numAxes = 0;
   for (const Vector3d& axis : axes) {
-    held_.push_back({node, numAxes, values[static_cast<std::size_t>(numAxes)]});
+    held_.push_back({node, numAxes, values[numAxes]});
     frame.col(numAxes++) = axis;
   }
   while (numAxes < 3) { // the axis of space that is farthest from those so far, z last in the plane

@@ -16,8 +16,7 @@ public:
     std::partial_sum(number.begin(), number.end(), start_.begin() + 1);
     std::vector<int> next(start_.begin(), start_.end() - 1);
     for (std::size_t corner = 0; corner < nodeOf.size(); ++corner)
-      corners_[static_cast<std::size_t>(next[static_cast<std::size_t>(nodeOf[corner])]++)] =
-          static_cast<int>(corner);
+      corners_[next[nodeOf[corner]]++] = static_cast<int>(corner);
   }
 
   std::span<const int> operator[](std::size_t node) const {
@@ -43,7 +42,7 @@ public:
     const auto me = static_cast<int>(node);
     for (const int corner : corners)
       for (const int other : numbering_.elementNodes(static_cast<std::size_t>(corner / perElement)))
-        if (std::exchange(seenBy_[static_cast<std::size_t>(other)], me) != me)
+        if (std::exchange(seenBy_[other], me) != me)
           neighbours_.push_back(other);
     std::sort(neighbours_.begin(), neighbours_.end());
     rows_.clear();
@@ -72,7 +71,7 @@ private:
 
 StiffnessPattern::StiffnessPattern(std::shared_ptr<const LocalNumbering> numbering, int components,
                                    std::vector<int> unknownOf)
-    : numbering_(std::move(numbering)), components_(static_cast<std::size_t>(components)),
+    : numbering_(std::move(numbering)), components_(components),
       valuesPerElement_(numbering_->nodesPerElement() * components_),
       unknownOf_(std::move(unknownOf)), columnStart_{0},
       places_(numbering_->numElements() * valuesPerElement_ * valuesPerElement_, -1) {
@@ -109,7 +108,7 @@ void StiffnessPattern::addColumn(const NodeColumn& column, std::span<const int> 
   columnStart_.push_back(static_cast<int>(rows_.size()));
   const auto perElement = static_cast<int>(numbering_->nodesPerElement());
   for (const int corner : corners) {
-    const auto element = static_cast<std::size_t>(corner / perElement);
+    const std::size_t element = corner / perElement;
     const std::size_t value = static_cast<std::size_t>(corner % perElement) * components_ + component;
     auto place = places_.begin() +
                  static_cast<std::ptrdiff_t>((element * valuesPerElement_ + value) * valuesPerElement_);

@@ -39,9 +39,9 @@ std::array<std::vector<std::array<int, 3>>, 2> placesIn() {
   for (int order = 1; order <= 2; ++order) {
     const Shape<dim>& shape = referenceShape<dim>(withOrder(linear, order));
     for (int node = 0; node < shape.numNodes; ++node) {
-      std::array<int, 3>& place = all[static_cast<std::size_t>(order - 1)].emplace_back();
+      std::array<int, 3>& place = all[order - 1].emplace_back();
       for (int d = 0; d < dim; ++d)
-        place[static_cast<std::size_t>(d)] = static_cast<int>(shape.node(node)[d] + 1) * order / 2;
+        place[d] = static_cast<int>(shape.node(node)[d] + 1) * order / 2;
     }
   }
   return all;
@@ -182,7 +182,7 @@ Surface StructuredMesh::surface(const std::string& name) const {
   for (const GlobalOrdinal element : surface.elements) {
     const ElementNodes nodes(*this, element);
     for (const int corner : facet)
-      surface.facetNodes.push_back(nodes[static_cast<std::size_t>(corner)]);
+      surface.facetNodes.push_back(nodes[corner]);
   }
   return surface;
 }
@@ -197,7 +197,7 @@ std::vector<Point> StructuredMesh::elementShape() const {
 
 std::span<const std::array<int, 3>> StructuredMesh::places() const {
   static const auto ofPlane = placesIn<2>(), ofSpace = placesIn<3>();
-  return (dimension_ == 2 ? ofPlane : ofSpace)[static_cast<std::size_t>(order_ - 1)];
+  return (dimension_ == 2 ? ofPlane : ofSpace)[order_ - 1];
 }
 
 std::vector<Point> congruentShape(const Mesh& mesh) {

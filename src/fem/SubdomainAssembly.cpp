@@ -22,16 +22,16 @@ void fillKernel(const BodyModel& model, AssembledSubdomain& subdomain) {
   for (int mode = 0; mode < modes; ++mode)
     for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
       const int position = subdomain.unknownPosition[i];
-      subdomain.kernel(static_cast<Eigen::Index>(i), mode) = model.kernelValue(
-          subdomain.nodes[static_cast<std::size_t>(position / components)], position % components, mode);
+      subdomain.kernel(static_cast<Eigen::Index>(i), mode) =
+          model.kernelValue(subdomain.nodes[position / components], position % components, mode);
     }
 }
 
 } // namespace
 
 SubdomainAssembler::SubdomainAssembler(const BodyModel& model)
-    : model_(model), components_(static_cast<std::size_t>(model.components())),
-      numberings_(maxNumberings, maxNumbers), patterns_(maxPatterns, maxNumbers) {}
+    : model_(model), components_(model.components()), numberings_(maxNumberings, maxNumbers),
+      patterns_(maxPatterns, maxNumbers) {}
 
 void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, AssembledSubdomain& subdomain) {
   const std::shared_ptr<const LocalNumbering> numbering = number(elements, subdomain);
@@ -89,7 +89,7 @@ void SubdomainAssembler::hold(AssembledSubdomain& subdomain) {
   model_.prescribed(subdomain.nodes, prescribed_);
   for (const auto& [position, value] : prescribed_) {
     subdomain.unknownOf[position] = -1;
-    subdomain.prescribed[static_cast<Eigen::Index>(position)] = value;
+    subdomain.prescribed[position] = value;
   }
   subdomain.unknownPosition.clear();
   subdomain.unknownPosition.reserve(numPositions);
@@ -142,12 +142,10 @@ void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const Stiffn
   for (const std::size_t e : pattern.supportedElements()) {
     const std::span<const int> nodes = numbering.elementNodes(e);
     const auto positionOf = [&](Eigen::Index value) {
-      const auto v = static_cast<std::size_t>(value);
+      const std::size_t v = value;
       return static_cast<std::size_t>(nodes[v / components_]) * components_ + v % components_;
     };
-    const auto heldAt = [&](std::size_t position) {
-      return subdomain.prescribed[static_cast<Eigen::Index>(position)];
-    };
+    const auto heldAt = [&](std::size_t position) { return subdomain.prescribed[position]; };
     const Eigen::MatrixXd& k = stiffnessOf(kinds_[e]);
     for (Eigen::Index j = 0; j < k.cols(); ++j) {
       const double held = heldAt(positionOf(j)); // 0 at the free positions

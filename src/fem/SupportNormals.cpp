@@ -34,8 +34,7 @@ struct Facets {
       areas.push_back(areaVector(surface.facetType, corners));
       normals.push_back(areas.back().normalized());
       for (const GlobalOrdinal node : surface.facet(f)) {
-        const auto place =
-            static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+        const std::size_t place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
         nodesOf[f].push_back(place);
         at[place].push_back(f);
       }

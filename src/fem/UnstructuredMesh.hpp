@@ -22,9 +22,7 @@ public:
     return static_cast<GlobalOrdinal>(arrays_.points.size());
   }
   [[nodiscard]] GlobalOrdinal numElements() const override { return arrays_.numElements(); }
-  [[nodiscard]] Point point(GlobalOrdinal node) const override {
-    return arrays_.points[static_cast<std::size_t>(node)];
-  }
+  [[nodiscard]] Point point(GlobalOrdinal node) const override { return arrays_.points[node]; }
   void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const override;
   void elementNodes(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> nodes) const override;
   /// Ascending.
@@ -45,12 +43,8 @@ public:
   /// How errors call the body.
   [[nodiscard]] const std::string& name() const { return arrays_.name; }
   /// Numbers that a node and an element have in the file.
-  [[nodiscard]] GlobalOrdinal nodeTag(GlobalOrdinal node) const {
-    return arrays_.nodeTags[static_cast<std::size_t>(node)];
-  }
-  [[nodiscard]] GlobalOrdinal elementTag(GlobalOrdinal element) const {
-    return arrays_.elementTags[static_cast<std::size_t>(element)];
-  }
+  [[nodiscard]] GlobalOrdinal nodeTag(GlobalOrdinal node) const { return arrays_.nodeTags[node]; }
+  [[nodiscard]] GlobalOrdinal elementTag(GlobalOrdinal element) const { return arrays_.elementTags[element]; }
 
 private:
   /// A facet by its element and its place in facetsOf().

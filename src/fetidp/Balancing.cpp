@@ -61,7 +61,7 @@ double balance(const decomposition::DecomposedProblem& problem, const NaturalCoa
     return size;
   Vector face(lambda.getMap()), change(lambda.getMap()), next(lambda.getMap());
   const std::unique_ptr<qp::FaceInverse> inverse = space.faceInverse(lambda.getMap());
-  std::vector<double> motion(static_cast<std::size_t>(rest.size()));
+  std::vector<double> motion(rest.size());
   for (int step = 0; step < maxSteps && size > wanted; ++step) {
     markFree(problem, lambda, face);
     inverse->setFace(face);

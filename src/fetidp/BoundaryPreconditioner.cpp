@@ -74,7 +74,7 @@ void BoundaryPreconditioner::multiply(std::size_t group, Work& work) const {
 }
 
 void BoundaryPreconditioner::apply(const MultiVector& x, MultiVector& y) const {
-  const auto numColumns = static_cast<Eigen::Index>(x.getNumVectors());
+  const Eigen::Index numColumns = x.getNumVectors();
   const std::span<const double> lambda = input_.toSubdomains(x);
   const std::span<double> result = output_.zeros(x.getNumVectors());
   for (std::size_t g = 0; g < blocks_.size(); ++g) {
@@ -93,8 +93,7 @@ void BoundaryPreconditioner::applyTo(const SubdomainVectors& u, Vector& y) const
     const SubdomainGroup& group = inverse_->groups()[g];
     Work& work = prepared(g, 1);
     for (std::size_t m = 0; m < group.members().size(); ++m)
-      work.displacement.col(static_cast<Eigen::Index>(m)) =
-          u[group.members()[m]].col(0)(group.condensed().interface().boundaryUnknowns);
+      work.displacement.col(m) = u[group.members()[m]].col(0)(group.condensed().interface().boundaryUnknowns);
     multiply(g, work);
     addProduct(blocks_[g].scaled, work.forces, 1, result);
   }

@@ -34,7 +34,7 @@ RCP<const Comm> teamOf(const DecomposedProblem& problem) {
     return all;
   std::set<int> clusters;
   for (const auto& subdomain : problem.subdomains)
-    clusters.insert(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
+    clusters.insert(problem.clusterOf[subdomain.number]);
   std::vector<decomposition::Link>
       mine; // pieces of ranks, and of clusters, whose numbers come after those of the ranks
   for (const int cluster : clusters)
@@ -42,7 +42,7 @@ RCP<const Comm> teamOf(const DecomposedProblem& problem) {
   const std::vector<int> teams = decomposition::piecesOf(
       static_cast<std::size_t>(ranks) + problem.clusters.size(), gatherOnAll(*all, mine));
   const bool isOne = std::all_of(teams.begin(), teams.begin() + ranks, [](int team) { return team == 0; });
-  return isOne ? all : RCP<const Comm>(all->split(teams[static_cast<std::size_t>(rank)], rank));
+  return isOne ? all : RCP<const Comm>(all->split(teams[rank], rank));
 }
 
 /// S_cc = Σ L_cᵀ S L_c. The blocks are added up in the order of the subdomains, whatever rank they come from;
@@ -98,10 +98,10 @@ CoarseKernel gatherKernel(const DecomposedProblem& problem, const Comm& comm, in
   CoarseKernel kernel{Eigen::MatrixXd::Zero(size, most),
                       std::vector<int>(static_cast<std::size_t>(size), -1)};
   for (const auto& entry : gatherOnAll(comm, mine)) {
-    const int cluster = clusterOf[static_cast<std::size_t>(entry.col())];
-    kernel.cluster[static_cast<std::size_t>(entry.row())] = cluster;
+    const int cluster = clusterOf[entry.col()];
+    kernel.cluster[entry.row()] = cluster;
     kernel.modes(entry.row(),
-                 entry.col() - problem.clusters[static_cast<std::size_t>(cluster)].kernelOffset) =
+                 entry.col() - problem.clusters[cluster].kernelOffset) =
         entry.value(); // copies of a crosspoint agree
   }
   return kernel;
@@ -113,7 +113,7 @@ std::vector<int> fixingUnknowns(const DecomposedProblem& problem, const CoarseKe
   std::vector<std::vector<int>> candidates(problem.clusters.size());
   for (std::size_t i = 0; i < kernel.cluster.size(); ++i)
     if (kernel.cluster[i] >= 0)
-      candidates[static_cast<std::size_t>(kernel.cluster[i])].push_back(static_cast<int>(i));
+      candidates[kernel.cluster[i]].push_back(static_cast<int>(i));
   std::vector<int> fixed;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     const decomposition::Cluster& cluster = problem.clusters[c];
@@ -123,13 +123,12 @@ std::vector<int> fixingUnknowns(const DecomposedProblem& problem, const CoarseKe
         kernel.modes(candidates[c], Eigen::seqN(0, cluster.kernelDimension)).transpose();
     const direct::PivotedColumns pivoted = direct::pivotedColumns(transposed);
     if (pivoted.rank < cluster.kernelDimension)
-      throw Error("the crosspoints of the floating body '" +
-                  problem.bodies[static_cast<std::size_t>(cluster.body)].name + "' do not hold the " +
-                  std::to_string(cluster.kernelDimension) +
+      throw Error("the crosspoints of the floating body '" + problem.bodies[cluster.body].name +
+                  "' do not hold the " + std::to_string(cluster.kernelDimension) +
                   " rigid modes of its cluster of subdomains number " + std::to_string(c) +
                   "; choose more crosspoints");
     for (std::size_t k = 0; k < static_cast<std::size_t>(cluster.kernelDimension); ++k)
-      fixed.push_back(candidates[c][static_cast<std::size_t>(pivoted.order[k])]);
+      fixed.push_back(candidates[c][pivoted.order[k]]);
   }
   return fixed;
 }
@@ -143,8 +142,8 @@ std::map<int, double> largestStiffness(const DecomposedProblem& problem, const C
   std::vector<OfCluster> mine;
   for (const auto& subdomain : problem.subdomains)
     if (subdomain.stiffness->rows() > 0)
-      mine.push_back({problem.clusterOf[static_cast<std::size_t>(subdomain.number)],
-                      Eigen::VectorXd(subdomain.stiffness->diagonal()).maxCoeff()});
+      mine.push_back(
+          {problem.clusterOf[subdomain.number], Eigen::VectorXd(subdomain.stiffness->diagonal()).maxCoeff()});
   std::map<int, double> largest;
   for (const auto& [cluster, value] : gatherOnAll(comm, mine))
     largest[cluster] = std::max(largest[cluster], value);
@@ -161,7 +160,7 @@ void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel,
   const Eigen::MatrixXd forces = matrix * kernel.modes; // S_cc joins no two clusters
   const double largestMode = kernel.modes.cwiseAbs().maxCoeff();
   for (std::size_t i = 0; i < kernel.cluster.size(); ++i) {
-    const double force = forces.row(static_cast<Eigen::Index>(i)).lpNorm<Eigen::Infinity>();
+    const double force = forces.row(i).lpNorm<Eigen::Infinity>();
     const auto found = stiffness.find(kernel.cluster[i]);
     if (found != stiffness.end() && !(force <= 1e-8 * found->second * largestMode)) // also NaN
       throw Error("the rigid modes of the floating bodies are no kernel of the coarse problem; check "
@@ -173,12 +172,12 @@ void requireKernel(const SparseMatrix& matrix, const CoarseKernel& kernel,
 
 Eigen::VectorXd crosspointDiagonal(const DecomposedProblem& problem, const Comm& comm, Eigen::Index size,
                                    const std::function<int(GlobalOrdinal)>& placeOf) {
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(size));
+  std::vector<AccurateSum> sums(size);
   for (const auto& subdomain : problem.subdomains)
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
       if (const int place = placeOf(subdomain.crosspointIndices[i]); place >= 0) {
         const int unknown = subdomain.crosspointUnknowns[i];
-        sums[static_cast<std::size_t>(place)].add(subdomain.stiffness->coeff(unknown, unknown));
+        sums[place].add(subdomain.stiffness->coeff(unknown, unknown));
       }
   Eigen::VectorXd diagonal(size);
   sumOverRanks(comm, sums, diagonal.data());
@@ -216,7 +215,7 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
     factor_ = direct::factorize(matrix, solvers.coarse, "the coarse problem");
   });
   if (!isOnFirst) {
-    sums_.resize(static_cast<std::size_t>(factorSize_));
+    sums_.resize(factorSize_);
     return;
   }
   const auto whole = static_cast<Tpetra::global_size_t>(factorSize_);
@@ -244,8 +243,7 @@ void CoarseProblem::findPlaces() {
 
 /// In the factor, of a crosspoint of this rank.
 int CoarseProblem::placeOf(decomposition::CoarseNumber unknown) const {
-  return places_[static_cast<std::size_t>(
-      std::lower_bound(crosspoints_.begin(), crosspoints_.end(), unknown) - crosspoints_.begin())];
+  return places_[std::lower_bound(crosspoints_.begin(), crosspoints_.end(), unknown) - crosspoints_.begin()];
 }
 
 void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
@@ -262,19 +260,19 @@ void CoarseProblem::solve(std::span<const AccurateSum> z, Eigen::MatrixXd& x) co
 }
 
 void CoarseProblem::solveReplicated(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
-  sums_.assign(static_cast<std::size_t>(rhs_.size()), AccurateSum());
+  sums_.assign(rhs_.size(), AccurateSum());
   for (Eigen::Index j = 0, k = 0; j < x.cols(); ++j)
     for (const int place : places_)
-      sums_[static_cast<std::size_t>(j * factorSize_ + place)] = z[static_cast<std::size_t>(k++)];
+      sums_[j * factorSize_ + place] = z[k++];
   sumOverRanks(*team_, sums_, rhs_.data());
   factor_->solve(rhs_, solution_);
   for (Eigen::Index j = 0; j < x.cols(); ++j)
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      x(i, j) = solution_(places_[static_cast<std::size_t>(i)], j);
+      x(i, j) = solution_(places_[i], j);
 }
 
 void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd& x) const {
-  const auto numColumns = static_cast<std::size_t>(x.cols());
+  const std::size_t numColumns = x.cols();
   if (mine_->getNumVectors() != numColumns) {
     first_ = rcp(new MultiVector(first_->getMap(), numColumns));
     mine_ = rcp(new MultiVector(mine_->getMap(), numColumns));
@@ -288,15 +286,14 @@ void CoarseProblem::solveOnFirst(std::span<const AccurateSum> z, Eigen::MatrixXd
   first_->doExport(*mine_, *import_, Tpetra::ADD);
   if (factor_) {
     for (std::size_t j = 0; j < numColumns; ++j)
-      std::copy_n(first_->getData(j).begin(), factorSize_, rhs_.col(static_cast<Eigen::Index>(j)).data());
+      std::copy_n(first_->getData(j).begin(), factorSize_, rhs_.col(j).data());
     factor_->solve(rhs_, solution_);
     for (std::size_t j = 0; j < numColumns; ++j)
-      std::copy_n(solution_.col(static_cast<Eigen::Index>(j)).data(), factorSize_,
-                  first_->getDataNonConst(j).begin());
+      std::copy_n(solution_.col(j).data(), factorSize_, first_->getDataNonConst(j).begin());
   }
   mine_->doImport(*first_, *import_, Tpetra::INSERT);
   for (std::size_t j = 0; j < numColumns; ++j)
-    std::copy_n(mine_->getData(j).begin(), x.rows(), x.col(static_cast<Eigen::Index>(j)).data());
+    std::copy_n(mine_->getData(j).begin(), x.rows(), x.col(j).data());
 }
 
 std::size_t CoarseProblem::factorBytes() const {

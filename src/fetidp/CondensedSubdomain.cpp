@@ -10,9 +10,9 @@ using decomposition::SparseMatrix;
 
 SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
                    const std::vector<int>& columns) {
-  std::vector<int> position(static_cast<std::size_t>(matrix.rows()), -1);
+  std::vector<int> position(matrix.rows(), -1);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    position[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
+    position[rows[i]] = static_cast<int>(i);
   SparseMatrix result(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
   Eigen::Index numEntries = 0;
   for (const int column : columns)
@@ -21,7 +21,7 @@ SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
   for (std::size_t j = 0; j < columns.size(); ++j) {
     result.startVec(static_cast<Eigen::Index>(j));
     for (SparseMatrix::InnerIterator entry(matrix, columns[j]); entry; ++entry) {
-      const int row = position[static_cast<std::size_t>(entry.row())];
+      const int row = position[entry.row()];
       if (row >= 0)
         result.insertBack(row, static_cast<Eigen::Index>(j)) = entry.value();
     }

@@ -39,14 +39,14 @@ ConstrainedCrosspoints::ConstrainedCrosspoints(const qp::ColumnSpace& space, con
   space.addColumns(c, held);           // U(UᵀFU)⁻¹UᵀD⁰
 
   const auto forces = rowsOf(held);
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(size * size)); // D⁰ᵀU(UᵀFU)⁻¹UᵀD⁰
+  std::vector<AccurateSum> sums(size * size); // D⁰ᵀU(UᵀFU)⁻¹UᵀD⁰
   for (Eigen::Index j = 0; j < size; ++j)
     for (Eigen::Index i = 0; i < forces.rows(); ++i)
       for (Eigen::Index k = 0; forces(i, j) != 0 && k < size; ++k)
-        sums[static_cast<std::size_t>(k + j * size)].add(caused(i, k) * forces(i, j));
+        sums[k + j * size].add(caused(i, k) * forces(i, j));
   sumOverRanks(comm, sums);
   for (Eigen::Index k = 0; k < size * size; ++k)
-    flexibility.data()[k] -= sums[static_cast<std::size_t>(k)].value();
+    flexibility.data()[k] -= sums[k].value();
   collectively(comm, [&] {
     stiffness_ = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
   });

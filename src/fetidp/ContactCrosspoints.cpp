@@ -32,16 +32,16 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, const Comm& c
   Unknowns myTouched, myFollowing;
   std::vector<int> isTouched(problem.clusters.size(), 0); // of each cluster
   const auto clusterOf = [&problem](const decomposition::Subdomain& subdomain) {
-    return static_cast<std::size_t>(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
+    return static_cast<std::size_t>(problem.clusterOf[subdomain.number]);
   };
   std::vector<int> crosspointOf;
   for (const auto& subdomain : problem.subdomains) {
-    crosspointOf.assign(static_cast<std::size_t>(subdomain.stiffness->rows()), -1);
+    crosspointOf.assign(subdomain.stiffness->rows(), -1);
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
-      crosspointOf[static_cast<std::size_t>(subdomain.crosspointUnknowns[i])] = static_cast<int>(i);
+      crosspointOf[subdomain.crosspointUnknowns[i]] = static_cast<int>(i);
     for (const auto& entry : subdomain.constraint)
-      if (const int i = crosspointOf[static_cast<std::size_t>(entry.unknown)]; i >= 0) {
-        myTouched.push_back(subdomain.crosspointIndices[static_cast<std::size_t>(i)]);
+      if (const int i = crosspointOf[entry.unknown]; i >= 0) {
+        myTouched.push_back(subdomain.crosspointIndices[i]);
         isTouched[clusterOf(subdomain)] = 1;
       }
     for (const decomposition::EdgeEnd& end : subdomain.edgeEnds) {
@@ -129,13 +129,12 @@ void ContactCrosspoints::fillBlocks(const decomposition::DecomposedProblem& prob
     for (std::size_t j = 0; j < unknowns.size(); ++j)
       for (const Block& block : blocks_)
         if (first + j < block.touched.size())
-          unknowns[j].push_back(touched_[static_cast<std::size_t>(block.touched[first + j])]);
+          unknowns[j].push_back(touched_[block.touched[first + j]]);
     const Eigen::MatrixXd columns = inverse.coarseColumns(unknowns);
     auto value = values.begin();
     for (const Block& block : blocks_) {
       for (std::size_t i = 0; i < block.near.size(); ++i)
-        if (const auto unknown = near_[static_cast<std::size_t>(block.near[i])];
-            problem.crosspointMap->isNodeGlobalElement(unknown))
+        if (const auto unknown = near_[block.near[i]]; problem.crosspointMap->isNodeGlobalElement(unknown))
           for (std::size_t j = 0; j < unknowns.size() && first + j < block.touched.size(); ++j)
             value[static_cast<std::ptrdiff_t>(i + (first + j) * block.near.size())] =
                 columns(inverse.coarseIndexOf(unknown), static_cast<Eigen::Index>(j));
@@ -152,7 +151,7 @@ void ContactCrosspoints::fillBlocks(const decomposition::DecomposedProblem& prob
       value += response.size();
       Eigen::MatrixXd flexibility(n, n);
       for (Eigen::Index i = 0, t = 0; i < numNear; ++i)
-        if (indexOf(near_[static_cast<std::size_t>(block.near[static_cast<std::size_t>(i)])]) >= 0)
+        if (indexOf(near_[block.near[i]]) >= 0)
           flexibility.row(t++) = response.row(i);
       block.stiffness = direct::inverseOfSpd((0.5 * (flexibility + flexibility.transpose())).eval());
       block.extension = response * block.stiffness;
@@ -209,7 +208,7 @@ int ContactCrosspoints::indexOf(const decomposition::Subdomain& subdomain,
   const auto found = std::lower_bound(all.begin(), all.end(), unknown);
   if (found == all.end() || *found != unknown)
     return -1;
-  return indexOf(subdomain.crosspointIndices[static_cast<std::size_t>(found - all.begin())]);
+  return indexOf(subdomain.crosspointIndices[found - all.begin()]);
 }
 
 bool ContactCrosspoints::follows(decomposition::CoarseNumber coarseUnknown) const {

@@ -40,7 +40,7 @@ public:
   /// The shortest λ on the face with G̃_a λ = ẽ. Collective. \throws Error if there is none.
   void balance(const Eigen::VectorXd& resultants, Vector& lambda) {
     constexpr double roundOff = 1e-9;
-    const auto size = static_cast<std::size_t>(resultants.size());
+    const std::size_t size = resultants.size();
     std::vector<double> mu(size);
     equality_.multiplierOf({resultants.data(), size}, mu);
     lambda.putScalar(0.0);

@@ -73,7 +73,7 @@ void CrosspointMotion::findFollowers() {
     for (Eigen::Index member = 0; member < near.cols(); ++member) {
       const auto crosspoints = group.crosspointIndices(static_cast<std::size_t>(member));
       for (Eigen::Index c = 0; c < near.rows(); ++c)
-        near(c, member) = crosspoints_.nearIndexOf(crosspoints[static_cast<std::size_t>(c)]);
+        near(c, member) = crosspoints_.nearIndexOf(crosspoints[c]);
     }
     if ((near.array() >= 0).any())
       followers_.push_back({&group, std::move(near)});
@@ -85,7 +85,7 @@ void CrosspointMotion::findFollowers() {
 /// Collective.
 void CrosspointMotion::constrain(const decomposition::DecomposedProblem& problem,
                                  const qp::DeflatedOperator& deflated) {
-  const auto size = static_cast<std::size_t>(crosspoints_.size());
+  const std::size_t size = crosspoints_.size();
   MultiVector jumps(problem.multiplierMap, size), atCrosspoints(problem.multiplierMap, size);
   prepareColumns(crosspoints_.size());
   work_.nearDisplacement = crosspoints_.extension();
@@ -112,8 +112,8 @@ void CrosspointMotion::prepareColumns(Eigen::Index numColumns) const {
   work_.nearDisplacement.resize(crosspoints_.numNear(), numColumns);
   work_.nearForces.resizeLike(work_.nearDisplacement);
   work_.forces.resize(crosspoints_.size(), numColumns);
-  work_.touchedSums.assign(static_cast<std::size_t>(work_.forces.size()), AccurateSum());
-  work_.nearSums.assign(static_cast<std::size_t>(work_.nearForces.size()), AccurateSum());
+  work_.touchedSums.assign(work_.forces.size(), AccurateSum());
+  work_.nearSums.assign(work_.nearForces.size(), AccurateSum());
   if (work_.shared->getNumVectors() != static_cast<std::size_t>(numColumns))
     work_.shared = rcp(new MultiVector(work_.shared->getMap(), static_cast<std::size_t>(numColumns)));
 }
@@ -124,13 +124,12 @@ void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, Mult
   const std::span<const double> atSubdomains =
       isLocal_ ? work_.input.toSubdomains(lambda) : std::span<const double>();
   for (Eigen::Index j = 0; j < u.cols(); ++j) {
-    const auto column = static_cast<std::size_t>(j);
+    const std::size_t column = j;
     const std::size_t length = atSubdomains.size() / lambda.getNumVectors();
     const auto owned = lambda.getData(column);
     const double* values = isLocal_ ? atSubdomains.data() + column * length : owned.get();
     for (const ScaledConstraint::CrosspointEntry& entry : weights_)
-      work_.touchedSums[static_cast<std::size_t>(entry.touched + j * u.rows())].add(entry.weight *
-                                                                                    values[entry.multiplier]);
+      work_.touchedSums[entry.touched + j * u.rows()].add(entry.weight * values[entry.multiplier]);
   }
   sumOverRanks(*crosspoints_.comm(), work_.touchedSums, u.data());
   if (constrained_) {
@@ -143,7 +142,7 @@ void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, Mult
     const auto values = lambda.getData(j);
     const auto jumps = rest.getDataNonConst(j);
     for (Teuchos_Ordinal row = 0; row < jumps.size(); ++row)
-      jumps[row] = values[row] + jumps[row] * inverseShares_[static_cast<std::size_t>(row)];
+      jumps[row] = values[row] + jumps[row] * inverseShares_[row];
   }
 }
 
@@ -181,7 +180,7 @@ void CrosspointMotion::addForcesOfJumps() const {
       for (Eigen::Index member = 0; member < near.cols(); ++member)
         for (Eigen::Index c = 0; c < near.rows(); ++c)
           if (near(c, member) >= 0)
-            work_.nearSums[static_cast<std::size_t>(near(c, member) + j * work_.nearForces.rows())].add(
+            work_.nearSums[near(c, member) + j * work_.nearForces.rows()].add(
                 passedOn(c, member + j * near.cols()));
   }
 }
@@ -196,13 +195,12 @@ void CrosspointMotion::addForcesAtRest(const decomposition::DecomposedProblem& p
   prepareColumns(1);
   for (const auto& [group, near] : followers_)
     for (Eigen::Index m = 0; m < near.cols(); ++m) {
-      const std::size_t s = group->members()[static_cast<std::size_t>(m)];
+      const std::size_t s = group->members()[m];
       const decomposition::Subdomain& subdomain = problem.subdomains[s];
       const Eigen::VectorXd missing = subdomain.load - *subdomain.stiffness * v[s].col(0);
       for (Eigen::Index c = 0; c < near.rows(); ++c)
         if (near(c, m) >= 0)
-          work_.nearSums[static_cast<std::size_t>(near(c, m))].add(
-              missing[subdomain.crosspointUnknowns[static_cast<std::size_t>(c)]]);
+          work_.nearSums[near(c, m)].add(missing[subdomain.crosspointUnknowns[c]]);
     }
   pullBack(Eigen::MatrixXd::Zero(crosspoints_.size(), 1), y);
 }
@@ -213,7 +211,7 @@ void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const 
     const auto forces = y.getData(j);
     const auto shared = work_.shared->getDataNonConst(j);
     for (Teuchos_Ordinal row = 0; row < shared.size(); ++row)
-      shared[row] = forces[row] * inverseShares_[static_cast<std::size_t>(row)];
+      shared[row] = forces[row] * inverseShares_[row];
   }
   if (constrained_) {
     constrained_->subtractForces(*work_.shared, work_.touchedSums);
@@ -231,7 +229,7 @@ void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const 
       values[entry.multiplier] += entry.weight * work_.forces(entry.touched, column);
   };
   if (isLocal_) {
-    const auto numColumns = static_cast<std::size_t>(u.cols());
+    const std::size_t numColumns = u.cols();
     const std::span<double> values = work_.output.zeros(numColumns);
     for (Eigen::Index j = 0; j < u.cols(); ++j)
       addTo(j, values.data() + static_cast<std::size_t>(j) * (values.size() / numColumns));

@@ -30,8 +30,7 @@ std::vector<Entry> entriesOf(const decomposition::Subdomain& subdomain, const Su
       const double delta = scaling == PreconditionerParameters::Scaling::stiffness
                                ? subdomain.stiffness->coeff(entry.unknown, entry.unknown)
                                : 1.0;
-      entries.push_back({found->second, entry.unknown,
-                         interface.positionOf[static_cast<std::size_t>(entry.unknown)], entry.coefficient,
+      entries.push_back({found->second, entry.unknown, interface.positionOf[entry.unknown], entry.coefficient,
                          entry.coefficient / delta});
     }
   return entries;

@@ -44,7 +44,7 @@ std::vector<std::vector<int>> subdomainsOfRows(const DecomposedProblem& problem,
       for (const Subdomain& subdomain : problem.subdomains) {
         const auto& crosspoints = subdomain.crosspointUnknowns; // ascending
         for (const auto& entry : subdomain.constraint) {
-          const auto& found = subdomains[static_cast<std::size_t>(entry.multiplier)];
+          const auto& found = subdomains[entry.multiplier];
           const bool isAtCrosspoint =
               std::binary_search(crosspoints.begin(), crosspoints.end(), entry.unknown);
           for (const SubdomainNumber number :
@@ -73,19 +73,18 @@ Eigen::VectorXd nodalDiagonal(const Subdomain& subdomain) {
   for (const decomposition::Average& average : subdomain.averages) {
     std::vector<int> unknowns = average.others;
     unknowns.push_back(average.carrier);
-    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    const Eigen::Index n = unknowns.size();
     Eigen::MatrixXd block(n, n);
     for (Eigen::Index j = 0; j < n; ++j)
       for (Eigen::Index i = 0; i < n; ++i)
-        block(i, j) = subdomain.stiffness->coeff(unknowns[static_cast<std::size_t>(i)],
-                                                 unknowns[static_cast<std::size_t>(j)]);
+        block(i, j) = subdomain.stiffness->coeff(unknowns[i], unknowns[j]);
     for (Eigen::Index node = 0; node < n; ++node) {
       const double share = 1.0 / static_cast<double>(n);
       Eigen::VectorXd value = Eigen::VectorXd::Constant(n, -share);
       value[n - 1] = share;
       if (node + 1 < n)
         value[node] += 1;
-      diagonal[unknowns[static_cast<std::size_t>(node)]] = value.dot(block * value);
+      diagonal[unknowns[node]] = value.dot(block * value);
     }
   }
   return diagonal;
@@ -93,11 +92,11 @@ Eigen::VectorXd nodalDiagonal(const Subdomain& subdomain) {
 
 /// The carrier of the average that each unknown deviates from, or the unknown itself, n_s.
 std::vector<Unknown> carriersOf(const Subdomain& subdomain) {
-  std::vector<Unknown> carriers(static_cast<std::size_t>(subdomain.stiffness->rows()));
+  std::vector<Unknown> carriers(subdomain.stiffness->rows());
   std::iota(carriers.begin(), carriers.end(), 0);
   for (const decomposition::Average& average : subdomain.averages)
     for (const int other : average.others)
-      carriers[static_cast<std::size_t>(other)] = average.carrier;
+      carriers[other] = average.carrier;
   return carriers;
 }
 
@@ -133,7 +132,7 @@ std::vector<bool> bodiesOfVaryingStiffness(const DecomposedProblem& problem, dou
     const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);
     for (const auto& entry : subdomain.constraint)
       most = std::max(most, diagonal[entry.unknown]);
-    const auto body = static_cast<std::size_t>(subdomain.body);
+    const std::size_t body = subdomain.body;
     if (most > 0) {
       largest[body] = std::max(largest[body], most);
       largestInverse[body] = std::max(largestInverse[body], 1 / most);
@@ -153,25 +152,25 @@ std::vector<bool> stiffnessVaries(const DecomposedProblem& problem, const Import
   std::vector<int> jointOf(numLocal(*plan.getTargetMap()), -1); // of each row
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (const int row : joints[j].rows)
-      jointOf[static_cast<std::size_t>(row)] = static_cast<int>(j);
+      jointOf[row] = static_cast<int>(j);
   IntVector varies(plan.getTargetMap()); // at the joint's first row
   for (const Subdomain& subdomain : problem.subdomains) {
     const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);
     const std::vector<Unknown> carriers = carriersOf(subdomain);
     std::map<int, std::pair<double, double>> rangeAt; // least and largest at each of its joints
     for (const auto& entry : subdomain.constraint)
-      if (const int j = jointOf[static_cast<std::size_t>(entry.multiplier)]; j >= 0)
-        for (const Unknown unknown : {entry.unknown, carriers[static_cast<std::size_t>(entry.unknown)]}) {
+      if (const int j = jointOf[entry.multiplier]; j >= 0)
+        for (const Unknown unknown : {entry.unknown, carriers[entry.unknown]}) {
           auto& [least, largest] =
               rangeAt.try_emplace(j, std::numeric_limits<double>::infinity(), 0.0).first->second;
           least = std::min(least, diagonal[unknown]);
           largest = std::max(largest, diagonal[unknown]);
         }
     const auto values = varies.getDataNonConst();
-    const bool isAlways = !always.empty() && always[static_cast<std::size_t>(subdomain.body)];
+    const bool isAlways = !always.empty() && always[subdomain.body];
     for (const auto& [j, range] : rangeAt)
       if (range.second > ratio * range.first || (isAlways && range.second > 0))
-        values[joints[static_cast<std::size_t>(j)].rows.front()] = 1;
+        values[joints[j].rows.front()] = 1;
   }
   maximiseOverRanks(plan, varies);
   const auto values = varies.getData();

@@ -32,12 +32,12 @@ struct Term {
 std::vector<Term> termsOf(const DecomposedProblem& problem) {
   std::vector<int> numClusters(problem.bodies.size(), 0);
   for (const decomposition::Cluster& cluster : problem.clusters)
-    ++numClusters[static_cast<std::size_t>(cluster.body)];
+    ++numClusters[cluster.body];
   std::vector<Term> terms;
   for (const auto& subdomain : problem.subdomains)
     for (const auto& entry : subdomain.constraint) {
       if (problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing &&
-          numClusters[static_cast<std::size_t>(subdomain.body)] == 1)
+          numClusters[subdomain.body] == 1)
         continue;
       for (int mode = 0; mode < static_cast<int>(subdomain.kernel.cols()); ++mode)
         if (const double value = entry.coefficient * subdomain.kernel(entry.unknown, mode); value != 0)
@@ -96,8 +96,8 @@ std::vector<KernelEntry> kernelConstraintOfBodies(const DecomposedProblem& probl
   for (const KernelEntry& entry : entries) {
     if (problem.kindOf(decomposition::OwnedMultiplier(entry.row)) == decomposition::RowKind::gluing)
       continue;
-    const decomposition::Cluster& cluster = problem.clusters[clusterOf[static_cast<std::size_t>(entry.mode)]];
-    const int first = problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset;
+    const decomposition::Cluster& cluster = problem.clusters[clusterOf[entry.mode]];
+    const int first = problem.bodies[cluster.body].kernelOffset;
     for (Eigen::Index mode = 0; mode < cluster.ofBody.cols(); ++mode)
       values[{entry.row, first + static_cast<int>(mode)}] +=
           entry.value * cluster.ofBody(entry.mode - cluster.kernelOffset, mode);
@@ -115,12 +115,12 @@ namespace {
 template <class Product>
 Eigen::VectorXd resultants(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads,
                            const Product& product) {
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(problem.kernelDimension));
+  std::vector<AccurateSum> sums(problem.kernelDimension);
   for (std::size_t s = 0; s < loads.size(); ++s) {
     const decomposition::Subdomain& subdomain = problem.subdomains[s];
     const int offset = problem.kernelOffsetOf(subdomain);
     for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
-      sums[static_cast<std::size_t>(offset + mode)].add(product(subdomain.kernel.col(mode), loads[s].col(0)));
+      sums[offset + mode].add(product(subdomain.kernel.col(mode), loads[s].col(0)));
   }
   Eigen::VectorXd result(problem.kernelDimension);
   sumOverRanks(*problem.comm, sums, result.data());
@@ -140,8 +140,7 @@ Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
 Eigen::VectorXd onBodies(const DecomposedProblem& problem, const Eigen::VectorXd& resultants) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(problem.numRigidModes());
   for (const decomposition::Cluster& cluster : problem.clusters)
-    sums.segment(problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset,
-                 cluster.ofBody.cols()) +=
+    sums.segment(problem.bodies[cluster.body].kernelOffset, cluster.ofBody.cols()) +=
         cluster.ofBody.transpose() * resultants.segment(cluster.kernelOffset, cluster.kernelDimension);
   return sums;
 }

@@ -29,16 +29,16 @@ int refinementsFor(double share) {
 
 ContactStiffness::ContactStiffness(const ContactGram& gram, const GramInverse& inverse) {
   const std::vector<int>& modes = gram.modes();
-  const auto n = static_cast<Eigen::Index>(modes.size());
+  const Eigen::Index n = modes.size();
   Eigen::MatrixXd flexibility(n, n); // EᵀN⁻¹E
-  std::vector<double> unit(static_cast<std::size_t>(inverse.size())), motion(unit.size());
+  std::vector<double> unit(inverse.size()), motion(unit.size());
   for (Eigen::Index j = 0; j < n; ++j) {
-    double& force = unit[static_cast<std::size_t>(modes[static_cast<std::size_t>(j)])];
+    double& force = unit[modes[j]];
     force = 1;
     inverse.apply(unit, motion);
     force = 0;
     for (Eigen::Index i = 0; i < n; ++i)
-      flexibility(i, j) = motion[static_cast<std::size_t>(modes[static_cast<std::size_t>(i)])];
+      flexibility(i, j) = motion[modes[i]];
   }
   if (n == 0)
     return;
@@ -71,14 +71,14 @@ void KernelFaceInverse::setFace(const Vector& face) {
   missing_ = missing.sparseView();
   const Eigen::MatrixXd& stiffness = stiffness_->matrix;
   const std::vector<int>& anchors = gram_->anchors();
-  const auto numAnchors = static_cast<Eigen::Index>(anchors.size());
+  const Eigen::Index numAnchors = anchors.size();
   const double delta = stiffness.diagonal().mean();
   for (const int anchor : anchors)
     missing(anchor, anchor) -= delta;     // D − δAAᵀ
   lower_ = factorOf(stiffness - missing); // of S_δ
   response_.setZero(stiffness.rows(), numAnchors);
   for (Eigen::Index i = 0; i < numAnchors; ++i)
-    response_(anchors[static_cast<std::size_t>(i)], i) = delta;
+    response_(anchors[i], i) = delta;
   solveInPlace(response_);
   const direct::SymmetricEigen modes =
       direct::eigenOf(Eigen::MatrixXd::Identity(numAnchors, numAnchors) - response_(anchors, allOf));
@@ -128,7 +128,7 @@ void KernelFaceInverse::apply(std::span<const double> b, std::span<double> mu) c
     return;
   }
   applyOnce(b, mu);
-  const auto size = static_cast<Eigen::Index>(mu.size());
+  const Eigen::Index size = mu.size();
   Eigen::Map<Eigen::VectorXd> found(mu.data(), size), residual(residual_.data(), size);
   const std::vector<int>& modes = gram_->modes();
   for (int step = 0; step < numRefinements_; ++step) {
@@ -146,11 +146,11 @@ void KernelFaceInverse::applyOnce(std::span<const double> b, std::span<double> m
   inverse_->apply(b, mu);
   const std::vector<int>& modes = gram_->modes();
   for (std::size_t i = 0; i < modes.size(); ++i)
-    atContact_[static_cast<Eigen::Index>(i)] = mu[static_cast<std::size_t>(modes[i])];
+    atContact_[i] = mu[modes[i]];
   react();
   std::copy(b.begin(), b.end(), resultant_.begin());
   for (std::size_t i = 0; i < modes.size(); ++i)
-    resultant_[static_cast<std::size_t>(modes[i])] += reaction_[static_cast<Eigen::Index>(i)];
+    resultant_[modes[i]] += reaction_[i];
   inverse_->apply(resultant_, mu);
 }
 

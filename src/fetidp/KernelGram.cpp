@@ -101,7 +101,7 @@ std::vector<int> anchorsAmong(const std::vector<int>& modes,
       const auto place = std::lower_bound(modes.begin(), modes.end(), cluster.kernelOffset + mode);
       if (place == modes.end() || *place != cluster.kernelOffset + mode)
         continue;
-      const auto body = static_cast<std::size_t>(cluster.body);
+      const std::size_t body = cluster.body;
       found[body].push_back(static_cast<int>(place - modes.begin()));
       motions[body].emplace_back(cluster.ofBody.row(mode).transpose());
     }
@@ -112,10 +112,10 @@ std::vector<int> anchorsAmong(const std::vector<int>& modes,
       continue;
     Eigen::MatrixXd columns(dimension, static_cast<Eigen::Index>(found[body].size()));
     for (std::size_t i = 0; i < found[body].size(); ++i)
-      columns.col(static_cast<Eigen::Index>(i)) = motions[body][i];
+      columns.col(i) = motions[body][i];
     const direct::PivotedColumns pivoted = direct::pivotedColumns(columns);
     for (std::size_t i = 0; i < static_cast<std::size_t>(pivoted.rank); ++i)
-      anchors.push_back(found[body][static_cast<std::size_t>(pivoted.order[i])]);
+      anchors.push_back(found[body][pivoted.order[i]]);
   }
   return anchors;
 }
@@ -169,10 +169,10 @@ Eigen::MatrixXd ContactGram::offFace(const Vector& face) const {
   const auto isFree = qp::localData(face);
   std::vector<AccurateSum> sums(pairs_.size());
   for (const Term& term : terms_)
-    if (isFree[static_cast<std::size_t>(term.row)] == 0)
+    if (isFree[term.row] == 0)
       sums[term.pair].add(term.value);
   sumOverRanks(*comm_, sums);
-  const auto n = static_cast<Eigen::Index>(modes_.size());
+  const Eigen::Index n = modes_.size();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     matrix(pairs_[i] % n, pairs_[i] / n) = sums[i].value();

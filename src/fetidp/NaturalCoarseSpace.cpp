@@ -29,14 +29,13 @@ NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& p
 void NaturalCoarseSpace::addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const {
   const std::span<const double> values = qp::localData(x);
   for (const KernelEntry& entry : entries_)
-    sums[static_cast<std::size_t>(entry.mode)].add(entry.value * values[static_cast<std::size_t>(entry.row)]);
+    sums[entry.mode].add(entry.value * values[entry.row]);
 }
 
 void NaturalCoarseSpace::addTransposedProduct(std::span<const double> mu, double factor, Vector& y) const {
   const std::span<double> values = qp::localDataNonConst(y);
   for (const KernelEntry& entry : entries_)
-    values[static_cast<std::size_t>(entry.row)] +=
-        entry.value * (factor * mu[static_cast<std::size_t>(entry.mode)]);
+    values[entry.row] += entry.value * (factor * mu[entry.mode]);
 }
 
 const Eigen::VectorXd& NaturalCoarseSpace::product(const Vector& x) const {

@@ -77,9 +77,9 @@ std::vector<int> ranksOfSubdomains(const DecomposedProblem& problem) {
   std::vector<Place> mine;
   for (const auto& subdomain : problem.subdomains)
     mine.push_back({subdomain.number, problem.comm->getRank()});
-  std::vector<int> ranks(static_cast<std::size_t>(problem.numSubdomains));
+  std::vector<int> ranks(problem.numSubdomains);
   for (const Place& place : gatherOnAll(*problem.comm, mine))
-    ranks[static_cast<std::size_t>(place.subdomain)] = place.rank;
+    ranks[place.subdomain] = place.rank;
   return ranks;
 }
 
@@ -101,8 +101,8 @@ void forEachPart(const DecomposedProblem& problem, GeneralizedInverse& inverse,
       if (boundary.stiffness.size() == 0)
         boundary = group.condensedBoundary();
       for (const std::size_t j : found->second)
-        action(j, partOf(subdomain, problem.clusterOf[static_cast<std::size_t>(subdomain.number)],
-                         group.condensed(), boundary, joints[j].rows, scaling));
+        action(j, partOf(subdomain, problem.clusterOf[subdomain.number], group.condensed(), boundary,
+                         joints[j].rows, scaling));
     }
   }
 }
@@ -118,16 +118,14 @@ std::vector<std::vector<JointPart>> gatheredParts(const DecomposedProblem& probl
                                                   PreconditionerParameters::Scaling scaling) {
   const std::vector<int> rankOf = ranksOfSubdomains(problem);
   const int here = problem.comm->getRank();
-  const auto rankOfFirst = [&](const Joint& joint) {
-    return rankOf[static_cast<std::size_t>(joint.subdomains.front())];
-  };
+  const auto rankOfFirst = [&](const Joint& joint) { return rankOf[joint.subdomains.front()]; };
   std::map<GlobalOrdinal, std::size_t> jointOf; // by its first row
   std::set<int> senders;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     jointOf[firstRowOf(joints[j], problem)] = j;
     if (rankOfFirst(joints[j]) == here)
       for (const int number : joints[j].subdomains)
-        senders.insert(rankOf[static_cast<std::size_t>(number)]);
+        senders.insert(rankOf[number]);
   }
   senders.erase(here);
   std::vector<std::vector<JointPart>> parts(joints.size());
@@ -223,11 +221,10 @@ qp::ColumnSpace spaceOf(const OverratedColumns& columns, const Import& plan, con
   constexpr int batch = 32; // products at once
   qp::ColumnSpace space(plan.getSourceMap());
   for (int first = 0; first < columns.number; first += batch) {
-    const auto count = static_cast<std::size_t>(std::min(batch, columns.number - first));
+    const std::size_t count = std::min(batch, columns.number - first);
     MultiVector made(plan.getTargetMap(), count), u(plan.getSourceMap(), count);
     for (const OverratedColumns::Entry& entry : columns.entries)
-      if (const auto column = static_cast<std::size_t>(entry.column - first);
-          entry.column >= first && column < count)
+      if (const std::size_t column = entry.column - first; entry.column >= first && column < count)
         made.replaceLocalValue(entry.row, column, entry.value);
     u.doExport(made, plan, Tpetra::ADD);
     if (m != nullptr)

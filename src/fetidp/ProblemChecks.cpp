@@ -16,7 +16,7 @@ using decomposition::DecomposedProblem;
 using decomposition::Subdomain;
 
 [[nodiscard]] std::string bodyOf(const DecomposedProblem& problem, const Subdomain& subdomain) {
-  return "body '" + problem.bodies[static_cast<std::size_t>(subdomain.body)].name + "'";
+  return "body '" + problem.bodies[subdomain.body].name + "'";
 }
 
 void requireFiniteStiffness(const DecomposedProblem& problem, const Subdomain& subdomain) {

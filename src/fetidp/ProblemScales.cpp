@@ -23,7 +23,7 @@ ProblemScales::ProblemScales(const DecomposedProblem& problem) {
 void ProblemScales::measureMotions(const DecomposedProblem& problem) {
   motions_.setZero(problem.numRigidModes());
   for (const auto& subdomain : problem.subdomains) {
-    const auto offset = problem.bodies[static_cast<std::size_t>(subdomain.body)].kernelOffset;
+    const auto offset = problem.bodies[subdomain.body].kernelOffset;
     const Eigen::MatrixXd modes = subdomain.kernel * problem.clusterAt(subdomain).ofBody;
     for (Eigen::Index mode = 0; mode < modes.cols() && modes.rows() > 0; ++mode)
       motions_[offset + mode] = std::max(motions_[offset + mode], modes.col(mode).lpNorm<Eigen::Infinity>());
@@ -40,10 +40,9 @@ void ProblemScales::measureLoads(const DecomposedProblem& problem) {
   constexpr double left = 1e-5; // times `resultant`: some round-off of the terms
   const std::size_t numClusters = problem.clusters.size();
   std::vector<double> sums(numClusters, 0.0), largest(numClusters + 1, 0.0);
-  std::vector<double> modes(static_cast<std::size_t>(problem.kernelDimension), 0.0);
+  std::vector<double> modes(problem.kernelDimension, 0.0);
   for (const auto& subdomain : problem.subdomains) {
-    const auto cluster =
-        static_cast<std::size_t>(problem.clusterOf[static_cast<std::size_t>(subdomain.number)]);
+    const std::size_t cluster = problem.clusterOf[subdomain.number];
     sums[cluster] += subdomain.load.lpNorm<1>() + subdomain.heldLoad;
     const double prescribed =
         subdomain.prescribed.size() > 0 ? subdomain.prescribed.lpNorm<Eigen::Infinity>() : 0.0;
@@ -52,7 +51,7 @@ void ProblemScales::measureLoads(const DecomposedProblem& problem) {
           largest[cluster], left * prescribed * Eigen::VectorXd(subdomain.stiffness->diagonal()).maxCoeff());
     largest.back() = std::max(largest.back(), prescribed);
     for (Eigen::Index mode = 0; mode < subdomain.kernel.cols() && subdomain.kernel.rows() > 0; ++mode) {
-      double& size = modes[static_cast<std::size_t>(problem.kernelOffsetOf(subdomain) + mode)];
+      double& size = modes[problem.kernelOffsetOf(subdomain) + mode];
       size = std::max(size, subdomain.kernel.col(mode).lpNorm<Eigen::Infinity>());
     }
   }
@@ -66,9 +65,9 @@ void ProblemScales::measureLoads(const DecomposedProblem& problem) {
   for (std::size_t c = 0; c < numClusters; ++c) {
     const decomposition::Cluster& cluster = problem.clusters[c];
     const double load = std::max(sums[c], largest[c]);
-    ofBodies[static_cast<std::size_t>(cluster.body)] += load;
+    ofBodies[cluster.body] += load;
     for (int mode = cluster.kernelOffset; mode < cluster.kernelOffset + cluster.kernelDimension; ++mode)
-      resultants_[mode] = load * modes[static_cast<std::size_t>(mode)];
+      resultants_[mode] = load * modes[mode];
   }
   // What supports take is no load here; what is left of it in other directions is round-off.
   double heaviest = 0;
@@ -88,7 +87,7 @@ void ProblemScales::measureRows(const DecomposedProblem& problem) {
   const std::span<double> sizes = exchange.zeros();
   for (const auto& subdomain : problem.subdomains)
     for (const auto& entry : subdomain.constraint)
-      sizes[static_cast<std::size_t>(entry.multiplier)] += std::abs(entry.coefficient);
+      sizes[entry.multiplier] += std::abs(entry.coefficient);
   Vector owned(problem.multiplierMap);
   exchange.sumToOwners(owned);
   const auto values = owned.getData();

@@ -49,7 +49,7 @@ public:
   /// Whether a row hinders motions, `row` being what motions of length 1 do to it. \param number local index
   /// in multiplierMap
   [[nodiscard]] bool hinders(int number, const Eigen::VectorXd& row) const {
-    return row.norm() > hindered * rowSizes_[static_cast<std::size_t>(number)];
+    return row.norm() > hindered * rowSizes_[number];
   }
 
 private:

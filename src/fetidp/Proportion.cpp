@@ -33,7 +33,7 @@ std::vector<VectorXd> rigidParts(const DecomposedProblem& problem, const Subdoma
     sums.emplace_back(MatrixXd::Zero(body.kernelDimension, body.kernelDimension + 1));
   for (std::size_t s = 0; s < u.size(); ++s) {
     const MatrixXd modes = modesOf(problem, problem.subdomains[s]);
-    MatrixXd& sum = sums[static_cast<std::size_t>(problem.subdomains[s].body)];
+    MatrixXd& sum = sums[problem.subdomains[s].body];
     sum.leftCols(modes.cols()) += modes.transpose() * modes;
     sum.rightCols(1) += modes.transpose() * u[s].leftCols(1);
   }
@@ -59,7 +59,7 @@ std::vector<double> uncertainBodies(const DecomposedProblem& problem) {
   for (const decomposition::ContactPlace& place : problem.places)
     if (std::max(place.first.uncertainty, place.second.uncertainty) > exact)
       for (const int body : {place.first.body, place.second.body})
-        isUncertain[static_cast<std::size_t>(body)] = 1;
+        isUncertain[body] = 1;
   for (double& each : isUncertain)
     each = maxOverRanks(*problem.comm, each);
   return isUncertain;
@@ -78,7 +78,7 @@ void requireProportion(const DecomposedProblem& problem, const SubdomainVectors&
   double usual = 0; // deformations, prescribed displacements, and gaps that closed
   for (std::size_t s = 0; s < u.size(); ++s) {
     const Subdomain& subdomain = problem.subdomains[s];
-    const auto body = static_cast<std::size_t>(subdomain.body);
+    const std::size_t body = subdomain.body;
     const VectorXd motion = modesOf(problem, subdomain) * rigid[body];
     moved[body] = std::max(moved[body], largestOf(subdomain, motion));
     usual = std::max(usual, largestOf(subdomain, u[s].col(0) - motion));

@@ -34,12 +34,12 @@ Eigen::MatrixXd normalEquations(const DecomposedProblem& problem, const Rows& ro
   const Eigen::Index k = problem.numRigidModes();
   const auto gap = slack.getData();
   Eigen::MatrixXd normal(k, k + 1);
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(normal.size()));
+  std::vector<AccurateSum> sums(normal.size());
   for (const auto& [row, vector] : rows)
     if (holding.contains(row))
       for (Eigen::Index i = 0; i < k; ++i)
         for (Eigen::Index j = 0; j <= k; ++j)
-          sums[static_cast<std::size_t>(i + k * j)].add(vector[i] * (j < k ? vector[j] : gap[row]));
+          sums[i + k * j].add(vector[i] * (j < k ? vector[j] : gap[row]));
   sumOverRanks(*problem.comm, sums, normal.data());
   return normal;
 }
@@ -72,9 +72,9 @@ Eigen::VectorXd fittedClusters(const DecomposedProblem& problem, const std::vect
   sumOverRanks(*problem.comm, std::span<double>(alpha.data(), static_cast<std::size_t>(k)));
   std::vector<bool> isHeld(problem.bodies.size(), false);
   for (const decomposition::Cluster& cluster : problem.clusters) {
-    if (cluster.ofBody.cols() == 0 || isHeld[static_cast<std::size_t>(cluster.body)])
+    if (cluster.ofBody.cols() == 0 || isHeld[cluster.body])
       continue;
-    isHeld[static_cast<std::size_t>(cluster.body)] = true;
+    isHeld[cluster.body] = true;
     const Eigen::MatrixXd motions = direct::orthonormalBasis(cluster.ofBody);
     const Eigen::MatrixXd hold = motions * motions.transpose();
     for (int i = 0; i < cluster.kernelDimension; ++i)
@@ -248,8 +248,7 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<
       motionOfBodies(problem, kernelConstraintOfBodies(problem, entries), lambda, left, check);
   for (const decomposition::Cluster& cluster : problem.clusters)
     alpha.segment(cluster.kernelOffset, cluster.kernelDimension) +=
-        cluster.ofBody * motion.segment(problem.bodies[static_cast<std::size_t>(cluster.body)].kernelOffset,
-                                        cluster.ofBody.cols());
+        cluster.ofBody * motion.segment(problem.bodies[cluster.body].kernelOffset, cluster.ofBody.cols());
   return alpha;
 }
 

@@ -39,7 +39,7 @@ const std::vector<Eigen::VectorXd>& RowProducts::forces(const Vector& lambda, bo
     const auto& subdomain = problem_.subdomains[s];
     forces_[s].setZero();
     for (const auto& entry : subdomain.constraint) {
-      const double part = entry.coefficient * values[static_cast<std::size_t>(entry.multiplier)];
+      const double part = entry.coefficient * values[entry.multiplier];
       forces_[s][entry.unknown] += isMagnitude ? std::abs(part) : part;
     }
     const auto sums = mine_.getDataNonConst();
@@ -65,7 +65,7 @@ void RowProducts::gram(const Vector& lambda, Vector& y) const {
   const std::span<double> rows = exchange_.zeros();
   for (std::size_t s = 0; s < u.size(); ++s)
     for (const auto& entry : problem_.subdomains[s].constraint)
-      rows[static_cast<std::size_t>(entry.multiplier)] += entry.coefficient * u[s][entry.unknown];
+      rows[entry.multiplier] += entry.coefficient * u[s][entry.unknown];
   exchange_.sumToOwners(y);
 }
 
@@ -73,7 +73,7 @@ RCP<Vector> RowProducts::norms() const {
   const std::span<double> rows = exchange_.zeros();
   for (const auto& subdomain : problem_.subdomains)
     for (const auto& entry : subdomain.constraint)
-      rows[static_cast<std::size_t>(entry.multiplier)] += entry.coefficient * entry.coefficient;
+      rows[entry.multiplier] += entry.coefficient * entry.coefficient;
   RCP<Vector> norms = rcp(new Vector(problem_.multiplierMap));
   exchange_.sumToOwners(*norms);
   const auto values = norms->getDataNonConst();

@@ -29,7 +29,7 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
     for (std::size_t e = 0; e < counts[s].size(); ++e)
       if (const auto& entry = problem.subdomains[s].constraint[e]; counts[s][e] != 0)
-        sums[static_cast<std::size_t>(entry.multiplier)] +=
+        sums[entry.multiplier] +=
             entry.coefficient * entry.coefficient / weightOf(problem.subdomains[s], entry.unknown);
   MultiVector total(problem.multiplierMap, 1); // Σ_k b_k²/δ_k
   exchange.sumToOwners(total);
@@ -45,7 +45,7 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
     for (std::size_t e = 0; e < counts[s].size(); ++e) {
       const auto& entry = problem.subdomains[s].constraint[e];
-      const auto row = static_cast<std::size_t>(entry.multiplier);
+      const std::size_t row = entry.multiplier;
       const double weight =
           counts[s][e] == 0
               ? 0.0

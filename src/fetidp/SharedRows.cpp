@@ -30,13 +30,13 @@ OwnEntries ownEntries(const decomposition::DecomposedProblem& problem, const Imp
       const auto isGluing = [&](const decomposition::ConstraintEntry& entry) {
         return problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing;
       };
-      std::vector<int> numRows(static_cast<std::size_t>(subdomain.stiffness->rows()), 0); // of an unknown
+      std::vector<int> numRows(subdomain.stiffness->rows(), 0); // of an unknown
       for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
-        numRows[static_cast<std::size_t>(entry.unknown)] += entry.coefficient == 0 || isGluing(entry) ? 0 : 1;
+        numRows[entry.unknown] += entry.coefficient == 0 || isGluing(entry) ? 0 : 1;
       std::vector<char>& counts = result.counts.emplace_back();
       for (const decomposition::ConstraintEntry& entry : subdomain.constraint) {
         const double square = entry.coefficient * entry.coefficient;
-        counts.push_back(isGluing(entry) || numRows[static_cast<std::size_t>(entry.unknown)] == 1 ? 1 : 0);
+        counts.push_back(isGluing(entry) || numRows[entry.unknown] == 1 ? 1 : 0);
         all[entry.multiplier] += square;
         own[entry.multiplier] += counts.back() != 0 ? square : 0.0;
       }

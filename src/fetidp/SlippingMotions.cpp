@@ -58,7 +58,7 @@ public:
     for (const auto& [side, sign] : {std::pair(&place.first, 1.0), std::pair(&place.second, -1.0)}) {
       if (side->body < 0)
         continue;
-      const Body& body = problem.bodies[static_cast<std::size_t>(side->body)];
+      const Body& body = problem.bodies[side->body];
       if (body.kernelDimension == 0)
         continue;
       if (!body.motions)

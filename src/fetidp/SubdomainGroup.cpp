@@ -79,14 +79,13 @@ void SubdomainGroup::addEntries(std::size_t member, std::size_t subdomain) {
             numCrosspoints = static_cast<int>(condensed_->numCrosspoints()),
             column = static_cast<int>(member);
   for (const auto& entry : (*subdomains_)[subdomain].constraint) {
-    const int position = interface.positionOf[static_cast<std::size_t>(entry.unknown)]; // among (Δ, C)
+    const int position = interface.positionOf[entry.unknown]; // among (Δ, C)
     if (position < numBoundary)
       boundaryEntries_.push_back({entry.multiplier, position + column * numBoundary, entry.coefficient});
     else
-      crosspointEntries_.push_back(
-          {entry.multiplier,
-           interface.crosspoints[static_cast<std::size_t>(position - numBoundary)] + column * numCrosspoints,
-           entry.coefficient});
+      crosspointEntries_.push_back({entry.multiplier,
+                                    interface.crosspoints[position - numBoundary] + column * numCrosspoints,
+                                    entry.coefficient});
   }
 }
 
@@ -244,8 +243,7 @@ void SubdomainGroup::takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eige
   const std::vector<int>& unknowns = (*subdomains_)[members_.front()].crosspointUnknowns;
   for (Eigen::Index member = 0; member < numMembers(); ++member)
     for (Eigen::Index i = 0; i < coarseIndices_.rows(); ++i)
-      coarse.row(coarseIndices_(i, member)) =
-          u[members_[static_cast<std::size_t>(member)]].row(unknowns[static_cast<std::size_t>(i)]);
+      coarse.row(coarseIndices_(i, member)) = u[members_[member]].row(unknowns[i]);
 }
 
 void SubdomainGroup::subtractForces(std::span<const double> lambda, std::vector<Eigen::MatrixXd>& b) const {

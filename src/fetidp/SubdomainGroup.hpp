@@ -124,7 +124,7 @@ private:
   /// Column j of the members' values: member after member, then the next of k.
   template <class Values>
   [[nodiscard]] auto columnOf(Values& of, Eigen::Index j) const {
-    return of[members_[static_cast<std::size_t>(j % numMembers())]].col(j / numMembers());
+    return of[members_[j % numMembers()]].col(j / numMembers());
   }
   void addEntries(std::size_t member, std::size_t subdomain);
   void solveForBoundary(Workspace& work) const;

@@ -14,9 +14,9 @@ using decomposition::Subdomain;
 
 /// Whether B touches each unknown.
 std::vector<char> touchedBy(const Subdomain& subdomain) {
-  std::vector<char> isTouched(static_cast<std::size_t>(subdomain.stiffness->rows()), 0);
+  std::vector<char> isTouched(subdomain.stiffness->rows(), 0);
   for (const auto& entry : subdomain.constraint)
-    isTouched[static_cast<std::size_t>(entry.unknown)] = 1;
+    isTouched[entry.unknown] = 1;
   return isTouched;
 }
 
@@ -44,14 +44,14 @@ SubdomainInterface interfaceOf(const Subdomain& subdomain) {
   int next = 0;
   const auto collect = [&](const std::vector<int>& unknowns, std::vector<int>& positions) {
     for (std::size_t i = 0; i < unknowns.size(); ++i)
-      if (isTouched[static_cast<std::size_t>(unknowns[i])] != 0) {
+      if (isTouched[unknowns[i]] != 0) {
         positions.push_back(static_cast<int>(i));
-        interface.positionOf[static_cast<std::size_t>(unknowns[i])] = next++;
+        interface.positionOf[unknowns[i]] = next++;
       }
   };
   collect(subdomain.remainderUnknowns, interface.boundary);
   for (const int position : interface.boundary)
-    interface.boundaryUnknowns.push_back(subdomain.remainderUnknowns[static_cast<std::size_t>(position)]);
+    interface.boundaryUnknowns.push_back(subdomain.remainderUnknowns[position]);
   collect(subdomain.crosspointUnknowns, interface.crosspoints);
   return interface;
 }

@@ -26,7 +26,7 @@ SparseMatrix unknownsFromValues(const Subdomain& subdomain) {
     edge.push_back(average.carrier);
     const double share = 1 / static_cast<double>(edge.size());
     for (const int row : edge) {
-      isAveraged[static_cast<std::size_t>(row)] = 1;
+      isAveraged[row] = 1;
       const double sign = row == average.carrier ? 1 : -1;
       for (const int column : edge)
         entries.emplace_back(row, column, sign * share); // a, or −a
@@ -37,7 +37,7 @@ SparseMatrix unknownsFromValues(const Subdomain& subdomain) {
   for (std::size_t i = 0; i < isAveraged.size(); ++i)
     if (isAveraged[i] == 0)
       entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
-  const auto n = static_cast<Eigen::Index>(isAveraged.size());
+  const Eigen::Index n = isAveraged.size();
   SparseMatrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
@@ -92,8 +92,8 @@ RCP<CrsMatrix> assembled(const UnassembledOperator& k) {
       columns.clear();
       const int first = local.outerIndexPtr()[j], size = local.outerIndexPtr()[j + 1] - first;
       for (int i = 0; i < size; ++i)
-        columns.push_back(numbers[static_cast<std::size_t>(local.innerIndexPtr()[first + i])]);
-      matrix->insertGlobalValues(numbers[static_cast<std::size_t>(j)], Teuchos::arrayViewFromVector(columns),
+        columns.push_back(numbers[local.innerIndexPtr()[first + i]]);
+      matrix->insertGlobalValues(numbers[j], Teuchos::arrayViewFromVector(columns),
                                  Teuchos::arrayView(local.valuePtr() + first, size));
     }
   }

@@ -81,7 +81,7 @@ PrimalResidual::PrimalResidual(const UnassembledOperator& k, const fetidp::Gener
 }
 
 void PrimalResidual::norms(const MultiVector& r, std::vector<double>& result) {
-  const auto numColumns = static_cast<Eigen::Index>(r.getNumVectors());
+  const Eigen::Index numColumns = r.getNumVectors();
   if (residual_->getNumVectors() != r.getNumVectors())
     residual_ = rcp(new MultiVector(k_.getRangeMap(), r.getNumVectors()));
   const auto values = exchange_.toSubdomains(r);
@@ -117,7 +117,7 @@ DualOutcome iterateDual(const RCP<const Operator>& f, const RCP<const Operator>&
   while (!open.empty() && outcome.steps < maxSteps) {
     std::vector<double> openGoals;
     for (const int column : open)
-      openGoals.push_back(goals[static_cast<std::size_t>(column)]);
+      openGoals.push_back(goals[column]);
     const RCP<PrimalGoal> goal = rcp(new PrimalGoal(primal, openGoals, maxSteps - outcome.steps));
     const qp::BelosOutcome steps = qp::iterate(problem, open, goal);
     outcome.steps += steps.steps;

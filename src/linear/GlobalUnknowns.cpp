@@ -23,7 +23,7 @@ std::vector<GlobalOrdinal> atUnknowns(const decomposition::Subdomain& subdomain,
   std::vector<GlobalOrdinal> numbers;
   numbers.reserve(subdomain.unknownPosition.size());
   for (const int position : subdomain.unknownPosition) {
-    numbers.push_back(atPositions[static_cast<std::size_t>(position)]);
+    numbers.push_back(atPositions[position]);
     if (numbers.back() < 0)
       throw InputError(name + " has an unknown at position " + std::to_string(position) +
                        " whose global number is " + std::to_string(numbers.back()) +

@@ -41,7 +41,7 @@ void requireNoJump(const DecomposedProblem& problem, const GlobalUnknowns& unkno
   const auto jumps = exchange.zeros();
   for (std::size_t s = 0; s < u.size(); ++s)
     for (const auto& entry : problem.subdomains[s].constraint)
-      jumps[static_cast<std::size_t>(entry.multiplier)] += entry.coefficient * u[s](entry.unknown);
+      jumps[entry.multiplier] += entry.coefficient * u[s](entry.unknown);
   MultiVector owned(problem.multiplierMap, 1);
   exchange.sumToOwners(owned);
   const RCP<const Vector> sizes =
@@ -56,13 +56,13 @@ void requireNoJump(const DecomposedProblem& problem, const GlobalUnknowns& unkno
   collectively(*problem.comm, [&] {
     for (std::size_t s = 0; s < u.size(); ++s)
       for (const auto& entry : problem.subdomains[s].constraint) {
-        const auto multiplier = static_cast<std::size_t>(entry.multiplier);
+        const std::size_t multiplier = entry.multiplier;
         if (problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing &&
             std::abs(total[multiplier]) > roundOff)
           throw InputError("unknown " + std::to_string(entry.unknown) + " of subdomain " +
                            std::to_string(problem.subdomains[s].number) + ", with the global number " +
-                           std::to_string(unknowns[s][static_cast<std::size_t>(entry.unknown)]) +
-                           ", is glued by row " + std::to_string(problem.numberOf(entry.multiplier)) +
+                           std::to_string(unknowns[s][entry.unknown]) + ", is glued by row " +
+                           std::to_string(problem.numberOf(entry.multiplier)) +
                            " to one with another number; copies that are glued must have the same");
       }
   });
@@ -89,11 +89,10 @@ void requireCommonCrosspoints(const DecomposedProblem& problem, const SubdomainV
     for (std::size_t s = 0; s < u.size(); ++s)
       for (Eigen::Index i = 0; i < values[s].rows(); ++i)
         if (std::abs(values[s](i) - totals[s](i) / copies[s](i)) > roundOff)
-          throw InputError(
-              "crosspoint value " +
-              std::to_string(problem.subdomains[s].crosspointIndices[static_cast<std::size_t>(i)]) +
-              " has copies with different global numbers, one of them in subdomain " +
-              std::to_string(problem.subdomains[s].number) + "; copies of a crosspoint must have the same");
+          throw InputError("crosspoint value " + std::to_string(problem.subdomains[s].crosspointIndices[i]) +
+                           " has copies with different global numbers, one of them in subdomain " +
+                           std::to_string(problem.subdomains[s].number) +
+                           "; copies of a crosspoint must have the same");
   });
 }
 

@@ -30,10 +30,9 @@ GlobalUnknowns mergedUnknowns(const DecomposedProblem& problem) {
   for (const decomposition::Subdomain& subdomain : problem.subdomains) {
     std::vector<GlobalOrdinal>& numbers = unknowns.emplace_back(subdomain.unknownPosition.size());
     for (const int unknown : subdomain.remainderUnknowns)
-      numbers[static_cast<std::size_t>(unknown)] = problem.remainderMap->getGlobalElement(next++);
+      numbers[unknown] = problem.remainderMap->getGlobalElement(next++);
     for (std::size_t c = 0; c < subdomain.crosspointUnknowns.size(); ++c)
-      numbers[static_cast<std::size_t>(subdomain.crosspointUnknowns[c])] =
-          numRemainders(problem) + subdomain.crosspointIndices[c];
+      numbers[subdomain.crosspointUnknowns[c]] = numRemainders(problem) + subdomain.crosspointIndices[c];
   }
   return unknowns;
 }

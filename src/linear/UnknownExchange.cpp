@@ -14,11 +14,11 @@ namespace {
 /// \throws InputError if a number is on no rank of the map. Collective.
 void requireOnMap(const Map& map, const Map& touched) {
   const auto numbers = localIndices(touched);
-  std::vector<int> ranks(static_cast<std::size_t>(numbers.size()));
+  std::vector<int> ranks(numbers.size());
   map.getRemoteIndexList(numbers, Teuchos::arrayViewFromVector(ranks));
   collectively(*map.getComm(), [&] {
     for (Teuchos_Ordinal i = 0; i < numbers.size(); ++i)
-      if (ranks[static_cast<std::size_t>(i)] < 0)
+      if (ranks[i] < 0)
         throw InputError("a subdomain has the unknown with the global number " + std::to_string(numbers[i]) +
                          ", but the map of the whole problem has no such number; give it all of them");
   });
@@ -47,7 +47,7 @@ void UnknownExchange::prepareColumns(std::size_t numColumns) const {
 void UnknownExchange::toSubdomains(const MultiVector& x, SubdomainVectors& u) const {
   prepareColumns(x.getNumVectors());
   touched_->doImport(x, *import_, Tpetra::INSERT);
-  const auto columns = static_cast<Eigen::Index>(x.getNumVectors());
+  const Eigen::Index columns = x.getNumVectors();
   u.resize(places_.size());
   for (std::size_t s = 0; s < places_.size(); ++s)
     u[s].resize(static_cast<Eigen::Index>(places_[s].size()), columns);

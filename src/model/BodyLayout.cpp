@@ -102,7 +102,7 @@ void requireCut(const scene::Body& body, const scene::Decomposition& cut, const 
   if (elements[0] == 0)
     throw InputError("body '" + body.name +
                      "' has a mesh from a file and cannot be cut as a grid; choose the method metis");
-  const auto dimension = static_cast<std::size_t>(dimensionOf(mesh.cellType()));
+  const std::size_t dimension = dimensionOf(mesh.cellType());
   for (std::size_t d = 0; d < dimension; ++d)
     if (cut.counts[d] < 1 || cut.counts[d] > elements[d])
       throw InputError(where + std::to_string(elements[d]) + " elements in " + "xyz"[d] +

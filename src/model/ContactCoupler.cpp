@@ -25,7 +25,7 @@ contact::NodePoints pointsOf(const BodyLayout& body) {
 /// Whether nodes along two edges of structured meshes meet in order.
 bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies) {
   const auto numElements = [&](int body, const std::string& edge) {
-    const fem::StructuredMesh* mesh = bodies[static_cast<std::size_t>(body)].mesh->structured();
+    const fem::StructuredMesh* mesh = bodies[body].mesh->structured();
     return mesh == nullptr ? 0 : mesh->elements()[edge == "left" || edge == "right" ? 1 : 0];
   };
   const auto number = numElements(terms.first, terms.firstSurface);

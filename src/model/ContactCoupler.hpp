@@ -37,9 +37,7 @@ private:
     std::vector<std::string> surfaces;
   };
 
-  [[nodiscard]] const BodyLayout& layoutOf(const Side& side) const {
-    return bodies_[static_cast<std::size_t>(side.body)];
-  }
+  [[nodiscard]] const BodyLayout& layoutOf(const Side& side) const { return bodies_[side.body]; }
   [[nodiscard]] int orderOf(const Side& side) const { return fem::orderOf(layoutOf(side).mesh->cellType()); }
   [[nodiscard]] contact::UnitedSurface united(const Side& side) const {
     return contact::unite(*layoutOf(side).mesh, side.surfaces);

@@ -109,9 +109,9 @@ private:
 
 Groups::Member Groups::memberOf(const Terms& terms) const {
   Member member{terms, {}, {}};
-  member.first = sideOf(terms, bodies_[static_cast<std::size_t>(terms.first)], terms.firstSurface);
+  member.first = sideOf(terms, bodies_[terms.first], terms.firstSurface);
   if (terms.second >= 0)
-    member.second = sideOf(terms, bodies_[static_cast<std::size_t>(terms.second)], terms.secondSurface);
+    member.second = sideOf(terms, bodies_[terms.second], terms.secondSurface);
   return member;
 }
 
@@ -160,9 +160,7 @@ bool Groups::joins(const std::vector<Member>& members, const Member& added) cons
   if (its.kind != own.kind || its.gap != own.gap || its.distance != own.distance ||
       its.coupling != own.coupling || its.multipliers != own.multipliers)
     return false;
-  const auto orderOf = [&](int body) {
-    return fem::orderOf(bodies_[static_cast<std::size_t>(body)].mesh->cellType());
-  };
+  const auto orderOf = [&](int body) { return fem::orderOf(bodies_[body].mesh->cellType()); };
   const bool mayCarrySecond =
       own.second >= 0 && (own.multipliers == Terms::Side::second || orderOf(own.second) > orderOf(own.first));
   if (!bringsFacets(members, added, &Member::first) ||

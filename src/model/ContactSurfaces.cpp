@@ -58,8 +58,7 @@ Facets facetsNear(const fem::Mesh& mesh, const fem::Surface& surface, const fem:
 double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
                 const scene::SurfaceContact& terms, int body, const std::string& surface) {
   const bool isFirst = body == terms.first;
-  const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
-                   &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
+  const BodyLayout &own = bodies[body], &other = bodies[isFirst ? terms.second : terms.first];
   const fem::Surface ownSurface = surfaceOf(terms, own, surface),
                      facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
   constexpr std::size_t few = 400; // of more the rim is a small part, and the integrals are not for nothing
@@ -67,12 +66,9 @@ double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies
     return 1;
   const contact::NodePoints here = [&](GlobalOrdinal node) { return own.mesh->point(node); },
                             there = [&](GlobalOrdinal node) { return other.mesh->point(node); };
-  const contact::ContactTerms asked{terms.name,
-                                    surface,
-                                    dimensionOf(own.mesh->cellType()),
-                                    componentsOf(scene.bodies[static_cast<std::size_t>(body)].physics),
-                                    terms.gap,
-                                    terms.distance};
+  const contact::ContactTerms asked{
+      terms.name, surface,       dimensionOf(own.mesh->cellType()), componentsOf(scene.bodies[body].physics),
+      terms.gap,  terms.distance};
   double whole = 0, covered = 0;
   try {
     for (const contact::MortarFacet& facet :
@@ -111,7 +107,7 @@ fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& b
 std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>& bodies,
                        scene::SurfaceContact& terms) {
   const auto support = [&](int body, const std::string& surface) { // what one holds fixes no pressure
-    const auto& supports = scene.bodies[static_cast<std::size_t>(body)].supports;
+    const auto& supports = scene.bodies[body].supports;
     return std::any_of(supports.begin(), supports.end(),
                        [&](const scene::SolidSupport& held) { return held.surface == surface; })
                ? 1.0
@@ -128,8 +124,7 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
   };
   const auto spacing = [&](int body, const std::string& surface) {
     const bool isFirst = body == terms.first;
-    const BodyLayout &own = bodies[static_cast<std::size_t>(body)],
-                     &other = bodies[static_cast<std::size_t>(isFirst ? terms.second : terms.first)];
+    const BodyLayout &own = bodies[body], &other = bodies[isFirst ? terms.second : terms.first];
     const fem::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
     const fem::Surface at = surfaceOf(terms, own, surface);
     return facetsNear(*own.mesh, at, fem::BoxTree(boxesOf(*other.mesh, facing, 0)), terms.distance)
@@ -140,7 +135,7 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
     return beyondOf(scene, bodies, terms, body, surface);
   };
   const auto stiffness = [&](int body, const std::string&) {
-    const scene::Body& owner = scene.bodies[static_cast<std::size_t>(body)];
+    const scene::Body& owner = scene.bodies[body];
     return owner.physics == scene::Physics::membrane ? owner.material.conductivity
                                                      : owner.material.youngsModulus;
   };

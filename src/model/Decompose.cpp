@@ -59,9 +59,7 @@ std::vector<Body> describeBodies(const std::vector<BodyLayout>& layouts, const M
 }
 
 decomposition::NodePlaces placesOf(const Models& models) {
-  const auto mapOf = [&models](int body) -> const fem::UnknownMap& {
-    return models[static_cast<std::size_t>(body)]->unknowns();
-  };
+  const auto mapOf = [&models](int body) -> const fem::UnknownMap& { return models[body]->unknowns(); };
   return {fem::dimensionOf(models.front()->mesh().cellType()),
           [mapOf](int body, GlobalOrdinal node) { return mapOf(body).point(node); },
           [mapOf](int body, GlobalOrdinal node) { return mapOf(body).isBoundaryNode(node); }};

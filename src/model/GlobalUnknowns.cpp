@@ -4,7 +4,7 @@ namespace epafi::model {
 
 std::vector<std::vector<GlobalOrdinal>> globalUnknowns(const Decomposition& decomposition) {
   const decomposition::DecomposedProblem& problem = decomposition.problem;
-  const auto components = static_cast<GlobalOrdinal>(problem.components);
+  const GlobalOrdinal components = problem.components;
   const std::vector<GlobalOrdinal> firstNode = firstNodes(decomposition.bodies);
   std::vector<std::vector<GlobalOrdinal>> unknowns;
   unknowns.reserve(problem.subdomains.size());
@@ -13,8 +13,7 @@ std::vector<std::vector<GlobalOrdinal>> globalUnknowns(const Decomposition& deco
     numbers.reserve(subdomain.nodes.size() * static_cast<std::size_t>(components));
     for (const GlobalOrdinal node : subdomain.nodes)
       for (GlobalOrdinal component = 0; component < components; ++component)
-        numbers.push_back((firstNode[static_cast<std::size_t>(subdomain.body)] + node) * components +
-                          component);
+        numbers.push_back((firstNode[subdomain.body] + node) * components + component);
   }
   return unknowns;
 }

@@ -31,7 +31,7 @@ LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
     for (const std::string& name : whole->mesh->surfaceNames()) {
       const fem::Surface surface = whole->mesh->surface(name);
       for (std::size_t f = 0; f < surface.numFacets(); ++f)
-        facets.add(name, surface.facet(f).first(static_cast<std::size_t>(numCornersOf(surface.facetType))));
+        facets.add(name, surface.facet(f).first(numCornersOf(surface.facetType)));
     }
   });
   return looseMeshOf(shares, std::make_shared<const FacetList>(gathered(facets, comm)), comm);

@@ -62,8 +62,8 @@ void Collector::add(const MeshShare& share) {
 
 void Collector::addElements(const MeshShare& share) {
   const fem::Mesh& mesh = *share.mesh;
-  const auto corners = static_cast<std::size_t>(numCornersOf(mesh.cellType()));
-  std::vector<bool> isCorner(static_cast<std::size_t>(mesh.numNodes()), false);
+  const std::size_t corners = numCornersOf(mesh.cellType());
+  std::vector<bool> isCorner(mesh.numNodes(), false);
   std::vector<GlobalOrdinal> keys;
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const fem::ElementNodes nodes(mesh, element);
@@ -71,12 +71,12 @@ void Collector::addElements(const MeshShare& share) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       keys.push_back(share.keyOf(nodes[i]));
       if (i < corners)
-        isCorner[static_cast<std::size_t>(nodes[i])] = true;
+        isCorner[nodes[i]] = true;
     }
     loose_.elements.add(nextElement_ + element, nextPart_ + share.partition->partOf(element), keys);
   }
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
-    loose_.nodes.push_back({share.keyOf(node), mesh.point(node), isCorner[static_cast<std::size_t>(node)]});
+    loose_.nodes.push_back({share.keyOf(node), mesh.point(node), isCorner[node]});
 }
 
 } // namespace
@@ -93,7 +93,7 @@ FacetList gathered(const FacetList& own, const Comm& comm) {
   all.names = allNames({own.names.begin(), own.names.end()}, comm);
   std::vector<NamedFacet> renamed(own.facets);
   for (NamedFacet& facet : renamed)
-    facet.surface = static_cast<int>(placeOf(own.names[static_cast<std::size_t>(facet.surface)], all.names));
+    facet.surface = static_cast<int>(placeOf(own.names[facet.surface], all.names));
   all.facets = gatherOnAll(comm, renamed);
   return all;
 }
@@ -169,8 +169,8 @@ LooseMesh looseMeshOf(std::span<const MeshShare> shares, std::shared_ptr<const F
   const GlobalOrdinal firstElement = sumBefore(comm, numElements), firstPart = sumBefore(comm, numParts);
   collectively(comm, [&] {
     loose.elements = LooseElements(loose.groups.size(), static_cast<std::size_t>(numNodesOf(loose.cellType)));
-    loose.elements.reserve(static_cast<std::size_t>(numElements));
-    loose.nodes.reserve(static_cast<std::size_t>(numNodes));
+    loose.elements.reserve(numElements);
+    loose.nodes.reserve(numNodes);
     Collector collector(loose, firstElement, static_cast<int>(firstPart));
     for (const MeshShare& share : shares)
       collector.add(share);

@@ -14,7 +14,7 @@ namespace epafi::model {
 void broadcastText(const Comm& comm, std::string& text) {
   auto size = static_cast<long long>(text.size());
   Teuchos::broadcast(comm, 0, 1, &size);
-  collectively(comm, [&] { text.resize(static_cast<std::size_t>(size)); });
+  collectively(comm, [&] { text.resize(size); });
   constexpr long long longest = 1 << 30;
   for (long long first = 0; first < size; first += longest)
     Teuchos::broadcast(comm, 0, static_cast<int>(std::min(longest, size - first)), text.data() + first);

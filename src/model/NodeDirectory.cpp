@@ -57,7 +57,7 @@ void NodeDirectory::number() {
       box_[1][d] = std::max(box_[1][d], entry.point[d]);
     }
   }
-  const auto own = static_cast<GlobalOrdinal>(entries_.size());
+  const GlobalOrdinal own = entries_.size();
   GlobalOrdinal next = sumBefore(comm_, own), nextCorner = sumBefore(comm_, corners);
   numNodes_ = sumOverRanks(comm_, own);
   numCorners_ = sumOverRanks(comm_, corners);

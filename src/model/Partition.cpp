@@ -28,9 +28,9 @@ struct DualGraph {
 
 /// \param elements  all or a piece of the mesh
 DualGraph dualGraphOf(const fem::Mesh& mesh, std::span<const GlobalOrdinal> elements) {
-  std::vector<idx_t> place(static_cast<std::size_t>(mesh.numElements()));
+  std::vector<idx_t> place(mesh.numElements());
   for (std::size_t i = 0; i < elements.size(); ++i)
-    place[static_cast<std::size_t>(elements[i])] = static_cast<idx_t>(i);
+    place[elements[i]] = static_cast<idx_t>(i);
   DualGraph graph{{0}, {}};
   graph.start.reserve(elements.size() + 1);
   graph.neighbours.reserve(fem::facetsOf(mesh.cellType()).size() * elements.size());
@@ -38,7 +38,7 @@ DualGraph dualGraphOf(const fem::Mesh& mesh, std::span<const GlobalOrdinal> elem
   for (const GlobalOrdinal element : elements) {
     mesh.elementNeighbours(element, adjacent);
     for (const GlobalOrdinal other : adjacent)
-      graph.neighbours.push_back(place[static_cast<std::size_t>(other)]);
+      graph.neighbours.push_back(place[other]);
     graph.start.push_back(static_cast<idx_t>(graph.neighbours.size()));
   }
   return graph;
@@ -64,7 +64,7 @@ std::vector<int> cutByMetis(const fem::Mesh& mesh, std::span<const GlobalOrdinal
   options[METIS_OPTION_CONTIG] = 1;
   auto numVertices = static_cast<idx_t>(elements.size());
   idx_t numConstraints = 1, numParts = parts, cut = 0;
-  std::vector<idx_t> part(static_cast<std::size_t>(numVertices));
+  std::vector<idx_t> part(numVertices);
   // METIS takes a SIGTERM from outside for a failure of its own, and jumps out of whatever it interrupts.
   const HeldSignal held(SIGTERM);
   const int status =
@@ -83,7 +83,7 @@ void requireCut(const fem::Mesh& mesh, int parts) {
   if (parts < 1 || parts > numElements)
     throw InputError("a mesh of " + std::to_string(numElements) + " elements cannot be cut into " +
                      std::to_string(parts) + " parts; choose between 1 and " + std::to_string(numElements));
-  const auto numFacets = static_cast<GlobalOrdinal>(fem::facetsOf(mesh.cellType()).size());
+  const GlobalOrdinal numFacets = fem::facetsOf(mesh.cellType()).size();
   if (numElements > std::numeric_limits<idx_t>::max() / numFacets)
     throw InputError("a mesh of " + std::to_string(numElements) +
                      " elements is too large for METIS's 32-bit indices; cut the body as a grid");
@@ -94,8 +94,7 @@ std::map<int, std::size_t> largestPieces(const std::vector<int>& part,
                                          const std::vector<std::vector<GlobalOrdinal>>& pieces) {
   std::map<int, std::size_t> largest;
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
-    std::size_t& best =
-        largest.try_emplace(part[static_cast<std::size_t>(pieces[piece].front())], piece).first->second;
+    std::size_t& best = largest.try_emplace(part[pieces[piece].front()], piece).first->second;
     if (pieces[piece].size() > pieces[best].size())
       best = piece;
   }
@@ -104,7 +103,7 @@ std::map<int, std::size_t> largestPieces(const std::vector<int>& part,
 
 /// Those of all parts, by their lowest elements.
 std::vector<std::vector<GlobalOrdinal>> piecesOf(const fem::Mesh& mesh, const std::vector<int>& part) {
-  const auto partOf = [&](GlobalOrdinal element) { return part[static_cast<std::size_t>(element)]; };
+  const auto partOf = [&](GlobalOrdinal element) { return part[element]; };
   return fem::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
     mesh.elementNeighbours(element, found);
     std::erase_if(found, [&](GlobalOrdinal other) { return partOf(other) != partOf(element); });
@@ -114,7 +113,7 @@ std::vector<std::vector<GlobalOrdinal>> piecesOf(const fem::Mesh& mesh, const st
 /// Moves the first piece that is not the largest of its part and has neighbours to the part with which it
 /// shares most facets, the lowest of equals. Returns false if there is no such piece.
 bool moveStray(const fem::Mesh& mesh, std::vector<int>& part) {
-  const auto partOf = [&](GlobalOrdinal element) -> int& { return part[static_cast<std::size_t>(element)]; };
+  const auto partOf = [&](GlobalOrdinal element) -> int& { return part[element]; };
   const auto pieces = piecesOf(mesh, part);
   const std::map<int, std::size_t> largest = largestPieces(part, pieces);
   std::vector<GlobalOrdinal> adjacent;
@@ -145,13 +144,13 @@ bool moveStray(const fem::Mesh& mesh, std::vector<int>& part) {
 int renumber(std::vector<int>& part) {
   std::vector<int> number(static_cast<std::size_t>(*std::max_element(part.begin(), part.end())) + 1, -1);
   for (const int p : part)
-    number[static_cast<std::size_t>(p)] = 0;
+    number[p] = 0;
   int next = 0;
   for (int& fresh : number)
     if (fresh == 0)
       fresh = next++;
   for (int& p : part)
-    p = number[static_cast<std::size_t>(p)];
+    p = number[p];
   return next;
 }
 
@@ -161,7 +160,7 @@ void bisect(std::span<int> parts, std::size_t size, const std::vector<Point>& ce
   const std::size_t runs = (parts.size() + size - 1) / size;
   if (runs < 2)
     return;
-  const auto at = [&](int part) -> const Point& { return centres[static_cast<std::size_t>(part)]; };
+  const auto at = [&](int part) -> const Point& { return centres[part]; };
   std::size_t axis = 0;
   double widest = -1;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -196,9 +195,9 @@ void makeConnected(const fem::Mesh& mesh, std::vector<int>& part) {
 }
 
 GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const fem::Mesh& mesh, int size)
-    : parts_(std::move(parts)), order_(static_cast<std::size_t>(parts_->numParts())), number_(order_.size()) {
+    : parts_(std::move(parts)), order_(parts_->numParts()), number_(order_.size()) {
   std::vector<Point> centres(order_.size());
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
   for (std::size_t part = 0; part < centres.size(); ++part) {
     const std::vector<GlobalOrdinal> elements = parts_->elementsOf(static_cast<int>(part));
     for (const GlobalOrdinal element : elements) {
@@ -211,13 +210,13 @@ GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const
   std::iota(order_.begin(), order_.end(), 0);
   bisect(order_, static_cast<std::size_t>(size), centres);
   for (std::size_t part = 0; part < order_.size(); ++part)
-    number_[static_cast<std::size_t>(order_[part])] = static_cast<int>(part);
+    number_[order_[part]] = static_cast<int>(part);
 }
 
 GridPartition::GridPartition(const fem::StructuredMesh& mesh, std::array<int, 3> counts)
     : elements_(mesh.elements()), counts_{counts[0], counts[1], mesh.dimension() == 3 ? counts[2] : 1} {
   const auto cut = [](int n, int m) {
-    std::vector<int> partOf(static_cast<std::size_t>(n));
+    std::vector<int> partOf(n);
     for (int k = 0; k < m; ++k)
       std::fill(partOf.begin() + firstOf(k, n, m), partOf.begin() + firstOf(k + 1, n, m), k);
     return partOf;
@@ -232,7 +231,7 @@ GridPartition::GridPartition(const fem::StructuredMesh& mesh, std::array<int, 3>
 
 int GridPartition::partOf(GlobalOrdinal element) const {
   const GlobalOrdinal row = element / elements_[0], column = element - row * elements_[0];
-  return columnOf_[static_cast<std::size_t>(column)] + rowOf_[static_cast<std::size_t>(row)] * counts_[0];
+  return columnOf_[column] + rowOf_[row] * counts_[0];
 }
 
 std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
@@ -255,7 +254,7 @@ std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
 }
 
 GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm)
-    : part_(static_cast<std::size_t>(mesh.numElements()), 0) {
+    : part_(mesh.numElements(), 0) {
   collectively(comm, [&] {
     requireCut(mesh, parts);
     if (comm.getRank() != 0)
@@ -279,18 +278,18 @@ GraphPartition::GraphPartition(const fem::Mesh& mesh, int parts, const Comm& com
   members_.resize(part_.size());
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   for (std::size_t element = 0; element < part_.size(); ++element)
-    members_[next[static_cast<std::size_t>(part_[element])]++] = static_cast<int>(element);
+    members_[next[part_[element]]++] = static_cast<int>(element);
 }
 
 std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
-  const auto p = static_cast<std::size_t>(part);
+  const std::size_t p = part;
   const std::span<const int> members(members_.data() + start_[p], members_.data() + start_[p + 1]);
   return {members.begin(), members.end()};
 }
 
 std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts) {
   requireCut(mesh, parts);
-  std::vector<int> part(static_cast<std::size_t>(mesh.numElements()), 0);
+  std::vector<int> part(mesh.numElements(), 0);
   int first = 0; // part of the piece
   for (std::vector<GlobalOrdinal>& piece : piecesOf(mesh, part)) {
     std::sort(piece.begin(), piece.end());
@@ -300,7 +299,7 @@ std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts) {
     if (wanted > 1)
       cut = cutByMetis(mesh, piece, wanted);
     for (std::size_t i = 0; i < piece.size(); ++i)
-      part[static_cast<std::size_t>(piece[i])] = first + cut[i];
+      part[piece[i]] = first + cut[i];
     first += wanted;
   }
   makeConnected(mesh, part);
@@ -311,10 +310,10 @@ std::unique_ptr<const Partition> cutPieces(const fem::Mesh& mesh, int parts) {
 }
 
 HeldPartition::HeldPartition(int numParts, HeldElements held)
-    : numParts_(numParts), held_(std::move(held)), own_(static_cast<std::size_t>(held_.end - held_.begin)) {
+    : numParts_(numParts), held_(std::move(held)), own_(held_.end - held_.begin) {
   for (std::size_t e = 0; e < held_.elements.size(); ++e)
     if (const int part = held_.parts[e]; held_.begin <= part && part < held_.end)
-      own_[static_cast<std::size_t>(part - held_.begin)].push_back(held_.elements[e]);
+      own_[part - held_.begin].push_back(held_.elements[e]);
 }
 
 int HeldPartition::partOf(GlobalOrdinal element) const {
@@ -322,11 +321,11 @@ int HeldPartition::partOf(GlobalOrdinal element) const {
   if (found == held_.elements.end() || *found != element)
     throw Error("The part of element " + std::to_string(element) +
                 " is asked for on a rank that does not hold it.");
-  return held_.parts[static_cast<std::size_t>(found - held_.elements.begin())];
+  return held_.parts[found - held_.elements.begin()];
 }
 
 std::vector<GlobalOrdinal> HeldPartition::elementsOf(int part) const {
-  return own_.at(static_cast<std::size_t>(part - held_.begin));
+  return own_.at(part - held_.begin);
 }
 
 } // namespace epafi::model

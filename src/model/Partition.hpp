@@ -50,9 +50,7 @@ public:
   /// Collective. \throws InputError if METIS refuses.
   GraphPartition(const fem::Mesh& mesh, int parts, const Comm& comm);
   [[nodiscard]] int numParts() const override { return numParts_; }
-  [[nodiscard]] int partOf(GlobalOrdinal element) const override {
-    return part_[static_cast<std::size_t>(element)];
-  }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override { return part_[element]; }
   [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override;
 
 private:
@@ -69,11 +67,9 @@ public:
   /// \param size  > 0. Passes once over the mesh. Not collective.
   GroupedPartition(std::shared_ptr<const Partition> parts, const fem::Mesh& mesh, int size);
   [[nodiscard]] int numParts() const override { return parts_->numParts(); }
-  [[nodiscard]] int partOf(GlobalOrdinal element) const override {
-    return number_[static_cast<std::size_t>(parts_->partOf(element))];
-  }
+  [[nodiscard]] int partOf(GlobalOrdinal element) const override { return number_[parts_->partOf(element)]; }
   [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override {
-    return parts_->elementsOf(order_[static_cast<std::size_t>(part)]);
+    return parts_->elementsOf(order_[part]);
   }
 
 private:

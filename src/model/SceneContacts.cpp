@@ -49,7 +49,7 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
 void dropRoundOff(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
                   ContactLayout& contact) {
   constexpr double roundOff = 1e-13;
-  const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(contact.firstBody)].mesh;
+  const fem::Mesh& mesh = *bodies[contact.firstBody].mesh;
   double largest = 0;
   for (const GlobalOrdinal node : contact.firstNodes)
     for (const double coordinate : mesh.point(node))
@@ -107,9 +107,7 @@ ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vecto
 }
 
 SupportedNodes supportedNodes(const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
-  const auto modelOf = [&models](int body) -> const fem::BodyModel& {
-    return *models[static_cast<std::size_t>(body)];
-  };
+  const auto modelOf = [&models](int body) -> const fem::BodyModel& { return *models[body]; };
   SupportedNodes result;
   result.isHeld = [modelOf](int body, GlobalOrdinal node, const Eigen::Vector3d& direction) {
     constexpr double held = 1e-6; // of a direction, what is free beside it is round-off
@@ -148,20 +146,20 @@ namespace {
 SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
                           const std::vector<BodyLayout>& bodies) {
   supported.thicknesses = [&](int body, const fem::Surface& surface) {
-    const scene::Body& solid = scene.bodies[static_cast<std::size_t>(body)];
+    const scene::Body& solid = scene.bodies[body];
     if (solid.physics == scene::Physics::membrane || solid.physics == scene::Physics::elasticity3d)
       return std::vector<double>();
     std::vector<double> thicknesses(surface.numFacets(), solid.material.thickness);
     if (solid.regions.empty())
       return thicknesses;
-    const fem::BodyModel model(solid, *bodies[static_cast<std::size_t>(body)].mesh);
+    const fem::BodyModel model(solid, *bodies[body].mesh);
     for (std::size_t f = 0; f < thicknesses.size(); ++f)
       thicknesses[f] = model.materialOf(surface.elements[f]).thickness;
     return thicknesses;
   };
   auto boxes = std::make_shared<std::map<int, std::array<Point, 2>>>();
   supported.extent = [&, boxes](int body, const Eigen::Vector3d& direction) {
-    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(body)].mesh;
+    const fem::Mesh& mesh = *bodies[body].mesh;
     const auto [entry, isNew] = boxes->try_emplace(body);
     if (isNew && mesh.part() != nullptr) {
       entry->second = mesh.part()->box();
@@ -173,8 +171,7 @@ SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
     }
     double extent = 0;
     for (std::size_t d = 0; d < 3; ++d)
-      extent +=
-          std::abs(direction[static_cast<Eigen::Index>(d)]) * (entry->second[1][d] - entry->second[0][d]);
+      extent += std::abs(direction[d]) * (entry->second[1][d] - entry->second[0][d]);
     return extent;
   };
   return supported;
@@ -206,7 +203,7 @@ void addDropped(const std::vector<contact::KnownRows::Dropped>& dropped, Contact
   for (const contact::KnownRows::Dropped& row : dropped)
     for (ContactLayout& other : earlier)
       if (other.number == row.contact) {
-        other.areas[static_cast<std::size_t>(row.row)] += row.area;
+        other.areas[row.row] += row.area;
         names = "'" + other.name + "'";
         other.note = "contact '" + contact.name + "' says the same at some nodes, which count here";
       }
@@ -237,7 +234,7 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
         why = chooseSide(scene, bodies, terms);
       }
     }
-    const int components = componentsOf(scene.bodies[static_cast<std::size_t>(terms.first)].physics);
+    const int components = componentsOf(scene.bodies[terms.first].physics);
     ContactLayout layout = Coupler(group, bodies, components, supported, tied).layout();
     layout.number = static_cast<int>(group.numbers.front());
     dropRoundOff(terms, bodies, layout);
@@ -257,7 +254,7 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
     if (group.terms.front().kind == scene::SurfaceContact::Kind::tied)
       continue;
     ContactLayout layout = layOut(group, &tied);
-    const fem::Mesh& mesh = *bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
+    const fem::Mesh& mesh = *bodies[layout.firstBody].mesh;
     const fem::Surface surface = contact::unite(mesh, layout.firstSurfaces).surface;
     addDropped(known.dropFrom(layout, spacingOf(mesh, surface)), layout, all.contacts);
     layout.firstShares.empty() ? contact::adaptRows(surface, layout) : contact::smoothRows(surface, layout);
@@ -275,15 +272,13 @@ decomposition::ConstraintMatrix contactMatrix(const std::vector<BodyLayout>& bod
   contact::NodeUnknowns unknowns;
   unknowns.components = models.front()->components();
   unknowns.firstNode = firstNodes(bodies);
-  const auto modelOf = [&](int body) -> const fem::BodyModel& {
-    return *models[static_cast<std::size_t>(body)];
-  };
+  const auto modelOf = [&](int body) -> const fem::BodyModel& { return *models[body]; };
   unknowns.frame = [&](int body, GlobalOrdinal node) { return modelOf(body).frame(node); };
   unknowns.isHeld = [&](int body, GlobalOrdinal node, int component) {
     return modelOf(body).prescribed(node, component).has_value();
   };
   unknowns.isMine = [&, share = shareOf(bodies, *comm)](int body, GlobalOrdinal node) {
-    const BodyLayout& layout = bodies[static_cast<std::size_t>(body)];
+    const BodyLayout& layout = bodies[body];
     const int part = lowestPartAt(layout, node), lowest = layout.firstSubdomain + part;
     return part < layout.partition->numParts() && share.begin <= lowest && lowest < share.end;
   };

@@ -37,9 +37,7 @@ std::vector<decomposition::ContactPlace>
 contactPlaces(const std::vector<BodyLayout>& bodies, const std::vector<contact::ContactLayout>& contacts,
               const std::vector<std::unique_ptr<fem::BodyModel>>& models, const Map& rows) {
   std::vector<decomposition::ContactPlace> places;
-  const auto floats = [&](int body) {
-    return body >= 0 && models[static_cast<std::size_t>(body)]->kernelDimension() > 0;
-  };
+  const auto floats = [&](int body) { return body >= 0 && models[body]->kernelDimension() > 0; };
   for (const contact::ContactLayout& contact : contacts) {
     // Normals of obstacles are exact, and membranes have none.
     if (models.front()->components() == 1 || contact.secondBody < 0 ||
@@ -50,8 +48,8 @@ contactPlaces(const std::vector<BodyLayout>& bodies, const std::vector<contact::
       if (!rows.isNodeGlobalElement(contact.firstRow + static_cast<GlobalOrdinal>(row)))
         continue;
       if (!first) {
-        first.emplace(bodies[static_cast<std::size_t>(contact.firstBody)], contact.firstSurfaces);
-        second.emplace(bodies[static_cast<std::size_t>(contact.secondBody)], contact.secondSurfaces);
+        first.emplace(bodies[contact.firstBody], contact.firstSurfaces);
+        second.emplace(bodies[contact.secondBody], contact.secondSurfaces);
       }
       places.push_back(placeOf(contact, row, first->side(), second->side()));
     }

@@ -38,10 +38,10 @@ struct NodeKinds {
   NodeKinds(const Subdomain& subdomain, int components)
       : free(subdomain.nodes.size(), 0), crosspoint(subdomain.nodes.size(), 0) {
     for (const int position : subdomain.unknownPosition)
-      free[static_cast<std::size_t>(position / components)] = 1;
+      free[position / components] = 1;
     const auto mark = [&](int unknown, char value) {
-      const int position = subdomain.unknownPosition[static_cast<std::size_t>(unknown)];
-      crosspoint[static_cast<std::size_t>(position / components)] = value;
+      const int position = subdomain.unknownPosition[unknown];
+      crosspoint[position / components] = value;
     };
     for (const int unknown : subdomain.crosspointUnknowns)
       mark(unknown, 1);
@@ -97,8 +97,8 @@ NodeValues valuesOfSubdomains(const simulation::SolvedScene& solved, int body) {
       throw Error("The displacement of subdomain " + std::to_string(subdomain.number) + " has " +
                   std::to_string(solution.displacement[s].size()) + " values instead of " +
                   std::to_string(expected) + ".");
-    appendSubdomain(decomposition.bodies[static_cast<std::size_t>(body)], subdomain, solution.displacement[s],
-                    problem.components, result);
+    appendSubdomain(decomposition.bodies[body], subdomain, solution.displacement[s], problem.components,
+                    result);
   }
   return result;
 }
@@ -124,11 +124,11 @@ MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal nu
 
 void fillNodes(const MultiVector& values, int components, BodyFields& fields) {
   const auto crosspoint = values.getData(static_cast<std::size_t>(components));
-  fields.u.resize(static_cast<std::size_t>(fields.nodes.count * components));
+  fields.u.resize(fields.nodes.count * components);
   for (int component = 0; component < components; ++component) {
     const auto data = values.getData(static_cast<std::size_t>(component));
     for (Teuchos::Ordinal row = 0; row < data.size(); ++row)
-      fields.u[static_cast<std::size_t>(row * components + component)] = data[row];
+      fields.u[row * components + component] = data[row];
   }
   Teuchos::ArrayRCP<const double> place[3];
   for (std::size_t d = 0; d < 3; ++d)
@@ -144,7 +144,7 @@ void fillNodes(const MultiVector& values, int components, BodyFields& fields) {
 /// The cells go from their subdomains to the slabs: number, subdomain, nodes. Collective.
 void fillCells(const simulation::SolvedScene& solved, int body, BodyFields& fields) {
   const auto& problem = solved.decomposition.problem;
-  const BodyLayout& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
+  const BodyLayout& layout = solved.decomposition.bodies[body];
   const auto perCell = static_cast<std::size_t>(numNodesOf(fields.cellType)), width = perCell + 2;
   std::vector<GlobalOrdinal> records;
   std::vector<int> ranks;
@@ -163,7 +163,7 @@ void fillCells(const simulation::SolvedScene& solved, int body, BodyFields& fiel
   });
   const std::vector<char> bytes = sendRecordBytes(problem.comm, reinterpret_cast<const char*>(records.data()),
                                                   width * sizeof(GlobalOrdinal), ranks);
-  const auto count = static_cast<std::size_t>(fields.cells.count);
+  const std::size_t count = fields.cells.count;
   if (bytes.size() != count * width * sizeof(GlobalOrdinal))
     throw Error("The subdomains of a body hold other elements than it has.");
   fields.corners.resize(count * perCell);
@@ -172,7 +172,7 @@ void fillCells(const simulation::SolvedScene& solved, int body, BodyFields& fiel
   for (std::size_t k = 0; k < count; ++k) {
     std::memcpy(record.data(), bytes.data() + k * width * sizeof(GlobalOrdinal),
                 width * sizeof(GlobalOrdinal));
-    const auto row = static_cast<std::size_t>(record[0] - fields.cells.first);
+    const std::size_t row = record[0] - fields.cells.first;
     fields.subdomain[row] = static_cast<int>(record[1]);
     std::copy(record.begin() + 2, record.end(),
               fields.corners.begin() + static_cast<std::ptrdiff_t>(row * perCell));
@@ -189,7 +189,7 @@ void numberCrosspoints(const Comm& comm, BodyFields& fields) {
 
 BodyFields gatherBodyFields(const simulation::SolvedScene& solved, int body) {
   const auto& problem = solved.decomposition.problem;
-  const BodyLayout& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
+  const BodyLayout& layout = solved.decomposition.bodies[body];
   NodeValues sent;
   collectively(*problem.comm, [&] { sent = valuesOfSubdomains(solved, body); });
 

@@ -149,7 +149,7 @@ Checkpoint readOnThisRank(const fs::path& file) {
                      (size < expected ? ": it is cut off" : ": something was added to it"));
   Checkpoint checkpoint{file, header.fingerprint, {}};
   std::vector<double>& values = checkpoint.values;
-  values.resize(static_cast<std::size_t>(header.fingerprint.numMultipliers()));
+  values.resize(header.fingerprint.numMultipliers());
   stream.clear();
   stream.seekg(static_cast<std::streamoff>(header.length));
   const std::size_t bytes = values.size() * sizeof(double);

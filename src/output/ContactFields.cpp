@@ -24,14 +24,14 @@ std::vector<double> rowsOf(const Vector& whole, const Import& toSlab) {
 }
 
 void fillFacets(const simulation::SolvedScene& solved, int contact, ContactFields& fields) {
-  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+  const ContactLayout& layout = solved.decomposition.contacts[contact];
   std::vector<long long> corners;
   if (!solved.isAlongEdges(contact)) {
-    const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
+    const fem::Mesh& mesh = *solved.decomposition.bodies[layout.firstBody].mesh;
     const fem::Surface surface = mesh.surface(layout.firstSurface);
     const std::vector<long long> all = simulation::completeFacets(layout, surface);
     const std::vector<std::size_t> own = layout.ownRows();
-    const auto perFacet = static_cast<std::ptrdiff_t>(surface.nodesPerFacet());
+    const std::ptrdiff_t perFacet = surface.nodesPerFacet();
     for (auto begin = all.begin(); begin != all.end(); begin += perFacet) {
       if (std::any_of(begin, begin + perFacet,
                       [&](long long row) { return layout.portion(static_cast<std::size_t>(row)) == 0; }))
@@ -44,7 +44,7 @@ void fillFacets(const simulation::SolvedScene& solved, int contact, ContactField
       fields.facetType = surface.facetType;
   }
   if (corners.empty()) {
-    corners.resize(static_cast<std::size_t>(fields.numRows));
+    corners.resize(fields.numRows);
     std::iota(corners.begin(), corners.end(), 0LL);
   }
   const int perFacet = fields.nodesPerFacet();
@@ -57,19 +57,19 @@ void fillFacets(const simulation::SolvedScene& solved, int contact, ContactField
 } // namespace
 
 FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) {
-  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+  const ContactLayout& layout = solved.decomposition.contacts[contact];
   FacingSurface result;
   if (layout.firstShares.empty())
     return result;
-  const scene::SurfaceContact& terms = solved.scene.contacts[static_cast<std::size_t>(layout.number)];
-  const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.secondBody)].mesh;
+  const scene::SurfaceContact& terms = solved.scene.contacts[layout.number];
+  const fem::Mesh& mesh = *solved.decomposition.bodies[layout.secondBody].mesh;
   const fem::Surface surface =
       mesh.surface(layout.secondBody == terms.second ? terms.secondSurface : terms.firstSurface);
   result.cornersPerFacet = numCornersOf(surface.facetType);
   result.numFacets = static_cast<GlobalOrdinal>(surface.numFacets());
   std::map<GlobalOrdinal, long long> placeOf;
   for (std::size_t f = 0; f < surface.numFacets(); ++f)
-    for (const GlobalOrdinal node : surface.facet(f).first(static_cast<std::size_t>(result.cornersPerFacet)))
+    for (const GlobalOrdinal node : surface.facet(f).first(result.cornersPerFacet))
       placeOf.emplace(node, 0);
   result.numPoints = static_cast<GlobalOrdinal>(placeOf.size());
   result.points = evenShare(result.numPoints, solved.comm());
@@ -83,8 +83,7 @@ FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) 
     result.places.insert(result.places.end(), point.begin(), point.end());
   }
   for (GlobalOrdinal f = result.facets.first; f < result.facets.first + result.facets.count; ++f)
-    for (const GlobalOrdinal node :
-         surface.facet(static_cast<std::size_t>(f)).first(static_cast<std::size_t>(result.cornersPerFacet)))
+    for (const GlobalOrdinal node : surface.facet(static_cast<std::size_t>(f)).first(result.cornersPerFacet))
       result.corners.push_back(placeOf.at(node));
   return result;
 }
@@ -92,8 +91,8 @@ FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) 
 ContactFields gatherContactFields(const simulation::SolvedScene& solved, int contact,
                                   const simulation::ContactState& state) {
   const auto& problem = solved.decomposition.problem;
-  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
-  const fem::Mesh& mesh = *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
+  const ContactLayout& layout = solved.decomposition.contacts[contact];
+  const fem::Mesh& mesh = *solved.decomposition.bodies[layout.firstBody].mesh;
 
   ContactFields fields;
   const std::vector<std::size_t> own = layout.ownRows();
@@ -101,7 +100,7 @@ ContactFields gatherContactFields(const simulation::SolvedScene& solved, int con
   fields.rows = evenShare(fields.numRows, *problem.comm);
   std::vector<GlobalOrdinal> multipliers;
   for (GlobalOrdinal k = fields.rows.first; k < fields.rows.first + fields.rows.count; ++k) {
-    const std::size_t row = own[static_cast<std::size_t>(k)];
+    const std::size_t row = own[k];
     multipliers.push_back(layout.firstRow + static_cast<GlobalOrdinal>(row));
     const Point point = mesh.point(layout.firstNodes[row]);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
@@ -117,8 +116,7 @@ ContactFields gatherContactFields(const simulation::SolvedScene& solved, int con
   fields.gap = state.gap;
   fields.multiplier = rowsOf(*solved.solution.multiplier, toSlab);
   for (GlobalOrdinal k = 0; k < fields.rows.count; ++k)
-    fields.multiplier[static_cast<std::size_t>(k)] *=
-        layout.portion(own[static_cast<std::size_t>(fields.rows.first + k)]);
+    fields.multiplier[k] *= layout.portion(own[fields.rows.first + k]);
   fields.force = state.force;
   fields.pressure = state.pressure;
   for (const double value : rowsOf(*solved.solution.active, toSlab))

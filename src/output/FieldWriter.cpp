@@ -50,7 +50,7 @@ void putElastic(Hdf5File& file, const std::string& group, const BodyFields& fiel
 XdmfGrid putBody(Hdf5File& file, const std::string& group, const simulation::SolvedScene& solved,
                  const simulation::Evaluation& evaluation, int body) {
   const BodyFields fields = gatherBodyFields(solved, body);
-  const auto place = static_cast<std::size_t>(body);
+  const std::size_t place = body;
   const std::string& name = solved.decomposition.bodies[place].name;
   file.createGroup(group);
   file.attribute(group, "name", name);
@@ -139,12 +139,12 @@ XdmfGrid putTie(Hdf5File& file, const std::string& group, const std::string& nam
 void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
   using Record = qp::StepRecord;
   file.createGroup("/history");
-  const auto rows = static_cast<GlobalOrdinal>(history.size());
+  const GlobalOrdinal rows = history.size();
   const RowRange range{0, comm.getRank() == 0 ? rows : 0};
   const auto column = [&]<class T>(const std::string& name, T, auto member) { // T: what is written
     std::vector<T> values;
     for (GlobalOrdinal k = 0; k < range.count; ++k)
-      values.push_back(static_cast<T>(history[static_cast<std::size_t>(k)].*member));
+      values.push_back(static_cast<T>(history[k].*member));
     file.write("/history/" + name, rows, 0, range, std::span<const T>(values));
   };
   column("iteration", 0, &Record::iteration);
@@ -227,7 +227,7 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
   const auto contactGroups = groupNames(decomposition.contacts);
   for (std::size_t c = 0; c < contactGroups.size(); ++c) {
     grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
-                               bodyGroups[static_cast<std::size_t>(decomposition.contacts[c].firstBody)],
+                               bodyGroups[decomposition.contacts[c].firstBody],
                                gatherContactFields(solved, static_cast<int>(c), evaluation.contacts[c])));
     putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, static_cast<int>(c)));
   }

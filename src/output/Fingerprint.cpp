@@ -25,7 +25,7 @@ std::uint64_t mixed(std::uint64_t x) {
 /// A random number that belongs to an unknown of a subdomain, by its node and component.
 std::uint64_t numberOf(const decomposition::Subdomain& subdomain, std::size_t unknown, int components) {
   const int position = subdomain.unknownPosition[unknown];
-  const auto node = subdomain.nodes[static_cast<std::size_t>(position / components)];
+  const auto node = subdomain.nodes[position / components];
   const auto component = static_cast<std::uint64_t>(position % components);
   return mixed(mixed(mixed(static_cast<std::uint64_t>(subdomain.number)) + static_cast<std::uint64_t>(node)) +
                component);

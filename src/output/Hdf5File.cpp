@@ -238,7 +238,7 @@ void Hdf5File::write(const std::string& dataset, GlobalOrdinal rows, int columns
   together([&] {
     const GlobalOrdinal written = sumOverRanks(*comm_, range.count);
     collectively(*comm_, [&] {
-      const auto expected = static_cast<std::size_t>(range.count * (columns == 0 ? 1 : columns));
+      const std::size_t expected = range.count * (columns == 0 ? 1 : columns);
       if (columns < 0 || range.first < 0 || range.count < 0 || range.first + range.count > rows ||
           values.size() != expected || written != rows)
         throw Error("File '" + path_.string() + "', dataset '" + dataset + "': rank " +

@@ -170,7 +170,7 @@ void readComponents(const ListReader& entry, const Body& body, SolidSupport& sup
     entry.refuseGiven({"Z"}, "the body lies in the plane");
   for (int c = 0; c < componentsOf(body.physics); ++c)
     if (const std::string component(1, "XYZ"[c]); entry.has(component))
-      support.value[static_cast<std::size_t>(c)] = entry.real(component);
+      support.value[c] = entry.real(component);
   if (entry.has("Normal"))
     support.normal = entry.real("Normal");
   if (!support.normal && std::none_of(support.value.begin(), support.value.end(),

@@ -77,7 +77,7 @@ int bodyIndex(const ListReader& pair, const std::string& parameter, const std::v
 /// The obstacle that the pair names.
 Obstacle obstacleOf(const ListReader& entry, const Body& body, const std::vector<NamedObstacle>& obstacles) {
   const auto& [name, dimension, obstacle] =
-      obstacles[static_cast<std::size_t>(indexOf(entry, "Obstacle", obstacles, "obstacle", "obstacles"))];
+      obstacles[indexOf(entry, "Obstacle", obstacles, "obstacle", "obstacles")];
   const std::string who = "body \"" + body.name + "\" ";
   if (body.physics == Physics::membrane)
     entry.refuseValue("Obstacle", who + "is a membrane; only elastic bodies meet obstacles");
@@ -107,7 +107,7 @@ void readSurfaces(const ListReader& entry, const std::vector<Body>& bodies,
   pair.firstSurface = entry.word("First Surface");
   if (pair.second < 0) {
     entry.refuseGiven({"Second Surface"}, "an obstacle is its own surface");
-    pair.obstacle = obstacleOf(entry, bodies[static_cast<std::size_t>(pair.first)], obstacles);
+    pair.obstacle = obstacleOf(entry, bodies[pair.first], obstacles);
   } else {
     entry.require("Second Surface");
     pair.secondSurface = entry.word("Second Surface");

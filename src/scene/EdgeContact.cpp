@@ -10,7 +10,7 @@ namespace {
 
 /// What speaks against an edge of a body in this contact.
 std::string objectionTo(const Scene& scene, std::size_t contact, int body, const std::string& edge) {
-  const Body& owner = scene.bodies[static_cast<std::size_t>(body)];
+  const Body& owner = scene.bodies[body];
   if (std::find(edges.begin(), edges.end(), edge) == edges.end())
     return "body \"" + owner.name + "\" has no edge \"" + edge + '"';
   const std::string that = "that edge of body \"" + owner.name + "\" ";
@@ -48,9 +48,8 @@ bool coincide(const EdgeSegment& a, const EdgeSegment& b) {
 }
 
 bool isAlongEdges(const Scene& scene, const SurfaceContact& contact) {
-  return contact.second >= 0 &&
-         isMembraneOnRectangle(scene.bodies[static_cast<std::size_t>(contact.first)]) &&
-         isMembraneOnRectangle(scene.bodies[static_cast<std::size_t>(contact.second)]);
+  return contact.second >= 0 && isMembraneOnRectangle(scene.bodies[contact.first]) &&
+         isMembraneOnRectangle(scene.bodies[contact.second]);
 }
 
 std::optional<EdgeFault> faultOf(const Scene& scene, std::size_t contact) {
@@ -63,8 +62,8 @@ std::optional<EdgeFault> faultOf(const Scene& scene, std::size_t contact) {
     return EdgeFault{1, objection};
   if (pair.first == pair.second)
     return EdgeFault{1, "a body cannot be in contact with itself"};
-  const Body& first = scene.bodies[static_cast<std::size_t>(pair.first)];
-  const Body& second = scene.bodies[static_cast<std::size_t>(pair.second)];
+  const Body& first = scene.bodies[pair.first];
+  const Body& second = scene.bodies[pair.second];
   const EdgeSegment a = segmentOf(first.mesh.box, pair.firstSurface),
                     b = segmentOf(second.mesh.box, pair.secondSurface);
   if (!coincide(a, b))

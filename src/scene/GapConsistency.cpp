@@ -65,17 +65,17 @@ std::vector<Constraint> negativeCycle(const std::vector<Constraint>& constraints
   double largest = 0;
   for (const Constraint& constraint : constraints)
     largest = std::max(largest, std::abs(constraint.bound));
-  std::vector<double> value(static_cast<std::size_t>(numNodes), 0.0);
-  std::vector<const Constraint*> last(static_cast<std::size_t>(numNodes), nullptr);
+  std::vector<double> value(numNodes, 0.0);
+  std::vector<const Constraint*> last(numNodes, nullptr);
   const Constraint* tightened = nullptr;
   for (int round = 0; round <= numNodes; ++round) {
     tightened = nullptr;
     for (const Constraint& constraint : constraints) {
-      const double bound = value[static_cast<std::size_t>(constraint.from)] + constraint.bound;
-      double& current = value[static_cast<std::size_t>(constraint.to)];
+      const double bound = value[constraint.from] + constraint.bound;
+      double& current = value[constraint.to];
       if (bound < current - 1e-12 * largest) {
         current = bound;
-        last[static_cast<std::size_t>(constraint.to)] = &constraint;
+        last[constraint.to] = &constraint;
         tightened = &constraint;
       }
     }
@@ -83,12 +83,12 @@ std::vector<Constraint> negativeCycle(const std::vector<Constraint>& constraints
       return {};
   }
   for (int step = 0; step < numNodes; ++step) // back until we are on the cycle
-    tightened = last[static_cast<std::size_t>(tightened->from)];
+    tightened = last[tightened->from];
   std::vector<Constraint> cycle;
   const Constraint* const first = tightened;
   do {
     cycle.push_back(*tightened);
-    tightened = last[static_cast<std::size_t>(tightened->from)];
+    tightened = last[tightened->from];
   } while (tightened != first);
   return cycle;
 }
@@ -104,7 +104,7 @@ std::string listed(std::vector<std::string> names) {
 }
 
 std::string placeOf(const Scene& scene, int node) {
-  const Box& box = scene.bodies[static_cast<std::size_t>(node / 4)].mesh.box;
+  const Box& box = scene.bodies[node / 4].mesh.box;
   const int corner = node % 4;
   return '(' + valueText((corner % 2 == 0 ? box.lower : box.upper)[0]) + ", " +
          valueText((corner < 2 ? box.lower : box.upper)[1]) + ')';
@@ -123,10 +123,10 @@ void requireConsistentGaps(const Scene& scene) {
   for (const Constraint& constraint : cycle) {
     sum += constraint.bound;
     if (constraint.pair >= 0) {
-      pairs.push_back(scene.contacts[static_cast<std::size_t>(constraint.pair)].name);
+      pairs.push_back(scene.contacts[constraint.pair].name);
       place = placeOf(scene, constraint.to);
     } else {
-      bodies.push_back(scene.bodies[static_cast<std::size_t>(constraint.body)].name);
+      bodies.push_back(scene.bodies[constraint.body].name);
     }
   }
   std::ostringstream text;

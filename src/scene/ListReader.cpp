@@ -71,8 +71,8 @@ Box ListReader::box(const std::string& name, int dimension) const {
                             (dimension == 3 ? ", y0 < y1 and z0 < z1 in " : " and y0 < y1 in ") + form);
     if (!isModerate(upper - lower))
       refuseValue(name, "its sides must be " + moderateMagnitude);
-    box.lower[static_cast<std::size_t>(d)] = lower;
-    box.upper[static_cast<std::size_t>(d)] = upper;
+    box.lower[d] = lower;
+    box.upper[d] = upper;
   }
   return box;
 }

@@ -23,7 +23,7 @@ bool halve(scene::Body& body, int dimension) {
   scene::MeshSource& mesh = body.mesh;
   if (mesh.file.empty()) {
     scene::Decomposition& cut = body.decomposition;
-    const auto axes = static_cast<std::size_t>(dimension);
+    const std::size_t axes = dimension;
     if (std::all_of(mesh.elements.begin(), mesh.elements.begin() + dimension,
                     [](int count) { return count == 1; }))
       return false;

@@ -22,7 +22,7 @@ using Shares = std::vector<std::vector<ContactLayout::Share>>;
 constexpr int latticeSteps = 8;
 
 const fem::Mesh& meshOf(const SolvedScene& solved, const ContactLayout& layout) {
-  return *solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh;
+  return *solved.decomposition.bodies[layout.firstBody].mesh;
 }
 
 /// Values of all rows that combinations of some rows name, wherever they lie.
@@ -113,7 +113,7 @@ std::vector<Eigen::VectorXd> latticeOn(fem::CellType facet) {
 double penetrationOn(const fem::Surface& surface, const ContactLayout& layout, const Shares& toNodes,
                      const Vector& slack) {
   const std::vector<long long> all = completeFacets(layout, surface);
-  const auto perFacet = static_cast<std::size_t>(surface.nodesPerFacet());
+  const std::size_t perFacet = surface.nodesPerFacet();
   const RowRange mine =
       evenShare(static_cast<GlobalOrdinal>(all.size() / perFacet), *slack.getMap()->getComm());
   const auto begin = all.begin() + mine.first * static_cast<GlobalOrdinal>(perFacet);
@@ -124,7 +124,7 @@ double penetrationOn(const fem::Surface& surface, const ContactLayout& layout, c
   double deepest = 0;
   for (std::size_t facet = 0; facet < rows.size(); facet += perFacet) {
     for (std::size_t a = 0; a < perFacet; ++a)
-      gap[static_cast<Eigen::Index>(a)] = gaps.at(rows[facet + a]);
+      gap[a] = gaps.at(rows[facet + a]);
     for (const Eigen::VectorXd& shape : lattice)
       deepest = std::max(deepest, -shape.dot(gap));
   }
@@ -148,7 +148,7 @@ std::vector<long long> completeFacets(const ContactLayout& layout, const fem::Su
 }
 
 ContactState contactState(const SolvedScene& solved, int contact) {
-  const ContactLayout& layout = solved.decomposition.contacts[static_cast<std::size_t>(contact)];
+  const ContactLayout& layout = solved.decomposition.contacts[contact];
   const Vector &slack = *solved.solution.slack, &multiplier = *solved.solution.multiplier;
   const Shares none, toNodes = layout.isDual ? transposed(layout.smoothed) : none;
   const Shares& around = layout.isDual ? none : layout.smoothed;

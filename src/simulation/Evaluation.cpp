@@ -63,18 +63,16 @@ std::vector<AccurateSum> sumContacts(const SolvedScene& solved, const Evaluation
       const ContactLayout& contact = contacts[place];
       if (index < contact.firstRow || index >= contact.firstRow + contact.numRows())
         continue;
-      const auto row = static_cast<std::size_t>(index - contact.firstRow);
+      const std::size_t row = index - contact.firstRow;
       const double portion = contact.portion(row), rowForce = portion * multiplier[i];
       if (portion == 0)
         continue;
       const Eigen::Vector3d direction = contact.spatialDirectionOf(row);
       AccurateSum* const terms = &sums[place * numTerms];
       terms[force].add(rowForce);
-      const bool areSwapped =
-          contact.firstBody != solved.scene.contacts[static_cast<std::size_t>(contact.number)].first;
+      const bool areSwapped = contact.firstBody != solved.scene.contacts[contact.number].first;
       for (std::size_t d = 0; d < 3; ++d)
-        terms[resultant + d].add((areSwapped ? rowForce : -rowForce) *
-                                 direction[static_cast<Eigen::Index>(d)]);
+        terms[resultant + d].add((areSwapped ? rowForce : -rowForce) * direction[d]);
       if (isActive[i] > 0.5) {
         terms[active].add(1);
         terms[area].add(evaluation.contacts[place].areas[row]);
@@ -102,7 +100,7 @@ double largestDisplacement(const SolvedScene& solved, int body) {
 } // namespace
 
 std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body) {
-  const auto place = static_cast<std::size_t>(body);
+  const std::size_t place = body;
   const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
   const model::BodyLayout& layout = solved.decomposition.bodies[place];
   MultiVector sums(nodesOfBody(problem, body), numStresses + 1);
@@ -132,7 +130,7 @@ std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body) {
 
 std::vector<double> cellErrors(const SolvedScene& solved, const accuracy::ErrorEstimate& estimate, int body) {
   const auto& problem = solved.decomposition.problem;
-  const auto& layout = solved.decomposition.bodies[static_cast<std::size_t>(body)];
+  const auto& layout = solved.decomposition.bodies[body];
   std::vector<GlobalOrdinal> cells;
   std::vector<double> errors;
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {

@@ -39,6 +39,7 @@ struct Evaluation {
 /// Collective.
 Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* estimate = nullptr);
 
+/// What a body has come to.
 struct BodyResult {
   std::string name;
   bool isElastic = false;

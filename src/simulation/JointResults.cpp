@@ -25,7 +25,7 @@ using contact::ContactLayout;
 using Eigen::Vector3d;
 
 Vector3d placeOf(const SolvedScene& solved, int body, GlobalOrdinal node) {
-  const Point x = solved.decomposition.bodies[static_cast<std::size_t>(body)].mesh->point(node);
+  const Point x = solved.decomposition.bodies[body].mesh->point(node);
   return {x[0], x[1], x[2]};
 }
 
@@ -102,7 +102,7 @@ JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalO
     const GlobalOrdinal row = map.getGlobalElement(static_cast<LocalOrdinal>(i)) - offset - layout.firstRow;
     if (row < 0 || row >= layout.numRows())
       continue;
-    const auto place = static_cast<std::size_t>(row);
+    const std::size_t place = row;
     sums.add(place, layout.portion(place) * multiplier[i]);
     each(place, multiplier[i]);
   }
@@ -196,8 +196,7 @@ std::vector<TieResult> tieResults(const SolvedScene& solved) {
     TieResult& result = results.emplace_back();
     result.name = layout.name;
     result.nodes = static_cast<GlobalOrdinal>(tractions.size());
-    const bool areSwapped =
-        layout.firstBody != solved.scene.contacts[static_cast<std::size_t>(layout.number)].first;
+    const bool areSwapped = layout.firstBody != solved.scene.contacts[layout.number].first;
     const Vector3d resultant = (areSwapped ? 1.0 : -1.0) * sums.resultant();
     result.resultant = {resultant[0], resultant[1], resultant[2]};
     for (const auto& [node, traction] : tractions)

@@ -42,6 +42,7 @@ struct JointBalance {
 /// Collective.
 JointBalance balanceOf(const SolvedScene& solved, const contact::ContactLayout& layout);
 
+/// What a tied joint carries.
 struct TieResult {
   std::string name;
   GlobalOrdinal nodes = 0;

@@ -85,7 +85,7 @@ private:
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
-    : layout_(layout), mesh_(*solved.decomposition.bodies[static_cast<std::size_t>(layout.firstBody)].mesh),
+    : layout_(layout), mesh_(*solved.decomposition.bodies[layout.firstBody].mesh),
       surface_(layout.firstSurfaces.empty() ? mesh_.surface(layout.firstSurface)
                                             : contact::unite(mesh_, layout.firstSurfaces).surface),
       dimension_(fem::dimensionOf(surface_.facetType)) {
@@ -105,7 +105,7 @@ Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
   for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
     const GlobalOrdinal row = map.getGlobalElement(static_cast<LocalOrdinal>(i)) - layout.firstRow;
     if (row >= 0 && row < layout.numRows())
-      pushes[static_cast<std::size_t>(row)] = multiplier[i];
+      pushes[row] = multiplier[i];
   }
   sumOverRanks(solved.comm(), std::span(pushes)); // each is one rank's
   const auto rowOfValues = [](const std::vector<double>& values) {

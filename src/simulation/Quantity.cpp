@@ -107,7 +107,7 @@ QuantityOfScene::QuantityOfScene(const QuantityParameters& parameters, const sce
   accuracy::DisplacementTerms terms;
   terms.body = static_cast<int>(placeOf(parameters.body, scene.bodies, "body"));
   terms.surface = parameters.surface;
-  const auto dimension = static_cast<std::size_t>(dimensionOf(scene.bodies.front().physics));
+  const std::size_t dimension = dimensionOf(scene.bodies.front().physics);
   const auto isVector = [&](const std::vector<double>& x) {
     return x.size() == dimension &&
            std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); });

@@ -23,7 +23,7 @@ Origin originOf(const model::Decomposition& decomposition, GlobalOrdinal row) {
     GlobalOrdinal numRows = 0;
     for (const contact::ContactLayout& layout : *layouts) {
       numRows = std::max(numRows, layout.firstRow + layout.numRows());
-      const auto place = static_cast<std::size_t>(row - layout.firstRow);
+      const std::size_t place = row - layout.firstRow;
       if (row >= layout.firstRow && row < layout.firstRow + layout.numRows() && layout.portion(place) > 0)
         return {layout, layouts == &decomposition.ties, layout.firstNodes[place]};
     }
@@ -33,9 +33,7 @@ Origin originOf(const model::Decomposition& decomposition, GlobalOrdinal row) {
 }
 
 std::string nameOf(const model::Decomposition& decomposition, const Origin& origin) {
-  const auto body = [&](int number) {
-    return '\'' + decomposition.bodies[static_cast<std::size_t>(number)].name + '\'';
-  };
+  const auto body = [&](int number) { return '\'' + decomposition.bodies[number].name + '\''; };
   return (origin.isTied ? "the tied joint '" : "the contact '") + origin.layout.name + "' of " +
          body(origin.layout.firstBody) +
          (origin.layout.secondBody >= 0 ? " and " + body(origin.layout.secondBody) : " with an obstacle");
@@ -49,9 +47,9 @@ fetidp::ContradictionError inWordsOf(const model::Decomposition& decomposition,
   for (const GlobalOrdinal row : error.rows())
     names.push_back(nameOf(decomposition, originOf(decomposition, row)));
   const Origin first = originOf(decomposition, error.rows().front());
-  const fem::Mesh& mesh = *decomposition.bodies[static_cast<std::size_t>(first.layout.firstBody)].mesh;
+  const fem::Mesh& mesh = *decomposition.bodies[first.layout.firstBody].mesh;
   const Point point = mesh.point(first.node);
-  const auto dimension = static_cast<std::size_t>(fem::dimensionOf(mesh.cellType()));
+  const std::size_t dimension = fem::dimensionOf(mesh.cellType());
   return {error.rows(), error.misfit(), std::move(names), text(std::span(point.data(), dimension))};
 }
 

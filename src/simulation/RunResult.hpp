@@ -60,6 +60,7 @@ struct TargetResult {
   std::string choiceOfOrder;                ///< why this order; empty if it was given
 };
 
+/// All of it.
 struct RunResult {
   std::string title; ///< of the scene
   SolveFacts solve;

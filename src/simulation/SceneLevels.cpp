@@ -33,11 +33,10 @@ std::vector<double> allErrors(const SceneRun& run) {
                            : run.error->elements;
   for (std::size_t s = 0; s < decomposition.problem.subdomains.size(); ++s) {
     const decomposition::Subdomain& subdomain = decomposition.problem.subdomains[s];
-    const model::BodyLayout& body = decomposition.bodies[static_cast<std::size_t>(subdomain.body)];
+    const model::BodyLayout& body = decomposition.bodies[subdomain.body];
     const auto elements = body.partition->elementsOf(subdomain.number - body.firstSubdomain);
     for (std::size_t e = 0; e < elements.size(); ++e)
-      errors[first[static_cast<std::size_t>(subdomain.body)] + static_cast<std::size_t>(elements[e])] =
-          shares[s][e];
+      errors[first[subdomain.body] + static_cast<std::size_t>(elements[e])] = shares[s][e];
   }
   sumOverRanks(*decomposition.problem.comm, std::span(errors)); // each element is one rank's
   return errors;

@@ -130,8 +130,9 @@ std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::Paramet
     coarse.solver.reset();
     return coarse;
   } catch (const Error& error) { // on all ranks
-    run.result.start = {.failure = error.what(),
-                        .seconds = maxOverRanks(*comm, Teuchos::Time::wallTime() - began)};
+    CoarserStart& start = run.result.start.emplace();
+    start.failure = error.what();
+    start.seconds = maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
     return std::nullopt;
   }
 }
@@ -154,8 +155,7 @@ std::vector<double> closingOf(const SceneRun& run) {
     const contact::ContactLayout& layout = run.decomposition->contacts[c];
     const ContactState& state = run.evaluation.contacts[c];
     const std::vector<std::size_t> own = layout.ownRows();
-    const auto first =
-        static_cast<std::size_t>(evenShare(static_cast<GlobalOrdinal>(own.size()), comm).first);
+    const std::size_t first = evenShare(static_cast<GlobalOrdinal>(own.size()), comm).first;
     double most = 0;
     for (std::size_t i = 0; i < state.gap.size(); ++i)
       if (state.force[i] > 0)

@@ -58,6 +58,7 @@ struct SceneRun {
   /// Divides the estimated error of the quantity by the square of the effectivity, and takes its bar from a
   /// loop that has seen other meshes. Precondition: `result.quantity`.
   void correctQuantity(double effectivity, double bar);
+  /// Refers to this run.
   [[nodiscard]] SolvedScene solved() const { return {scene, *decomposition, solution}; }
 };
 

@@ -20,13 +20,13 @@ struct SolvedScene {
   [[nodiscard]] const Comm& comm() const { return *decomposition.problem.comm; }
   /// What the scene says of a body if it is elastic, else null.
   [[nodiscard]] const scene::Body* elasticBody(int body) const {
-    const scene::Body& candidate = scene.bodies[static_cast<std::size_t>(body)];
+    const scene::Body& candidate = scene.bodies[body];
     return candidate.physics != scene::Physics::membrane ? &candidate : nullptr;
   }
   /// Whether a contact is that of membranes' edges.
   [[nodiscard]] bool isAlongEdges(int contact) const {
-    const int number = decomposition.contacts[static_cast<std::size_t>(contact)].number;
-    return scene::isAlongEdges(scene, scene.contacts[static_cast<std::size_t>(number)]);
+    const int number = decomposition.contacts[contact].number;
+    return scene::isAlongEdges(scene, scene.contacts[number]);
   }
 };
 

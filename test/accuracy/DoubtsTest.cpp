@@ -32,7 +32,7 @@ fem::MeshArrays sector(int parts, double step, bool isSolid) {
     arrays.elementTags.push_back(i);
   }
   for (std::size_t n = 0; n < arrays.points.size(); ++n)
-    arrays.nodeTags.push_back(static_cast<GlobalOrdinal>(n));
+    arrays.nodeTags.push_back(n);
   arrays.surfaces.push_back(inner);
   return arrays;
 }

@@ -52,7 +52,7 @@ TEST_F(ErrorNormsTest, OfALinearDisplacementAreExactOnAllElements) {
       inPlane.col(2).setZero();
     }
     const ExactField exact = [&](int body, const Point& x) {
-      const auto& solid = scene.bodies[static_cast<std::size_t>(body)];
+      const auto& solid = scene.bodies[body];
       return fem::FieldValue{field(x), fem::stressOf(inPlane, solid.physics, solid.material)};
     };
     const ErrorNorms error = errorNorms(scene, decomposition, u, exact),

@@ -69,7 +69,7 @@ TEST(LocalOrdersTest, EachElementHasItsOwnOrderWithAllPartsOfItTogether) {
   const std::vector<double> orders = localOrders(last, ancestors, squared, measures, 2, 2);
   const std::vector<double> expected{1.5, 1.25, 1.5, 1.5};
   for (std::size_t e = 0; e < ancestors.size(); ++e)
-    EXPECT_NEAR(orders[e], expected[static_cast<std::size_t>(ancestors[e])], 1e-12);
+    EXPECT_NEAR(orders[e], expected[ancestors[e]], 1e-12);
 }
 
 /// Halved once, from 1 to (1 + seen)/2.

@@ -54,7 +54,7 @@ TEST_F(RefinableMeshesTest, AllRanksHaveTheSameMeshes) {
     int size = static_cast<int>(values.size());
     std::vector<double> ofFirst(values);
     Teuchos::broadcast(*comm, 0, 1, &size);
-    ofFirst.resize(static_cast<std::size_t>(size));
+    ofFirst.resize(size);
     Teuchos::broadcast(*comm, 0, size, ofFirst.data());
     EXPECT_EQ(values, ofFirst);
   };
@@ -97,8 +97,8 @@ TEST_F(RefinableMeshesTest, PartsMakeUpTheirAncestorsAndSurfacesStay) {
       ASSERT_EQ(ancestors[b].size(), after[b].size());
       Values sums(before[b].size(), 0), numbers(before[b].size(), 0);
       for (std::size_t e = 0; e < after[b].size(); ++e) {
-        sums[static_cast<std::size_t>(ancestors[b][e])] += after[b][e];
-        ++numbers[static_cast<std::size_t>(ancestors[b][e])];
+        sums[ancestors[b][e]] += after[b][e];
+        ++numbers[ancestors[b][e]];
       }
       for (std::size_t e = 0; e < before[b].size(); ++e) {
         EXPECT_NEAR(sums[e], before[b][e], roundOff);
@@ -146,7 +146,7 @@ TEST_F(RefinableMeshesTest, PartsAreForetoldAsTheyAreMade) {
       for (std::size_t b = 0; b < ancestors.size(); ++b) {
         Values made(wanted[b].size(), 0.0);
         for (const LocalOrdinal ancestor : ancestors[b])
-          ++made[static_cast<std::size_t>(ancestor)];
+          ++made[ancestor];
         EXPECT_EQ(made, foretold[b]) << toString(kind.physics) << ", body " << b;
       }
     }
@@ -212,7 +212,7 @@ TEST_F(RefinableMeshesTest, ANewElementLiesInTheOneThatIsItsAncestor) {
   ASSERT_EQ(ancestors[0].size(), young.size());
   std::set<LocalOrdinal> parents;
   for (std::size_t e = 0; e < young.size(); ++e) {
-    const std::vector<Point>& ancestor = old.at(static_cast<std::size_t>(ancestors[0][e]));
+    const std::vector<Point>& ancestor = old.at(ancestors[0][e]);
     const Point centre = fem::centreOf(young[e]);
     EXPECT_LT(distance(centre, fem::centreOf(ancestor)), fem::diameterOf(ancestor));
     parents.insert(ancestors[0][e]);

@@ -22,7 +22,7 @@ inline double sumOf(const Values& values) {
 }
 
 inline std::vector<std::vector<Point>> elementsOf(const fem::Mesh& mesh) {
-  std::vector<std::vector<Point>> elements(static_cast<std::size_t>(mesh.numElements()));
+  std::vector<std::vector<Point>> elements(mesh.numElements());
   for (std::size_t e = 0; e < elements.size(); ++e)
     mesh.elementPoints(static_cast<GlobalOrdinal>(e), elements[e]);
   return elements;

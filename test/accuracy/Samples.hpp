@@ -16,12 +16,12 @@
 
 namespace epafi::accuracy::test {
 
-using output::test::Field;
-using output::test::Kind;
-using output::test::kinds;
-using output::test::solutionWith;
-using output::test::stackedBlocks;
-using output::test::TemporaryDirectory;
+using epafi::test::Field;
+using epafi::test::Kind;
+using epafi::test::kinds;
+using epafi::test::solutionWith;
+using epafi::test::stackedBlocks;
+using epafi::test::TemporaryDirectory;
 
 struct AccuracyTest : testing::Test {
   RCP<const Comm> comm = Tpetra::getDefaultComm();

@@ -22,7 +22,7 @@ using TransferTest = test::AccuracyTest;
 
 Point pointAt(const fem::Mesh& mesh, const Location& location) {
   std::array<GlobalOrdinal, fem::mostNodes> nodes{};
-  const auto number = static_cast<std::size_t>(mesh.nodesPerElement());
+  const std::size_t number = mesh.nodesPerElement();
   mesh.elementNodes(location.element, std::span(nodes).first(number));
   Point point{};
   for (std::size_t i = 0; i < number; ++i)

@@ -86,7 +86,7 @@ TEST(AccurateSumTest, DotProductsAreTheSameHoweverTheVectorIsDistributed) {
     Vector x(map), y(map);
     for (std::size_t i = 0; i < numLocal(*map); ++i) {
       const auto global = map->getGlobalElement(static_cast<LocalOrdinal>(i));
-      x.replaceLocalValue(static_cast<LocalOrdinal>(i), values[static_cast<std::size_t>(global)]);
+      x.replaceLocalValue(static_cast<LocalOrdinal>(i), values[global]);
       y.replaceLocalValue(static_cast<LocalOrdinal>(i), 1.0 / (1.0 + static_cast<double>(global)));
     }
     return accurateDot(x, y);

@@ -144,7 +144,7 @@ TEST_F(CollectiveTest, KnowsWhatHoldsOnOneRank) {
 }
 
 TEST_F(CollectiveTest, GathersUnevenPiecesInTheOrderOfTheRanks) {
-  const std::vector<double> mine(static_cast<std::size_t>(comm->getRank()),
+  const std::vector<double> mine(comm->getRank(),
                                  comm->getRank()); // none on rank 0
   std::vector<double> expected;
   for (int rank = 0; rank < comm->getSize(); ++rank)
@@ -168,7 +168,7 @@ TEST_F(CollectiveTest, GathersIndicesAndStructs) {
     rows.push_back(large + rank);
     entries.push_back({large + rank, 0.5 * rank});
   }
-  const auto here = static_cast<std::size_t>(comm->getRank());
+  const std::size_t here = comm->getRank();
   EXPECT_EQ(gatherOnAll(*comm, std::span<const GlobalOrdinal>(rows).subspan(here, 1)), rows);
   EXPECT_EQ(gatherOnAll(*comm, std::array<Entry, 1>{entries[here]}), entries);
   EXPECT_TRUE(gatherOnAll(*comm, std::vector<int>()).empty());

@@ -18,8 +18,7 @@ TEST(EvenSharesTest, AreEvenAndInTheOrderOfTheRanks) {
     EXPECT_EQ(sumBefore(*comm, shares.size()), shares.first());
     EXPECT_EQ(sumOverRanks(*comm, shares.size()), number);
     EXPECT_LE(maxOverRanks(*comm, shares.size()), minOverRanks(*comm, shares.size()) + 1);
-    std::vector<double> mine(static_cast<std::size_t>(shares.size())),
-        all(static_cast<std::size_t>(number), -1), expected(all);
+    std::vector<double> mine(shares.size()), all(static_cast<std::size_t>(number), -1), expected(all);
     std::iota(mine.begin(), mine.end(), shares.first());
     std::iota(expected.begin(), expected.end(), 0);
     shares.gather(mine, all);

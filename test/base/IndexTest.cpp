@@ -33,7 +33,7 @@ TEST(IndexTest, TakesNoNumberOfAnotherSpace) {
 TEST(IndexTest, ReadsAsItsInteger) {
   const std::vector<double> values{1, 2, 3};
   const Row row = 2;
-  EXPECT_EQ(values[static_cast<std::size_t>(row)], 3);
+  EXPECT_EQ(values[row], 3);
   EXPECT_EQ(row, 2);
   EXPECT_LT(Row(1), row);
   EXPECT_EQ(Row(), 0);

@@ -159,10 +159,10 @@ TEST(MortarRowsTest, AnEvenPressureHasTheRightForcesOnBothSidesAndTheWholeArea) 
       std::vector<double> forces(10000, 0.0);
       for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
         for (const NodeShare& share : (*shares)[row])
-          forces[static_cast<std::size_t>(share.node)] += layout.areas[row] * share.weight;
+          forces[share.node] += layout.areas[row] * share.weight;
       const SurfaceNodes nodes = surfaceNodes(*points, *surface);
       for (std::size_t k = 0; k < nodes.nodes.size(); ++k)
-        EXPECT_NEAR(forces[static_cast<std::size_t>(nodes.nodes[k])], nodes.areas[k], 1e-13) << k;
+        EXPECT_NEAR(forces[nodes.nodes[k]], nodes.areas[k], 1e-13) << k;
     }
   }
 }

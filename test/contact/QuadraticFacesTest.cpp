@@ -134,13 +134,13 @@ TEST(QuadraticFacesTest, MeansOfAQuadraticPressureAreOffByTheSameEverywhere) {
       Eigen::Vector3d x(0, 0, 0);
       std::vector<std::size_t> places;
       for (std::size_t a = 0; a < facet.size(); ++a) {
-        places.push_back(static_cast<std::size_t>(
-            std::lower_bound(nodes.nodes.begin(), nodes.nodes.end(), facet[a]) - nodes.nodes.begin()));
-        x += sample.values[static_cast<Eigen::Index>(a)] * nodes.points[places.back()];
+        places.push_back(std::lower_bound(nodes.nodes.begin(), nodes.nodes.end(), facet[a]) -
+                         nodes.nodes.begin());
+        x += sample.values[a] * nodes.points[places.back()];
       }
       for (std::size_t a = 0; a < facet.size(); ++a)
         forces[places[a]] += sample.weight / 4 * x.head<2>().squaredNorm() *
-                             sample.values[static_cast<Eigen::Index>(a)]; // the elements' edges are 1 long
+                             sample.values[a]; // the elements' edges are 1 long
     }
   }
   int inside = 0;

@@ -28,12 +28,12 @@ struct Facets {
   explicit Facets(fem::CellType type) { surface.facetType = type; }
   void add(std::initializer_list<std::size_t> nodes) {
     for (const std::size_t node : nodes)
-      surface.facetNodes.push_back(static_cast<GlobalOrdinal>(node));
+      surface.facetNodes.push_back(node);
     surface.elements.push_back(0);
   }
   [[nodiscard]] SmoothSurface smooth() const {
     return {[this](GlobalOrdinal node) {
-              const Vector3d& x = points[static_cast<std::size_t>(node)];
+              const Vector3d& x = points[node];
               return Point{x[0], x[1], x[2]};
             },
             surface};
@@ -69,7 +69,7 @@ Facets polygon(int number, double unevenness, unsigned seed, int open = 0) {
 Facets cylinder(int number, double unevenness, unsigned seed) {
   Facets facets(fem::CellType::triangle);
   Random random(seed);
-  const auto n = static_cast<std::size_t>(number);
+  const std::size_t n = number;
   constexpr std::size_t numRings = 5;
   const double size = 2 * std::numbers::pi / number;
   for (std::size_t ring = 0; ring < numRings; ++ring)
@@ -149,19 +149,18 @@ Facets quadratic(const Facets& linear, const std::function<Vector3d(const Vector
   for (std::size_t f = 0; f < linear.surface.numFacets(); ++f) {
     std::vector<std::size_t> nodes;
     for (const GlobalOrdinal corner : linear.surface.facet(f))
-      nodes.push_back(static_cast<std::size_t>(corner));
+      nodes.push_back(corner);
     const auto edges = edgesOf(linear.surface.facetType);
     const std::vector<std::size_t> corners = nodes;
     for (std::size_t e = 0; e < edges.size(); e += 2) {
-      const std::size_t a = corners[static_cast<std::size_t>(edges[e])],
-                        b = corners[static_cast<std::size_t>(edges[e + 1])];
+      const std::size_t a = corners[edges[e]], b = corners[edges[e + 1]];
       const auto [found, isNew] = middles.try_emplace(std::minmax(a, b), facets.points.size());
       if (isNew)
         facets.points.push_back(moved((facets.points[a] + facets.points[b]) / 2));
       nodes.push_back(found->second);
     }
     for (const std::size_t node : nodes)
-      facets.surface.facetNodes.push_back(static_cast<GlobalOrdinal>(node));
+      facets.surface.facetNodes.push_back(node);
     facets.surface.elements.push_back(0);
   }
   return facets;
@@ -181,7 +180,7 @@ std::pair<double, double> worst(const Facets& facets, const std::function<Vector
     EXPECT_TRUE(normal.has_value()) << node;
     if (!normal)
       continue;
-    const Vector3d right = truth(facets.points[static_cast<std::size_t>(node)]);
+    const Vector3d right = truth(facets.points[node]);
     const double angle = std::atan2(right.cross(normal->direction).norm(), right.dot(normal->direction));
     ratio = std::max(ratio, angle / (normal->uncertainty + 1e-12));
     largest = std::max(largest, normal->uncertainty);

@@ -57,7 +57,7 @@ TEST(ClustersTest, EachIsARunOfSubdomainsOfOneBodyNoLongerThanAskedFor) {
     ASSERT_EQ(static_cast<int>(p.clusterOf.size()), p.numSubdomains);
     std::vector<int> size(p.clusters.size(), 0);
     for (const int cluster : p.clusterOf)
-      ++size[static_cast<std::size_t>(cluster)];
+      ++size[cluster];
     EXPECT_GE(*std::min_element(size.begin(), size.end()), 1);
     EXPECT_LE(*std::max_element(size.begin(), size.end()), c.scene.bodies.front().decomposition.cluster);
     for (const Subdomain& s : p.subdomains) {
@@ -95,7 +95,7 @@ TEST(ClustersTest, NoCrosspointBelongsToTwo) {
     std::vector<Sighting> mine;
     for (const Subdomain& s : p.subdomains)
       for (const CoarseNumber unknown : s.crosspointIndices)
-        mine.push_back({unknown, p.clusterOf[static_cast<std::size_t>(s.number)]});
+        mine.push_back({unknown, p.clusterOf[s.number]});
     std::map<GlobalOrdinal, int> cluster;
     for (const Sighting& sighting : gatherOnAll(*p.comm, mine))
       EXPECT_EQ(cluster.try_emplace(sighting.unknown, sighting.cluster).first->second, sighting.cluster);
@@ -125,26 +125,24 @@ TEST(ClustersTest, TheirMotionsCostNothingAndAmongThemAreThoseOfTheBodies) {
         EXPECT_LE((*s.stiffness * s.kernel).cwiseAbs().maxCoeff(),
                   1e-9 * scale * s.kernel.cwiseAbs().maxCoeff());
       }
-      EXPECT_EQ(result.problem.clusterAt(s).ofBody.cols(),
-                result.problem.bodies[static_cast<std::size_t>(s.body)].kernelDimension);
+      EXPECT_EQ(result.problem.clusterAt(s).ofBody.cols(), result.problem.bodies[s.body].kernelDimension);
     }
     EXPECT_EQ(result.problem.numRigidModes(), whole.problem.kernelDimension);
     // A motion of a body does not tear its gluing, R X of the clusters' modes.
     const DecomposedProblem& p = result.problem;
-    std::vector<double> jumps(static_cast<std::size_t>(p.dualDimension() * std::max(1, p.numRigidModes())),
-                              0.0);
+    std::vector<double> jumps(p.dualDimension() * std::max(1, p.numRigidModes()), 0.0);
     for (const Subdomain& s : p.subdomains) {
       const Eigen::MatrixXd modes = s.kernel * p.clusterAt(s).ofBody;
-      const int first = p.bodies[static_cast<std::size_t>(s.body)].kernelOffset;
+      const int first = p.bodies[s.body].kernelOffset;
       for (const ConstraintEntry& entry : s.constraint)
         for (Eigen::Index mode = 0; mode < modes.cols(); ++mode)
-          jumps[static_cast<std::size_t>(p.numberOf(entry.multiplier) * p.numRigidModes() + first + mode)] +=
+          jumps[p.numberOf(entry.multiplier) * p.numRigidModes() + first + mode] +=
               entry.coefficient * modes(entry.unknown, mode);
     }
     sumOverRanks(*p.comm, std::span(jumps));
     for (GlobalOrdinal row = p.numInequalities; row < p.dualDimension(); ++row)
       for (int mode = 0; mode < p.numRigidModes(); ++mode)
-        EXPECT_NEAR(jumps[static_cast<std::size_t>(row * p.numRigidModes() + mode)], 0, 1e-9) << row;
+        EXPECT_NEAR(jumps[row * p.numRigidModes() + mode], 0, 1e-9) << row;
   }
 }
 

@@ -19,11 +19,11 @@ TEST(ConstraintTest, EveryGluingRowJoinsTwoCopiesOfOneNode) {
     SCOPED_TRACE(c.name);
     const auto result = decompose(c.scene, world());
     const DecomposedProblem& p = result.problem;
-    const auto n = static_cast<std::size_t>(p.dualDimension());
+    const std::size_t n = p.dualDimension();
     std::vector<double> plus(n, 0), minus(n, 0), other(n, 0), lower(n, 0), higher(n, 0), difference(n, 0);
     for (const Subdomain& s : p.subdomains)
       for (const ConstraintEntry& entry : s.constraint) {
-        const auto row = static_cast<std::size_t>(p.numberOf(entry.multiplier));
+        const std::size_t row = p.numberOf(entry.multiplier);
         plus[row] += entry.coefficient == 1 ? 1 : 0;
         minus[row] += entry.coefficient == -1 ? 1 : 0;
         other[row] += std::abs(entry.coefficient) != 1 ? 1 : 0;
@@ -33,7 +33,7 @@ TEST(ConstraintTest, EveryGluingRowJoinsTwoCopiesOfOneNode) {
     for (auto* values : {&plus, &minus, &other, &lower, &higher, &difference})
       sumOverRanks(*p.comm, *values);
     double previous = -1;
-    for (auto row = static_cast<std::size_t>(p.numInequalities); row < n; ++row) {
+    for (std::size_t row = p.numInequalities; row < n; ++row) {
       EXPECT_EQ(plus[row], 1) << row;
       EXPECT_EQ(minus[row], 1) << row;
       EXPECT_EQ(difference[row], 0) << row;
@@ -65,8 +65,8 @@ TEST(ConstraintTest, GluedSubdomainsAreTheUndividedBody) {
     // Saddle point [K Bᵀ; B 0], dense; the load is found like the matrix, copy by copy.
     const Eigen::MatrixXd k = mergedStiffness(p), b = mergedConstraint(p);
     Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());
-    auto next = static_cast<Eigen::Index>(p.remainderMap->getMinGlobalIndex());
-    const auto numRemainders = static_cast<Eigen::Index>(p.remainderMap->getGlobalNumElements());
+    Eigen::Index next = p.remainderMap->getMinGlobalIndex();
+    const Eigen::Index numRemainders = p.remainderMap->getGlobalNumElements();
     double offset = 0;
     for (const Subdomain& s : p.subdomains) {
       for (const int unknown : s.remainderUnknowns)

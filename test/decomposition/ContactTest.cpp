@@ -45,11 +45,11 @@ std::array<double, 2> entryOf(const DecomposedProblem& p, GlobalOrdinal row, int
 
 /// c on every rank.
 std::vector<double> gapOf(const DecomposedProblem& p) {
-  std::vector<double> all(static_cast<std::size_t>(p.dualDimension()), 0.0);
+  std::vector<double> all(p.dualDimension(), 0.0);
   const auto indices = localIndices(*p.multiplierMap);
   const auto values = p.gap->getData();
   for (Teuchos_Ordinal k = 0; k < values.size(); ++k)
-    all[static_cast<std::size_t>(indices[static_cast<decltype(indices.size())>(k)])] = values[k];
+    all[indices[static_cast<decltype(indices.size())>(k)]] = values[k];
   sumOverRanks(*p.comm, all);
   return all;
 }

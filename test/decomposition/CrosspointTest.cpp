@@ -35,7 +35,7 @@ TEST(CrosspointTest, AnIndexMeansTheSameNodeInEverySubdomain) {
     std::vector<double> copies(n, 0), sum(n, 0), sumOfSquares(n, 0);
     for (const Subdomain& s : p.subdomains)
       for (std::size_t k = 0; k < s.crosspointUnknowns.size(); ++k) {
-        const auto index = static_cast<std::size_t>(s.crosspointIndices[k]);
+        const std::size_t index = s.crosspointIndices[k];
         ASSERT_LT(index, n);
         const double key = nodeKey(s, s.crosspointUnknowns[k], p.components);
         copies[index] += 1;

@@ -126,7 +126,7 @@ TEST(EdgeAveragesTest, GluingRowsAreOrthogonalInTheStiffness) {
       scene.bodies.front().decomposition.parts = parts;
     }
     const Decomposition cut = decompose(scene, rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)));
-    const auto n = static_cast<Eigen::Index>(cut.problem.dualDimension());
+    const Eigen::Index n = cut.problem.dualDimension();
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, n); // B D⁻¹ Bᵀ
     std::size_t mostRows = 0;
     for (const Subdomain& subdomain : cut.problem.subdomains) {

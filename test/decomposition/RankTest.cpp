@@ -45,7 +45,7 @@ TEST(RankTest, EverySubdomainIsTheSameOnAnyNumberOfRanks) {
     EXPECT_EQ(p.numCrosspoints, q.numCrosspoints);
     ASSERT_EQ(q.subdomains.size(), static_cast<std::size_t>(q.numSubdomains));
     for (const Subdomain& s : p.subdomains)
-      expectSameSubdomain(p, s, q, q.subdomains[static_cast<std::size_t>(s.number)]);
+      expectSameSubdomain(p, s, q, q.subdomains[s.number]);
     const auto mine = p.gap->getData(), all = q.gap->getData();
     for (Teuchos_Ordinal k = 0; k < mine.size(); ++k)
       EXPECT_EQ(

@@ -134,7 +134,7 @@ TEST_P(SpdFactorTest, SolvesWithUnknownsKept) {
 TEST_P(SpdFactorTest, KeepsUnknownsThatShareASupernodeWithOthers) {
   const SparseMatrix a = plate(30);
   for (const int number : {1, 7, 300}) {
-    std::vector<int> kept(static_cast<std::size_t>(number));
+    std::vector<int> kept(number);
     std::iota(kept.begin(), kept.end(), 440);
     direct::Factorizer factorizer(GetParam());
     const auto factor = factorizer.factorize(a, kept, "a test");

@@ -51,9 +51,7 @@ double smallestAngle(const SimplexMesh& mesh) {
   double smallest = std::numbers::pi;
   for (const SimplexMesh::Element& element : mesh.elements)
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto corner = [&](std::size_t k) {
-        return vectorOf(mesh.points[static_cast<std::size_t>(element.corners[(i + k) % 3])]);
-      };
+      const auto corner = [&](std::size_t k) { return vectorOf(mesh.points[element.corners[(i + k) % 3]]); };
       const Eigen::Vector3d a = corner(1) - corner(0), b = corner(2) - corner(0);
       smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)));
     }
@@ -67,7 +65,7 @@ double worstShape(const SimplexMesh& mesh) {
   std::vector<Point> points(4);
   for (std::size_t element = 0; element < volumes.size(); ++element) {
     for (std::size_t i = 0; i < 4; ++i)
-      points[i] = mesh.points[static_cast<std::size_t>(mesh.elements[element].corners[i])];
+      points[i] = mesh.points[mesh.elements[element].corners[i]];
     worst = std::min(worst, volumes[element] / std::pow(diameterOf(points), 3));
   }
   return worst;
@@ -156,7 +154,7 @@ TEST(BisectionTest, PartsMakeUpTheirAncestorsAndAreAsManyAsWereAskedFor) {
       std::vector<double> sums(before.size(), 0);
       std::vector<int> numbers(before.size(), 0);
       for (std::size_t element = 0; element < ancestors.size(); ++element) {
-        const auto ancestor = static_cast<std::size_t>(ancestors[element]);
+        const std::size_t ancestor = ancestors[element];
         sums[ancestor] += after[element];
         ++numbers[ancestor];
         EXPECT_EQ(mesh.elements[element].group, old[ancestor].group);
@@ -261,7 +259,7 @@ TEST(BisectionTest, CurvedElementsKeepTheirSize) {
       const std::vector<double> after = measuresOf(soundBody(mesh, 2));
       std::vector<double> sums(before.size(), 0);
       for (std::size_t element = 0; element < after.size(); ++element)
-        sums[static_cast<std::size_t>(ancestors[element])] += after[element];
+        sums[ancestors[element]] += after[element];
       for (std::size_t ancestor = 0; ancestor < before.size(); ++ancestor)
         EXPECT_NEAR(sums[ancestor], before[ancestor], 1e-13);
     }
@@ -284,15 +282,15 @@ TEST(BisectionTest, EdgesThatAreAlmostEquallyLongLeaveNoCracks) {
             number[static_cast<std::size_t>((random() + 1) / 2.000001 * static_cast<double>(last + 1))]);
       const std::vector<Point> points = arrays.points;
       for (std::size_t node = 0; node < points.size(); ++node)
-        arrays.points[static_cast<std::size_t>(number[node])] = points[node];
+        arrays.points[number[node]] = points[node];
       for (Point& point : arrays.points)
         for (double& coordinate : point)
           coordinate += step * random();
       for (LocalOrdinal& node : arrays.cells)
-        node = number[static_cast<std::size_t>(node)];
+        node = number[node];
       for (NamedFacets& surface : arrays.surfaces)
         for (LocalOrdinal& node : surface.nodes)
-          node = number[static_cast<std::size_t>(node)];
+          node = number[node];
       SimplexMesh mesh = simplicesOf(UnstructuredMesh(arrays));
       for (int round = 0; round < 3; ++round)
         bisect(mesh, randomMarks(mesh, 0.2, random));

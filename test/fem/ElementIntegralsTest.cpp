@@ -51,7 +51,7 @@ Eigen::MatrixXd rigidModes(CellType type, std::span<const Point> points, Physics
   const int turns = components == 1 ? 0 : components == 2 ? 1 : 3;
   Eigen::MatrixXd modes(rows, components + turns);
   for (Eigen::Index row = 0; row < rows; ++row) {
-    const Eigen::Vector3d x = vectorOf(points[static_cast<std::size_t>(row / components)]);
+    const Eigen::Vector3d x = vectorOf(points[row / components]);
     for (int i = 0; i < components; ++i)
       modes(row, i) = row % components == i ? 1 : 0;
     for (int axis = 3 - turns; axis < 3; ++axis)
@@ -215,7 +215,7 @@ TEST(BodyForceLoadTest, SumsToForceTimesMeasure) {
         components == 2 ? material.thickness : 1; // neither membranes nor solids have one
     const Eigen::Vector3d sum = resultant(load, components);
     for (int i = 0; i < components; ++i)
-      EXPECT_NEAR(sum[i], thickness * measureOf(type, points) * force[static_cast<std::size_t>(i)], 1e-14);
+      EXPECT_NEAR(sum[i], thickness * measureOf(type, points) * force[i], 1e-14);
   });
 }
 

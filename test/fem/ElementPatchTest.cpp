@@ -63,7 +63,7 @@ TEST(ElementPatchTest, LinearDisplacementsGiveHookesStress) {
       const std::array<std::array<int, 2>, 6> places{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
       for (const auto& stress : sampled.colwise()) {
         for (std::size_t i = 0; i < 6; ++i)
-          EXPECT_NEAR(stress[static_cast<Eigen::Index>(i)], expected(places[i][0], places[i][1]), 1e-12);
+          EXPECT_NEAR(stress[i], expected(places[i][0], places[i][1]), 1e-12);
         EXPECT_EQ(stress[2] == 0, physics == Physics::planeStress);
       }
     }

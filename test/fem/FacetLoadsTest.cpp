@@ -57,7 +57,7 @@ TEST(FacetLoadsTest, TractionsSumToForceTimesMeasure) {
         tractionLoad(facet.type, corners, physics, material, traction, load);
         const Eigen::Vector3d sum = resultant(load, components);
         for (int i = 0; i < components; ++i)
-          EXPECT_NEAR(sum[i], thickness * measure * traction[static_cast<std::size_t>(i)], 1e-14);
+          EXPECT_NEAR(sum[i], thickness * measure * traction[i], 1e-14);
       }
     }
 }

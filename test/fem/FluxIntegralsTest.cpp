@@ -58,8 +58,7 @@ TEST(FluxIntegralsTest, TheDifferenceOnASimplexIsIntegratedExactly) {
       Eigen::MatrixXd nodal = randomValues(fluxes * nodes, 6).reshaped(fluxes, nodes);
       Eigen::MatrixXd corners(nodes, dimensionOf(type) + 1); // [1 x y z] of each node
       for (int a = 0; a < nodes; ++a)
-        corners.row(a) << 1,
-            vectorOf(points[static_cast<std::size_t>(a)]).head(dimensionOf(type)).transpose();
+        corners.row(a) << 1, vectorOf(points[a]).head(dimensionOf(type)).transpose();
       const Eigen::MatrixXd coefficients = corners.partialPivLu().solve(nodal.transpose());
       const auto field = [&](const Point& x) {
         Eigen::RowVectorXd place(dimensionOf(type) + 1);

@@ -26,7 +26,7 @@ void expectEqual(const UnstructuredMesh& a, const UnstructuredMesh& b) {
     EXPECT_EQ(a.point(node), b.point(node));
     EXPECT_EQ(a.nodeTag(node), b.nodeTag(node));
   }
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(a.nodesPerElement())), other = nodes;
+  std::vector<GlobalOrdinal> nodes(a.nodesPerElement()), other = nodes;
   for (GlobalOrdinal element = 0; element < a.numElements(); ++element) {
     a.elementNodes(element, nodes);
     b.elementNodes(element, other);

@@ -19,13 +19,12 @@ using GmshGeometryTest = test::GmshTest;
 /// Neighbours are mutual and share a facet's nodes; nodes and elements know each other; boundary nodes are
 /// those of facets without a neighbour.
 void expectConsistent(const Mesh& mesh) {
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement())), other = nodes, list,
-                                                                                      back;
-  std::vector<int> counts(static_cast<std::size_t>(mesh.numNodes()), 0);
+  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement()), other = nodes, list, back;
+  std::vector<int> counts(mesh.numNodes(), 0);
   for (GlobalOrdinal e = 0; e < mesh.numElements(); ++e) {
     mesh.elementNodes(e, nodes);
     for (const GlobalOrdinal node : nodes) {
-      ++counts[static_cast<std::size_t>(node)];
+      ++counts[node];
       mesh.nodeElements(node, list);
       EXPECT_TRUE(std::find(list.begin(), list.end(), e) != list.end());
     }
@@ -43,7 +42,7 @@ void expectConsistent(const Mesh& mesh) {
   }
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
     mesh.nodeElements(node, list);
-    EXPECT_EQ(static_cast<int>(list.size()), counts[static_cast<std::size_t>(node)]);
+    EXPECT_EQ(static_cast<int>(list.size()), counts[node]);
   }
 }
 
@@ -52,17 +51,17 @@ void expectConsistent(const Mesh& mesh) {
 void expectEnclosed(const Mesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double measure = 0;
-  std::vector<bool> isOnSurface(static_cast<std::size_t>(mesh.numNodes()), false);
+  std::vector<bool> isOnSurface(mesh.numNodes(), false);
   for (const std::string& name : mesh.surfaceNames()) {
     const Surface surface = mesh.surface(name);
     const std::vector<Eigen::Vector3d> areas = areaVectors(mesh, surface);
-    const auto count = static_cast<std::size_t>(surface.nodesPerFacet());
+    const std::size_t count = surface.nodesPerFacet();
     for (std::size_t f = 0; f < areas.size(); ++f) {
       Eigen::Vector3d centre = Eigen::Vector3d::Zero();
       for (std::size_t i = 0; i < count; ++i) {
         const GlobalOrdinal node = surface.facetNodes[count * f + i];
         centre += test::vectorOf(mesh.point(node)) / static_cast<double>(count);
-        isOnSurface[static_cast<std::size_t>(node)] = true;
+        isOnSurface[node] = true;
       }
       sum += areas[f];
       measure += centre.dot(areas[f]) / dimensionOf(mesh.cellType());
@@ -71,7 +70,7 @@ void expectEnclosed(const Mesh& mesh) {
   EXPECT_NEAR(sum.norm(), 0, 1e-12);
   EXPECT_NEAR(measure, measureOf(mesh), 1e-12);
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
-    EXPECT_EQ(mesh.isBoundaryNode(node), isOnSurface[static_cast<std::size_t>(node)]);
+    EXPECT_EQ(mesh.isBoundaryNode(node), isOnSurface[node]);
 }
 
 TEST_F(GmshGeometryTest, MeshesTrianglesOfAGeometry) {

@@ -103,7 +103,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
 }
 
 inline double measureOf(const Mesh& mesh, GlobalOrdinal element) {
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
   mesh.elementNodes(element, nodes);
   std::vector<Point> corners;
   for (const GlobalOrdinal node : nodes)

@@ -48,15 +48,14 @@ TEST(PointTreeTest, FindsWhatASearchOfAllPointsFinds) {
   }
   std::uniform_real_distribution<double> place(-2, 12);
   for (int k = 0; k < 200; ++k) {
-    const Point x =
-        k % 4 == 0 ? points[static_cast<std::size_t>(k)] : Point{place(random), place(random), place(random)};
+    const Point x = k % 4 == 0 ? points[k] : Point{place(random), place(random), place(random)};
     const auto squared = [&](const Point& point) {
       return std::pow(point[0] - x[0], 2) + std::pow(point[1] - x[1], 2) + std::pow(point[2] - x[2], 2);
     };
     const auto nearest = std::min_element(points.begin(), points.end(), [&](const Point& a, const Point& b) {
       return squared(a) < squared(b);
     });
-    EXPECT_DOUBLE_EQ(squared(points[static_cast<std::size_t>(tree.nearest(x))]), squared(*nearest));
+    EXPECT_DOUBLE_EQ(squared(points[tree.nearest(x)]), squared(*nearest));
   }
   PointTree(std::span<const Point>{}).inBox({0, 0, 0}, {1, 1, 1}, found);
   EXPECT_TRUE(found.empty());

@@ -51,7 +51,7 @@ TEST(LocalNumberingTest, TheOrderOfTheElementsDoesNotMatter) {
   ASSERT_EQ(nodes.size(), 41u);
   EXPECT_TRUE(std::is_sorted(nodes.begin(), nodes.end()));
   for (std::size_t c = 0; c < strip.size(); ++c)
-    EXPECT_EQ(nodes[static_cast<std::size_t>(numbering.corners()[c])], strip[c]);
+    EXPECT_EQ(nodes[numbering.corners()[c]], strip[c]);
 }
 
 } // namespace

@@ -30,13 +30,12 @@ std::size_t numNodesOfOrderTwo(const MeshArrays& mesh) {
     const auto nodes = nodesOf(mesh.cellType, mesh.cells, e);
     const auto edges = edgesOf(mesh.cellType);
     for (std::size_t i = 0; i < edges.size(); i += 2)
-      entities.insert(
-          {nodes[static_cast<std::size_t>(edges[i])], nodes[static_cast<std::size_t>(edges[i + 1])]});
+      entities.insert({nodes[edges[i]], nodes[edges[i + 1]]});
     for (const Facet& facet : facetsOf(mesh.cellType))
       if (facet.type == CellType::quadrilateral) {
         std::set<LocalOrdinal> corners;
         for (const int place : facet)
-          corners.insert(nodes[static_cast<std::size_t>(place)]);
+          corners.insert(nodes[place]);
         entities.insert(corners);
       }
     if (mesh.cellType == CellType::quadrilateral || mesh.cellType == CellType::hexahedron)
@@ -54,13 +53,11 @@ TEST_F(MeshOrderTest, EachEntityHasOneNodeAndStraightElementsTheirNodesInTheMidd
     for (LocalOrdinal e = 0; e < linear.numElements(); ++e) {
       std::vector<Point> corners;
       for (const LocalOrdinal node : nodesOf(type, linear.cells, e))
-        corners.push_back(linear.points[static_cast<std::size_t>(node)]);
+        corners.push_back(linear.points[node]);
       const std::vector<Point> expected = withAllNodes(quadratic.cellType, corners);
       const auto nodes = nodesOf(quadratic.cellType, quadratic.cells, e);
       for (std::size_t i = 0; i < expected.size(); ++i)
-        EXPECT_LT(
-            (vectorOf(quadratic.points[static_cast<std::size_t>(nodes[i])]) - vectorOf(expected[i])).norm(),
-            1e-14);
+        EXPECT_LT((vectorOf(quadratic.points[nodes[i]]) - vectorOf(expected[i])).norm(), 1e-14);
     }
     const UnstructuredMesh mesh(quadratic);
     EXPECT_EQ(mesh.surfaceNames(), UnstructuredMesh(linear).surfaceNames());
@@ -84,7 +81,7 @@ TEST_F(MeshOrderTest, SerendipityElementsOfFilesAreCompleted) {
   for (const CellType type : {CellType::quadrilateral, CellType::hexahedron}) {
     SCOPED_TRACE(toString(type));
     MeshArrays mesh = completed(boxOf(type), false);
-    const auto perElement = static_cast<std::size_t>(numNodesOf(mesh.cellType));
+    const std::size_t perElement = numNodesOf(mesh.cellType);
     const std::size_t given = type == CellType::quadrilateral ? 8 : 20;
     std::vector<LocalOrdinal> cells;
     for (std::size_t i = 0; i < mesh.cells.size(); ++i)
@@ -93,7 +90,7 @@ TEST_F(MeshOrderTest, SerendipityElementsOfFilesAreCompleted) {
     const std::size_t used = static_cast<std::size_t>(*std::max_element(cells.begin(), cells.end())) + 1;
     std::vector<bool> isUsed(mesh.points.size(), false);
     for (const LocalOrdinal node : cells)
-      isUsed[static_cast<std::size_t>(node)] = true;
+      isUsed[node] = true;
     std::vector<LocalOrdinal> number(used, -1);
     std::vector<Point> points;
     for (std::size_t node = 0; node < used; ++node)
@@ -102,10 +99,10 @@ TEST_F(MeshOrderTest, SerendipityElementsOfFilesAreCompleted) {
         points.push_back(mesh.points[node]);
       }
     for (LocalOrdinal& node : cells)
-      node = number[static_cast<std::size_t>(node)];
+      node = number[node];
     for (NamedFacets& surface : mesh.surfaces)
       for (LocalOrdinal& node : surface.nodes)
-        node = number[static_cast<std::size_t>(node)];
+        node = number[node];
     const UnstructuredMesh whole(mesh);
     mesh.points = points;
     mesh.cells = cells;

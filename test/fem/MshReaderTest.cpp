@@ -40,11 +40,11 @@ using Element = std::vector<std::array<long long, 3>>;
 
 std::multiset<Element> elementsOf(const GmshContents& file, const GmshBlock& block) {
   std::multiset<Element> elements;
-  const auto count = static_cast<std::size_t>(numNodesOfGmsh(block.type));
+  const std::size_t count = numNodesOfGmsh(block.type);
   for (std::size_t e = 0; e < block.tags.size(); ++e) {
     Element element{{block.type, 0, 0}};
     for (std::size_t i = 0; i < count; ++i) {
-      const Point& point = file.points[static_cast<std::size_t>(block.nodes[e * count + i])];
+      const Point& point = file.points[block.nodes[e * count + i]];
       element.push_back(
           {std::llround(1e9 * point[0]), std::llround(1e9 * point[1]), std::llround(1e9 * point[2])});
     }

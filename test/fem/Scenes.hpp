@@ -20,7 +20,7 @@ inline scene::Body plainBody() {
 }
 
 inline std::vector<GlobalOrdinal> allElements(GlobalOrdinal number) {
-  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(number));
+  std::vector<GlobalOrdinal> elements(number);
   std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
   return elements;
 }

@@ -81,7 +81,7 @@ double errorOf(const Shape<dim>& shape, const std::vector<ShapeSample<dim>>& rul
   for (const auto& point : rule) {
     double value = point.weight;
     for (int i = 0; i < dim; ++i)
-      value *= std::pow(point.xi[i], powers[static_cast<std::size_t>(i)]);
+      value *= std::pow(point.xi[i], powers[i]);
     sum += value;
   }
   int total = dim;
@@ -143,7 +143,7 @@ TEST(ElementMapTest, GradientsOfLinearFunctionsAreExactOnDistortedElements) {
       const Eigen::Vector3d gradient(3, -1, 2);
       NodalValues nodal(shape.numNodes);
       for (int a = 0; a < shape.numNodes; ++a)
-        nodal[a] = 7 + gradient.dot(vectorOf(points[static_cast<std::size_t>(a)]));
+        nodal[a] = 7 + gradient.dot(vectorOf(points[a]));
       const auto corners = relativeCorners<dim>(points);
       for (const auto& sample : shape.gaussSamples()) {
         const Coordinates<dim> found = ElementMap(corners, sample).gradients(sample) * nodal;

@@ -57,12 +57,12 @@ TEST(SimplexMeshTest, NeighboursCutTheirFaceAlikeWhateverTheNumbersOfItsNodes) {
     std::shuffle(number.begin(), number.end(), random);
     const std::vector<Point> points = arrays.points;
     for (std::size_t node = 0; node < points.size(); ++node)
-      arrays.points[static_cast<std::size_t>(number[node])] = points[node];
+      arrays.points[number[node]] = points[node];
     for (LocalOrdinal& node : arrays.cells)
-      node = number[static_cast<std::size_t>(node)];
+      node = number[node];
     for (NamedFacets& surface : arrays.surfaces)
       for (LocalOrdinal& node : surface.nodes)
-        node = number[static_cast<std::size_t>(node)];
+        node = number[node];
     const UnstructuredMesh body = soundBody(simplicesOf(UnstructuredMesh(arrays)));
     EXPECT_NEAR(sumOf(measuresOf(body)), 1, 1e-13);
     EXPECT_NEAR(measureOfGroup(body, "third"), 3.0 / 8, 1e-13);

@@ -31,8 +31,7 @@ MeshSizes sizesOf(int dimension, const Size& size) {
   MeshSizes sizes{dimension, {}, {}};
   for (const SimplexMesh::Element& element : mesh.elements)
     for (int i = 0; i <= dimension; ++i) {
-      sizes.corners.push_back(
-          mesh.points[static_cast<std::size_t>(element.corners[static_cast<std::size_t>(i)])]);
+      sizes.corners.push_back(mesh.points[element.corners[i]]);
       sizes.sizes.push_back(size(sizes.corners.back()));
     }
   return sizes;
@@ -148,8 +147,7 @@ double meanEdge(
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const ElementNodes nodes(mesh, element);
     for (std::size_t e = 0; e < places.size(); e += 2)
-      edges.insert(std::minmax(nodes[static_cast<std::size_t>(places[e])],
-                               nodes[static_cast<std::size_t>(places[e + 1])]));
+      edges.insert(std::minmax(nodes[places[e]], nodes[places[e + 1]]));
   }
   double sum = 0, number = 0;
   for (const auto& [low, high] : edges) {

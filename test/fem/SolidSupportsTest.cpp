@@ -65,7 +65,7 @@ TEST(SolidSupportsTest, NormalsOfAxisParallelPlanesAreComponents) {
   for (const int dimension : {2, 3}) {
     const auto mesh = structured(dimension);
     SolidSupport left{"left", "left", {-0.25, none, none}}, bottom{"bottom", "bottom", {}};
-    bottom.value[static_cast<std::size_t>(dimension - 1)] = 0.5;
+    bottom.value[dimension - 1] = 0.5;
     const scene::Body byComponents = solidWith(dimension, {left, bottom}),
                       byNormals = solidWith(dimension, {slide("left", 0.25), slide("bottom", -0.5)});
     const BodyModel a(byComponents, *mesh), b(byNormals, *mesh);
@@ -101,7 +101,7 @@ TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
 Eigen::VectorXd inSpace(const BodyModel& model, const AssembledSubdomain& whole, const Eigen::VectorXd& u) {
   Eigen::VectorXd all = whole.prescribed;
   for (std::size_t i = 0; i < whole.unknownPosition.size(); ++i)
-    all[whole.unknownPosition[i]] = u[static_cast<Eigen::Index>(i)];
+    all[whole.unknownPosition[i]] = u[i];
   const int n = model.components();
   for (std::size_t node = 0; node < whole.nodes.size(); ++node)
     if (const Eigen::Matrix3d* frame = model.frame(whole.nodes[node])) {
@@ -153,7 +153,7 @@ TEST(SolidSupportsTest, LoadsAndEnergyTurnWithTheFrames) {
       Eigen::VectorXd f, expected;
       a.element(element, k, f);
       b.element(element, reference, expected);
-      std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+      std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
       mesh.elementNodes(element, nodes);
       Eigen::MatrixXd q = Eigen::MatrixXd::Identity(k.rows(), k.cols());
       for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -179,13 +179,12 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
     const std::vector<std::string>& names = dimension == 2 ? plane : space;
     std::vector<SolidSupport> supports;
     for (int s = draw(4); s > 0; --s) {
-      SolidSupport support{"support " + std::to_string(s),
-                           names[static_cast<std::size_t>(draw(static_cast<int>(names.size())))],
-                           {none, none, none}};
+      SolidSupport support{
+          "support " + std::to_string(s), names[draw(static_cast<int>(names.size()))], {none, none, none}};
       if (draw(3) > 0)
         support.normal = 0.0;
       else
-        support.value[static_cast<std::size_t>(draw(dimension))] = 0.0;
+        support.value[draw(dimension)] = 0.0;
       supports.push_back(support);
     }
     const scene::Body solid = solidWith(dimension, supports);
@@ -193,7 +192,7 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
     const BodyModel model(solid, mesh);
     SCOPED_TRACE(trial);
     expectKernelOfMatrix(model);
-    ++seen[static_cast<std::size_t>(model.kernelDimension())];
+    ++seen[model.kernelDimension()];
   }
   for (const std::size_t dimension : {0U, 1U, 3U, 6U})
     EXPECT_GT(seen[dimension], 0) << dimension;

@@ -48,13 +48,13 @@ TEST(StructuredMeshTest, OfOrderTwoEverythingFitsTogether) {
     SCOPED_TRACE(testing::Message() << size[0] << size[1] << size[2]);
     const StructuredMesh quadratic({{-1, 0.5, 2}, {2, 1.5, 3}}, size, 2);
     std::vector<GlobalOrdinal> elements, nodes(static_cast<std::size_t>(quadratic.nodesPerElement())), all;
-    std::vector<std::set<GlobalOrdinal>> at(static_cast<std::size_t>(quadratic.numNodes()));
+    std::vector<std::set<GlobalOrdinal>> at(quadratic.numNodes());
     const std::vector<Point> shape = quadratic.elementShape();
     for (GlobalOrdinal e = 0; e < quadratic.numElements(); ++e) {
       quadratic.elementNodes(e, nodes);
       const Point corner = quadratic.point(nodes[0]);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        at[static_cast<std::size_t>(nodes[i])].insert(e);
+        at[nodes[i]].insert(e);
         for (std::size_t d = 0; d < 3; ++d)
           EXPECT_NEAR(quadratic.point(nodes[i])[d], corner[d] + shape[i][d], 1e-15);
       }
@@ -69,10 +69,10 @@ TEST(StructuredMeshTest, OfOrderTwoEverythingFitsTogether) {
       onSides.insert(side.facetNodes.begin(), side.facetNodes.end());
     }
     for (const GlobalOrdinal node : all) {
-      const auto& touching = at[static_cast<std::size_t>(node)];
+      const auto& touching = at[node];
       quadratic.nodeElements(node, elements);
       EXPECT_EQ(elements, std::vector<GlobalOrdinal>(touching.begin(), touching.end())) << node;
-      EXPECT_EQ(numbers[static_cast<std::size_t>(node)], static_cast<int>(touching.size())) << node;
+      EXPECT_EQ(numbers[node], static_cast<int>(touching.size())) << node;
       EXPECT_EQ(quadratic.isBoundaryNode(node), onSides.count(node) > 0) << node;
     }
   }

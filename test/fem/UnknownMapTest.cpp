@@ -21,7 +21,7 @@ TEST(UnknownMapTest, TheNodesAreThoseOfTheMesh) {
   nodes.resize(9);
   unknowns.elementNodes(std::vector<GlobalOrdinal>{4}, nodes);
   EXPECT_EQ(nodes, (std::vector<GlobalOrdinal>{16, 18, 32, 30, 17, 25, 31, 23, 24}));
-  std::vector<int> numbers(static_cast<std::size_t>(mesh.numNodes()));
+  std::vector<int> numbers(mesh.numNodes());
   std::vector<GlobalOrdinal> all;
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
     all.push_back(node);
@@ -32,7 +32,7 @@ TEST(UnknownMapTest, TheNodesAreThoseOfTheMesh) {
     unknowns.nodeElements(node, elements);
     mesh.nodeElements(node, around);
     EXPECT_EQ(elements, around);
-    EXPECT_EQ(numbers[static_cast<std::size_t>(node)], static_cast<int>(around.size()));
+    EXPECT_EQ(numbers[node], static_cast<int>(around.size()));
   }
   EXPECT_EQ(unknowns.surface("top").facetNodes, mesh.surface("top").facetNodes);
 }

@@ -31,7 +31,7 @@ struct Dense {
 
   Dense(const BodyModel& model, std::span<const GlobalOrdinal> elements,
         const std::vector<GlobalOrdinal>& nodes) {
-    const auto size = static_cast<Eigen::Index>(2 * nodes.size());
+    const Eigen::Index size = 2 * nodes.size();
     stiffness = Eigen::MatrixXd::Zero(size, size);
     load = Eigen::VectorXd::Zero(size);
     Eigen::MatrixXd k;
@@ -41,7 +41,7 @@ struct Dense {
       model.element(element, k, f);
       model.mesh().elementNodes(element, corners);
       const auto position = [&](Eigen::Index i) {
-        const auto node = std::find(nodes.begin(), nodes.end(), corners[static_cast<std::size_t>(i / 2)]);
+        const auto node = std::find(nodes.begin(), nodes.end(), corners[i / 2]);
         return 2 * (node - nodes.begin()) + i % 2;
       };
       for (Eigen::Index i = 0; i < 8; ++i) {
@@ -58,17 +58,16 @@ void expectEqualToDense(const BodyModel& model, std::span<const GlobalOrdinal> e
   const Dense dense(model, elements, part.nodes);
   const Eigen::VectorXd reduced = dense.load - dense.stiffness * part.prescribed;
   const Eigen::MatrixXd k = part.stiffness;
-  const auto n = static_cast<Eigen::Index>(part.unknownPosition.size());
+  const Eigen::Index n = part.unknownPosition.size();
   ASSERT_EQ(k.rows(), n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const int row = part.unknownPosition[static_cast<std::size_t>(i)];
-    EXPECT_EQ(part.unknownOf[static_cast<std::size_t>(row)], i);
+    const int row = part.unknownPosition[i];
+    EXPECT_EQ(part.unknownOf[row], i);
     EXPECT_EQ(part.prescribed[row], 0);
     EXPECT_NEAR(part.load[i], reduced[row], 1e-12);
-    EXPECT_EQ(part.kernel(i, 0),
-              model.kernelValue(part.nodes[static_cast<std::size_t>(row / 2)], row % 2, 0));
+    EXPECT_EQ(part.kernel(i, 0), model.kernelValue(part.nodes[row / 2], row % 2, 0));
     for (Eigen::Index j = 0; j < n; ++j)
-      EXPECT_EQ(k(i, j), dense.stiffness(row, part.unknownPosition[static_cast<std::size_t>(j)]));
+      EXPECT_EQ(k(i, j), dense.stiffness(row, part.unknownPosition[j]));
   }
   const Eigen::VectorXd& held = part.prescribed;
   EXPECT_NEAR(part.energyOffset, 0.5 * held.dot(dense.stiffness * held) - dense.load.dot(held), 1e-12);

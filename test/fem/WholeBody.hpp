@@ -9,7 +9,7 @@ namespace epafi::fem {
 
 /// The whole body as one subdomain.
 inline AssembledSubdomain assembled(const BodyModel& model) {
-  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(model.mesh().numElements()));
+  std::vector<GlobalOrdinal> elements(model.mesh().numElements());
   std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
   return assemble(model, elements);
 }

@@ -20,7 +20,7 @@ struct Crosspoints {
   explicit Crosspoints(const scene::Scene& scene)
       : decomposition(decompose(scene, world())), problem(decomposition.problem),
         inverse(problem, DirectSolvers()), found(problem, inverse, problem.comm) {
-    const auto n = static_cast<Eigen::Index>(problem.crosspointMap->getGlobalNumElements());
+    const Eigen::Index n = problem.crosspointMap->getGlobalNumElements();
     stiffness = Eigen::MatrixXd::Zero(n, n);
     isTouched = isNear = Eigen::VectorXd::Zero(n);
     bodyOf = Eigen::VectorXd::Zero(n);
@@ -52,7 +52,7 @@ struct Crosspoints {
       if (problem.numberOf(entry.multiplier) < problem.numInequalities) {
         const auto at = std::find(c.begin(), c.end(), entry.unknown);
         if (at != c.end())
-          isTouched[indices[static_cast<std::size_t>(at - c.begin())]] = 1;
+          isTouched[indices[at - c.begin()]] = 1;
       }
     for (const Eigen::Index i : indices)
       bodyOf[i] = subdomain.body;
@@ -161,19 +161,18 @@ TEST(ContactCrosspointsTest, TheOthersFollowWithoutForce) {
       continue;
     SCOPED_TRACE(c.name);
     const Eigen::MatrixXd& extension = crosspoints.found.extension();
-    const auto numTouched = static_cast<Eigen::Index>(crosspoints.touched.size());
+    const Eigen::Index numTouched = crosspoints.touched.size();
     for (Eigen::Index j = 0; j < numTouched; ++j)
-      EXPECT_LE(
-          (extension.row(crosspoints.found.nearIndexOf(crosspoints.touched[static_cast<std::size_t>(j)])) -
-           Eigen::RowVectorXd::Unit(numTouched, j))
-              .norm(),
-          1e-12);
+      EXPECT_LE((extension.row(crosspoints.found.nearIndexOf(crosspoints.touched[j])) -
+                 Eigen::RowVectorXd::Unit(numTouched, j))
+                    .norm(),
+                1e-12);
     if (crosspoints.problem.kernelDimension > 0 || crosspoints.others.empty())
       continue; // else a hold on rigid modes adds to it
     const Eigen::MatrixXd response = crosspoints.response();
     for (std::size_t i = 0; i < crosspoints.others.size(); ++i)
       if (const int near = crosspoints.found.nearIndexOf(crosspoints.others[i]); near >= 0) {
-        EXPECT_LE((extension.row(near) + response.row(static_cast<Eigen::Index>(i))).norm(), 1e-12);
+        EXPECT_LE((extension.row(near) + response.row(i)).norm(), 1e-12);
       }
   }
 }
@@ -181,12 +180,11 @@ TEST(ContactCrosspointsTest, TheOthersFollowWithoutForce) {
 /// Bodies do not take each other along: coupling is left to the multipliers.
 TEST(ContactCrosspointsTest, BodiesMoveByThemselves) {
   const Crosspoints crosspoints(threeMembranes(false, 8, grid(4, 2)));
-  const auto n = static_cast<Eigen::Index>(crosspoints.touched.size());
+  const Eigen::Index n = crosspoints.touched.size();
   ASSERT_GT(n, 2);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      if (crosspoints.bodyOf[crosspoints.touched[static_cast<std::size_t>(i)]] !=
-          crosspoints.bodyOf[crosspoints.touched[static_cast<std::size_t>(j)]]) {
+      if (crosspoints.bodyOf[crosspoints.touched[i]] != crosspoints.bodyOf[crosspoints.touched[j]]) {
         EXPECT_LE(std::abs(crosspoints.found.stiffness()(i, j)), 1e-14);
       }
 }
@@ -197,10 +195,10 @@ TEST(ContactCrosspointsTest, EdgesFollowTheFacesOfOtherClusters) {
   for (const ContactCase& c : clusteredCases()) {
     SCOPED_TRACE(c.name);
     const Crosspoints crosspoints(c.scene);
-    std::vector<double> shares(static_cast<std::size_t>(crosspoints.stiffness.rows()), 0.0);
+    std::vector<double> shares(crosspoints.stiffness.rows(), 0.0);
     for (const auto& subdomain : crosspoints.problem.subdomains)
       for (const decomposition::EdgeEnd& end : subdomain.edgeEnds) {
-        shares[static_cast<std::size_t>(end.average)] += end.share;
+        shares[end.average] += end.share;
         EXPECT_EQ(crosspoints.found.follows(end.average), crosspoints.isTouched[end.average] == 0);
         EXPECT_GE(crosspoints.found.indexOf(end.average), 0);
       }

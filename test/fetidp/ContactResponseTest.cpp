@@ -99,9 +99,7 @@ TEST(ContactResponseTest, ABodyThatFollowsItsContactAsAWholeHasNoForces) {
     EXPECT_LE(response.multiplier->normInf(), 1e-10);
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
       for (const double u : response.displacement[s]) // one of the bodies floats
-        EXPECT_NEAR(std::abs(u),
-                    problem.bodies[static_cast<std::size_t>(problem.subdomains[s].body)].kernelDimension,
-                    1e-9);
+        EXPECT_NEAR(std::abs(u), problem.bodies[problem.subdomains[s].body].kernelDimension, 1e-9);
   }
 }
 

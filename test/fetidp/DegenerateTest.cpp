@@ -33,7 +33,7 @@ void expectClosedForm(const Solved& solved, double u1, double u2, double force) 
   const double expected[] = {u1, u2};
   for (std::size_t b = 0; b < 2; ++b)
     for (const GlobalOrdinal node : solved.decomposition.bodies[b].mesh->surface(edges[b]).facetNodes)
-      EXPECT_NEAR(field[b][static_cast<Eigen::Index>(node)], expected[b], 1e-9);
+      EXPECT_NEAR(field[b][node], expected[b], 1e-9);
   EXPECT_NEAR(solved.solution.contactForce, force, 1e-9);
   EXPECT_LE(solved.solution.feasibility, 1e-9);
 }

@@ -119,7 +119,7 @@ TEST(DualOperatorTest, HalvesOfTwoProductsMayAlternate) {
   const GeneralizedInverse& inverse = *assembled.inverse;
   const std::size_t numMultipliers = numLocal(*assembled.decomposition.problem.multiplierGhostMap);
   const std::vector<double> one(numMultipliers, 1.0), two(numMultipliers, 2.0);
-  std::vector<AccurateSum> coarse(static_cast<std::size_t>(inverse.coarseProblem().size()));
+  std::vector<AccurateSum> coarse(inverse.coarseProblem().size());
   const Eigen::MatrixXd held = Eigen::MatrixXd::Zero(inverse.coarseProblem().size(), 1);
   for (const SubdomainGroup& group : inverse.groups()) {
     SubdomainGroup::Workspace first, second;

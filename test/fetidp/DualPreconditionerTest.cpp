@@ -63,7 +63,7 @@ public:
         totals_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.dualDimension()))) {
     for (const Subdomain& s : problem_.subdomains)
       for (std::size_t c = 0; c < s.crosspointUnknowns.size(); ++c)
-        diagonal_[static_cast<Eigen::Index>(s.crosspointIndices[c])] +=
+        diagonal_[s.crosspointIndices[c]] +=
             s.stiffness->coeff(s.crosspointUnknowns[c], s.crosspointUnknowns[c]);
     sum(diagonal_);
     for (const Subdomain& s : problem_.subdomains)
@@ -119,7 +119,7 @@ private:
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(c.size()), jumps.cols());
     for (std::size_t j = 0; j < c.size(); ++j)
       if (const int near = crosspoints_.nearIndexOf(s.crosspointIndices[j]); near >= 0)
-        moved.row(static_cast<Eigen::Index>(j)) = crosspoints_.extension().row(near) * touched;
+        moved.row(j) = crosspoints_.extension().row(near) * touched;
     const Eigen::MatrixXd krc = k(r, c);
     const Eigen::MatrixXd follow = -direct::solvedSymmetric(k(r, r), krc * moved);
     for (const auto& entry : s.constraint)
@@ -141,8 +141,8 @@ private:
     Eigen::MatrixXd t = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(boundary.size()), m.cols());
     for (std::size_t i = 0; i < boundary.size(); ++i)
       for (const auto& entry : s.constraint)
-        if (entry.unknown == r[static_cast<std::size_t>(boundary[i])])
-          t.row(static_cast<Eigen::Index>(i)) += scaled(s, entry) * left.row(row(entry));
+        if (entry.unknown == r[boundary[i]])
+          t.row(i) += scaled(s, entry) * left.row(row(entry));
     m += t.transpose() * stiffness * t;
   }
 
@@ -154,7 +154,7 @@ private:
       return 1.0;
     for (std::size_t c = 0; c < s.crosspointUnknowns.size(); ++c)
       if (s.crosspointUnknowns[c] == unknown)
-        return diagonal_[static_cast<Eigen::Index>(s.crosspointIndices[c])];
+        return diagonal_[s.crosspointIndices[c]];
     return s.stiffness->coeff(unknown, unknown);
   }
   /// Whether no other row of contact acts on the unknown.

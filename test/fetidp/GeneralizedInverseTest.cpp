@@ -144,7 +144,7 @@ TEST(GeneralizedInverseTest, ForcesAndConstraintsAreTransposed) {
   const auto rows = localIndices(*problem.multiplierGhostMap);
   std::vector<double> mine(rows.size()), jump(rows.size(), -1.0);
   for (std::size_t i = 0; i < mine.size(); ++i)
-    mine[i] = lambda[static_cast<Eigen::Index>(rows[static_cast<decltype(rows.size())>(i)])];
+    mine[i] = lambda[rows[static_cast<decltype(rows.size())>(i)]];
   SubdomainVectors forces = valuesOf(problem, Eigen::VectorXd::Zero(u.size()));
   inverse.subtractForces(mine, forces); // −B̄ᵀλ
   const SubdomainVectors values = valuesOf(problem, u);

@@ -23,8 +23,7 @@ std::vector<JointPart> partsOf(const Preconditioned& p, const Joint& joint,
       for (const std::size_t member : group.members())
         if (p.problem.subdomains[member].number == number)
           parts.push_back(partOf(
-              p.problem.subdomains[member], p.problem.clusterOf[static_cast<std::size_t>(number)],
-              group.condensed(),
+              p.problem.subdomains[member], p.problem.clusterOf[number], group.condensed(),
               {group.condensed().factor().schurComplement(), group.condensed().factor().inverseOfKept()},
               joint.rows, scaling));
   return parts;

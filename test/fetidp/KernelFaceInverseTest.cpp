@@ -133,7 +133,7 @@ TEST(KernelFaceInverseTest, KeepsItsDigitsWhereFewContactsHoldManyClusters) {
     x->elementWiseMultiply(1.0, face, *x, 0.0);
     const Eigen::VectorXd before = cut.space.product(*x);
     Eigen::VectorXd alpha(before.size());
-    const auto size = static_cast<std::size_t>(before.size());
+    const std::size_t size = before.size();
     inverse->apply({before.data(), size}, {alpha.data(), size});
     Vector image(cut.problem.multiplierMap);
     cut.space.addTransposedProduct({alpha.data(), size}, 1.0, image);

@@ -23,8 +23,7 @@ TEST(MultiplierExchangeTest, BringsEveryTouchedMultiplierToItsSubdomains) {
     const std::span<const double> mine = exchange.toSubdomains(*spread(problem.multiplierMap, lambda));
     ASSERT_EQ(mine.size(), numLocal(*problem.multiplierGhostMap));
     for (std::size_t i = 0; i < mine.size(); ++i)
-      EXPECT_EQ(mine[i], lambda[static_cast<Eigen::Index>(
-                             problem.multiplierGhostMap->getGlobalElement(static_cast<LocalOrdinal>(i)))]);
+      EXPECT_EQ(mine[i], lambda[problem.multiplierGhostMap->getGlobalElement(static_cast<LocalOrdinal>(i))]);
   }
 }
 
@@ -34,7 +33,7 @@ TEST(MultiplierExchangeTest, SumsTheContributionsOfAllRanks) {
   MultiplierExchange exchange(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap)));
   Eigen::VectorXd touching = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dualDimension()));
   for (const GlobalOrdinal row : localIndices(*problem.multiplierGhostMap))
-    touching[static_cast<Eigen::Index>(row)] += 1; // ranks that touch a multiplier
+    touching[row] += 1; // ranks that touch a multiplier
   sumOverRanks(*problem.comm, {touching.data(), static_cast<std::size_t>(touching.size())});
   for (double& value : exchange.values())
     value = 1.0;

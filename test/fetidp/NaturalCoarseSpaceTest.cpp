@@ -24,7 +24,7 @@ struct Floating {
 
   /// P as a matrix.
   Eigen::MatrixXd projector() const {
-    const auto n = static_cast<Eigen::Index>(problem.dualDimension());
+    const Eigen::Index n = problem.dualDimension();
     Eigen::MatrixXd p(n, n);
     for (Eigen::Index j = 0; j < n; ++j) {
       const RCP<Vector> x = spread(map, Eigen::VectorXd::Unit(n, j));
@@ -35,7 +35,7 @@ struct Floating {
   }
   /// G̃ as a matrix.
   Eigen::MatrixXd rows() const {
-    const auto n = static_cast<Eigen::Index>(problem.dualDimension());
+    const Eigen::Index n = problem.dualDimension();
     Eigen::MatrixXd g(space->size(), n);
     for (Eigen::Index j = 0; j < n; ++j)
       g.col(j) = space->product(*spread(map, Eigen::VectorXd::Unit(n, j)));
@@ -94,7 +94,7 @@ TEST(NaturalCoarseSpaceTest, RowsAreTheKernelConstraintWeighedByTheInverseOfThei
       EXPECT_LE(relativeError(g, (dense.constraint * dense.kernel).transpose()), 1e-13);
       const Eigen::VectorXd r = g * g.transpose() * randomVector(g.rows(), 1);
       Eigen::VectorXd weighed(r.size());
-      const auto size = static_cast<std::size_t>(r.size());
+      const std::size_t size = r.size();
       floating.space->weigh({r.data(), size}, {weighed.data(), size});
       EXPECT_LE(relativeError(weighed, randomVector(g.rows(), 1)), 1e-12);
       EXPECT_NEAR(floating.space->normOf(r), std::sqrt(r.dot(weighed)), 1e-14 * r.norm());
@@ -135,7 +135,7 @@ TEST(NaturalCoarseSpaceTest, FeasiblePointIsInEquilibriumAndAsShortAsPossible) {
 
 TEST(NaturalCoarseSpaceTest, ProductAndTransposedProductAreTransposes) {
   const Floating floating(threeMembranes(true, 4, grid(2, 2)));
-  const auto n = static_cast<Eigen::Index>(floating.problem.dualDimension());
+  const Eigen::Index n = floating.problem.dualDimension();
   const Eigen::VectorXd x = randomVector(n, 1), mu = randomVector(floating.space->size(), 2),
                         y = randomVector(n, 3);
   const RCP<Vector> result = spread(floating.map, y);

@@ -54,7 +54,7 @@ TEST(RecoveryTest, GluesTheSubdomains) {
     for (const Eigen::VectorXd& u : fieldOf(solved.decomposition, solved.solution))
       largest = std::max(largest, u.lpNorm<Eigen::Infinity>());
     EXPECT_LE(largestJump(solved.decomposition, solved.solution), 1e-9 * largest);
-    const auto gluing = static_cast<Eigen::Index>(solved.decomposition.problem.numEqualities);
+    const Eigen::Index gluing = solved.decomposition.problem.numEqualities;
     EXPECT_LE(slackFrom(solved).tail(gluing).norm(), 1e-9 * largest); // B_E u = 0
   }
 }
@@ -81,7 +81,7 @@ TEST(RecoveryTest, ReportsTheSlackAndTheActiveSetOfItsSolution) {
     const Eigen::VectorXd slack = slackFrom(solved), active = gathered(*solved.solution.active);
     EXPECT_LE((gathered(*solved.solution.slack) - slack).norm(), 1e-13 * slack.norm() + 1e-15);
     EXPECT_EQ(active.sum(), static_cast<double>(solved.solution.activeContactNodes));
-    const auto numContacts = static_cast<Eigen::Index>(solved.decomposition.problem.numInequalities);
+    const Eigen::Index numContacts = solved.decomposition.problem.numInequalities;
     for (Eigen::Index i = 0; i < active.size(); ++i)
       EXPECT_TRUE(active[i] == 0 || (active[i] == 1 && i < numContacts)) << i;
   }

@@ -39,14 +39,14 @@ TEST(SubdomainInterfaceTest, HoldsTheUnknownsThatConstraintsTouchRemaindersFirst
       const SubdomainInterface interface = interfaceOf(s);
       std::vector<int> found, touched; // unknowns
       for (const int i : interface.boundary)
-        found.push_back(s.remainderUnknowns.at(static_cast<std::size_t>(i)));
+        found.push_back(s.remainderUnknowns.at(i));
       for (const int i : interface.crosspoints)
-        found.push_back(s.crosspointUnknowns.at(static_cast<std::size_t>(i)));
+        found.push_back(s.crosspointUnknowns.at(i));
       EXPECT_TRUE(std::is_sorted(interface.boundary.begin(), interface.boundary.end()));
       EXPECT_TRUE(std::is_sorted(interface.crosspoints.begin(), interface.crosspoints.end()));
       ASSERT_EQ(interface.positionOf.size(), static_cast<std::size_t>(s.stiffness->rows()));
       for (std::size_t i = 0; i < found.size(); ++i)
-        EXPECT_EQ(interface.positionOf[static_cast<std::size_t>(found[i])], static_cast<int>(i));
+        EXPECT_EQ(interface.positionOf[found[i]], static_cast<int>(i));
       for (const auto& entry : s.constraint)
         touched.push_back(entry.unknown);
       std::sort(touched.begin(), touched.end());

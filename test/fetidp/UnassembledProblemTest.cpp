@@ -173,11 +173,8 @@ TEST(UnassembledProblemTest, CompressedRowsAndTpetraMatricesGiveTheSameSubdomain
   const RCP<const Map> map = rcp(new Map(3, Teuchos::arrayViewFromVector(numbers), 0, self));
   CrsMatrix local(map, 3);
   for (int row = 0; row < 3; ++row)
-    for (int k = starts[static_cast<std::size_t>(row)]; k < starts[static_cast<std::size_t>(row) + 1]; ++k)
-      local.insertGlobalValues(
-          numbers[static_cast<std::size_t>(row)],
-          Teuchos::tuple(numbers[static_cast<std::size_t>(columns[static_cast<std::size_t>(k)])]),
-          Teuchos::tuple(values[static_cast<std::size_t>(k)]));
+    for (int k = starts[row]; k < starts[static_cast<std::size_t>(row) + 1]; ++k)
+      local.insertGlobalValues(numbers[row], Teuchos::tuple(numbers[columns[k]]), Teuchos::tuple(values[k]));
   local.fillComplete();
   const SubdomainMatrix subdomain = subdomainMatrix(local);
   EXPECT_EQ(subdomain.unknowns, numbers);

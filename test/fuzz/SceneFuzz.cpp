@@ -22,14 +22,14 @@ constexpr long long mostElements = 1000;
 
 /// What assembly asks of a model.
 void assemble(const fem::BodyModel& model) {
-  std::vector<GlobalOrdinal> elements(static_cast<std::size_t>(model.mesh().numElements())), kinds = elements;
+  std::vector<GlobalOrdinal> elements(model.mesh().numElements()), kinds = elements;
   std::iota(elements.begin(), elements.end(), GlobalOrdinal{0});
   model.kinds(elements, kinds);
   Eigen::MatrixXd stiffness, loads;
   model.stiffness(kinds.front(), stiffness);
   model.stiffness(kinds.back(), stiffness);
   model.loads(elements, loads);
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(model.mesh().numNodes()));
+  std::vector<GlobalOrdinal> nodes(model.mesh().numNodes());
   std::iota(nodes.begin(), nodes.end(), GlobalOrdinal{0});
   std::vector<fem::PrescribedValue> values;
   model.prescribed(nodes, values);

@@ -48,7 +48,7 @@ TEST(FetiDpSolverTest, SolvesSeveralRightHandSidesAtOnce) {
     EXPECT_LE(recomputed.maxCoeff(), 1.001e-8);
     EXPECT_EQ(found.col(1).cwiseAbs().maxCoeff(), 0);
     for (std::size_t j = 0; j < 3; ++j)
-      EXPECT_NEAR(report.relativeResiduals[j], recomputed[static_cast<Eigen::Index>(j)], 1e-13);
+      EXPECT_NEAR(report.relativeResiduals[j], recomputed[j], 1e-13);
     EXPECT_LE(relativeError(found, direct::solvedSymmetric(k, b)), 1e-6);
   }
 }

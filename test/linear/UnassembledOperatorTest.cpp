@@ -91,8 +91,7 @@ TEST(UnassembledOperatorTest, TakesTheApplicationsMap) {
 /// The number of a subdomain's unknown.
 GlobalOrdinal& numberOf(const decomposition::DecomposedProblem& problem, GlobalUnknowns& unknowns,
                         std::size_t s, std::ptrdiff_t unknown) {
-  return unknowns[s][static_cast<std::size_t>(
-      problem.subdomains[s].unknownPosition[static_cast<std::size_t>(unknown)])];
+  return unknowns[s][problem.subdomains[s].unknownPosition[unknown]];
 }
 
 /// What is said of numbers that `change` has changed, on the only rank or on all of several.
@@ -121,7 +120,7 @@ TEST(UnassembledOperatorTest, IsTheSameOfMatricesThatAnApplicationHandsOver) {
     EXPECT_LE(relativeError(denseOf(free), denseOf(*expected.k)), 1e-14);
     EXPECT_LE(relativeError(denseOf(*free.load()), denseOf(*expected.k->load())), 1e-14);
     const UnassembledOperator all(problem, unknowns, own->unknownMap());
-    const auto numOthers = static_cast<GlobalOrdinal>(all.identityRows().size());
+    const GlobalOrdinal numOthers = all.identityRows().size();
     EXPECT_EQ(sumOverRanks(*world(), numOthers) + denseOf(free).rows(), denseOf(all).rows());
   }
 }
@@ -160,9 +159,9 @@ TEST(UnassembledOperatorTest, RefusesNumbersThatContradictTheGluing) {
     for (std::size_t s = 0; s < unknowns.size(); ++s) {
       std::vector<char> isInterior(problem.subdomains[s].unknownPosition.size(), 1);
       for (const auto& entry : problem.subdomains[s].constraint)
-        isInterior[static_cast<std::size_t>(entry.unknown)] = 0;
+        isInterior[entry.unknown] = 0;
       for (const int unknown : problem.subdomains[s].crosspointUnknowns)
-        isInterior[static_cast<std::size_t>(unknown)] = 0;
+        isInterior[unknown] = 0;
       const auto first = std::find(isInterior.begin(), isInterior.end(), 1) - isInterior.begin();
       const auto second = std::find(isInterior.begin() + first + 1, isInterior.end(), 1) - isInterior.begin();
       numberOf(problem, unknowns, s, first) = numberOf(problem, unknowns, s, second);

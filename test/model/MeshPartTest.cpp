@@ -96,7 +96,7 @@ model::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
         continue;
       Numbers corners;
       for (int i = numCornersOf(surface.facetType) - 1; i >= 0; --i) // any order will do
-        corners.push_back(keyOf(surface.facet(f)[static_cast<std::size_t>(i)]));
+        corners.push_back(keyOf(surface.facet(f)[i]));
       own.add(name, corners);
     }
   }

@@ -122,7 +122,7 @@ std::vector<std::pair<fem::LocalNumbering, int>> numberingsOf(const Partition& p
     EXPECT_EQ(found->first.firstNodeIfShifted(corners), first) << part;
     const std::vector<GlobalOrdinal> nodes = found->first.nodes(first);
     for (std::size_t c = 0; c < corners.size(); ++c)
-      EXPECT_EQ(nodes[static_cast<std::size_t>(found->first.corners()[c])], corners[c]);
+      EXPECT_EQ(nodes[found->first.corners()[c]], corners[c]);
   }
   return known;
 }
@@ -171,7 +171,7 @@ double imbalanceOf(const Partition& partition) {
 }
 
 std::vector<int> partsOf(const Partition& partition, const fem::Mesh& mesh) {
-  std::vector<int> parts(static_cast<std::size_t>(mesh.numElements()));
+  std::vector<int> parts(mesh.numElements());
   for (std::size_t element = 0; element < parts.size(); ++element)
     parts[element] = partition.partOf(static_cast<GlobalOrdinal>(element));
   return parts;
@@ -213,8 +213,7 @@ int expectConnected(const fem::Mesh& mesh, const std::vector<int>& part) {
       mesh.elementNeighbours(stack.back(), neighbours);
       stack.pop_back();
       for (const GlobalOrdinal other : neighbours)
-        if (part[static_cast<std::size_t>(other)] == part[seed] &&
-            seen[static_cast<std::size_t>(other)]++ == 0)
+        if (part[other] == part[seed] && seen[other]++ == 0)
           stack.push_back(other);
     }
   }
@@ -223,7 +222,7 @@ int expectConnected(const fem::Mesh& mesh, const std::vector<int>& part) {
 
 TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
   const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {12, 11, 0});
-  const auto size = static_cast<std::size_t>(mesh.numElements());
+  const std::size_t size = mesh.numElements();
   std::vector<int> checkerboard(size), stripes(size), scattered(size);
   for (std::size_t e = 0; e < size; ++e) {
     checkerboard[e] = static_cast<int>((e % 12 + e / 12) % 2);
@@ -246,7 +245,7 @@ TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
 
 TEST(PartitionTest, PartsOfABoxInManyPiecesAreMadeConnectedThroughFaces) {
   const fem::StructuredMesh mesh = boxMesh(5, 4, 6);
-  const auto size = static_cast<std::size_t>(mesh.numElements());
+  const std::size_t size = mesh.numElements();
   std::vector<int> checkerboard(size), scattered(size), halves(size);
   for (std::size_t e = 0; e < size; ++e) {
     checkerboard[e] = static_cast<int>((e % 5 + e / 5 % 4 + e / 20) % 2);
@@ -316,7 +315,7 @@ TEST(PartitionTest, AGroupedGridFallsIntoBlocks) {
   std::vector<int> elements(64, 0);
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const int part = grouped.partOf(element);
-    ++elements[static_cast<std::size_t>(part)];
+    ++elements[part];
     const GlobalOrdinal i = element % 16, j = element / 16;
     EXPECT_EQ(part / 16, grouped.partOf((j / 8 * 8) * 16 + i / 8 * 8) / 16); // four blocks of 4 × 4 parts
   }

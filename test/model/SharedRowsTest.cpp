@@ -131,7 +131,7 @@ TEST(SharedRowsTest, ASkinTakesTheNormalAndTheAreaOfTheFaceThatFacesTheOtherSide
         SurfaceContact& contact = blocks.join("c", "top", "skin");
         contact.multipliers = Side::second;
         const ContactLayout layout = blocks.layout().contacts.at(0);
-        const auto n = static_cast<std::size_t>(meshing.dimension);
+        const std::size_t n = meshing.dimension;
         for (std::size_t row = 0; row < layout.firstNodes.size(); ++row) {
           EXPECT_NEAR(std::abs(layout.directions[row * n + n - 1]), 1, 1e-14);
           EXPECT_NEAR(layout.gaps[row], gap, 1e-13);

@@ -179,7 +179,7 @@ TEST_P(SplitFilesTest, GiveTheSameSubdomainsOnAnyNumberOfRanks) {
   const Decomposition here = decompose(scene, world(), Meshes::pieces),
                       alone = decompose(scene, rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)), Meshes::pieces);
   for (const Subdomain& subdomain : here.problem.subdomains) {
-    const Subdomain& same = alone.problem.subdomains[static_cast<std::size_t>(subdomain.number)];
+    const Subdomain& same = alone.problem.subdomains[subdomain.number];
     EXPECT_EQ(subdomain.body, same.body);
     EXPECT_EQ(subdomain.nodes, same.nodes);
     EXPECT_EQ(Eigen::MatrixXd(*subdomain.stiffness), Eigen::MatrixXd(*same.stiffness));

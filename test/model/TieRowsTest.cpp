@@ -40,7 +40,7 @@ TEST(TieRowsTest, ATieBesideAContactKeepsTheirCommonNodes) {
       const SceneContacts found = blocks.layout();
       const ContactLayout &touch = found.contacts.at(0), &weld = found.ties.at(0);
       for (const GlobalOrdinal node : touch.firstNodes)
-        EXPECT_GT(blocks.bodies[static_cast<std::size_t>(touch.firstBody)].mesh->point(node)[0], 1 + 1e-9);
+        EXPECT_GT(blocks.bodies[touch.firstBody].mesh->point(node)[0], 1 + 1e-9);
       if (meshing.order == 1 || upper == 6) { // areas of single nodes of order 2 are none of N̂
         EXPECT_NEAR(total(touch.areas) + total(weld.areas) / meshing.dimension, 2, 1e-12);
       }
@@ -63,7 +63,7 @@ TEST(TieRowsTest, ATieOfBodiesOfTwoOrdersLeavesTheContactItsNodesBesideIt) {
       const SceneContacts found = blocks.layout();
       const ContactLayout& touch = found.contacts.at(0);
       ASSERT_EQ(touch.means, "pairs of nodes");
-      const fem::Mesh& mesh = *blocks.bodies[static_cast<std::size_t>(touch.firstBody)].mesh;
+      const fem::Mesh& mesh = *blocks.bodies[touch.firstBody].mesh;
       const fem::Surface surface = mesh.surface(touch.firstBody == 0 ? "top right" : "bottom right");
       std::set<GlobalOrdinal> beside;
       for (std::size_t f = 0; f < surface.numFacets(); ++f)
@@ -114,7 +114,7 @@ TEST(TieRowsTest, AWideSurfaceIsTiedAtMoreThanOnePoint) {
       EXPECT_EQ(tie.firstBody, side == Side::first ? 0 : 1);
       std::set<double> places;
       for (const GlobalOrdinal node : tie.firstNodes)
-        places.insert(blocks.bodies[static_cast<std::size_t>(tie.firstBody)].mesh->point(node)[0]);
+        places.insert(blocks.bodies[tie.firstBody].mesh->point(node)[0]);
       EXPECT_GE(places.size(), 2U);
     }
 }

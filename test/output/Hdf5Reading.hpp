@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace epafi::output::test {
+namespace epafi::test {
 
 /// A dataset as plain numbers, whatever their type in the file.
 struct Table {
@@ -51,4 +51,4 @@ inline std::string readText(const std::filesystem::path& path, const std::string
   return text.data();
 }
 
-} // namespace epafi::output::test
+} // namespace epafi::test

@@ -7,7 +7,7 @@
 
 #include <Tpetra_Vector.hpp>
 
-namespace epafi::output::test {
+namespace epafi::test {
 
 /// Two membranes in contact, cut unevenly (and so that four ranks hold different numbers of subdomains);
 /// names that no HDF5 path may have.
@@ -41,10 +41,10 @@ inline fetidp::ContactSolution sampleSolution(const model::Decomposition& decomp
   const auto& problem = decomposition.problem;
   fetidp::ContactSolution solution;
   for (const auto& subdomain : problem.subdomains) {
-    const auto& mesh = *decomposition.bodies[static_cast<std::size_t>(subdomain.body)].mesh;
+    const auto& mesh = *decomposition.bodies[subdomain.body].mesh;
     Eigen::VectorXd u(static_cast<Eigen::Index>(subdomain.nodes.size()));
     for (std::size_t k = 0; k < subdomain.nodes.size(); ++k)
-      u[static_cast<Eigen::Index>(k)] = sampleField(mesh.point(subdomain.nodes[k]));
+      u[k] = sampleField(mesh.point(subdomain.nodes[k]));
     solution.displacement.push_back(u);
   }
   const auto& map = problem.multiplierMap;
@@ -70,4 +70,4 @@ inline qp::History sampleHistory() {
           {3, 1, qp::StepKind::proportioning, 0.001, 0.0625, -2.875, 5, 5}};
 }
 
-} // namespace epafi::output::test
+} // namespace epafi::test

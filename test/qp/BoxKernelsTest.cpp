@@ -19,7 +19,7 @@ using qp::Box;
 class BoxKernelsTest : public testing::Test {
 protected:
   static RCP<Vector> vector(const std::vector<double>& values) {
-    return makeVector(linearMap(7), [&](int i) { return values[static_cast<std::size_t>(i)]; });
+    return makeVector(linearMap(7), [&](int i) { return values[i]; });
   }
   static Eigen::VectorXd dense(const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));

@@ -33,9 +33,9 @@ Eigen::MatrixXd noise(int m, int n, unsigned seed) {
 
 /// The rows that the constraint stands for, by products with unit vectors on every rank.
 Eigen::MatrixXd rowsOf(const PreparedEquality& prepared, int n) {
-  const auto k = static_cast<Eigen::Index>(prepared.constraint->numEntries());
+  const Eigen::Index k = prepared.constraint->numEntries();
   Eigen::MatrixXd result(k, n);
-  std::vector<double> column(static_cast<std::size_t>(k));
+  std::vector<double> column(k);
   for (int j = 0; j < n; ++j) {
     prepared.constraint->product(*makeVector(linearMap(n), [j](int i) { return i == j ? 1.0 : 0.0; }),
                                  column);
@@ -46,7 +46,7 @@ Eigen::MatrixXd rowsOf(const PreparedEquality& prepared, int n) {
 
 /// ‖WBx − Wc‖ from the two halves around the sum over the ranks.
 double residualOf(const PreparedEquality& prepared, const Vector& x) {
-  std::vector<AccurateSum> sums(static_cast<std::size_t>(prepared.constraint->numSums()));
+  std::vector<AccurateSum> sums(prepared.constraint->numSums());
   prepared.constraint->addLocalSums(x, sums);
   sumOverRanks(*x.getMap()->getComm(), sums);
   std::vector<double> r(prepared.constraint->numEntries()), weighed(r.size());

@@ -116,7 +116,7 @@ TEST(QpLimitsTest, OuterIterationsAreLimitedAndMultipliersStillBelongToTheIterat
     }
 }
 
-using Variant = std::tuple<bool, std::string, std::string>;
+using Variant = std::tuple<bool, std::string>;
 
 /// With rows or without, expansion, release.
 class QpAccuracyTest : public testing::TestWithParam<Variant> {
@@ -124,7 +124,6 @@ protected:
   static QpCall call(double tolerance) {
     QpCall result{withTolerance(tolerance)};
     result.parameters.sublist("MPRGP").set("Expansion", std::get<1>(GetParam()));
-    result.parameters.sublist("MPRGP").set("Release", std::get<2>(GetParam()));
     return result;
   }
   static bool hasRows() { return std::get<0>(GetParam()); }
@@ -180,7 +179,6 @@ TEST_P(QpAccuracyTest, BearsANormThatIsTooLarge) {
 
 INSTANTIATE_TEST_SUITE_P(Variants, QpAccuracyTest,
                          testing::Combine(testing::Bool(),
-                                          testing::Values("projected CG", "fixed step", "active set"),
-                                          testing::Values("projected gradient", "chopped gradient")));
+                                          testing::Values("projected CG", "fixed step", "active set")));
 
 } // namespace

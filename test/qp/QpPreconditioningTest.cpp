@@ -44,19 +44,15 @@ DenseProgram membrane(int k) {
 }
 
 TEST(QpPreconditioningTest, TheExactInverseNeedsFarFewerStepsForTheSameAnswer) {
-  for (const char* release : {"projected gradient", "chopped gradient"}) {
-    const DenseProgram program = membrane(12);
-    QpCall call = preconditioned(1e-9, direct::inverseOfSpd(program.hessian));
-    call.parameters.sublist("MPRGP").set("Release", std::string(release));
-    const QpAnswer plain = solveQp(program, {withTolerance(1e-9)});
+  const DenseProgram program = membrane(12);
+  const QpAnswer plain = solveQp(program, {withTolerance(1e-9)});
 
-    const QpAnswer answer = solveQp(program, call);
+  const QpAnswer answer = solveQp(program, preconditioned(1e-9, direct::inverseOfSpd(program.hessian)));
 
-    EXPECT_EQ(whyNoSolution(program, answer, 1e-9), "");
-    EXPECT_LE((answer.x - plain.x).norm(), 1e-6 * plain.x.norm());
-    EXPECT_LE(2 * answer.report.counts.hessianMultiplications, plain.report.counts.hessianMultiplications);
-    EXPECT_GT(answer.report.counts.preconditionerApplications, 0);
-  }
+  EXPECT_EQ(whyNoSolution(program, answer, 1e-9), "");
+  EXPECT_LE((answer.x - plain.x).norm(), 1e-6 * plain.x.norm());
+  EXPECT_LE(2 * answer.report.counts.hessianMultiplications, plain.report.counts.hessianMultiplications);
+  EXPECT_GT(answer.report.counts.preconditionerApplications, 0);
 }
 
 TEST(QpPreconditioningTest, TheInverseOfTheFaceSolvesInAStepWhereTheFaceIsRight) {
@@ -147,7 +143,7 @@ Eigen::MatrixXd aggregates(const DenseProgram& program, const std::vector<int>& 
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(program.size(), count);
   for (Eigen::Index i = 0; i < program.size(); ++i)
     if (std::isinf(program.lower[i]) && std::isinf(program.upper[i]))
-      u(i, blockOf[static_cast<std::size_t>(i)]) = 1;
+      u(i, blockOf[i]) = 1;
   return u;
 }
 

@@ -52,8 +52,6 @@ QpCall callFor(unsigned seed, double tolerance, Eigen::Index n, double length) {
   call.parameters.sublist("MPRGP").set("Maximum Multiplications", 100000);
   if (seed % 4 == 3) {
     call.parameters.sublist("MPRGP").set("Expansion", std::string(expansions[seed / 4 % 3]));
-    call.parameters.sublist("MPRGP").set(
-        "Release", std::string(seed / 16 % 2 == 0 ? "projected gradient" : "chopped gradient"));
     call.parameters.sublist("SMALBE").set("Update", std::string(updates[seed / 32 % 3]));
     call.parameters.sublist("SMALBE").set("Maximum Outer Iterations", seed / 32 % 3 == 0 ? 200 : 50000);
   }

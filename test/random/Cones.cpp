@@ -44,13 +44,13 @@ Eigen::VectorXd imbalance(const Eigen::MatrixXd& a, const Eigen::VectorXd& targe
       double share = 1;
       Eigen::Index blocking = -1;
       for (std::size_t k = 0; k < free.size(); ++k)
-        if (const double from = x[free[k]], to = y[static_cast<Eigen::Index>(k)];
+        if (const double from = x[free[k]], to = y[k];
             to <= 0 && (blocking < 0 || from < share * (from - to))) {
           share = from > to ? from / (from - to) : 0.0;
           blocking = free[k];
         }
       for (std::size_t k = 0; k < free.size(); ++k)
-        x[free[k]] += share * (y[static_cast<Eigen::Index>(k)] - x[free[k]]);
+        x[free[k]] += share * (y[k] - x[free[k]]);
       if (blocking < 0)
         break;
       std::erase_if(free, [&](Eigen::Index i) {

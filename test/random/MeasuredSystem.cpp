@@ -66,7 +66,7 @@ void Measured::findMotions() {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double count = 0;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (system.body[static_cast<std::size_t>(i)] == body) {
+      if (system.body[i] == body) {
         centre += system.place.col(i);
         ++count;
       }
@@ -74,7 +74,7 @@ void Measured::findMotions() {
       continue;
     centre /= count;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (system.body[static_cast<std::size_t>(i)] == body) {
+      if (system.body[i] == body) {
         const Eigen::Vector3d direction = system.direction.col(i),
                               arm = (system.place.col(i) - centre) / size;
         rigid.row(i) << direction.transpose(), arm.cross(direction).transpose();

@@ -43,7 +43,7 @@ void drawShape(DrawnScene& scene, const Sizes& sizes, RandomNumbers& random) {
   std::array<int, 3> elements{0, 0, 0};
   const auto drawElements = [&] {
     for (int d = 0; d < scene.dimension; ++d)
-      elements[static_cast<std::size_t>(d)] = 1 + random.index(most);
+      elements[d] = 1 + random.index(most);
   };
   for (int d = 0; d < scene.dimension; ++d)
     extent[d] = sizes.length * (random.chance(0.5) ? 1.0 : random.uniform(0.5, 1.5));
@@ -81,7 +81,7 @@ void drawRegions(DrawnBody& body, RandomNumbers& random) {
   for (int r = 0; r < count; ++r) {
     DrawnRegion region{body.lower, body.upper, body.youngsModulus * random.magnitude(-3.5, 3.5)};
     for (int d = 0; d < 3; ++d)
-      if (const int n = body.elements[static_cast<std::size_t>(d)]; n > 1 && random.chance(0.6)) {
+      if (const int n = body.elements[d]; n > 1 && random.chance(0.6)) {
         const double border = 1 + random.index(n - 1) + random.oneOf({0.0, 0.2, -0.3});
         (random.chance(0.5) ? region.lower[d] : region.upper[d]) =
             body.lower[d] + border / n * (body.upper[d] - body.lower[d]);
@@ -99,7 +99,7 @@ void drawSupports(DrawnScene& scene, DrawnBody& body, const Sizes& sizes, bool t
   const auto value = [&] { return random.chance(0.8) ? 0.0 : sizes.displacement() * random.uniform(-1, 1); };
   const auto add = [&](int kind) {
     DrawnSupport support;
-    support.surface = surfaces[static_cast<std::size_t>(random.index(static_cast<int>(surfaces.size())))];
+    support.surface = surfaces[random.index(static_cast<int>(surfaces.size()))];
     for (const DrawnSupport& other : body.supports)
       if (other.surface == support.surface)
         return;
@@ -107,9 +107,9 @@ void drawSupports(DrawnScene& scene, DrawnBody& body, const Sizes& sizes, bool t
       support.normal = value();
     else if (kind == 1)
       for (int d = 0; d < scene.dimension; ++d)
-        support.value[static_cast<std::size_t>(d)] = value();
+        support.value[d] = value();
     else
-      support.value[static_cast<std::size_t>(random.index(scene.dimension))] = value();
+      support.value[random.index(scene.dimension)] = value();
     body.supports.push_back(support);
   };
   const int style = random.index(10);
@@ -129,7 +129,7 @@ DrawnLoad drawnLoad(const DrawnScene& scene, const DrawnBody& body, const Sizes&
   const double size = sizes.pressure() * random.uniform(0.5, 2);
   std::vector<std::string> surfaces = sidesOf(scene.dimension);
   surfaces.insert(surfaces.end(), {"top", "top", "bottom"});
-  load.surface = surfaces[static_cast<std::size_t>(random.index(static_cast<int>(surfaces.size())))];
+  load.surface = surfaces[random.index(static_cast<int>(surfaces.size()))];
   load.force = size * drawnDirection(scene.dimension, random);
   if (load.kind == "pressure")
     load.force = {size * random.oneOf({1.0, 1.0, -1.0}), 0, 0};
@@ -145,7 +145,7 @@ DrawnLoad drawnLoad(const DrawnScene& scene, const DrawnBody& body, const Sizes&
 
 void drawObstacle(DrawnScene& scene, int body, const std::string& surface, const Sizes& sizes,
                   RandomNumbers& random) {
-  const DrawnBody& block = scene.bodies[static_cast<std::size_t>(body)];
+  const DrawnBody& block = scene.bodies[body];
   static const std::vector<std::string> names{"left", "right", "front", "back", "bottom", "top"};
   const auto place = std::find(names.begin(), names.end(), surface) - names.begin();
   const int axis = place >= 4 ? scene.dimension - 1 : static_cast<int>(place / 2);

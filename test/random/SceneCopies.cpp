@@ -60,12 +60,12 @@ void drawCuts(DrawnScene& scene, std::uint64_t seed) {
   for (DrawnBody& body : scene.bodies) {
     body.cut.isGrid = !body.isFile && random.chance(0.6);
     for (int d = 0; d < scene.dimension; ++d) {
-      const auto axis = static_cast<std::size_t>(d);
+      const std::size_t axis = d;
       body.cut.counts[axis] = 1 + random.index(std::min(body.elements[axis], 2));
     }
     int elements = 1;
     for (int d = 0; d < scene.dimension; ++d)
-      elements *= body.elements[static_cast<std::size_t>(d)];
+      elements *= body.elements[d];
     body.cut.parts = 1 + random.index(std::min(elements, 4));
     body.cut.cluster = cluster;
   }

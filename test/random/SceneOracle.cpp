@@ -37,7 +37,7 @@ public:
     if (const Eigen::Index k = measured.motion.cols(); k > 0) {
       const std::vector<Eigen::Index> order = direct::pivotedColumns(measured.motion.transpose()).order;
       for (Eigen::Index i = 0; i < k; ++i) {
-        const auto unknown = static_cast<int>(order[static_cast<std::size_t>(i)]);
+        const auto unknown = static_cast<int>(order[i]);
         held_.coeffRef(unknown, unknown) *= 2;
       }
     }

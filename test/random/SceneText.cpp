@@ -41,7 +41,7 @@ void writeMesh(const DrawnScene& scene, const DrawnBody& body, const std::string
 }
 
 void addMesh(const DrawnScene& scene, int number, const std::string& folder, ParameterList& list) {
-  const DrawnBody& body = scene.bodies[static_cast<std::size_t>(number)];
+  const DrawnBody& body = scene.bodies[number];
   list.set("Order", body.order);
   if (body.isFile) {
     const std::string file = std::string(1, static_cast<char>('a' + number)) + ".msh";
@@ -62,11 +62,11 @@ void addSupports(const DrawnScene& scene, const DrawnBody& body, ParameterList& 
       entry.set("Normal", *support.normal);
     Vector3 value = Vector3::Zero();
     for (std::size_t d = 0; d < 3; ++d)
-      value[static_cast<Eigen::Index>(d)] = support.value[d].value_or(0.0);
+      value[d] = support.value[d].value_or(0.0);
     value = scene.turn * value;
     for (std::size_t d = 0; d < 3; ++d)
       if (support.value[d])
-        entry.set(std::string(1, static_cast<char>('X' + d)), value[static_cast<Eigen::Index>(d)]);
+        entry.set(std::string(1, static_cast<char>('X' + d)), value[d]);
   }
 }
 
@@ -87,7 +87,7 @@ void addLoads(const DrawnScene& scene, const DrawnBody& body, ParameterList& lis
 }
 
 void addBody(const DrawnScene& scene, int number, const std::string& folder, ParameterList& bodies) {
-  const DrawnBody& body = scene.bodies[static_cast<std::size_t>(number)];
+  const DrawnBody& body = scene.bodies[number];
   ParameterList& list = bodies.sublist(bodyName(number));
   list.set("Physics", scene.physics);
   addMesh(scene, number, folder, list);

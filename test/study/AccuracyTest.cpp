@@ -146,7 +146,7 @@ TEST(AccuracyCaseTest, ErrorsOfTheIterationFollowTheTolerance) {
 
 TEST(AccuracyPeersTest, TakesContactSolversOnMeshesOfTheLadder) {
   const auto comm = Tpetra::getDefaultComm();
-  const output::test::TemporaryDirectory directory(comm);
+  const epafi::test::TemporaryDirectory directory(comm);
   const AccuracyProblem problem = problemNamed("coercive", 1);
   const AccuracyReference reference(problem, comm);
   EXPECT_TRUE(peerRows(directory.path(), problem, reference).empty()) << "no file";

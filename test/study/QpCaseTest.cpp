@@ -58,10 +58,6 @@ TEST(QpCaseTest, NamesMethods) {
   EXPECT_EQ(methodName(row), "projected_cg");
   row.expansion = "fixed step";
   EXPECT_EQ(methodName(row), "fixed_step");
-  row.release = "chopped gradient";
-  EXPECT_EQ(methodName(row), "published");
-  row.expansion = "projected CG";
-  EXPECT_EQ(methodName(row), "projected_cg_chopped");
 }
 
 TEST(QpCaseTest, RefusesAnUnknownProblem) {

@@ -56,7 +56,7 @@ struct Blocks {
                                            : scene::Box{{left, 0, low}, {right, 1, high}},
                                    isPlane ? std::array{elements, 2, 0} : std::array{elements, 2, 2});
     fem::MeshArrays arrays = fem::test::arraysOf(grid, {}, meshing.isSimplex);
-    const auto perFacet = static_cast<std::size_t>(numNodesOf(facetTypeOf(arrays.cellType)));
+    const std::size_t perFacet = numNodesOf(facetTypeOf(arrays.cellType));
     const double middle = (left + right) / 2;
     std::vector<fem::NamedFacets> more;
     for (const fem::NamedFacets& facets : arrays.surfaces)
@@ -68,7 +68,7 @@ struct Blocks {
                      end = begin + static_cast<std::ptrdiff_t>(perFacet);
           double centre = 0;
           for (auto node = begin; node != end; ++node)
-            centre += arrays.points[static_cast<std::size_t>(*node)][0] / static_cast<double>(perFacet);
+            centre += arrays.points[*node][0] / static_cast<double>(perFacet);
           auto& half = halves[centre < middle ? 0 : 1].nodes;
           half.insert(half.end(), begin, end);
           if (std::abs(centre - middle) < (right - left) / 4)

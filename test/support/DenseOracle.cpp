@@ -86,7 +86,7 @@ Point solveHeld(const System& system, const Eigen::VectorXi& held) {
       change -= cholesky.solve(rows.transpose() * nu);
     }
     for (std::size_t k = 0; k < free.size(); ++k)
-      point.x[free[k]] += change[static_cast<Eigen::Index>(k)];
+      point.x[free[k]] += change[k];
   }
   return point;
 }

@@ -101,7 +101,7 @@ DenseProblem densify(const DecomposedProblem& problem) {
     const auto& subdomain = problem.subdomains[s];
     const int offset = problem.kernelOffsetOf(subdomain);
     for (std::size_t i = 0; i < columns[s].size(); ++i) {
-      const auto unknown = static_cast<Eigen::Index>(i);
+      const Eigen::Index unknown = i;
       dense.load[columns[s][i]] += subdomain.load[unknown];
       dense.kernel.row(columns[s][i]).segment(offset, subdomain.kernel.cols()) +=
           subdomain.kernel.row(unknown);
@@ -149,7 +149,7 @@ Eigen::VectorXd mergeValues(const DecomposedProblem& problem, const SubdomainVec
 }
 
 Eigen::MatrixXd matrixOf(const Operator& a) {
-  const auto n = static_cast<Eigen::Index>(a.getDomainMap()->getGlobalNumElements());
+  const Eigen::Index n = a.getDomainMap()->getGlobalNumElements();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   if (n == 0)
     return matrix;
@@ -174,7 +174,7 @@ Eigen::VectorXd gathered(const Vector& x) {
   const auto indices = localIndices(*x.getMap());
   const auto values = x.getData();
   for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
-    all[static_cast<Eigen::Index>(indices[static_cast<decltype(indices.size())>(i)])] = values[i];
+    all[indices[static_cast<decltype(indices.size())>(i)]] = values[i];
   decomposition::sumEntries(*x.getMap()->getComm(), all);
   return all;
 }
@@ -182,7 +182,7 @@ Eigen::VectorXd gathered(const Vector& x) {
 RCP<Vector> spread(const RCP<const Map>& map, const Eigen::VectorXd& values) {
   const RCP<Vector> x = rcp(new Vector(map));
   for (const GlobalOrdinal index : localIndices(*map))
-    x->replaceGlobalValue(index, values[static_cast<Eigen::Index>(index)]);
+    x->replaceGlobalValue(index, values[index]);
   return x;
 }
 

@@ -85,10 +85,10 @@ Real DualActiveSet::slack(Constraint constraint) const {
 
 /// What round-off has left of the active constraints' slacks, and of the gradient along them, is taken away.
 void DualActiveSet::refine() {
-  const auto q = static_cast<Eigen::Index>(active_.size());
+  const Eigen::Index q = active_.size();
   RealVector slacks(q);
   for (Eigen::Index k = 0; k < q; ++k)
-    slacks[k] = slack(active_[static_cast<std::size_t>(k)]);
+    slacks[k] = slack(active_[k]);
   x_ -= j_.leftCols(q) * r_.topLeftCorner(q, q).triangularView<Eigen::Upper>().transpose().solve(slacks);
   const auto outside = j_.rightCols(x_.size() - q);
   x_ -= outside * (outside.transpose() * (hessian_ * x_ - linear_));
@@ -97,7 +97,7 @@ void DualActiveSet::refine() {
 Real DualActiveSet::mostViolated(Constraint& constraint) const {
   Real worst = 0;
   for (Eigen::Index i = 0; i < program_.size(); ++i)
-    if (!isActive_[static_cast<std::size_t>(i)])
+    if (!isActive_[i])
       for (const Kind kind : {Kind::lower, Kind::upper}) {
         const Real s = slack({kind, i});
         const Real bound = kind == Kind::lower ? lower_[i] : upper_[i];
@@ -123,7 +123,7 @@ bool DualActiveSet::enforce(Constraint constraint) {
   while (true) {
     if (++iterations_ > limit)
       throw std::runtime_error("the dual active set method does not come to an end");
-    const auto q = static_cast<Eigen::Index>(active_.size());
+    const Eigen::Index q = active_.size();
     const Real s = slack(constraint);
     const RealVector d = transformedNormal(constraint);
     const RealVector r = r_.topLeftCorner(q, q).triangularView<Eigen::Upper>().solve(d.head(q));
@@ -138,23 +138,22 @@ bool DualActiveSet::enforce(Constraint constraint) {
     Real longest = unreached; // t₁: until the first multiplier vanishes
     Eigen::Index first = -1;
     for (Eigen::Index k = 0; k < q && !constraint.isEquality(); ++k)
-      if (!active_[static_cast<std::size_t>(k)].isEquality() && r[k] > 0 &&
-          multipliers_[static_cast<std::size_t>(k)] / r[k] < longest) {
-        longest = multipliers_[static_cast<std::size_t>(k)] / r[k];
+      if (!active_[k].isEquality() && r[k] > 0 && multipliers_[k] / r[k] < longest) {
+        longest = multipliers_[k] / r[k];
         first = k;
       }
     const Real full = depends ? unreached : -s / outside; // t₂
     const bool isFull = constraint.isEquality() || full <= longest;
     const Real step = isFull ? full : longest;
     if (!std::isfinite(step)) {
-      isActive_[static_cast<std::size_t>(constraint.index)] = true; // not asked again
+      isActive_[constraint.index] = true; // not asked again
       if (!contradicts(constraint, r))
         return true; // it holds, but for round-off
       certify(constraint, r);
       return false;
     }
     for (Eigen::Index k = 0; k < q; ++k)
-      multipliers_[static_cast<std::size_t>(k)] -= step * r[k];
+      multipliers_[k] -= step * r[k];
     multiplier += step;
     if (!depends)
       x_ += step * (j_.rightCols(d.size() - q) * d.tail(d.size() - q));
@@ -167,7 +166,7 @@ bool DualActiveSet::enforce(Constraint constraint) {
 }
 
 void DualActiveSet::add(Constraint constraint, Real multiplier, RealVector d) {
-  const auto q = static_cast<Eigen::Index>(active_.size());
+  const Eigen::Index q = active_.size();
   const Eigen::Index rest = d.size() - q;
   RealVector v = d.tail(rest); // Householder: d₂ becomes a multiple of e₁
   const Real length = v[0] > 0 ? -v.norm() : v.norm();
@@ -181,12 +180,12 @@ void DualActiveSet::add(Constraint constraint, Real multiplier, RealVector d) {
   active_.push_back(constraint);
   multipliers_.push_back(multiplier);
   if (constraint.kind != Kind::row)
-    isActive_[static_cast<std::size_t>(constraint.index)] = true;
+    isActive_[constraint.index] = true;
 }
 
 void DualActiveSet::drop(Eigen::Index position) {
-  const auto q = static_cast<Eigen::Index>(active_.size());
-  isActive_[static_cast<std::size_t>(active_[static_cast<std::size_t>(position)].index)] = false;
+  const Eigen::Index q = active_.size();
+  isActive_[active_[position].index] = false;
   active_.erase(active_.begin() + position);
   multipliers_.erase(multipliers_.begin() + position);
   for (Eigen::Index k = position; k + 1 < q; ++k)
@@ -212,7 +211,7 @@ Real DualActiveSet::rightHandSide(Constraint constraint) const {
 bool DualActiveSet::contradicts(Constraint constraint, const RealVector& r) const {
   Real difference = rightHandSide(constraint), size = std::abs(difference);
   for (std::size_t k = 0; k < active_.size(); ++k) {
-    const Real share = r[static_cast<Eigen::Index>(k)] * rightHandSide(active_[k]);
+    const Real share = r[k] * rightHandSide(active_[k]);
     difference -= share;
     size += std::abs(share);
   }
@@ -226,7 +225,7 @@ void DualActiveSet::certify(Constraint constraint, const RealVector& r) {
     y[constraint.index] = 1;
   for (std::size_t k = 0; k < active_.size(); ++k)
     if (active_[k].kind == Kind::row)
-      y[active_[k].index] -= r[static_cast<Eigen::Index>(k)];
+      y[active_[k].index] -= r[k];
   y.array() *= rowScale_.array();
   certificate_ = (y / y.norm()).cast<double>();
   if (separation(program_, certificate_) < 0)

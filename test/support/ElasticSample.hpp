@@ -14,7 +14,7 @@
 #include <fstream>
 #include <functional>
 
-namespace epafi::output::test {
+namespace epafi::test {
 
 /// A kind of elastic body.
 struct Kind {
@@ -109,12 +109,11 @@ inline fetidp::ContactSolution solutionWith(const model::Decomposition& decompos
   const auto& problem = decomposition.problem;
   fetidp::ContactSolution solution;
   for (const auto& subdomain : problem.subdomains) {
-    const auto& mesh = *decomposition.bodies[static_cast<std::size_t>(subdomain.body)].mesh;
+    const auto& mesh = *decomposition.bodies[subdomain.body].mesh;
     Eigen::VectorXd u(static_cast<Eigen::Index>(subdomain.nodes.size()) * problem.components);
     for (std::size_t k = 0; k < subdomain.nodes.size(); ++k)
       for (int c = 0; c < problem.components; ++c)
-        u[static_cast<Eigen::Index>(k) * problem.components + c] =
-            field(mesh.point(subdomain.nodes[k]))[static_cast<std::size_t>(c)];
+        u[static_cast<Eigen::Index>(k) * problem.components + c] = field(mesh.point(subdomain.nodes[k]))[c];
     solution.displacement.push_back(u);
   }
   solution.multiplier = rcp(new Vector(problem.multiplierMap));
@@ -123,4 +122,4 @@ inline fetidp::ContactSolution solutionWith(const model::Decomposition& decompos
   return solution;
 }
 
-} // namespace epafi::output::test
+} // namespace epafi::test

@@ -11,16 +11,15 @@
 namespace epafi::decomposition {
 
 std::vector<std::vector<Eigen::Index>> mergedColumns(const DecomposedProblem& problem) {
-  const auto numRemainders = static_cast<Eigen::Index>(problem.remainderMap->getGlobalNumElements());
-  auto next = static_cast<Eigen::Index>(problem.remainderMap->getMinGlobalIndex());
+  const Eigen::Index numRemainders = problem.remainderMap->getGlobalNumElements();
+  Eigen::Index next = problem.remainderMap->getMinGlobalIndex();
   std::vector<std::vector<Eigen::Index>> columns;
   for (const Subdomain& s : problem.subdomains) {
     std::vector<Eigen::Index> column(s.unknownPosition.size(), -1);
     for (const int unknown : s.remainderUnknowns)
-      column[static_cast<std::size_t>(unknown)] = next++;
+      column[unknown] = next++;
     for (std::size_t k = 0; k < s.crosspointUnknowns.size(); ++k)
-      column[static_cast<std::size_t>(s.crosspointUnknowns[k])] =
-          numRemainders + static_cast<Eigen::Index>(s.crosspointIndices[k]);
+      column[s.crosspointUnknowns[k]] = numRemainders + static_cast<Eigen::Index>(s.crosspointIndices[k]);
     columns.push_back(column);
   }
   return columns;
@@ -69,9 +68,8 @@ scene::Scene twoMembranes(bool coercive, int elements, const scene::Decompositio
 }
 
 double nodeKey(const Subdomain& subdomain, int unknown, int components) {
-  const int position = subdomain.unknownPosition[static_cast<std::size_t>(unknown)];
-  return 1e6 * (subdomain.body + 1) +
-         static_cast<double>(subdomain.nodes[static_cast<std::size_t>(position / components)]);
+  const int position = subdomain.unknownPosition[unknown];
+  return 1e6 * (subdomain.body + 1) + static_cast<double>(subdomain.nodes[position / components]);
 }
 
 Eigen::MatrixXd mergedStiffness(const DecomposedProblem& problem) {
@@ -82,8 +80,7 @@ Eigen::MatrixXd mergedStiffness(const DecomposedProblem& problem) {
     const SparseMatrix& k = *problem.subdomains[s].stiffness;
     for (int j = 0; j < k.outerSize(); ++j)
       for (SparseMatrix::InnerIterator entry(k, j); entry; ++entry)
-        merged(columns[s][static_cast<std::size_t>(entry.row())], columns[s][static_cast<std::size_t>(j)]) +=
-            entry.value();
+        merged(columns[s][entry.row()], columns[s][j]) += entry.value();
   }
   sumEntries(*problem.comm, merged);
   return merged;
@@ -95,8 +92,8 @@ Eigen::MatrixXd mergedConstraint(const DecomposedProblem& problem) {
   const auto columns = mergedColumns(problem);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
     for (const ConstraintEntry& entry : problem.subdomains[s].constraint)
-      merged(static_cast<Eigen::Index>(problem.numberOf(entry.multiplier)),
-             columns[s][static_cast<std::size_t>(entry.unknown)]) += entry.coefficient;
+      merged(static_cast<Eigen::Index>(problem.numberOf(entry.multiplier)), columns[s][entry.unknown]) +=
+          entry.coefficient;
   sumEntries(*problem.comm, merged);
   return merged;
 }
@@ -104,12 +101,12 @@ Eigen::MatrixXd mergedConstraint(const DecomposedProblem& problem) {
 double smallestPivot(const DecomposedProblem& problem) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Subdomain& s : problem.subdomains) {
-    const auto n = static_cast<Eigen::Index>(s.remainderUnknowns.size());
+    const Eigen::Index n = s.remainderUnknowns.size();
     if (n == 0)
       continue;
     std::vector<Eigen::Triplet<double>> pick;
     for (Eigen::Index k = 0; k < n; ++k)
-      pick.emplace_back(s.remainderUnknowns[static_cast<std::size_t>(k)], k, 1.0);
+      pick.emplace_back(s.remainderUnknowns[k], k, 1.0);
     SparseMatrix select(s.stiffness->rows(), n);
     select.setFromTriplets(pick.begin(), pick.end());
     const SparseMatrix krr = select.transpose() * *s.stiffness * select;

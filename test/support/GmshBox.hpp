@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace epafi::output::test {
+namespace epafi::test {
 
 /// Lines of a rectangular grid in x, y and z; z empty in the plane.
 using GridLines = std::array<std::vector<double>, 3>;
@@ -47,7 +47,7 @@ public:
     if (last == 2)
       addSurface(cells, 3, 1, 0);
     addSurface(cells, 4, last, 0);
-    addSurface(cells, 5, last, counts_[static_cast<std::size_t>(last)] - 1);
+    addSurface(cells, 5, last, counts_[last] - 1);
     std::ostringstream file;
     file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n"
          << (last == 2 ? 5 : 4) << '\n'
@@ -97,7 +97,7 @@ private:
       for (const auto& facet : fem::facetsOf(type_)) {
         std::vector<int> nodes;
         for (int i = 0; i < corners; ++i)
-          nodes.push_back(cell.nodes[static_cast<std::size_t>(facet[static_cast<std::size_t>(i)])]);
+          nodes.push_back(cell.nodes[facet[i]]);
         bool liesThere = true;
         for (const int node : nodes)
           liesThere = liesThere && lineOf(node, direction) == line;
@@ -113,8 +113,8 @@ private:
     for (int node = 0; node < number; ++node) {
       file << node + 1;
       for (int d = 0; d < 3; ++d) {
-        const std::vector<double>& lines = lines_[static_cast<std::size_t>(d)];
-        file << ' ' << (lines.empty() ? 0.0 : lines[static_cast<std::size_t>(lineOf(node, d))]);
+        const std::vector<double>& lines = lines_[d];
+        file << ' ' << (lines.empty() ? 0.0 : lines[lineOf(node, d)]);
       }
       file << '\n';
     }
@@ -127,4 +127,4 @@ private:
   std::vector<Cell> cells_;
 };
 
-} // namespace epafi::output::test
+} // namespace epafi::test

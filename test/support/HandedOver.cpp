@@ -79,10 +79,10 @@ std::vector<SubdomainMatrix> matricesOf(const scene::Scene& scene, Supports supp
     matrix.load = assembledPart.load;
     matrix.coordinates.resize(matrix.load.size(), dimension);
     for (const int position : assembledPart.unknownPosition) {
-      const GlobalOrdinal node = assembledPart.nodes[static_cast<std::size_t>(position / components)];
-      const auto row = static_cast<Eigen::Index>(matrix.unknowns.size());
+      const GlobalOrdinal node = assembledPart.nodes[position / components];
+      const Eigen::Index row = matrix.unknowns.size();
       for (Eigen::Index c = 0; c < dimension; ++c)
-        matrix.coordinates(row, c) = bodies[b].mesh->point(node)[static_cast<std::size_t>(c)];
+        matrix.coordinates(row, c) = bodies[b].mesh->point(node)[c];
       matrix.unknowns.push_back((first[b] + node) * components + position % components);
       if (supports == Supports::prescribed)
         if (const auto value = supported[b]->prescribed(node, position % components))
@@ -109,7 +109,7 @@ ConstraintMatrix contactOf(const scene::Scene& scene, const Decomposition& decom
         continue;
       double gap = contact.gaps[k];
       const auto enter = [&](int body, GlobalOrdinal node, double sign) {
-        const auto b = static_cast<std::size_t>(body);
+        const std::size_t b = body;
         for (int c = 0; c < components; ++c) {
           const double value =
               sign *

@@ -52,7 +52,7 @@ RCP<MultiVector> spreadOn(const RCP<const Map>& map, const Eigen::MatrixXd& valu
 }
 
 Eigen::MatrixXd denseOf(const Operator& a) {
-  const auto n = static_cast<Eigen::Index>(a.getDomainMap()->getGlobalNumElements());
+  const Eigen::Index n = a.getDomainMap()->getGlobalNumElements();
   MultiVector image(a.getRangeMap(), static_cast<std::size_t>(n));
   a.apply(*spreadOn(a.getDomainMap(), Eigen::MatrixXd::Identity(n, n)), image);
   return denseOf(image);

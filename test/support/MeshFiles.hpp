@@ -57,7 +57,7 @@ inline Eigen::Vector3d vectorOf(const Point& point) {
 /// so.
 inline std::vector<Eigen::Vector3d> areaVectors(const Mesh& mesh, const Surface& surface) {
   std::vector<Eigen::Vector3d> vectors;
-  const auto count = static_cast<std::size_t>(surface.nodesPerFacet());
+  const std::size_t count = surface.nodesPerFacet();
   for (std::size_t f = 0; f < surface.elements.size(); ++f) {
     std::vector<Eigen::Vector3d> x;
     for (std::size_t i = 0; i < count; ++i)

@@ -44,11 +44,11 @@ inline RCP<Vector> makeVector(const RCP<const Map>& map, const Eigen::VectorXd& 
 
 /// The whole vector on every rank.
 inline Eigen::VectorXd gather(const Vector& x) {
-  const auto n = static_cast<Eigen::Index>(x.getGlobalLength());
+  const Eigen::Index n = x.getGlobalLength();
   Eigen::VectorXd mine = Eigen::VectorXd::Zero(n), all = Eigen::VectorXd::Zero(n);
   const auto values = qp::localData(x);
   for (std::size_t i = 0; i < values.size(); ++i)
-    mine[static_cast<Eigen::Index>(x.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)))] = values[i];
+    mine[x.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))] = values[i];
   Teuchos::reduceAll(*x.getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(n), mine.data(),
                      all.data());
   return all;

@@ -25,8 +25,7 @@ struct PrimalProblem {
 
 /// Where a subdomain's unknown lies among all nodes.
 Eigen::Index nodeOf(const PrimalProblem& primal, const decomposition::Subdomain& subdomain, int position) {
-  return primal.firstNode[static_cast<std::size_t>(subdomain.body)] +
-         static_cast<Eigen::Index>(subdomain.nodes[static_cast<std::size_t>(position)]);
+  return primal.firstNode[subdomain.body] + static_cast<Eigen::Index>(subdomain.nodes[position]);
 }
 
 std::vector<Eigen::Index> firstColumns(const model::Decomposition& decomposition) {
@@ -43,10 +42,9 @@ void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdoma
     node.push_back(nodeOf(primal, subdomain, position));
   for (int j = 0; j < subdomain.stiffness->outerSize(); ++j)
     for (decomposition::SparseMatrix::InnerIterator entry(*subdomain.stiffness, j); entry; ++entry)
-      primal.stiffness(node[static_cast<std::size_t>(entry.row())], node[static_cast<std::size_t>(j)]) +=
-          entry.value();
+      primal.stiffness(node[entry.row()], node[j]) += entry.value();
   for (std::size_t i = 0; i < node.size(); ++i) {
-    primal.load[node[i]] += subdomain.load[static_cast<Eigen::Index>(i)];
+    primal.load[node[i]] += subdomain.load[i];
     isFree[node[i]] += 1;
   }
   for (Eigen::Index i = 0; i < subdomain.prescribed.size(); ++i) {
@@ -57,8 +55,7 @@ void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdoma
   for (const auto& entry : subdomain.constraint) {
     const GlobalOrdinal row = problem.numberOf(entry.multiplier);
     if (row < problem.numInequalities)
-      primal.constraint(static_cast<Eigen::Index>(row), node[static_cast<std::size_t>(entry.unknown)]) +=
-          entry.coefficient;
+      primal.constraint(static_cast<Eigen::Index>(row), node[entry.unknown]) += entry.coefficient;
   }
   primal.energyOffset += subdomain.energyOffset;
 }
@@ -130,11 +127,7 @@ double largestJump(const model::Decomposition& decomposition, const ContactSolut
   for (std::size_t s = 0; s < solution.displacement.size(); ++s) {
     const auto& subdomain = decomposition.problem.subdomains[s];
     for (std::size_t i = 0; i < subdomain.nodes.size(); ++i)
-      jump = std::max(
-          jump,
-          std::abs(
-              solution.displacement[s][static_cast<Eigen::Index>(i)] -
-              mean[static_cast<std::size_t>(subdomain.body)][static_cast<Eigen::Index>(subdomain.nodes[i])]));
+      jump = std::max(jump, std::abs(solution.displacement[s][i] - mean[subdomain.body][subdomain.nodes[i]]));
   }
   return maxOverRanks(*decomposition.problem.comm, jump);
 }
@@ -161,7 +154,7 @@ PrimalSolution solveUndecomposed(const model::Decomposition& decomposition) {
   for (Eigen::Index i = 0; i < m; ++i)
     active.push_back(i);
   for (int step = 0; step < 100; ++step) { // [K Bᵀ; B 0] on the active rows, then the rows that want to be
-    const auto a = static_cast<Eigen::Index>(active.size());
+    const Eigen::Index a = active.size();
     Eigen::MatrixXd saddle = Eigen::MatrixXd::Zero(n + a, n + a);
     Eigen::VectorXd right(n + a);
     saddle.topLeftCorner(n, n) = k / unit;

@@ -66,7 +66,7 @@ inline std::vector<Point> withAllNodes(CellType type, const std::vector<Point>& 
       Point& point = points.emplace_back();
       for (std::size_t a = 0; a < corners.size(); ++a)
         for (std::size_t d = 0; d < 3; ++d)
-          point[d] += values[static_cast<Eigen::Index>(a)] * corners[a][d];
+          point[d] += values[a] * corners[a][d];
     }
     return points;
   });
@@ -143,7 +143,7 @@ inline std::vector<Point> planeFacedCell(CellType type) {
 /// straight.
 inline std::vector<Point> inverted(CellType type, std::vector<Point> points) {
   if (orderOf(type) == 2) {
-    points.resize(static_cast<std::size_t>(numCornersOf(type)));
+    points.resize(numCornersOf(type));
     return withAllNodes(type, inverted(withOrder(type, 1), std::move(points)));
   }
   if (type == CellType::hexahedron)
@@ -166,7 +166,7 @@ inline Eigen::Matrix3d rotation(CellType type, double angle) {
 inline std::vector<Point> facetPoints(CellType /*type*/, std::span<const Point> points, const Facet& facet) {
   std::vector<Point> corners;
   for (const int place : facet)
-    corners.push_back(points[static_cast<std::size_t>(place)]);
+    corners.push_back(points[place]);
   return corners;
 }
 
@@ -175,8 +175,7 @@ inline void addFacetLoad(CellType type, const Facet& facet, const Eigen::VectorX
                          Eigen::VectorXd& load) {
   const auto components = facetLoad.size() / nodesPerFacet(type);
   for (int i = 0; i < nodesPerFacet(type); ++i)
-    load.segment(facet[static_cast<std::size_t>(i)] * components, components) +=
-        facetLoad.segment(i * components, components);
+    load.segment(facet[i] * components, components) += facetLoad.segment(i * components, components);
 }
 
 /// The field x ↦ gradient·x + (1, −2, 3) at the corners, `components` values a node.

@@ -44,7 +44,7 @@ MeshArrays moved(const Mesh& mesh, const Map& map) {
     const Surface surface = mesh.surface(name);
     for (std::size_t f = 0; f < surface.numFacets(); ++f)
       for (int i = 0; i < numCornersOf(surface.facetType); ++i)
-        facets.nodes.push_back(static_cast<LocalOrdinal>(surface.facet(f)[static_cast<std::size_t>(i)]));
+        facets.nodes.push_back(static_cast<LocalOrdinal>(surface.facet(f)[i]));
   }
   return arrays;
 }
@@ -57,7 +57,7 @@ inline SimplexMesh unevenGrid(const std::array<int, 3>& elements, std::uint32_t 
   const auto shaken = [&](Point point) {
     bool isInside = true;
     for (int d = 0; d < grid.dimension(); ++d)
-      isInside = isInside && std::abs(point[static_cast<std::size_t>(d)] - 0.5) < 0.49;
+      isInside = isInside && std::abs(point[d] - 0.5) < 0.49;
     for (std::size_t d = 0; isInside && d < static_cast<std::size_t>(grid.dimension()); ++d)
       point[d] += 0.25 / elements[d] * random();
     return point;
@@ -94,7 +94,7 @@ inline double measureOfGroup(const Mesh& mesh, const std::string& name) {
   const std::vector<double> measures = measuresOf(mesh);
   double sum = 0;
   for (const GlobalOrdinal element : mesh.group(name))
-    sum += measures[static_cast<std::size_t>(element)];
+    sum += measures[element];
   return sum;
 }
 
@@ -102,7 +102,7 @@ inline double measureOfGroup(const Mesh& mesh, const std::string& name) {
 inline double measureOfSurface(const Mesh& mesh, const std::string& name) {
   const Surface surface = mesh.surface(name);
   std::vector<Point> points;
-  std::vector<double> shares(static_cast<std::size_t>(surface.nodesPerFacet()));
+  std::vector<double> shares(surface.nodesPerFacet());
   double sum = 0;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     mesh.pointsAt(surface.facet(f), points);

@@ -99,13 +99,12 @@ struct SolidRun {
   [[nodiscard]] Eigen::VectorXd displacement(int body) const {
     const decomposition::DecomposedProblem& problem = decomposition.problem;
     const int n = problem.components;
-    const auto numNodes =
-        static_cast<std::size_t>(decomposition.bodies[static_cast<std::size_t>(body)].mesh->numNodes());
+    const std::size_t numNodes = decomposition.bodies[body].mesh->numNodes();
     std::vector<double> sums(numNodes * static_cast<std::size_t>(n), 0.0), copies(numNodes, 0.0);
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
       const auto& subdomain = problem.subdomains[s];
       for (std::size_t k = 0; subdomain.body == body && k < subdomain.nodes.size(); ++k) {
-        const auto node = static_cast<std::size_t>(subdomain.nodes[k]);
+        const std::size_t node = subdomain.nodes[k];
         copies[node] += 1;
         for (int c = 0; c < n; ++c)
           sums[node * static_cast<std::size_t>(n) + static_cast<std::size_t>(c)] +=
@@ -116,7 +115,7 @@ struct SolidRun {
     sumOverRanks(*problem.comm, copies);
     Eigen::VectorXd u(static_cast<Eigen::Index>(sums.size()));
     for (std::size_t i = 0; i < sums.size(); ++i)
-      u[static_cast<Eigen::Index>(i)] = sums[i] / copies[i / static_cast<std::size_t>(n)];
+      u[i] = sums[i] / copies[i / static_cast<std::size_t>(n)];
     return u;
   }
 
@@ -128,12 +127,12 @@ struct SolidRun {
 private:
   [[nodiscard]] std::vector<double> onContactRows(const Vector& vector) const {
     const decomposition::DecomposedProblem& problem = decomposition.problem;
-    std::vector<double> rows(static_cast<std::size_t>(problem.numInequalities), 0.0);
+    std::vector<double> rows(problem.numInequalities, 0.0);
     const auto values = vector.getData();
     for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
       if (const auto row = problem.multiplierMap->getGlobalElement(static_cast<LocalOrdinal>(i));
           row < problem.numInequalities)
-        rows[static_cast<std::size_t>(row)] = values[i];
+        rows[row] = values[i];
     sumOverRanks(*problem.comm, rows);
     return rows;
   }

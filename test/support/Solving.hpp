@@ -35,8 +35,8 @@ inline BenchmarkSolution solve(const benchmarks::BoundBenchmark& benchmark, doub
 
 /// The whole matrix on every rank.
 inline Eigen::MatrixXd dense(const Operator& a) {
-  const auto n = static_cast<Eigen::Index>(a.getDomainMap()->getGlobalNumElements());
-  const auto m = static_cast<Eigen::Index>(a.getRangeMap()->getGlobalNumElements());
+  const Eigen::Index n = a.getDomainMap()->getGlobalNumElements();
+  const Eigen::Index m = a.getRangeMap()->getGlobalNumElements();
   Eigen::MatrixXd result(m, n);
   Vector image(a.getRangeMap());
   for (Eigen::Index k = 0; k < n; ++k) {

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-namespace epafi::output::test {
+namespace epafi::test {
 
 /// An empty directory that all ranks know; it goes with the object. Construction and destruction are
 /// collective.
@@ -51,4 +51,4 @@ private:
   std::filesystem::path path_;
 };
 
-} // namespace epafi::output::test
+} // namespace epafi::test

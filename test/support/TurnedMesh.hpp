@@ -65,7 +65,7 @@ inline NamedFacets facetsOn(const Mesh& mesh, const std::string& name, const Mes
     for (const Facet& facet : facetsOf(arrays.cellType)) {
       std::vector<LocalOrdinal> own;
       for (const int place : facet)
-        own.push_back(nodes[static_cast<std::size_t>(place)]);
+        own.push_back(nodes[place]);
       std::vector<LocalOrdinal> key = own;
       std::sort(key.begin(), key.end());
       auto& entry = seen[key];
@@ -92,12 +92,12 @@ inline MeshArrays arraysOf(const Mesh& mesh, const Placement& placement, bool si
     arrays.points.push_back({x[0], x[1], isPlane ? 0.0 : x[2]});
     arrays.nodeTags.push_back(node + 1);
   }
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     mesh.elementNodes(element, nodes);
     for (const auto& piece : pieces(mesh.cellType(), simplices))
       for (const int corner : piece)
-        arrays.cells.push_back(static_cast<LocalOrdinal>(nodes[static_cast<std::size_t>(corner)]));
+        arrays.cells.push_back(static_cast<LocalOrdinal>(nodes[corner]));
   }
   for (LocalOrdinal element = 0; element < arrays.numElements(); ++element)
     arrays.elementTags.push_back(element + 1);
@@ -153,7 +153,7 @@ inline std::string fileOf(const MeshArrays& arrays, std::size_t perElement = 0) 
       elements << '\n';
     }
   };
-  const auto perFacet = static_cast<std::size_t>(numCornersOf(facetTypeOf(arrays.cellType)));
+  const std::size_t perFacet = numCornersOf(facetTypeOf(arrays.cellType));
   for (std::size_t s = 0; s < arrays.surfaces.size(); ++s)
     write(arrays.surfaces[s].nodes, perFacet, dimension - 1, s + 2);
   write(arrays.cells, perElement > 0 ? perElement : static_cast<std::size_t>(numNodesOf(arrays.cellType)),

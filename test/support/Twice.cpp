@@ -60,14 +60,12 @@ double Twice::difference() const {
     for (std::size_t position = 0; position < global.size(); ++position) {
       if (global[position] < 0)
         continue;
-      const GlobalOrdinal node =
-          global[position] / problem.components - first[static_cast<std::size_t>(subdomain.body)];
+      const GlobalOrdinal node = global[position] / problem.components - first[subdomain.body];
       const auto place = std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), node);
       const double expected =
           u[(place - subdomain.nodes.begin()) * problem.components + global[position] % problem.components];
       largest = std::max(largest, std::abs(expected));
-      difference = std::max(
-          difference, std::abs(expected - solution.displacement[s][static_cast<Eigen::Index>(position)]));
+      difference = std::max(difference, std::abs(expected - solution.displacement[s][position]));
     }
   }
   return maxOverRanks(*world(), difference) / maxOverRanks(*world(), largest);

@@ -66,14 +66,14 @@ simulation::SceneRun solve(const scene::Scene& scene, double tolerance) {
 
 Eigen::VectorXd deflection(const simulation::SceneRun& run, int body) {
   const auto& problem = run.decomposition->problem;
-  const auto& mesh = *run.decomposition->bodies[static_cast<std::size_t>(body)].mesh;
+  const auto& mesh = *run.decomposition->bodies[body].mesh;
   const Eigen::Index n = problem.components;
-  const auto numNodes = static_cast<Eigen::Index>(mesh.numNodes());
+  const Eigen::Index numNodes = mesh.numNodes();
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(n * numNodes), copies = Eigen::VectorXd::Zero(n * numNodes);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
     if (problem.subdomains[s].body == body)
       for (std::size_t i = 0; i < problem.subdomains[s].nodes.size(); ++i) {
-        const auto node = static_cast<Eigen::Index>(problem.subdomains[s].nodes[i]);
+        const Eigen::Index node = problem.subdomains[s].nodes[i];
         sum.segment(n * node, n) += run.solution.displacement[s].segment(n * static_cast<Eigen::Index>(i), n);
         copies.segment(n * node, n).array() += 1;
       }

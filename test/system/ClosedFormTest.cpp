@@ -45,7 +45,7 @@ void expectExact(const Column& column, const scene::Scene& scene) {
   EXPECT_NEAR(run.solution.contactForce, column.force(), 1e-9);
   for (int body = 0; body < 2; ++body) {
     const Eigen::VectorXd u = test::deflection(run, body);
-    const auto& mesh = *run.decomposition->bodies[static_cast<std::size_t>(body)].mesh;
+    const auto& mesh = *run.decomposition->bodies[body].mesh;
     double error = 0;
     for (Eigen::Index node = 0; node < u.size(); ++node) {
       const double x = mesh.point(node)[0];

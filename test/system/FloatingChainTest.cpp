@@ -45,7 +45,7 @@ TEST(FloatingChainTest, EveryChainPressedDownHasItsSolutionHoweverItIsCut) {
   std::uniform_real_distribution<double> exponent(-2.0, 1.0);
   std::uniform_int_distribution<int> bodies(2, 7);
   for (int repeat = 0; repeat < 20; ++repeat) {
-    std::vector<double> loads(static_cast<std::size_t>(bodies(random)));
+    std::vector<double> loads(bodies(random));
     for (double& load : loads)
       load = -std::pow(10.0, exponent(random));
     const scene::Scene scene = chain(loads, 3);

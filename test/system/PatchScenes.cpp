@@ -70,7 +70,7 @@ fem::MeshArrays curved(fem::MeshArrays arrays) {
   for (std::size_t node = 0; node < arrays.points.size(); ++node)
     for (int d = 0;
          d < dimensionOf(arrays.cellType) && !topology.isOnBoundary(static_cast<LocalOrdinal>(node)); ++d)
-      arrays.points[node][static_cast<std::size_t>(d)] += 0.01 * random();
+      arrays.points[node][d] += 0.01 * random();
   return arrays;
 }
 

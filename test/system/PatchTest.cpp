@@ -73,7 +73,7 @@ double displacementError(const SolidRun& run, const UniaxialStress& exact) {
   double error = 0;
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
-    const fem::Mesh& mesh = *run.decomposition.bodies[static_cast<std::size_t>(subdomain.body)].mesh;
+    const fem::Mesh& mesh = *run.decomposition.bodies[subdomain.body].mesh;
     for (std::size_t k = 0; k < subdomain.nodes.size(); ++k) {
       const Eigen::Vector3d expected = exact.displacement(subdomain.body, mesh.point(subdomain.nodes[k]));
       for (int c = 0; c < n; ++c) {
@@ -87,11 +87,11 @@ double displacementError(const SolidRun& run, const UniaxialStress& exact) {
 
 /// Largest error of the stress over all elements of a body.
 double stressError(const SolidRun& run, const scene::Scene& scene, int body, const UniaxialStress& exact) {
-  const fem::Mesh& mesh = *run.decomposition.bodies[static_cast<std::size_t>(body)].mesh;
-  const scene::Body& solid = scene.bodies[static_cast<std::size_t>(body)];
+  const fem::Mesh& mesh = *run.decomposition.bodies[body].mesh;
+  const scene::Body& solid = scene.bodies[body];
   const Eigen::VectorXd u = run.displacement(body);
   const int n = run.decomposition.problem.components;
-  std::vector<GlobalOrdinal> nodes(static_cast<std::size_t>(mesh.nodesPerElement()));
+  std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
   double error = 0;
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     mesh.elementNodes(element, nodes);

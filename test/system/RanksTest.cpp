@@ -18,7 +18,7 @@ void expectTheAnswerOfOneRank(const scene::Scene& scene) {
   for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {
     const Eigen::VectorXd expected = test::deflection(alone, body);
     EXPECT_EQ((test::deflection(together, body) - expected).lpNorm<Eigen::Infinity>(), 0.0)
-        << scene.bodies[static_cast<std::size_t>(body)].name;
+        << scene.bodies[body].name;
   }
   EXPECT_EQ(together.solution.energy, alone.solution.energy);
   const qp::StepCounts &here = together.solver->report().counts, &there = alone.solver->report().counts;

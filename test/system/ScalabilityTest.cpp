@@ -17,7 +17,7 @@ enum class Load { pressed, halfLifted };
 
 /// \param cuts  1/H; METIS makes as many parts as a grid would. \param elements  H/h
 scene::Scene twoBlocks(int dimension, Load load, Decomposition::Method method, int cuts, int elements) {
-  const auto up = static_cast<std::size_t>(dimension - 1);
+  const std::size_t up = dimension - 1;
   scene::Scene scene;
   Decomposition cut;
   cut.method = method;

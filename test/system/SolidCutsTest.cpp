@@ -41,7 +41,7 @@ Physical Surface("left") = {1, 7}; Physical Surface("front") = {3, 9};
 
 scene::Scene halfOpen(const Case& c, const MeshFolder& folder) {
   const bool isSpace = c.dimension == 3;
-  const auto up = static_cast<std::size_t>(c.dimension - 1);
+  const std::size_t up = c.dimension - 1;
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
     const scene::Box box = isSpace ? scene::Box{{0, 0, 1.0 * level}, {1, 1, 1.0 + level}}

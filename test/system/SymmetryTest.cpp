@@ -18,7 +18,7 @@ using namespace test;
 /// \param half  the directions in which half of it is left out, behind a sliding plane
 scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
   const bool isSpace = dimension == 3;
-  const auto up = static_cast<std::size_t>(dimension - 1);
+  const std::size_t up = dimension - 1;
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
     const int cells = level == 0 ? (isSpace ? 8 : 24) : (isSpace ? 6 : 16);
@@ -73,7 +73,7 @@ std::map<std::array<long, 3>, Value> byPlace(const fem::Mesh& mesh, const std::v
 }
 
 const fem::Mesh& meshOfBody(const SolidRun& run, int body) {
-  return *run.decomposition.bodies[static_cast<std::size_t>(body)].mesh;
+  return *run.decomposition.bodies[body].mesh;
 }
 
 std::map<std::array<long, 3>, Eigen::VectorXd> displacements(const SolidRun& run, int body) {

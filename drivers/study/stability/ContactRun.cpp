@@ -59,14 +59,14 @@ std::vector<Eigen::VectorXd> nodalValues(const model::Decomposition& decompositi
   weights = sums;
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const decomposition::Subdomain& subdomain = problem.subdomains[s];
-    const auto body = static_cast<std::size_t>(subdomain.body);
+    const std::size_t body = subdomain.body;
     Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.nodes.size()));
     for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i)
       stiffness[subdomain.unknownPosition[i] / n] +=
           subdomain.stiffness->coeff(static_cast<int>(i), static_cast<int>(i));
     for (Eigen::Index k = 0; k < stiffness.size(); ++k) {
       const double weight = stiffness[k] > 0 ? stiffness[k] : 1.0;
-      const Eigen::Index at = n * static_cast<Eigen::Index>(subdomain.nodes[static_cast<std::size_t>(k)]);
+      const Eigen::Index at = n * static_cast<Eigen::Index>(subdomain.nodes[k]);
       sums[body].segment(at, n) += weight * solution.displacement[s].segment(n * k, n);
       weights[body].segment(at, n).array() += weight;
     }
@@ -87,7 +87,7 @@ Eigen::VectorXd contactForces(const decomposition::DecomposedProblem& problem, c
   for (Teuchos_Ordinal i = 0; i < values.size(); ++i) {
     const auto row = static_cast<LocalOrdinal>(i);
     if (problem.kindOf(decomposition::OwnedMultiplier(row)) != decomposition::RowKind::gluing)
-      forces[static_cast<Eigen::Index>(problem.multiplierMap->getGlobalElement(row))] = values[i];
+      forces[problem.multiplierMap->getGlobalElement(row)] = values[i];
   }
   sum(*problem.comm, forces);
   return forces;

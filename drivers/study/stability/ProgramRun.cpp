@@ -37,7 +37,7 @@ RCP<Vector> spread(const RCP<const Map>& map, const Eigen::VectorXd& values) {
   const RCP<Vector> x = rcp(new Vector(map));
   const auto mine = x->getDataNonConst();
   for (Teuchos_Ordinal i = 0; i < mine.size(); ++i)
-    mine[i] = values[static_cast<Eigen::Index>(map->getGlobalElement(static_cast<LocalOrdinal>(i)))];
+    mine[i] = values[map->getGlobalElement(static_cast<LocalOrdinal>(i))];
   return x;
 }
 
@@ -45,11 +45,11 @@ RCP<Vector> spread(const RCP<const Map>& map, const Eigen::VectorXd& values) {
 Eigen::VectorXd gathered(const RCP<const Vector>& x) {
   if (x.is_null())
     return {};
-  const auto n = static_cast<Eigen::Index>(x->getGlobalLength());
+  const Eigen::Index n = x->getGlobalLength();
   Eigen::VectorXd mine = Eigen::VectorXd::Zero(n), all = mine;
   const auto values = x->getData();
   for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
-    mine[static_cast<Eigen::Index>(x->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)))] = values[i];
+    mine[x->getMap()->getGlobalElement(static_cast<LocalOrdinal>(i))] = values[i];
   Teuchos::reduceAll(*x->getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(n), mine.data(),
                      all.data());
   return all;
