@@ -9,7 +9,7 @@ from . import style, table
 COLUMNS = ["problem", "size", "method", "preconditioner", "start", "hessian_multiplications"]
 # method, preconditioner, start: the rows that tell the story, from many products to few.
 SERIES = {
-    ("published", "none", "zero"): ("MPRGP as published", style.GREY, "v"),
+    ("fixed_step", "none", "zero"): ("fixed expansion steps", style.GREY, "v"),
     ("projected_cg", "none", "zero"): ("projected CG", style.BLUE, "o"),
     ("projected_cg", "none", "nested"): ("projected CG, nested start", style.SKY, "D"),
     ("projected_cg", "multigrid", "zero"): ("multigrid in face", style.ORANGE, "s"),

@@ -11,7 +11,7 @@ namespace {
 
 /// Products of PERMON 3.18's plain MPGP on the journal bearing, tolerance 1e-6; not known elsewhere.
 Row::Value permonMultiplications(const QpCase& row) {
-  if (row.problem != "journal_bearing" || methodName(row) != "published" || row.preconditioner != "none")
+  if (row.problem != "journal_bearing" || methodName(row) != "fixed_step" || row.preconditioner != "none")
     return {};
   return row.size == 100   ? Row::Value(444)
          : row.size == 200 ? Row::Value(1393)

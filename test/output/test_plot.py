@@ -32,8 +32,8 @@ HISTORY = """iteration,outer,step,projected_gradient,constraint_residual,objecti
 1,0,c,0.1,0.25,-1,3,2
 """
 QP = """problem,size,method,preconditioner,start,hessian_multiplications,status,permon_multiplications
-journal_bearing,100,published,none,zero,504,Converged,444
-journal_bearing,200,published,none,zero,1780,MaxIterations,1393
+journal_bearing,100,fixed_step,none,zero,504,Converged,444
+journal_bearing,200,fixed_step,none,zero,1780,MaxIterations,1393
 journal_bearing,100,projected_cg,none,zero,416,Converged,
 journal_bearing,200,projected_cg,none,zero,1078,Converged,
 torsion,100,projected_cg,face_multigrid,nested,18,Converged,
