@@ -101,8 +101,8 @@ void joinClusters(CoarserScene& coarser, int numRanks) {
 }
 
 /// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Before
-/// the run is set up, and without its factors: there is memory for one set of them. What goes wrong there is
-/// no matter. Collective.
+/// the run is set up, and without its factors: there is memory for one set of them. What goes wrong there
+/// does not end the run, and its result tells of it. Collective.
 std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
                                            const RCP<const Comm>& comm, const RunOptions& options) {
   constexpr double enough = 1e-4; // meshes differ by more
