@@ -171,11 +171,11 @@ std::optional<Status> ActiveSetIteration::minimise(int maxSteps) {
 /// Whether the set goes on for ever where the last direction leads down, or nearly so.
 bool ActiveSetIteration::isEndless() {
   constexpr double mostOff = 0.1;
-  inside_.update(on_.slope() > 0 ? -1.0 : 1.0, on_.direction(), 0.0);
-  copy(inside_, next_);
+  work_.update(on_.slope() > 0 ? -1.0 : 1.0, on_.direction(), 0.0);
+  copy(work_, next_);
   set_.recessionCone(objective_.map())->project(next_);
-  addScaled(-1.0, inside_, next_);
-  return accurateNorm(next_) <= mostOff * accurateNorm(inside_);
+  addScaled(-1.0, work_, next_);
+  return accurateNorm(next_) <= mostOff * accurateNorm(work_);
 }
 
 /// Whether CG has done what the tolerance asks for, with something to spare.
@@ -217,15 +217,15 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
 bool ActiveSetIteration::isSolved() {
   copy(on_.x, inside_);
   set_.project(inside_);
-  set_.choppedGradient(inside_, on_.gradient(), 0.0, work_);
+  set_.projectedGradient(inside_, on_.gradient(), 0.0, work_);
   reduction_.clear();
   {
     const auto on = localData(on_.face), wrong = localData(work_), x = localData(on_.x),
                inside = localData(inside_);
     const auto sums = reduction_.sums();
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double chopped = (1 - on[i]) * wrong[i], out = x[i] - inside[i];
-      sums[0].add(chopped * chopped);
+      const double off = (1 - on[i]) * wrong[i], out = x[i] - inside[i];
+      sums[0].add(off * off);
       sums[1].add(out * out);
       sums[2].add(x[i] * x[i]);
       sums[3].add(1 - on[i]);

@@ -197,7 +197,9 @@ void Mprgp::step(const StepSizes& sizes, StepKind kind) {
   const bool hasCurvature = sizes.curvature > objective_.zeroCurvature(sizes.squared);
   const double exact = hasCurvature ? sizes.slope / sizes.curvature : sizes.feasible;
   move(std::min(exact, sizes.feasible), sizes);
-  lastCurvature_ = sizes.curvature;
+  lastCurvature_.reset(); // a step that ends at a bound leaves its face: the next direction starts anew
+  if (isConjugateGradient || exact <= sizes.feasible)
+    lastCurvature_ = sizes.curvature;
 }
 
 /// x −= αp, g −= αAp, f follows: f(x − αp) = f − α gᵀp + ½α² pᵀAp. Streams x, g, p, Ap, l, u.

@@ -121,6 +121,38 @@ TEST(ActiveSetsTest, GoesOnInTheSetWhereFacesDoNotSettle) {
   }
 }
 
+/// Of two entries that act alike one is worth more: where both may move, the face has no minimum, and forces
+/// grow until round-off ends that. The bounds are not 0, so that a step along a direction is no point of the
+/// set.
+TEST(ActiveSetsTest, EntriesThatActAlikeEndInThoseThatAreWorthMost) {
+  std::mt19937 random(11);
+  for (int problemNumber = 0; problemNumber < 100; ++problemNumber) {
+    SCOPED_TRACE(problemNumber);
+    Problem problem{test::randomProblem(16, 1, 1e4, random)};
+    problem.lower.setConstant(-0.1);
+    if (problemNumber % 2 == 0)
+      problem.g.resize(0, 16);
+    for (int i = 0; i < 6; ++i) {
+      problem.a.row(i + 8) = problem.a.row(i);
+      problem.a.col(i + 8) = problem.a.col(i);
+      problem.b[i + 8] = problem.b[i] - 1e-3;
+      if (problem.g.rows() > 0)
+        problem.g(0, i + 8) = problem.g(0, i);
+    }
+    if (problem.g.rows() > 0)
+      problem.g.row(0).normalize();
+
+    const Answer answer = solve(problem, 1e-8, Eigen::VectorXd::Ones(16));
+
+    EXPECT_TRUE(answer.report.status == Status::converged || answer.report.status == Status::stagnated);
+    EXPECT_GE((answer.x - problem.lower).minCoeff(), 0.0);
+    if (answer.report.status == Status::converged) {
+      EXPECT_LE(test::projectedGradient(problem, answer.x), 1.01e-8 * problem.b.norm());
+      EXPECT_LE((answer.x - problem.lower).segment(8, 6).maxCoeff(), 0.0);
+    }
+  }
+}
+
 TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
   std::mt19937 random(1);
   int numSettled = 0;
