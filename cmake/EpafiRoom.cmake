@@ -4,8 +4,8 @@
 set(EPAFI_INCLUDE_ROOT "${PROJECT_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${EPAFI_INCLUDE_ROOT}/epafi")
 
-# Warnings and sanitizers for our own code.
-function(epafi_flags target)
+# Warnings for our own code.
+function(epafi_warnings target)
   # Programs are compiled as libraries are, so that they share precompiled headers.
   # GCC looks for garbage that it could free again and again; with a gigabyte to fill first it compiles in less time, and takes a fifth more memory.
   target_compile_options(${target} PRIVATE -fPIC
@@ -14,10 +14,15 @@ function(epafi_flags target)
   if(EPAFI_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+endfunction()
+
+# The same, and sanitizers, with assertions.
+function(epafi_flags target)
+  epafi_warnings(${target})
   if(EPAFI_SANITIZE)
     # GCC 12 takes sanitized code of Eigen for uninitialized. Null pointers and what lies outside of objects are what the
     # address sanitizer sees; without these checks, and that of alignment, code compiles in two thirds of the time.
-    target_compile_options(${target} PRIVATE -fsanitize=${EPAFI_SANITIZE} -fno-omit-frame-pointer
+    target_compile_options(${target} PRIVATE -O1 -g1 -UNDEBUG -fsanitize=${EPAFI_SANITIZE} -fno-omit-frame-pointer
                                              -fno-sanitize=null,alignment,object-size
                                              -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
@@ -35,17 +40,17 @@ function(epafi_own_code target)
   endif()
 endfunction()
 
-# epafi_precompiled_headers(<target> HEADERS <a.hpp> ... USES Epafi::eigen ...): what epafi_own_code takes.
+# epafi_precompiled_headers(<target> FLAGS epafi_flags HEADERS <a.hpp> ... USES Epafi::eigen ...): what epafi_own_code takes, with the flags of its users.
 function(epafi_precompiled_headers target)
-  cmake_parse_arguments(PARSE_ARGV 1 PRECOMPILED "" "" "HEADERS;USES")
+  cmake_parse_arguments(PARSE_ARGV 1 PRECOMPILED "" "FLAGS" "HEADERS;USES")
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/${target}.cpp" CONTENT "")
   add_library(${target} OBJECT "${PROJECT_BINARY_DIR}/${target}.cpp")
   target_link_libraries(${target} PRIVATE ${PRECOMPILED_USES})
   target_precompile_headers(${target} PRIVATE ${PRECOMPILED_HEADERS})
-  epafi_flags(${target})
+  cmake_language(CALL ${PRECOMPILED_FLAGS} ${target})
 endfunction()
 
-epafi_precompiled_headers(epafi_precompiled
+epafi_precompiled_headers(epafi_precompiled FLAGS epafi_flags
   HEADERS <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory> <numeric> <optional> <span> <sstream>
           <string> <utility> <vector> <Eigen/Core>
           <Teuchos_CommHelpers.hpp> <Teuchos_ParameterList.hpp>
@@ -93,6 +98,9 @@ function(epafi_library target name)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   epafi_own_code(${target})
   epafi_unite(${target})
+  if(EPAFI_SANITIZE) # what a shared library calls of itself is sanitized, whatever else a program has of templates
+    target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions)
+  endif()
   if(EPAFI_INSTALL)
     epafi_install_library(${target} ${name} USES Epafi::headers ${LIBRARY_USES} NEEDS ${LIBRARY_NEEDS})
   endif()

@@ -4,15 +4,19 @@
 
 find_package(GTest REQUIRED)
 
-# Tests take longer to compile than to run: they are optimised less, and GCC 12 takes some of Eigen for uninitialized then.
+# Tests take longer to compile than to run: they are optimised less, and GCC 12 takes some of Eigen for uninitialized then. Sanitized is what
+# they test, not they: their objects are those of the release.
 function(epafi_test_code target)
-  epafi_flags(${target})
+  epafi_warnings(${target})
+  if(EPAFI_SANITIZE)
+    target_link_options(${target} PRIVATE -fsanitize=${EPAFI_SANITIZE})
+  endif()
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/test")
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_precompile_headers(${target} REUSE_FROM epafi_precompiled_tests)
 endfunction()
 
-epafi_precompiled_headers(epafi_precompiled_tests
+epafi_precompiled_headers(epafi_precompiled_tests FLAGS epafi_warnings
   HEADERS <algorithm> <cmath> <limits> <map> <random> <set> <sstream> <string> <vector> <Eigen/Dense> <gtest/gtest.h>
           <Teuchos_CommHelpers.hpp> <Teuchos_ParameterList.hpp> <Tpetra_Core.hpp>
           <Tpetra_CrsMatrix.hpp> <Tpetra_Import.hpp> <Tpetra_Map.hpp> <Tpetra_Operator.hpp> <Tpetra_Vector.hpp>
@@ -50,8 +54,7 @@ function(epafi_test name)
   endif()
   add_executable(test_${name} ${TEST_SOURCES} ${TEST_ALONE})
   target_link_libraries(test_${name} PRIVATE epafi_test_main ${TEST_USES})
-  target_compile_definitions(test_${name} PRIVATE EPAFI_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                                  EPAFI_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_compile_definitions(test_${name} PRIVATE EPAFI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   epafi_test_code(test_${name})
   epafi_unite(test_${name} 12)
   set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
