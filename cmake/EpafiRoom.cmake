@@ -22,7 +22,9 @@ function(epafi_flags target)
   if(EPAFI_SANITIZE)
     # GCC 12 takes sanitized code of Eigen for uninitialized. Null pointers and what lies outside of objects are what the
     # address sanitizer sees; without these checks, and that of alignment, code compiles in two thirds of the time.
+    # Eigen allocates otherwise when sanitized, unless it is told not to; tests free what libraries allocate.
     target_compile_options(${target} PRIVATE -O1 -g1 -UNDEBUG -fsanitize=${EPAFI_SANITIZE} -fno-omit-frame-pointer
+                                             -DEIGEN_MALLOC_ALREADY_ALIGNED=1
                                              -fno-sanitize=null,alignment,object-size
                                              -fno-sanitize-recover=undefined -D_GLIBCXX_ASSERTIONS
                                              $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
