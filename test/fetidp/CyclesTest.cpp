@@ -19,9 +19,6 @@ double peakMemory() {
 }
 
 TEST(CyclesTest, MemoryStaysFlatWhateverIsSetUpSolvedAndUpdated) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer keeps what is freed";
-#endif
   scene::Scene scene = twoMembranes(false, 24, grid(3, 3));
   setHalves(scene.bodies[0], 4.0, -5.0);
   setHalves(scene.bodies[1], -3.0, 2.0);
