@@ -1,6 +1,6 @@
 #include "JointEnd.hpp"
 
-#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/base/PeakMemory.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/HeldSignal.hpp"
@@ -120,7 +120,7 @@ int endTogether(const Comm& comm, const std::function<int()>& work, double patie
 
 int runMain(int argc, char** argv, const std::string& program,
             const std::function<int(const RCP<const Comm>&)>& work) {
-  simulation::keepFreedMemory();
+  keepFreedMemory();
   startLean();
   int programNameOnly = std::min(argc, 1); // Kokkos would answer --help itself
   const Tpetra::ScopeGuard scope = [&] {

@@ -31,7 +31,7 @@ scene::Scene inOnePieceEach(scene::Scene scene) {
 std::vector<int> firstUnknowns(const DecomposedProblem& problem) {
   std::vector<int> first{0};
   for (const Subdomain& subdomain : problem.subdomains)
-    first.push_back(first.back() + static_cast<int>(subdomain.load.size()));
+    first.push_back(first.back() + static_cast<int>(subdomain.stiffness->rows()));
   return first;
 }
 
@@ -130,7 +130,7 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
   system.stiffness = blockDiagonal(problem, first);
   system.constraint = contactRows(problem, first);
   system.numContacts = problem.numInequalities;
-  const auto gap = problem.gap->getData();
+  const auto gap = decomposition.data.gap().getData();
   system.gap = Eigen::Map<const Eigen::VectorXd>(gap.getRawPtr(), gap.size());
   system.load.resize(first.back());
   system.body.resize(first.back());
@@ -139,9 +139,10 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
   system.direction.resize(3, first.back());
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const Subdomain& subdomain = problem.subdomains[s];
-    system.load.segment(first[s], subdomain.load.size()) = subdomain.load;
-    system.energyOffset += subdomain.energyOffset;
-    Eigen::VectorXd prescribed = subdomain.prescribed;
+    const decomposition::SubdomainData& data = decomposition.data.subdomains()[s];
+    system.load.segment(first[s], data.load.size()) = data.rightHandSide();
+    system.energyOffset += data.energyOffset();
+    Eigen::VectorXd prescribed = data.prescribed;
     decomposition::toSpace(subdomain, prescribed);
     Eigen::VectorXd& all = system.prescribed[subdomain.body];
     for (std::size_t k = 0; k < subdomain.nodes.size(); ++k)

@@ -86,43 +86,45 @@ ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters) {
         "choose \"dirichlet\" or \"lumped\", or a tolerance that is a number.");
 }
 
-void ContactSolver::setup(const decomposition::DecomposedProblem& problem) {
+void ContactSolver::setup(const decomposition::DecomposedProblem& problem,
+                          const decomposition::ProblemData& data) {
   problem_ = &problem;
-  factorise(nullptr);
+  factorise(data, nullptr);
 }
 
-void ContactSolver::update() {
+void ContactSolver::update(const decomposition::ProblemData& data) {
   if (!inverse_)
     throw Error("ContactSolver::update was called before ContactSolver::setup; call setup first");
-  factorise(std::move(inverse_)); // none is left should this fail
+  factorise(data, std::move(inverse_)); // none is left should this fail
 }
 
 /// What follows from the matrices. \param earlier  of the same problem, or null
-void ContactSolver::factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier) {
+void ContactSolver::factorise(const decomposition::ProblemData& data,
+                              std::shared_ptr<fetidp::GeneralizedInverse> earlier) {
   const double start = Teuchos::Time::wallTime();
   dual_.reset(); // should this fail, there is none
   fetidp::requireFiniteMatrices(*problem_);
   inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, directSolvers_, std::move(earlier));
-  dual_ = std::make_unique<fetidp::DualProblem>(*problem_, inverse_, dualParameters_);
+  dual_ = std::make_unique<fetidp::DualProblem>(*problem_, data, inverse_, dualParameters_);
   times_ = {};
   times_.setup = longest(*problem_->comm, start);
 }
 
-fetidp::ContactSolution ContactSolver::solve(const Vector* start, qp::Observer* observer,
-                                             const fetidp::ErrorBalance* balance) {
+fetidp::ContactSolution ContactSolver::solve(const decomposition::ProblemData& data, const Vector* start,
+                                             qp::Observer* observer, const fetidp::ErrorBalance* balance) {
   if (!dual_)
     throw Error("ContactSolver::solve was called before ContactSolver::setup; call setup first");
   const double solveStart = Teuchos::Time::wallTime();
   qp::Interruption interruption(dualParameters_.mprgp.timeLimit);
   interruption.setObserver(observer);
-  const fetidp::DualSolution dual = dual_->solve(start, observer, balance);
+  const fetidp::DualSolution dual = dual_->solve(data, start, observer, balance);
   report_ = dual.report;
   times_.solve = longest(*problem_->comm, solveStart);
 
   const double recoveryStart = Teuchos::Time::wallTime();
-  fetidp::ContactSolution solution = fetidp::recover(*dual_, dual);
+  fetidp::ContactSolution solution = fetidp::recover(*dual_, data, dual);
   if (!dualParameters_.isBalanced)
-    settle(dual, interruption, solution);
+    settle(data, dual, interruption, solution);
   solution.algebraicError = algebraicErrorOf(solution);
   confirm(solution, dual.errorTarget);
   times_.recovery = longest(*problem_->comm, recoveryStart);
@@ -136,15 +138,8 @@ double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) 
     return 0;
   if (dual_->preconditioner().is_null())
     return std::numeric_limits<double>::quiet_NaN();
-  Vector gradient(*solution.slack, Teuchos::Copy), image(gradient.getMap());
-  {
-    const auto g = gradient.getDataNonConst();
-    const auto lambda = solution.multiplier->getData();
-    for (LocalOrdinal row = 0; row < g.size(); ++row)
-      if (problem_->kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact &&
-          !(lambda[row] > 0))
-        g[row] = std::min(g[row], 0.0);
-  }
+  Vector gradient(solution.slack->getMap()), image(gradient.getMap());
+  dual_->feasibleForces()->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
   dual_->preconditioner()->apply(gradient, image);
   return std::sqrt(std::max(0.0, accurateDot(gradient, image)));
 }
@@ -162,8 +157,8 @@ double allowedViolation(double tolerance) {
 /// ‖d̃‖ can be huge beside the displacements, where a body or a part of it hardly hangs on anything: the
 /// tolerance is met long before the constraints are. And round-off may end an iteration that is not far from
 /// its tolerance: responses to what is left of the gradient go on from there.
-void ContactSolver::settle(fetidp::DualSolution dual, const qp::Interruption& interruption,
-                           fetidp::ContactSolution& solution) {
+void ContactSolver::settle(const decomposition::ProblemData& data, fetidp::DualSolution dual,
+                           const qp::Interruption& interruption, fetidp::ContactSolution& solution) {
   const double tolerance = dualParameters_.tolerance, allowed = allowedViolation(tolerance);
   constexpr double roundOff = 1e-13; // of u itself, which rows that are closed to the last digit do not tell
   const bool isRough = solution.relativeProjectedGradient > 2 * tolerance,
@@ -176,7 +171,7 @@ void ContactSolver::settle(fetidp::DualSolution dual, const qp::Interruption& in
   dual.report.status = qp::Status::converged; // if this is well with the rest
   const double asked = isRough ? 0.1 * tolerance * dual.reference : 0.0;
   const std::optional<fetidp::ContactSolution> settled =
-      fetidp::recoverSettled(*dual_, dual, {0.01 * allowed, asked}, report_, interruption);
+      fetidp::recoverSettled(*dual_, data, dual, {0.01 * allowed, asked}, report_, interruption);
   if (!settled || report_.status == qp::Status::interrupted || report_.status == qp::Status::timeLimit)
     return;
   if (settled->equilibrium > std::max(2 * dualParameters_.equilibriumTolerance, solution.equilibrium))

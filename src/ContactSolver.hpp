@@ -3,12 +3,12 @@
 /// The facade: a decomposed contact problem in, its solution with a certificate out.
 ///
 ///     ContactSolver solver(parameters);
-///     solver.setup(problem);                  // factorises; once a matrix
-///     ContactSolution a = solver.solve();     // for the loads and gaps that the problem holds
-///     problem.subdomains[0].load *= 2;        // new loads, new gaps: no new setup
-///     ContactSolution b = solver.solve(a.multiplier.get());
+///     solver.setup(problem, data);            // factorises; once a matrix
+///     ContactSolution a = solver.solve(data);
+///     data.scaleLoads(2);                     // new loads, supports and gaps: no new setup
+///     ContactSolution b = solver.solve(data, a.multiplier.get());
 ///     problem.subdomains[0].stiffness = k;    // new matrices, new rows of B: what still holds is kept
-///     solver.update();
+///     solver.update(data);
 
 #include "epafi/fetidp/ContactResponse.hpp"
 #include "epafi/fetidp/ContactSolution.hpp"
@@ -59,38 +59,41 @@ public:
   explicit ContactSolver(const Teuchos::ParameterList& parameters);
 
   /// Factorises the subdomains and the coarse problem, chooses the algorithm, estimates ‖F‖. Keeps a
-  /// reference to `problem`, which must outlive the solver; the loads and gaps in it may change between
-  /// solves, its matrices may not. Collective. \throws InputError, SolvabilityError or Error, the same on all
+  /// reference to `problem`, which must outlive the solver. Collective.
+  /// \param data  what a refusal says the loads make of a body that nothing holds; no more comes from it \throws InputError, SolvabilityError or Error, the same on all
   /// ranks.
-  void setup(const decomposition::DecomposedProblem& problem);
+  void setup(const decomposition::DecomposedProblem& problem, const decomposition::ProblemData& data);
 
   /// Follows changes that the problem of `setup` has seen since: matrices K^s (another object with the same
-  /// pattern) and rows of B. Loads and gaps need no call. Less than `setup`: subdomains whose matrix is the
+  /// pattern) and rows of B. Less than `setup`: subdomains whose matrix is the
   /// same object, with B at the same unknowns as before, keep their factors; others are factorised
   /// numerically, their ordering and symbolic part kept. The algorithm is chosen, ‖F‖ estimated and the
   /// preconditioner made anew; its blocks are kept where factors are. What earlier calls returned stays valid
   /// but for references into dualProblem(). Collective. \throws as `setup`. Preconditions: `setup` was
   /// called; subdomains, unknowns and crosspoints are the same.
-  void update();
+  void update(const decomposition::ProblemData& data);
 
-  /// Solves for the loads and gaps that the problem holds now. Where the tolerance is met but the
+  /// Solves for these loads, prescribed values and gaps. Where the tolerance is met but the
   /// displacements violate the constraints still, it is settled (fetidp/Recovery.hpp); the report counts
   /// those steps, too, which the observer is not told of, but may end. A solution that misses the tolerance
   /// is returned as well: ask `report().status`.
+  /// \param data      of the problem of `setup`
   /// \param start     λ of an earlier solve to start from, or null
   /// \param observer  told of every step, shown λ where it wants to look, may end the iteration
   /// (`interrupted`); or null
   /// \param balance   with the tolerance 'balanced': who estimates the discretisation error; else null
   /// Collective. Precondition: `setup` was called.
   /// \throws SolvabilityError or InputError (a load or gap that is not finite), the same on all ranks.
-  fetidp::ContactSolution solve(const Vector* start = nullptr, qp::Observer* observer = nullptr,
+  fetidp::ContactSolution solve(const decomposition::ProblemData& data, const Vector* start = nullptr,
+                                qp::Observer* observer = nullptr,
                                 const fetidp::ErrorBalance* balance = nullptr);
 
   /// λ to start from, of a guess of the displacements, say from a coarser mesh: see
   /// fetidp::DualProblem::startFrom. Null where there is nothing to iterate, or no preconditioner of type
   /// dirichlet. Precondition: `setup` was called. Collective.
-  [[nodiscard]] RCP<Vector> startFrom(std::span<const Eigen::VectorXd> displacement) const {
-    return dual_->startFrom(displacement);
+  [[nodiscard]] RCP<Vector> startFrom(const decomposition::ProblemData& data,
+                                      std::span<const Eigen::VectorXd> displacement) const {
+    return dual_->startFrom(data, displacement);
   }
 
   /// How a solution changes with loads and gaps while its closed contacts stay closed and its open ones open:
@@ -123,11 +126,11 @@ public:
   [[nodiscard]] SolveFacts facts() const;
 
 private:
-  void factorise(std::shared_ptr<fetidp::GeneralizedInverse> earlier);
+  void factorise(const decomposition::ProblemData& data, std::shared_ptr<fetidp::GeneralizedInverse> earlier);
   void confirm(const fetidp::ContactSolution& solution, double errorTarget);
   [[nodiscard]] double algebraicErrorOf(const fetidp::ContactSolution& solution) const;
-  void settle(fetidp::DualSolution dual, const qp::Interruption& interruption,
-              fetidp::ContactSolution& solution);
+  void settle(const decomposition::ProblemData& data, fetidp::DualSolution dual,
+              const qp::Interruption& interruption, fetidp::ContactSolution& solution);
   [[nodiscard]] std::string describeDualOperator() const;
   [[nodiscard]] std::string describePreconditioner() const;
   [[nodiscard]] int numAdaptiveConstraints() const;

@@ -2,24 +2,13 @@
 
 #include "epafi/ContactSolver.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/PeakMemory.hpp"
 
 #include <Teuchos_Comm.hpp>
-
-#include <sys/resource.h>
 
 #include <sstream>
 
 namespace epafi {
-namespace {
-
-/// Most memory that this rank's process ever held, in bytes.
-double peakBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
-} // namespace
 
 /// How many of the subdomains are multiplied with as dense blocks, and how many different ones there are.
 /// Collective.

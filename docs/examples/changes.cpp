@@ -18,9 +18,9 @@ using epafi::decomposition::RowKind;
 using epafi::decomposition::SparseMatrix;
 
 /// Solves and prints a line; `seconds` are those of setup or update.
-bool solveAndTell(epafi::ContactSolver& solver, const epafi::Comm& comm, const std::string& change,
-                  double seconds) {
-  const epafi::fetidp::ContactSolution solution = solver.solve();
+bool solveAndTell(epafi::ContactSolver& solver, const epafi::decomposition::ProblemData& data,
+                  const epafi::Comm& comm, const std::string& change, double seconds) {
+  const epafi::fetidp::ContactSolution solution = solver.solve(data);
   if (comm.getRank() == 0)
     std::printf("%-28s %8.4f s, then %8.4f s and %d products\n", change.c_str(), seconds,
                 solver.times().solve + solver.times().recovery,
@@ -35,37 +35,37 @@ int main(int argc, char** argv) {
   epafi::model::Decomposition cut = epafi::model::decompose(block(elements, elements), comm);
   DecomposedProblem& problem = cut.problem;
   const auto press = [&](double by) { // the floor on top comes down everywhere
-    for (epafi::GlobalOrdinal row = 0; row < problem.numInequalities; ++row)
-      if (problem.gap->getMap()->isNodeGlobalElement(row))
-        problem.gap->replaceGlobalValue(row, -by);
+    const auto gaps = cut.data.contactGaps(problem);
+    gaps->putScalar(-by);
+    cut.data.setGaps(*gaps);
   };
   press(0.01);
   epafi::ContactSolver solver{Teuchos::ParameterList("Solver")};
-  solver.setup(problem);
-  bool isSolved = solveAndTell(solver, *comm, "everything", solver.times().setup);
+  solver.setup(problem, cut.data);
+  bool isSolved = solveAndTell(solver, cut.data, *comm, "everything", solver.times().setup);
 
   press(0.02);
-  for (auto& subdomain : problem.subdomains)
-    subdomain.load *= 2;
-  isSolved = solveAndTell(solver, *comm, "loads and gaps", 0) && isSolved;
+  cut.data.scaleLoads(2);
+  isSolved = solveAndTell(solver, cut.data, *comm, "loads and gaps", 0) && isSolved;
 
   for (auto& subdomain : problem.subdomains) // the same rows in another unit: their unknowns stay
     for (auto& entry : subdomain.constraint)
       if (problem.kindOf(entry.multiplier) == RowKind::contact)
         entry.coefficient *= 2;
   press(0.04);
-  solver.update();
-  isSolved = solveAndTell(solver, *comm, "contact rows", solver.times().setup) && isSolved;
+  solver.update(cut.data);
+  isSolved = solveAndTell(solver, cut.data, *comm, "contact rows", solver.times().setup) && isSolved;
 
   for (auto& subdomain : problem.subdomains)
     subdomain.stiffness = std::make_shared<SparseMatrix>(1.5 * *subdomain.stiffness);
-  solver.update();
-  isSolved = solveAndTell(solver, *comm, "matrices, pattern kept", solver.times().setup) && isSolved;
+  solver.update(cut.data);
+  isSolved =
+      solveAndTell(solver, cut.data, *comm, "matrices, pattern kept", solver.times().setup) && isSolved;
 
   if (!problem.subdomains.empty())
     problem.subdomains.front().stiffness =
         std::make_shared<SparseMatrix>(1.5 * *problem.subdomains.front().stiffness);
-  solver.update();
-  isSolved = solveAndTell(solver, *comm, "one matrix a rank", solver.times().setup) && isSolved;
+  solver.update(cut.data);
+  isSolved = solveAndTell(solver, cut.data, *comm, "one matrix a rank", solver.times().setup) && isSolved;
   return isSolved ? 0 : 1;
 }

@@ -105,8 +105,8 @@ int main(int argc, char** argv) {
   Teuchos::ParameterList parameters("Solver");
   parameters.set("Tolerance", 1e-13);
   epafi::ContactSolver solver(parameters);
-  solver.setup(problem.problem());
-  const auto u = problem.unknowns(solver.solve().displacement);
+  solver.setup(problem.problem(), problem.data());
+  const auto u = problem.unknowns(solver.solve(problem.data()).displacement);
 
   const std::size_t all = comm->getRank() == 0 ? 2 * (nx + 1) * (ny + 1) : 0; // the first rank prints
   epafi::Vector first(Teuchos::rcp(new epafi::Map(2 * (nx + 1) * (ny + 1), all, 0, comm)));

@@ -94,7 +94,8 @@ int conduct(const std::string& list, const Plate& plate, const RCP<const Comm>& 
   const auto forward = adapters::asThyra(k);
   const auto solver = Thyra::linearOpWithSolve<double>(*strategy, forward); // factorises
 
-  const RCP<Vector> load = k->load(), temperature = rcp(new Vector(k->getDomainMap())); // starts at 0
+  const RCP<Vector> load = k->load(problem->data()),
+                    temperature = rcp(new Vector(k->getDomainMap())); // starts at 0
   bool isSolved = true;
   for (const int height : {plate.elements / 2, plate.elements / 4}) { // a source of power 1 each
     if (const GlobalOrdinal node = plate.node(plate.elements / 2, height);

@@ -25,13 +25,15 @@ constexpr double from = 0.9, to = 1.1; // where its lowest point is in the first
 /// The paraboloid's lowest point at x = `middle`, y = 1.
 void setGaps(epafi::model::Decomposition& cut, double middle) {
   const epafi::contact::ContactLayout& contact = cut.contacts.front();
+  const RCP<Vector> gaps = cut.data.contactGaps(cut.problem);
   for (std::size_t k = 0; k < contact.firstNodes.size(); ++k) {
     const auto row = contact.firstRow + static_cast<epafi::GlobalOrdinal>(k);
     const epafi::Point point = cut.bodies.front().mesh->point(contact.firstNodes[k]);
     const double x = point[0] - middle, y = point[1] - 1;
-    if (cut.problem.gap->getMap()->isNodeGlobalElement(row))
-      cut.problem.gap->replaceGlobalValue(row, 0.5 * curvature * (x * x + y * y) - depth);
+    if (gaps->getMap()->isNodeGlobalElement(row))
+      gaps->replaceGlobalValue(row, 0.5 * curvature * (x * x + y * y) - depth);
   }
+  cut.data.setGaps(*gaps);
 }
 
 /// λ of a step from those of the last ones, the latest first, at most three: between changes of the contact
@@ -64,9 +66,9 @@ int main(int argc, char** argv) {
     const double start = Teuchos::Time::wallTime();
     setGaps(cut, from + (to - from) * (step - 1) / (numSteps - 1));
     if (step == 1)
-      solver.setup(cut.problem);
+      solver.setup(cut.problem, cut.data);
     const epafi::fetidp::ContactSolution solution =
-        solver.solve(predicted(last, cut.problem.numInequalities).get());
+        solver.solve(cut.data, predicted(last, cut.problem.numInequalities).get());
     last.push_front(solution.multiplier);
     last.resize(std::min<std::size_t>(last.size(), 3));
 

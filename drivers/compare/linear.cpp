@@ -5,7 +5,7 @@
 #include "CommandLine.hpp"
 #include "JointEnd.hpp"
 #include "LinearSolve.hpp"
-#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/base/PeakMemory.hpp"
 
 #include "epafi/base/Errors.hpp"
 
@@ -72,10 +72,10 @@ std::string measure(const Request& request) {
   const double start = Teuchos::Time::wallTime();
   const LinearSystem system = closedMembranes(request.membranes);
   const double assembled = Teuchos::Time::wallTime();
-  simulation::resetPeakBytes(); // the solver's counts, and what it is given
+  resetPeakBytes(); // the solver's counts, and what it is given
   const LinearSolution solution =
       request.solver == "cholmod" ? solveByCholmod(system) : solveByMueLu(system, tolerance);
-  const double peak = simulation::peakBytes();
+  const double peak = peakBytes();
   const Eigen::VectorXd product = system.matrix * solution.u;
   const double residual = (system.load - product).norm() / system.load.norm();
   if (!(residual <= 2 * tolerance))

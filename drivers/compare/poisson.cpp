@@ -6,7 +6,7 @@
 #include "LinearSolve.hpp"
 #include "PeerStrategies.hpp"
 #include "PoissonProblem.hpp"
-#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/base/PeakMemory.hpp"
 
 #include "epafi/adapters/ThyraOperators.hpp"
 #include "epafi/base/Collective.hpp"
@@ -152,14 +152,14 @@ std::string measure(const Request& request, const RCP<const Comm>& comm) {
   const auto list = isDirect ? Teuchos::null : listOf(request);
   const double start = Teuchos::Time::wallTime();
   const PoissonProblem problem(request.elements, request.subdomains, comm);
-  const RCP<const Vector> load = problem.k->load();
+  const RCP<const Vector> load = problem.k->load(problem.decomposition->data);
   RCP<const Operator> k = problem.k;
   if (isDirect || list->get<std::string>("Linear Solver Type") != "Epafi FETI-DP")
     k = assembled(*problem.k);
   const double assemblySeconds = since(*comm, start);
   const Measurements found = isDirect ? byCholmod(dynamic_cast<const CrsMatrix&>(*k), *load)
                                       : byStratimikos(*strategyAmongPeers(list, problem.k), k, load);
-  const double peak = sumOverRanks(*comm, simulation::peakBytes());
+  const double peak = sumOverRanks(*comm, peakBytes());
   std::ostringstream line;
   line.precision(16);
   line << R"({"unknowns": )" << load->getGlobalLength() << R"(, "ranks": )" << comm->getSize()

@@ -3,7 +3,7 @@
 #include "Median.hpp"
 #include "MessageCounts.hpp"
 #include "ScalingScene.hpp"
-#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/base/PeakMemory.hpp"
 #include "epafi/simulation/SceneRun.hpp"
 
 #include "epafi/fetidp/DualPreconditioner.hpp"
@@ -130,11 +130,11 @@ double vectorBytes(const decomposition::DecomposedProblem& problem) {
 /// One run from the scene to the solution. Returns whether it converged.
 bool runOnce(const scene::Scene& scene, bool measuresProducts, const RCP<const Comm>& comm, RunTimes& times,
              Row& row) {
-  row["base_bytes"] = sumOverRanks(*comm, simulation::resetPeakBytes());
+  row["base_bytes"] = sumOverRanks(*comm, resetPeakBytes());
   ReductionCount reductions;
   const simulation::SceneRun run =
       simulation::solveScene(scene, parametersOf(row), comm, {.companion = &reductions});
-  row["peak_bytes"] = sumOverRanks(*comm, simulation::peakBytes());
+  row["peak_bytes"] = sumOverRanks(*comm, peakBytes());
   times.add(run.result);
   row["hessian_multiplications"] = run.solver->report().counts.hessianMultiplications;
   row["energy"] = run.solution.energy;

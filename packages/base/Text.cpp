@@ -22,6 +22,13 @@ std::string inQuotes(const std::string& text) {
   return '"' + text + '"';
 }
 
+std::string listed(std::span<const std::string> words, const std::string& quote) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + quote + words[i] + quote;
+  return list;
+}
+
 std::vector<std::string> linesOf(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {

@@ -30,6 +30,9 @@ std::string text(const Point& point, int digits = 6) {
 /// "name", with the quotes.
 std::string inQuotes(const std::string& text);
 
+/// "a, b and c". \param quote  on both sides of each
+std::string listed(std::span<const std::string> words, const std::string& quote = "");
+
 /// Words, none of which has a line break, in lines of their own, and back.
 template <class Words>
 std::string asLines(const Words& words) {

@@ -204,6 +204,18 @@ double Box::longestMultiplierStep(const Vector& x, const Vector& g, const Vector
   return longest;
 }
 
+RCP<const ConvexSet> Box::shiftedBy(const Vector& x) const {
+  const auto less = [&x](const RCP<const Vector>& bound) {
+    RCP<Vector> result;
+    if (!bound.is_null()) {
+      result = rcp(new Vector(*bound, Teuchos::Copy));
+      result->update(-1.0, x, 1.0);
+    }
+    return result;
+  };
+  return rcp(new Box(less(lower_), less(upper_)));
+}
+
 RCP<const ConvexSet> Box::recessionCone(const RCP<const Map>& map) const {
   const RCP<Vector> lower = rcp(new Vector(map)), upper = rcp(new Vector(map));
   const Local bounds = local();

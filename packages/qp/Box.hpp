@@ -84,6 +84,7 @@ public:
   [[nodiscard]] double complementarity(const Vector& x, const Vector& g, double scale) const override;
   [[nodiscard]] double longestMultiplierStep(const Vector& x, const Vector& g,
                                              const Vector& s) const override;
+  [[nodiscard]] RCP<const ConvexSet> shiftedBy(const Vector& x) const override;
   /// 0 takes the place of every finite bound.
   [[nodiscard]] RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const override;
 

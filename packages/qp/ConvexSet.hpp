@@ -75,6 +75,8 @@ public:
   /// + αs: until the first multiplier changes its sign. 0 if s touches a free entry.
   [[nodiscard]] virtual double longestMultiplierStep(const Vector& x, const Vector& g,
                                                      const Vector& s) const = 0;
+  /// All d with x + d in the set. \param x  on the map of the unknowns
+  [[nodiscard]] virtual RCP<const ConvexSet> shiftedBy(const Vector& x) const = 0;
   /// The directions d along which the set has no end: x + αd stays in it for every α > 0, at every feasible
   /// x.
   /// \param map  of the unknowns

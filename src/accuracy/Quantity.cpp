@@ -91,7 +91,7 @@ std::vector<Eigen::VectorXd> displacementWeights(const model::Decomposition& dec
   for (const decomposition::Subdomain& subdomain : subdomains) {
     if (subdomain.body == terms.body)
       placeOf.emplace(subdomain.number - body.firstSubdomain, result.size());
-    result.emplace_back(Eigen::VectorXd::Zero(subdomain.prescribed.size()));
+    result.emplace_back(Eigen::VectorXd::Zero(decomposition.problem.numPositions(subdomain)));
   }
   for (const Weight& weight : weights) {
     const auto found = placeOf.find(body.partition->partOf(weight.element));

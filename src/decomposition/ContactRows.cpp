@@ -202,7 +202,7 @@ ContactRows contactRows(const Substructures& all, const SharedNodes& shared, con
       columns->getLocalRowView(columns->getRowMap()->getLocalElement(unknown), rows, values);
       const int free = all.unknownsAt(s, node)[c];
       const double share = shares[k * all.components + c],
-                   prescribed = all.subdomains[s].prescribed[node * all.components + c];
+                   prescribed = all.data[s].prescribed[node * all.components + c];
       for (std::size_t entry = 0; entry < rows.extent(0); ++entry) {
         const GlobalOrdinal row = columns->getColMap()->getGlobalElement(rows(entry));
         if (values(entry) == 0)

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The waist of the house: everything that FETI-DP ever sees of a contact problem. It comes from `decompose`
-/// (a scene) or from an application that fills it itself; nothing in it knows the physics.
+/// The waist of the house: everything that FETI-DP ever sees of a contact problem but its loads, prescribed
+/// values and gaps (ProblemData.hpp). It comes from `decompose` (a scene) or from an application's matrices
+/// (UnassembledProblem.hpp); nothing in it knows the physics.
 ///
 /// An application that enters B itself may use any rows, those of gluing of full rank: answers are the same,
 /// and MPRGP and SMALBE converge with any of them. The preconditioner, though, is made for rows that are
@@ -79,11 +80,7 @@ struct Subdomain {
   std::vector<EdgeEnd> edgeEnds;                 ///< where there are clusters; most often none
   std::vector<ConstraintEntry> constraint;       ///< B^s
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
-  Eigen::VectorXd load;          ///< f^s, n_s, supports' prescribed values already moved to the right
   std::vector<NodeFrame> frames; ///< where positions are not components in space; most often none
-  Eigen::VectorXd prescribed;    ///< value at each position; 0 at the free ones
-  double energyOffset = 0;       ///< energy that prescribed values alone contribute
-  double heldLoad = 0;           ///< sum of the sizes of the loads at prescribed values
   Eigen::MatrixXd kernel;        ///< R^s, n_s × kernelDimension of its cluster
 };
 
@@ -103,6 +100,9 @@ Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values);
 /// f^s of forces at all positions in space, such that f^sᵀũ is their work; those at supported values are left
 /// out.
 Eigen::VectorXd loadOf(const Subdomain& subdomain, Eigen::VectorXd forces);
+
+/// The others: forces along the nodes' axes at all positions, 0 at the unknowns.
+Eigen::VectorXd heldPart(const Subdomain& subdomain, Eigen::VectorXd forces);
 
 /// A body, of which only its rigid motions count.
 struct Body {
@@ -146,7 +146,6 @@ struct DecomposedProblem {
   RCP<const Map>
       multiplierMap; ///< λ = (λ_I, λ_E): indices 0 … n_I − 1 are non-penetration, then come ties, then gluing
   RCP<const Map> multiplierGhostMap; ///< multipliers that touch this rank's subdomains
-  RCP<Vector> gap;                   ///< c on multiplierMap (0 in the gluing rows)
 
   // Numbers of the whole problem.
   int numSubdomains = 0;
@@ -173,6 +172,9 @@ struct DecomposedProblem {
   }
   [[nodiscard]] MultiplierNumber numberOf(TouchedMultiplier row) const { ///< likewise
     return multiplierGhostMap->getGlobalElement(row);
+  }
+  [[nodiscard]] Eigen::Index numPositions(const Subdomain& subdomain) const { ///< nodes × components
+    return static_cast<Eigen::Index>(subdomain.nodes.size()) * components;
   }
   [[nodiscard]] const Cluster& clusterAt(const Subdomain& subdomain) const { ///< that it is in
     return clusters[clusterOf[subdomain.number]];

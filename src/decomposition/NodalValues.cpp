@@ -48,6 +48,12 @@ Eigen::VectorXd loadOf(const Subdomain& subdomain, Eigen::VectorXd forces) {
   return loadInBasisOf(subdomain.averages, forces(subdomain.unknownPosition));
 }
 
+Eigen::VectorXd heldPart(const Subdomain& subdomain, Eigen::VectorXd forces) {
+  toFrames(subdomain, forces);
+  forces(subdomain.unknownPosition).setZero();
+  return forces;
+}
+
 Eigen::VectorXd unknownsOf(const Subdomain& subdomain, Eigen::VectorXd values) {
   toFrames(subdomain, values);
   Eigen::VectorXd u = values(subdomain.unknownPosition);

@@ -4,8 +4,15 @@
 #include <cmath>
 
 namespace epafi::decomposition {
+namespace {
 
-OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& subdomain,
+Eigen::Index numFreeOf(const OwnSubdomain& own) {
+  return own.row.size() - static_cast<std::size_t>(std::count(own.row.begin(), own.row.end(), -1));
+}
+
+} // namespace
+
+OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& subdomain, SubdomainData& data,
                            NodalSubdomain& nodal) {
   OwnSubdomain own;
   subdomain.body = matrix.body;
@@ -35,13 +42,13 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   }
   own.row.assign(own.unknowns.size(), -1);
   nodal.unknownOf.assign(numPositions, -1);
-  subdomain.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
+  data.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
   for (std::size_t position = 0; position < numPositions; ++position) {
     const int i = unknownAt[position];
     if (i < 0)
       continue;
     if (isFree[i] == 0) {
-      subdomain.prescribed[position] = own.prescribed[i];
+      data.prescribed[position] = own.prescribed[i];
       continue;
     }
     own.row[i] = static_cast<int>(subdomain.unknownPosition.size());
@@ -50,10 +57,7 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   }
   own.load = std::move(matrix.load);
   own.heldForce = matrix.stiffness * own.prescribed;
-  subdomain.load.resize(subdomain.unknownPosition.size());
-  freeLoad(own, subdomain.load);
-  subdomain.energyOffset = prescribedEnergy(own);
-  subdomain.heldLoad = heldLoad(own);
+  refresh(own, data);
   return own;
 }
 
@@ -68,28 +72,26 @@ SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& ow
         entries.emplace_back(j, i, 0.5 * entry.value());
       }
     }
-  const Eigen::Index numFree =
-      own.row.size() - static_cast<std::size_t>(std::count(own.row.begin(), own.row.end(), -1));
+  const Eigen::Index numFree = numFreeOf(own);
   SparseMatrix result(numFree, numFree);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 
-void freeLoad(const OwnSubdomain& own, Eigen::VectorXd& load) {
+void refresh(const OwnSubdomain& own, SubdomainData& data) {
+  const Eigen::Index numFree = numFreeOf(own);
+  data.load.resize(numFree);
+  data.reaction.resize(numFree);
+  data.heldLoad = 0;
   for (std::size_t i = 0; i < own.row.size(); ++i)
-    if (own.row[i] >= 0)
-      load[own.row[i]] = own.load[i] - own.heldForce[i];
-}
-
-double prescribedEnergy(const OwnSubdomain& own) {
-  return (0.5 * own.heldForce - own.load).dot(own.prescribed);
-}
-
-double heldLoad(const OwnSubdomain& own) {
-  double sum = 0;
-  for (std::size_t i = 0; i < own.row.size(); ++i)
-    sum += own.row[i] < 0 ? std::abs(own.load[i]) : 0.0;
-  return sum;
+    if (own.row[i] >= 0) {
+      data.load[own.row[i]] = own.load[i];
+      data.reaction[own.row[i]] = own.heldForce[i];
+    } else {
+      data.heldLoad += std::abs(own.load[i]);
+    }
+  data.heldWork = own.load.dot(own.prescribed);
+  data.heldEnergy = 0.5 * own.heldForce.dot(own.prescribed);
 }
 
 } // namespace epafi::decomposition

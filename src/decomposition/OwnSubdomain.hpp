@@ -20,22 +20,15 @@ struct OwnSubdomain {
   Eigen::VectorXd prescribed;      ///< u, 0 where free
 };
 
-/// Enters body, nodes, positions, load and prescribed values; takes the matrix's load. Precondition: the
-/// matrix is sound. Not collective.
-OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& subdomain,
+/// Enters body, nodes, positions and prescribed values; takes the matrix's load. Precondition: the matrix is
+/// sound. Not collective.
+OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& subdomain, SubdomainData& data,
                            NodalSubdomain& nodal);
 
 /// K^s without the rows and columns of prescribed unknowns, in the order of positions. Not collective.
 SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& own);
 
-/// f^s − K^s u of the free unknowns: what prescribed values take is on the right. Not collective.
-/// \param[out] load  as many entries as there are free unknowns
-void freeLoad(const OwnSubdomain& own, Eigen::VectorXd& load);
-
-/// ½ uᵀK^s u − f^sᵀu of the prescribed values alone.
-double prescribedEnergy(const OwnSubdomain& own);
-
-/// Sum of the sizes of the loads at prescribed values.
-double heldLoad(const OwnSubdomain& own);
+/// Loads, reactions and energies of the data, from what is kept; unknowns are values of nodes. Not collective.
+void refresh(const OwnSubdomain& own, SubdomainData& data);
 
 } // namespace epafi::decomposition

@@ -3,7 +3,7 @@
 /// This rank's subdomains each for itself, before they are joined: what the steps from here to the
 /// DecomposedProblem look at, and none of them changes.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 
 #include <functional>
 #include <memory>
@@ -35,9 +35,9 @@ struct Substructures {
   RCP<const Comm> comm;
   std::size_t components; ///< unknowns a node, the same everywhere
   const NodePlaces& places;
-  std::span<const Body> bodies; ///< all, on every rank
-  std::span<const Subdomain>
-      subdomains; ///< of this rank: their nodes, unknowns, prescribed values and kernels
+  std::span<const Body> bodies;          ///< all, on every rank
+  std::span<const Subdomain> subdomains; ///< of this rank: their nodes, unknowns and kernels
+  std::span<const SubdomainData> data;   ///< the same: loads and prescribed values
   std::span<const NodalSubdomain> nodal; ///< the same
   int numSubdomains;                     ///< of the whole problem; ranks have theirs in ascending order
 

@@ -28,18 +28,11 @@
 namespace epafi::decomposition {
 namespace {
 
-bool hasSamePattern(const SparseMatrix& a, const SparseMatrix& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
-         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
-}
-
-/// c less what prescribed values contribute, as gaps of rows from the first one on.
-void enterGap(const Vector& given, const Vector& held, GlobalOrdinal firstRow, Vector& gap) {
-  const auto values = given.getData(), contributed = held.getData();
-  for (Teuchos_Ordinal i = 0; i < values.size(); ++i)
-    gap.replaceGlobalValue(firstRow + held.getMap()->getGlobalElement(static_cast<LocalOrdinal>(i)),
-                           values[i] - contributed[i]);
+/// Entries of rows from the first one on.
+void enterRows(const Vector& given, GlobalOrdinal firstRow, Vector& values) {
+  const auto entries = given.getData();
+  for (LocalOrdinal i = 0; i < entries.size(); ++i)
+    values.replaceGlobalValue(firstRow + given.getMap()->getGlobalElement(i), entries[i]);
 }
 
 } // namespace
@@ -89,8 +82,9 @@ void UnassembledProblem::add(SubdomainMatrix matrix) {
   added_.push_back(std::move(matrix));
 }
 
-void UnassembledProblem::add(Subdomain subdomain, NodalSubdomain nodal) {
+void UnassembledProblem::add(Subdomain subdomain, SubdomainData data, NodalSubdomain nodal) {
   problem_.subdomains.push_back(std::move(subdomain));
+  data_.subdomains_.push_back(std::move(data));
   nodal_.push_back(std::move(nodal));
 }
 
@@ -105,6 +99,7 @@ Substructures UnassembledProblem::view() const {
           places_,
           problem_.bodies,
           problem_.subdomains,
+          data_.subdomains_,
           nodal_,
           problem_.numSubdomains};
 }
@@ -168,8 +163,9 @@ void UnassembledProblem::takeAdded(int first) {
       requireSound(matrix, places_.dimension, components, static_cast<int>(problem_.bodies.size()),
                    "subdomain " + std::to_string(number));
       Subdomain subdomain;
+      SubdomainData data;
       NodalSubdomain nodal;
-      own_.push_back(takeSubdomain(matrix, components, subdomain, nodal));
+      own_.push_back(takeSubdomain(matrix, components, subdomain, data, nodal));
       SparseMatrix free = freeStiffness(matrix.stiffness, own_.back());
       nodal.stiffness = known.store(free);
       for (std::size_t i = 0; i < matrix.unknowns.size(); ++i)
@@ -181,7 +177,7 @@ void UnassembledProblem::takeAdded(int first) {
       for (const GlobalOrdinal wanted : matrix.crosspoints)
         nodal.crosspoints.push_back(
             static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), wanted) - nodes.begin()));
-      add(std::move(subdomain), std::move(nodal));
+      add(std::move(subdomain), std::move(data), std::move(nodal));
     }
   });
   places_.point = [points](int /*body*/, GlobalOrdinal node) { return points->at(node); };
@@ -240,9 +236,11 @@ void UnassembledProblem::split() {
     subdomain.crosspointIndices = std::move(splitting.subdomains[s].crosspointIndices);
     subdomain.averages = averages;
     subdomain.stiffness = basis.changed(averages, nodal_[s].stiffness);
-    subdomain.load = loadInBasisOf(averages, std::move(subdomain.load));
+    SubdomainData& data = data_.subdomains_[s];
+    data.load = loadInBasisOf(averages, std::move(data.load));
+    data.reaction = loadInBasisOf(averages, std::move(data.reaction));
     subdomain.kernel = kernelInBasisOf(averages, std::move(subdomain.kernel));
-    positions += subdomain.prescribed.size();
+    positions += problem_.numPositions(subdomain);
     remainders += static_cast<GlobalOrdinal>(subdomain.remainderUnknowns.size());
   }
   problem_.numCrosspoints = crosspoints_->numNodes();
@@ -253,7 +251,7 @@ void UnassembledProblem::split() {
 }
 
 // ----------------------------------------------------------------------------------------------------------
-// B, and what may change.
+// B and the gaps.
 
 /// Appends rows of contact or ties to those of B. Returns what prescribed values contribute. Collective.
 RCP<const Vector> UnassembledProblem::enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
@@ -279,9 +277,9 @@ void UnassembledProblem::attach() {
   problem_.numTies = numRows(ties_);
   std::vector<GlobalOrdinal> ownContact;
   std::vector<std::vector<RowEntry>> rows(nodal_.size());
-  RCP<const Vector> heldTies;
+  RCP<const Vector> heldContact, heldTies;
   if (contact_)
-    held_ = enter(*contact_, 0, ownContact, rows);
+    heldContact = enter(*contact_, 0, ownContact, rows);
   if (ties_)
     heldTies = enter(*ties_, problem_.numInequalities, ownContact, rows);
   std::vector<std::shared_ptr<const SparseMatrix>> stiffness;
@@ -295,77 +293,18 @@ void UnassembledProblem::attach() {
   problem_.multiplierGhostMap = constraints.ghostMap;
   for (std::size_t s = 0; s < nodal_.size(); ++s)
     problem_.subdomains[s].constraint = std::move(constraints.entries[s]);
-  problem_.gap = rcp(new Vector(problem_.multiplierMap));
+  Vector gaps(problem_.multiplierMap), held(problem_.multiplierMap);
+  problem_.places.clear();
   if (contact_) {
-    setGap(*contact_->gap);
+    enterRows(*contact_->gap, 0, gaps);
+    enterRows(*heldContact, 0, held);
     problem_.places = contact_->places;
   }
-  if (ties_)
-    enterGap(*ties_->gap, *heldTies, problem_.numInequalities, *problem_.gap);
-}
-
-void UnassembledProblem::setTies(const ConstraintMatrix& ties) {
-  if (crosspoints_)
-    requireSound(ties, unknownMap_);
-  ties_ = ties;
-  if (crosspoints_)
-    attach();
-}
-
-void UnassembledProblem::setContact(const ConstraintMatrix& contact) {
-  if (!crosspoints_) {
-    contact_ = contact;
-    return;
+  if (ties_) {
+    enterRows(*ties_->gap, problem_.numInequalities, gaps);
+    enterRows(*heldTies, problem_.numInequalities, held);
   }
-  requireComplete();
-  requireSound(contact, unknownMap_);
-  contact_ = contact;
-  attach();
-}
-
-void UnassembledProblem::setGap(const Vector& gap) {
-  requireComplete();
-  if (!contact_ || !gap.getMap()->locallySameAs(*held_->getMap()))
-    throw InputError("the gaps must lie on the row map of the contact matrix.");
-  enterGap(gap, *held_, 0, *problem_.gap);
-}
-
-void UnassembledProblem::setLoad(std::size_t subdomain, const Eigen::VectorXd& load) {
-  requireComplete();
-  if (subdomain >= own_.size() || load.size() != own_[subdomain].load.size())
-    throw InputError("a load of " + std::to_string(load.size()) + " numbers was given for subdomain " +
-                     std::to_string(subdomain) + " of this rank's " + std::to_string(own_.size()) +
-                     "; it must have one for each unknown.");
-  own_[subdomain].load = load;
-  refreshLoad(subdomain);
-}
-
-void UnassembledProblem::refreshLoad(std::size_t subdomain) {
-  const OwnSubdomain& own = own_[subdomain];
-  Subdomain& target = problem_.subdomains[subdomain];
-  freeLoad(own, target.load);
-  target.load = loadInBasisOf(target.averages, std::move(target.load));
-  target.energyOffset = prescribedEnergy(own);
-  target.heldLoad = heldLoad(own);
-}
-
-void UnassembledProblem::setMatrix(std::size_t subdomain, const SparseMatrix& stiffness) {
-  requireComplete();
-  const auto n = subdomain < own_.size() ? static_cast<Eigen::Index>(own_[subdomain].row.size()) : 0;
-  if (stiffness.rows() != n || stiffness.cols() != n)
-    throw InputError("a stiffness of " + std::to_string(stiffness.rows()) + " rows was given for subdomain " +
-                     std::to_string(subdomain) + " of this rank, which has " + std::to_string(n) +
-                     " unknowns.");
-  OwnSubdomain& own = own_[subdomain];
-  auto free = std::make_shared<SparseMatrix>(freeStiffness(stiffness, own));
-  if (!hasSamePattern(*free, *nodal_[subdomain].stiffness))
-    throw InputError("the new stiffness of subdomain " + std::to_string(subdomain) +
-                     " of this rank has another pattern; make a problem anew for it.");
-  nodal_[subdomain].stiffness = free;
-  Subdomain& target = problem_.subdomains[subdomain];
-  target.stiffness = AverageBasis().changed(target.averages, free);
-  own.heldForce = stiffness * own.prescribed;
-  refreshLoad(subdomain);
+  data_ = ProblemData(std::move(data_.subdomains_), gaps, held);
 }
 
 } // namespace epafi::decomposition

@@ -8,16 +8,17 @@
 ///     problem.setContact({rows, gap});         // B_I u ≤ c
 ///     problem.complete();                      // crosspoints, gluing, floating bodies
 ///     ContactSolver solver(parameters);
-///     solver.setup(problem.problem());
-///     const Vector u = problem.unknowns(solver.solve());
+///     solver.setup(problem.problem(), problem.data());
+///     const Vector u = problem.unknowns(solver.solve(problem.data()));
 ///
-/// Later problem.setLoad, setGap, setMatrix, setContact change it, and solver.update() follows
-/// (ContactSolver.hpp says what each costs).
+/// Later problem.setLoad and setGap change its data alone; after setMatrix and setContact
+/// solver.update(problem.data()) follows (ContactSolver.hpp says what each costs).
 
 #include "epafi/decomposition/ContactRows.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
 #include "epafi/decomposition/FloatingBodies.hpp"
 #include "epafi/decomposition/OwnSubdomain.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/decomposition/SharedNodes.hpp"
 #include "epafi/decomposition/SubdomainMatrix.hpp"
 #include "epafi/decomposition/Substructures.hpp"
@@ -64,9 +65,9 @@ public:
   /// Takes one in the order of its nodes, which are numbered as in the body, with its kernel: what an
   /// assembly over a mesh has at hand. Not collective. Precondition: not yet complete, the bodies' kernels
   /// are known.
-  /// \param subdomain  its body, nodes, unknowns, load, frames, prescribed values and kernel; the rest is
-  /// found by `complete`
-  void add(Subdomain subdomain, NodalSubdomain nodal);
+  /// \param subdomain  its body, nodes, unknowns, frames and kernel; the rest is found by `complete`
+  /// \param data       of unknowns that are values of nodes
+  void add(Subdomain subdomain, SubdomainData data, NodalSubdomain nodal);
 
   /// Takes B_I and c, both shared; without a call there is no contact. After `complete` the rows of B are
   /// made anew. Collective then. \throws InputError (see requireSound), the same on all ranks.
@@ -85,7 +86,9 @@ public:
 
   /// What the solver takes; lives as long as this object. Precondition: complete.
   [[nodiscard]] const DecomposedProblem& problem() const { return problem_; }
-  /// The problem alone, for those who change nothing any more; leaves nothing here. Precondition: complete.
+  /// Loads, prescribed values and gaps as set last; a copy is a load case of its own. Precondition: complete.
+  [[nodiscard]] const ProblemData& data() const { return data_; }
+  /// The problem alone, for those who change no matrix any more; leaves none here. Precondition: complete.
   [[nodiscard]] DecomposedProblem take() { return std::move(problem_); }
   /// Unknowns of all subdomains, prescribed ones too, each on one rank. Precondition: complete.
   [[nodiscard]] const RCP<const Map>& unknownMap() const { return unknownMap_; }
@@ -131,7 +134,7 @@ private:
   void attach();
   RCP<const Vector> enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
                           std::vector<GlobalOrdinal>& owned, std::vector<std::vector<RowEntry>>& rows) const;
-  void refreshLoad(std::size_t subdomain);
+  void refreshData(std::size_t subdomain);
   void requireComplete() const;
 
   RCP<const Comm> comm_;
@@ -144,9 +147,9 @@ private:
   SharedNodes shared_;
   std::optional<Crosspoints> crosspoints_; ///< once complete
   DecomposedProblem problem_;
+  ProblemData data_;
   RCP<const Map> unknownMap_;
   RCP<const Vector> copies_; ///< of each unknown, on unknownMap_
-  RCP<const Vector> held_;   ///< what prescribed values contribute to B_I u, on the row map of B_I
 };
 
 } // namespace epafi::decomposition

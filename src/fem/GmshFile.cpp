@@ -18,17 +18,6 @@ namespace {
 
 using Blocks = std::vector<const GmshBlock*>;
 
-/// `"a", "b" and "c"`, or `a and b`.
-std::string listed(const std::vector<std::string>& words, bool areQuoted) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0)
-      text += i + 1 < words.size() ? ", " : " and ";
-    text += areQuoted ? inQuotes(words[i]) : words[i];
-  }
-  return text;
-}
-
 bool holds(const GmshGroup& group, int entity) {
   return std::binary_search(group.entities.begin(), group.entities.end(), entity);
 }
@@ -176,7 +165,7 @@ void BodyMaker::refuseGroup() const {
   if (names.empty())
     throw InputError(text + ", and no other either; name its groups in Gmsh, or take all its elements");
   text += names.size() == 1 ? "; there is " : "; there are ";
-  text += listed(names, true);
+  text += listed(names, "\"");
   const std::string near = nearestName(group_, names);
   throw InputError(near.empty() ? text : text + "; did you mean " + inQuotes(near) + '?');
 }
@@ -198,7 +187,7 @@ void BodyMaker::chooseCellType() {
     std::vector<std::string> found;
     for (const int shape : shapes)
       found.push_back(names[shape]);
-    throw InputError(arrays_.name + " mixes " + listed(found, false) + "; " + allowed);
+    throw InputError(arrays_.name + " mixes " + listed(found) + "; " + allowed);
   }
   if (kinds.size() > 1)
     throw InputError(arrays_.name +

@@ -85,11 +85,11 @@ void SubdomainAssembler::findBorder(const LocalNumbering& numbering, AssembledSu
 void SubdomainAssembler::hold(AssembledSubdomain& subdomain) {
   const std::size_t numPositions = subdomain.nodes.size() * components_;
   subdomain.unknownOf.assign(numPositions, 0);
-  subdomain.prescribed.setZero(static_cast<Eigen::Index>(numPositions));
+  subdomain.data.prescribed.setZero(static_cast<Eigen::Index>(numPositions));
   model_.prescribed(subdomain.nodes, prescribed_);
   for (const auto& [position, value] : prescribed_) {
     subdomain.unknownOf[position] = -1;
-    subdomain.prescribed[position] = value;
+    subdomain.data.prescribed[position] = value;
   }
   subdomain.unknownPosition.clear();
   subdomain.unknownPosition.reserve(numPositions);
@@ -122,42 +122,44 @@ void SubdomainAssembler::addStiffness(const StiffnessPattern& pattern, Assembled
 }
 
 void SubdomainAssembler::addLoads(const LocalNumbering& numbering, AssembledSubdomain& subdomain) {
-  subdomain.load.setZero(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
-  subdomain.heldLoad = 0;
+  subdomain.data.load.setZero(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
+  subdomain.data.heldLoad = 0;
   const double* load = loads_.data();
   for (const int node : numbering.corners())
     for (std::size_t c = 0; c < components_; ++c, ++load) {
       const int unknown = subdomain.unknownOf[static_cast<std::size_t>(node) * components_ + c];
       if (unknown >= 0)
-        subdomain.load[unknown] += *load;
+        subdomain.data.load[unknown] += *load;
       else
-        subdomain.heldLoad += std::abs(*load);
+        subdomain.data.heldLoad += std::abs(*load);
     }
 }
 
-/// What the supports hold goes to the right-hand side and to the energy.
+/// What the supports hold: reactions and energies.
 void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const StiffnessPattern& pattern,
                                    AssembledSubdomain& subdomain) {
-  subdomain.energyOffset = 0;
+  decomposition::SubdomainData& data = subdomain.data;
+  data.reaction.setZero(data.load.size());
+  data.heldWork = data.heldEnergy = 0;
   for (const std::size_t e : pattern.supportedElements()) {
     const std::span<const int> nodes = numbering.elementNodes(e);
     const auto positionOf = [&](Eigen::Index value) {
       const std::size_t v = value;
       return static_cast<std::size_t>(nodes[v / components_]) * components_ + v % components_;
     };
-    const auto heldAt = [&](std::size_t position) { return subdomain.prescribed[position]; };
+    const auto heldAt = [&](std::size_t position) { return data.prescribed[position]; };
     const Eigen::MatrixXd& k = stiffnessOf(kinds_[e]);
     for (Eigen::Index j = 0; j < k.cols(); ++j) {
       const double held = heldAt(positionOf(j)); // 0 at the free positions
       if (held == 0)
         continue;
-      subdomain.energyOffset -= loads_(j, static_cast<Eigen::Index>(e)) * held; // −f_dᵀu_d
+      data.heldWork += loads_(j, static_cast<Eigen::Index>(e)) * held;
       for (Eigen::Index i = 0; i < k.rows(); ++i) {
         const std::size_t other = positionOf(i);
         if (subdomain.unknownOf[other] >= 0)
-          subdomain.load[subdomain.unknownOf[other]] -= k(i, j) * held; // f_f − K_fd u_d
+          data.reaction[subdomain.unknownOf[other]] += k(i, j) * held;
         else
-          subdomain.energyOffset += 0.5 * k(i, j) * held * heldAt(other); // ½ u_dᵀ K_dd u_d
+          data.heldEnergy += 0.5 * k(i, j) * held * heldAt(other);
       }
     }
   }

@@ -2,6 +2,7 @@
 
 /// Stiffness, load and kernel of subdomains: a body's elements added up, supported values eliminated.
 
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/fem/RecentlyUsed.hpp"
@@ -16,7 +17,7 @@
 
 namespace epafi::fem {
 
-/// The arrays of decomposition::Subdomain that physics fills; see there for shapes. Eigen 3.4 copies a sparse
+/// What physics fills of decomposition::Subdomain and SubdomainData; see there for shapes. Eigen 3.4 copies a sparse
 /// matrix where others move: fill it where it is to stay.
 struct AssembledSubdomain {
   std::vector<GlobalOrdinal> nodes; ///< ascending
@@ -24,9 +25,7 @@ struct AssembledSubdomain {
   std::vector<int> unknownPosition; ///< n_s
   std::vector<int> unknownOf;       ///< unknown at each position, −1 where supported
   Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness;
-  Eigen::VectorXd load;
-  Eigen::VectorXd prescribed;
-  double energyOffset = 0, heldLoad = 0;
+  decomposition::SubdomainData data;
   Eigen::MatrixXd kernel;
 };
 

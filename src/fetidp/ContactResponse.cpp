@@ -26,12 +26,7 @@ public:
   /// Keeps a reference to `dual`. Collective.
   Face(const DualProblem& dual, const Vector& closed)
       : space_(dual.coarseSpace()), rows_(closed.getMap()), equality_(space_, closed.getMap()) {
-    const auto rows = rows_.getDataNonConst();
-    const auto isClosed = closed.getData();
-    for (LocalOrdinal row = 0; row < rows.size(); ++row) {
-      const bool isContact = dual.problem().kindOf(OwnedMultiplier(row)) == decomposition::RowKind::contact;
-      rows[row] = isContact && isClosed[row] == 0 ? 0 : 1;
-    }
+    dual.feasibleForces()->freeIndicator(closed, rows_); // as if it were forces
     equality_.setFace(rows_);
   }
 
@@ -177,7 +172,7 @@ ContactResponse contactResponse(const DualProblem& dual, const Vector& closed, c
   const auto& subdomains = dual.problem().subdomains;
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     response.displacement.push_back(decomposition::atAllPositions(
-        subdomains[s], found.unknowns[s], Eigen::VectorXd::Zero(subdomains[s].prescribed.size())));
+        subdomains[s], found.unknowns[s], Eigen::VectorXd::Zero(dual.problem().numPositions(subdomains[s]))));
   return response;
 }
 

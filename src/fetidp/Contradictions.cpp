@@ -5,10 +5,10 @@
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/fetidp/FeasibleForces.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
 #include "epafi/fetidp/RowProducts.hpp"
 #include "epafi/qp/BoundProblem.hpp"
-#include "epafi/qp/Box.hpp"
 #include "epafi/qp/NormEstimate.hpp"
 #include "epafi/qp/RecessionDirection.hpp"
 
@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +25,7 @@ namespace {
 
 using decomposition::DecomposedProblem;
 using decomposition::OwnedMultiplier;
+using decomposition::ProblemData;
 using decomposition::RowKind;
 
 /// Displacements may be so many times what overlaps: more, and only what is round-off in a row could make
@@ -75,8 +75,8 @@ double violationOf(const DecomposedProblem& problem, LocalOrdinal row, double ga
 /// By how much rows are violated that no displacement can help: those without an unknown, and those that are
 /// much shorter than others and far more violated for their length, whose unknowns are there by round-off of
 /// weights. \param norms of rows Collective.
-Vector heldRows(const DecomposedProblem& problem, const Vector& norms, double roundOff) {
-  const auto gaps = problem.gap->getData(), norm = norms.getData();
+Vector heldRows(const DecomposedProblem& problem, const Vector& gap, const Vector& norms, double roundOff) {
+  const auto gaps = gap.getData(), norm = norms.getData();
   AccurateSum sums[2]; // violation and length of violated rows
   double longest = 0;
   for (LocalOrdinal row = 0; row < gaps.size(); ++row)
@@ -128,11 +128,7 @@ RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProdu
   constexpr int patience = 1000;
   const RCP<const Operator> gram = rcp(new RowGram(products, inverseNorms));
   const double norm = qp::estimateNorm(*gram, {}).norm;
-  Vector lower(problem.multiplierMap);
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(lower.getLocalLength()); ++row)
-    if (problem.kindOf(OwnedMultiplier(row)) != RowKind::contact)
-      lower.replaceLocalValue(row, -std::numeric_limits<double>::infinity());
-  const RCP<const qp::Box> set = rcp(new qp::Box(rcp(new Vector(lower, Teuchos::Copy))));
+  const RCP<const qp::ConvexSet> set = feasibleForces(problem);
   Vector d(problem.multiplierMap);
   qp::MprgpParameters parameters;
   parameters.maxMultiplications = patience;
@@ -155,8 +151,8 @@ RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProdu
   return direction.is_null() ? Teuchos::null : inRows(*direction);
 }
 
-/// "a, b and c", each once, of many the first ones.
-std::string listed(std::vector<std::string> names) {
+/// Each once, of many the first ones.
+std::string listedOnce(std::vector<std::string> names) {
   constexpr std::size_t most = 4;
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -164,34 +160,32 @@ std::string listed(std::vector<std::string> names) {
     names[most - 1] = std::to_string(names.size() - most + 1) + " more";
     names.resize(most);
   }
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    list += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
-  return list;
+  return listed(names);
 }
 
 } // namespace
 
 ContradictionError::ContradictionError(std::vector<GlobalOrdinal> rows, std::string misfit,
                                        std::vector<std::string> names, const std::string& place)
-    : SolvabilityError(Kind::noSolution,
-                       "no solution: supports and " + listed(std::move(names)) + " contradict each other" +
-                           (place.empty() ? "" : " at " + place) + ", no displacement satisfies them all, " +
-                           misfit + "; change a gap, an obstacle, a support or a joint"),
+    : SolvabilityError(Kind::noSolution, "no solution: supports and " + listedOnce(std::move(names)) +
+                                             " contradict each other" +
+                                             (place.empty() ? "" : " at " + place) +
+                                             ", no displacement satisfies them all, " + misfit +
+                                             "; change a gap, an obstacle, a support or a joint"),
       rows_(std::move(rows)), misfit_(std::move(misfit)) {}
 
-void requireFeasibleGaps(const DecomposedProblem& problem) {
-  const auto gaps = problem.gap->getData();
+void requireFeasibleGaps(const DecomposedProblem& problem, const ProblemData& data) {
+  const auto gaps = data.gap().getData();
   double overlap = 0;
   for (LocalOrdinal row = 0; row < gaps.size(); ++row)
     overlap = std::max(overlap, violationOf(problem, row, gaps[row]));
   // Gaps are differences of prescribed values: what is round-off of these does not overlap.
-  const double roundOff = ProblemScales::roundOff * ProblemScales(problem).length();
+  const double roundOff = ProblemScales::roundOff * ProblemScales(problem, data).length();
   if (!holdsAnywhere(*problem.comm, overlap > roundOff))
     return;
   const RowProducts products(problem);
   const RCP<Vector> inverseNorms = products.norms(), target = rcp(new Vector(problem.multiplierMap));
-  const Vector held = heldRows(problem, *inverseNorms, roundOff);
+  const Vector held = heldRows(problem, data.gap(), *inverseNorms, roundOff);
   if (const double most = held.normInf(); most > 0)
     refuse(problem, held, most);
   double worst = 0; // of the rows of length 1
@@ -208,10 +202,10 @@ void requireFeasibleGaps(const DecomposedProblem& problem) {
   }
   if (const RCP<Vector> proof = provedContradiction(problem, products, *inverseNorms, target, worst);
       !proof.is_null())
-    refuseContradiction(problem, *proof);
+    refuseContradiction(problem, data, *proof);
 }
 
-void refuseContradiction(const DecomposedProblem& problem, const Vector& d) {
+void refuseContradiction(const DecomposedProblem& problem, const ProblemData& data, const Vector& d) {
   constexpr double small = 1e-3 / reach;
   const Comm& comm = *problem.comm;
   const RowProducts products(problem);
@@ -223,21 +217,20 @@ void refuseContradiction(const DecomposedProblem& problem, const Vector& d) {
   };
   const double left = largestOf(false), terms = largestOf(true);
   AccurateSum gaps[2]; // cᵀd and the size of its terms
-  double tension = 0, heaviest = 0;
-  const auto mine = d.getData(), gap = problem.gap->getData();
+  double heaviest = 0;
+  Vector tension(d, Teuchos::Copy); // what is not allowed
+  feasibleForces(problem)->project(tension);
+  tension.update(1.0, d, -1.0);
+  const auto mine = d.getData(), gap = data.gap().getData();
   for (LocalOrdinal row = 0; row < mine.size(); ++row) {
     gaps[0].add(gap[row] * mine[row]);
     gaps[1].add(std::abs(gap[row] * mine[row]));
-    const RowKind kind = problem.kindOf(OwnedMultiplier(row));
-    if (kind == RowKind::contact)
-      tension = std::max(tension, -mine[row]);
-    if (kind != RowKind::gluing)
+    if (problem.kindOf(OwnedMultiplier(row)) != RowKind::gluing)
       heaviest = std::max(heaviest, std::abs(mine[row]));
   }
   sumOverRanks(comm, gaps);
-  tension = maxOverRanks(comm, tension);
   heaviest = maxOverRanks(comm, heaviest);
-  if (terms > 0 && left <= small * terms && tension <= small * d.normInf() &&
+  if (terms > 0 && left <= small * terms && tension.normInf() <= small * d.normInf() &&
       gaps[0].value() < -small * gaps[1].value())
     refuse(problem, d, -gaps[0].value() / heaviest);
 }

@@ -4,7 +4,7 @@
 /// obstacles and ties prescribe what they forbid.
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 
 #include <string>
 #include <vector>
@@ -32,10 +32,12 @@ private:
 /// other, or can only be met by displacements out of all proportion to what overlaps. Nothing is done where u
 /// = 0 satisfies them, which is most often; else min ½‖Bᵀd‖² + cᵀd, d_I ≥ 0, by MPRGP: bounded exactly if
 /// there is such a u, and then u = −Bᵀd is one. Products with sparse rows alone. Collective.
-void requireFeasibleGaps(const decomposition::DecomposedProblem& problem);
+void requireFeasibleGaps(const decomposition::DecomposedProblem& problem,
+                         const decomposition::ProblemData& data);
 
 /// Throws ContradictionError likewise if d proves that no u satisfies B_I u ≤ c_I, B_E u = 0: d_I ≥ 0, Bᵀd =
 /// 0 and cᵀd < 0 (Farkas), each to round-off of its terms. \param d on multiplierMap Collective.
-void refuseContradiction(const decomposition::DecomposedProblem& problem, const Vector& d);
+void refuseContradiction(const decomposition::DecomposedProblem& problem,
+                         const decomposition::ProblemData& data, const Vector& d);
 
 } // namespace epafi::fetidp

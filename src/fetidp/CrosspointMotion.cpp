@@ -191,13 +191,14 @@ void CrosspointMotion::addForces(const Eigen::MatrixXd& u, MultiVector& y) const
 }
 
 void CrosspointMotion::addForcesAtRest(const decomposition::DecomposedProblem& problem,
-                                       const SubdomainVectors& v, MultiVector& y) const {
+                                       const SubdomainVectors& f, const SubdomainVectors& v,
+                                       MultiVector& y) const {
   prepareColumns(1);
   for (const auto& [group, near] : followers_)
     for (Eigen::Index m = 0; m < near.cols(); ++m) {
       const std::size_t s = group->members()[m];
       const decomposition::Subdomain& subdomain = problem.subdomains[s];
-      const Eigen::VectorXd missing = subdomain.load - *subdomain.stiffness * v[s].col(0);
+      const Eigen::VectorXd missing = f[s].col(0) - *subdomain.stiffness * v[s].col(0);
       for (Eigen::Index c = 0; c < near.rows(); ++c)
         if (near(c, m) >= 0)
           work_.nearSums[near(c, m)].add(missing[subdomain.crosspointUnknowns[c]]);

@@ -35,8 +35,8 @@ public:
   void addForces(const Eigen::MatrixXd& u, MultiVector& y) const;
   /// y += Cᵀ(Xᵀ(f − K v)_C − Jᵀ y), what crosspoints at rest miss for equilibrium where the bodies are
   /// displaced by v (n_s × 1); without the first term under adaptive constraints. Collective.
-  void addForcesAtRest(const decomposition::DecomposedProblem& problem, const SubdomainVectors& v,
-                       MultiVector& y) const;
+  void addForcesAtRest(const decomposition::DecomposedProblem& problem, const SubdomainVectors& f,
+                       const SubdomainVectors& v, MultiVector& y) const;
 
 private:
   /// A group of identical subdomains some of whose crosspoints are near: m members.

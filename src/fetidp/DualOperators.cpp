@@ -53,11 +53,13 @@ RCP<const CorrectedPreconditioner> correctedPreconditioner(const DecomposedProbl
 /// G. What supports and ties hold is out of balance and contradicts itself at once, most often: the cause is
 /// told. Collective.
 RCP<const NaturalCoarseSpace> coarseSpace(const DecomposedProblem& problem,
+                                          const decomposition::ProblemData& data,
                                           const std::vector<KernelEntry>& entries) try {
-  requireContactForEveryMotion(problem, entries);
+  requireContactForEveryMotion(problem, data, entries);
   return rcp(new NaturalCoarseSpace(problem, entries));
 } catch (const Error&) { // on all ranks
-  requireFeasibleGaps(problem);
+  if (!data.isEmpty())
+    requireFeasibleGaps(problem, data);
   throw;
 }
 
@@ -154,8 +156,8 @@ std::size_t DualOperators::preconditionerBytes() const {
          (corrected.is_null() ? 0 : corrected->space().bytes());
 }
 
-DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algorithm,
-                                const std::shared_ptr<GeneralizedInverse>& inverse,
+DualOperators makeDualOperators(const DecomposedProblem& problem, const decomposition::ProblemData& data,
+                                Algorithm algorithm, const std::shared_ptr<GeneralizedInverse>& inverse,
                                 const std::vector<KernelEntry>& kernelEntries,
                                 const DualParameters& parameters) {
   DualOperators operators;
@@ -167,7 +169,7 @@ DualOperators makeDualOperators(const DecomposedProblem& problem, Algorithm algo
   operators.deflated = deflatedOperator(problem, *inverse, operators.f, parameters);
   operators.hessian = operators.flexibility();
   if (problem.kernelDimension > 0) {
-    operators.coarseSpace = coarseSpace(problem, kernelEntries);
+    operators.coarseSpace = coarseSpace(problem, data, kernelEntries);
     operators.hessian = rcp(new ProjectedOperator(operators.flexibility(), operators.coarseSpace));
   }
   if (algorithm != Algorithm::conjugateGradient || parameters.isBalanced)

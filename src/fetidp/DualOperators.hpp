@@ -81,10 +81,12 @@ struct DualOperators {
   [[nodiscard]] std::size_t preconditionerBytes() const;
 };
 
+/// \param data           for the sentences of refusals alone
 /// \param inverse        gets the dense blocks that the parameters ask for
 /// \param kernelEntries  see kernelConstraint
 /// Collective. \throws SolvabilityError if a floating body meets no contact, Error if a factorisation fails.
-DualOperators makeDualOperators(const decomposition::DecomposedProblem& problem, Algorithm algorithm,
+DualOperators makeDualOperators(const decomposition::DecomposedProblem& problem,
+                                const decomposition::ProblemData& data, Algorithm algorithm,
                                 const std::shared_ptr<GeneralizedInverse>& inverse,
                                 const std::vector<KernelEntry>& kernelEntries,
                                 const DualParameters& parameters);

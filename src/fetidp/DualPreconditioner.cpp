@@ -44,17 +44,19 @@ void DualPreconditioner::multiply(const MultiVector& x, MultiVector& y) const {
 
 /// The boundaries are held at u, where they would go to v without, by the forces S_Δ(v − u)_Δ.
 RCP<Vector> DualPreconditioner::multipliersOf(const decomposition::DecomposedProblem& problem,
+                                              const decomposition::ProblemData& data,
                                               const SubdomainVectors& given) const {
+  const SubdomainVectors loads = loadsOf(data);
   SubdomainVectors free = given;
   GeneralizedInverse::Workspace work;
-  inverse_->solveRemainders(loadsOf(problem), free, 1, work); // v
+  inverse_->solveRemainders(loads, free, 1, work); // v
   SubdomainVectors held;
   for (std::size_t s = 0; s < free.size(); ++s)
     held.emplace_back(free[s] - given[s]);
   RCP<Vector> multipliers = rcp(new Vector(problem.multiplierMap));
   boundary_->applyTo(held, *multipliers);
   if (motion_)
-    motion_->addForcesAtRest(problem, free, *multipliers);
+    motion_->addForcesAtRest(problem, loads, free, *multipliers);
   return multipliers;
 }
 

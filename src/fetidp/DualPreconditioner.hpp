@@ -50,6 +50,7 @@ public:
   /// this rank's subdomains
   /// Precondition: type dirichlet. A sparse solve and a dense product a subdomain. Collective.
   [[nodiscard]] RCP<Vector> multipliersOf(const decomposition::DecomposedProblem& problem,
+                                          const decomposition::ProblemData& data,
                                           const SubdomainVectors& given) const;
   /// Bytes of this rank's blocks; what is left to factors takes none.
   [[nodiscard]] std::size_t bytes() const { return boundary_->bytes(); }

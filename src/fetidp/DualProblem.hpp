@@ -5,6 +5,7 @@
 
 #include "epafi/fetidp/DualOperators.hpp"
 #include "epafi/fetidp/ErrorBalance.hpp"
+#include "epafi/fetidp/FeasibleForces.hpp"
 #include "epafi/qp/SolveReport.hpp"
 
 #include <memory>
@@ -29,7 +30,8 @@ struct DualSolution {
 class DualProblem {
 public:
   /// What depends on the matrices alone: F, G, the norm estimate. Keeps a reference to `problem`. Collective.
-  DualProblem(const decomposition::DecomposedProblem& problem,
+  /// \param data  for the sentences of refusals alone
+  DualProblem(const decomposition::DecomposedProblem& problem, const decomposition::ProblemData& data,
               const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters);
 
   [[nodiscard]] Algorithm algorithm() const { return choice_.algorithm; } ///< see chosenAlgorithm
@@ -38,13 +40,13 @@ public:
   /// Of the Hessian.
   [[nodiscard]] const qp::NormEstimate& norm() const { return operators_.norm; }
 
-  /// Solves for the loads and gaps that the problem holds now.
+  /// \param data   loads, prescribed values and gaps
   /// \param start  λ to start from (a warm start), or null for 0
   /// \param observer  told of every step, shown λ where it wants to look; or null
   /// \param balance   if the parameters ask for balance
   /// \throws SolvabilityError (see Solvability.hpp; also if the iteration proves that contact rows contradict
   /// each other), or InputError if a load or gap is not finite. Collective.
-  DualSolution solve(const Vector* start, qp::Observer* observer,
+  DualSolution solve(const decomposition::ProblemData& data, const Vector* start, qp::Observer* observer,
                      const ErrorBalance* balance = nullptr) const;
 
   /// λ of a guess of the displacements, to start from: Eᵀ(f − Ku), forces of contact that pull left out. Null
@@ -52,8 +54,11 @@ public:
   /// \param displacement  u at all positions of each of this rank's subdomains, in space; what counts are the
   /// nodes that subdomains share or contact touches
   /// Collective.
-  [[nodiscard]] RCP<Vector> startFrom(std::span<const Eigen::VectorXd> displacement) const;
+  [[nodiscard]] RCP<Vector> startFrom(const decomposition::ProblemData& data,
+                                      std::span<const Eigen::VectorXd> displacement) const;
 
+  /// What multipliers may be.
+  [[nodiscard]] const RCP<const qp::ConvexSet>& feasibleForces() const { return feasibleForces_; }
   /// What it was made of.
   [[nodiscard]] const decomposition::DecomposedProblem& problem() const { return problem_; }
   [[nodiscard]] const GeneralizedInverse& inverse() const { return *inverse_; }  ///< K̄⁺
@@ -79,6 +84,7 @@ private:
   const decomposition::DecomposedProblem& problem_;
   const std::shared_ptr<const GeneralizedInverse> inverse_;
   const DualParameters parameters_;
+  const RCP<const qp::ConvexSet> feasibleForces_;
   const AlgorithmChoice choice_;
   const std::vector<KernelEntry> kernelEntries_;
   const DualOperators operators_;

@@ -1,17 +1,16 @@
-// One solve of the dual problem, for the loads and gaps that the problem holds.
+// One solve of the dual problem.
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/Balancing.hpp"
 #include "epafi/fetidp/Contradictions.hpp"
+#include "epafi/fetidp/DualObservers.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
 #include "epafi/fetidp/ProblemChecks.hpp"
-#include "epafi/fetidp/Recovery.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/BoundProblem.hpp"
-#include "epafi/qp/Box.hpp"
 #include "epafi/qp/ConjugateGradient.hpp"
 #include "epafi/qp/RecessionDirection.hpp"
 
@@ -30,65 +29,7 @@ namespace epafi::fetidp {
 namespace {
 
 using decomposition::DecomposedProblem;
-
-/// A fraction of the discretisation error η, of the displacements that go with an iterate. An algebraic error
-/// e blurs η by no more than about its own size: a look with e ≤ η/2 is enough.
-class BalancedTarget final : public qp::ErrorTarget {
-public:
-  /// Keeps references. \param complete  makes λ of an iterate
-  BalancedTarget(const DualProblem& dual, const ErrorBalance& balance, std::function<void(Vector&)> complete)
-      : dual_(dual), balance_(balance), complete_(std::move(complete)),
-        lookedAt_(dual.problem().multiplierMap) {}
-
-  double first(double error) override {
-    return balance_.expected > 0 ? balance_.fraction * balance_.expected : balance_.firstLook * error;
-  }
-  double at(double error, const Vector& x) override {
-    if (isClear_)
-      return last_;
-    lookedAt_.assign(x);
-    complete_(lookedAt_);
-    const double mesh = balance_.estimate(displacementOf(dual_, lookedAt_));
-    isClear_ = error <= 0.5 * mesh;
-    last_ = balance_.fraction * (isClear_ && error > balance_.fraction * mesh ? mesh - error : mesh);
-    return last_;
-  }
-  [[nodiscard]] double last() const { return last_; }
-  /// Whether the last look was at this λ, but for round-off. Collective.
-  [[nodiscard]] bool hasSeen(const Vector& lambda) const {
-    Vector difference(lambda, Teuchos::Copy);
-    difference.update(-1.0, lookedAt_, 1.0);
-    return last_ > 0 && difference.normInf() <= 1e-9 * lambda.normInf();
-  }
-
-private:
-  const DualProblem& dual_;
-  const ErrorBalance& balance_;
-  std::function<void(Vector&)> complete_;
-  Vector lookedAt_; ///< λ
-  double last_ = 0;
-  bool isClear_ = false;
-};
-
-/// Shows λ where the iteration has μ = λ − λ̃.
-class ShiftedObserver final : public qp::Observer {
-public:
-  /// \param shift  λ̃
-  ShiftedObserver(qp::Observer& next, const Vector& shift)
-      : next_(next), shift_(shift), sum_(shift.getMap()) {}
-  void step(const qp::StepRecord& record) override { next_.step(record); }
-  [[nodiscard]] bool wantsToStop() override { return next_.wantsToStop(); }
-  [[nodiscard]] bool wantsToLook() override { return next_.wantsToLook(); }
-  void look(const Vector& mu) override {
-    sum_.update(1.0, mu, 1.0, shift_, 0.0);
-    next_.look(sum_);
-  }
-
-private:
-  qp::Observer& next_;
-  const Vector& shift_;
-  Vector sum_;
-};
+using decomposition::ProblemData;
 
 /// A new face disturbs the forces between clusters, and these the contact. Membranes' contact hardly feels
 /// it.
@@ -102,40 +43,31 @@ struct RightHandSide {
 };
 
 /// d̃ = B̄ K̄⁺ f̄ − c. Collective.
-RightHandSide rightHandSide(const DualProblem& dual) {
+RightHandSide rightHandSide(const DualProblem& dual, const ProblemData& data) {
   const DecomposedProblem& problem = dual.problem();
   SubdomainVectors u;
-  dual.inverse().apply(loadsOf(problem), u);
+  dual.inverse().apply(loadsOf(data), u);
   MultiplierExchange exchange(dual.inverse().multiplierPlan());
   dual.inverse().constraint(u, exchange.values());
   RightHandSide rhs{rcp(new Vector(problem.multiplierMap))};
   exchange.sumToOwners(*rhs.values);
-  rhs.values->update(-1.0, *problem.gap, 1.0);
+  rhs.values->update(-1.0, data.gap(), 1.0);
   for (const Eigen::MatrixXd& values : u)
     rhs.largest = values.size() > 0 ? std::max(rhs.largest, values.lpNorm<Eigen::Infinity>()) : rhs.largest;
   rhs.largest = maxOverRanks(*problem.comm, rhs.largest);
-  rhs.termSize = rhs.largest + problem.gap->normInf();
+  rhs.termSize = rhs.largest + data.gap().normInf();
   return rhs;
-}
-
-/// λ ≥ 0 for contact, no bound for ties and gluing.
-RCP<Vector> lowerBounds(const DecomposedProblem& problem) {
-  const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
-  const auto values = lower->getDataNonConst();
-  for (LocalOrdinal row = 0; row < values.size(); ++row)
-    if (problem.kindOf(decomposition::OwnedMultiplier(row)) != decomposition::RowKind::contact)
-      values[row] = -std::numeric_limits<double>::infinity();
-  return lower;
 }
 
 /// A solve that iterates.
 class IterativeSolve {
 public:
   /// Keeps references; observer and balance may be null. Collective.
-  IterativeSolve(const DualProblem& dual, const Vector* start, qp::Observer* observer,
-                 const ErrorBalance* balance, double tolerance)
-      : dual_(dual), problem_(dual.problem()), start_(start), observer_(observer), balance_(balance),
-        tolerance_(tolerance), wholeRhs_(rightHandSide(dual)), rhs_(wholeRhs_.values) {
+  IterativeSolve(const DualProblem& dual, const ProblemData& data, const Vector* start,
+                 qp::Observer* observer, const ErrorBalance* balance, double tolerance)
+      : dual_(dual), problem_(dual.problem()), data_(data), start_(start), observer_(observer),
+        balance_(balance), tolerance_(tolerance), wholeRhs_(rightHandSide(dual, data)),
+        rhs_(wholeRhs_.values) {
     if (!dual.deflatedOperator().is_null()) {
       rhs_ = rcp(new Vector(*wholeRhs_.values, Teuchos::Copy));
       dual.deflatedOperator()->space().projectTransposed(*rhs_);
@@ -161,6 +93,7 @@ private:
 
   const DualProblem& dual_;
   const DecomposedProblem& problem_;
+  const ProblemData& data_;
   const Vector* start_;
   qp::Observer* observer_;
   const ErrorBalance* balance_;
@@ -185,8 +118,9 @@ bool IterativeSolve::setReference() {
   const bool vanishes = rhs_->normInf() <= roundOff * wholeRhs_.termSize;
   if (vanishes)
     rhs_->putScalar(0.0);
-  solution_.reference =
-      vanishes ? wholeRhs_.termSize : gradientReference(problem_, *rhs_, roundOff * wholeRhs_.largest);
+  solution_.reference = vanishes
+                            ? wholeRhs_.termSize
+                            : gradientReference(*dual_.feasibleForces(), *rhs_, roundOff * wholeRhs_.largest);
   return vanishes;
 }
 
@@ -223,7 +157,7 @@ void IterativeSolve::refuseIfContradictory(const qp::ActiveSetProblem& faces, in
                                  std::min(patience, maxMultiplications));
   solution_.report.counts.hessianMultiplications += found.multiplications;
   if (!found.direction.is_null())
-    refuseContradiction(problem_, *found.direction);
+    refuseContradiction(problem_, data_, *found.direction);
 }
 
 /// Goes on with a method from x; reports, counts and limits run through. Collective.
@@ -283,8 +217,8 @@ void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::Smalbe
 
 /// MPRGP, or active sets; without contact it is CG, step by step.
 void IterativeSolve::iterateInBounds() {
-  const qp::BoundProblem problem{dual_.hessian(), rhs_, rcp(new qp::Box(lowerBounds(problem_))),
-                                 dual_.preconditioner(), dual_.norm().norm};
+  const qp::BoundProblem problem{dual_.hessian(), rhs_, dual_.feasibleForces(), dual_.preconditioner(),
+                                 dual_.norm().norm};
   const qp::ActiveSetProblem faces{problem.hessian, problem.linearTerm,     problem.set,
                                    Teuchos::null,   problem.preconditioner, problem.operatorNorm};
   const double reference = rhs_->normInf() > 0 ? solution_.reference : 0;
@@ -296,7 +230,7 @@ void IterativeSolve::iterateInBounds() {
             });
     return;
   }
-  target_.emplace(dual_, *balance_, [this](Vector& x) { completeJumps(x); });
+  target_.emplace(dual_, data_, *balance_, [this](Vector& x) { completeJumps(x); });
   tolerances.error = &*target_;
   iterate(faces, tolerances, *solution_.lambda, observer_, [&](Vector& x, const qp::MprgpParameters& mprgp) {
     qp::ErrorRule rule(*target_, reference);
@@ -316,17 +250,15 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
   space.project(*rhs_);                                                                  // Pd
   const bool vanishes = setReference();
   const double reference =
-      equilibriumReference(problem_, space, resultants, solution_.reference, dual_.norm().norm);
+      equilibriumReference(problem_, data_, space, resultants, solution_.reference, dual_.norm().norm);
 
-  const RCP<Vector> lower = lowerBounds(problem_);
-  lower->update(-1.0, feasible, 1.0); // −λ̃_I
   Vector mu(problem_.multiplierMap);
   if (start_ != nullptr && !vanishes)
     mu.update(1.0, *start_, -1.0, feasible, 0.0);
   qp::SmalbeTolerances tolerances{tolerance_, solution_.reference, dual_.parameters().equilibriumTolerance,
                                   reference};
   if (balance_ != nullptr && !vanishes)
-    tolerances.error = &target_.emplace(dual_, *balance_, [&](Vector& x) {
+    tolerances.error = &target_.emplace(dual_, data_, *balance_, [&](Vector& x) {
       x.update(1.0, feasible, 1.0);
       completeJumps(x);
     });
@@ -343,7 +275,7 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
                                dual_.parameters().mprgp.maxMultiplications, observer, dual_.preconditioner());
     mu.assign(*start);
   } else {
-    const RCP<const qp::ConvexSet> set = rcp(new qp::Box(lower));
+    const RCP<const qp::ConvexSet> set = dual_.feasibleForces()->shiftedBy(feasible); // μ_I ≥ −λ̃_I
     const double norm = dual_.norm().norm;
     qp::ActiveSetProblem faces{dual_.operators().flexibility(),      rhs_, set, dual_.coarseSpace(),
                                dual_.operators().facePreconditioner, norm};
@@ -357,7 +289,7 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
     });
   }
   solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
-  const double imbalance = balance(problem_, space, resultants,
+  const double imbalance = balance(*dual_.feasibleForces(), space, resultants,
                                    dual_.parameters().equilibriumTolerance * reference, *solution_.lambda);
   solution_.equilibrium = reference > 0 ? imbalance / reference : imbalance;
   return finished();
@@ -374,22 +306,22 @@ DualSolution solvedDirectly(const DecomposedProblem& problem) {
 
 } // namespace
 
-DualSolution DualProblem::solve(const Vector* start, qp::Observer* observer,
-                                const ErrorBalance* balance) const {
+DualSolution DualProblem::solve(const decomposition::ProblemData& data, const Vector* start,
+                                qp::Observer* observer, const ErrorBalance* balance) const {
   if (parameters_.isBalanced && balance == nullptr)
     throw InputError("the tolerance 'balanced' needs an estimate of the discretisation error, and none was "
                      "given; hand one over to solve(), or ask for a number");
-  requireFiniteData(problem_);
-  const Eigen::VectorXd resultants = kernelLoad(problem_);
-  requireFeasibleGaps(problem_);
-  requireUniqueSolution(problem_, kernelEntries_);
+  requireFiniteData(problem_, data);
+  const Eigen::VectorXd resultants = kernelLoad(problem_, data);
+  requireFeasibleGaps(problem_, data);
+  requireUniqueSolution(problem_, data, kernelEntries_);
   if (algorithm() == Algorithm::direct)
     return solvedDirectly(problem_);
-  IterativeSolve solve(*this, start, observer, parameters_.isBalanced ? balance : nullptr,
+  IterativeSolve solve(*this, data, start, observer, parameters_.isBalanced ? balance : nullptr,
                        parameters_.tolerance);
   DualSolution solution = coarseSpace().is_null() ? solve.coercive() : solve.semicoercive(resultants);
   if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null())
-    refuseContradiction(problem_, *solution.report.certificate);
+    refuseContradiction(problem_, data, *solution.report.certificate);
   return solution;
 }
 

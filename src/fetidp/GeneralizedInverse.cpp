@@ -24,10 +24,10 @@ std::vector<decomposition::CoarseNumber> crosspointsOf(const decomposition::Deco
 
 } // namespace
 
-SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem) {
+SubdomainVectors loadsOf(const decomposition::ProblemData& data) {
   SubdomainVectors loads;
-  for (const auto& subdomain : problem.subdomains)
-    loads.emplace_back(subdomain.load);
+  for (const decomposition::SubdomainData& own : data.subdomains())
+    loads.emplace_back(own.rightHandSide());
   return loads;
 }
 

@@ -3,7 +3,7 @@
 /// K̄⁺: the inverse, or a generalised inverse, of the stiffness matrix after the crosspoints are merged; and
 /// B̄ around it.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fetidp/CoarseProblem.hpp"
 #include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/SubdomainGroup.hpp"
@@ -17,8 +17,8 @@ namespace epafi::fetidp {
 /// Values of this rank's subdomains, n_s × k each: k ≥ 1 vectors at once, as many in every subdomain.
 using SubdomainVectors = std::vector<Eigen::MatrixXd>;
 
-/// The loads that the problem holds, f^s for each of this rank's subdomains.
-SubdomainVectors loadsOf(const decomposition::DecomposedProblem& problem);
+/// Right-hand sides f^s − K_fp u_p of this rank's subdomains.
+SubdomainVectors loadsOf(const decomposition::ProblemData& data);
 
 /// Products leave it as it is; work space belongs to whoever multiplies.
 class GeneralizedInverse {

@@ -133,8 +133,9 @@ Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, cons
   return resultants(problem, loads, [](const auto& r, const auto& f) { return r.dot(f); });
 }
 
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem) {
-  return kernelLoad(problem, loadsOf(problem));
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem,
+                           const decomposition::ProblemData& data) {
+  return kernelLoad(problem, loadsOf(data));
 }
 
 Eigen::VectorXd onBodies(const DecomposedProblem& problem, const Eigen::VectorXd& resultants) {

@@ -6,7 +6,7 @@
 /// The kernel R of a cluster satisfies the gluing inside, so that G̃ has entries in the rows of contact and
 /// ties, and in those that glue clusters, each touching a few clusters: it is kept sparse, by rows of B.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 
 #include <Eigen/Core>
@@ -30,8 +30,9 @@ std::vector<KernelEntry> kernelConstraint(const decomposition::DecomposedProblem
 std::vector<KernelEntry> kernelConstraintOfBodies(const decomposition::DecomposedProblem& problem,
                                                   const std::vector<KernelEntry>& entries);
 
-/// ẽ = Rᵀ f̄ for the loads that the problem holds, on every rank. Collective.
-Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem);
+/// ẽ = Rᵀ f̄ for the right-hand sides of the data, on every rank. Collective.
+Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem,
+                           const decomposition::ProblemData& data);
 /// Likewise for other loads, n_s × 1 of each of this rank's subdomains.
 Eigen::VectorXd kernelLoad(const decomposition::DecomposedProblem& problem, const SubdomainVectors& loads);
 

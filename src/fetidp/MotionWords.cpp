@@ -146,11 +146,8 @@ std::string abilitiesOf(const DecomposedProblem& problem, const Eigen::MatrixXd&
     verbs[moves.bodies].push_back(moves.areAlike() ? moves.verbs.at(0) : "move together");
   }
   std::string all;
-  for (const auto& [who, what] : verbs) {
-    all += (all.empty() ? "" : "; ") + namesOf(who) + " can ";
-    for (std::size_t k = 0; k < what.size(); ++k) // "a, b and c"
-      all += (k == 0 ? "" : k + 1 < what.size() ? ", " : " and ") + what[k];
-  }
+  for (const auto& [who, what] : verbs)
+    all += (all.empty() ? "" : "; ") + namesOf(who) + " can " + listed(what);
   return all;
 }
 

@@ -55,14 +55,14 @@ void requireFiniteMatrices(const DecomposedProblem& problem) {
   });
 }
 
-void requireFiniteData(const DecomposedProblem& problem) {
+void requireFiniteData(const DecomposedProblem& problem, const decomposition::ProblemData& data) {
   collectively(*problem.comm, [&] {
-    for (const Subdomain& subdomain : problem.subdomains)
-      if (!subdomain.load.allFinite())
-        throw InputError("the load of " + bodyOf(problem, subdomain) + " has an entry in subdomain " +
-                         std::to_string(subdomain.number) +
+    for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+      if (!data.subdomains()[s].rightHandSide().allFinite())
+        throw InputError("the load of " + bodyOf(problem, problem.subdomains[s]) +
+                         " has an entry in subdomain " + std::to_string(problem.subdomains[s].number) +
                          " that is not a finite number; check its loads and supports");
-    const auto gaps = problem.gap->getData();
+    const auto gaps = data.gap().getData();
     for (LocalOrdinal row = 0; row < gaps.size(); ++row)
       if (!std::isfinite(gaps[row]))
         throw InputError("the gap of contact row " +

@@ -2,7 +2,7 @@
 
 /// What is refused before anything is computed with it: numbers that are none.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 
 namespace epafi::fetidp {
 
@@ -11,6 +11,7 @@ namespace epafi::fetidp {
 void requireFiniteMatrices(const decomposition::DecomposedProblem& problem);
 
 /// The same for loads and gaps. Collective.
-void requireFiniteData(const decomposition::DecomposedProblem& problem);
+void requireFiniteData(const decomposition::DecomposedProblem& problem,
+                       const decomposition::ProblemData& data);
 
 } // namespace epafi::fetidp

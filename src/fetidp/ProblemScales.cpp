@@ -13,10 +13,11 @@
 namespace epafi::fetidp {
 
 using decomposition::DecomposedProblem;
+using decomposition::ProblemData;
 
-ProblemScales::ProblemScales(const DecomposedProblem& problem) {
+ProblemScales::ProblemScales(const DecomposedProblem& problem, const ProblemData& data) {
   measureMotions(problem);
-  measureLoads(problem);
+  measureLoads(problem, data);
   measureRows(problem);
 }
 
@@ -34,18 +35,19 @@ void ProblemScales::measureMotions(const DecomposedProblem& problem) {
   }
 }
 
-void ProblemScales::measureLoads(const DecomposedProblem& problem) {
+void ProblemScales::measureLoads(const DecomposedProblem& problem, const ProblemData& data) {
   // Forces of prescribed displacements are sums that cancel where these move a body as a whole, or across
   // them.
   constexpr double left = 1e-5; // times `resultant`: some round-off of the terms
   const std::size_t numClusters = problem.clusters.size();
   std::vector<double> sums(numClusters, 0.0), largest(numClusters + 1, 0.0);
   std::vector<double> modes(problem.kernelDimension, 0.0);
-  for (const auto& subdomain : problem.subdomains) {
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    const auto& subdomain = problem.subdomains[s];
+    const decomposition::SubdomainData& own = data.subdomains()[s];
     const std::size_t cluster = problem.clusterOf[subdomain.number];
-    sums[cluster] += subdomain.load.lpNorm<1>() + subdomain.heldLoad;
-    const double prescribed =
-        subdomain.prescribed.size() > 0 ? subdomain.prescribed.lpNorm<Eigen::Infinity>() : 0.0;
+    sums[cluster] += own.rightHandSide().lpNorm<1>() + own.heldLoad;
+    const double prescribed = own.prescribed.size() > 0 ? own.prescribed.lpNorm<Eigen::Infinity>() : 0.0;
     if (prescribed > 0 && subdomain.stiffness->rows() > 0)
       largest[cluster] = std::max(
           largest[cluster], left * prescribed * Eigen::VectorXd(subdomain.stiffness->diagonal()).maxCoeff());
@@ -59,7 +61,7 @@ void ProblemScales::measureLoads(const DecomposedProblem& problem) {
   for (auto* values : {&largest, &modes})
     for (double& value : *values)
       value = maxOverRanks(*problem.comm, value);
-  length_ = std::max(largest.back(), problem.gap->normInf());
+  length_ = std::max(largest.back(), data.gap().normInf());
   resultants_.setZero(problem.kernelDimension);
   std::vector<double> ofBodies(problem.bodies.size(), 0.0);
   for (std::size_t c = 0; c < numClusters; ++c) {

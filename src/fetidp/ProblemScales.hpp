@@ -4,7 +4,7 @@
 /// in a scene along the axes is round-off in its turned copy, and decides the same. One scale for each kind
 /// of quantity, none of them the difference that it measures.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fetidp/KernelConstraint.hpp"
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ public:
   static constexpr double roundOff = 1e-12;
 
   /// Collective.
-  explicit ProblemScales(const decomposition::DecomposedProblem& problem);
+  ProblemScales(const decomposition::DecomposedProblem& problem, const decomposition::ProblemData& data);
 
   /// Largest displacement of each mode of the bodies, k; 1 for a mode without any.
   [[nodiscard]] const Eigen::VectorXd& motions() const { return motions_; }
@@ -54,7 +54,7 @@ public:
 
 private:
   void measureMotions(const decomposition::DecomposedProblem& problem);
-  void measureLoads(const decomposition::DecomposedProblem& problem);
+  void measureLoads(const decomposition::DecomposedProblem& problem, const decomposition::ProblemData& data);
   void measureRows(const decomposition::DecomposedProblem& problem);
 
   Eigen::VectorXd motions_, loads_, resultants_;

@@ -45,9 +45,9 @@ std::vector<VectorXd> rigidParts(const DecomposedProblem& problem, const Subdoma
   return parts;
 }
 
-double largestOf(const Subdomain& subdomain, const VectorXd& unknowns) {
+double largestOf(const DecomposedProblem& problem, const Subdomain& subdomain, const VectorXd& unknowns) {
   const VectorXd values =
-      decomposition::atAllPositions(subdomain, unknowns, VectorXd::Zero(subdomain.prescribed.size()));
+      decomposition::atAllPositions(subdomain, unknowns, VectorXd::Zero(problem.numPositions(subdomain)));
   return values.size() > 0 ? values.lpNorm<Eigen::Infinity>() : 0.0;
 }
 
@@ -67,7 +67,8 @@ std::vector<double> uncertainBodies(const DecomposedProblem& problem) {
 
 } // namespace
 
-void requireProportion(const DecomposedProblem& problem, const SubdomainVectors& u, const Vector& lambda) {
+void requireProportion(const DecomposedProblem& problem, const decomposition::ProblemData& data,
+                       const SubdomainVectors& u, const Vector& lambda) {
   if (problem.numRigidModes() == 0)
     return;
   const std::vector<double> isUncertain = uncertainBodies(problem);
@@ -80,12 +81,12 @@ void requireProportion(const DecomposedProblem& problem, const SubdomainVectors&
     const Subdomain& subdomain = problem.subdomains[s];
     const std::size_t body = subdomain.body;
     const VectorXd motion = modesOf(problem, subdomain) * rigid[body];
-    moved[body] = std::max(moved[body], largestOf(subdomain, motion));
-    usual = std::max(usual, largestOf(subdomain, u[s].col(0) - motion));
-    if (subdomain.prescribed.size() > 0)
-      usual = std::max(usual, subdomain.prescribed.lpNorm<Eigen::Infinity>());
+    moved[body] = std::max(moved[body], largestOf(problem, subdomain, motion));
+    usual = std::max(usual, largestOf(problem, subdomain, u[s].col(0) - motion));
+    if (const VectorXd& prescribed = data.subdomains()[s].prescribed; prescribed.size() > 0)
+      usual = std::max(usual, prescribed.lpNorm<Eigen::Infinity>());
   }
-  const auto gap = problem.gap->getData(), force = lambda.getData();
+  const auto gap = data.gap().getData(), force = lambda.getData();
   for (Teuchos_Ordinal row = 0; row < gap.size(); ++row)
     if (force[row] > 0)
       usual = std::max(usual, std::abs(gap[row]));

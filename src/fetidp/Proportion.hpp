@@ -3,7 +3,7 @@
 /// Whether a solution can be one of the problem that is meant: gaps are linear in the displacements.
 
 #include "epafi/base/Types.hpp"
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 
 namespace epafi::fetidp {
@@ -15,7 +15,8 @@ namespace epafi::fetidp {
 /// \param u       unknowns of this rank's subdomains
 /// \param lambda  forces: gaps closed where they are positive
 /// Collective.
-void requireProportion(const decomposition::DecomposedProblem& problem, const SubdomainVectors& u,
+void requireProportion(const decomposition::DecomposedProblem& problem,
+                       const decomposition::ProblemData& data, const SubdomainVectors& u,
                        const Vector& lambda);
 
 } // namespace epafi::fetidp

@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/Balancing.hpp"
 #include "epafi/fetidp/ContactResponse.hpp"
+#include "epafi/fetidp/HeldRows.hpp"
 #include "epafi/fetidp/Proportion.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
 #include "epafi/fetidp/SharedRows.hpp"
@@ -20,25 +21,26 @@ namespace epafi::fetidp {
 namespace {
 
 using decomposition::DecomposedProblem;
+using decomposition::ProblemData;
 
 /// c − B̄u on the owners' multipliers.
-void slackOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse, const SubdomainVectors& u,
+void slackOf(const ProblemData& data, const GeneralizedInverse& inverse, const SubdomainVectors& u,
              Vector& slack) {
   MultiplierExchange exchange(inverse.multiplierPlan());
   inverse.constraint(u, exchange.values());
   exchange.sumToOwners(slack);
-  slack.update(1.0, *problem.gap, -1.0);
+  slack.update(1.0, data.gap(), -1.0);
 }
 
 /// ½uᵀKu − fᵀu over all subdomains. Of u before its rigid part Rα, which has no energy but −ẽᵀα: in the sum
 /// it would only bring round-off, the more the stiffer the body.
-double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
+double energyOf(const DecomposedProblem& problem, const ProblemData& data, const SubdomainVectors& u) {
   AccurateSum energy;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    const auto& subdomain = problem.subdomains[s];
+    const decomposition::SubdomainData& own = data.subdomains()[s];
     const auto values = u[s].col(0);
-    energy.add(0.5 * values.dot(*subdomain.stiffness * values) - subdomain.load.dot(values) +
-               subdomain.energyOffset);
+    energy.add(0.5 * values.dot(*problem.subdomains[s].stiffness * values) - own.rightHandSide().dot(values) +
+               own.energyOffset());
   }
   sumOverRanks(*problem.comm, {&energy, 1});
   return energy.value();
@@ -46,8 +48,8 @@ double energyOf(const DecomposedProblem& problem, const SubdomainVectors& u) {
 
 /// Largest |c| of the rows that hold or overlap: the distance of a contact that stays open is no size of the
 /// solution. Collective.
-double largestGap(const DecomposedProblem& problem, const Vector& lambda) {
-  const auto gap = problem.gap->getData(), force = lambda.getData();
+double largestGap(const DecomposedProblem& problem, const Vector& gaps, const Vector& lambda) {
+  const auto gap = gaps.getData(), force = lambda.getData();
   double largest = 0;
   for (LocalOrdinal i = 0; i < gap.size(); ++i)
     if (problem.kindOf(decomposition::OwnedMultiplier(i)) != decomposition::RowKind::contact ||
@@ -58,18 +60,21 @@ double largestGap(const DecomposedProblem& problem, const Vector& lambda) {
 
 /// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
 /// problem. \param sizes  see sizesOfRows
-void assess(const DecomposedProblem& problem, const Vector& sizes, const DualSolution& dual,
-            double operatorNorm, double largestValue, ContactSolution& solution) {
+void assess(const DualProblem& dual, const Vector& gaps, const Vector& sizes, const DualSolution& found,
+            double largestValue, ContactSolution& solution) {
+  const DecomposedProblem& problem = dual.problem();
+  const double operatorNorm = dual.norm().norm;
+  Vector gradient(problem.multiplierMap); // g^P
+  dual.feasibleForces()->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
   const auto force = solution.multiplier->getData(), slack = solution.slack->getData();
-  const auto size = sizes.getData();
+  const auto size = sizes.getData(), projected = gradient.getData();
   const auto active = solution.active->getDataNonConst();
   AccurateSum sums[4]; // ‖g^P‖², λᵀg, force, active nodes
   double violation = 0;
   for (LocalOrdinal i = 0; i < force.size(); ++i) {
     const bool isContact =
         problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact;
-    const double projected = isContact && !(force[i] > 0) ? std::min(slack[i], 0.0) : slack[i];
-    sums[0].add(projected * projected);
+    sums[0].add(projected[i] * projected[i]);
     violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]) / size[i]);
     if (!isContact)
       continue;
@@ -82,23 +87,24 @@ void assess(const DecomposedProblem& problem, const Vector& sizes, const DualSol
   const Comm& comm = *problem.comm;
   sumOverRanks(comm, sums);
   violation = maxOverRanks(comm, violation);
-  const double scale = std::max(maxOverRanks(comm, largestValue), largestGap(problem, *solution.multiplier));
+  const double scale =
+      std::max(maxOverRanks(comm, largestValue), largestGap(problem, gaps, *solution.multiplier));
   const auto relative = [](double value, double reference) {
     return reference > 0 ? value / reference : value;
   };
-  solution.relativeProjectedGradient = relative(std::sqrt(sums[0].value()), dual.reference);
+  solution.relativeProjectedGradient = relative(std::sqrt(sums[0].value()), found.reference);
   solution.feasibility = relative(violation, scale);
   solution.complementarity = relative(std::abs(sums[1].value()), std::abs(solution.energy));
-  solution.equilibrium = dual.equilibrium;
-  solution.isEstimated = dual.isEstimated;
+  solution.equilibrium = found.equilibrium;
+  solution.isEstimated = found.isEstimated;
   solution.contactForce = sums[2].value();
   solution.activeContactNodes = static_cast<GlobalOrdinal>(sums[3].value());
 }
 
 /// K̄⁺(f̄ − B̄ᵀλ)
-SubdomainVectors unknownsOf(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
+SubdomainVectors unknownsOf(const ProblemData& data, const GeneralizedInverse& inverse,
                             const Vector& lambda) {
-  SubdomainVectors forces = loadsOf(problem), u;
+  SubdomainVectors forces = loadsOf(data), u;
   MultiplierExchange exchange(inverse.multiplierPlan());
   inverse.subtractForces(exchange.toSubdomains(lambda), forces); // f̄ − B̄ᵀλ
   inverse.apply(forces, u);
@@ -124,62 +130,11 @@ struct Settling {
   }
 };
 
-/// The rows that hold while a solution is settled: gluing, ties, and some of contact.
-class HeldRows {
-public:
-  /// Contact that pushes. Keeps references. \param sizes  see sizesOfRows
-  HeldRows(const DecomposedProblem& problem, const Vector& sizes, const Vector& lambda)
-      : problem_(problem), sizes_(sizes), held_(problem.multiplierMap) {
-    const auto isHeld = held_.getDataNonConst();
-    const auto force = lambda.getData();
-    for (LocalOrdinal i = 0; i < force.size(); ++i)
-      isHeld[i] = isContact(i) && !(force[i] > 0) ? 0.0 : 1.0;
-  }
-  [[nodiscard]] const Vector& indicator() const { return held_; } ///< 1 where they hold, else 0
-  /// Contacts that pull hold no longer, by more than round-off, and those that penetrate by more than
-  /// `allowed` do; returns whether there are any. Collective.
-  bool change(const Vector& lambda, const Vector& slack, double allowed) {
-    const double leastForce = -1e-9 * lambda.normInf();
-    const auto isHeld = held_.getDataNonConst();
-    const auto force = lambda.getData(), room = slack.getData();
-    bool isAny = false;
-    for (LocalOrdinal i = 0; i < force.size(); ++i)
-      if (isContact(i) && (isHeld[i] != 0 ? force[i] < leastForce : room[i] < -allowed)) {
-        isHeld[i] = 1 - isHeld[i];
-        isAny = true;
-      }
-    return holdsAnywhere(*problem_.comm, isAny);
-  }
-  /// Largest gap. Collective.
-  [[nodiscard]] double largestOpen(const Vector& slack) const {
-    double largest = 0;
-    const auto isHeld = held_.getData(), jump = slack.getData(), size = sizes_.getData();
-    for (LocalOrdinal i = 0; i < jump.size(); ++i)
-      largest = std::max(largest, isHeld[i] * std::abs(jump[i]) / size[i]);
-    return maxOverRanks(*problem_.comm, largest);
-  }
-  /// λ ≥ 0 for contact, in the last digits.
-  void clip(Vector& lambda) const {
-    const auto force = lambda.getDataNonConst();
-    for (LocalOrdinal i = 0; i < force.size(); ++i)
-      if (isContact(i))
-        force[i] = std::max(force[i], 0.0);
-  }
-
-private:
-  [[nodiscard]] bool isContact(LocalOrdinal row) const {
-    return problem_.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::contact;
-  }
-  const DecomposedProblem& problem_;
-  const Vector& sizes_;
-  Vector held_;
-};
-
 /// One step: u, λ and the slack by what follows where the held rows move by what they lack, so that Bu = c
 /// there, and the forces of the others become loads that go away. K(u̇) = −B̄ᵀ(λ̇), so that the energy grows
 /// by −½(λ + λ_new)ᵀB̄u̇. Collective.
-void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u, ContactSolution& solution,
-                qp::SolveReport& report) {
+void settleRows(const DualProblem& dual, const ProblemData& data, const Vector& held, SubdomainVectors& u,
+                ContactSolution& solution, qp::SolveReport& report) {
   constexpr double tolerance = 1e-3; // there are more steps
   const DecomposedProblem& problem = dual.problem();
   Vector &lambda = *solution.multiplier, &slack = *solution.slack;
@@ -191,7 +146,7 @@ void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u
   dropped.update(-1.0, lambdaBefore, 1.0); // −λ of the others
   SubdomainVectors forces;
   for (const auto& subdomain : problem.subdomains)
-    forces.emplace_back(Eigen::MatrixXd::Zero(subdomain.load.size(), 1));
+    forces.emplace_back(Eigen::MatrixXd::Zero(subdomain.stiffness->rows(), 1));
   MultiplierExchange exchange(dual.inverse().multiplierPlan());
   dual.inverse().subtractForces(exchange.toSubdomains(dropped), forces);
   const UnknownsResponse response =
@@ -200,7 +155,7 @@ void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u
   lambda.update(1.0, *response.multiplier, 1.0);
   for (std::size_t s = 0; s < u.size(); ++s)
     u[s] += response.unknowns[s];
-  slackOf(problem, dual.inverse(), u, slack);
+  slackOf(data, dual.inverse(), u, slack);
   Vector moved(slackBefore, Teuchos::Copy), force(lambdaBefore, Teuchos::Copy);
   moved.update(-1.0, slack, 1.0); // B̄u̇
   force.update(1.0, lambda, 1.0);
@@ -209,7 +164,8 @@ void settleRows(const DualProblem& dual, const Vector& held, SubdomainVectors& u
 
 /// Whether the energy that was followed is that of u: else forces that were large on the way have left u and
 /// λ out of balance. Collective.
-bool isBalanced(const DecomposedProblem& problem, const SubdomainVectors& u, double energy) {
+bool isBalanced(const DecomposedProblem& problem, const ProblemData& data, const SubdomainVectors& u,
+                double energy) {
   constexpr double share = 1e-7, roundOff = 1e-12;
   AccurateSum sums[2]; // uᵀKu, |u|ᵀ|K||u|
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -219,28 +175,29 @@ bool isBalanced(const DecomposedProblem& problem, const SubdomainVectors& u, dou
     sums[1].add(values.cwiseAbs().dot(stiffness.cwiseAbs() * values.cwiseAbs()));
   }
   sumOverRanks(*problem.comm, sums);
-  return std::abs(energyOf(problem, u) - energy) <=
+  return std::abs(energyOf(problem, data, u) - energy) <=
          share * (std::abs(energy) + std::abs(sums[0].value())) + roundOff * sums[1].value();
 }
 
 /// Steps until held rows are open by no more than is allowed, or by the round-off of u: a step is as exact as
 /// the last digits that it starts from. Then rows change until all contacts push and none penetrates; returns
 /// whether they do, in balance. Collective.
-bool settle(const DualProblem& dual, const Settling& settling, const Vector& sizes, SubdomainVectors& u,
-            ContactSolution& solution) {
+bool settle(const DualProblem& dual, const ProblemData& data, const Settling& settling, const Vector& sizes,
+            SubdomainVectors& u, ContactSolution& solution) {
   constexpr int maxSteps = 60;
   double largest = 0; // displacement
   for (const Eigen::MatrixXd& values : u)
     largest = values.size() > 0 ? std::max(largest, values.lpNorm<Eigen::Infinity>()) : largest;
-  double allowed = settling.allowed.relative * std::max(maxOverRanks(*dual.problem().comm, largest),
-                                                        largestGap(dual.problem(), *solution.multiplier));
+  double allowed =
+      settling.allowed.relative * std::max(maxOverRanks(*dual.problem().comm, largest),
+                                           largestGap(dual.problem(), data.gap(), *solution.multiplier));
   if (settling.allowed.absolute > 0)
     allowed = std::min(allowed, settling.allowed.absolute);
-  HeldRows rows(dual.problem(), sizes, *solution.multiplier);
+  HeldRows rows(*dual.feasibleForces(), sizes, *solution.multiplier);
   double open = std::numeric_limits<double>::infinity();
   for (int step = 0; step < maxSteps && !settling.isUnwanted(*dual.problem().comm); ++step) {
     try {
-      settleRows(dual, rows.indicator(), u, solution, settling.report);
+      settleRows(dual, data, rows.indicator(), u, solution, settling.report);
     } catch (const UnheldResultant&) {
       return false;
     }
@@ -250,8 +207,8 @@ bool settle(const DualProblem& dual, const Settling& settling, const Vector& siz
     } else if (rows.change(*solution.multiplier, *solution.slack, allowed)) {
       open = std::numeric_limits<double>::infinity();
     } else {
-      rows.clip(*solution.multiplier);
-      return isBalanced(dual.problem(), u, solution.energy);
+      dual.feasibleForces()->project(*solution.multiplier); // the last digits
+      return isBalanced(dual.problem(), data, u, solution.energy);
     }
   }
   return false;
@@ -259,34 +216,35 @@ bool settle(const DualProblem& dual, const Settling& settling, const Vector& siz
 
 } // namespace
 
-std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda) {
+std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const ProblemData& data,
+                                            const Vector& lambda) {
   const DecomposedProblem& problem = dual.problem();
-  SubdomainVectors u = unknownsOf(problem, dual.inverse(), lambda);
+  SubdomainVectors u = unknownsOf(data, dual.inverse(), lambda);
   std::vector<Eigen::VectorXd> displacement;
   for (std::size_t s = 0; s < u.size(); ++s)
     displacement.push_back(
-        decomposition::atAllPositions(problem.subdomains[s], u[s], problem.subdomains[s].prescribed));
+        decomposition::atAllPositions(problem.subdomains[s], u[s], data.subdomains()[s].prescribed));
   return displacement;
 }
 
 namespace {
 
 /// Collective.
-RestCheck restCheck(const DualProblem& dual, const DualSolution& found) {
+RestCheck restCheck(const DualProblem& dual, const ProblemData& data, const DualSolution& found) {
   const DecomposedProblem& problem = dual.problem();
   if (found.report.status != qp::Status::converged || dual.coarseSpace().is_null())
     return {};
   const DualParameters& parameters = dual.parameters();
   const double norm = dual.norm().norm,
-               reference = equilibriumReference(problem, *dual.coarseSpace(), kernelLoad(problem),
+               reference = equilibriumReference(problem, data, *dual.coarseSpace(), kernelLoad(problem, data),
                                                 found.reference, norm);
   return {true, std::max(parameters.equilibriumTolerance, parameters.tolerance) * reference, norm,
           std::max(1e-6, 100 * parameters.tolerance)};
 }
 
 /// Nothing if it cannot be settled. \param settling  null if that is not wanted
-std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolution& found,
-                                         const Settling* settling) {
+std::optional<ContactSolution> recovered(const DualProblem& dual, const ProblemData& data,
+                                         const DualSolution& found, const Settling* settling) {
   const DecomposedProblem& problem = dual.problem();
   const GeneralizedInverse& inverse = dual.inverse();
   ContactSolution solution;
@@ -294,43 +252,43 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
   solution.slack = rcp(new Vector(problem.multiplierMap));
   solution.active = rcp(new Vector(problem.multiplierMap));
 
-  SubdomainVectors u = unknownsOf(problem, inverse, *found.lambda);
-  slackOf(problem, inverse, u, *solution.slack);
-  solution.energy = energyOf(problem, u);
+  SubdomainVectors u = unknownsOf(data, inverse, *found.lambda);
+  slackOf(data, inverse, u, *solution.slack);
+  solution.energy = energyOf(problem, data, u);
   if (problem.kernelDimension > 0) {
-    const RestCheck check = restCheck(dual, found);
+    const RestCheck check = restCheck(dual, data, found);
     const Eigen::VectorXd alpha =
-        rigidMotion(problem, dual.kernelEntries(), *found.lambda, *solution.slack, check);
-    solution.energy -= kernelLoad(problem).dot(alpha);
+        rigidMotion(problem, data, dual.kernelEntries(), *found.lambda, *solution.slack, check);
+    solution.energy -= kernelLoad(problem, data).dot(alpha);
     for (std::size_t s = 0; s < u.size(); ++s) { // + Rα
       const auto& subdomain = problem.subdomains[s];
       const int offset = problem.kernelOffsetOf(subdomain);
       if (subdomain.kernel.cols() > 0)
         u[s] += subdomain.kernel * alpha.segment(offset, subdomain.kernel.cols());
     }
-    slackOf(problem, inverse, u, *solution.slack);
+    slackOf(data, inverse, u, *solution.slack);
   }
   const RCP<const Vector> sizes = sizesOfRows(problem, *inverse.multiplierPlan());
-  if (settling != nullptr && !settle(dual, *settling, *sizes, u, solution))
+  if (settling != nullptr && !settle(dual, data, *settling, *sizes, u, solution))
     return std::nullopt;
 
   if (found.report.status == qp::Status::converged)
-    requireProportion(problem, u, *found.lambda);
+    requireProportion(problem, data, u, *found.lambda);
   double largest = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
     solution.displacement.push_back(
-        decomposition::atAllPositions(problem.subdomains[s], u[s], problem.subdomains[s].prescribed));
+        decomposition::atAllPositions(problem.subdomains[s], u[s], data.subdomains()[s].prescribed));
     u[s].resize(0, 0); // primal vectors are what takes memory once the factors are shared
     if (solution.displacement.back().size() > 0)
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
   }
-  assess(problem, *sizes, found, dual.norm().norm, largest, solution);
+  assess(dual, data.gap(), *sizes, found, largest, solution);
   if (settling != nullptr && !dual.coarseSpace().is_null()) { // of the λ that has been settled
     const NaturalCoarseSpace& space = *dual.coarseSpace();
-    const Eigen::VectorXd resultants = kernelLoad(problem);
+    const Eigen::VectorXd resultants = kernelLoad(problem, data);
     const double imbalance = space.normOf(space.product(*solution.multiplier) - resultants),
-                 reference =
-                     equilibriumReference(problem, space, resultants, found.reference, dual.norm().norm);
+                 reference = equilibriumReference(problem, data, space, resultants, found.reference,
+                                                  dual.norm().norm);
     solution.equilibrium = reference > 0 ? imbalance / reference : imbalance;
   }
   return solution;
@@ -338,15 +296,15 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const DualSolu
 
 } // namespace
 
-ContactSolution recover(const DualProblem& dual, const DualSolution& found) {
-  return *recovered(dual, found, nullptr);
+ContactSolution recover(const DualProblem& dual, const ProblemData& data, const DualSolution& found) {
+  return *recovered(dual, data, found, nullptr);
 }
 
-std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
-                                              const AllowedViolation& allowed, qp::SolveReport& report,
-                                              const qp::Interruption& interruption) {
+std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const ProblemData& data,
+                                              const DualSolution& found, const AllowedViolation& allowed,
+                                              qp::SolveReport& report, const qp::Interruption& interruption) {
   const Settling settling{allowed, report, interruption};
-  return recovered(dual, found, &settling);
+  return recovered(dual, data, found, &settling);
 }
 
 } // namespace epafi::fetidp

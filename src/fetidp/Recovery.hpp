@@ -13,12 +13,15 @@ namespace epafi::fetidp {
 
 /// K̄⁺(f̄ − B̄ᵀλ) at all positions of this rank's subdomains, components in space: u but for rigid motions of
 /// floating bodies. Collective.
-std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const Vector& lambda);
+std::vector<Eigen::VectorXd> displacementOf(const DualProblem& dual, const decomposition::ProblemData& data,
+                                            const Vector& lambda);
 
+/// \param data   that `found` was solved for
 /// \param found  λ of `dual` and its reference
 /// \throws SolvabilityError if floating bodies may come to rest in more than one place (see RigidMotion.hpp).
 /// Collective.
-ContactSolution recover(const DualProblem& dual, const DualSolution& found);
+ContactSolution recover(const DualProblem& dual, const decomposition::ProblemData& data,
+                        const DualSolution& found);
 
 /// What rows may be violated by, the smaller of both.
 struct AllowedViolation {
@@ -33,8 +36,8 @@ struct AllowedViolation {
 /// \param allowed  what rows may be violated by
 /// \param report        where the products are added, and the status of an end before its time
 /// \param interruption  asked between the responses
-std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const DualSolution& found,
-                                              const AllowedViolation& allowed, qp::SolveReport& report,
-                                              const qp::Interruption& interruption);
+std::optional<ContactSolution> recoverSettled(const DualProblem& dual, const decomposition::ProblemData& data,
+                                              const DualSolution& found, const AllowedViolation& allowed,
+                                              qp::SolveReport& report, const qp::Interruption& interruption);
 
 } // namespace epafi::fetidp

@@ -24,6 +24,7 @@ namespace epafi::fetidp {
 namespace {
 
 using decomposition::DecomposedProblem;
+using decomposition::ProblemData;
 using Rows = std::map<int, Eigen::VectorXd>; // of G̃ᵀ, this rank's, by local index
 
 constexpr double closedUpTo = 1e-6; ///< narrower than this beside the largest gap, a gap counts as closed
@@ -148,9 +149,9 @@ DistinctDirections roomOf(const DecomposedProblem& problem, const Rows& rows, co
 }
 
 /// Motions in the span of `open` that the loads do not work on.
-Eigen::MatrixXd acrossLoads(const DecomposedProblem& problem, const ProblemScales& scales,
-                            const Eigen::MatrixXd& open) {
-  const Eigen::VectorXd load = onBodies(problem, kernelLoad(problem)).cwiseQuotient(scales.motions());
+Eigen::MatrixXd acrossLoads(const DecomposedProblem& problem, const ProblemData& data,
+                            const ProblemScales& scales, const Eigen::MatrixXd& open) {
+  const Eigen::VectorXd load = onBodies(problem, kernelLoad(problem, data)).cwiseQuotient(scales.motions());
   const Eigen::VectorXd works = open.transpose() * load, terms = open.transpose().cwiseAbs() * scales.loads();
   if ((works.array().abs() <= ProblemScales::resultant * terms.array()).all())
     return open;
@@ -160,9 +161,9 @@ Eigen::MatrixXd acrossLoads(const DecomposedProblem& problem, const ProblemScale
 /// Small forces may be what the iteration has left of none, however well it has converged. Whether they are
 /// does not need their values: a motion β that ties and the larger forces allow, that opens no contact's
 /// other side, and that the loads do not work on, 0 = ẽᵀβ = Σ λ_i G̃_iᵀβ, opens only contacts without force.
-void refuseUnpressed(const DecomposedProblem& problem, const Rows& rows, const ProblemScales& scales,
-                     const Vector& lambda, const Vector& slack, const RestCheck& check,
-                     const Eigen::VectorXd& alpha, double length) {
+void refuseUnpressed(const DecomposedProblem& problem, const ProblemData& data, const Rows& rows,
+                     const ProblemScales& scales, const Vector& lambda, const Vector& slack,
+                     const RestCheck& check, const Eigen::VectorXd& alpha, double length) {
   constexpr double clear = 1e-3; // beside the largest force
   const auto force = lambda.getData();
   double largest = 0;
@@ -173,7 +174,8 @@ void refuseUnpressed(const DecomposedProblem& problem, const Rows& rows, const P
   for (const auto& [row, vector] : rows)
     if (isTied(problem, row) || force[row] > largest)
       pressing.insert(row);
-  const Eigen::MatrixXd open = acrossLoads(problem, scales, closing(problem, rows, pressing, slack).open);
+  const Eigen::MatrixXd open =
+      acrossLoads(problem, data, scales, closing(problem, rows, pressing, slack).open);
   const DistinctDirections contacts = roomOf(problem, rows, slack, alpha, length);
   if (const auto loose = looseMotion(contacts.matrix(), contacts.values().array() - check.margin, open,
                                      ProblemScales::hindered))
@@ -194,9 +196,10 @@ void refuseSlipping(const DecomposedProblem& problem, const Rows& rows, const Pr
 }
 
 /// The same of whole bodies. \param entries  see kernelConstraintOfBodies
-Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
-                               const Vector& lambda, const Vector& slack, const RestCheck& check) {
-  const ProblemScales scales(problem);
+Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const ProblemData& data,
+                               const std::vector<KernelEntry>& entries, const Vector& lambda,
+                               const Vector& slack, const RestCheck& check) {
+  const ProblemScales scales(problem, data);
   const Rows rows = scales.hinderingRows(entries);
   const auto force = lambda.getData();
   std::set<int> holding;
@@ -221,7 +224,7 @@ Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vect
   }
   if (check.isWanted) {
     if (length > 0)
-      refuseUnpressed(problem, rows, scales, lambda, slack, check, alpha, length);
+      refuseUnpressed(problem, data, rows, scales, lambda, slack, check, alpha, length);
     const auto gap = slack.getData();
     for (const auto& [row, vector] : rows)
       if (gap[row] - vector.dot(alpha) <= closedUpTo * length)
@@ -233,8 +236,9 @@ Eigen::VectorXd motionOfBodies(const DecomposedProblem& problem, const std::vect
 
 } // namespace
 
-Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries,
-                            const Vector& lambda, const Vector& slack, const RestCheck& check) {
+Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const ProblemData& data,
+                            const std::vector<KernelEntry>& entries, const Vector& lambda,
+                            const Vector& slack, const RestCheck& check) {
   Eigen::VectorXd alpha = fittedClusters(problem, entries, slack);
   if (problem.numRigidModes() == 0)
     return alpha;
@@ -245,7 +249,7 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const std::vector<
       values[entry.row] -= entry.value * alpha[entry.mode];
   }
   const Eigen::VectorXd motion =
-      motionOfBodies(problem, kernelConstraintOfBodies(problem, entries), lambda, left, check);
+      motionOfBodies(problem, data, kernelConstraintOfBodies(problem, entries), lambda, left, check);
   for (const decomposition::Cluster& cluster : problem.clusters)
     alpha.segment(cluster.kernelOffset, cluster.kernelDimension) +=
         cluster.ofBody * motion.segment(problem.bodies[cluster.body].kernelOffset, cluster.ofBody.cols());

@@ -3,7 +3,7 @@
 /// α of u = K̄⁺(f̄ − B̄ᵀλ) + Rα: how far floating clusters of subdomains move until they fit together as
 /// bodies, and how far these move until the contacts that carry force are closed.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ struct RestCheck {
 /// \throws SolvabilityError (not unique) if the check is wanted and the contacts leave room for a motion that
 /// costs nothing. The same on all ranks. Collective.
 Eigen::VectorXd rigidMotion(const decomposition::DecomposedProblem& problem,
-                            const std::vector<KernelEntry>& entries, const Vector& lambda,
-                            const Vector& slack, const RestCheck& check);
+                            const decomposition::ProblemData& data, const std::vector<KernelEntry>& entries,
+                            const Vector& lambda, const Vector& slack, const RestCheck& check);
 
 } // namespace epafi::fetidp

@@ -28,7 +28,7 @@ RowProducts::RowProducts(const decomposition::DecomposedProblem& problem)
       exchange_(rcp(new Import(problem.multiplierMap, problem.multiplierGhostMap))),
       mine_(crosspointPlan_->getTargetMap()), owned_(problem.crosspointMap) {
   for (const auto& subdomain : problem.subdomains)
-    forces_.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
+    forces_.emplace_back(Eigen::VectorXd::Zero(subdomain.stiffness->rows()));
 }
 
 const std::vector<Eigen::VectorXd>& RowProducts::forces(const Vector& lambda, bool isMagnitude) const {

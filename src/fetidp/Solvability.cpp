@@ -20,6 +20,7 @@ namespace epafi::fetidp {
 namespace {
 
 using decomposition::DecomposedProblem;
+using decomposition::ProblemData;
 using Kind = SolvabilityError::Kind;
 
 /// `parts` one after the other, numbers as streams write them.
@@ -46,10 +47,12 @@ struct RigidBalance {
 
   /// \param entries  see kernelConstraint
   /// Collective.
-  RigidBalance(const DecomposedProblem& given, const std::vector<KernelEntry>& entries)
-      : problem(given), scales(given), rows(scales.hinderingRows(kernelConstraintOfBodies(given, entries))),
+  RigidBalance(const DecomposedProblem& given, const ProblemData& data,
+               const std::vector<KernelEntry>& entries)
+      : problem(given), scales(given, data),
+        rows(scales.hinderingRows(kernelConstraintOfBodies(given, entries))),
         directions(contactDirections(given, rows)),
-        load(onBodies(given, kernelLoad(given)).cwiseQuotient(scales.motions())) {}
+        load(onBodies(given, kernelLoad(given, data)).cwiseQuotient(scales.motions())) {}
 
   /// Of a motion that is measured as the others are.
   [[nodiscard]] MotionWords words(const Eigen::VectorXd& motion) const {
@@ -139,10 +142,11 @@ struct ScaledCone {
 
 } // namespace
 
-void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
+void requireUniqueSolution(const DecomposedProblem& problem, const ProblemData& data,
+                           const std::vector<KernelEntry>& entries) {
   if (problem.numRigidModes() == 0)
     return;
-  const RigidBalance balance(problem, entries);
+  const RigidBalance balance(problem, data, entries);
   const Eigen::MatrixXd free = freeMotions(balance);
   refuseLoadedMotion(balance, free);
 
@@ -165,9 +169,10 @@ void requireUniqueSolution(const DecomposedProblem& problem, const std::vector<K
            "), so that it may come to rest anywhere; add a load or a support");
 }
 
-void requireContactForEveryMotion(const DecomposedProblem& problem, const std::vector<KernelEntry>& entries) {
-  if (problem.numRigidModes() > 0 && freeMotions(RigidBalance(problem, entries)).cols() > 0)
-    requireUniqueSolution(problem, entries); // which says what the loads there are make of it
+void requireContactForEveryMotion(const DecomposedProblem& problem, const ProblemData& data,
+                                  const std::vector<KernelEntry>& entries) {
+  if (problem.numRigidModes() > 0 && freeMotions(RigidBalance(problem, data, entries)).cols() > 0)
+    requireUniqueSolution(problem, data, entries); // which says what the loads there are make of it
 }
 
 } // namespace epafi::fetidp

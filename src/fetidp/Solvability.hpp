@@ -6,7 +6,7 @@
 /// and only if ẽᵀα ≤ 0 for all of them, that is, if ẽ lies in the cone of the columns of G̃ (Farkas); it is
 /// unique if ẽ lies in the interior of that cone.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
 #include <vector>
@@ -23,11 +23,13 @@ namespace epafi::fetidp {
 /// \param entries  this rank's rows of G̃ᵀ, see kernelConstraint
 /// Collective.
 void requireUniqueSolution(const decomposition::DecomposedProblem& problem,
-                           const std::vector<KernelEntry>& entries);
+                           const decomposition::ProblemData& data, const std::vector<KernelEntry>& entries);
 
-/// What can be said before any load is known: throws SolvabilityError (not unique) if a rigid motion of the
-/// floating bodies meets no contact at all. Collective.
+/// What no load changes: throws SolvabilityError if a rigid motion of the floating bodies meets no contact at
+/// all. Collective.
+/// \param data  what the sentence says the loads make of it
 void requireContactForEveryMotion(const decomposition::DecomposedProblem& problem,
+                                  const decomposition::ProblemData& data,
                                   const std::vector<KernelEntry>& entries);
 
 } // namespace epafi::fetidp

@@ -99,7 +99,8 @@ void FetiDpSolver::update() {
 /// What is made of the inverse.
 void FetiDpSolver::prepare() {
   const auto scaling = parameters_.preconditioner.scaling;
-  dual_ = std::make_unique<fetidp::DualProblem>(k_->problem(), inverse_, dualParameters(parameters_));
+  dual_ = std::make_unique<fetidp::DualProblem>(k_->problem(), decomposition::ProblemData(), inverse_,
+                                                dualParameters(parameters_));
   shares_ = std::make_unique<CopyShares>(k_->problem(), k_->exchange(), scaling);
   primal_ = std::make_unique<PrimalResidual>(*k_, *inverse_, scaling);
   multipliers_ = std::make_unique<fetidp::MultiplierExchange>(inverse_->multiplierPlan());

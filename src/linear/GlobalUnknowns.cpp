@@ -13,11 +13,11 @@ namespace epafi::linear {
 
 namespace {
 
-std::vector<GlobalOrdinal> atUnknowns(const decomposition::Subdomain& subdomain,
+std::vector<GlobalOrdinal> atUnknowns(const decomposition::Subdomain& subdomain, Eigen::Index numPositions,
                                       const std::vector<GlobalOrdinal>& atPositions) {
   const std::string name = "subdomain " + std::to_string(subdomain.number);
-  if (atPositions.size() != static_cast<std::size_t>(subdomain.prescribed.size()))
-    throw InputError(name + " has " + std::to_string(subdomain.prescribed.size()) +
+  if (static_cast<Eigen::Index>(atPositions.size()) != numPositions)
+    throw InputError(name + " has " + std::to_string(numPositions) +
                      " positions (nodes times components), but " + std::to_string(atPositions.size()) +
                      " global numbers; give one for each position, at prescribed ones any");
   std::vector<GlobalOrdinal> numbers;
@@ -43,7 +43,8 @@ GlobalUnknowns atUnknowns(const decomposition::DecomposedProblem& problem,
                        " subdomains, but the problem has " + std::to_string(problem.subdomains.size()) +
                        " on this rank; give one list for each");
     for (std::size_t s = 0; s < atPositions.size(); ++s)
-      unknowns.push_back(atUnknowns(problem.subdomains[s], atPositions[s]));
+      unknowns.push_back(
+          atUnknowns(problem.subdomains[s], problem.numPositions(problem.subdomains[s]), atPositions[s]));
   });
   return unknowns;
 }

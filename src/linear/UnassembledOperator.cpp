@@ -62,12 +62,10 @@ void UnassembledOperator::multiply(const MultiVector& x, MultiVector& y) const {
   copyIdentity(x, y);
 }
 
-RCP<Vector> UnassembledOperator::load() const {
-  SubdomainVectors loads;
-  for (const decomposition::Subdomain& subdomain : problem_->subdomains) {
-    loads.emplace_back(subdomain.load);
-    toForcesOfValues(subdomain, loads.back());
-  }
+RCP<Vector> UnassembledOperator::load(const decomposition::ProblemData& data) const {
+  SubdomainVectors loads = fetidp::loadsOf(data);
+  for (std::size_t s = 0; s < loads.size(); ++s)
+    toForcesOfValues(problem_->subdomains[s], loads[s]);
   RCP<Vector> b = rcp(new Vector(exchange_.map()));
   exchange_.sum(loads, *b);
   return b;

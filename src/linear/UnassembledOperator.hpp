@@ -39,8 +39,8 @@ public:
   void copyIdentity(const MultiVector& x, MultiVector& y) const;
   /// Local indices, on the map, of the rows where K is the identity.
   [[nodiscard]] const std::vector<LocalOrdinal>& identityRows() const { return identityRows_; }
-  /// b = Σ R^sᵀ f^s, the problem's own loads; 0 where K is the identity. Collective.
-  [[nodiscard]] RCP<Vector> load() const;
+  /// b = Σ R^sᵀ (f^s − K_fp u_p); 0 where K is the identity. Collective.
+  [[nodiscard]] RCP<Vector> load(const decomposition::ProblemData& data) const;
 
 private:
   struct Checked {}; ///< of unknowns

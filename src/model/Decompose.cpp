@@ -94,15 +94,11 @@ void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, 
     subdomain.body = static_cast<int>(b);
     subdomain.nodes = std::move(values.nodes);
     subdomain.unknownPosition = std::move(values.unknownPosition);
-    subdomain.load = std::move(values.load);
     subdomain.frames = framesOf(*models[b], subdomain.nodes);
-    subdomain.prescribed = std::move(values.prescribed);
-    subdomain.energyOffset = values.energyOffset;
-    subdomain.heldLoad = values.heldLoad;
     subdomain.kernel = std::move(values.kernel);
     if (models[b]->components() > 1) // of a scalar field R = 1, and nothing can go wrong
       requireKernel(*nodal.stiffness, subdomain.kernel, bodies[b].name);
-    problem.add(std::move(subdomain), std::move(nodal));
+    problem.add(std::move(subdomain), std::move(values.data), std::move(nodal));
   }
 }
 
@@ -180,6 +176,7 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   if (!result.ties.empty())
     problem.setTies(contactMatrix(result.bodies, result.ties, models, comm));
   problem.complete();
+  result.data = problem.data();
   result.problem = problem.take();
   return result;
 }

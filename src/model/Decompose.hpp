@@ -4,7 +4,7 @@
 /// assembles them, and hands over subdomains and a contact matrix.
 
 #include "epafi/contact/ContactLayout.hpp"
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
 
@@ -13,12 +13,14 @@
 
 namespace epafi::model {
 
-/// The scene cut into subdomains: where everything lies (for output), and the problem itself (for FETI-DP).
+/// The scene cut into subdomains: where everything lies (for output), the problem itself (for FETI-DP), and the
+/// loads, supports and gaps that the scene gives it, which may be changed from one solve to the next.
 struct Decomposition {
   std::vector<BodyLayout> bodies;
   std::vector<contact::ContactLayout> contacts;
   std::vector<contact::ContactLayout> ties;
   decomposition::DecomposedProblem problem;
+  decomposition::ProblemData data;
 };
 
 /// Cuts the scene into subdomains, gives each rank a contiguous run of them and assembles them.

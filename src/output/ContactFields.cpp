@@ -112,7 +112,7 @@ ContactFields gatherContactFields(const simulation::SolvedScene& solved, int con
 
   const auto slab = mapInOrder(multipliers, problem.comm);
   const Import toSlab(problem.multiplierMap, slab);
-  fields.initialGap = rowsOf(*problem.gap, toSlab);
+  fields.initialGap = rowsOf(solved.decomposition.data.gap(), toSlab);
   fields.gap = state.gap;
   fields.multiplier = rowsOf(*solved.solution.multiplier, toSlab);
   for (GlobalOrdinal k = 0; k < fields.rows.count; ++k)

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/ParameterValue.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <algorithm>
@@ -94,13 +95,10 @@ std::vector<Constraint> negativeCycle(const std::vector<Constraint>& constraints
 }
 
 /// "'a', 'b' and 'c'", each once.
-std::string listed(std::vector<std::string> names) {
+std::string listedOnce(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  std::ostringstream text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text << (i == 0 ? "'" : i + 1 < names.size() ? ", '" : " and '") << names[i] << '\'';
-  return text.str();
+  return listed(names, "'");
 }
 
 std::string placeOf(const Scene& scene, int node) {
@@ -133,9 +131,9 @@ void requireConsistentGaps(const Scene& scene) {
   std::sort(pairs.begin(), pairs.end());
   const bool isOne = pairs.front() == pairs.back();
   text << "no solution: the " << (isOne ? "gap of the contact pair " : "gaps of the contact pairs ")
-       << listed(pairs);
+       << listedOnce(pairs);
   if (!bodies.empty())
-    text << " and the supports of " << listed(bodies);
+    text << " and the supports of " << listedOnce(bodies);
   text << " contradict each other, nodes overlap by " << -sum << " at " << place
        << "; change a gap or a support";
   throw SolvabilityError(SolvabilityError::Kind::noSolution, text.str());

@@ -1,6 +1,6 @@
 #include "epafi/simulation/AccuracyParameters.hpp"
 
-#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/base/PeakMemory.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"

@@ -146,7 +146,7 @@ fetidp::DataChange QuantityOfScene::evaluate(const SolvedScene& solved, Quantity
       change.gap = pressure.weights;
     }
     for (const decomposition::Subdomain& subdomain : problem.subdomains)
-      change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.load.size()));
+      change.load.emplace_back(Eigen::VectorXd::Zero(subdomain.stiffness->rows()));
     if (quantity.value == 0)
       quantity.failure = "the contact carries no force";
     else if (kind_ == Kind::force && !contact_->note.empty())

@@ -1,6 +1,6 @@
 #include "epafi/simulation/SceneLevels.hpp"
 
-#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/base/PeakMemory.hpp"
 
 #include "epafi/accuracy/ErrorNorms.hpp"
 #include "epafi/accuracy/RefinableMeshes.hpp"

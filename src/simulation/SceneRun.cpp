@@ -46,9 +46,9 @@ namespace {
 /// The solution on a coarser mesh as λ of a run that is set up; null if that has no use for it, or if it
 /// cannot be carried over, of which the run's result tells: there are other starts. Collective.
 RCP<Vector> startFrom(const SceneRun& coarser, SceneRun& run) try {
-  const RCP<Vector> start =
-      run.solver->startFrom(accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
-                                                  *run.decomposition, accuracy::NodesOf::interfaces));
+  const RCP<Vector> start = run.solver->startFrom(
+      run.decomposition->data, accuracy::interpolate(*coarser.decomposition, coarser.solution.displacement,
+                                                     *run.decomposition, accuracy::NodesOf::interfaces));
   if (!start.is_null())
     accuracy::transferContact(*coarser.decomposition, *coarser.solution.multiplier, *run.decomposition,
                               *start);
@@ -78,13 +78,13 @@ bool beginsOnCoarserMesh(const decomposition::DecomposedProblem& problem, const 
          problem.primalDimension >= options.coarserFrom;
 }
 
-/// From a good start active sets need the fewest products where bodies are held, too; from none MPRGP does.
-Teuchos::ParameterList chosenFor(const decomposition::DecomposedProblem& problem,
-                                 Teuchos::ParameterList parameters, const RunOptions& options) {
+/// What is left open decided for a good start: from one active sets need the fewest products where bodies are
+/// held, too; from none MPRGP does.
+Teuchos::ParameterList forGoodStart(Teuchos::ParameterList parameters) {
   const bool isOpen = parameters.get<std::string>("Algorithm", "auto") == "auto",
              isPreconditioned =
                  parameters.sublist("Preconditioner").get<std::string>("Type", "dirichlet") != "none";
-  if (isOpen && isPreconditioned && beginsOnCoarserMesh(problem, options))
+  if (isOpen && isPreconditioned)
     parameters.set("Algorithm", std::string("active set"));
   return parameters;
 }
@@ -100,15 +100,12 @@ void joinClusters(CoarserScene& coarser, int numRanks) {
       body.decomposition.cluster = 0;
 }
 
-/// Where active sets are to find a contact zone, that of a coarser mesh leaves them little to find. Before
+/// The contact zone of a coarser mesh leaves active sets little to find; nothing where there is none. Before
 /// the run is set up, and without its factors: there is memory for one set of them. What goes wrong there
 /// does not end the run, and its result tells of it. Collective.
 std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
                                            const RCP<const Comm>& comm, const RunOptions& options) {
   constexpr double enough = 1e-4; // meshes differ by more
-  if (run.solver->algorithmFor(run.decomposition->problem) != fetidp::Algorithm::activeSets ||
-      !beginsOnCoarserMesh(run.decomposition->problem, options))
-    return std::nullopt;
   const double began = Teuchos::Time::wallTime();
   try {
     std::optional<CoarserScene> coarser = coarserScene(run.scene, run.decomposition->bodies, *comm);
@@ -224,17 +221,26 @@ void evaluateRun(SceneRun& run) {
   result.doubts = accuracy::doubts(run.scene, *run.decomposition, closingOf(run));
 }
 
-/// Where the iteration starts: a checkpoint's λ, or the solution on a coarser mesh. Sets the solver up.
-/// Collective.
+/// Where the iteration starts: a checkpoint's λ, or the solution on a coarser mesh. Makes the solver and sets
+/// it up. Collective.
 RCP<const Vector> prepareSolve(SceneRun& run, const Teuchos::ParameterList& solverParameters,
                                const RCP<const Comm>& comm, const RunOptions& options) {
+  const decomposition::DecomposedProblem& problem = run.decomposition->problem;
   RCP<const Vector> start;
   if (options.companion != nullptr)
-    start = options.companion->begin(run.decomposition->problem);
+    start = options.companion->begin(problem);
   std::optional<SceneRun> coarse;
-  if (start.is_null())
-    coarse = solveOnCoarserMesh(run, solverParameters, comm, options);
-  run.solver->setup(run.decomposition->problem);
+  if (beginsOnCoarserMesh(problem, options)) {
+    auto solver = std::make_unique<ContactSolver>(forGoodStart(solverParameters));
+    const bool hasUse = solver->algorithmFor(problem) == fetidp::Algorithm::activeSets;
+    if (hasUse && start.is_null())
+      coarse = solveOnCoarserMesh(run, solverParameters, comm, options);
+    if (hasUse && (coarse || !start.is_null()))
+      run.solver = std::move(solver);
+  }
+  if (!run.solver)
+    run.solver = std::make_unique<ContactSolver>(solverParameters);
+  run.solver->setup(run.decomposition->problem, run.decomposition->data);
   if (options.companion != nullptr)
     options.companion->beforeIteration();
   const double began = Teuchos::Time::wallTime();
@@ -260,8 +266,6 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   run.decomposition = std::make_unique<model::Decomposition>(
       options.bodies == nullptr ? model::decompose(scene, comm, meshes)
                                 : model::decompose(scene, std::move(*options.bodies), comm));
-  run.solver =
-      std::make_unique<ContactSolver>(chosenFor(run.decomposition->problem, solverParameters, options));
   std::optional<QuantityOfScene> quantity;
   if (options.quantity.kind != QuantityParameters::Kind::none)
     quantity.emplace(options.quantity, run.scene, *run.decomposition);
@@ -273,8 +277,8 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
     if (estimatesError || run.solver->isBalanced())
       estimator.emplace(run.scene, *run.decomposition);
     const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
-    run.solution =
-        run.solver->solve(start.get(), options.companion, run.solver->isBalanced() ? &balance : nullptr);
+    run.solution = run.solver->solve(run.decomposition->data, start.get(), options.companion,
+                                     run.solver->isBalanced() ? &balance : nullptr);
   } catch (const fetidp::ContradictionError& error) { // on all ranks
     throw inWordsOf(*run.decomposition, error);
   }

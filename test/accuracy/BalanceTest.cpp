@@ -24,12 +24,12 @@ struct SolvedTo {
 
   SolvedTo(const scene::Scene& given, const Teuchos::ParameterList& parameters, const RCP<const Comm>& comm)
       : scene(given), decomposition(model::decompose(scene, comm)), solver(parameters) {
-    solver.setup(decomposition.problem);
+    solver.setup(decomposition.problem, decomposition.data);
     ErrorEstimator estimator(scene, decomposition);
     fetidp::ErrorBalance balance;
     balance.estimate = [&](std::span<const Eigen::VectorXd> u) { return estimator(u).toBalance(); };
     balance.fraction = solver.algebraicFraction();
-    solution = solver.solve(nullptr, nullptr, &balance);
+    solution = solver.solve(decomposition.data, nullptr, nullptr, &balance);
   }
 };
 
@@ -90,8 +90,8 @@ TEST_F(BalanceTest, IsRefusedWhereItCannotBeMeasured) {
   parameters.set("Tolerance", std::string("balanced"));
   const auto decomposition = model::decompose(scene::modelProblem(true, 2, 4), comm);
   ContactSolver solver(parameters);
-  solver.setup(decomposition.problem);
-  epafi::test::expectSays(epafi::test::refusal([&] { solver.solve(); }),
+  solver.setup(decomposition.problem, decomposition.data);
+  epafi::test::expectSays(epafi::test::refusal([&] { solver.solve(decomposition.data); }),
                           {"balanced", "discretisation error"});
   parameters.sublist("Preconditioner").set("Type", std::string("none"));
   epafi::test::expectSays(epafi::test::refusal([&] { const ContactSolver refused(parameters); }),

@@ -27,8 +27,8 @@ struct SolvedScene {
   SolvedScene(const scene::Scene& scene, const RCP<const Comm>& comm, double tolerance = 1e-12)
       : decomposition(model::decompose(scene, comm)),
         solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
-    solver.setup(decomposition.problem);
-    solution = solver.solve();
+    solver.setup(decomposition.problem, decomposition.data);
+    solution = solver.solve(decomposition.data);
   }
 };
 
@@ -42,7 +42,8 @@ double largestDifference(const Vector& a, const Vector& b) {
 TEST_F(StartTest, TheMultipliersOfASolutionAreItsOwn) {
   for (const bool coercive : {true, false}) {
     const SolvedScene solved(scene::modelProblem(coercive, 3, 12), comm);
-    const RCP<const Vector> lambda = solved.solver.startFrom(solved.solution.displacement);
+    const RCP<const Vector> lambda =
+        solved.solver.startFrom(solved.decomposition.data, solved.solution.displacement);
     EXPECT_LE(largestDifference(*lambda, *solved.solution.multiplier), 1e-9) << coercive;
   }
   for (const test::Kind& kind : test::kinds()) { // turned axes, averages along edges, floating bodies
@@ -52,7 +53,8 @@ TEST_F(StartTest, TheMultipliersOfASolutionAreItsOwn) {
     if (fem::dimensionOf(kind.cell) == 2)
       scene.bodies[1].loads.back().point = {1, 2, 0};
     const SolvedScene solved(scene, comm);
-    const RCP<const Vector> lambda = solved.solver.startFrom(solved.solution.displacement);
+    const RCP<const Vector> lambda =
+        solved.solver.startFrom(solved.decomposition.data, solved.solution.displacement);
     EXPECT_LE(largestDifference(*lambda, *solved.solution.multiplier), 1e-9) << toString(kind.physics);
   }
 }
@@ -62,10 +64,11 @@ TEST_F(StartTest, ASolveFromThereIsShorterAndEndsAtTheSameSolution) {
     const scene::Scene scene = scene::modelProblem(coercive, 2, 16);
     const SolvedScene coarse(scene, comm, 1e-8), fine(refined(scene), comm, 1e-8);
     SolvedScene warm(refined(scene), comm, 1e-8);
-    const RCP<Vector> start = warm.solver.startFrom(interpolate(
-        coarse.decomposition, coarse.solution.displacement, warm.decomposition, NodesOf::interfaces));
+    const RCP<Vector> start = warm.solver.startFrom(
+        warm.decomposition.data, interpolate(coarse.decomposition, coarse.solution.displacement,
+                                             warm.decomposition, NodesOf::interfaces));
     transferContact(coarse.decomposition, *coarse.solution.multiplier, warm.decomposition, *start);
-    const fetidp::ContactSolution solution = warm.solver.solve(start.get());
+    const fetidp::ContactSolution solution = warm.solver.solve(warm.decomposition.data, start.get());
     EXPECT_NEAR(solution.energy, fine.solution.energy, 1e-7 * std::abs(fine.solution.energy));
     EXPECT_LT(warm.solver.report().counts.hessianMultiplications,
               fine.solver.report().counts.hessianMultiplications);

@@ -29,7 +29,7 @@ Eigen::MatrixXd applied(const Thyra::PreconditionerBase<double>& preconditioner,
 
 TEST(BddcFactoryTest, MakesBddcOfAnUnassembledOrAnAssembledOperator) {
   const linear::LinearProblem problem(linear::plate(8, decomposition::grid(2, 2)));
-  const RCP<const Vector> b = problem.k->load();
+  const RCP<const Vector> b = problem.load();
   Vector expected(b->getMap());
   linear::BddcPreconditioner(problem.k, {}).apply(*b, expected);
   const auto unassembled = adapters::asThyra(problem.k);

@@ -35,7 +35,7 @@ struct Sample {
   RCP<MultiVector> b, x;
 
   Sample() {
-    loads << denseOf(*problem.k->load()), Eigen::VectorXd::LinSpaced(dense.rows(), -1, 1);
+    loads << denseOf(*problem.load()), Eigen::VectorXd::LinSpaced(dense.rows(), -1, 1);
     b = spreadOn(problem.k->getRangeMap(), loads);
     x = rcp(new MultiVector(problem.k->getDomainMap(), 2));
   }

@@ -31,7 +31,7 @@ void expectSymmetricOperators(const scene::Scene& scene) {
   const auto cut = std::make_shared<linear::Decomposition>(model::decompose(scene, fetidp::world()));
   const std::shared_ptr<const decomposition::DecomposedProblem> problem(cut, &cut->problem);
   ContactSolver solver{Teuchos::ParameterList()};
-  solver.setup(*problem);
+  solver.setup(*problem, cut->data);
   const fetidp::DualProblem& dual = solver.dualProblem();
   {
     SCOPED_TRACE("F");

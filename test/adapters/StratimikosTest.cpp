@@ -29,14 +29,14 @@ Eigen::MatrixXd solved(const LinearSolveStrategy& strategy, const linear::Linear
   const auto k = adapters::asThyra(forward);
   const auto op = Thyra::linearOpWithSolve<double>(strategy, k);
   const RCP<Vector> x = rcp(new Vector(forward->getDomainMap()));
-  status = op->solve(Thyra::NOTRANS, *Thyra::createVector<double>(problem.k->load(), k->range()),
+  status = op->solve(Thyra::NOTRANS, *Thyra::createVector<double>(problem.load(), k->range()),
                      Thyra::createVector<double>(x, k->domain()).ptr());
   return denseOf(*x);
 }
 
 TEST(StratimikosTest, PicksFetiDpAndBddcByNameFromTheListsThatShip) {
   const linear::LinearProblem problem(linear::plate(12, decomposition::grid(3, 3)));
-  const Eigen::MatrixXd expected = direct::solvedSymmetric(denseOf(*problem.k), denseOf(*problem.k->load()));
+  const Eigen::MatrixXd expected = direct::solvedSymmetric(denseOf(*problem.k), denseOf(*problem.load()));
   Thyra::SolveStatus<double> status;
   const auto fetiDp = linearSolveStrategy(shippedList("fetidp.xml"));
   EXPECT_LE(linear::relativeError(solved(*fetiDp, problem, problem.k, status), expected), 1e-7);
@@ -73,7 +73,7 @@ TEST(StratimikosTest, WrongParametersOfTheListAreRefused) {
 
 TEST(StratimikosTest, AnApplicationsOwnBuilderTakesThemUnderAnyNames) {
   const linear::LinearProblem problem(linear::plate(8, decomposition::grid(2, 2)));
-  const Eigen::MatrixXd expected = direct::solvedSymmetric(denseOf(*problem.k), denseOf(*problem.k->load()));
+  const Eigen::MatrixXd expected = direct::solvedSymmetric(denseOf(*problem.k), denseOf(*problem.load()));
   const auto list = Teuchos::parameterList();
   list->set("Linear Solver Type", "Tearing");
   Thyra::SolveStatus<double> status;

@@ -18,13 +18,12 @@ int main(int argc, char** argv) {
   Teuchos::ParameterList parameters("Solver");
   parameters.set("Tolerance", 1e-10);
   epafi::ContactSolver solver(parameters);
-  solver.setup(cut.problem); // factorises; once a matrix
-  epafi::fetidp::ContactSolution solution = solver.solve();
+  solver.setup(cut.problem, cut.data); // factorises; once a matrix
+  epafi::fetidp::ContactSolution solution = solver.solve(cut.data);
 
-  // Other loads or gaps need no new setup, and the last multipliers are a good start.
-  for (auto& subdomain : cut.problem.subdomains)
-    subdomain.load *= 1.1;
-  solution = solver.solve(solution.multiplier.get());
+  // Other loads, supports or gaps need no new setup, and the last multipliers are a good start.
+  cut.data.scaleLoads(1.1);
+  solution = solver.solve(cut.data, solution.multiplier.get());
   if (comm->getRank() == 0)
     std::cout << std::setprecision(12) << toString(solver.report().status) << ", energy " << solution.energy
               << ", " << solution.activeContactNodes << " closed nodes, "

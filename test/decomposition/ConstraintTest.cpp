@@ -61,20 +61,22 @@ TEST(ConstraintTest, NoRowIsRedundant) {
 TEST(ConstraintTest, GluedSubdomainsAreTheUndividedBody) {
   const std::vector<scene::SolidSupport> supports = {{"left", "left", {1.0}}};
   const auto whole = decompose(oneBody(6, 5, grid(1, 1), supports), world());
-  const auto energyOf = [](const DecomposedProblem& p) {
+  const auto energyOf = [](const Decomposition& cut) {
+    const DecomposedProblem& p = cut.problem;
     // Saddle point [K Bᵀ; B 0], dense; the load is found like the matrix, copy by copy.
     const Eigen::MatrixXd k = mergedStiffness(p), b = mergedConstraint(p);
     Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());
     Eigen::Index next = p.remainderMap->getMinGlobalIndex();
     const Eigen::Index numRemainders = p.remainderMap->getGlobalNumElements();
     double offset = 0;
-    for (const Subdomain& s : p.subdomains) {
+    for (std::size_t place = 0; place < p.subdomains.size(); ++place) {
+      const Subdomain& s = p.subdomains[place];
+      const Eigen::VectorXd load = cut.data.subdomains()[place].rightHandSide();
       for (const int unknown : s.remainderUnknowns)
-        f[next++] += s.load[unknown];
+        f[next++] += load[unknown];
       for (std::size_t i = 0; i < s.crosspointUnknowns.size(); ++i)
-        f[numRemainders + static_cast<Eigen::Index>(s.crosspointIndices[i])] +=
-            s.load[s.crosspointUnknowns[i]];
-      offset += s.energyOffset;
+        f[numRemainders + static_cast<Eigen::Index>(s.crosspointIndices[i])] += load[s.crosspointUnknowns[i]];
+      offset += cut.data.subdomains()[place].energyOffset();
     }
     sumOverRanks(*p.comm, std::span(f.data(), static_cast<std::size_t>(f.size())));
     offset = sumOverRanks(*p.comm, offset);
@@ -87,10 +89,10 @@ TEST(ConstraintTest, GluedSubdomainsAreTheUndividedBody) {
     const Eigen::VectorXd u = direct::leastSquares(saddle, right).col(0).head(k.rows());
     return 0.5 * u.dot(k * u) - f.dot(u) + offset;
   };
-  const double expected = energyOf(whole.problem);
+  const double expected = energyOf(whole);
   for (const auto& cut : {grid(2, 2), grid(3, 1), metis(4), metis(6)}) {
     const auto parts = decompose(oneBody(6, 5, cut, supports), world());
-    EXPECT_NEAR(energyOf(parts.problem), expected, 1e-12 * std::abs(expected));
+    EXPECT_NEAR(energyOf(parts), expected, 1e-12 * std::abs(expected));
   }
 }
 

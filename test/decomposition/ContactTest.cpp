@@ -44,10 +44,11 @@ std::array<double, 2> entryOf(const DecomposedProblem& p, GlobalOrdinal row, int
 }
 
 /// c on every rank.
-std::vector<double> gapOf(const DecomposedProblem& p) {
+std::vector<double> gapOf(const Decomposition& cut) {
+  const DecomposedProblem& p = cut.problem;
   std::vector<double> all(p.dualDimension(), 0.0);
   const auto indices = localIndices(*p.multiplierMap);
-  const auto values = p.gap->getData();
+  const auto values = cut.data.gap().getData();
   for (Teuchos_Ordinal k = 0; k < values.size(); ++k)
     all[indices[static_cast<decltype(indices.size())>(k)]] = values[k];
   sumOverRanks(*p.comm, all);
@@ -66,7 +67,7 @@ TEST(ContactTest, RowsJoinOppositeNodesFromBottomToTop) {
                 (std::array<double, 2>{1.0, 5.0 * static_cast<double>(k) + 4}));
       EXPECT_EQ(entryOf(result.problem, k, 1), (std::array<double, 2>{-1.0, 5.0 * static_cast<double>(k)}));
     }
-    const std::vector<double> gap = gapOf(result.problem);
+    const std::vector<double> gap = gapOf(result);
     for (std::size_t row = 0; row < gap.size(); ++row)
       EXPECT_EQ(gap[row], row < 5 ? 0.25 : 0.0);
   }
@@ -94,7 +95,7 @@ TEST(ContactTest, SupportedNodesLeaveTheRowAndEnterTheGap) {
   scene.bodies[0].supports = {{"foot", "bottom", {0.125}}};
   scene.bodies[1].supports = {{"foot", "bottom", {-1.0}}, {"head", "top", {2.0}}};
   const auto result = decompose(scene, world());
-  const std::vector<double> gap = gapOf(result.problem);
+  const std::vector<double> gap = gapOf(result);
   EXPECT_EQ(gap[0], 0.5 - 0.125 - 1.0); // both supported: the row stays, empty
   EXPECT_EQ(entryOf(result.problem, 0, 0)[0], 0);
   EXPECT_EQ(entryOf(result.problem, 0, 1)[0], 0);

@@ -82,7 +82,7 @@ Eigen::Vector3d resultant(const BodyModel& model) {
   const AssembledSubdomain whole = assembled(model);
   Eigen::Vector3d sum(0, 0, 0);
   for (std::size_t i = 0; i < whole.unknownPosition.size(); ++i)
-    sum[whole.unknownPosition[i] % model.components()] += whole.load[i];
+    sum[whole.unknownPosition[i] % model.components()] += whole.data.load[i];
   return sum;
 }
 

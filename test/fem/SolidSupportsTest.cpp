@@ -72,9 +72,9 @@ TEST(SolidSupportsTest, NormalsOfAxisParallelPlanesAreComponents) {
     EXPECT_FALSE(b.hasFrames());
     const AssembledSubdomain x = assembled(a), y = assembled(b);
     EXPECT_EQ(x.unknownOf, y.unknownOf);
-    EXPECT_EQ(x.prescribed, y.prescribed);
+    EXPECT_EQ(x.data.prescribed, y.data.prescribed);
     EXPECT_EQ(Eigen::MatrixXd(x.stiffness), Eigen::MatrixXd(y.stiffness));
-    EXPECT_EQ(x.load, y.load);
+    EXPECT_EQ(x.data.rightHandSide(), y.data.rightHandSide());
   }
 }
 
@@ -99,7 +99,7 @@ TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
 
 /// u of all unknowns, prescribed ones included, turned back into space.
 Eigen::VectorXd inSpace(const BodyModel& model, const AssembledSubdomain& whole, const Eigen::VectorXd& u) {
-  Eigen::VectorXd all = whole.prescribed;
+  Eigen::VectorXd all = whole.data.prescribed;
   for (std::size_t i = 0; i < whole.unknownPosition.size(); ++i)
     all[whole.unknownPosition[i]] = u[i];
   const int n = model.components();
@@ -125,7 +125,7 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
       const BodyModel model(solid, mesh), straight(solid, original);
       const auto solution = [](const BodyModel& m) {
         const AssembledSubdomain whole = assembled(m);
-        return inSpace(m, whole, direct::solvedSymmetric(whole.stiffness, whole.load));
+        return inSpace(m, whole, direct::solvedSymmetric(whole.stiffness, whole.data.rightHandSide()));
       };
       const Eigen::VectorXd u = solution(model), v = solution(straight);
       EXPECT_NEAR(v[dimension == 2 ? 8 : 9], 0.3, 1e-12); // x = 2: the straight one is stretched at all
@@ -135,7 +135,7 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
              placement.turn.topLeftCorner(dimension, dimension) * v.segment(dimension * node, dimension))
                 .norm(),
             1e-11);
-      EXPECT_NEAR(assembled(model).energyOffset, assembled(straight).energyOffset, 1e-10);
+      EXPECT_NEAR(assembled(model).data.energyOffset(), assembled(straight).data.energyOffset(), 1e-10);
     }
 }
 

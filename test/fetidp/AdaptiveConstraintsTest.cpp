@@ -265,8 +265,8 @@ Teuchos::ParameterList parameters(const std::string& use, double threshold = 1.5
 struct Solution {
   Solution(const scene::Scene& scene, const Teuchos::ParameterList& list)
       : decomposition(decompose(scene, world())), solver(list) {
-    solver.setup(decomposition.problem);
-    solution = solver.solve();
+    solver.setup(decomposition.problem, decomposition.data);
+    solution = solver.solve(decomposition.data);
   }
   [[nodiscard]] Field field() const { return fieldOf(decomposition, solution); }
 
@@ -301,18 +301,18 @@ TEST(AdaptiveConstraintsTest, TheyServeOtherLoadsAndWarmStarts) {
     const scene::Scene scene = channels(coercive, 1e5, grid(3, 3));
     Solution solution(scene, parameters("auto", 10));
     const int cold = solution.solver.report().counts.hessianMultiplications;
-    const ContactSolution again = solution.solver.solve(&*solution.solution.multiplier);
+    const ContactSolution again =
+        solution.solver.solve(solution.decomposition.data, &*solution.solution.multiplier);
     EXPECT_LE(solution.solver.report().counts.hessianMultiplications, cold / 3);
     EXPECT_LE(relativeError(gathered(*again.multiplier), gathered(*solution.solution.multiplier)), 1e-7);
-    for (auto& subdomain : solution.decomposition.problem.subdomains)
-      subdomain.load *= -2;
+    solution.decomposition.data.scaleLoads(-2);
     scene::Scene other = scene;
     for (scene::Body& body : other.bodies)
       for (scene::SolidLoad& load : body.loads)
         load.value[0] *= -2;
     if (!coercive)
       continue; // it would be pulled off
-    const ContactSolution changed = solution.solver.solve();
+    const ContactSolution changed = solution.solver.solve(solution.decomposition.data);
     const Solution fresh(other, parameters("no"));
     EXPECT_NEAR(changed.energy, fresh.solution.energy, 1e-8 * std::abs(fresh.solution.energy));
   }

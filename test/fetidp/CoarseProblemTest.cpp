@@ -89,8 +89,8 @@ TEST(CoarseProblemTest, GivesTheSameSolutionOnOneRankAsOnAll) {
       Teuchos::ParameterList parameters = toleranceOf(1e-10);
       parameters.sublist("Direct Solvers").set("Maximum Replicated Size", 0);
       ContactSolver solver(parameters);
-      solver.setup(onAll.decomposition.problem);
-      const ContactSolution solution = solver.solve();
+      solver.setup(onAll.decomposition.problem, onAll.decomposition.data);
+      const ContactSolution solution = solver.solve(onAll.decomposition.data);
 
       EXPECT_EQ(solver.report().status, qp::Status::converged);
       EXPECT_LE(

@@ -1,5 +1,6 @@
 // Responses to changes of loads and gaps beside differences of two solutions.
 
+#include "support/DataChanges.hpp"
 #include "support/Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
@@ -18,7 +19,7 @@ namespace {
 DataChange someChange(const DecomposedProblem& problem, double loadSize, double gapSize) {
   DataChange change;
   for (const decomposition::Subdomain& subdomain : problem.subdomains) {
-    Eigen::VectorXd& load = change.load.emplace_back(subdomain.load.size());
+    Eigen::VectorXd& load = change.load.emplace_back(subdomain.stiffness->rows());
     for (Eigen::Index i = 0; i < load.size(); ++i)
       load[i] = loadSize * std::sin(static_cast<double>(i));
   }
@@ -44,10 +45,10 @@ TEST(ContactResponseTest, IsTheDerivativeOfTheSolution) {
   for (const ContactCase& c : contactCases()) {
     SCOPED_TRACE(c.name);
     Solved solved(c.scene, 1e-12);
-    DecomposedProblem& problem = solved.decomposition.problem;
+    const DecomposedProblem& problem = solved.decomposition.problem;
     double load = 0;
-    for (const auto& subdomain : problem.subdomains)
-      load = std::max(load, subdomain.load.size() > 0 ? subdomain.load.lpNorm<Eigen::Infinity>() : 0.0);
+    for (const auto& data : solved.decomposition.data.subdomains())
+      load = std::max(load, data.load.size() > 0 ? data.load.lpNorm<Eigen::Infinity>() : 0.0);
     const double length = largest(solved.solution.displacement, *world());
     const DataChange change = someChange(problem, maxOverRanks(*world(), load), 0.01 * length);
     const ContactResponse response = solved.solver.respond(solved.solution, change, 1e-11);
@@ -55,14 +56,17 @@ TEST(ContactResponseTest, IsTheDerivativeOfTheSolution) {
 
     constexpr double s = 1e-4;
     double work = 0; // ḟᵀu
-    for (std::size_t i = 0; i < problem.subdomains.size(); ++i) {
+    for (std::size_t i = 0; i < problem.subdomains.size(); ++i)
       work += change.load[i].dot(
           decomposition::unknownsOf(problem.subdomains[i], solved.solution.displacement[i]));
-      problem.subdomains[i].load += s * change.load[i];
-    }
     work = sumOverRanks(*world(), work) + change.gap->dot(*solved.solution.multiplier);
-    problem.gap->update(s, *change.gap, 1.0);
-    const ContactSolution moved = solved.solver.solve(solved.solution.multiplier.get());
+    const decomposition::ProblemData data =
+        changed(solved.decomposition.data, [&](auto& subdomains, Vector& gap) {
+          for (std::size_t i = 0; i < subdomains.size(); ++i)
+            subdomains[i].load += s * change.load[i];
+          gap.update(s, *change.gap, 1.0);
+        });
+    const ContactSolution moved = solved.solver.solve(data, solved.solution.multiplier.get());
     Vector zone(*moved.active, Teuchos::Copy);
     zone.update(-1.0, *solved.solution.active, 1.0);
     ASSERT_EQ(zone.normInf(), 0); // else there is nothing to compare

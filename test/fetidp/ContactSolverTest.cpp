@@ -1,7 +1,9 @@
+#include "support/DataChanges.hpp"
 #include "support/Reference.hpp"
 
 #include "support/Refusal.hpp"
 
+#include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/NaturalCoarseSpace.hpp"
 
@@ -28,30 +30,32 @@ scene::Scene membranes(bool coercive) {
 TEST(ContactSolverTest, SolvesAgainForNewLoadsAndGaps) {
   for (const bool coercive : {true, false}) {
     Solved solved(membranes(coercive));
-    DecomposedProblem& problem = solved.decomposition.problem;
+    const DecomposedProblem& problem = solved.decomposition.problem;
     const Field before = fieldOf(solved.decomposition, solved.solution);
-    for (auto& subdomain : problem.subdomains)
-      subdomain.load *= subdomain.body == 0 ? 3.0 : 1.5;
-    problem.gap->scale(0.0);
-    for (GlobalOrdinal row = 0; row < problem.numInequalities; ++row)
-      if (problem.multiplierMap->isNodeGlobalElement(row))
-        problem.gap->replaceGlobalValue(row, 0.01 * static_cast<double>(row));
-    const ContactSolution again = solved.solver.solve();
+    decomposition::ProblemData& data = solved.decomposition.data;
+    data = withLoads(data, [&](std::size_t s, Eigen::VectorXd& load) {
+      load *= problem.subdomains[s].body == 0 ? 3.0 : 1.5;
+    });
+    const RCP<Vector> gaps = data.contactGaps(problem);
+    for (const GlobalOrdinal row : localIndices(*gaps->getMap()))
+      gaps->replaceGlobalValue(row, 0.01 * static_cast<double>(row));
+    data.setGaps(*gaps);
+    const ContactSolution again = solved.solver.solve(solved.decomposition.data);
     const PrimalSolution reference = solveUndecomposed(solved.decomposition);
     const Field after = fieldOf(solved.decomposition, again);
     EXPECT_LE(fieldError(after, reference.field), 1e-8);
     EXPECT_GT(fieldError(after, before), 0.1); // it is another problem
 
     ContactSolver fresh(toleranceOf(1e-11));
-    fresh.setup(problem);
-    EXPECT_LE(fieldError(after, fieldOf(solved.decomposition, fresh.solve())), 1e-13);
+    fresh.setup(problem, data);
+    EXPECT_LE(fieldError(after, fieldOf(solved.decomposition, fresh.solve(data))), 1e-13);
   }
 }
 
 TEST(ContactSolverTest, SolvingTwiceGivesTheSameAnswer) {
   for (const bool coercive : {true, false}) {
     Solved solved(membranes(coercive));
-    const ContactSolution again = solved.solver.solve();
+    const ContactSolution again = solved.solver.solve(solved.decomposition.data);
     EXPECT_EQ(relativeError(gathered(*again.multiplier), gathered(*solved.solution.multiplier)), 0);
   }
 }
@@ -67,18 +71,17 @@ TEST(ContactSolverTest, ALoadMayAppearAfterSetup) {
     body.loads.clear();
   auto decomposition = decompose(scene, world());
   ContactSolver solver(toleranceOf(1e-10));
-  solver.setup(decomposition.problem); // not unique as yet
-  EXPECT_THROW(solver.solve(), SolvabilityError);
-  for (std::size_t s = 0; s < decomposition.problem.subdomains.size(); ++s)
-    decomposition.problem.subdomains[s].load = loads.problem.subdomains[s].load;
-  EXPECT_LE(fieldError(fieldOf(decomposition, solver.solve()), expected), 1e-9);
+  solver.setup(decomposition.problem, decomposition.data); // not unique as yet
+  EXPECT_THROW(solver.solve(decomposition.data), SolvabilityError);
+  EXPECT_LE(fieldError(fieldOf(decomposition, solver.solve(loads.data)), expected), 1e-9);
 }
 
 TEST(ContactSolverTest, AWarmStartFromTheSolutionTakesFewProducts) {
   for (const bool coercive : {true, false}) {
     Solved solved(membranes(coercive), 1e-8);
     const int cold = solved.solver.report().counts.hessianMultiplications;
-    const ContactSolution again = solved.solver.solve(solved.solution.multiplier.get());
+    const ContactSolution again =
+        solved.solver.solve(solved.decomposition.data, solved.solution.multiplier.get());
     EXPECT_EQ(solved.solver.report().status, qp::Status::converged);
     EXPECT_LE(solved.solver.report().counts.hessianMultiplications, 3);
     EXPECT_GT(cold, 6);
@@ -95,7 +98,7 @@ TEST(ContactSolverTest, AnyStartLeadsToTheSolution) {
     const auto start =
         spread(problem.multiplierMap, randomVector(static_cast<Eigen::Index>(problem.dualDimension()), 3));
     const Eigen::VectorXd kept = gathered(*start);
-    const ContactSolution again = solved.solver.solve(start.get());
+    const ContactSolution again = solved.solver.solve(solved.decomposition.data, start.get());
     EXPECT_EQ(solved.solver.report().status, qp::Status::converged);
     EXPECT_LE(
         fieldError(fieldOf(solved.decomposition, again), fieldOf(solved.decomposition, solved.solution)),
@@ -121,8 +124,8 @@ TEST(ContactSolverTest, EveryAlgorithmFindsTheSameSolution) {
     for (const char* algorithm : {"MPRGP", "active set"}) {
       model::Decomposition decomposition = model::decompose(membranes(held), Tpetra::getDefaultComm());
       ContactSolver solver(Teuchos::ParameterList().set("Algorithm", algorithm).set("Tolerance", 1e-10));
-      solver.setup(decomposition.problem);
-      const ContactSolution solution = solver.solve();
+      solver.setup(decomposition.problem, decomposition.data);
+      const ContactSolution solution = solver.solve(decomposition.data);
       EXPECT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
       EXPECT_EQ(solver.dualProblem().algorithm() == Algorithm::activeSets,
                 algorithm == std::string("active set"));
@@ -148,7 +151,7 @@ TEST(ContactSolverTest, BodiesWithoutContactAreSolvedToo) {
 
 TEST(ContactSolverTest, SolveAsksForSetup) {
   ContactSolver solver(ContactSolver::validParameters());
-  EXPECT_THROW(solver.solve(), Error);
+  EXPECT_THROW(solver.solve({}), Error);
 }
 
 TEST(ContactSolverTest, AFailedSetupLeavesNoHalfSolver) {
@@ -157,10 +160,11 @@ TEST(ContactSolverTest, AFailedSetupLeavesNoHalfSolver) {
   adrift.bodies.push_back(adrift.bodies[1]);
   adrift.bodies.back().name = "adrift";
   const auto decomposition = decompose(adrift, world());
-  EXPECT_THROW(solved.solver.setup(decomposition.problem), SolvabilityError);
-  EXPECT_THROW(solved.solver.solve(), Error); // not the old problem's answer
-  solved.solver.setup(solved.decomposition.problem);
-  EXPECT_EQ(gathered(*solved.solver.solve().multiplier), gathered(*solved.solution.multiplier));
+  EXPECT_THROW(solved.solver.setup(decomposition.problem, decomposition.data), SolvabilityError);
+  EXPECT_THROW(solved.solver.solve(solved.decomposition.data), Error); // not the old problem's answer
+  solved.solver.setup(solved.decomposition.problem, solved.decomposition.data);
+  EXPECT_EQ(gathered(*solved.solver.solve(solved.decomposition.data).multiplier),
+            gathered(*solved.solution.multiplier));
 }
 
 TEST(ContactSolverTest, UnknownAndImpossibleParametersAreRefused) {
@@ -183,8 +187,8 @@ TEST(ContactSolverTest, AMissedToleranceIsAStatusNotAnError) {
     Teuchos::ParameterList list;
     list.sublist("MPRGP").set("Maximum Multiplications", 3);
     ContactSolver solver(list);
-    solver.setup(decomposition.problem);
-    const ContactSolution solution = solver.solve();
+    solver.setup(decomposition.problem, decomposition.data);
+    const ContactSolution solution = solver.solve(decomposition.data);
     EXPECT_EQ(solver.report().status, qp::Status::maxIterations);
     EXPECT_EQ(solver.facts().status, qp::Status::maxIterations);
     EXPECT_GT(solution.relativeProjectedGradient, solver.tolerance());
@@ -196,16 +200,20 @@ TEST(ContactSolverTest, LoadsAndGapsThatAreNoNumbersAreRefused) {
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       Solved solved(membranes(coercive), 1e-6);
-      DecomposedProblem& problem = solved.decomposition.problem;
-      for (auto& subdomain : problem.subdomains)
-        if (subdomain.number == 5)
-          subdomain.load[0] = bad; // on one rank; all ranks say so
-      test::expectSays(test::refusal([&] { solved.solver.solve(); }), {"load", "'right'", "subdomain 5"});
-      for (auto& subdomain : problem.subdomains)
-        subdomain.load.setConstant(subdomain.body == 0 ? 1.0 : -1.0);
-      if (problem.multiplierMap->isNodeGlobalElement(2))
-        problem.gap->replaceGlobalValue(2, bad);
-      test::expectSays(test::refusal([&] { solved.solver.solve(); }), {"gap", "contact row 2"});
+      const DecomposedProblem& problem = solved.decomposition.problem;
+      const decomposition::ProblemData loaded =
+          withLoads(solved.decomposition.data, [&](std::size_t s, Eigen::VectorXd& load) {
+            if (problem.subdomains[s].number == 5)
+              load[0] = bad; // on one rank; all ranks say so
+          });
+      test::expectSays(test::refusal([&] { solved.solver.solve(loaded); }),
+                       {"load", "'right'", "subdomain 5"});
+      const decomposition::ProblemData apart =
+          changed(solved.decomposition.data, [&](const auto& /*subdomains*/, Vector& gap) {
+            if (problem.multiplierMap->isNodeGlobalElement(2))
+              gap.replaceGlobalValue(2, bad);
+          });
+      test::expectSays(test::refusal([&] { solved.solver.solve(apart); }), {"gap", "contact row 2"});
     }
 }
 
@@ -218,7 +226,7 @@ TEST(ContactSolverTest, MatricesAndRowsThatAreNoNumbersAreRefused) {
         if (subdomain.number == 5) // on one rank; all ranks say so
           change(subdomain);
       ContactSolver solver(toleranceOf(1e-6));
-      return test::refusal([&] { solver.setup(decomposition.problem); });
+      return test::refusal([&] { solver.setup(decomposition.problem, decomposition.data); });
     };
     test::expectSays(refusalOf([bad](auto& subdomain) {
                        auto matrix = std::make_shared<decomposition::SparseMatrix>(*subdomain.stiffness);
@@ -273,12 +281,14 @@ TEST(ContactSolverTest, RowsThatContradictEachOtherHaveNoSolution) {
         if (first >= 0 && second >= 0 && entry.multiplier == first)
           entries.push_back({second, entry.unknown, -entry.coefficient});
     }
-    if (problem.multiplierMap->isNodeGlobalElement(1))
-      problem.gap->replaceGlobalValue(1, -1.0);
+    decomposition.data = changed(decomposition.data, [&](const auto& /*subdomains*/, Vector& gap) {
+      if (problem.multiplierMap->isNodeGlobalElement(1))
+        gap.replaceGlobalValue(1, -1.0);
+    });
     ContactSolver solver(toleranceOf(1e-8));
-    solver.setup(problem);
+    solver.setup(problem, decomposition.data);
     try {
-      solver.solve();
+      solver.solve(decomposition.data);
       ADD_FAILURE() << solver.report().reason;
     } catch (const SolvabilityError& error) {
       EXPECT_EQ(error.kind(), SolvabilityError::Kind::noSolution);
@@ -295,8 +305,8 @@ std::string complaintAbout(bool coercive, const std::function<void(decomposition
       change(subdomain);
   ContactSolver solver(toleranceOf(1e-8));
   try {
-    solver.setup(decomposition.problem);
-    solver.solve();
+    solver.setup(decomposition.problem, decomposition.data);
+    solver.solve(decomposition.data);
   } catch (const Error& error) {
     return error.what();
   }
@@ -344,13 +354,13 @@ TEST(ContactSolverTest, AnInterruptedSolveGoesOnFromWhatItsObserverSaw) {
     Solved half(scene, 1e-11);
     Stopping observer(4);
 
-    const ContactSolution stopped = half.solver.solve(nullptr, &observer);
+    const ContactSolution stopped = half.solver.solve(half.decomposition.data, nullptr, &observer);
 
     EXPECT_EQ(half.solver.report().status, qp::Status::interrupted);
     EXPECT_EQ(observer.seen, gathered(*stopped.multiplier));
     EXPECT_GT(stopped.relativeProjectedGradient, half.solver.tolerance());
     const RCP<Vector> start = spread(half.decomposition.problem.multiplierMap, observer.seen);
-    const ContactSolution rest = half.solver.solve(start.get());
+    const ContactSolution rest = half.solver.solve(half.decomposition.data, start.get());
     EXPECT_EQ(half.solver.report().status, qp::Status::converged);
     EXPECT_LE(fieldError(fieldOf(half.decomposition, rest), fieldOf(whole.decomposition, whole.solution)),
               1e-9);

@@ -30,13 +30,13 @@ TEST(CyclesTest, MemoryStaysFlatWhateverIsSetUpSolvedAndUpdated) {
   handed->complete();
   ContactSolver solver(toleranceOf(1e-8));
   const auto cycle = [&](int number) {
-    solver.setup(handed->problem());
-    const ContactSolution first = solver.solve();
+    solver.setup(handed->problem(), handed->data());
+    const ContactSolution first = solver.solve(handed->data());
     for (std::size_t s = 0; s < matrices.size(); ++s)
       handed->setMatrix(s, (1 + 0.01 * (number % 7)) * matrices[s].stiffness);
     handed->setContact(contact);
-    solver.update();
-    const ContactSolution second = solver.solve(first.multiplier.get());
+    solver.update(handed->data());
+    const ContactSolution second = solver.solve(handed->data(), first.multiplier.get());
     EXPECT_EQ(solver.report().status, qp::Status::converged);
   };
   for (int number = 0; number < 20; ++number) // the allocator finds its size

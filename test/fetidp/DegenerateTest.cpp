@@ -84,9 +84,9 @@ TEST(DegenerateTest, ALoadThatVanishesLeavesNothingOfAWarmStart) {
     if (!contact)
       scene.contacts.clear();
     Solved solved(scene);
-    for (auto& subdomain : solved.decomposition.problem.subdomains)
-      subdomain.load.setZero();
-    const ContactSolution rest = solved.solver.solve(solved.solution.multiplier.get());
+    solved.decomposition.data.scaleLoads(0);
+    const ContactSolution rest =
+        solved.solver.solve(solved.decomposition.data, solved.solution.multiplier.get());
     EXPECT_EQ(solved.solver.report().status, qp::Status::converged);
     for (const Eigen::VectorXd& u : fieldOf(solved.decomposition, rest))
       EXPECT_LE(u.norm(), 1e-12);

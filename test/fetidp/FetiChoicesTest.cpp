@@ -57,8 +57,8 @@ TEST(FetiChoicesTest, EveryChoiceLeadsToTheUndecomposedSolution) {
     for (const Choice& choice : allChoices()) {
       SCOPED_TRACE(c.name + "; " + nameOf(choice));
       ContactSolver solver(parametersOf(choice));
-      solver.setup(decomposition.problem);
-      const ContactSolution solution = solver.solve();
+      solver.setup(decomposition.problem, decomposition.data);
+      const ContactSolution solution = solver.solve(decomposition.data);
       EXPECT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
       EXPECT_LE(fieldError(fieldOf(decomposition, solution), reference.field), 1e-8);
       EXPECT_NEAR(solution.energy, reference.energy, 1e-9 * std::abs(reference.energy));
@@ -71,8 +71,8 @@ TEST(FetiChoicesTest, EveryChoiceLeadsToTheUndecomposedSolution) {
 int products(const scene::Scene& scene, const std::string& type) {
   const auto decomposition = decompose(scene, world());
   ContactSolver solver(parametersOf({"explicit", type, "yes", "double"}, 1e-8));
-  solver.setup(decomposition.problem);
-  const ContactSolution solution = solver.solve();
+  solver.setup(decomposition.problem, decomposition.data);
+  const ContactSolution solution = solver.solve(decomposition.data);
   EXPECT_EQ(solver.report().status, qp::Status::converged) << type;
   EXPECT_LE(solution.relativeProjectedGradient, 1e-8);
   return solver.report().counts.hessianMultiplications;
@@ -112,8 +112,8 @@ TEST(FetiChoicesTest, ConductivityThatJumpsDoesNotSpoilTheSolution) {
     for (const char* type : {"none", "lumped", "dirichlet"}) {
       SCOPED_TRACE(c.name + "; " + type);
       ContactSolver solver(parametersOf({"implicit", type, "yes", "double"}));
-      solver.setup(decomposition.problem);
-      const ContactSolution solution = solver.solve();
+      solver.setup(decomposition.problem, decomposition.data);
+      const ContactSolution solution = solver.solve(decomposition.data);
       EXPECT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
       EXPECT_LE(fieldError(fieldOf(decomposition, solution), reference.field), 1e-6);
     }

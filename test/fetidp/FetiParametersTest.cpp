@@ -108,8 +108,8 @@ TEST(FetiParametersTest, AutoIsASolverThatThereIs) {
 SolveFacts factsOf(const scene::Scene& scene, const Teuchos::ParameterList& parameters) {
   const auto decomposition = decompose(scene, world());
   ContactSolver solver(parameters);
-  solver.setup(decomposition.problem);
-  solver.solve();
+  solver.setup(decomposition.problem, decomposition.data);
+  solver.solve(decomposition.data);
   return solver.facts();
 }
 

@@ -49,7 +49,7 @@ TEST(GeneralizedInverseTest, TakesSeveralLoadsAtOnce) {
     constexpr int numLoads = 5; // more than are solved for at once
     SubdomainVectors loads(problem.subdomains.size()), together, single;
     for (std::size_t s = 0; s < loads.size(); ++s)
-      loads[s].resize(problem.subdomains[s].load.size(), numLoads);
+      loads[s].resize(problem.subdomains[s].stiffness->rows(), numLoads);
     const auto loadOf = [&](int j) {
       return forcesOf(problem,
                       randomVector(decomposition::mergedSize(problem), 7 + static_cast<unsigned>(j)));

@@ -77,7 +77,7 @@ TEST(NaturalCoarseSpaceTest, KernelLoadIsTheResultantOfEachFloatingBody) {
   setLoad(scene.bodies[1], 2.0);
   setLoad(scene.bodies[2], -0.5);
   const auto decomposition = decompose(scene, world());
-  const Eigen::VectorXd resultants = kernelLoad(decomposition.problem);
+  const Eigen::VectorXd resultants = kernelLoad(decomposition.problem, decomposition.data);
   ASSERT_EQ(resultants.size(), 2);
   EXPECT_NEAR(resultants[0], 2.0, 1e-14); // load × area 1 × mode 1
   EXPECT_NEAR(resultants[1], -0.5, 1e-14);
@@ -119,14 +119,14 @@ TEST(NaturalCoarseSpaceTest, FeasiblePointIsInEquilibriumAndAsShortAsPossible) {
   for (const ContactCase& c : floatingCases()) {
     SCOPED_TRACE(c.name);
     const Floating floating(c.scene);
-    const Eigen::VectorXd e = kernelLoad(floating.problem);
+    const Eigen::VectorXd e = kernelLoad(floating.problem, floating.decomposition.data);
     Vector lambda(floating.map);
     lambda.putScalar(5.0); // what was there does not matter
     floating.space->feasiblePoint(e, lambda);
     EXPECT_LE((floating.space->product(lambda) - e).norm(), 1e-14 * e.norm());
     EXPECT_LE((floating.projector() * gathered(lambda)).norm(), 1e-14 * e.norm()); // λ̃ ⟂ Ker G
 
-    const DenseProblem dense = densify(floating.problem); // the same as G̃λ̃ = ẽ
+    const DenseProblem dense = densify(floating.problem, floating.decomposition.data); // the same as G̃λ̃ = ẽ
     EXPECT_LE(relativeError(dense.kernel.transpose() * dense.constraint.transpose() * gathered(lambda),
                             dense.kernel.transpose() * dense.load),
               1e-13);

@@ -18,7 +18,7 @@ Eigen::VectorXd slackFrom(const Solved& solved) {
     const auto& positions = problem.subdomains[s].unknownPosition;
     u.emplace_back(solved.solution.displacement[s](positions));
   }
-  const DenseProblem dense = densify(problem);
+  const DenseProblem dense = densify(problem, solved.decomposition.data);
   return dense.gap - dense.constraint * mergeValues(problem, u);
 }
 
@@ -92,7 +92,7 @@ TEST(RecoveryTest, CertificatesAreTheResidualsOfTheSolution) {
     SCOPED_TRACE(c.name);
     const Solved solved(c.scene, 1e-3); // loose, so that the residuals are no round-off
     const ContactSolution& solution = solved.solution;
-    const DenseProblem dense = densify(solved.decomposition.problem);
+    const DenseProblem dense = densify(solved.decomposition.problem, solved.decomposition.data);
     const ContactRows rows(solved);
     const Eigen::VectorXd slack = slackFrom(solved), lambda = gathered(*solution.multiplier);
 
@@ -137,7 +137,8 @@ TEST(RecoveryTest, EnergyIsThatOfTheSolution) {
     for (std::size_t s = 0; s < solved.decomposition.problem.subdomains.size(); ++s) {
       const auto& subdomain = solved.decomposition.problem.subdomains[s];
       const Eigen::VectorXd u = solved.solution.displacement[s](subdomain.unknownPosition);
-      energy += 0.5 * u.dot(*subdomain.stiffness * u) - subdomain.load.dot(u);
+      energy += 0.5 * u.dot(*subdomain.stiffness * u) -
+                solved.decomposition.data.subdomains()[s].rightHandSide().dot(u);
     }
     energy = sumOverRanks(*world(), energy);
     EXPECT_NEAR(solved.solution.energy, energy, 1e-13 * std::abs(energy));
@@ -153,8 +154,8 @@ TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
     found.report.status = qp::Status::converged;
     const DecomposedProblem& problem = solved.decomposition.problem;
     qp::SolveReport report;
-    const auto settling =
-        recoverSettled(solved.solver.dualProblem(), found, {1e-12}, report, qp::Interruption(0));
+    const auto settling = recoverSettled(solved.solver.dualProblem(), solved.decomposition.data, found,
+                                         {1e-12}, report, qp::Interruption(0));
     ASSERT_TRUE(settling);
     const ContactSolution& settled = *settling;
     const Eigen::VectorXd closed = gathered(*solved.solution.active),
@@ -170,13 +171,14 @@ TEST(RecoveryTest, ClosedRowsAreClosedByAResponse) {
     EXPECT_GT(open, 0);
     EXPECT_LE(left, 1e-6 * open + 1e-15);
 
-    const DenseProblem dense = densify(problem);
+    const DenseProblem dense = densify(problem, solved.decomposition.data);
     SubdomainVectors u;
     double energy = 0;
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
       const auto& subdomain = problem.subdomains[s];
       u.emplace_back(decomposition::unknownsOf(subdomain, settled.displacement[s]));
-      energy += 0.5 * u[s].col(0).dot(*subdomain.stiffness * u[s].col(0)) - subdomain.load.dot(u[s].col(0));
+      energy += 0.5 * u[s].col(0).dot(*subdomain.stiffness * u[s].col(0)) -
+                solved.decomposition.data.subdomains()[s].rightHandSide().dot(u[s].col(0));
     }
     energy = sumOverRanks(*world(), energy);
     const Eigen::VectorXd merged = mergeValues(problem, u), lambda = gathered(*settled.multiplier);
@@ -202,8 +204,8 @@ TEST(RecoveryTest, ClosedRowsAreFoundFromWrongOnes) {
       for (double& force : found.lambda->getDataNonConst())
         force += push * std::abs(force) + std::max(push, 0.0) * reference.force.maxCoeff();
       qp::SolveReport report;
-      const auto settled =
-          recoverSettled(solved.solver.dualProblem(), found, {1e-12}, report, qp::Interruption(0));
+      const auto settled = recoverSettled(solved.solver.dualProblem(), solved.decomposition.data, found,
+                                          {1e-12}, report, qp::Interruption(0));
       ASSERT_TRUE(settled);
       EXPECT_LE(fieldError(fieldOf(solved.decomposition, *settled), reference.field), 1e-8);
       EXPECT_NEAR(settled->energy, reference.energy, 1e-8 * std::abs(reference.energy));
@@ -230,7 +232,8 @@ TEST(RecoveryTest, SettlingEndsWhereOneRankWantsIt) {
   for (const auto& [interruption, status] :
        {std::pair(&wanted, qp::Status::interrupted), {&late, qp::Status::timeLimit}}) {
     qp::SolveReport report;
-    EXPECT_FALSE(recoverSettled(solved.solver.dualProblem(), found, {1e-12}, report, *interruption));
+    EXPECT_FALSE(recoverSettled(solved.solver.dualProblem(), solved.decomposition.data, found, {1e-12},
+                                report, *interruption));
     EXPECT_EQ(report.status, status);
     EXPECT_EQ(report.counts.hessianMultiplications, 0);
   }

@@ -1,3 +1,4 @@
+#include "support/DataChanges.hpp"
 #include "support/Reference.hpp"
 
 #include "epafi/fetidp/DualOperator.hpp"
@@ -17,7 +18,8 @@ namespace epafi::fetidp {
 namespace {
 
 /// Row 1 of contact says what row 0 says, with a wider gap: only the narrower one can carry force.
-void repeatRow(DecomposedProblem& problem, double wider) {
+void repeatRow(model::Decomposition& decomposition, double wider) {
+  DecomposedProblem& problem = decomposition.problem;
   for (auto& subdomain : problem.subdomains) {
     auto& entries = subdomain.constraint;
     const int first = problem.multiplierGhostMap->getLocalElement(0),
@@ -30,8 +32,10 @@ void repeatRow(DecomposedProblem& problem, double wider) {
       if (entry.multiplier == first)
         entries.push_back({second, entry.unknown, entry.coefficient});
   }
-  if (problem.multiplierMap->isNodeGlobalElement(1))
-    problem.gap->replaceGlobalValue(1, wider);
+  decomposition.data = changed(decomposition.data, [&](const auto& /*subdomains*/, Vector& gap) {
+    if (problem.multiplierMap->isNodeGlobalElement(1))
+      gap.replaceGlobalValue(1, wider);
+  });
 }
 
 /// The global indices of the shared rows, on every rank.
@@ -54,7 +58,7 @@ TEST(SharedRowsTest, RowsAtDifferentNodesShareNothing) {
 
 TEST(SharedRowsTest, RowsOfTheSameNodesAreFoundWhicheverRankHasThem) {
   auto decomposition = decompose(twoMembranes(true, 4, grid(2, 2)), world());
-  repeatRow(decomposition.problem, 0.5);
+  repeatRow(decomposition, 0.5);
   EXPECT_EQ(sharedRows(decomposition.problem), (std::vector<GlobalOrdinal>{0, 1}));
 }
 
@@ -82,10 +86,10 @@ TEST(SharedRowsTest, OfTwoRowsThatSayTheSameTheNarrowerOneCarriesTheForce) {
       setLoad(scene.bodies[0], 1.0);
       setLoad(scene.bodies[1], -1.0);
       auto decomposition = decompose(scene, world());
-      repeatRow(decomposition.problem, wider);
+      repeatRow(decomposition, wider);
       ContactSolver solver(toleranceOf(1e-10));
-      solver.setup(decomposition.problem);
-      const ContactSolution solution = solver.solve();
+      solver.setup(decomposition.problem, decomposition.data);
+      const ContactSolution solution = solver.solve(decomposition.data);
       ASSERT_EQ(solver.report().status, qp::Status::converged) << solver.report().reason;
       const Eigen::VectorXd forces = gathered(*solution.multiplier), slack = gathered(*solution.slack);
       EXPECT_GT(forces[0], 1e-3);

@@ -1,3 +1,4 @@
+#include "support/DataChanges.hpp"
 #include "support/DenseProblem.hpp"
 
 #include "epafi/base/Collective.hpp"
@@ -40,12 +41,13 @@ Judgement judge(const std::function<void()>& check) {
   return judgement;
 }
 
-Judgement judge(const DecomposedProblem& problem) {
-  return judge([&] { requireUniqueSolution(problem, kernelConstraint(problem)); });
+Judgement judge(const DecomposedProblem& problem, const decomposition::ProblemData& data) {
+  return judge([&] { requireUniqueSolution(problem, data, kernelConstraint(problem)); });
 }
 
 Judgement judge(const scene::Scene& scene) {
-  return judge(decompose(scene, world()).problem);
+  const auto cut = decompose(scene, world());
+  return judge(cut.problem, cut.data);
 }
 
 /// A scene whose bodies carry the given constant loads.
@@ -107,7 +109,8 @@ TEST(SolvabilityTest, SetupAsksForContactWhateverTheLoad) {
   const auto check = [](const scene::Scene& scene) {
     const auto decomposition = decompose(scene, world());
     return judge([&] {
-      requireContactForEveryMotion(decomposition.problem, kernelConstraint(decomposition.problem));
+      requireContactForEveryMotion(decomposition.problem, decomposition.data,
+                                   kernelConstraint(decomposition.problem));
     });
   };
   EXPECT_EQ(check(membranes(1.0)).verdict, Verdict::solvable); // the load may change
@@ -173,13 +176,11 @@ TEST(SolvabilityTest, RoundOffInTheLoadsFlipsNoDecision) {
 }
 
 TEST(SolvabilityTest, TheLoadsOfNowDecide) {
-  auto decomposition = decompose(membranes(0.0), world());
-  ASSERT_EQ(judge(decomposition.problem).verdict, Verdict::notUnique);
+  const auto cut = decompose(membranes(0.0), world());
+  ASSERT_EQ(judge(cut.problem, cut.data).verdict, Verdict::notUnique);
   for (const double load : {-1.0, 1.0, -1e-12, -1e12}) {
-    for (auto& subdomain : decomposition.problem.subdomains)
-      subdomain.load.setConstant(load);
-    EXPECT_EQ(judge(decomposition.problem).verdict, load < 0 ? Verdict::solvable : Verdict::noSolution)
-        << load;
+    const auto data = withLoads(cut.data, [load](std::size_t, Eigen::VectorXd& f) { f.setConstant(load); });
+    EXPECT_EQ(judge(cut.problem, data).verdict, load < 0 ? Verdict::solvable : Verdict::noSolution) << load;
   }
 }
 
@@ -190,7 +191,7 @@ Judgement judgeGaps(double gap, double first, double second) {
   scene.bodies[0].supports = {{"foot", "bottom", {first}}};
   scene.bodies[1].supports = {{"foot", "bottom", {second}}};
   const auto decomposition = decompose(scene, world());
-  return judge([&] { requireFeasibleGaps(decomposition.problem); });
+  return judge([&] { requireFeasibleGaps(decomposition.problem, decomposition.data); });
 }
 
 TEST(SolvabilityTest, SupportsThatOverlapHaveNoSolution) {

@@ -22,8 +22,8 @@ using namespace decomposition;
 /// The solution that a solver made anew finds of the problem as it is.
 ContactSolution solvedAnew(const UnassembledProblem& handed) {
   ContactSolver solver(toleranceOf(1e-12));
-  solver.setup(handed.problem());
-  return solver.solve();
+  solver.setup(handed.problem(), handed.data());
+  return solver.solve(handed.data());
 }
 
 void expectEqualFields(const UnassembledProblem& handed, const ContactSolution& a, const ContactSolution& b) {
@@ -68,7 +68,7 @@ TEST(UnassembledUpdateTest, UpdatesGiveWhatASolverMadeAnewGives) {
     std::vector<SubdomainMatrix> matrices = matricesOf(c.scene, Supports::prescribed);
     ConstraintMatrix contact = contactOf(c.scene, twice.direct.decomposition, Supports::prescribed);
     const auto expectAsAnew = [&] {
-      const ContactSolution updated = twice.solver->solve();
+      const ContactSolution updated = twice.solver->solve(handed.data());
       expectEqualFields(handed, updated, solvedAnew(handed));
       const auto anew = handOver(c.scene, matrices);
       anew->setContact(contact);
@@ -96,12 +96,12 @@ TEST(UnassembledUpdateTest, UpdatesGiveWhatASolverMadeAnewGives) {
         matrices[s].stiffness *= 3.0;
         handed.setMatrix(s, matrices[s].stiffness);
       }
-    twice.solver->update();
+    twice.solver->update(handed.data());
     expectAsAnew();
 
     contact = everySecondRow(contact);
     handed.setContact(contact);
-    twice.solver->update();
+    twice.solver->update(handed.data());
     expectAsAnew();
   }
 }

@@ -90,7 +90,7 @@ TEST(BddcPreconditionerTest, PreconditionsBelosConjugateGradientsFromTheLeftAndF
        {plate(16, decomposition::grid(4, 4)), elasticBlock(8, 0, test::cutByMetis(4))}) {
     const LinearProblem problem(scene);
     const RCP<const Operator> bddc = rcp(new BddcPreconditioner(problem.k, {}));
-    const Eigen::MatrixXd loads = denseOf(*problem.k->load()), k = denseOf(*problem.k);
+    const Eigen::MatrixXd loads = denseOf(*problem.load()), k = denseOf(*problem.k);
     Eigen::MatrixXd two(loads.rows(), 2);
     two << loads, Eigen::VectorXd::LinSpaced(loads.rows(), -1, 1);
     const RCP<const MultiVector> b = spreadOn(problem.k->getRangeMap(), two);

@@ -19,7 +19,7 @@ namespace {
 
 /// Three right-hand sides: the problem's own loads, zero, and another one.
 Eigen::MatrixXd threeLoads(const LinearProblem& problem) {
-  Eigen::MatrixXd b = denseOf(*problem.k->load()).replicate(1, 3);
+  Eigen::MatrixXd b = denseOf(*problem.load()).replicate(1, 3);
   b.col(1).setZero();
   for (Eigen::Index i = 0; i < b.rows(); ++i)
     b(i, 2) = std::sin(static_cast<double>(3 * i + 1));
@@ -72,7 +72,7 @@ TEST(FetiDpSolverTest, EachColumnIsSolvedAsIfItWereAlone) {
 
 TEST(FetiDpSolverTest, HonoursTheToleranceAskedForAndNoMore) {
   const LinearProblem problem(plate(16, decomposition::grid(4, 4)));
-  const RCP<const Vector> b = problem.k->load();
+  const RCP<const Vector> b = problem.load();
   FetiDpSolver solver(problem.k, {});
   int before = 0;
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
@@ -88,7 +88,7 @@ TEST(FetiDpSolverTest, HonoursTheToleranceAskedForAndNoMore) {
 
 TEST(FetiDpSolverTest, StartsFromTheVectorThatItIsGiven) {
   const LinearProblem problem(plate(16, decomposition::grid(4, 4)));
-  const RCP<const Vector> b = problem.k->load();
+  const RCP<const Vector> b = problem.load();
   FetiDpSolver solver(problem.k, {});
   Vector x(problem.k->getDomainMap());
   const LinearReport cold = solver.solve(*b, x, 1e-10);
@@ -123,9 +123,9 @@ TEST(FetiDpSolverTest, FollowsAChangeOfTheMatrices) {
     if (subdomain.number % 2 == 0)
       decomposition::changeStiffness(subdomain, [](decomposition::SparseMatrix& k) { k *= 7; });
   solver.update();
-  const Eigen::MatrixXd load = denseOf(*problem.k->load());
+  const Eigen::MatrixXd load = denseOf(*problem.load());
   Vector x(problem.k->getDomainMap());
-  EXPECT_TRUE(solver.solve(*problem.k->load(), x, 1e-11).converged);
+  EXPECT_TRUE(solver.solve(*problem.load(), x, 1e-11).converged);
   EXPECT_LE(relativeError(denseOf(x), direct::solvedSymmetric(denseOf(*problem.k), load)), 1e-9);
 }
 
@@ -139,17 +139,17 @@ TEST(FetiDpSolverTest, AfterAnUpdateThatFailedAnotherOneHelps) {
   scaleAll(-1);
   EXPECT_THROW(solver.update(), Error);
   Vector x(problem.k->getDomainMap());
-  EXPECT_THROW(solver.solve(*problem.k->load(), x), Error);
+  EXPECT_THROW(solver.solve(*problem.load(), x), Error);
   scaleAll(-3);
   solver.update();
-  EXPECT_TRUE(solver.solve(*problem.k->load(), x, 1e-11).converged);
-  const Eigen::MatrixXd load = denseOf(*problem.k->load());
+  EXPECT_TRUE(solver.solve(*problem.load(), x, 1e-11).converged);
+  const Eigen::MatrixXd load = denseOf(*problem.load());
   EXPECT_LE(relativeError(denseOf(x), direct::solvedSymmetric(denseOf(*problem.k), load)), 1e-9);
 }
 
 TEST(FetiDpSolverTest, SaysWhyItStopped) {
   const LinearProblem problem(plate(16, decomposition::grid(4, 4)));
-  const RCP<const Vector> b = problem.k->load();
+  const RCP<const Vector> b = problem.load();
   FetiDpParameters parameters;
   parameters.maxIterations = 2;
   Vector x(problem.k->getDomainMap());
@@ -173,7 +173,7 @@ TEST(FetiDpSolverTest, EveryChoiceOfParametersSolves) {
   scene.bodies.front().regions.push_back(
       {"channel", scene::rectangle(0, 1, 0.25, 0.34), "", {1e6}}); // jumps inside subdomains
   const LinearProblem problem(scene);
-  const RCP<const Vector> b = problem.k->load();
+  const RCP<const Vector> b = problem.load();
   for (const Type type : {Type::none, Type::lumped, Type::dirichlet})
     for (const Use use : {Use::no, Use::yes})
       for (const bool isSingle : {false, true}) {

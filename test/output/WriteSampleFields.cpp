@@ -39,8 +39,8 @@ void writeBlocks(const std::filesystem::path& directory, const std::string& cell
   const scene::Scene scene = test::stackedBlocks(*kind, 3, 3.0, meshes, *comm);
   const auto decomposition = model::decompose(scene, comm);
   ContactSolver solver{Teuchos::ParameterList()};
-  solver.setup(decomposition.problem);
-  const auto solution = solver.solve();
+  solver.setup(decomposition.problem, decomposition.data);
+  const auto solution = solver.solve(decomposition.data);
   const simulation::SolvedScene solved{scene, decomposition, solution};
   writeFields(directory, "run", solved, simulation::evaluate(solved), solver.report().history);
 }

@@ -213,6 +213,20 @@ TEST_F(BoxKernelsTest, TheRecessionConeHoldsZeroWhereThereWasABound) {
   EXPECT_EQ(projected(-3), dense({0, 0, -3, -3, 0, 0, 0}));
 }
 
+TEST_F(BoxKernelsTest, AShiftedSetIsTheSetSeenFromThere) {
+  const RCP<Vector> from = vector({1, -2, 3, 0.5, 0, -1, 2});
+  const RCP<const qp::ConvexSet> seen = box_.shiftedBy(*from);
+  for (const double value : {-3.0, 0.25, 3.0}) {
+    Vector step(from->getMap()), there(*from, Teuchos::Copy);
+    step.putScalar(value);
+    there.update(1.0, step, 1.0);
+    seen->project(step);
+    box_.project(there);
+    there.update(-1.0, *from, 1.0);
+    EXPECT_LE((gather(step) - gather(there)).norm(), 1e-15);
+  }
+}
+
 TEST_F(BoxKernelsTest, WithoutBoundsEverythingIsFree) {
   const Box none;
   const RCP<Vector> y = vector({0, 0, 0, 0, 0, 0, 0}), d = vector({-1, 1, -2, 2, -3, 3, 0});

@@ -177,8 +177,8 @@ TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheResults) {
     Teuchos::ParameterList parameters;
     parameters.set("Tolerance", 1e-12).set("Equilibrium Tolerance", 1e-12);
     ContactSolver solver(parameters);
-    solver.setup(decomposition.problem);
-    const fetidp::ContactSolution solution = solver.solve();
+    solver.setup(decomposition.problem, decomposition.data);
+    const fetidp::ContactSolution solution = solver.solve(decomposition.data);
     const SolvedScene solved{scene, decomposition, solution};
     const Evaluation evaluation = evaluate(solved);
 

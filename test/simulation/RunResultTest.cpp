@@ -85,5 +85,25 @@ TEST(RunResultTest, ACoarserMeshThatFailsIsToldAndTheRunGoesOn) {
   EXPECT_EQ(reportOf(run.result).sublist("Start").get<std::string>("Failure"), run.result.start->failure);
 }
 
+/// There is nothing coarser than one element: what suits a good start is not chosen without one.
+TEST(RunResultTest, WithoutACoarserMeshTheMethodIsTheOneForNoStart) {
+  const auto methodOf = [](int elements, GlobalOrdinal coarserFrom) {
+    scene::Scene scene;
+    scene.bodies = {
+        test::block("block", {{0, 0, 0}, {3, 1, 0}}, {elements, elements, 0}, test::cutInGrid({1, 1, 1}))};
+    scene.bodies[0].supports = {test::slide("left"), test::slide("right")};
+    scene.bodies[0].supports.push_back({"top", "top", {std::nullopt, -0.01, std::nullopt}});
+    scene.contacts = {test::onPlane("floor", 0, "bottom", {0, 0, 0}, {0, 1, 0})};
+    const SceneRun run = solveScene(scene, {}, Tpetra::getDefaultComm(), {.coarserFrom = coarserFrom});
+    EXPECT_EQ(run.result.status, RunStatus::converged);
+    EXPECT_EQ(run.result.start.has_value(), elements > 1 && coarserFrom == 0);
+    return run.result.solve.algorithm;
+  };
+  const auto cold = methodOf(1, 1000000);
+  EXPECT_NE(cold, fetidp::Algorithm::activeSets);
+  EXPECT_EQ(methodOf(1, 0), cold);
+  EXPECT_EQ(methodOf(6, 0), fetidp::Algorithm::activeSets);
+}
+
 } // namespace
 } // namespace epafi::simulation

@@ -94,7 +94,6 @@ DenseProblem densify(const DecomposedProblem& problem) {
   DenseProblem dense;
   dense.stiffness = decomposition::mergedStiffness(problem);
   dense.constraint = decomposition::mergedConstraint(problem);
-  dense.load = Eigen::VectorXd::Zero(mergedSize(problem));
   dense.kernel = Eigen::MatrixXd::Zero(mergedSize(problem), problem.kernelDimension);
   const auto columns = mergedColumns(problem);
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
@@ -102,15 +101,23 @@ DenseProblem densify(const DecomposedProblem& problem) {
     const int offset = problem.kernelOffsetOf(subdomain);
     for (std::size_t i = 0; i < columns[s].size(); ++i) {
       const Eigen::Index unknown = i;
-      dense.load[columns[s][i]] += subdomain.load[unknown];
       dense.kernel.row(columns[s][i]).segment(offset, subdomain.kernel.cols()) +=
           subdomain.kernel.row(unknown);
     }
   }
-  decomposition::sumEntries(*problem.comm, dense.load);
   decomposition::sumEntries(*problem.comm, dense.kernel);
   dense.kernel.array().colwise() /= countCopies(problem).array(); // the mean of copies that agree
-  dense.gap = gathered(*problem.gap);
+  return dense;
+}
+
+DenseProblem densify(const DecomposedProblem& problem, const decomposition::ProblemData& data) {
+  DenseProblem dense = densify(problem);
+  dense.load = Eigen::VectorXd::Zero(mergedSize(problem));
+  const auto columns = mergedColumns(problem);
+  for (std::size_t s = 0; s < columns.size(); ++s)
+    dense.load(columns[s]) += data.subdomains()[s].rightHandSide();
+  decomposition::sumEntries(*problem.comm, dense.load);
+  dense.gap = gathered(data.gap());
   return dense;
 }
 

@@ -54,8 +54,10 @@ struct DenseProblem {
   Eigen::VectorXd gap;        ///< c
 };
 
-/// Collective.
+/// Without loads and gaps. Collective.
 DenseProblem densify(const DecomposedProblem& problem);
+/// With them; f̄ without what prescribed values take. Collective.
+DenseProblem densify(const DecomposedProblem& problem, const decomposition::ProblemData& data);
 
 /// A vector over merged unknowns as values of this rank's subdomains; all copies of a crosspoint agree.
 SubdomainVectors valuesOf(const DecomposedProblem& problem, const Eigen::VectorXd& merged);

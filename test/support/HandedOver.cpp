@@ -76,7 +76,7 @@ std::vector<SubdomainMatrix> matricesOf(const scene::Scene& scene, Supports supp
     SubdomainMatrix& matrix = matrices.emplace_back();
     matrix.body = static_cast<int>(b);
     matrix.stiffness = assembledPart.stiffness;
-    matrix.load = assembledPart.load;
+    matrix.load = assembledPart.data.rightHandSide();
     matrix.coordinates.resize(matrix.load.size(), dimension);
     for (const int position : assembledPart.unknownPosition) {
       const GlobalOrdinal node = assembledPart.nodes[position / components];

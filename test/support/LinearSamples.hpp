@@ -68,6 +68,8 @@ struct LinearProblem {
         k(rcp(new UnassembledOperator({decomposition, &decomposition->problem},
                                       globalUnknowns(*decomposition)))) {}
 
+  [[nodiscard]] RCP<Vector> load() const { return k->load(decomposition->data); } ///< b
+
   std::shared_ptr<Decomposition> decomposition;
   RCP<const UnassembledOperator> k;
 };

@@ -36,20 +36,21 @@ std::vector<Eigen::Index> firstColumns(const model::Decomposition& decomposition
 }
 
 void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdomain& subdomain,
-                  PrimalProblem& primal, Eigen::VectorXd& isFree) {
+                  const decomposition::SubdomainData& data, PrimalProblem& primal, Eigen::VectorXd& isFree) {
   std::vector<Eigen::Index> node;
   for (const int position : subdomain.unknownPosition)
     node.push_back(nodeOf(primal, subdomain, position));
   for (int j = 0; j < subdomain.stiffness->outerSize(); ++j)
     for (decomposition::SparseMatrix::InnerIterator entry(*subdomain.stiffness, j); entry; ++entry)
       primal.stiffness(node[entry.row()], node[j]) += entry.value();
+  const Eigen::VectorXd load = data.rightHandSide();
   for (std::size_t i = 0; i < node.size(); ++i) {
-    primal.load[node[i]] += subdomain.load[i];
+    primal.load[node[i]] += load[i];
     isFree[node[i]] += 1;
   }
-  for (Eigen::Index i = 0; i < subdomain.prescribed.size(); ++i) {
+  for (Eigen::Index i = 0; i < data.prescribed.size(); ++i) {
     const Eigen::Index at = nodeOf(primal, subdomain, static_cast<int>(i));
-    primal.prescribed[at] += subdomain.prescribed[i];
+    primal.prescribed[at] += data.prescribed[i];
     primal.copies[at] += 1;
   }
   for (const auto& entry : subdomain.constraint) {
@@ -57,7 +58,7 @@ void addSubdomain(const DecomposedProblem& problem, const decomposition::Subdoma
     if (row < problem.numInequalities)
       primal.constraint(static_cast<Eigen::Index>(row), node[entry.unknown]) += entry.coefficient;
   }
-  primal.energyOffset += subdomain.energyOffset;
+  primal.energyOffset += data.energyOffset();
 }
 
 PrimalProblem assemble(const model::Decomposition& decomposition) {
@@ -69,15 +70,15 @@ PrimalProblem assemble(const model::Decomposition& decomposition) {
   primal.constraint = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.numInequalities), n);
   primal.load = primal.prescribed = primal.copies = Eigen::VectorXd::Zero(n);
   Eigen::VectorXd isFree = Eigen::VectorXd::Zero(n);
-  for (const auto& subdomain : problem.subdomains)
-    addSubdomain(problem, subdomain, primal, isFree);
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s)
+    addSubdomain(problem, problem.subdomains[s], decomposition.data.subdomains()[s], primal, isFree);
   decomposition::sumEntries(*problem.comm, primal.stiffness);
   decomposition::sumEntries(*problem.comm, primal.constraint);
   for (Eigen::VectorXd* vector : {&primal.load, &primal.prescribed, &primal.copies, &isFree})
     decomposition::sumEntries(*problem.comm, *vector);
   primal.energyOffset = sumOverRanks(*problem.comm, primal.energyOffset);
   primal.prescribed.array() /= primal.copies.array();
-  primal.gap = gathered(*problem.gap).head(primal.constraint.rows());
+  primal.gap = gathered(decomposition.data.gap()).head(primal.constraint.rows());
   for (Eigen::Index node = 0; node < n; ++node)
     if (isFree[node] > 0)
       primal.unknowns.push_back(node);
@@ -102,8 +103,8 @@ Teuchos::ParameterList toleranceOf(double tolerance) {
 
 Solved::Solved(const scene::Scene& scene, double tolerance)
     : decomposition(decompose(scene, world())), solver(toleranceOf(tolerance)) {
-  solver.setup(decomposition.problem);
-  solution = solver.solve();
+  solver.setup(decomposition.problem, decomposition.data);
+  solution = solver.solve(decomposition.data);
 }
 
 Field fieldOf(const model::Decomposition& decomposition, const ContactSolution& solution) {

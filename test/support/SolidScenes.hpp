@@ -91,8 +91,8 @@ struct SolidRun {
                     const RCP<const Comm>& comm = Tpetra::getDefaultComm())
       : decomposition(model::decompose(scene, comm)),
         solver(Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance)) {
-    solver.setup(decomposition.problem);
-    solution = solver.solve();
+    solver.setup(decomposition.problem, decomposition.data);
+    solution = solver.solve(decomposition.data);
   }
 
   /// u of a body at its nodes, on every rank.

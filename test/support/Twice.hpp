@@ -30,8 +30,8 @@ struct Twice {
     couple(*this);
     handed->complete();
     solver = std::make_unique<ContactSolver>(toleranceOf(1e-12));
-    solver->setup(handed->problem());
-    solution = solver->solve();
+    solver->setup(handed->problem(), handed->data());
+    solution = solver->solve(handed->data());
   }
   /// Largest difference of the displacements, relative to the largest displacement. Collective.
   [[nodiscard]] double difference() const;

@@ -27,8 +27,8 @@ struct Outcome {
 Outcome outcomeOf(const scene::Scene& scene, const std::string& algorithm = "auto") try {
   const auto decomposition = model::decompose(scene, Tpetra::getDefaultComm());
   ContactSolver solver(Teuchos::ParameterList().set("Algorithm", algorithm));
-  solver.setup(decomposition.problem);
-  const fetidp::ContactSolution solution = solver.solve();
+  solver.setup(decomposition.problem, decomposition.data);
+  const fetidp::ContactSolution solution = solver.solve(decomposition.data);
   return {solver.report().status == qp::Status::converged ? Verdict::solved : Verdict::stopped,
           solver.report().reason, solution.energy, solution.equilibrium};
 } catch (const SolvabilityError& error) {

@@ -146,25 +146,29 @@ void contradict(DecomposedProblem& problem) {
       if (entry.multiplier == first)
         rows.push_back({second, entry.unknown, -entry.coefficient});
   }
-  if (problem.multiplierMap->isNodeGlobalElement(1))
-    problem.gap->replaceGlobalValue(1, -1.0);
 }
 
 /// Writes one number into what `what` names, on the rank that has it.
-void write(const std::string& what, double value, DecomposedProblem& problem) {
+void write(const std::string& what, double value, model::Decomposition& decomposition) {
+  DecomposedProblem& problem = decomposition.problem;
+  std::vector<decomposition::SubdomainData> data(decomposition.data.subdomains().begin(),
+                                                 decomposition.data.subdomains().end());
+  Vector gap(decomposition.data.gap(), Teuchos::Copy);
   if (what == "gap" && problem.multiplierMap->isNodeGlobalElement(1))
-    problem.gap->replaceGlobalValue(1, value);
-  for (auto& subdomain : problem.subdomains) {
+    gap.replaceGlobalValue(1, value);
+  for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
+    decomposition::Subdomain& subdomain = problem.subdomains[s];
     if (what == "constraint row" && !subdomain.constraint.empty())
       subdomain.constraint[0].coefficient = value;
     if (what == "load" && subdomain.number == 1)
-      subdomain.load[0] = value;
+      data[s].load[0] = value;
     if (what == "stiffness" && subdomain.number == 1) {
       const auto matrix = std::make_shared<decomposition::SparseMatrix>(*subdomain.stiffness);
       matrix->coeffRef(3, 3) = value;
       subdomain.stiffness = matrix;
     }
   }
+  decomposition.data = decomposition::ProblemData(std::move(data), gap, Vector(gap.getMap()));
 }
 
 /// The pressed squares as membranes in one place, each of which is to lie above the other one by 1: along one
@@ -197,16 +201,18 @@ CaseResult solve(const Case& which, const RCP<const Comm>& comm) {
   parameters.sublist("MPRGP").set("Time Limit", secondsOfIteration);
   ContactSolver solver(parameters);
   model::Decomposition decomposition = model::decompose(scene, comm);
-  if (application == "contradictory rows")
+  if (application == "contradictory rows") {
     contradict(decomposition.problem);
-  else if (!isScene)
-    write(application, given.get("Number", 0.0), decomposition.problem);
-  solver.setup(decomposition.problem);
-  fetidp::ContactSolution solution = solver.solve();
+    write("gap", -1.0, decomposition);
+  } else if (!isScene) {
+    write(application, given.get("Number", 0.0), decomposition);
+  }
+  solver.setup(decomposition.problem, decomposition.data);
+  fetidp::ContactSolution solution = solver.solve(decomposition.data);
   const double energy = solution.energy;
   for (int again = 0; again < 3 && given.get("Check", "") == "start from the solution"; ++again) {
     const RCP<Vector> start = solution.multiplier;
-    solution = solver.solve(start.get());
+    solution = solver.solve(decomposition.data, start.get());
   }
 
   CaseResult result;

@@ -2,7 +2,7 @@
 
 /// The most memory that a part of a program holds, not the whole program since its start.
 
-namespace epafi::simulation {
+namespace epafi {
 
 /// From now on memory that is freed stays with the program, ready to be used again: the system would have to
 /// clear it, page by page, at its next first touch. Not collective.
@@ -18,4 +18,4 @@ double peakBytes();
 /// Bytes of memory that programs can still take on this machine. Not collective.
 double freeBytes();
 
-} // namespace epafi::simulation
+} // namespace epafi

@@ -1,4 +1,4 @@
-#include "epafi/simulation/PeakMemory.hpp"
+#include "epafi/base/PeakMemory.hpp"
 
 #include <malloc.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace epafi::simulation {
+namespace epafi {
 namespace {
 
 /// A line of a file of /proc, in bytes; 0 without it.
@@ -43,4 +43,4 @@ double freeBytes() {
   return bytesIn("/proc/meminfo", "MemAvailable:");
 }
 
-} // namespace epafi::simulation
+} // namespace epafi
