@@ -17,7 +17,6 @@
 namespace epafi::fetidp {
 namespace {
 
-using decomposition::DecomposedProblem;
 using decomposition::ProblemData;
 
 /// A block on a floor, pushed aside at its left and loaded on its top, in the plane and in space.
