@@ -60,8 +60,8 @@ public:
 
   /// Factorises the subdomains and the coarse problem, chooses the algorithm, estimates ‖F‖. Keeps a
   /// reference to `problem`, which must outlive the solver. Collective.
-  /// \param data  what a refusal says the loads make of a body that nothing holds; no more comes from it \throws InputError, SolvabilityError or Error, the same on all
-  /// ranks.
+  /// \param data  what a refusal says the loads make of a body that nothing holds; no more comes from it
+  /// \throws InputError, SolvabilityError or Error, the same on all ranks.
   void setup(const decomposition::DecomposedProblem& problem, const decomposition::ProblemData& data);
 
   /// Follows changes that the problem of `setup` has seen since: matrices K^s (another object with the same

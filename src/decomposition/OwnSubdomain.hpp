@@ -28,7 +28,8 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
 /// K^s without the rows and columns of prescribed unknowns, in the order of positions. Not collective.
 SparseMatrix freeStiffness(const SparseMatrix& stiffness, const OwnSubdomain& own);
 
-/// Loads, reactions and energies of the data, from what is kept; unknowns are values of nodes. Not collective.
+/// Loads, reactions and energies of the data, from what is kept; unknowns are values of nodes. Not
+/// collective.
 void refresh(const OwnSubdomain& own, SubdomainData& data);
 
 } // namespace epafi::decomposition

@@ -36,14 +36,15 @@ public:
   /// \param subdomains  of this rank, in their order  \param gaps  c as given, on multiplierMap, 0 for gluing
   /// \param held        B u of the prescribed values alone, on the same map
   ProblemData(std::vector<SubdomainData> subdomains, const Vector& gaps, const Vector& held);
-  ProblemData(const ProblemData& other);
-  ProblemData& operator=(const ProblemData& other);
+  ProblemData(const ProblemData& other);            ///< a load case of its own, gaps too
+  ProblemData& operator=(const ProblemData& other); ///< likewise
   ProblemData(ProblemData&&) noexcept = default;
   ProblemData& operator=(ProblemData&&) noexcept = default;
   ~ProblemData() = default;
 
   /// Whether there are none, of any problem.
   [[nodiscard]] bool isEmpty() const { return gap_.is_null(); }
+  /// Of this rank, in the order of DecomposedProblem::subdomains.
   [[nodiscard]] std::span<const SubdomainData> subdomains() const { return subdomains_; }
   /// What B̄u of the unknowns is compared with: the gaps less what prescribed values contribute. On
   /// multiplierMap.

@@ -17,8 +17,8 @@
 
 namespace epafi::fem {
 
-/// What physics fills of decomposition::Subdomain and SubdomainData; see there for shapes. Eigen 3.4 copies a sparse
-/// matrix where others move: fill it where it is to stay.
+/// What physics fills of decomposition::Subdomain and SubdomainData; see there for shapes. Eigen 3.4 copies a
+/// sparse matrix where others move: fill it where it is to stay.
 struct AssembledSubdomain {
   std::vector<GlobalOrdinal> nodes; ///< ascending
   std::vector<int> borderNodes;     ///< places in `nodes` of those that other elements touch too, ascending

@@ -16,7 +16,8 @@ namespace epafi::fetidp {
 /// The rows that hold while a solution is settled: gluing, ties, and some of contact.
 class HeldRows {
 public:
-  /// Contact that pushes. Keeps references. \param forces  what multipliers may be \param sizes  see sizesOfRows
+  /// Contact that pushes. Keeps references.
+  /// \param forces  what multipliers may be  \param sizes  see sizesOfRows
   HeldRows(const qp::ConvexSet& forces, const Vector& sizes, const Vector& lambda)
       : forces_(forces), sizes_(sizes), held_(lambda.getMap()), nearest_(lambda.getMap()) {
     forces_.freeIndicator(lambda, held_);

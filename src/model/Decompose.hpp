@@ -13,8 +13,8 @@
 
 namespace epafi::model {
 
-/// The scene cut into subdomains: where everything lies (for output), the problem itself (for FETI-DP), and the
-/// loads, supports and gaps that the scene gives it, which may be changed from one solve to the next.
+/// The scene cut into subdomains: where everything lies (for output), the problem itself (for FETI-DP), and
+/// the loads, supports and gaps that the scene gives it, which may change from one solve to the next.
 struct Decomposition {
   std::vector<BodyLayout> bodies;
   std::vector<contact::ContactLayout> contacts;
