@@ -104,6 +104,7 @@ void ContactSolver::factorise(const decomposition::ProblemData& data,
   const double start = Teuchos::Time::wallTime();
   dual_.reset(); // should this fail, there is none
   fetidp::requireFiniteMatrices(*problem_);
+  fetidp::requireOwnData(*problem_, data);
   inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, directSolvers_, std::move(earlier));
   dual_ = std::make_unique<fetidp::DualProblem>(*problem_, data, inverse_, dualParameters_);
   times_ = {};

@@ -77,7 +77,7 @@ public:
   /// displacements violate the constraints still, it is settled (fetidp/Recovery.hpp); the report counts
   /// those steps, too, which the observer is not told of, but may end. A solution that misses the tolerance
   /// is returned as well: ask `report().status`.
-  /// \param data      of the problem of `setup`
+  /// \param data      of the problem of `setup`, as it was at the last `setup` or `update`
   /// \param start     λ of an earlier solve to start from, or null
   /// \param observer  told of every step, shown λ where it wants to look, may end the iteration
   /// (`interrupted`); or null

@@ -47,6 +47,7 @@ void UnassembledProblem::setGap(const Vector& gap) {
   requireComplete();
   if (!contact_ || !gap.getMap()->locallySameAs(*contact_->rows->getRowMap()))
     throw InputError("the gaps must lie on the row map of the contact matrix.");
+  contact_->gap = rcp(new Vector(gap, Teuchos::Copy)); // rows that are made anew keep it
   data_.setGaps(gap);
 }
 

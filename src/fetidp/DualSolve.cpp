@@ -311,6 +311,7 @@ DualSolution DualProblem::solve(const decomposition::ProblemData& data, const Ve
   if (parameters_.isBalanced && balance == nullptr)
     throw InputError("the tolerance 'balanced' needs an estimate of the discretisation error, and none was "
                      "given; hand one over to solve(), or ask for a number");
+  requireOwnData(problem_, data);
   requireFiniteData(problem_, data);
   const Eigen::VectorXd resultants = kernelLoad(problem_, data);
   requireFeasibleGaps(problem_, data);

@@ -55,6 +55,21 @@ void requireFiniteMatrices(const DecomposedProblem& problem) {
   });
 }
 
+void requireOwnData(const DecomposedProblem& problem, const decomposition::ProblemData& data) {
+  collectively(*problem.comm, [&] {
+    const auto own = data.subdomains();
+    bool fits = !data.isEmpty() && own.size() == problem.subdomains.size() &&
+                data.gap().getMap()->locallySameAs(*problem.multiplierMap);
+    for (std::size_t s = 0; fits && s < own.size(); ++s)
+      fits = own[s].load.size() == problem.subdomains[s].stiffness->rows() &&
+             own[s].prescribed.size() == problem.numPositions(problem.subdomains[s]);
+    if (!fits)
+      throw InputError(
+          "the loads and gaps are not those of the problem that is set up; after a change of its "
+          "rows take them anew");
+  });
+}
+
 void requireFiniteData(const DecomposedProblem& problem, const decomposition::ProblemData& data) {
   collectively(*problem.comm, [&] {
     for (std::size_t s = 0; s < problem.subdomains.size(); ++s)

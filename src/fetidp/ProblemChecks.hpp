@@ -10,7 +10,11 @@ namespace epafi::fetidp {
 /// infinite, or one of a row of B. An infinite entry on the diagonal would pass for a support. Collective.
 void requireFiniteMatrices(const decomposition::DecomposedProblem& problem);
 
-/// The same for loads and gaps. Collective.
+/// Throws InputError, the same on all ranks, if the data are not of this problem, as it is now: none, or with
+/// other subdomains, unknowns or rows. Collective.
+void requireOwnData(const decomposition::DecomposedProblem& problem, const decomposition::ProblemData& data);
+
+/// The same for loads and gaps that are not finite. Collective.
 void requireFiniteData(const decomposition::DecomposedProblem& problem,
                        const decomposition::ProblemData& data);
 

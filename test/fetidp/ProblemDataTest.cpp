@@ -142,5 +142,21 @@ TEST(ProblemDataTest, ForcesAtAllPositionsDoTheirWork) {
   }
 }
 
+/// None, those of another problem, and those from before the rows changed.
+TEST(ProblemDataTest, DataOfAnotherProblemAreRefused) {
+  Solved solved(heldMembranes(), 1e-6);
+  const Solved other(pushedBlock(2), 1e-6);
+  scene::Scene without = heldMembranes();
+  without.contacts.clear();
+  const model::Decomposition fewer = decompose(without, world());
+  for (const ProblemData& data : {ProblemData(), other.decomposition.data, fewer.data}) {
+    test::expectSays(test::refusal([&] { solved.solver.solve(data); }), {"not those of the problem"});
+    ContactSolver fresh(toleranceOf(1e-6));
+    test::expectSays(test::refusal([&] { fresh.setup(solved.decomposition.problem, data); }),
+                     {"not those of the problem"});
+  }
+  expectSame(solved.solver.solve(solved.decomposition.data), solved.solution);
+}
+
 } // namespace
 } // namespace epafi::fetidp
