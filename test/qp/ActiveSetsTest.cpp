@@ -126,6 +126,7 @@ TEST(ActiveSetsTest, GoesOnInTheSetWhereFacesDoNotSettle) {
 /// set.
 TEST(ActiveSetsTest, EntriesThatActAlikeEndInThoseThatAreWorthMost) {
   std::mt19937 random(11);
+  int numSettled = 0;
   for (int problemNumber = 0; problemNumber < 100; ++problemNumber) {
     SCOPED_TRACE(problemNumber);
     Problem problem{test::randomProblem(16, 1, 1e4, random)};
@@ -147,10 +148,12 @@ TEST(ActiveSetsTest, EntriesThatActAlikeEndInThoseThatAreWorthMost) {
     EXPECT_TRUE(answer.report.status == Status::converged || answer.report.status == Status::stagnated);
     EXPECT_GE((answer.x - problem.lower).minCoeff(), 0.0);
     if (answer.report.status == Status::converged) {
+      ++numSettled;
       EXPECT_LE(test::projectedGradient(problem, answer.x), 1.01e-8 * problem.b.norm());
       EXPECT_LE((answer.x - problem.lower).segment(8, 6).maxCoeff(), 0.0);
     }
   }
+  EXPECT_GE(numSettled, 95); // of 100; it is all of them
 }
 
 TEST(ActiveSetsTest, MeetsTheConditionsOfKktWhereItSaysSo) {
