@@ -59,11 +59,16 @@ function(epafi_test name)
   epafi_unite(test_${name} 12)
   set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   foreach(ranks IN LISTS TEST_RANKS)
+    set(leaks "")
+    if(EPAFI_SANITIZE AND ranks EQUAL 1 AND NOT name MATCHES "qp_random|forms|system" AND NOT "studies" IN_LIST TEST_LABELS
+       AND NOT "random" IN_LIST TEST_LABELS)
+      set(leaks leaks) # runs once, with leaks looked for
+    endif()
     add_test(NAME ${name}_np${ranks}
              COMMAND ${MPIEXEC_EXECUTABLE} ${EPAFI_MPIRUN_FLAGS} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
                      $<TARGET_FILE:test_${name}>)
     set_tests_properties(${name}_np${ranks} PROPERTIES PROCESSORS ${ranks} TIMEOUT ${TEST_TIMEOUT}
-      LABELS "${TEST_LABELS}"
+      LABELS "${TEST_LABELS};${leaks}"
       ENVIRONMENT "${EPAFI_TEST_ENVIRONMENT}")
   endforeach()
 endfunction()

@@ -201,6 +201,14 @@ void addBalance(std::ostream& text, const simulation::JointBalance& balance) {
          << " in moment: they do not lie across each other";
 }
 
+void describeFriction(std::ostream& text, const simulation::FrictionResult& friction) {
+  const auto& [x, y, z] = friction.tangentialForce;
+  text << noteIndent << "friction: force (" << rounded(x) << ", " << rounded(y) << ", " << rounded(z)
+       << "), sticks on " << rounded(friction.stickArea) << ", slips on " << rounded(friction.slipArea)
+       << " by at most " << rounded(friction.largestSlip) << ", dissipation "
+       << rounded(friction.dissipation);
+}
+
 void describeContact(std::ostream& text, const simulation::ContactResult& contact) {
   text << contact.activeNodes << " of " << counted(contact.candidates, "node") << " closed, area "
        << rounded(contact.area) << ", force " << rounded(contact.force) << resultantOf(contact)
@@ -209,6 +217,8 @@ void describeContact(std::ostream& text, const simulation::ContactResult& contac
     text << ", penetration " << rounded(*contact.penetration);
   if (contact.balance)
     text << "; " << contact.balance->coupling;
+  if (contact.friction)
+    describeFriction(text, *contact.friction);
   if (!contact.note.empty())
     text << noteIndent << contact.note;
   if (contact.numBent > 0)

@@ -124,9 +124,9 @@ fetidp::ContactSolution ContactSolver::solve(const decomposition::ProblemData& d
 
   const double recoveryStart = Teuchos::Time::wallTime();
   fetidp::ContactSolution solution = fetidp::recover(*dual_, data, dual);
-  if (!dualParameters_.isBalanced)
+  if (!dualParameters_.isBalanced && problem_->numFriction == 0) // what slips has forces of its own
     settle(data, dual, interruption, solution);
-  solution.algebraicError = algebraicErrorOf(solution);
+  solution.algebraicError = algebraicErrorOf(data, solution);
   confirm(solution, dual.errorTarget);
   times_.recovery = longest(*problem_->comm, recoveryStart);
   return solution;
@@ -134,13 +134,14 @@ fetidp::ContactSolution ContactSolver::solve(const decomposition::ProblemData& d
 
 /// (g^Pᵀ M g^P)^½ of the gradient g = c − Bu: no eigenvalue of MF is below 1, so that it is the algebraic
 /// error in the energy norm at most (see qp/StoppingRule.hpp). Collective.
-double ContactSolver::algebraicErrorOf(const fetidp::ContactSolution& solution) const {
+double ContactSolver::algebraicErrorOf(const decomposition::ProblemData& data,
+                                       const fetidp::ContactSolution& solution) const {
   if (dual_->algorithm() == fetidp::Algorithm::direct)
     return 0;
   if (dual_->preconditioner().is_null())
     return std::numeric_limits<double>::quiet_NaN();
   Vector gradient(solution.slack->getMap()), image(gradient.getMap());
-  dual_->feasibleForces()->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
+  dual_->feasibleForces(data, *solution.multiplier)->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
   dual_->preconditioner()->apply(gradient, image);
   return std::sqrt(std::max(0.0, accurateDot(gradient, image)));
 }

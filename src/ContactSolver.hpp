@@ -128,7 +128,8 @@ public:
 private:
   void factorise(const decomposition::ProblemData& data, std::shared_ptr<fetidp::GeneralizedInverse> earlier);
   void confirm(const fetidp::ContactSolution& solution, double errorTarget);
-  [[nodiscard]] double algebraicErrorOf(const fetidp::ContactSolution& solution) const;
+  [[nodiscard]] double algebraicErrorOf(const decomposition::ProblemData& data,
+                                        const fetidp::ContactSolution& solution) const;
   void settle(const decomposition::ProblemData& data, fetidp::DualSolution dual,
               const qp::Interruption& interruption, fetidp::ContactSolution& solution);
   [[nodiscard]] std::string describeDualOperator() const;

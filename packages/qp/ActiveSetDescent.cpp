@@ -31,7 +31,7 @@ Status ActiveSetIteration::descend() {
     if (isSolved())
       return Status::converged;
     copy(on_.x, inside_);
-    set_.project(inside_);
+    set_->project(inside_);
     const auto status = minimise(length == 1 ? maxFaceSteps : maxSteps);
     if (status && *status != Status::unbounded && *status != Status::stagnated) {
       copy(inside_, on_.x);
@@ -63,12 +63,12 @@ Status ActiveSetIteration::descend() {
 /// Where multipliers are more wrong than the face's minimum is inexact, those may move whose are so to a
 /// share of the worst one's. Collective.
 void ActiveSetIteration::release(double share) {
-  set_.choppedGradient(inside_, on_.gradient(), negligibleShare * on_.gradientNorm(), work_);
+  set_->choppedGradient(inside_, on_.gradient(), negligibleShare * on_.gradientNorm(), work_);
   if (accurateNorm(work_) <= on_.gradientNorm())
     return;
   const double least = share * work_.normInf();
   const auto wrong = localData(work_);
-  const auto face = localDataNonConst(on_.face);
+  const auto face = localDataNonConst(on_.face.isFree);
   for (std::size_t i = 0; i < face.size(); ++i)
     if (wrong[i] != 0 && std::abs(wrong[i]) >= least)
       face[i] = 1;
@@ -78,19 +78,19 @@ void ActiveSetIteration::release(double share) {
 /// Returns how far. Collective.
 double ActiveSetIteration::follow(const Vector& p, double most) {
   constexpr double onto = 1 + 1e-14; // and not just before it
-  const double length = minOverRanks(*p.getMap()->getComm(), set_.maxFeasibleStep(inside_, p));
+  const double length = minOverRanks(*p.getMap()->getComm(), set_->maxFeasibleStep(inside_, p));
   if (length >= most) {
     if (std::isfinite(most))
-      set_.move(most, p, inside_);
+      set_->move(most, p, inside_);
     return most;
   }
-  set_.move(onto * length, p, inside_);
-  next_.update(1.0, inside_, -1.0, p, 0.0);
-  copy(next_, work_);
-  set_.project(work_);
-  set_.freeIndicator(inside_, on_.x);
-  const auto outside = localData(next_), projected = localData(work_), isFree = localData(on_.x);
-  const auto face = localDataNonConst(on_.face);
+  set_->move(onto * length, p, inside_);
+  next_.isFree.update(1.0, inside_, -1.0, p, 0.0);
+  copy(next_.isFree, work_);
+  set_->project(work_);
+  set_->freeIndicator(inside_, on_.x);
+  const auto outside = localData(next_.isFree), projected = localData(work_), isFree = localData(on_.x);
+  const auto face = localDataNonConst(on_.face.isFree);
   for (std::size_t i = 0; i < face.size(); ++i)
     if (isFree[i] == 0 && outside[i] != projected[i])
       face[i] = 0;
@@ -102,19 +102,19 @@ bool ActiveSetIteration::startInside() {
   double least = std::numeric_limits<double>::infinity();
   for (const Vector* const from : {&start_, &best_}) {
     copy(*from, on_.x);
-    set_.project(on_.x);
+    set_->project(on_.x);
     if (!problem_.equality.is_null() && !findFeasiblePoint(problem_.equality, problem_.set, on_.x).isFeasible)
       continue;
-    copy(on_.x, next_);
-    set_.freeIndicator(on_.x, on_.face);
+    copy(on_.x, next_.isFree);
+    set_->freeIndicator(on_.x, on_.face.isFree);
     on_.enter();
     if (on_.objective() < least) {
       least = on_.objective();
-      copy(next_, inside_);
+      copy(next_.isFree, inside_);
     }
   }
   copy(inside_, on_.x);
-  set_.freeIndicator(on_.x, on_.face);
+  set_->freeIndicator(on_.x, on_.face.isFree);
   return std::isfinite(least);
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// The run of solveByActiveSets: `settle` goes from face to face through points that may lie outside of Ω
-/// (ActiveSets.cpp); where it finds no end, `descend` goes on through points of Ω (ActiveSetDescent.cpp).
+/// (ActiveSets.cpp); where it finds no end, and no boundary is curved, `descend` goes on through points of Ω
+/// (ActiveSetDescent.cpp).
 
 #include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/FaceIteration.hpp"
@@ -37,6 +38,8 @@ private:
   bool startInside();
   void release(double share);
   double follow(const Vector& p, double most);
+  [[nodiscard]] bool isSameFace() const;
+  void followSet();
   bool isSolved();
   [[nodiscard]] bool isSmall(double gradient, double energy);
   [[nodiscard]] bool holdsEquality() const;
@@ -47,15 +50,17 @@ private:
 
   StepCounts counts_;
   const ActiveSetProblem& problem_;
-  const ConvexSet& set_;
+  RCP<const ConvexSet> set_; ///< Ω, or Ω(x) as it was asked for last
   ScaledObjective objective_;
   SmalbeTolerances tolerances_;
   std::optional<ErrorWatch> watch_; ///< with an error's target
   Interruption interruption_;
   FaceIteration on_; ///< the face, with x and g
   Vector start_;
-  Vector best_;                 ///< the point with the least gradient on entering a face
-  Vector inside_, next_, work_; ///< x projected; the next face
+  Vector best_;   ///< the point with the least gradient on entering a face
+  Vector inside_; ///< x projected
+  Face next_;     ///< the next face
+  Vector work_;
   FusedReduction reduction_;
   double faceReduction_;
   double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace epafi::qp {
 namespace {
@@ -30,7 +31,7 @@ constexpr int mostRunaways = 1, mostRunawayFaces = 8;
 ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start,
                                        const Vector* face, const SmalbeTolerances& tolerances,
                                        const MprgpParameters& limits)
-    : problem_(problem), set_(*problem.set),
+    : problem_(problem), set_(problem.set),
       objective_(problem.hessian, problem.operatorNorm, limits.maxMultiplications, counts_),
       tolerances_(tolerances), interruption_(limits.timeLimit),
       on_(objective_, problem.preconditioner, problem.equality, interruption_, counts_),
@@ -41,32 +42,40 @@ ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Ve
   if (tolerances.error != nullptr)
     watch_.emplace(*tolerances.error);
   copy(start, on_.x);
-  set_.project(on_.x);
+  set_->project(on_.x);
   if (face != nullptr)
-    copy(*face, on_.face);
+    copy(*face, on_.face.isFree);
   else
     chooseFirstFace(problem);
-  next_.putScalar(1.0);
-  addScaled(-1.0, on_.face, next_);
-  set_.activate(next_, on_.x);
+  next_.isFree.putScalar(1.0);
+  addScaled(-1.0, on_.face.isFree, next_.isFree);
+  set_->activate(next_.isFree, on_.x);
+  set_->followBoundary(on_.x, on_.gradient(), 0, nullptr, on_.face);
   isAtOrigin_ = on_.x.normInf() == 0;
 }
 
-/// That of the start; at the origin, where it says nothing, that of Mb, as if M were A⁻¹.
+/// That of the start; at the origin, where bounds hold it, that of Mb, as if M were A⁻¹.
 void ActiveSetIteration::chooseFirstFace(const ActiveSetProblem& problem) {
   copy(on_.x, inside_);
   if (on_.x.normInf() == 0 && !problem.preconditioner.is_null()) {
     problem.preconditioner->apply(objective_.linearTerm(), inside_);
     ++counts_.preconditionerApplications;
-    set_.project(inside_);
   }
-  set_.freeIndicator(inside_, on_.face);
+  if (problem.setAt)
+    set_ = problem.setAt(inside_);
+  set_->project(inside_);
+  set_->freeIndicator(inside_, on_.face.isFree);
+  set_->freeIndicator(on_.x, next_.isFree);
+  const auto free = localData(next_.isFree);
+  const auto face = localDataNonConst(on_.face.isFree);
+  for (std::size_t i = 0; i < face.size(); ++i)
+    face[i] = std::max(face[i], free[i]);
 }
 
 Status ActiveSetIteration::run(Observer* observer) {
   interruption_.setObserver(observer);
   const Status status = settle();
-  if (status != Status::stagnated && status != Status::unbounded)
+  if ((status != Status::stagnated && status != Status::unbounded) || set_->isCurved())
     return status;
   const Status further = descend();
   return further == Status::stagnated ? status : further;
@@ -100,7 +109,7 @@ Status ActiveSetIteration::settle() {
     numRunawayFaces += isRunaway ? 1 : 0;
     if (numRunaways > mostRunaways || numRunawayFaces > mostRunawayFaces)
       break;
-    if (gradient_ < least && on_.objective() <= highest) {
+    if (gradient_ < least && (problem_.setAt || on_.objective() <= highest)) {
       least = gradient_;
       copy(on_.x, best_);
     }
@@ -129,21 +138,24 @@ bool ActiveSetIteration::balance() {
   constexpr double hindering = 1e-9; // beside what hinders it most
   on_.unbalanced(work_);
   const double least = hindering * work_.normInf();
-  const auto change = localData(work_), on = localData(on_.face), g = localData(on_.gradient());
-  const auto distance = [&](std::size_t i) {
-    return on[i] == 0 && change[i] < -least ? std::max(g[i], 0.0) / -change[i]
-                                            : std::numeric_limits<double>::infinity();
-  };
+  set_->releases(inside_, on_.plainGradient(), work_, least, next_.isFree);
+  const auto distance = localData(next_.isFree);
+  const auto face = localDataNonConst(on_.face.isFree);
   double first = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < on.size(); ++i)
-    first = std::min(first, distance(i));
+  for (std::size_t i = 0; i < face.size(); ++i)
+    if (face[i] == 0)
+      first = std::min(first, distance[i]);
+  for (const CircleTangent& tangent : on_.face.tangents)
+    first = std::min(first, distance[tangent.first]);
   first = minOverRanks(*work_.getMap()->getComm(), first);
   if (!std::isfinite(first))
     return false;
-  const auto next = localDataNonConst(next_);
-  for (std::size_t i = 0; i < on.size(); ++i)
-    next[i] = on[i] != 0 || distance(i) <= (1 + hindering) * first ? 1 : 0;
-  copy(next_, on_.face);
+  const double most = (1 + hindering) * first;
+  for (std::size_t i = 0; i < face.size(); ++i)
+    if (distance[i] <= most)
+      face[i] = 1;
+  std::erase_if(on_.face.tangents,
+                [&](const CircleTangent& tangent) { return distance[tangent.first] <= most; });
   copy(inside_, on_.x);
   ++counts_.expansion;
   return true;
@@ -172,10 +184,10 @@ std::optional<Status> ActiveSetIteration::minimise(int maxSteps) {
 bool ActiveSetIteration::isEndless() {
   constexpr double mostOff = 0.1;
   work_.update(on_.slope() > 0 ? -1.0 : 1.0, on_.direction(), 0.0);
-  copy(work_, next_);
-  set_.recessionCone(objective_.map())->project(next_);
-  addScaled(-1.0, work_, next_);
-  return accurateNorm(next_) <= mostOff * accurateNorm(work_);
+  copy(work_, next_.isFree);
+  set_->recessionCone(objective_.map())->project(next_.isFree);
+  addScaled(-1.0, work_, next_.isFree);
+  return accurateNorm(next_.isFree) <= mostOff * accurateNorm(work_);
 }
 
 /// Whether CG has done what the tolerance asks for, with something to spare.
@@ -188,44 +200,81 @@ bool ActiveSetIteration::isNearlySmall() const {
 /// sign; with caution only where it is the largest of these. False if that is the present face.
 bool ActiveSetIteration::chooseFace(bool isCautious) {
   copy(on_.x, inside_);
-  set_.project(inside_);
-  set_.freeIndicator(inside_, next_);
-  set_.choppedGradient(inside_, on_.gradient(), negligibleShare * on_.gradientNorm(), work_);
-  const double least = isCautious ? work_.normInf() : 0;
+  followSet();
+  set_->project(inside_);
+  const Vector& gradient = on_.plainGradient();
+  const double negligible = negligibleShare * on_.gradientNorm();
+  set_->choppedGradient(inside_, gradient, negligible, work_);
+  const double least = std::max(negligible, isCautious ? work_.normInf() : 0.0);
+  set_->freeIndicator(inside_, next_.isFree);
   reduction_.clear();
   {
-    const auto on = localData(on_.face), wrong = localData(work_);
-    const auto next = localDataNonConst(next_);
+    const auto on = localData(on_.face.isFree), wrong = localData(work_), x = localData(on_.x),
+               inside = localData(inside_);
+    const auto next = localDataNonConst(next_.isFree);
+    for (std::size_t i = 0; i < next.size(); ++i)
+      if (on[i] == 0 && next[i] == 0)
+        next[i] = wrong[i] != 0 && std::abs(wrong[i]) >= least ? 1 : 0;
+    set_->followBoundary(inside_, gradient, least, &on_.face, next_);
     const auto sums = reduction_.sums();
     for (std::size_t i = 0; i < next.size(); ++i) {
-      if (on[i] == 0)
-        next[i] = wrong[i] != 0 && std::abs(wrong[i]) >= least ? 1 : 0;
       sums[0].add(next[i] != on[i] ? 1.0 : 0.0);
       sums[1].add(1 - next[i]);
+      sums[2].add((x[i] - inside[i]) * (x[i] - inside[i]));
     }
+    sums[0].add(isSameFace() ? 0.0 : 1.0);
   }
   reduction_.reduce();
   numActive_ = static_cast<long long>(reduction_.sum(1));
-  if (reduction_.sum(0) == 0)
+  const bool hasSetMoved =
+      problem_.setAt && objective_.norm() * std::sqrt(reduction_.sum(2)) > on_.gradientNorm();
+  if (reduction_.sum(0) == 0 && !hasSetMoved)
     return false;
   copy(inside_, on_.x);
   copy(next_, on_.face);
   return true;
 }
 
+/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it.
+void ActiveSetIteration::followSet() {
+  if (!problem_.setAt)
+    return;
+  set_ = problem_.setAt(inside_);
+  const auto on = localData(on_.face.isFree);
+  const auto held = localDataNonConst(next_.isFree);
+  for (std::size_t i = 0; i < held.size(); ++i)
+    held[i] = 1 - on[i];
+  for (const CircleTangent& tangent : on_.face.tangents)
+    held[tangent.first] = held[tangent.second] = 1;
+  set_->activate(next_.isFree, inside_);
+}
+
+/// Whether the next face has this one's tangents, and x has not moved along them; on this rank.
+bool ActiveSetIteration::isSameFace() const {
+  const auto x = localData(on_.x);
+  return std::equal(next_.tangents.begin(), next_.tangents.end(), on_.face.tangents.begin(),
+                    on_.face.tangents.end(), [&](const CircleTangent& next, const CircleTangent& now) {
+                      return next.first == now.first &&
+                             std::abs(now.component(x) - now.origin) <= roundOffOfX * now.radius;
+                    });
+}
+
 /// Whether x, with g afresh, is within Ω and its projected gradient meets the tolerance.
 bool ActiveSetIteration::isSolved() {
   copy(on_.x, inside_);
-  set_.project(inside_);
-  set_.projectedGradient(inside_, on_.gradient(), 0.0, work_);
+  followSet();
+  set_->project(inside_);
+  set_->projectedGradient(inside_, on_.plainGradient(), 0.0, work_);
+  on_.face.restrict(work_, next_.isFree);
+  addScaled(-1.0, next_.isFree, work_);
   reduction_.clear();
   {
-    const auto on = localData(on_.face), wrong = localData(work_), x = localData(on_.x),
+    const auto on = localData(on_.face.isFree), off = localData(work_), x = localData(on_.x),
                inside = localData(inside_);
     const auto sums = reduction_.sums();
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double off = (1 - on[i]) * wrong[i], out = x[i] - inside[i];
-      sums[0].add(off * off);
+      const double out = x[i] - inside[i];
+      sums[0].add(off[i] * off[i]);
       sums[1].add(out * out);
       sums[2].add(x[i] * x[i]);
       sums[3].add(1 - on[i]);
@@ -233,9 +282,11 @@ bool ActiveSetIteration::isSolved() {
   }
   reduction_.reduce();
   numActive_ = static_cast<long long>(reduction_.sum(3));
-  if (std::sqrt(reduction_.sum(1)) > roundOffOfX * std::sqrt(reduction_.sum(2)))
+  const double outside = std::sqrt(reduction_.sum(1));
+  if (!problem_.setAt && outside > roundOffOfX * std::sqrt(reduction_.sum(2)))
     return false;
-  const double whole = std::hypot(gradient_, std::sqrt(reduction_.sum(0)));
+  const double whole =
+      std::hypot(gradient_, std::sqrt(reduction_.sum(0)), objective_.norm() * (problem_.setAt ? outside : 0));
   const double share = gradient_ > 0 ? whole / gradient_ : 1;
   if (!isSmall(whole, share * share * on_.energy()))
     return false;
@@ -266,9 +317,9 @@ void ActiveSetIteration::record(StepKind kind) {
   observer->step(step);
   if (!on_.isLookWanted())
     return;
-  copy(on_.x, next_);
-  set_.project(next_);
-  observer->look(next_);
+  copy(on_.x, next_.isFree);
+  set_->project(next_.isFree);
+  observer->look(next_.isFree);
 }
 
 void ActiveSetIteration::describe(SolveReport& report) const {
@@ -293,7 +344,7 @@ SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const 
   ActiveSetIteration method(problem, x, face, tolerances, limits);
   report.status = method.run(&recorder);
   x.assign(method.solution());
-  problem.set->project(x);
+  (problem.setAt ? problem.setAt(x) : problem.set)->project(x);
   method.describe(report);
   return report;
 }

@@ -5,16 +5,18 @@
 /// Engrg* 193 (2004):
 ///   minimise on the face as if it had no bounds, Bx = c held exactly, as far as the next decision needs;
 ///   put the entries that left Ω on its boundary, and let those move whose multipliers have the wrong sign,
-///   all at once.
+///   all at once; along circles (Discs.hpp) they move on, in Newton steps for the curved boundary (Face.hpp).
 /// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not
 /// settle, a primal method goes on in Ω (Nocedal, Wright, *Numerical Optimization*, 2006, 16.5), slower and
-/// with an objective that falls; where round-off ends that too, the method says so.
+/// with an objective that falls, unless Ω is curved; where round-off ends that too, the method says so.
 
 #include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
 #include "epafi/qp/MprgpParameters.hpp"
 #include "epafi/qp/Smalbe.hpp"
 #include "epafi/qp/SolveReport.hpp"
+
+#include <functional>
 
 namespace epafi::qp {
 
@@ -31,6 +33,9 @@ struct ActiveSetProblem {
   /// the norm alone, that of one which hardly moves x. With less reduction wrong decisions are paid by
   /// further faces, with more right ones by steps.
   double faceReduction = 0.1;
+  /// Where Ω depends on x itself, as Coulomb's friction does on the normal forces: Ω(x), asked for on every
+  /// face; x is then to be in Ω(x), and `set` is what the first face is chosen from. Null: Ω.
+  std::function<RCP<const ConvexSet>(const Vector& x)> setAt = {};
 };
 
 /// \param x     in: start; out: the last point, in Ω
@@ -39,7 +44,9 @@ struct ActiveSetProblem {
 /// (none at the start 0), 5 reductions (4 without rows). Allocates nothing on the way but what B's face
 /// inverse takes (FaceInverse.hpp). Returns converged only for a gradient computed afresh; with the best
 /// point met stagnated, where faces do not settle, and unbounded, where one seems to have no minimum (whether
-/// it has none says RecessionDirection.hpp). Collective.
+/// it has none says RecessionDirection.hpp). With a set that depends on x, bounds are those of the last face
+/// while a face lasts (Hüeber, Wohlmuth, *Comput. Methods Appl. Mech. Engrg* 194 (2005)), and what they miss of
+/// Ω(x), times ‖A‖, counts as gradient. Collective.
 SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
                               const SmalbeTolerances& tolerances, const MprgpParameters& limits,
                               Observer* observer = nullptr);

@@ -169,10 +169,10 @@ void Box::activate(const Vector& active, Vector& x) const {
     if (chosen[i] == 0)
       continue;
     const Interval interval = bounds[i];
-    const double nearer = std::abs(values[i] - interval.lower) <= std::abs(values[i] - interval.upper)
-                              ? interval.lower
-                              : interval.upper;
-    if (std::isfinite(nearer))
+    const double below = std::abs(values[i] - interval.lower), above = std::abs(values[i] - interval.upper);
+    const bool isMiddle = std::abs(below - above) <= 1e-9 * (below + above); // no side is nearer
+    const double nearer = below <= above ? interval.lower : interval.upper;
+    if (std::isfinite(nearer) && !isMiddle)
       values[i] = nearer;
   }
 }
@@ -204,7 +204,22 @@ double Box::longestMultiplierStep(const Vector& x, const Vector& g, const Vector
   return longest;
 }
 
-RCP<const ConvexSet> Box::shiftedBy(const Vector& x) const {
+void Box::releases(const Vector& x, const Vector& g, const Vector& s, double least, Vector& y) const {
+  const Local bounds = local();
+  const auto values = localData(x), gradient = localData(g), shift = localData(s);
+  const auto result = localDataNonConst(y);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Interval interval = bounds[i];
+    result[i] = infinity;
+    if (interval.isFree(values[i]) || !(interval.lower < interval.upper))
+      continue;
+    const double outward = values[i] <= interval.lower ? -1 : 1;
+    if (outward * shift[i] > least)
+      result[i] = std::max(-outward * gradient[i], 0.0) / (outward * shift[i]);
+  }
+}
+
+Box Box::shifted(const Vector& x) const {
   const auto less = [&x](const RCP<const Vector>& bound) {
     RCP<Vector> result;
     if (!bound.is_null()) {
@@ -213,10 +228,10 @@ RCP<const ConvexSet> Box::shiftedBy(const Vector& x) const {
     }
     return result;
   };
-  return rcp(new Box(less(lower_), less(upper_)));
+  return Box(less(lower_), less(upper_));
 }
 
-RCP<const ConvexSet> Box::recessionCone(const RCP<const Map>& map) const {
+Box Box::cone(const RCP<const Map>& map) const {
   const RCP<Vector> lower = rcp(new Vector(map)), upper = rcp(new Vector(map));
   const Local bounds = local();
   const auto low = localDataNonConst(*lower), high = localDataNonConst(*upper);
@@ -224,7 +239,15 @@ RCP<const ConvexSet> Box::recessionCone(const RCP<const Map>& map) const {
     low[i] = std::isfinite(bounds[i].lower) ? 0.0 : -infinity;
     high[i] = std::isfinite(bounds[i].upper) ? 0.0 : infinity;
   }
-  return rcp(new Box(lower, upper));
+  return Box(lower, upper);
+}
+
+RCP<const ConvexSet> Box::shiftedBy(const Vector& x) const {
+  return rcp(new Box(shifted(x)));
+}
+
+RCP<const ConvexSet> Box::recessionCone(const RCP<const Map>& map) const {
+  return rcp(new Box(cone(map)));
 }
 
 } // namespace epafi::qp

@@ -66,6 +66,8 @@ public:
     const double* upper_ = nullptr;
   };
   [[nodiscard]] Local local() const { return Local(*this); } ///< this rank's bounds
+  [[nodiscard]] Box shifted(const Vector& x) const;          ///< what `shiftedBy` returns
+  [[nodiscard]] Box cone(const RCP<const Map>& map) const;   ///< what `recessionCone` returns
 
   [[nodiscard]] std::string emptiness(const Map& map) const override;
   void project(Vector& x) const override;
@@ -87,6 +89,7 @@ public:
   [[nodiscard]] RCP<const ConvexSet> shiftedBy(const Vector& x) const override;
   /// 0 takes the place of every finite bound.
   [[nodiscard]] RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const override;
+  void releases(const Vector& x, const Vector& g, const Vector& s, double least, Vector& y) const override;
 
 private:
   RCP<const Vector> lower_, upper_;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The feasible set Ω of a problem, and all that MPRGP asks of it. The loops know no more than this, so that
-/// another set (a disc for friction) needs no change in them. `Box` is the set of bounds.
+/// The feasible set Ω of a problem, and all that the methods ask of it. Their loops know no more than this.
+/// `Box` is the set of bounds; in `Discs` pairs of entries have a bound on their length.
 ///
 /// At a feasible x with the gradient g (Dostál, *Optimal Quadratic Programming Algorithms*, 2009, ch. 5; for
 /// other sets Dostál, Kozubek, *Math. Program.* 135 (2012)):
@@ -15,6 +15,7 @@
 
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Types.hpp"
+#include "epafi/qp/Face.hpp"
 
 #include <string>
 
@@ -66,7 +67,7 @@ public:
   /// y_i = a lower bound of how far x_i may move either way with the set kept, at most `atMost`; 0 on the
   /// active set.
   virtual void distanceToBoundary(const Vector& x, double atMost, Vector& y) const = 0;
-  /// x moves onto the boundary where `active` is not 0: to the side that is nearer.
+  /// x moves onto the boundary where `active` is not 0: to the side that is nearer; where none is, it stays.
   virtual void activate(const Vector& active, Vector& x) const = 0;
   /// How far each entry is from "no gradient, or no room for it": the largest min(|g_i|, scale · s_i) over
   /// this rank's entries, s_i the room that −g_i has before the boundary.
@@ -81,6 +82,18 @@ public:
   /// x.
   /// \param map  of the unknowns
   [[nodiscard]] virtual RCP<const ConvexSet> recessionCone(const RCP<const Map>& map) const = 0;
+  /// Whether its boundary is curved anywhere, on any rank.
+  [[nodiscard]] virtual bool isCurved() const { return false; }
+  /// Frees what a curved boundary bounds, along its tangent where x is on it. Where `from` follows
+  /// it already, and g leads inside, the entries become free instead.
+  /// \param g      the gradient at x  \param least how long what is released is at least
+  /// \param from   the last face; null for none
+  virtual void followBoundary(const Vector& /*x*/, const Vector& /*g*/, double /*least*/,
+                              const Face* /*from*/, Face& /*face*/) const {}
+  /// y_i = how far the gradient may move along s from g until the multiplier of the boundary that x_i is on
+  /// vanishes: infinity where it does not, and where x is free or fixed.
+  /// \param least  multipliers that fall no faster do not count
+  virtual void releases(const Vector& x, const Vector& g, const Vector& s, double least, Vector& y) const = 0;
 };
 
 } // namespace epafi::qp

@@ -1,7 +1,6 @@
 #include "epafi/qp/EqualityConstraint.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/LocalData.hpp"
 
 #include <Teuchos_LAPACK.hpp>
 #include <Tpetra_Map.hpp>
@@ -40,8 +39,7 @@ public:
   DenseFaceInverse(const ReplicatedEquality& equality, const RCP<const Map>& map)
       : equality_(equality), size_(equality.numEntries()), column_(map) {}
 
-  void setFace(const Vector& face) override {
-    const auto isFree = localData(face);
+  void setFace(const Face& face) override {
     std::vector<AccurateSum> sums(size_ * size_);
     std::vector<double> unit(size_, 0.0), gram(size_ * size_);
     for (std::size_t j = 0; j < size_; ++j) {
@@ -49,14 +47,10 @@ public:
       column_.putScalar(0.0);
       equality_.addTransposedProduct(unit, 1.0, column_);
       unit[j] = 0;
-      {
-        const auto values = localDataNonConst(column_);
-        for (std::size_t i = 0; i < values.size(); ++i)
-          values[i] *= isFree[i];
-      }
+      face.restrict(column_, column_);
       equality_.addLocalProduct(column_, std::span(sums).subspan(j * size_, size_));
     }
-    sumOverRanks(*face.getMap()->getComm(), sums);
+    sumOverRanks(*column_.getMap()->getComm(), sums);
     for (std::size_t j = 0; j < size_; ++j)
       ReplicatedEquality::finishProduct(std::span(sums).subspan(j * size_, size_),
                                         std::span(gram).subspan(j * size_, size_));

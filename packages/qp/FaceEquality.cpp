@@ -1,7 +1,5 @@
 #include "epafi/qp/FaceEquality.hpp"
 
-#include "epafi/qp/LocalData.hpp"
-
 #include <utility>
 
 namespace epafi::qp {
@@ -13,7 +11,7 @@ FaceEquality::FaceEquality(RCP<const ReplicatedEquality> equality, const RCP<con
     inverse_ = equality_->faceInverse(map);
 }
 
-void FaceEquality::setFace(const Vector& face) {
+void FaceEquality::setFace(const Face& face) {
   face_ = &face;
   if (numRows_ > 0)
     inverse_->setFace(face);
@@ -48,10 +46,7 @@ void FaceEquality::multiplierOf(std::span<const double> b, std::span<double> mu)
 
 void FaceEquality::addTransposed(std::span<const double> mu, double factor, Vector& y) const {
   addWholeTransposed(mu, factor, y);
-  const auto face = localData(*face_);
-  const auto values = localDataNonConst(y);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] *= face[i];
+  face_->restrict(y, y);
 }
 
 void FaceEquality::addWholeTransposed(std::span<const double> mu, double factor, Vector& y) const {

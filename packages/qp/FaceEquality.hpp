@@ -13,16 +13,15 @@
 
 namespace epafi::qp {
 
-/// With Z = 1 on the face and 0 off it, B_F = BZ, and P_F = Z − B_Fᵀ(B_F B_Fᵀ)⁺B_F, the projector onto what
-/// moves in the face and leaves Bx as it is. Without rows it is Z.
+/// With Z of the face (Face.hpp), B_F = BZ, and P_F = Z − B_Fᵀ(B_F B_Fᵀ)⁺B_F, the projector onto what moves in
+/// the face and leaves Bx as it is. Without rows it is Z.
 class FaceEquality {
 public:
   /// \param equality  B of k rows; null for none
   FaceEquality(RCP<const ReplicatedEquality> equality, const RCP<const Map>& map);
 
-  /// From now on the face is where `face` is 1, not 0; kept by reference. One message, see the rows' face
-  /// inverse. Collective.
-  void setFace(const Vector& face);
+  /// From now on this is the face; kept by reference. One message, see the rows' face inverse. Collective.
+  void setFace(const Face& face);
 
   [[nodiscard]] int numRows() const { return numRows_; } ///< k
   /// Adds this rank's contributions to Bx. All ranks call it together.
@@ -50,7 +49,7 @@ public:
 private:
   RCP<const ReplicatedEquality> equality_;
   int numRows_;
-  const Vector* face_ = nullptr;
+  const Face* face_ = nullptr;
   std::unique_ptr<FaceInverse> inverse_;     ///< (B_F B_Fᵀ)⁻; null without rows
   std::vector<double> product_, multiplier_; ///< work, k
 };

@@ -10,14 +10,6 @@
 namespace epafi::qp {
 namespace {
 
-/// to = from where `on` is 1, 0 elsewhere.
-void mask(const Vector& on, const Vector& from, Vector& to) {
-  const auto face = localData(on), in = localData(from);
-  const auto out = localDataNonConst(to);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = face[i] * in[i];
-}
-
 /// sum += aᵀb, this rank's share.
 void addDot(const Vector& a, const Vector& b, AccurateSum& sum) {
   const auto x = localData(a), y = localData(b);
@@ -58,9 +50,24 @@ void FaceIteration::enter(bool isOrigin) {
   for (int pass = 0; pass < (rows_.empty() ? 1 : 2); ++pass) {
     copy(g_, r_);
     equality_.addWholeTransposed(equality_.fit(r_), -1.0, g_);
+    if (pass == 0) {
+      face.curve(g_);
+      face.addBendingFromOrigin(x, 1.0, g_); // where Bx = c has moved x
+    }
   }
+  // M overrates what it inverts, by about as much entry by entry on contacts (2.5 to 10 measured).
+  constexpr double overrated = 4;
+  stiffness_ = inverseStiffness_ > 0 ? overrated * objective_.scale() / inverseStiffness_ : 0;
   curvature_ = 0;
   precondition();
+}
+
+const Vector& FaceIteration::plainGradient() {
+  if (face.tangents.empty())
+    return g_;
+  copy(g_, r_);
+  face.addBendingFromOrigin(x, -1.0, r_);
+  return r_;
 }
 
 /// As Bx − c = (I − N N⁻)r for some r, with N = B_F B_Fᵀ, ν = (I − N⁻N)(Bx − c) has νᵀ(Bx − c) = ‖Bx − c‖²
@@ -77,14 +84,8 @@ void FaceIteration::unbalanced(Vector& change) {
 
 /// z = P_F M Zg, gᵀz, zᵀAp, ‖Zg‖, in one message. As Zg is in Ker B, gᵀz is that of M Zg.
 void FaceIteration::precondition() {
-  mask(face, g_, r_);
-  if (m_.is_null()) {
-    copy(r_, z_);
-  } else {
-    m_->apply(r_, z_);
-    mask(face, z_, z_);
-    ++counts_.preconditionerApplications;
-  }
+  face.restrict(g_, r_);
+  applyPreconditioner();
   reduction_.clear();
   const auto sums = reduction_.sums();
   addDot(r_, z_, sums[first]);
@@ -98,6 +99,8 @@ void FaceIteration::precondition() {
   energy_ = reduction_.sum(first);
   timesImage_ = reduction_.sum(second);
   gradient_ = std::sqrt(reduction_.sum(third));
+  if (reduction_.sum(third) > 0)
+    inverseStiffness_ = energy_ / reduction_.sum(third);
   wish_.reset();
   if (reduction_.sum(interrupted) > 0)
     wish_ = Status::interrupted;
@@ -109,11 +112,30 @@ void FaceIteration::precondition() {
   equality_.addTransposed(multiplier_, -1.0, z_);
 }
 
+/// z = Z W M W r; with W = 1 where nothing is bent.
+void FaceIteration::applyPreconditioner() {
+  if (m_.is_null()) {
+    copy(r_, z_);
+    return;
+  }
+  const bool isWeighed = stiffness_ > 0 && !face.tangents.empty();
+  if (isWeighed)
+    face.weigh(stiffness_, r_);
+  m_->apply(r_, z_);
+  ++counts_.preconditionerApplications;
+  if (isWeighed) {
+    face.weigh(stiffness_, z_);
+    face.restrict(g_, r_);
+  }
+  face.restrict(z_, z_);
+}
+
 std::optional<Status> FaceIteration::step() {
   setConjugate(z_, curvature_ > 0 ? objective_.scale() * timesImage_ / curvature_ : 0.0,
                p_); // z − (zᵀAp/pᵀAp) p
   objective_.multiply(p_, image_);
-  mask(face, image_, r_);
+  face.addBending(p_, 1 / objective_.scale(), image_);
+  face.restrict(image_, r_);
   reduction_.clear();
   const auto sums = reduction_.sums();
   addDot(p_, image_, sums[first]);

@@ -1,7 +1,8 @@
 #pragma once
 
-/// Conjugate gradients on a face, as if it had no bounds: min ½xᵀAx − bᵀx over the entries that may move, Bx
-/// = c held exactly.
+/// Conjugate gradients on a face, as if it had no bounds: min ½xᵀAx − bᵀx over what may move, Bx = c held
+/// exactly. Along a circle the face is its tangent, and the objective that of Newton's method for the circle:
+/// ½(x − x0)ᵀK(x − x0) more, K = κttᵀ (Face.hpp).
 
 #include "epafi/qp/FaceEquality.hpp"
 #include "epafi/qp/Interruption.hpp"
@@ -15,7 +16,7 @@ namespace epafi::qp {
 
 /// The point x, and the gradient g = Ax − b + Bᵀμ of the Lagrangian with the μ that makes it shortest on the
 /// face, scaled by 1/‖A‖ (ScaledObjective.hpp); g is known off the face too, where it is the bounds'
-/// multiplier. Z, P_F: FaceEquality.hpp.
+/// multiplier. Along tangents it is g + K(x − x0). Z, P_F: FaceEquality.hpp.
 class FaceIteration {
 public:
   /// Keeps references to objective, interruption and counts. \param m  M ≈ A⁻¹ or null
@@ -23,8 +24,8 @@ public:
                 const RCP<const ReplicatedEquality>& equality, const Interruption& interruption,
                 StepCounts& counts);
 
-  Vector x;    ///< the point; of the caller until `enter`
-  Vector face; ///< 1 where x may move, else 0; likewise
+  Vector x;  ///< the point; of the caller until `enter`
+  Face face; ///< where it may move; likewise. `enter` gives its tangents their curvature
 
   /// x moves onto Bx = c within the face, and g is computed afresh. One product, or none at the origin.
   /// Collective.
@@ -41,8 +42,10 @@ public:
 
   /// The direction of the last step, against which x moves where its slope is positive.
   [[nodiscard]] const Vector& direction() const { return p_; }
-  [[nodiscard]] double slope() const { return slope_; }           ///< gᵀ of it
-  [[nodiscard]] const Vector& gradient() const { return g_; }     ///< g
+  [[nodiscard]] double slope() const { return slope_; }       ///< gᵀ of it
+  [[nodiscard]] const Vector& gradient() const { return g_; } ///< g
+  /// g without K(x − x0); until the next step.
+  [[nodiscard]] const Vector& plainGradient();
   [[nodiscard]] double gradientNorm() const { return gradient_; } ///< ‖Zg‖
   [[nodiscard]] double energy() const { return energy_; }         ///< gᵀZ P_F M P_F Zg
   [[nodiscard]] double objective() const { return f_; }           ///< f, scaled
@@ -57,6 +60,7 @@ private:
   /// The sums of a step, before those of B's rows: three products, and who wants what.
   enum Sums : int { first, second, third, timeIsUp, interrupted, look, numOwnSums };
   void precondition();
+  void applyPreconditioner();
   [[nodiscard]] std::span<AccurateSum> rowSums() {
     return reduction_.sums().subspan(numOwnSums, rows_.size());
   }
@@ -72,9 +76,11 @@ private:
   std::vector<double> rows_, multiplier_; ///< work, k
   std::vector<double> missing_;           ///< Bx − c where the face was entered, k
   double f_ = 0, gradient_ = 0, energy_ = 0, residual_ = 0;
-  double timesImage_ = 0; ///< zᵀAp
-  double slope_ = 0;      ///< gᵀp
-  double curvature_ = 0;  ///< pᵀAp of the last step; 0: there was none on this face
+  double inverseStiffness_ = 0; ///< rᵀMr/rᵀr of the last r, not scaled; 0 before the first
+  double stiffness_ = 0;        ///< about that of A along tangents, scaled; 0 where it is not known
+  double timesImage_ = 0;       ///< zᵀAp
+  double slope_ = 0;            ///< gᵀp
+  double curvature_ = 0;        ///< pᵀAp of the last step; 0: there was none on this face
   std::optional<Status> wish_;
   bool isLookWanted_ = false;
 };

@@ -125,6 +125,7 @@ private:
   void step(const StepSizes& sizes, StepKind kind);
   std::optional<Status> expand(const StepSizes& sizes, StepKind intent);
   std::optional<Status> descend(double length, bool isFixedStep);
+  void setFixedDirection();
   void noteRise(double rise, double size);
   void move(double length, const StepSizes& sizes);
   [[nodiscard]] StepSizes stepSizes();

@@ -25,7 +25,7 @@ std::optional<Status> Mprgp::expand(const StepSizes& sizes, StepKind intent) {
     if (prediction_->improve(iterate_, half, intent == StepKind::proportioning,
                              negligibleShare * now_.projectedGradient, work_))
       return std::nullopt;
-    set_->projectedGradient(iterate_.x, iterate_.g, 0.0, work_.p);
+    copy(iterate_.g, work_.p);
     return descend(fixedStep(), true);
   }
   move(sizes.feasible, sizes);
@@ -34,8 +34,16 @@ std::optional<Status> Mprgp::expand(const StepSizes& sizes, StepKind intent) {
     return std::nullopt; // x^½ is good enough
   if (parameters_.expansion != Expansion::fixedStep && hasCurvature)
     return descend(sizes.slope / sizes.curvature - sizes.feasible, false); // P(x − α_cg p)
-  set_->subtractFromFreeGradient(iterate_.x, iterate_.g, 0.0, work_.p);
+  setFixedDirection();
   return descend(fixedStep(), true); // P(x^½ − ᾱ φ(x^½))
+}
+
+/// p = φ; where a boundary is curved g, as only P(x − ᾱg) lowers the objective along it for certain.
+void Mprgp::setFixedDirection() {
+  if (set_->isCurved())
+    copy(iterate_.g, work_.p);
+  else
+    set_->subtractFromFreeGradient(iterate_.x, iterate_.g, 0.0, work_.p);
 }
 
 /// x becomes P(x − length · p) if the objective does not grow by it; else a point nearer along φ, with ᾱ‖A‖ <
@@ -65,7 +73,7 @@ std::optional<Status> Mprgp::descend(double length, bool isFixedStep) {
     if (objective_.isSpent())
       return Status::maxIterations;
     if (!isFixedStep)
-      set_->subtractFromFreeGradient(iterate_.x, iterate_.g, 0.0, p);
+      setFixedDirection();
     else if (trial.squared > 0) // dᵀAd = 2(f(x + d) − f(x) − gᵀd)
       objective_.correctNorm(std::max(objective_.norm(), 2 * (rise - trial.slope) / trial.squared));
     isFixedStep = true;

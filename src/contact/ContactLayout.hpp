@@ -37,7 +37,9 @@ struct ContactLayout {
   int number = 0;             ///< of the contact, as the caller counts
   std::string means;          ///< how its sides are coupled, in some words
   GlobalOrdinal firstRow = 0; ///< multiplier index of its first row
-  int firstBody = 0;          ///< the one whose nodes have the rows
+  /// Number of its first row's node among those with friction; −1: it has none.
+  GlobalOrdinal firstFriction = -1;
+  int firstBody = 0; ///< the one whose nodes have the rows
   std::string firstSurface;   ///< the surface of it
   /// All whose nodes have the rows, `firstSurface` among them, and those of the second body that they face.
   std::vector<std::string> firstSurfaces, secondSurfaces;

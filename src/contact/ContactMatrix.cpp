@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace epafi::contact {
 namespace {
@@ -43,38 +45,33 @@ void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, Gl
     }
 }
 
-/// The rows that this rank owns, ascending.
-std::vector<MatrixRow> ownRows(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns) {
-  std::vector<MatrixRow> rows;
-  for (const ContactLayout& contact : contacts)
-    for (std::size_t place = 0; contact.hasOwnRows && place < contact.firstNodes.size(); ++place) {
-      if (!unknowns.isMine(contact.firstBody, contact.firstNodes[place]))
-        continue;
-      MatrixRow& row =
-          rows.emplace_back(MatrixRow{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
-      contact.forEachShare(place, [&](std::size_t node, double weight) {
-        const Eigen::Vector3d direction = contact.directionAt(node);
-        row.gap += weight * contact.gaps[node];
-        contact.forEachFirst(node, [&](const NodeShare& share) {
-          enter(direction, unknowns, contact.firstBody, share.node, weight * share.weight, row);
-        });
-        if (contact.secondBody >= 0)
-          for (const NodeShare& share : contact.secondNodes[node])
-            enter(direction, unknowns, contact.secondBody, share.node, -weight * share.weight, row);
-      });
-      if (!contact.secondLevers.empty())
-        for (const NodeForce& lever : contact.secondLevers[place])
-          if (const double size = lever.force.norm(); size > 0)
-            enter(lever.force / size, unknowns, contact.secondBody, lever.node, -size, row);
-    }
-  return rows;
+/// Enters a row of a place along directionOf(node) at each of the nodes that it combines.
+template <class DirectionOf>
+void enterAlong(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns,
+                const DirectionOf& directionOf, MatrixRow& row) {
+  contact.forEachShare(place, [&](std::size_t node, double weight) {
+    const Eigen::Vector3d direction = directionOf(node);
+    contact.forEachFirst(node, [&](const NodeShare& share) {
+      enter(direction, unknowns, contact.firstBody, share.node, weight * share.weight, row);
+    });
+    if (contact.secondBody >= 0)
+      for (const NodeShare& share : contact.secondNodes[node])
+        enter(direction, unknowns, contact.secondBody, share.node, -weight * share.weight, row);
+  });
 }
 
-} // namespace
+/// action(contact, place) for the rows that this rank owns, ascending.
+template <class Action>
+void forEachOwnRow(const std::vector<ContactLayout>& contacts, const NodeUnknowns& unknowns,
+                   const Action& action) {
+  for (const ContactLayout& contact : contacts)
+    for (std::size_t place = 0; contact.hasOwnRows && place < contact.firstNodes.size(); ++place)
+      if (unknowns.isMine(contact.firstBody, contact.firstNodes[place]))
+        action(contact, place);
+}
 
-decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
-                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm) {
-  const std::vector<MatrixRow> rows = ownRows(contacts, unknowns);
+/// Collective.
+decomposition::ConstraintMatrix matrixOf(const std::vector<MatrixRow>& rows, const RCP<const Comm>& comm) {
   std::vector<GlobalOrdinal> numbers, columns;
   std::size_t longest = 0;
   for (const MatrixRow& row : rows) {
@@ -92,6 +89,69 @@ decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& 
   }
   matrix->fillComplete(Tpetra::createOneToOne(makeMap(std::move(columns), comm)), map);
   return {matrix, gap, {}};
+}
+
+} // namespace
+
+ContactTangents::ContactTangents(const ContactLayout& contact) : contact_(contact) {
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero(); // of all d to each axis
+  for (std::size_t place = 0; place < contact.firstNodes.size(); ++place)
+    nearest = nearest.cwiseMax(contact.directionAt(place).cwiseAbs());
+  Eigen::Index farthest = 0;
+  nearest.minCoeff(&farthest);
+  axis_ = Eigen::Vector3d::Unit(farthest);
+}
+
+std::array<Eigen::Vector3d, 2> ContactTangents::at(std::size_t place) const {
+  const Eigen::Vector3d normal = contact_.directionAt(place);
+  if (contact_.numComponents() < 3)
+    return decomposition::tangentsOf(normal);
+  constexpr double clearlyApart = 0.1;
+  const Eigen::Vector3d across = normal.cross(axis_);
+  if (across.norm() < clearlyApart)
+    return decomposition::tangentsOf(normal);
+  const Eigen::Vector3d first = across.normalized();
+  return {first, normal.cross(first)};
+}
+
+decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
+                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm) {
+  std::vector<MatrixRow> rows;
+  forEachOwnRow(contacts, unknowns, [&](const ContactLayout& contact, std::size_t place) {
+    MatrixRow& row =
+        rows.emplace_back(MatrixRow{contact.firstRow + static_cast<GlobalOrdinal>(place), 0, {}, {}});
+    contact.forEachShare(place,
+                         [&](std::size_t node, double weight) { row.gap += weight * contact.gaps[node]; });
+    enterAlong(
+        contact, place, unknowns, [&](std::size_t node) { return contact.directionAt(node); }, row);
+    if (!contact.secondLevers.empty())
+      for (const NodeForce& lever : contact.secondLevers[place])
+        if (const double size = lever.force.norm(); size > 0)
+          enter(lever.force / size, unknowns, contact.secondBody, lever.node, -size, row);
+  });
+  return matrixOf(rows, comm);
+}
+
+decomposition::FrictionRows frictionRows(const std::vector<ContactLayout>& contacts,
+                                         const NodeUnknowns& unknowns, const RCP<const Comm>& comm) {
+  const GlobalOrdinal numTangents = unknowns.components - 1;
+  decomposition::FrictionRows result;
+  std::vector<MatrixRow> rows;
+  std::map<GlobalOrdinal, ContactTangents> tangents;
+  forEachOwnRow(contacts, unknowns, [&](const ContactLayout& contact, std::size_t place) {
+    if (contact.firstFriction < 0)
+      return;
+    const ContactTangents& frames = tangents.try_emplace(contact.firstRow, contact).first->second;
+    const auto offset = static_cast<GlobalOrdinal>(place);
+    result.contactRows.push_back(contact.firstRow + offset);
+    for (GlobalOrdinal k = 0; k < numTangents; ++k)
+      enterAlong(
+          contact, place, unknowns,
+          [&](std::size_t node) { return frames.at(node)[static_cast<std::size_t>(k)]; },
+          rows.emplace_back(MatrixRow{numTangents * (contact.firstFriction + offset) + k, 0, {}, {}}));
+  });
+  result.tangents = matrixOf(rows, comm);
+  return result;
 }
 
 } // namespace epafi::contact

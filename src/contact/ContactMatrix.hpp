@@ -3,10 +3,11 @@
 /// From pairs of nodes that may meet to rows of B_I over the unknowns of nodes.
 
 #include "epafi/contact/ContactLayout.hpp"
-#include "epafi/decomposition/ConstraintMatrix.hpp"
+#include "epafi/decomposition/FrictionRows.hpp"
 
 #include <Eigen/Core>
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -24,10 +25,27 @@ struct NodeUnknowns {
   std::function<bool(int body, GlobalOrdinal node)> isMine;
 };
 
+/// The tangents of a contact's nodes, perpendicular to d and each other. From node to node they turn no more
+/// than d does where that is possible: rows may combine several nodes.
+class ContactTangents {
+public:
+  explicit ContactTangents(const ContactLayout& contact); ///< keeps a reference
+  /// Of the place of a node with a row; in the plane the second is along z.
+  [[nodiscard]] std::array<Eigen::Vector3d, 2> at(std::size_t place) const;
+
+private:
+  const ContactLayout& contact_;
+  Eigen::Vector3d axis_; ///< that is farthest from all d
+};
+
 /// dᵀ(u_first − u_second) ≤ gap for all rows of all contacts. A node that supports hold in the row's
 /// direction has no entry but those of its prescribed values. Collective.
 /// \param contacts  the same on all ranks
 decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
                                               const NodeUnknowns& unknowns, const RCP<const Comm>& comm);
+
+/// Rows of friction beside those of contacts that have it (ContactLayout::firstFriction): tᵀ(u_first − u_second) is what they slip. Collective.
+decomposition::FrictionRows frictionRows(const std::vector<ContactLayout>& contacts,
+                                         const NodeUnknowns& unknowns, const RCP<const Comm>& comm);
 
 } // namespace epafi::contact

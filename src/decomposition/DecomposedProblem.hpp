@@ -32,9 +32,9 @@ namespace epafi::decomposition {
 /// Sparse symmetric matrix of one subdomain, both triangles stored.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// What a row of B asks for: that bodies do not penetrate, that they stay together, or that copies of a value
-/// agree.
-enum class RowKind { contact, tied, gluing };
+/// What a row of B asks for: that bodies do not penetrate, that they slip only where friction gives way, that
+/// they stay together, or that copies of a value agree.
+enum class RowKind { contact, friction, tied, gluing };
 
 /// One entry of B in a subdomain: row, column, value.
 struct ConstraintEntry {
@@ -79,6 +79,7 @@ struct Subdomain {
   std::vector<Average> averages;                 ///< where unknowns are no values of nodes; most often none
   std::vector<EdgeEnd> edgeEnds;                 ///< where there are clusters; most often none
   std::vector<ConstraintEntry> constraint;       ///< B^s
+  std::vector<int> candidates;                   ///< unknowns that B may come to touch, most often none
   std::shared_ptr<const SparseMatrix> stiffness; ///< K^s, n_s × n_s; equal subdomains may share one
   std::vector<NodeFrame> frames; ///< where positions are not components in space; most often none
   Eigen::MatrixXd kernel;        ///< R^s, n_s × kernelDimension of its cluster
@@ -124,6 +125,12 @@ struct Cluster {
   Eigen::MatrixXd ofBody;
 };
 
+/// A node with friction; the rows of its tangents follow each other.
+struct FrictionNode {
+  OwnedMultiplier contact;      ///< its row of contact
+  OwnedMultiplier firstTangent; ///< the first row of friction
+};
+
 /// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are
 /// cheap.
 struct DecomposedProblem {
@@ -144,29 +151,37 @@ struct DecomposedProblem {
   RCP<const Map> remainderMap;  ///< all v_r, each owned by its subdomain's rank
   RCP<const Map> crosspointMap; ///< all v_c^g, each owned by one rank
   RCP<const Map>
-      multiplierMap; ///< λ = (λ_I, λ_E): indices 0 … n_I − 1 are non-penetration, then come ties, then gluing
+      multiplierMap; ///< λ = (λ_I, λ_F, λ_E): n_I rows of non-penetration, n_F of friction, then ties, gluing
   RCP<const Map> multiplierGhostMap; ///< multipliers that touch this rank's subdomains
 
   // Numbers of the whole problem.
   int numSubdomains = 0;
   int kernelDimension = 0;           ///< columns of R: of all clusters
   GlobalOrdinal numInequalities = 0; ///< n_I
+  GlobalOrdinal numFriction = 0;     ///< n_F
   GlobalOrdinal numTies = 0;         ///< the first n_T of the equalities: joints of bodies
   GlobalOrdinal numEqualities = 0;   ///< n_E
   GlobalOrdinal primalDimension = 0; ///< every copy of every node × components, supported ones too
   GlobalOrdinal numCrosspoints = 0;  ///< crosspoint nodes, supported ones too; averages are not among them
   /// Of rows of contact that this rank owns, as far as anyone knows; no number comes from them, but refusals.
   std::vector<ContactPlace> places;
+  std::vector<FrictionNode> frictionNodes; ///< whose rows this rank owns, ascending
   /// Of a row of B.
   [[nodiscard]] RowKind kindOf(MultiplierNumber row) const {
-    return row < numInequalities             ? RowKind::contact
-           : row < numInequalities + numTies ? RowKind::tied
-                                             : RowKind::gluing;
+    return row < numInequalities        ? RowKind::contact
+           : row < firstTie()           ? RowKind::friction
+           : row < firstTie() + numTies ? RowKind::tied
+                                        : RowKind::gluing;
   }
   /// The same where this rank owns it.
   [[nodiscard]] RowKind kindOf(OwnedMultiplier row) const { return kindOf(numberOf(row)); }
   /// The same where this rank's subdomains touch it.
   [[nodiscard]] RowKind kindOf(TouchedMultiplier row) const { return kindOf(numberOf(row)); }
+  /// 1 or 2 for a row of friction along the first or second tangent of its node, else 0.
+  [[nodiscard]] std::size_t tangentOf(TouchedMultiplier row) const {
+    const GlobalOrdinal place = numberOf(row) - numInequalities;
+    return kindOf(row) == RowKind::friction ? static_cast<std::size_t>(1 + place % (components - 1)) : 0;
+  }
   [[nodiscard]] MultiplierNumber numberOf(OwnedMultiplier row) const { ///< in the whole problem
     return multiplierMap->getGlobalElement(row);
   }
@@ -187,8 +202,10 @@ struct DecomposedProblem {
   [[nodiscard]] int numRigidModes() const {
     return bodies.empty() ? 0 : bodies.back().kernelOffset + bodies.back().kernelDimension;
   }
+  /// Number of the first row of ties.
+  [[nodiscard]] GlobalOrdinal firstTie() const { return numInequalities + numFriction; }
   /// n_λ
-  [[nodiscard]] GlobalOrdinal dualDimension() const { return numInequalities + numEqualities; }
+  [[nodiscard]] GlobalOrdinal dualDimension() const { return firstTie() + numEqualities; }
 };
 
 } // namespace epafi::decomposition

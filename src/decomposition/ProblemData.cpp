@@ -1,12 +1,15 @@
 #include "epafi/decomposition/ProblemData.hpp"
 
+#include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
+#include "epafi/base/Text.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,16 +21,34 @@ RCP<Vector> copyOf(const RCP<Vector>& vector) {
   return vector.is_null() ? vector : rcp(new Vector(*vector, Teuchos::Copy));
 }
 
+/// \param what  for messages
+void enterFriction(const DecomposedProblem& problem, std::span<const double> values, const std::string& what,
+                   Vector& target) {
+  collectively(*problem.comm, [&] {
+    if (values.size() != problem.frictionNodes.size())
+      throw InputError("there are " + std::to_string(values.size()) + " numbers for " +
+                       std::to_string(problem.frictionNodes.size()) + " nodes with friction of this rank.");
+    for (std::size_t node = 0; node < values.size(); ++node) {
+      if (!(values[node] >= 0) || !std::isfinite(values[node]))
+        throw InputError(what + " is " + text(values[node]) + "; it must be a finite number, at least 0.");
+      target.replaceLocalValue(problem.frictionNodes[node].firstTangent, values[node]);
+    }
+  });
+}
+
 } // namespace
 
 ProblemData::ProblemData(std::vector<SubdomainData> subdomains, const Vector& gaps, const Vector& held)
     : subdomains_(std::move(subdomains)), gap_(rcp(new Vector(gaps, Teuchos::Copy))),
-      held_(rcp(new Vector(held, Teuchos::Copy))) {
+      held_(rcp(new Vector(held, Teuchos::Copy))), bounds_(rcp(new Vector(gaps.getMap()))),
+      coefficients_(rcp(new Vector(gaps.getMap()))) {
   gap_->update(-1.0, *held_, 1.0);
 }
 
 ProblemData::ProblemData(const ProblemData& other)
-    : subdomains_(other.subdomains_), gap_(copyOf(other.gap_)), held_(copyOf(other.held_)) {}
+    : subdomains_(other.subdomains_), gap_(copyOf(other.gap_)), held_(copyOf(other.held_)),
+      bounds_(copyOf(other.bounds_)), coefficients_(copyOf(other.coefficients_)),
+      hasCoulombFriction_(other.hasCoulombFriction_) {}
 
 ProblemData& ProblemData::operator=(const ProblemData& other) {
   return *this = ProblemData(other);
@@ -75,6 +96,21 @@ void ProblemData::setGaps(const Vector& gaps) {
                        ", which this rank does not own.");
     target[row] = values[i] - held[row];
   }
+}
+
+double ProblemData::frictionBound(const FrictionNode& node, double normalForce) const {
+  return bounds_->getData()[node.firstTangent] +
+         coefficients_->getData()[node.firstTangent] * std::max(0.0, normalForce);
+}
+
+void ProblemData::setFrictionBounds(const DecomposedProblem& problem, std::span<const double> bounds) {
+  enterFriction(problem, bounds, "a bound of friction", *bounds_);
+}
+
+void ProblemData::setFrictionCoefficients(const DecomposedProblem& problem,
+                                          std::span<const double> coefficients) {
+  enterFriction(problem, coefficients, "a coefficient of friction", *coefficients_);
+  hasCoulombFriction_ = coefficients_->normInf() > 0;
 }
 
 RCP<Vector> ProblemData::contactGaps(const DecomposedProblem& problem) const {

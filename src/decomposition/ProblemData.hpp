@@ -1,7 +1,7 @@
 #pragma once
 
 /// What of a contact problem may change from one solve to the next while its matrices stay: loads, prescribed
-/// values and gaps. A problem is set up once and solved for any number of these; copies are load cases.
+/// values, gaps and the bounds of friction. A problem is set up once and solved for any number of these; copies are load cases.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 
@@ -49,6 +49,10 @@ public:
   /// What B̄u of the unknowns is compared with: the gaps less what prescribed values contribute. On
   /// multiplierMap.
   [[nodiscard]] const Vector& gap() const { return *gap_; }
+  /// What the tangential force of a node with friction is at most: g, and μ times its normal force.
+  [[nodiscard]] double frictionBound(const FrictionNode& node, double normalForce) const;
+  /// Whether any node has a coefficient μ > 0, on any rank.
+  [[nodiscard]] bool hasCoulombFriction() const { return hasCoulombFriction_; }
 
   /// All loads times a factor; prescribed values and gaps stay. Not collective.
   void scaleLoads(double factor);
@@ -61,6 +65,12 @@ public:
   /// \param gaps  on a map whose global indices are rows of B and are this rank's in multiplierMap, as
   /// `contactGaps` returns
   void setGaps(const Vector& gaps);
+  /// g of nodes with friction anew, Tresca's law: forces, tractions times areas. 0 at first.
+  /// \param bounds  of each of problem.frictionNodes, ≥ 0 \throws InputError for others, on all ranks alike.
+  /// Collective.
+  void setFrictionBounds(const DecomposedProblem& problem, std::span<const double> bounds);
+  /// μ likewise, Coulomb's law.
+  void setFrictionCoefficients(const DecomposedProblem& problem, std::span<const double> coefficients);
   /// c of the rows of contact as given last, to be changed and handed to `setGaps`. Collective.
   [[nodiscard]] RCP<Vector> contactGaps(const DecomposedProblem& problem) const;
 
@@ -68,6 +78,8 @@ private:
   friend class UnassembledProblem;
   std::vector<SubdomainData> subdomains_;
   RCP<Vector> gap_, held_;
+  RCP<Vector> bounds_, coefficients_; ///< of friction, on multiplierMap in the first row of each node
+  bool hasCoulombFriction_ = false;
 };
 
 } // namespace epafi::decomposition

@@ -9,7 +9,6 @@
 #include "epafi/decomposition/EdgeAverages.hpp"
 #include "epafi/decomposition/EdgeEnds.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
-#include "epafi/decomposition/GluingRows.hpp"
 #include "epafi/decomposition/Splitting.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -26,16 +25,6 @@
 #include <utility>
 
 namespace epafi::decomposition {
-namespace {
-
-/// Entries of rows from the first one on.
-void enterRows(const Vector& given, GlobalOrdinal firstRow, Vector& values) {
-  const auto entries = given.getData();
-  for (LocalOrdinal i = 0; i < entries.size(); ++i)
-    values.replaceGlobalValue(firstRow + given.getMap()->getGlobalElement(i), entries[i]);
-}
-
-} // namespace
 
 UnassembledProblem::UnassembledProblem(RCP<const Comm> comm, int dimension, int components,
                                        std::vector<std::string> bodies)
@@ -88,6 +77,12 @@ void UnassembledProblem::add(Subdomain subdomain, SubdomainData data, NodalSubdo
   nodal_.push_back(std::move(nodal));
 }
 
+void UnassembledProblem::setCandidates(std::vector<GlobalOrdinal> unknowns) {
+  if (crosspoints_)
+    throw Error("UnassembledProblem::setCandidates was called after complete; call it before.");
+  candidates_ = std::move(unknowns);
+}
+
 void UnassembledProblem::requireComplete() const {
   if (!crosspoints_)
     throw Error("the UnassembledProblem is not complete; call complete first.");
@@ -118,6 +113,8 @@ void UnassembledProblem::complete() {
     for (const auto* matrix : {&contact_, &ties_})
       if (*matrix)
         requireSound(**matrix, unknownMap_);
+    if (friction_)
+      requireSound(friction_->tangents, unknownMap_);
   }
   for (std::size_t s = 0; s < nodal_.size(); ++s)
     problem_.subdomains[s].number = first + static_cast<int>(s);
@@ -140,6 +137,7 @@ void UnassembledProblem::complete() {
   for (const Cluster& cluster : problem_.clusters)
     problem_.kernelDimension += cluster.kernelDimension;
   split();
+  nameCandidates();
   attach();
   places_ = {}; // nobody asks any more
 }
@@ -248,63 +246,6 @@ void UnassembledProblem::split() {
   problem_.crosspointMap = makeMap(std::move(splitting.ownedCrosspoints), comm_);
   problem_.remainderMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
                                       static_cast<std::size_t>(remainders), 0, comm_));
-}
-
-// ----------------------------------------------------------------------------------------------------------
-// B and the gaps.
-
-/// Appends rows of contact or ties to those of B. Returns what prescribed values contribute. Collective.
-RCP<const Vector> UnassembledProblem::enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
-                                            std::vector<GlobalOrdinal>& owned,
-                                            std::vector<std::vector<RowEntry>>& rows) const {
-  for (const GlobalOrdinal row : localIndices(*matrix.rows->getRowMap()))
-    owned.push_back(firstRow + row);
-  ContactRows made = contactRows(view(), shared_, *crosspoints_, matrix);
-  for (std::size_t s = 0; s < rows.size(); ++s)
-    for (RowEntry entry : inBasisOf(problem_.subdomains[s].averages, std::move(made.rows[s]))) {
-      entry.row += firstRow;
-      rows[s].push_back(entry);
-    }
-  return made.held;
-}
-
-/// Rows of contact, ties and gluing, B and the gaps. Collective.
-void UnassembledProblem::attach() {
-  const auto numRows = [](const std::optional<ConstraintMatrix>& matrix) {
-    return matrix ? static_cast<GlobalOrdinal>(matrix->rows->getGlobalNumRows()) : 0;
-  };
-  problem_.numInequalities = numRows(contact_);
-  problem_.numTies = numRows(ties_);
-  std::vector<GlobalOrdinal> ownContact;
-  std::vector<std::vector<RowEntry>> rows(nodal_.size());
-  RCP<const Vector> heldContact, heldTies;
-  if (contact_)
-    heldContact = enter(*contact_, 0, ownContact, rows);
-  if (ties_)
-    heldTies = enter(*ties_, problem_.numInequalities, ownContact, rows);
-  std::vector<std::shared_ptr<const SparseMatrix>> stiffness;
-  for (const Subdomain& subdomain : problem_.subdomains)
-    stiffness.push_back(subdomain.stiffness);
-  const GluingRows gluing = gluingRows(view(), shared_, *crosspoints_, problem_.clusterOf, stiffness,
-                                       problem_.numInequalities + problem_.numTies);
-  Constraints constraints = joinRows(rows, ownContact, gluing, comm_);
-  problem_.numEqualities = problem_.numTies + gluing.numRows;
-  problem_.multiplierMap = constraints.multiplierMap;
-  problem_.multiplierGhostMap = constraints.ghostMap;
-  for (std::size_t s = 0; s < nodal_.size(); ++s)
-    problem_.subdomains[s].constraint = std::move(constraints.entries[s]);
-  Vector gaps(problem_.multiplierMap), held(problem_.multiplierMap);
-  problem_.places.clear();
-  if (contact_) {
-    enterRows(*contact_->gap, 0, gaps);
-    enterRows(*heldContact, 0, held);
-    problem_.places = contact_->places;
-  }
-  if (ties_) {
-    enterRows(*ties_->gap, problem_.numInequalities, gaps);
-    enterRows(*heldTies, problem_.numInequalities, held);
-  }
-  data_ = ProblemData(std::move(data_.subdomains_), gaps, held);
 }
 
 } // namespace epafi::decomposition

@@ -17,6 +17,7 @@
 #include "epafi/decomposition/ContactRows.hpp"
 #include "epafi/decomposition/Crosspoints.hpp"
 #include "epafi/decomposition/FloatingBodies.hpp"
+#include "epafi/decomposition/FrictionRows.hpp"
 #include "epafi/decomposition/OwnSubdomain.hpp"
 #include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/decomposition/SharedNodes.hpp"
@@ -69,9 +70,21 @@ public:
   /// \param data       of unknowns that are values of nodes
   void add(Subdomain subdomain, SubdomainData data, NodalSubdomain nodal);
 
+  /// Names unknowns that rows of contact may come to touch. They count as part of their subdomains' interfaces
+  /// from the start: where contact moves among them (setContact), every factor and dense block stays.
+  /// \param unknowns  global numbers; naming each on one rank is enough
+  /// What `complete` says of numbers that no subdomain has: InputError. Precondition: not yet complete. Not
+  /// collective.
+  void setCandidates(std::vector<GlobalOrdinal> unknowns);
+
   /// Takes B_I and c, both shared; without a call there is no contact. After `complete` the rows of B are
   /// made anew. Collective then. \throws InputError (see requireSound), the same on all ranks.
   void setContact(const ConstraintMatrix& contact);
+
+  /// Takes rows of friction, shared; their bounds are data (ProblemData::setFrictionBounds), 0 at first.
+  /// Collective after `complete`, and \throws InputError as above, for one component a node, and for rows that
+  /// do not suit those of contact.
+  void setFriction(const FrictionRows& friction);
 
   /// Takes B_T and c of tied joints, B_T u = c, both shared; rows as those of contact. Collective after
   /// `complete`, and
@@ -131,6 +144,9 @@ private:
   std::vector<Motions> findBodies();
   void formClusters(std::vector<Motions> near);
   void split();
+  void nameCandidates();
+  void requireSoundFriction() const;
+  void placeFriction();
   void attach();
   RCP<const Vector> enter(const ConstraintMatrix& matrix, GlobalOrdinal firstRow,
                           std::vector<GlobalOrdinal>& owned, std::vector<std::vector<RowEntry>>& rows) const;
@@ -139,9 +155,11 @@ private:
 
   RCP<const Comm> comm_;
   NodePlaces places_;
-  std::vector<int> clusterSizes_;      ///< of each body
-  std::vector<SubdomainMatrix> added_; ///< until complete
+  std::vector<int> clusterSizes_;         ///< of each body
+  std::vector<SubdomainMatrix> added_;    ///< until complete
+  std::vector<GlobalOrdinal> candidates_; ///< likewise, of this rank
   std::optional<ConstraintMatrix> contact_, ties_;
+  std::optional<FrictionRows> friction_;
   std::vector<OwnSubdomain> own_; ///< of those that applications added
   std::vector<NodalSubdomain> nodal_;
   SharedNodes shared_;

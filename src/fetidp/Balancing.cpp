@@ -39,16 +39,17 @@ double balance(const qp::ConvexSet& forces, const NaturalCoarseSpace& space,
   double size = space.normOf(rest);
   if (size <= wanted)
     return size;
-  Vector face(lambda.getMap()), change(lambda.getMap()), next(lambda.getMap());
+  qp::Face face(lambda.getMap());
+  Vector change(lambda.getMap()), next(lambda.getMap());
   const std::unique_ptr<qp::FaceInverse> inverse = space.faceInverse(lambda.getMap());
   std::vector<double> motion(rest.size());
   for (int step = 0; step < maxSteps && size > wanted; ++step) {
-    forces.freeIndicator(lambda, face);
+    forces.freeIndicator(lambda, face.isFree);
     inverse->setFace(face);
     inverse->apply({rest.data(), motion.size()}, motion);
     change.putScalar(0.0);
     space.addTransposedProduct(motion, -1.0, change);
-    next.elementWiseMultiply(1.0, face, change, 0.0);
+    face.restrict(change, next);
     next.update(1.0, lambda, 1.0);
     forces.project(next);
     const Eigen::VectorXd nextRest = left(next);

@@ -3,7 +3,7 @@
 /// In which directions contact hinders the rigid motions of the floating bodies: the columns of G̃, without
 /// repetitions.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 
 #include <Eigen/Core>
 
@@ -12,7 +12,7 @@
 
 namespace epafi::fetidp {
 
-/// Whether this rank's row (local index in multiplierMap) holds both ways.
+/// Whether this rank's row (local index in multiplierMap) holds both ways: those of ties, and of friction.
 bool isTied(const decomposition::DecomposedProblem& problem, int row);
 
 /// Directions of length 1 in k dimensions, each with a number; those that agree to 1e-9 are one, with the
@@ -42,9 +42,11 @@ private:
 
 /// The directions in which rows hinder motions, of ties both, k × (as many as differ): 𝒪(n log n) in the
 /// number of rows.
+/// With Coulomb's friction the edges of a node's cone of forces; in space those of a pyramid around it.
 /// \param rows  see ProblemScales::hinderingRows
 /// Collective.
 Eigen::MatrixXd contactDirections(const decomposition::DecomposedProblem& problem,
+                                  const decomposition::ProblemData& data,
                                   const std::map<int, Eigen::VectorXd>& rows);
 
 } // namespace epafi::fetidp

@@ -19,6 +19,7 @@ namespace {
 
 using decomposition::DecomposedProblem;
 using decomposition::OwnedMultiplier;
+using decomposition::RowKind;
 
 /// Rows that hold both ways, and the equilibrium of floating bodies in them.
 class Face {
@@ -26,7 +27,12 @@ public:
   /// Keeps a reference to `dual`. Collective.
   Face(const DualProblem& dual, const Vector& closed)
       : space_(dual.coarseSpace()), rows_(closed.getMap()), equality_(space_, closed.getMap()) {
-    dual.feasibleForces()->freeIndicator(closed, rows_); // as if it were forces
+    const auto isClosed = closed.getData();
+    const auto isFree = rows_.isFree.getDataNonConst();
+    for (LocalOrdinal row = 0; row < isFree.size(); ++row) {
+      const RowKind kind = dual.problem().kindOf(OwnedMultiplier(row));
+      isFree[row] = kind == RowKind::contact || kind == RowKind::friction ? isClosed[row] : 1;
+    }
     equality_.setFace(rows_);
   }
 
@@ -54,7 +60,7 @@ public:
 
 private:
   RCP<const NaturalCoarseSpace> space_;
-  Vector rows_; ///< 1 on the face
+  qp::Face rows_;
   qp::FaceEquality equality_;
 };
 

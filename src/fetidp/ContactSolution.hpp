@@ -19,7 +19,7 @@ struct ContactSolution {
   /// C − Bu on multiplierMap: the remaining gap in rows of B_I, the jump in rows of B_E, times the row's size
   /// between clusters
   RCP<Vector> slack;
-  RCP<Vector> active; ///< 1 where contact is closed, 0 elsewhere, on multiplierMap
+  RCP<Vector> active; ///< 1 where contact is closed, and where friction sticks, 0 elsewhere, on multiplierMap
 
   // How accurate it is, recomputed from u and λ alone; all relative, without units.
   double relativeProjectedGradient = 0;
@@ -34,7 +34,9 @@ struct ContactSolution {
   bool isEstimated = false; ///< ErrorBalance::estimate was last asked about this solution
 
   double energy = 0;       ///< ½uᵀKu − fᵀu
+  double loadWork = 0;     ///< fᵀu of the loads, those at prescribed values too
   double contactForce = 0; ///< Σ λ_I
+  double dissipation = 0;  ///< Σ λ_tᵀ(Bu − c) of friction, ≥ 0 but for the tolerance
   GlobalOrdinal activeContactNodes = 0;
 };
 

@@ -32,9 +32,20 @@ using decomposition::RowKind;
 /// room.
 constexpr double reach = 1e3;
 
+bool isFriction(const DecomposedProblem& problem, LocalOrdinal row) {
+  return problem.kindOf(OwnedMultiplier(row)) == RowKind::friction;
+}
+
 /// By how much u = 0 violates a row.
 double violationOf(const DecomposedProblem& problem, LocalOrdinal row, double gap) {
-  return problem.kindOf(OwnedMultiplier(row)) == RowKind::contact ? std::max(-gap, 0.0) : std::abs(gap);
+  switch (problem.kindOf(OwnedMultiplier(row))) {
+  case RowKind::contact:
+    return std::max(-gap, 0.0);
+  case RowKind::friction:
+    return 0; // it slips
+  default:
+    return std::abs(gap);
+  }
 }
 
 /// Tells of the rows that d weighs most. Collective. \throws ContradictionError
@@ -123,12 +134,13 @@ private:
 /// Whether rows with these gaps, made of length 1, can hold by displacements within reach. Collective.
 /// \param overlap  what reach is measured by
 /// \returns what proves that they cannot, or null
-RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProducts& products,
-                                const Vector& inverseNorms, const RCP<const Vector>& target, double overlap) {
+RCP<Vector> provedContradiction(const DecomposedProblem& problem, const ProblemData& data,
+                                const RowProducts& products, const Vector& inverseNorms,
+                                const RCP<const Vector>& target, double overlap) {
   constexpr int patience = 1000;
   const RCP<const Operator> gram = rcp(new RowGram(products, inverseNorms));
   const double norm = qp::estimateNorm(*gram, {}).norm;
-  const RCP<const qp::ConvexSet> set = feasibleForces(problem);
+  const RCP<const qp::ConvexSet> set = feasibleForces(problem, data, nullptr);
   Vector d(problem.multiplierMap);
   qp::MprgpParameters parameters;
   parameters.maxMultiplications = patience;
@@ -193,14 +205,14 @@ void requireFeasibleGaps(const DecomposedProblem& problem, const ProblemData& da
     const auto inverse = inverseNorms->getDataNonConst(), rhs = target->getDataNonConst();
     for (LocalOrdinal row = 0; row < gaps.size(); ++row) {
       inverse[row] = inverse[row] > 0 ? 1 / inverse[row] : 0;
-      rhs[row] = -gaps[row] * inverse[row];
+      rhs[row] = isFriction(problem, row) ? 0.0 : -gaps[row] * inverse[row];
       worst = std::max(worst, violationOf(problem, row, gaps[row]) * inverse[row]);
     }
     worst = maxOverRanks(*problem.comm, worst);
     for (double& value : rhs) // what is farther away does not come into it
       value = std::max(value, -reach * worst);
   }
-  if (const RCP<Vector> proof = provedContradiction(problem, products, *inverseNorms, target, worst);
+  if (const RCP<Vector> proof = provedContradiction(problem, data, products, *inverseNorms, target, worst);
       !proof.is_null())
     refuseContradiction(problem, data, *proof);
 }
@@ -219,7 +231,7 @@ void refuseContradiction(const DecomposedProblem& problem, const ProblemData& da
   AccurateSum gaps[2]; // cᵀd and the size of its terms
   double heaviest = 0;
   Vector tension(d, Teuchos::Copy); // what is not allowed
-  feasibleForces(problem)->project(tension);
+  feasibleForces(problem, data, nullptr)->project(tension);
   tension.update(1.0, d, -1.0);
   const auto mine = d.getData(), gap = data.gap().getData();
   for (LocalOrdinal row = 0; row < mine.size(); ++row) {

@@ -8,8 +8,7 @@ DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
                          const decomposition::ProblemData& data,
                          const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters)
     : problem_(problem), inverse_(inverse), parameters_(parameters),
-      feasibleForces_(fetidp::feasibleForces(problem)), choice_(chosenAlgorithm(problem, parameters)),
-      kernelEntries_(kernelConstraint(problem)),
+      choice_(chosenAlgorithm(problem, parameters)), kernelEntries_(kernelConstraint(problem)),
       operators_(makeDualOperators(problem, data, choice_.algorithm, inverse, kernelEntries_, parameters)) {}
 
 RCP<Vector> DualProblem::startFrom(const decomposition::ProblemData& data,
@@ -21,7 +20,7 @@ RCP<Vector> DualProblem::startFrom(const decomposition::ProblemData& data,
   for (std::size_t s = 0; s < problem_.subdomains.size(); ++s)
     given.emplace_back(decomposition::unknownsOf(problem_.subdomains[s], displacement[s]));
   RCP<Vector> lambda = operators_.dualPreconditioner->multipliersOf(problem_, data, given);
-  feasibleForces_->project(*lambda);
+  feasibleForces(data, *lambda)->project(*lambda);
   return lambda;
 }
 

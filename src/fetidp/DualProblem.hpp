@@ -58,7 +58,11 @@ public:
                                       std::span<const Eigen::VectorXd> displacement) const;
 
   /// What multipliers may be.
-  [[nodiscard]] const RCP<const qp::ConvexSet>& feasibleForces() const { return feasibleForces_; }
+  /// \param normal  where Coulomb's bounds take their normal forces from
+  [[nodiscard]] RCP<const qp::ConvexSet> feasibleForces(const decomposition::ProblemData& data,
+                                                        const Vector& normal) const {
+    return fetidp::feasibleForces(problem_, data, &normal);
+  }
   /// What it was made of.
   [[nodiscard]] const decomposition::DecomposedProblem& problem() const { return problem_; }
   [[nodiscard]] const GeneralizedInverse& inverse() const { return *inverse_; }  ///< K̄⁺
@@ -84,7 +88,6 @@ private:
   const decomposition::DecomposedProblem& problem_;
   const std::shared_ptr<const GeneralizedInverse> inverse_;
   const DualParameters parameters_;
-  const RCP<const qp::ConvexSet> feasibleForces_;
   const AlgorithmChoice choice_;
   const std::vector<KernelEntry> kernelEntries_;
   const DualOperators operators_;

@@ -7,6 +7,7 @@
 #include "epafi/fetidp/Contradictions.hpp"
 #include "epafi/fetidp/DualObservers.hpp"
 #include "epafi/fetidp/DualProblem.hpp"
+#include "epafi/fetidp/Friction.hpp"
 #include "epafi/fetidp/ProblemChecks.hpp"
 #include "epafi/fetidp/Solvability.hpp"
 #include "epafi/qp/ActiveSets.hpp"
@@ -83,8 +84,14 @@ private:
   bool setReference();
   void iterateInBounds();
   using Method = std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>;
+  /// The same within another set.
+  using MethodWithin =
+      std::function<qp::SolveReport(const RCP<const qp::ConvexSet>&, Vector&, const qp::MprgpParameters&)>;
   void iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
-               qp::Observer* observer, const Method& always);
+               qp::Observer* observer, const MethodWithin& within);
+  void fixFriction(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
+                   const MethodWithin& within);
+  [[nodiscard]] RCP<const qp::ConvexSet> feasibleForces() const;
   void goOn(const Method& method, Vector& x, int most);
   [[nodiscard]] bool isToGoOn() const;
   void refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications);
@@ -118,9 +125,8 @@ bool IterativeSolve::setReference() {
   const bool vanishes = rhs_->normInf() <= roundOff * wholeRhs_.termSize;
   if (vanishes)
     rhs_->putScalar(0.0);
-  solution_.reference = vanishes
-                            ? wholeRhs_.termSize
-                            : gradientReference(*dual_.feasibleForces(), *rhs_, roundOff * wholeRhs_.largest);
+  solution_.reference = vanishes ? wholeRhs_.termSize
+                                 : gradientReference(*feasibleForces(), *rhs_, roundOff * wholeRhs_.largest);
   return vanishes;
 }
 
@@ -140,6 +146,7 @@ DualSolution IterativeSolve::coercive() {
 /// λ is there but for its deflated jumps. Collective.
 DualSolution IterativeSolve::finished() {
   completeJumps(*solution_.lambda);
+  ontoFrictionBounds(problem_, data_, *solution_.lambda);
   if (target_) {
     solution_.errorTarget = target_->last();
     solution_.isEstimated = target_->hasSeen(*solution_.lambda);
@@ -184,14 +191,49 @@ bool IterativeSolve::isToGoOn() const {
          solution_.report.counts.hessianMultiplications < dual_.operators().mprgp.maxMultiplications;
 }
 
+/// What forces may be where the iteration begins: with Coulomb's friction that of the normal forces, which are
+/// not known, comes face by face.
+RCP<const qp::ConvexSet> IterativeSolve::feasibleForces() const {
+  return fetidp::feasibleForces(problem_, data_,
+                                data_.hasCoulombFriction() ? nullptr : solution_.lambda.get());
+}
+
+/// Coulomb's friction as a fixed point of problems with given bounds: slower than faces that take the bounds
+/// along, but each of them has a solution that is found. Collective.
+void IterativeSolve::fixFriction(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances,
+                                 Vector& x, const MethodWithin& within) {
+  constexpr int maxRounds = 60;
+  const double enough = tolerances.gradient * tolerances.gradientReference;
+  Vector nearest(x.getMap());
+  for (int round = 0; round < maxRounds; ++round) {
+    const RCP<const qp::ConvexSet> set = faces.setAt(x);
+    goOn([&](Vector& from, const qp::MprgpParameters& limits) { return within(set, from, limits); }, x,
+         std::numeric_limits<int>::max());
+    if (solution_.report.status != qp::Status::converged)
+      return;
+    nearest.assign(x);
+    faces.setAt(x)->project(nearest);
+    nearest.update(-1.0, x, 1.0);
+    if (dual_.norm().norm * accurateNorm(nearest) <= enough)
+      return;
+  }
+  solution_.report.status = qp::Status::stagnated;
+  solution_.report.reason =
+      "the bounds of Coulomb's friction do not settle; its coefficient may be larger than "
+      "those for which there is one solution";
+}
+
 /// What was chosen first. MPRGP gives way to active sets after so many products that these would most likely
 /// be there, and active sets where their faces do not settle to what always gets there.
-/// \param always  MPRGP, or SMALBE
+/// \param within  MPRGP, or SMALBE
 void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances,
-                             Vector& x, qp::Observer* observer, const Method& always) {
+                             Vector& x, qp::Observer* observer, const MethodWithin& within) {
   using Status = qp::Status;
+  const Method always = [&](Vector& from, const qp::MprgpParameters& limits) {
+    return within(faces.set, from, limits);
+  };
   constexpr int patience = 300, endless = std::numeric_limits<int>::max();
-  const bool isByFaces = dual_.algorithm() == Algorithm::activeSets;
+  const bool isByFaces = dual_.algorithm() == Algorithm::activeSets || faces.setAt;
   if (!isByFaces) {
     goOn(always, x, patience);
     if (!isToGoOn())
@@ -211,31 +253,43 @@ void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::Smalbe
   if (status == Status::unbounded)
     refuseIfContradictory(faces, dual_.operators().mprgp.maxMultiplications -
                                      solution_.report.counts.hessianMultiplications);
-  if (status == Status::unbounded || status == Status::stagnated || status == Status::notFinite)
+  if (status != Status::unbounded && status != Status::stagnated && status != Status::notFinite)
+    return;
+  if (faces.setAt)
+    fixFriction(faces, tolerances, x, within);
+  else
     goOn(always, x, endless);
 }
 
 /// MPRGP, or active sets; without contact it is CG, step by step.
 void IterativeSolve::iterateInBounds() {
-  const qp::BoundProblem problem{dual_.hessian(), rhs_, dual_.feasibleForces(), dual_.preconditioner(),
+  const qp::BoundProblem problem{dual_.hessian(), rhs_, feasibleForces(), dual_.preconditioner(),
                                  dual_.norm().norm};
-  const qp::ActiveSetProblem faces{problem.hessian, problem.linearTerm,     problem.set,
-                                   Teuchos::null,   problem.preconditioner, problem.operatorNorm};
+  qp::ActiveSetProblem faces{problem.hessian, problem.linearTerm,     problem.set,
+                             Teuchos::null,   problem.preconditioner, problem.operatorNorm};
+  if (data_.hasCoulombFriction())
+    faces.setAt = [this](const Vector& x) { return dual_.feasibleForces(data_, x); };
+  const auto withinSet = [&](const RCP<const qp::ConvexSet>& set) {
+    qp::BoundProblem other = problem;
+    other.set = set;
+    return other;
+  };
   const double reference = rhs_->normInf() > 0 ? solution_.reference : 0;
   qp::SmalbeTolerances tolerances{.gradient = tolerance_, .gradientReference = reference};
   if (balance_ == nullptr || reference == 0) {
     iterate(faces, tolerances, *solution_.lambda, observer_,
-            [&](Vector& x, const qp::MprgpParameters& mprgp) {
-              return qp::solveBoundProblem(problem, x, {tolerance_, reference, 0.0}, mprgp, observer_);
+            [&](const RCP<const qp::ConvexSet>& set, Vector& x, const qp::MprgpParameters& mprgp) {
+              return qp::solveBoundProblem(withinSet(set), x, {tolerance_, reference, 0.0}, mprgp, observer_);
             });
     return;
   }
   target_.emplace(dual_, data_, *balance_, [this](Vector& x) { completeJumps(x); });
   tolerances.error = &*target_;
-  iterate(faces, tolerances, *solution_.lambda, observer_, [&](Vector& x, const qp::MprgpParameters& mprgp) {
-    qp::ErrorRule rule(*target_, reference);
-    return qp::solveBoundProblem(problem, x, rule, reference, mprgp, observer_);
-  });
+  iterate(faces, tolerances, *solution_.lambda, observer_,
+          [&](const RCP<const qp::ConvexSet>& set, Vector& x, const qp::MprgpParameters& mprgp) {
+            qp::ErrorRule rule(*target_, reference);
+            return qp::solveBoundProblem(withinSet(set), x, rule, reference, mprgp, observer_);
+          });
 }
 
 /// With λ = λ̃ + μ: min ½μᵀPFPμ − μᵀPd, G̃μ = 0, μ_I ≥ −λ̃_I, where d = d̃ − Fλ̃.
@@ -275,21 +329,28 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
                                dual_.parameters().mprgp.maxMultiplications, observer, dual_.preconditioner());
     mu.assign(*start);
   } else {
-    const RCP<const qp::ConvexSet> set = dual_.feasibleForces()->shiftedBy(feasible); // μ_I ≥ −λ̃_I
+    const RCP<const qp::ConvexSet> set = feasibleForces()->shiftedBy(feasible); // μ_I ≥ −λ̃_I
     const double norm = dual_.norm().norm;
     qp::ActiveSetProblem faces{dual_.operators().flexibility(),      rhs_, set, dual_.coarseSpace(),
                                dual_.operators().facePreconditioner, norm};
     if (problem_.clusters.size() > problem_.bodies.size() && problem_.components > 1)
       faces.faceReduction = reductionWithClusters;
-    iterate(faces, tolerances, mu, observer, [&](Vector& x, const qp::MprgpParameters& mprgp) {
-      std::vector<double> multiplier;
-      return qp::solveEqualityBoundProblem(
-          {dual_.hessian(), rhs_, set, dual_.coarseSpace(), dual_.preconditioner(), norm}, x, multiplier,
-          tolerances, dual_.parameters().smalbe, mprgp, observer);
-    });
+    if (data_.hasCoulombFriction())
+      faces.setAt = [this, &feasible](const Vector& x) {
+        Vector lambda(x, Teuchos::Copy);
+        lambda.update(1.0, feasible, 1.0);
+        return dual_.feasibleForces(data_, lambda)->shiftedBy(feasible);
+      };
+    iterate(faces, tolerances, mu, observer,
+            [&](const RCP<const qp::ConvexSet>& within, Vector& x, const qp::MprgpParameters& mprgp) {
+              std::vector<double> multiplier;
+              return qp::solveEqualityBoundProblem(
+                  {dual_.hessian(), rhs_, within, dual_.coarseSpace(), dual_.preconditioner(), norm}, x,
+                  multiplier, tolerances, dual_.parameters().smalbe, mprgp, observer);
+            });
   }
   solution_.lambda->update(1.0, mu, 1.0, feasible, 0.0);
-  const double imbalance = balance(*dual_.feasibleForces(), space, resultants,
+  const double imbalance = balance(*dual_.feasibleForces(data_, *solution_.lambda), space, resultants,
                                    dual_.parameters().equilibriumTolerance * reference, *solution_.lambda);
   solution_.equilibrium = reference > 0 ? imbalance / reference : imbalance;
   return finished();
@@ -316,6 +377,8 @@ DualSolution DualProblem::solve(const decomposition::ProblemData& data, const Ve
   const Eigen::VectorXd resultants = kernelLoad(problem_, data);
   requireFeasibleGaps(problem_, data);
   requireUniqueSolution(problem_, data, kernelEntries_);
+  if (problem_.numFriction > 0 && !coarseSpace().is_null())
+    requireEnoughFriction(*this, data, resultants);
   if (algorithm() == Algorithm::direct)
     return solvedDirectly(problem_);
   IterativeSolve solve(*this, data, start, observer, parameters_.isBalanced ? balance : nullptr,

@@ -1,21 +1,45 @@
 #include "epafi/fetidp/FeasibleForces.hpp"
 
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/Discs.hpp"
+#include "epafi/qp/LocalData.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace epafi::fetidp {
 
-RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem) {
+RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
+                                        const decomposition::ProblemData& data, const Vector* normal) {
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
   const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
-  const auto values = lower->getDataNonConst();
-  for (LocalOrdinal row = 0; row < values.size(); ++row)
-    if (problem.kindOf(decomposition::OwnedMultiplier(row)) != decomposition::RowKind::contact)
-      values[row] = -std::numeric_limits<double>::infinity();
-  return rcp(new qp::Box(lower));
+  const auto least = qp::localDataNonConst(*lower);
+  for (std::size_t row = 0; row < least.size(); ++row)
+    if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(row))) !=
+        decomposition::RowKind::contact)
+      least[row] = -unbounded;
+  if (problem.numFriction == 0 || normal == nullptr)
+    return rcp(new qp::Box(lower));
+  const auto force = qp::localData(*normal);
+  const auto boundOf = [&](const decomposition::FrictionNode& node) {
+    return data.frictionBound(node, force[static_cast<std::size_t>(int{node.contact})]);
+  };
+  std::vector<qp::Disc> discs;
+  if (problem.components > 2) {
+    for (const decomposition::FrictionNode& node : problem.frictionNodes)
+      discs.push_back({node.firstTangent, node.firstTangent + 1, boundOf(node)});
+    return rcp(new qp::Discs(qp::Box(lower), std::move(discs), problem.multiplierMap));
+  }
+  const RCP<Vector> upper = rcp(new Vector(problem.multiplierMap));
+  upper->putScalar(unbounded);
+  for (const decomposition::FrictionNode& node : problem.frictionNodes) {
+    upper->replaceLocalValue(node.firstTangent, boundOf(node));
+    lower->replaceLocalValue(node.firstTangent, -boundOf(node));
+  }
+  return rcp(new qp::Box(lower, upper));
 }
 
 } // namespace epafi::fetidp

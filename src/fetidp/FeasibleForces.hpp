@@ -3,12 +3,15 @@
 /// What multipliers may be. Whoever asks for the sign of a force asks this set: the iteration, certificates,
 /// recovery, starts, contradictions.
 
-#include "epafi/decomposition/DecomposedProblem.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/qp/ConvexSet.hpp"
 
 namespace epafi::fetidp {
 
-/// λ ≥ 0 in the rows of contact, any number in those of ties and gluing; on multiplierMap. Not collective.
-RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem);
+/// λ_n ≥ 0 in the rows of contact, |λ_t| ≤ g + μ times the normal force at nodes with friction (in the plane an
+/// interval, in space a disc), any number in the rows of ties and gluing; on multiplierMap. Not collective.
+/// \param normal  where normal forces are taken from, with friction; null: friction holds any force
+RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
+                                        const decomposition::ProblemData& data, const Vector* normal);
 
 } // namespace epafi::fetidp

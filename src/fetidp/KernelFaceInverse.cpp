@@ -63,7 +63,7 @@ void KernelFaceInverse::solveInPlace(Matrix& x) const {
   c.transpose().solveInPlace(x);
 }
 
-void KernelFaceInverse::setFace(const Vector& face) {
+void KernelFaceInverse::setFace(const qp::Face& face) {
   Eigen::MatrixXd missing = gram_->offFace(face); // D
   isWhole_ = missing.isZero(0);
   if (isWhole_)

@@ -42,7 +42,7 @@ public:
 
   /// n³/3 operations on every rank, and if N⁻¹ is spread its share of 4n³. One message (ContactGram).
   /// Collective.
-  void setFace(const Vector& face) override;
+  void setFace(const qp::Face& face) override;
   /// Two products with N⁻¹ and one with K, by its rows, which are spread where those of N⁻¹ are, or by the
   /// factor of S_δ; as many for each refinement; a product with N⁻¹ where no row has left. Collective.
   void apply(std::span<const double> b, std::span<double> mu) const override;

@@ -6,6 +6,7 @@
 #include "epafi/qp/LocalData.hpp"
 
 #include <algorithm>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -91,6 +92,12 @@ GramTerms merged(GramTerms terms) {
   return terms;
 }
 
+/// Whether a multiplier (local index in multiplierMap) may be off a face.
+bool mayLeave(const decomposition::DecomposedProblem& problem, int row) {
+  const decomposition::RowKind kind = problem.kindOf(decomposition::OwnedMultiplier(row));
+  return kind == decomposition::RowKind::contact || kind == decomposition::RowKind::friction;
+}
+
 /// See ContactGram. Not collective.
 std::vector<int> anchorsAmong(const std::vector<int>& modes,
                               const decomposition::DecomposedProblem& problem) {
@@ -144,7 +151,7 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
     : comm_(problem.comm) {
   std::vector<KernelEntry> contact;
   for (const KernelEntry& entry : entries)
-    if (problem.kindOf(decomposition::OwnedMultiplier(entry.row)) == decomposition::RowKind::contact) {
+    if (mayLeave(problem, entry.row)) {
       contact.push_back(entry);
       modes_.push_back(entry.mode);
     }
@@ -156,8 +163,25 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
     entry.mode =
         static_cast<int>(std::lower_bound(modes_.begin(), modes_.end(), entry.mode) - modes_.begin());
   const int size = static_cast<int>(modes_.size());
-  pairs_ = gatherOnAll(*comm_, pairsOf(contact, size));
+  std::map<int, std::span<const KernelEntry>> rows;
+  forEachRow(contact, [&](std::span<const KernelEntry> row) { rows.emplace(row.front().row, row); });
+  const auto forEachMixed = [&](const auto& body) {
+    for (const decomposition::FrictionNode& node : problem.frictionNodes)
+      if (const auto first = rows.find(node.firstTangent), second = rows.find(node.firstTangent + 1);
+          problem.components > 2 && first != rows.end() && second != rows.end())
+        for (const KernelEntry& a : first->second)
+          for (const KernelEntry& b : second->second)
+            body(static_cast<std::int64_t>(std::min(a.mode, b.mode)) * size + std::max(a.mode, b.mode),
+                 first->first, (a.mode == b.mode ? 2 : 1) * a.value * b.value);
+  };
+  Pairs pairs = pairsOf(contact, size);
+  forEachMixed([&](std::int64_t pair, int /*row*/, double /*value*/) { pairs.push_back(pair); });
+  sortOnce(pairs);
+  pairs_ = gatherOnAll(*comm_, pairs);
   sortOnce(pairs_);
+  forEachMixed([&](std::int64_t pair, int row, double value) {
+    mixed_.push_back({placeIn(pairs_, pair), row, value});
+  });
   forEachRow(contact, [&](std::span<const KernelEntry> row) {
     forEachPair(row, size, [&](std::int64_t pair, double value) {
       terms_.push_back({placeIn(pairs_, pair), row.front().row, value});
@@ -165,12 +189,24 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
   });
 }
 
-Eigen::MatrixXd ContactGram::offFace(const Vector& face) const {
-  const auto isFree = qp::localData(face);
+Eigen::MatrixXd ContactGram::offFace(const qp::Face& face) const {
+  const auto isFree = qp::localData(face.isFree);
+  std::vector<double> off(isFree.size()), mixed(face.tangents.empty() ? 0 : isFree.size(), 0.0);
+  for (std::size_t row = 0; row < off.size(); ++row)
+    off[row] = isFree[row] == 0 ? 1 : 0;
+  for (const qp::CircleTangent& tangent : face.tangents) { // nnᵀ, n = (t₂, −t₁)
+    const auto [t1, t2] = tangent.along;
+    off[tangent.first] = t2 * t2;
+    off[tangent.second] = t1 * t1;
+    mixed[tangent.first] = -t1 * t2;
+  }
   std::vector<AccurateSum> sums(pairs_.size());
   for (const Term& term : terms_)
-    if (isFree[term.row] == 0)
-      sums[term.pair].add(term.value);
+    if (off[term.row] != 0)
+      sums[term.pair].add(off[term.row] * term.value);
+  if (!mixed.empty())
+    for (const Term& term : mixed_)
+      sums[term.pair].add(mixed[term.row] * term.value);
   sumOverRanks(*comm_, sums);
   const Eigen::Index n = modes_.size();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);

@@ -5,6 +5,7 @@
 
 #include "epafi/base/RankGroups.hpp"
 #include "epafi/fetidp/KernelConstraint.hpp"
+#include "epafi/qp/Face.hpp"
 
 #include <Eigen/SparseCore>
 
@@ -20,7 +21,7 @@ namespace epafi::fetidp {
 Eigen::SparseMatrix<double> kernelGram(const decomposition::DecomposedProblem& problem,
                                        const std::vector<KernelEntry>& entries, const RankGroups& groups);
 
-/// What rows of contact add to N, at the n modes that they touch.
+/// What rows of contact and friction add to N, at the n modes that they touch.
 class ContactGram {
 public:
   /// Collective.
@@ -30,11 +31,11 @@ public:
   /// Which of these modes hold the bodies: no motion of a body leaves all its *anchors* at rest. Indices into
   /// modes().
   [[nodiscard]] const std::vector<int>& anchors() const { return anchors_; }
-  /// Σ gᵢgᵢᵀ over the rows of contact off a face, gᵢ a column of G̃ at these modes, n × n: what N lacks
-  /// there. The same on every rank.
-  /// \param face  1 where multipliers may move, else 0; rows of gluing and ties always may
+  /// Σ gᵢgᵢᵀ over the rows of contact and friction off a face, gᵢ a column of G̃ at these modes, n × n: what N
+  /// lacks there; along a tangent the row across it is off. The same on every rank.
+  /// \param face  rows of gluing and ties are always on it
   /// One message of the number of pairs of modes that contact joins. Collective.
-  [[nodiscard]] Eigen::MatrixXd offFace(const Vector& face) const;
+  [[nodiscard]] Eigen::MatrixXd offFace(const qp::Face& face) const;
 
 private:
   /// What one row adds to one entry.
@@ -48,6 +49,7 @@ private:
   std::vector<int> modes_, anchors_;
   std::vector<std::int64_t> pairs_; ///< places in the n × n matrix, column by column, of the lower triangle
   std::vector<Term> terms_;         ///< this rank's
+  std::vector<Term> mixed_; ///< gᵢgₖᵀ + gₖgᵢᵀ of the two tangents of a node, by the row of the first
 };
 
 } // namespace epafi::fetidp

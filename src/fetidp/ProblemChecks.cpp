@@ -32,7 +32,7 @@ void requireFiniteStiffness(const DecomposedProblem& problem, const Subdomain& s
 void requireFiniteRows(const DecomposedProblem& problem, const Subdomain& subdomain) {
   for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
     if (!std::isfinite(entry.coefficient)) {
-      constexpr const char* names[] = {"contact", "tied", "gluing"};
+      constexpr const char* names[] = {"contact", "friction", "tied", "gluing"};
       throw InputError(std::string(names[static_cast<int>(problem.kindOf(entry.multiplier))]) + " row " +
                        std::to_string(problem.numberOf(entry.multiplier)) +
                        " has a coefficient in subdomain " + std::to_string(subdomain.number) + " of " +

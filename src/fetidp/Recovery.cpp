@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/fetidp/Balancing.hpp"
 #include "epafi/fetidp/ContactResponse.hpp"
+#include "epafi/fetidp/Friction.hpp"
 #include "epafi/fetidp/HeldRows.hpp"
 #include "epafi/fetidp/Proportion.hpp"
 #include "epafi/fetidp/RigidMotion.hpp"
@@ -60,22 +61,30 @@ double largestGap(const DecomposedProblem& problem, const Vector& gaps, const Ve
 
 /// Fills active set, force, and the accuracy from λ and the slack g = c − B̄u, the gradient of the dual
 /// problem. \param sizes  see sizesOfRows
-void assess(const DualProblem& dual, const Vector& gaps, const Vector& sizes, const DualSolution& found,
+void assess(const DualProblem& dual, const ProblemData& data, const Vector& sizes, const DualSolution& found,
             double largestValue, ContactSolution& solution) {
   const DecomposedProblem& problem = dual.problem();
   const double operatorNorm = dual.norm().norm;
   Vector gradient(problem.multiplierMap); // g^P
-  dual.feasibleForces()->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
+  dual.feasibleForces(data, *solution.multiplier)
+      ->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
   const auto force = solution.multiplier->getData(), slack = solution.slack->getData();
   const auto size = sizes.getData(), projected = gradient.getData();
   const auto active = solution.active->getDataNonConst();
-  AccurateSum sums[4]; // ‖g^P‖², λᵀg, force, active nodes
+  for (const decomposition::FrictionNode& node : problem.frictionNodes)
+    for (int k = 0; k < problem.components - 1; ++k)
+      active[node.firstTangent + k] = sticks(problem, data, node, *solution.multiplier) ? 1.0 : 0.0;
+  AccurateSum sums[5]; // ‖g^P‖², λᵀg, force, active nodes, work of friction
   double violation = 0;
   for (LocalOrdinal i = 0; i < force.size(); ++i) {
-    const bool isContact =
-        problem.kindOf(decomposition::OwnedMultiplier(i)) == decomposition::RowKind::contact;
+    const decomposition::RowKind kind = problem.kindOf(decomposition::OwnedMultiplier(i));
+    const bool isContact = kind == decomposition::RowKind::contact,
+               isFriction = kind == decomposition::RowKind::friction;
     sums[0].add(projected[i] * projected[i]);
-    violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]) / size[i]);
+    if (isFriction)
+      sums[4].add(-force[i] * slack[i]);
+    if (!isFriction || active[i] != 0)
+      violation = std::max(violation, isContact ? -slack[i] : std::abs(slack[i]) / size[i]);
     if (!isContact)
       continue;
     sums[1].add(force[i] * slack[i]);
@@ -88,7 +97,7 @@ void assess(const DualProblem& dual, const Vector& gaps, const Vector& sizes, co
   sumOverRanks(comm, sums);
   violation = maxOverRanks(comm, violation);
   const double scale =
-      std::max(maxOverRanks(comm, largestValue), largestGap(problem, gaps, *solution.multiplier));
+      std::max(maxOverRanks(comm, largestValue), largestGap(problem, data.gap(), *solution.multiplier));
   const auto relative = [](double value, double reference) {
     return reference > 0 ? value / reference : value;
   };
@@ -98,6 +107,7 @@ void assess(const DualProblem& dual, const Vector& gaps, const Vector& sizes, co
   solution.equilibrium = found.equilibrium;
   solution.isEstimated = found.isEstimated;
   solution.contactForce = sums[2].value();
+  solution.dissipation = sums[4].value();
   solution.activeContactNodes = static_cast<GlobalOrdinal>(sums[3].value());
 }
 
@@ -193,7 +203,8 @@ bool settle(const DualProblem& dual, const ProblemData& data, const Settling& se
                                            largestGap(dual.problem(), data.gap(), *solution.multiplier));
   if (settling.allowed.absolute > 0)
     allowed = std::min(allowed, settling.allowed.absolute);
-  HeldRows rows(*dual.feasibleForces(), sizes, *solution.multiplier);
+  const RCP<const qp::ConvexSet> forces = dual.feasibleForces(data, *solution.multiplier);
+  HeldRows rows(*forces, sizes, *solution.multiplier);
   double open = std::numeric_limits<double>::infinity();
   for (int step = 0; step < maxSteps && !settling.isUnwanted(*dual.problem().comm); ++step) {
     try {
@@ -207,7 +218,7 @@ bool settle(const DualProblem& dual, const ProblemData& data, const Settling& se
     } else if (rows.change(*solution.multiplier, *solution.slack, allowed)) {
       open = std::numeric_limits<double>::infinity();
     } else {
-      dual.feasibleForces()->project(*solution.multiplier); // the last digits
+      forces->project(*solution.multiplier); // the last digits
       return isBalanced(dual.problem(), data, u, solution.energy);
     }
   }
@@ -275,14 +286,19 @@ std::optional<ContactSolution> recovered(const DualProblem& dual, const ProblemD
   if (found.report.status == qp::Status::converged)
     requireProportion(problem, data, u, *found.lambda);
   double largest = 0;
+  AccurateSum work;
   for (std::size_t s = 0; s < u.size(); ++s) {
+    const decomposition::SubdomainData& own = data.subdomains()[s];
+    work.add(own.load.dot(u[s].col(0)) + own.heldWork);
     solution.displacement.push_back(
         decomposition::atAllPositions(problem.subdomains[s], u[s], data.subdomains()[s].prescribed));
     u[s].resize(0, 0); // primal vectors are what takes memory once the factors are shared
     if (solution.displacement.back().size() > 0)
       largest = std::max(largest, solution.displacement.back().lpNorm<Eigen::Infinity>());
   }
-  assess(dual, data.gap(), *sizes, found, largest, solution);
+  sumOverRanks(*problem.comm, {&work, 1});
+  solution.loadWork = work.value();
+  assess(dual, data, *sizes, found, largest, solution);
   if (settling != nullptr && !dual.coarseSpace().is_null()) { // of the λ that has been settled
     const NaturalCoarseSpace& space = *dual.coarseSpace();
     const Eigen::VectorXd resultants = kernelLoad(problem, data);

@@ -5,6 +5,7 @@
 #include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fetidp/ContactDirections.hpp"
+#include "epafi/fetidp/Friction.hpp"
 #include "epafi/fetidp/LooseMotion.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
@@ -248,8 +249,9 @@ Eigen::VectorXd rigidMotion(const DecomposedProblem& problem, const ProblemData&
     for (const KernelEntry& entry : entries)
       values[entry.row] -= entry.value * alpha[entry.mode];
   }
+  const std::vector<KernelEntry> held = withoutSlip(problem, data, lambda, entries, left);
   const Eigen::VectorXd motion =
-      motionOfBodies(problem, data, kernelConstraintOfBodies(problem, entries), lambda, left, check);
+      motionOfBodies(problem, data, kernelConstraintOfBodies(problem, held), lambda, left, check);
   for (const decomposition::Cluster& cluster : problem.clusters)
     alpha.segment(cluster.kernelOffset, cluster.kernelDimension) +=
         cluster.ofBody * motion.segment(problem.bodies[cluster.body].kernelOffset, cluster.ofBody.cols());

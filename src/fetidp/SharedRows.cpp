@@ -6,6 +6,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -30,13 +31,15 @@ OwnEntries ownEntries(const decomposition::DecomposedProblem& problem, const Imp
       const auto isGluing = [&](const decomposition::ConstraintEntry& entry) {
         return problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing;
       };
-      std::vector<int> numRows(subdomain.stiffness->rows(), 0); // of an unknown
+      // Of an unknown: rows of contact and ties, of first tangents, of second ones.
+      std::vector<std::array<int, 3>> numRows(subdomain.stiffness->rows(), {0, 0, 0});
       for (const decomposition::ConstraintEntry& entry : subdomain.constraint)
-        numRows[entry.unknown] += entry.coefficient == 0 || isGluing(entry) ? 0 : 1;
+        if (entry.coefficient != 0 && !isGluing(entry))
+          ++numRows[entry.unknown][problem.tangentOf(entry.multiplier)];
       std::vector<char>& counts = result.counts.emplace_back();
       for (const decomposition::ConstraintEntry& entry : subdomain.constraint) {
         const double square = entry.coefficient * entry.coefficient;
-        counts.push_back(isGluing(entry) || numRows[entry.unknown] == 1 ? 1 : 0);
+        counts.push_back(isGluing(entry) || *std::ranges::max_element(numRows[entry.unknown]) == 1 ? 1 : 0);
         all[entry.multiplier] += square;
         own[entry.multiplier] += counts.back() != 0 ? square : 0.0;
       }

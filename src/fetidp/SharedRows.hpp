@@ -24,7 +24,7 @@ namespace epafi::fetidp {
 struct OwnEntries {
   /// Of each of this rank's subdomains and of each entry of B there, 0 or 1: all entries of gluing, of
   /// another row those at unknowns that no other of contact or ties acts on, or all if these weigh too
-  /// little.
+  /// little. A node's row of contact and its rows of friction do not count as others: they are perpendicular.
   std::vector<std::vector<char>> counts;
   /// Rows of this rank (local indices of multiplierMap, ascending) with too little of their own.
   std::vector<LocalOrdinal> dependent;

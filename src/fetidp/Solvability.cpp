@@ -1,10 +1,12 @@
 #include "epafi/fetidp/Solvability.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/direct/NonNegativeLeastSquares.hpp"
 #include "epafi/fetidp/ContactDirections.hpp"
+#include "epafi/fetidp/Friction.hpp"
 #include "epafi/fetidp/LooseMotion.hpp"
 #include "epafi/fetidp/MotionWords.hpp"
 #include "epafi/fetidp/ProblemScales.hpp"
@@ -51,7 +53,7 @@ struct RigidBalance {
                const std::vector<KernelEntry>& entries)
       : problem(given), scales(given, data),
         rows(scales.hinderingRows(kernelConstraintOfBodies(given, entries))),
-        directions(contactDirections(given, rows)),
+        directions(contactDirections(given, data, rows)),
         load(onBodies(given, kernelLoad(given, data)).cwiseQuotient(scales.motions())) {}
 
   /// Of a motion that is measured as the others are.
@@ -140,18 +142,38 @@ struct ScaledCone {
   }
 };
 
+/// Whether contact would hold the loads if friction held any force. Collective.
+void refuseIfTooSteep(const RigidBalance& balance) {
+  const Eigen::Index k = balance.load.size();
+  RigidBalance rough(balance);
+  DistinctDirections directions(k);
+  for (const auto& [row, vector] : balance.rows) {
+    directions.add(vector, 0.0);
+    if (isTied(balance.problem, row))
+      directions.add(-vector, 0.0);
+  }
+  directions.gather(*balance.problem.comm);
+  rough.directions = directions.matrix();
+  const ScaledCone cone(balance), held(rough);
+  if (held.imbalance(held.resultant).norm() == 0)
+    refuseSliding(text(cone.imbalance(cone.resultant).norm() / cone.resultant.norm()) +
+                  " of their resultant");
+}
+
 } // namespace
 
 void requireUniqueSolution(const DecomposedProblem& problem, const ProblemData& data,
                            const std::vector<KernelEntry>& entries) {
   if (problem.numRigidModes() == 0)
     return;
-  const RigidBalance balance(problem, data, entries);
+  const RigidBalance balance(problem, data, withoutIdleFriction(problem, data, entries));
   const Eigen::MatrixXd free = freeMotions(balance);
   refuseLoadedMotion(balance, free);
 
   const ScaledCone cone(balance);
   const Eigen::VectorXd pulled = cone.imbalance(cone.resultant);
+  if (pulled.norm() > 0 && data.hasCoulombFriction())
+    refuseIfTooSteep(balance);
   if (pulled.norm() > 0) {
     const Eigen::VectorXd motion = pulled.cwiseQuotient(cone.unit); // allowed, and driven by the load
     refuse(Kind::noSolution, "the load pulls ", balance.words(pulled).bodies,

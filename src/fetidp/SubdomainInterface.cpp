@@ -12,11 +12,13 @@ namespace {
 
 using decomposition::Subdomain;
 
-/// Whether B touches each unknown.
+/// Whether B touches each unknown, or may come to.
 std::vector<char> touchedBy(const Subdomain& subdomain) {
   std::vector<char> isTouched(subdomain.stiffness->rows(), 0);
   for (const auto& entry : subdomain.constraint)
     isTouched[entry.unknown] = 1;
+  for (const int unknown : subdomain.candidates)
+    isTouched[unknown] = 1;
   return isTouched;
 }
 

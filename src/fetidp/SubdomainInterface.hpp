@@ -9,7 +9,8 @@
 
 namespace epafi::fetidp {
 
-/// The unknowns of a subdomain that B touches: Δ among the remainders, C among the crosspoint values.
+/// The unknowns of a subdomain that B touches, candidates too: Δ among the remainders, C among the crosspoint
+/// values.
 struct SubdomainInterface {
   std::vector<int> boundary;         ///< Δ: positions in Subdomain::remainderUnknowns, ascending
   std::vector<int> boundaryUnknowns; ///< Δ: the unknowns there

@@ -168,15 +168,20 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   problem.setClusterSizes(std::move(clusters));
   const Share share = shareOf(result.bodies, *comm);
   collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
+  const contact::NodeUnknowns unknowns = nodeUnknowns(result.bodies, models, comm);
   if (!result.contacts.empty()) {
-    decomposition::ConstraintMatrix matrix = contactMatrix(result.bodies, result.contacts, models, comm);
+    decomposition::ConstraintMatrix matrix = contact::contactMatrix(result.contacts, unknowns, comm);
     matrix.places = contactPlaces(result.bodies, result.contacts, models, *matrix.rows->getRowMap());
     problem.setContact(matrix);
   }
+  if (std::any_of(result.contacts.begin(), result.contacts.end(),
+                  [](const contact::ContactLayout& each) { return each.firstFriction >= 0; }))
+    problem.setFriction(contact::frictionRows(result.contacts, unknowns, comm));
   if (!result.ties.empty())
-    problem.setTies(contactMatrix(result.bodies, result.ties, models, comm));
+    problem.setTies(contact::contactMatrix(result.ties, unknowns, comm));
   problem.complete();
   result.data = problem.data();
+  setFrictionData(scene, result.contacts, problem.problem(), result.data);
   result.problem = problem.take();
   return result;
 }

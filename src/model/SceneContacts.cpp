@@ -196,6 +196,19 @@ void numberRows(const std::vector<ContactGroup>& groups, std::vector<ContactLayo
   }
 }
 
+/// Numbers nodes with friction, contact after contact; of those that share rows one is enough.
+void numberFriction(const scene::Scene& scene, std::vector<ContactLayout>& contacts) {
+  std::map<GlobalOrdinal, GlobalOrdinal> firstNodes; // by the first row
+  GlobalOrdinal numNodes = 0;
+  for (const ContactLayout& contact : contacts)
+    if (scene.contacts[contact.number].hasFriction() &&
+        firstNodes.try_emplace(contact.firstRow, numNodes).second)
+      numNodes += contact.numRows();
+  for (ContactLayout& contact : contacts)
+    if (const auto first = firstNodes.find(contact.firstRow); first != firstNodes.end())
+      contact.firstFriction = first->second;
+}
+
 /// The areas of rows that were left out count with those of earlier contacts that say the same.
 void addDropped(const std::vector<contact::KnownRows::Dropped>& dropped, ContactLayout& contact,
                 std::vector<ContactLayout>& earlier) {
@@ -261,28 +274,46 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
     enter(partsOf(layout, group), all.contacts);
   }
   numberRows(groups, all.contacts);
+  numberFriction(scene, all.contacts);
   numberRows(groups, all.ties);
   return all;
 }
 
-decomposition::ConstraintMatrix contactMatrix(const std::vector<BodyLayout>& bodies,
-                                              const std::vector<ContactLayout>& contacts,
-                                              const std::vector<std::unique_ptr<fem::BodyModel>>& models,
-                                              const RCP<const Comm>& comm) {
+contact::NodeUnknowns nodeUnknowns(const std::vector<BodyLayout>& bodies,
+                                   const std::vector<std::unique_ptr<fem::BodyModel>>& models,
+                                   const RCP<const Comm>& comm) {
   contact::NodeUnknowns unknowns;
   unknowns.components = models.front()->components();
   unknowns.firstNode = firstNodes(bodies);
-  const auto modelOf = [&](int body) -> const fem::BodyModel& { return *models[body]; };
-  unknowns.frame = [&](int body, GlobalOrdinal node) { return modelOf(body).frame(node); };
-  unknowns.isHeld = [&](int body, GlobalOrdinal node, int component) {
+  const auto modelOf = [&models](int body) -> const fem::BodyModel& { return *models[body]; };
+  unknowns.frame = [modelOf](int body, GlobalOrdinal node) { return modelOf(body).frame(node); };
+  unknowns.isHeld = [modelOf](int body, GlobalOrdinal node, int component) {
     return modelOf(body).prescribed(node, component).has_value();
   };
-  unknowns.isMine = [&, share = shareOf(bodies, *comm)](int body, GlobalOrdinal node) {
+  unknowns.isMine = [&bodies, share = shareOf(bodies, *comm)](int body, GlobalOrdinal node) {
     const BodyLayout& layout = bodies[body];
     const int part = lowestPartAt(layout, node), lowest = layout.firstSubdomain + part;
     return part < layout.partition->numParts() && share.begin <= lowest && lowest < share.end;
   };
-  return contact::contactMatrix(contacts, unknowns, comm);
+  return unknowns;
+}
+
+void setFrictionData(const scene::Scene& scene, const std::vector<ContactLayout>& contacts,
+                     const decomposition::DecomposedProblem& problem, decomposition::ProblemData& data) {
+  std::vector<double> bounds, coefficients;
+  for (const decomposition::FrictionNode& node : problem.frictionNodes) {
+    const GlobalOrdinal number = problem.numberOf(node.contact);
+    double &bound = bounds.emplace_back(0), &coefficient = coefficients.emplace_back(0);
+    for (const ContactLayout& contact : contacts)
+      if (const GlobalOrdinal place = number - contact.firstRow; 0 <= place && place < contact.numRows()) {
+        const scene::SurfaceContact& terms = scene.contacts[contact.number];
+        const auto row = static_cast<std::size_t>(place);
+        bound += terms.frictionBound * contact.portion(row) * contact.areas[row];
+        coefficient += terms.friction * contact.portion(row);
+      }
+  }
+  data.setFrictionBounds(problem, bounds);
+  data.setFrictionCoefficients(problem, coefficients);
 }
 
 } // namespace epafi::model

@@ -4,6 +4,7 @@
 
 #include "epafi/contact/ContactLayout.hpp"
 #include "epafi/contact/ContactMatrix.hpp"
+#include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
@@ -52,10 +53,15 @@ contact::ContactLayout layoutContact(const scene::SurfaceContact& terms,
                                      const std::vector<BodyLayout>& bodies, int components,
                                      const SupportedNodes& supported = {});
 
-/// The rows as a matrix; each lies on the rank that has the lowest subdomain at its first node. Collective.
-decomposition::ConstraintMatrix contactMatrix(const std::vector<BodyLayout>& bodies,
-                                              const std::vector<contact::ContactLayout>& contacts,
-                                              const std::vector<std::unique_ptr<fem::BodyModel>>& models,
-                                              const RCP<const Comm>& comm);
+/// What rows have to know of nodes; each row lies on the rank that has the lowest subdomain at its first node.
+/// Keeps references to bodies and models. Collective.
+contact::NodeUnknowns nodeUnknowns(const std::vector<BodyLayout>& bodies,
+                                   const std::vector<std::unique_ptr<fem::BodyModel>>& models,
+                                   const RCP<const Comm>& comm);
+
+/// Bounds and coefficients of friction; rows that contacts share have what these have, by their areas.
+/// Collective.
+void setFrictionData(const scene::Scene& scene, const std::vector<contact::ContactLayout>& contacts,
+                     const decomposition::DecomposedProblem& problem, decomposition::ProblemData& data);
 
 } // namespace epafi::model

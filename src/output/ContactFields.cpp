@@ -121,6 +121,8 @@ ContactFields gatherContactFields(const simulation::SolvedScene& solved, int con
   fields.pressure = state.pressure;
   for (const double value : rowsOf(*solved.solution.active, toSlab))
     fields.active.push_back(value > 0.5 ? 1 : 0);
+  if (layout.firstFriction >= 0)
+    fields.friction = simulation::frictionFields(solved, layout);
   return fields;
 }
 

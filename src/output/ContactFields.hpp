@@ -5,6 +5,7 @@
 #include "epafi/base/Slab.hpp"
 #include "epafi/fem/Cell.hpp"
 #include "epafi/simulation/ContactState.hpp"
+#include "epafi/simulation/FrictionResults.hpp"
 #include "epafi/simulation/SolvedScene.hpp"
 
 #include <array>
@@ -27,6 +28,7 @@ struct ContactFields {
   std::vector<double> force;      ///< on the node (ContactState)
   std::vector<double> pressure;   ///< around the node (ContactState)
   std::vector<int> active;        ///< 1 where contact is closed
+  std::optional<simulation::FrictionFields> friction;
 
   GlobalOrdinal numFacets =
       0; ///< m, of the first body's surface between nodes that all have a row; perhaps none

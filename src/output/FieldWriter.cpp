@@ -106,6 +106,15 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   column("force", fields.force);
   column("pressure", fields.pressure);
   column("active", fields.active);
+  if (fields.friction) {
+    const auto vectors = [&](const std::string& field, const std::vector<double>& values) {
+      grid.attributes.push_back(
+          {field, Center::node, put(file, group + "/" + field, n, 3, fields.rows, values)});
+    };
+    vectors("traction", fields.friction->traction);
+    vectors("slip", fields.friction->slip);
+    column("friction_state", fields.friction->state);
+  }
   return grid;
 }
 

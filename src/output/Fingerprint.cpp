@@ -54,7 +54,7 @@ Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem) {
   sumOverRanks(*problem.comm, std::span(halves));
   sumOverRanks(*problem.comm, {&stiffness, 1});
   Fingerprint fingerprint;
-  fingerprint.numInequalities = problem.numInequalities;
+  fingerprint.numInequalities = problem.firstTie();
   fingerprint.numEqualities = problem.numEqualities;
   fingerprint.primalDimension = problem.primalDimension;
   fingerprint.numSubdomains = problem.numSubdomains;

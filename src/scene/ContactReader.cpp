@@ -137,6 +137,21 @@ void readCoupling(const ListReader& entry, SurfaceContact& pair) {
   pair.multipliers = side == "first" ? Side::first : side == "second" ? Side::second : Side::automatic;
 }
 
+/// What hinders the surfaces from slipping.
+void readFriction(const ListReader& entry, const Body& body, SurfaceContact& pair) {
+  pair.friction = entry.real("Friction");
+  pair.frictionBound = entry.real("Friction Bound");
+  if (!pair.hasFriction())
+    return;
+  const char* const given = pair.friction > 0 ? "Friction" : "Friction Bound";
+  if (pair.friction > 0 && pair.frictionBound > 0)
+    entry.refuseValue("Friction Bound", "Coulomb's Friction is given as well; leave out one of them");
+  if (pair.kind == SurfaceContact::Kind::tied)
+    entry.refuseValue(given, "a tied joint does not slip; remove it, or make the pair a contact");
+  if (body.physics == Physics::membrane)
+    entry.refuseValue(given, "membranes move along z alone and cannot slip; friction is for elastic bodies");
+}
+
 void requireSoundEdges(const ListReader& entry, const Scene& scene) {
   const std::optional<EdgeFault> fault = faultOf(scene, scene.contacts.size() - 1);
   if (!fault)
@@ -182,6 +197,7 @@ void readContacts(const ListReader& list, const ListReader& rigid, Scene& scene)
     else
       readSurfaces(entry, scene.bodies, obstacles, pair);
     readCoupling(entry, pair);
+    readFriction(entry, scene.bodies[pair.first], pair);
     pair.gap = entry.real("Gap");
     scene.contacts.push_back(pair);
     if (alongEdges)

@@ -21,8 +21,7 @@ struct Obstacle {
   double radius = 1;       ///< of the sphere
 };
 
-/// Frictionless contact of a body's surface with another body's or with an obstacle, or a joint of two
-/// bodies.
+/// Contact of a body's surface with another body's or with an obstacle, or a joint of two bodies.
 struct SurfaceContact {
   /// Contact: bodies do not penetrate. Tied: they are bonded, whatever lies between them.
   enum class Kind { contact, tied };
@@ -43,6 +42,10 @@ struct SurfaceContact {
   Kind kind = Kind::contact;
   Coupling coupling = Coupling::automatic;
   Side multipliers = Side::automatic;
+  double friction = 0; ///< Coulomb's coefficient μ: tangential tractions are at most μ times the pressure
+  double frictionBound = 0; ///< Tresca's: they are at most this, force per area
+
+  [[nodiscard]] bool hasFriction() const { return friction > 0 || frictionBound > 0; }
 };
 
 struct Scene {

@@ -175,6 +175,16 @@ void describePair(ParameterList& contact) {
           "Initial gap g between membranes: u_second − u_first ≥ −g; of elastic bodies what is added to the "
           "gap that "
           "their shapes leave. Negative means initial penetration.");
+  addReal(
+      pair, "Friction", 0.0,
+      "Elastic bodies: Coulomb's coefficient. Where the surfaces touch, tangential tractions are at most so "
+      "many times the pressure, and they slip where that is not enough.",
+      0.0);
+  addReal(
+      pair, "Friction Bound", 0.0,
+      "Elastic bodies, instead of Friction: tangential tractions are at most this (force per area, Tresca's "
+      "law), whatever the pressure is.",
+      0.0);
   addReal(pair, "Distance", 0.0,
           "Nodes that are farther than this from the other side cannot meet it and get no inequality; 0: no "
           "limit. Not of membranes on rectangles.",

@@ -207,6 +207,8 @@ std::vector<ContactResult> contactResults(const SolvedScene& solved, const Evalu
     result.note = contacts[c].note;
     if (contacts[c].secondBody >= 0)
       result.balance = balanceOf(solved, contacts[c]);
+    if (contacts[c].firstFriction >= 0)
+      result.friction = frictionResult(solved, contacts[c], evaluation.contacts[c].areas);
   }
   return results;
 }

@@ -4,6 +4,7 @@
 
 #include "epafi/accuracy/ErrorEstimate.hpp"
 #include "epafi/simulation/ContactState.hpp"
+#include "epafi/simulation/FrictionResults.hpp"
 #include "epafi/simulation/JointResults.hpp"
 #include "epafi/simulation/SolvedScene.hpp"
 
@@ -60,6 +61,7 @@ struct ContactResult {
   GlobalOrdinal numBent = 0; ///< rows at sharp bends that have a mean normal (ContactLayout::numBent)
   std::string note;          ///< what a user should know of it; perhaps empty
   std::optional<JointBalance> balance; ///< of its two sides; nothing of obstacles
+  std::optional<FrictionResult> friction;
 };
 
 /// Of each body of the scene. Collective.

@@ -126,7 +126,7 @@ struct TieForces {
 /// Collective.
 TieForces forcesOf(const SolvedScene& solved, const ContactLayout& tie) {
   std::vector<double> forces(tie.firstNodes.size(), 0.0), areas = tie.areas;
-  TieForces result{sumsOf(solved, tie, solved.decomposition.problem.numInequalities,
+  TieForces result{sumsOf(solved, tie, solved.decomposition.problem.firstTie(),
                           [&](std::size_t row, double force) { forces[row] = force; }),
                    {}};
   sumOverRanks(solved.comm(), std::span(forces)); // each is one rank's

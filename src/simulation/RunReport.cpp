@@ -55,7 +55,9 @@ void enterAccuracy(const RunResult& result, ParameterList& list) {
       .set("Equilibrium", result.equilibrium)
       .set("Energy", result.energy)
       .set("Active Contact Nodes", result.activeContactNodes)
-      .set("Contact Force", result.contactForce);
+      .set("Contact Force", result.contactForce)
+      .set("Strain Energy", result.energy + result.loadWork)
+      .set("Load Work", result.loadWork);
   if (std::isfinite(result.algebraicError))
     list.set("Algebraic Error", result.algebraicError);
   if (result.error)
@@ -96,6 +98,16 @@ void enterBalance(const JointBalance& balance, ParameterList& list) {
       .set("Moment Imbalance", balance.moment);
 }
 
+void enterFriction(const ContactResult& contact, ParameterList& list) {
+  list.set("Normal Force", contact.force)
+      .set("Tangential Force", arrayOf(contact.friction->tangentialForce))
+      .set("Moment", arrayOf(contact.friction->moment))
+      .set("Stick Area", contact.friction->stickArea)
+      .set("Slip Area", contact.friction->slipArea)
+      .set("Dissipation", contact.friction->dissipation)
+      .set("Largest Slip", contact.friction->largestSlip);
+}
+
 void enterContact(const ContactResult& contact, ParameterList& list) {
   list.set("Candidates", contact.candidates)
       .set("Active Nodes", contact.activeNodes)
@@ -111,6 +123,8 @@ void enterContact(const ContactResult& contact, ParameterList& list) {
     list.set("Largest Penetration", *contact.penetration);
   if (contact.balance)
     enterBalance(*contact.balance, list);
+  if (contact.friction)
+    enterFriction(contact, list);
 }
 
 void enterTie(const TieResult& tie, ParameterList& list) {

@@ -68,6 +68,7 @@ struct RunResult {
   double equilibrium = 0, algebraicError = std::numeric_limits<double>::quiet_NaN(), energy = 0;
   GlobalOrdinal activeContactNodes = 0;
   double contactForce = 0;
+  double loadWork = 0;              ///< fᵀu of the loads
   std::optional<ErrorResult> error; ///< if asked for
   std::string doubts;               ///< what an estimate does not see; perhaps empty
   std::optional<Quantity> quantity; ///< if asked for

@@ -195,6 +195,7 @@ void enterSolution(SceneRun& run) {
   result.energy = solution.energy;
   result.activeContactNodes = solution.activeContactNodes;
   result.contactForce = solution.contactForce;
+  result.loadWork = solution.loadWork;
   result.reason = result.solve.statusReason;
   result.status = result.solve.status == qp::Status::converged     ? RunStatus::converged
                   : result.solve.status == qp::Status::interrupted ? RunStatus::interrupted

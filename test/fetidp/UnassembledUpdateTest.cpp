@@ -148,5 +148,60 @@ TEST(UnassembledUpdateTest, AnUpdateKeepsTheFactorsAndBlocksThatStillHold) {
   }
 }
 
+std::vector<const CondensedSubdomain*> factorsOf(const ContactSolver& solver) {
+  std::vector<const CondensedSubdomain*> factors;
+  for (const SubdomainGroup& group : solver.dualProblem().inverse().groups())
+    factors.push_back(&group.condensed());
+  return factors;
+}
+
+/// The unknowns in a matrix's rows of this rank.
+std::vector<GlobalOrdinal> columnsOf(const CrsMatrix& rows) {
+  const auto columns = localIndices(*rows.getColMap());
+  return {columns.begin(), columns.end()};
+}
+
+/// Contact that moves: from every second node of a surface to all of them, and back.
+TEST(UnassembledUpdateTest, ContactThatMovesAmongCandidatesCostsNoFactor) {
+  int numNew = 0;
+  for (const Case& c : handedCases())
+    for (const bool isForeseen : {true, false}) {
+      SCOPED_TRACE(c.name);
+      const model::Decomposition direct = model::decompose(c.scene, world());
+      const ConstraintMatrix all = contactOf(c.scene, direct, Supports::prescribed),
+                             few = everySecondRow(all);
+      const auto handed = handOver(c.scene, matricesOf(c.scene, Supports::prescribed));
+      if (isForeseen)
+        handed->setCandidates(columnsOf(*all.rows));
+      handed->setContact(few);
+      handed->complete();
+      ContactSolver solver(toleranceOf(1e-12));
+      solver.setup(handed->problem(), handed->data());
+      const auto before = factorsOf(solver);
+      for (const ConstraintMatrix& moved : {all, few}) {
+        handed->setContact(moved);
+        solver.update(handed->data());
+        if (isForeseen) {
+          EXPECT_EQ(factorsOf(solver), before);
+          const ContactSolution updated = solver.solve(handed->data());
+          const auto anew = handOver(c.scene, matricesOf(c.scene, Supports::prescribed));
+          anew->setContact(moved);
+          anew->complete();
+          expectEqualFields(*handed, updated, solvedAnew(*anew));
+        } else {
+          numNew += factorsOf(solver) != before ? 1 : 0;
+        }
+      }
+    }
+  EXPECT_GT(sumOverRanks(*world(), numNew), 0) << "whatever is done, all factors stay";
+}
+
+TEST(UnassembledUpdateTest, ACandidateThatNoSubdomainHasIsRefused) {
+  const scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
+  const auto handed = handOver(scene, matricesOf(scene, Supports::eliminated));
+  handed->setCandidates({123456});
+  EXPECT_THROW(handed->complete(), InputError);
+}
+
 } // namespace
 } // namespace epafi::fetidp

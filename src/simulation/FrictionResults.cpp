@@ -1,0 +1,148 @@
+#include "epafi/simulation/FrictionResults.hpp"
+
+#include "epafi/base/AccurateSum.hpp"
+#include "epafi/base/Collective.hpp"
+#include "epafi/base/Maps.hpp"
+#include "epafi/contact/ContactMatrix.hpp"
+
+#include <Eigen/Geometry>
+#include <Tpetra_Import.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <algorithm>
+
+namespace epafi::simulation {
+namespace {
+
+using contact::ContactLayout;
+using Eigen::Vector3d;
+
+/// Forces and slips along the tangents of a contact's rows.
+class RowTangents {
+public:
+  RowTangents(const SolvedScene& solved, const ContactLayout& contact)
+      : contact_(contact), tangents_(contact), numTangents_(solved.decomposition.problem.components - 1) {}
+  [[nodiscard]] int numTangents() const { return numTangents_; }
+  /// Of a row, as its nodes are combined.
+  [[nodiscard]] Vector3d at(std::size_t row, int k) const {
+    Vector3d direction = Vector3d::Zero();
+    contact_.forEachShare(row, [&](std::size_t place, double weight) {
+      direction += weight * tangents_.at(place)[static_cast<std::size_t>(k)];
+    });
+    return direction;
+  }
+  /// Number of a row of friction among all multipliers.
+  [[nodiscard]] GlobalOrdinal numberOf(const decomposition::DecomposedProblem& problem, std::size_t row,
+                                       int k) const {
+    return problem.numInequalities +
+           numTangents_ * (contact_.firstFriction + static_cast<GlobalOrdinal>(row)) + k;
+  }
+
+private:
+  const ContactLayout& contact_;
+  contact::ContactTangents tangents_;
+  int numTangents_;
+};
+
+/// Of the layout's first body on the second one, as the scene's bodies are named.
+double signOf(const SolvedScene& solved, const ContactLayout& contact) {
+  return contact.firstBody == solved.scene.contacts[contact.number].first ? 1 : -1;
+}
+
+/// Values of multipliers, given by their numbers, one after the other. Collective.
+std::vector<double> valuesOf(const Vector& vector, const std::vector<GlobalOrdinal>& numbers) {
+  const RCP<const Map> map = mapInOrder(numbers, vector.getMap()->getComm());
+  Vector here(map);
+  here.doImport(vector, Import(vector.getMap(), map), Tpetra::INSERT);
+  const auto values = here.getData();
+  return {values.begin(), values.end()};
+}
+
+} // namespace
+
+FrictionResult frictionResult(const SolvedScene& solved, const ContactLayout& contact,
+                              const std::vector<double>& areas) {
+  const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
+  const fem::Mesh& mesh = *solved.decomposition.bodies[contact.firstBody].mesh;
+  const RowTangents tangents(solved, contact);
+  const auto force = solved.solution.multiplier->getData(), slack = solved.solution.slack->getData(),
+             active = solved.solution.active->getData();
+  enum Term : std::size_t { tangential, moment = 3, stick = 6, slip, work, numTerms };
+  std::array<AccurateSum, numTerms> sums;
+  double largest = 0;
+  const double sign = signOf(solved, contact);
+  for (const decomposition::FrictionNode& node : problem.frictionNodes) {
+    const GlobalOrdinal place = problem.numberOf(node.contact) - contact.firstRow;
+    if (place < 0 || place >= contact.numRows())
+      continue;
+    const auto row = static_cast<std::size_t>(place);
+    const double portion = contact.portion(row);
+    Vector3d along = Vector3d::Zero(), slipped = Vector3d::Zero();
+    for (int k = 0; k < tangents.numTangents(); ++k) {
+      along += force[node.firstTangent + k] * tangents.at(row, k);
+      slipped -= slack[node.firstTangent + k] * tangents.at(row, k);
+      sums[work].add(-portion * force[node.firstTangent + k] * slack[node.firstTangent + k]);
+    }
+    const Point point = mesh.point(contact.firstNodes[row]);
+    const Vector3d whole = force[node.contact] * contact.spatialDirectionOf(row) + along,
+                   turning = Vector3d(point[0], point[1], point[2]).cross(whole);
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      sums[tangential + static_cast<std::size_t>(d)].add(sign * portion * along[d]);
+      sums[moment + static_cast<std::size_t>(d)].add(sign * portion * turning[d]);
+    }
+    if (active[node.contact] > 0.5 && portion > 0) {
+      sums[active[node.firstTangent] > 0.5 ? stick : slip].add(areas[row]);
+      largest = std::max(largest, slipped.norm());
+    }
+  }
+  sumOverRanks(solved.comm(), sums);
+  FrictionResult result;
+  for (std::size_t d = 0; d < 3; ++d) {
+    result.tangentialForce[d] = sums[tangential + d].value();
+    result.moment[d] = sums[moment + d].value();
+  }
+  result.stickArea = sums[stick].value();
+  result.slipArea = sums[slip].value();
+  result.dissipation = sums[work].value();
+  result.largestSlip = maxOverRanks(solved.comm(), largest);
+  return result;
+}
+
+FrictionFields frictionFields(const SolvedScene& solved, const ContactLayout& contact) {
+  const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
+  const RowTangents tangents(solved, contact);
+  const std::vector<std::size_t> own = contact.ownRows();
+  const RowRange slab = evenShare(static_cast<GlobalOrdinal>(own.size()), solved.comm());
+  const std::vector<std::size_t> rows(own.begin() + slab.first, own.begin() + slab.first + slab.count);
+  std::vector<GlobalOrdinal> normals, numbers;
+  for (const std::size_t row : rows) {
+    normals.push_back(contact.firstRow + static_cast<GlobalOrdinal>(row));
+    for (int k = 0; k < tangents.numTangents(); ++k)
+      numbers.push_back(tangents.numberOf(problem, row, k));
+  }
+  const std::vector<double> forces = valuesOf(*solved.solution.multiplier, numbers),
+                            slacks = valuesOf(*solved.solution.slack, numbers),
+                            sticks = valuesOf(*solved.solution.active, numbers),
+                            closed = valuesOf(*solved.solution.active, normals);
+  FrictionFields fields;
+  const double sign = signOf(solved, contact);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Vector3d traction = Vector3d::Zero(), slip = Vector3d::Zero();
+    const bool isStick = sticks[next] > 0.5;
+    for (int k = 0; k < tangents.numTangents(); ++k, ++next) {
+      traction += sign * forces[next] / contact.areas[rows[i]] * tangents.at(rows[i], k);
+      slip -= sign * slacks[next] * tangents.at(rows[i], k);
+    }
+    fields.traction.insert(fields.traction.end(), traction.begin(), traction.end());
+    fields.slip.insert(fields.slip.end(), slip.begin(), slip.end());
+    const FrictionState state = closed[i] <= 0.5 ? FrictionState::open
+                                : isStick        ? FrictionState::stick
+                                                 : FrictionState::slip;
+    fields.state.push_back(static_cast<int>(state));
+  }
+  return fields;
+}
+
+} // namespace epafi::simulation
