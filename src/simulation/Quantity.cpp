@@ -179,6 +179,8 @@ Quantity QuantityOfScene::operator()(const ContactSolver& solver, const SolvedSc
   const fetidp::DataChange change = evaluate(solved, quantity);
   if (solver.report().status == qp::Status::interrupted)
     quantity.failure = "the iteration was stopped";
+  else if (quantity.failure.empty() && decomposition_.problem.numFriction > 0)
+    quantity.failure = "there is friction, of which its dual problem knows nothing";
   if (!quantity.failure.empty())
     return quantity;
   fetidp::ContactResponse dual;

@@ -54,6 +54,13 @@ TEST(ContactReaderTest, RefusesAnEdgeInTwoPairs) {
              {"a.xml: ", "\"First Edge\"", "\"Contact/again\"", "\"interface\" already"});
 }
 
+TEST(ContactReaderTest, RefusesFrictionWhereNothingCanSlip) {
+  expectSays(refusalOfPair("Friction", 0.3),
+             {"a.xml: ", "\"Friction\"", "\"Contact/interface\"", "0.3", "membranes", "elastic bodies"});
+  expectSays(refusalOfPair("Friction", -0.3), {"a.xml: ", "\"Friction\"", "-0.3"});
+  expectSays(refusalOfPair("Friction Bound", 2.0), {"\"Friction Bound\"", "membranes"});
+}
+
 TEST(ContactReaderTest, RefusesAGapThatIsNotFinite) {
   expectSays(refusalOfPair("Gap", std::numeric_limits<double>::infinity()),
              {"a.xml: ", "\"Gap\"", "inf", "finite"});
@@ -112,6 +119,7 @@ TEST(ContactReaderTest, RefusesWhatCouplingsHaveNoUseFor) {
   };
   expectSays(refused("Coupling", "nodes", "Multipliers", "first"), {"\"Multipliers\"", "pairs of nodes"});
   expectSays(refused("Kind", "tied", "Gap", 0.5), {"\"Gap\"", "keeps the gap"});
+  expectSays(refused("Kind", "tied", "Friction", 0.3), {"\"Friction\"", "tied joint does not slip"});
   expectSays(refused("Kind", "glued", "Gap", 0.0), {"\"Kind\"", "glued", "tied"});
 }
 

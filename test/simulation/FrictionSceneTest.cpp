@@ -1,0 +1,148 @@
+// Friction in scenes, beside values of an independent solver on the same meshes (whole bodies by one factor,
+// exact Newton on dense matrices).
+
+#include "support/SolidScenes.hpp"
+
+#include "epafi/simulation/SceneRun.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace epafi::simulation {
+namespace {
+
+using scene::Vector3;
+
+constexpr double tolerance = 1e-10;
+
+SceneRun solved(const scene::Scene& scene) {
+  const Teuchos::ParameterList parameters =
+      Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance);
+  return solveScene(scene, parameters, Tpetra::getDefaultComm());
+}
+
+const FrictionResult& frictionOf(const RunResult& result) {
+  return *result.contacts.front().friction;
+}
+
+scene::Body softBlock(const std::string& name, const scene::Box& box, std::array<int, 3> elements,
+                      double stiffness, const scene::Decomposition& cut) {
+  scene::Body body = test::block(name, box, elements, cut);
+  body.material.youngsModulus = stiffness;
+  body.material.poissonsRatio = 0.3;
+  return body;
+}
+
+/// A square of order 1 on a floor, its top pushed by (0.004, −0.01), μ = 0.3.
+scene::Scene heldBlock(int n, const scene::Decomposition& cut) {
+  scene::Scene scene;
+  scene.bodies.push_back(softBlock("block", {{0, 0, 0}, {1, 1, 0}}, {n, n, 0}, 1, cut));
+  scene.bodies[0].mesh.order = 1;
+  scene.bodies[0].supports.push_back({"push", "top", {0.004, -0.01}});
+  scene.contacts.push_back(test::onPlane("floor", 0, "bottom", {0, 0, 0}, {0, 1, 0}));
+  scene.contacts[0].friction = 0.3;
+  return scene;
+}
+
+TEST(FrictionSceneTest, AHeldBlockPressesAndRubsAsMuchAsAnIndependentSolverSays) {
+  struct Reference {
+    int n;
+    double pressure, friction;
+  };
+  for (const Reference& reference :
+       {Reference{16, 0.0115772843, 0.0010521957}, {32, 0.0115658895, 0.00104759259}})
+    for (const scene::Decomposition& cut : {test::cutInGrid({2, 2, 1}), test::cutByMetis(5)}) {
+      const SceneRun run = solved(heldBlock(reference.n, cut));
+      ASSERT_EQ(run.result.status, RunStatus::converged) << run.result.reason;
+      EXPECT_NEAR(run.result.contacts[0].force, reference.pressure, 1e-7 * reference.pressure);
+      EXPECT_NEAR(frictionOf(run.result).tangentialForce[0], reference.friction, 1e-7 * reference.friction);
+      EXPECT_NEAR(frictionOf(run.result).stickArea + frictionOf(run.result).slipArea, 1, 1e-12);
+      EXPECT_GT(frictionOf(run.result).dissipation, 0);
+    }
+}
+
+/// A block of order 2 on one three times as stiff that is wider, pressed by 0.01 and sheared by 0.002, μ = 0.3.
+scene::Scene twoBlocks(int n, scene::SurfaceContact::Coupling coupling, bool isUpperFirst) {
+  scene::Scene scene;
+  const scene::Decomposition cut = test::cutInGrid({2, 2, 1});
+  scene.bodies = {softBlock("lower", {{-0.5, 0, 0}, {1.5, 1, 0}}, {2 * n, n, 0}, 3, cut),
+                  softBlock("upper", {{0, 1, 0}, {1, 2, 0}}, {n, n, 0}, 1, cut)};
+  for (scene::Body& body : scene.bodies)
+    body.mesh.order = 2;
+  scene.bodies[0].supports.push_back({"foot", "bottom", {0.0, 0.0}});
+  scene::SolidLoad top;
+  top.name = "top";
+  top.kind = scene::SolidLoad::Kind::traction;
+  top.where = "top";
+  top.value = {0.002, -0.01, 0};
+  scene.bodies[1].loads.push_back(top);
+  scene.contacts.push_back(isUpperFirst ? test::between("joint", 1, "bottom", 0, "top")
+                                        : test::between("joint", 0, "top", 1, "bottom"));
+  scene.contacts[0].coupling = coupling;
+  scene.contacts[0].friction = 0.3;
+  return scene;
+}
+
+TEST(FrictionSceneTest, TwoBlocksSlipAsAnIndependentSolverSaysWhoeverIsNamedFirst) {
+  using Coupling = scene::SurfaceContact::Coupling;
+  constexpr double strainEnergy = 7.28666145e-5, loadWork = 1.45892228e-4;
+  for (const Coupling coupling : {Coupling::nodes, Coupling::mortar})
+    for (const bool isUpperFirst : {true, false}) {
+      SCOPED_TRACE(std::string(coupling == Coupling::nodes ? "nodes" : "mortar") +
+                   (isUpperFirst ? ", upper first" : ", lower first"));
+      const SceneRun run = solved(twoBlocks(8, coupling, isUpperFirst));
+      ASSERT_EQ(run.result.status, RunStatus::converged) << run.result.reason;
+      const double off = coupling == Coupling::nodes ? 1e-8 : 1e-3;
+      EXPECT_NEAR(run.result.loadWork, loadWork, off * loadWork);
+      EXPECT_NEAR(run.result.energy + run.result.loadWork, strainEnergy, off * strainEnergy);
+      EXPECT_NEAR(frictionOf(run.result).tangentialForce[0], isUpperFirst ? 0.002 : -0.002, 1e-9);
+      EXPECT_NEAR(run.result.contacts[0].force, 0.01, 1e-9);
+    }
+}
+
+/// What friction does is the same in a scene that is turned.
+TEST(FrictionSceneTest, AnInclinedFloorIsAFloor) {
+  scene::Scene scene = heldBlock(8, test::cutInGrid({2, 2, 1}));
+  const SceneRun level = solved(scene);
+  scene::Scene turned = scene; // the block on its left side, pushed from the right
+  turned.bodies[0].supports[0] = {"push", "right", {-0.01, -0.004}};
+  turned.contacts[0] = test::onPlane("wall", 0, "left", {0, 0, 0}, {1, 0, 0});
+  turned.contacts[0].friction = 0.3;
+  const SceneRun upright = solved(turned);
+
+  EXPECT_NEAR(upright.result.energy, level.result.energy, 1e-9 * level.result.energy);
+  EXPECT_NEAR(frictionOf(upright.result).tangentialForce[1], -frictionOf(level.result).tangentialForce[0],
+              1e-11);
+  EXPECT_NEAR(frictionOf(upright.result).largestSlip, frictionOf(level.result).largestSlip, 1e-10);
+}
+
+/// A cube of order 1 held on its top, in space, pushed aslant.
+TEST(FrictionSceneTest, InSpaceFrictionPointsAgainstTheSlip) {
+  for (const double angle : {0.0, 0.4, 0.9}) {
+    scene::Scene scene;
+    scene.bodies.push_back(
+        softBlock("cube", {{0, 0, 0}, {1, 1, 1}}, {4, 4, 4}, 1, test::cutInGrid({2, 2, 2})));
+    scene.bodies[0].mesh.order = 1;
+    const double push = 0.02;
+    scene.bodies[0].supports.push_back(
+        {"push", "top", {push * std::cos(angle), push * std::sin(angle), -0.01}});
+    scene.contacts.push_back(test::onPlane("floor", 0, "bottom", {0, 0, 0}, {0, 0, 1}));
+    scene.contacts[0].friction = 0.1;
+    const SceneRun run = solved(scene);
+    ASSERT_EQ(run.result.status, RunStatus::converged) << run.result.reason;
+    const FrictionResult& friction = frictionOf(run.result);
+    // All of it slips, so that friction is μ times the pressure node by node, and nearly in one direction.
+    EXPECT_EQ(friction.stickArea, 0);
+    const double size = std::hypot(friction.tangentialForce[0], friction.tangentialForce[1]);
+    EXPECT_LE(size, 0.1 * run.result.contacts[0].force * (1 + 1e-9));
+    EXPECT_GE(size, 0.095 * run.result.contacts[0].force);
+    EXPECT_NEAR(std::atan2(friction.tangentialForce[1], friction.tangentialForce[0]), angle, 0.02);
+    EXPECT_GT(friction.dissipation, 0);
+  }
+}
+
+} // namespace
+} // namespace epafi::simulation
