@@ -124,6 +124,12 @@ struct Cluster {
   Eigen::MatrixXd ofBody;
 };
 
+/// Whether nodes are displaced, as those of elastic bodies are, or carry one value alone, as those of
+/// membranes. \param components  unknowns a node
+constexpr bool isElastic(int components) {
+  return components > 1;
+}
+
 /// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are
 /// cheap.
 struct DecomposedProblem {
