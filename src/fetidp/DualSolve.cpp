@@ -31,10 +31,6 @@ namespace {
 using decomposition::DecomposedProblem;
 using decomposition::ProblemData;
 
-/// A new face disturbs the forces between clusters, and these the contact. Membranes' contact hardly feels
-/// it.
-constexpr double reductionWithClusters = 0.02;
-
 /// A right-hand side, and what it is the difference of.
 struct RightHandSide {
   RCP<Vector> values;
@@ -64,9 +60,9 @@ class IterativeSolve {
 public:
   /// Keeps references; observer and balance may be null. Collective.
   IterativeSolve(const DualProblem& dual, const ProblemData& data, const Vector* start,
-                 qp::Observer* observer, const ErrorBalance* balance, double tolerance)
+                 qp::Observer* observer, const ErrorBalance* balance)
       : dual_(dual), problem_(dual.problem()), data_(data), start_(start), observer_(observer),
-        balance_(balance), tolerance_(tolerance), wholeRhs_(rightHandSide(dual, data)),
+        balance_(balance), tolerance_(dual.plan().tolerance), wholeRhs_(rightHandSide(dual, data)),
         rhs_(wholeRhs_.values) {
     if (!dual.deflatedOperator().is_null()) {
       rhs_ = rcp(new Vector(*wholeRhs_.values, Teuchos::Copy));
@@ -129,9 +125,9 @@ DualSolution IterativeSolve::coercive() {
   if (start_ != nullptr && !vanishes) // else λ = 0 solves it, and no other start gets there
     solution_.lambda->assign(*start_);
   if (dual_.algorithm() == Algorithm::conjugateGradient && balance_ == nullptr)
-    solution_.report = qp::solveUnconstrained(dual_.hessian(), rhs_, solution_.lambda, tolerance_,
-                                              dual_.parameters().mprgp.maxMultiplications, observer_,
-                                              dual_.preconditioner());
+    solution_.report =
+        qp::solveUnconstrained(dual_.hessian(), rhs_, solution_.lambda, tolerance_,
+                               dual_.plan().mprgp.maxMultiplications, observer_, dual_.preconditioner());
   else
     iterateInBounds();
   return finished();
@@ -163,7 +159,7 @@ void IterativeSolve::refuseIfContradictory(const qp::ActiveSetProblem& faces, in
 /// Goes on with a method from x; reports, counts and limits run through. Collective.
 /// \param most  products of it
 void IterativeSolve::goOn(const Method& method, Vector& x, int most) {
-  qp::MprgpParameters limits = dual_.operators().mprgp;
+  qp::MprgpParameters limits = dual_.plan().mprgp;
   qp::SolveReport& report = solution_.report;
   limits.maxMultiplications =
       std::max(1, std::min(most, limits.maxMultiplications - report.counts.hessianMultiplications));
@@ -181,7 +177,7 @@ void IterativeSolve::goOn(const Method& method, Vector& x, int most) {
 bool IterativeSolve::isToGoOn() const {
   return (solution_.report.status == qp::Status::maxIterations ||
           solution_.report.status == qp::Status::stagnated) &&
-         solution_.report.counts.hessianMultiplications < dual_.operators().mprgp.maxMultiplications;
+         solution_.report.counts.hessianMultiplications < dual_.plan().mprgp.maxMultiplications;
 }
 
 /// What was chosen first. MPRGP gives way to active sets after so many products that these would most likely
@@ -199,8 +195,7 @@ void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::Smalbe
   }
   Vector closed(x.getMap()); // all contact, where neither a start nor M knows better
   closed.putScalar(1.0);
-  const bool isUnknown = isByFaces && start_ == nullptr &&
-                         (faces.preconditioner.is_null() || dual_.operators().hasDependentRows);
+  const bool isUnknown = start_ == nullptr && dual_.plan().beginsClosed;
   goOn(
       [&](Vector& from, const qp::MprgpParameters& limits) {
         return qp::solveByActiveSets(faces, from, isUnknown ? &closed : nullptr, tolerances, limits,
@@ -209,7 +204,7 @@ void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::Smalbe
       x, endless);
   const Status status = solution_.report.status;
   if (status == Status::unbounded)
-    refuseIfContradictory(faces, dual_.operators().mprgp.maxMultiplications -
+    refuseIfContradictory(faces, dual_.plan().mprgp.maxMultiplications -
                                      solution_.report.counts.hessianMultiplications);
   if (status == Status::unbounded || status == Status::stagnated || status == Status::notFinite)
     goOn(always, x, endless);
@@ -272,15 +267,14 @@ DualSolution IterativeSolve::semicoercive(const Eigen::VectorXd& resultants) {
     const RCP<Vector> start = rcp(new Vector(mu, Teuchos::Copy));
     solution_.report =
         qp::solveUnconstrained(dual_.hessian(), rhs_, start, tolerance_,
-                               dual_.parameters().mprgp.maxMultiplications, observer, dual_.preconditioner());
+                               dual_.plan().mprgp.maxMultiplications, observer, dual_.preconditioner());
     mu.assign(*start);
   } else {
     const RCP<const qp::ConvexSet> set = dual_.feasibleForces()->shiftedBy(feasible); // μ_I ≥ −λ̃_I
     const double norm = dual_.norm().norm;
     qp::ActiveSetProblem faces{dual_.operators().flexibility(),      rhs_, set, dual_.coarseSpace(),
                                dual_.operators().facePreconditioner, norm};
-    if (problem_.clusters.size() > problem_.bodies.size() && problem_.components > 1)
-      faces.faceReduction = reductionWithClusters;
+    faces.faceReduction = dual_.plan().faceReduction;
     iterate(faces, tolerances, mu, observer, [&](Vector& x, const qp::MprgpParameters& mprgp) {
       std::vector<double> multiplier;
       return qp::solveEqualityBoundProblem(
@@ -308,7 +302,7 @@ DualSolution solvedDirectly(const DecomposedProblem& problem) {
 
 DualSolution DualProblem::solve(const decomposition::ProblemData& data, const Vector* start,
                                 qp::Observer* observer, const ErrorBalance* balance) const {
-  if (parameters_.isBalanced && balance == nullptr)
+  if (plan_.isBalanced && balance == nullptr)
     throw InputError("the tolerance 'balanced' needs an estimate of the discretisation error, and none was "
                      "given; hand one over to solve(), or ask for a number");
   requireOwnData(problem_, data);
@@ -318,8 +312,7 @@ DualSolution DualProblem::solve(const decomposition::ProblemData& data, const Ve
   requireUniqueSolution(problem_, data, kernelEntries_);
   if (algorithm() == Algorithm::direct)
     return solvedDirectly(problem_);
-  IterativeSolve solve(*this, data, start, observer, parameters_.isBalanced ? balance : nullptr,
-                       parameters_.tolerance);
+  IterativeSolve solve(*this, data, start, observer, plan_.isBalanced ? balance : nullptr);
   DualSolution solution = coarseSpace().is_null() ? solve.coercive() : solve.semicoercive(resultants);
   if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null())
     refuseContradiction(problem_, data, *solution.report.certificate);
