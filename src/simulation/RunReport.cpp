@@ -38,6 +38,8 @@ void enterSolve(const SolveFacts& solve, ParameterList& list) {
       .set("Subdomain Solver", solve.subdomainSolver)
       .set("Coarse Solver", solve.coarseSolver)
       .set("Operator Norm", solve.operatorNorm);
+  for (const auto& [choice, reason] : solve.plan.reasons)
+    list.sublist("Plan").set(choice, reason);
   list.sublist("Iterations")
       .set("Outer", solve.counts.outer)
       .set("CG Steps", solve.counts.conjugateGradient)

@@ -20,6 +20,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> contract{
      {"Title", "Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers",
       "Crosspoints", "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"}},
     {"Algorithm", {"Name", "Reason", "Preconditioner", "Dual Operator"}},
+    {"Plan", {"Algorithm", "Active Sets", "Tolerance", "Adaptive Constraints"}},
     {"Iterations",
      {"Outer", "CG Steps", "Expansion Steps", "Proportioning Steps", "Hessian Multiplications",
       "Preconditioner Applications"}},
