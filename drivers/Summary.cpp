@@ -106,10 +106,10 @@ void describeStart(std::ostream& text, const simulation::CoarserStart& start) {
 
 void describeSolution(std::ostream& text, const RunResult& result) {
   const SolveFacts& solve = result.solve;
-  text << "  algorithm   " << fetidp::toString(solve.algorithm) << ": " << solve.reason
-       << "\n              preconditioner " << solve.preconditioner << ", subdomains by "
-       << solve.subdomainSolver << ", coarse problem by " << solve.coarseSolver << "\n              F "
-       << solve.dualOperator << '\n';
+  text << "  algorithm   " << fetidp::toString(solve.plan.algorithm) << ": "
+       << solve.plan.reasons.at("Algorithm") << "\n              preconditioner " << solve.preconditioner
+       << ", subdomains by " << solve.subdomainSolver << ", coarse problem by " << solve.coarseSolver
+       << "\n              F " << solve.dualOperator << '\n';
   if (result.start)
     describeStart(text, *result.start);
   text << "  iterations  " << counted(solve.counts.hessianMultiplications, "product") << " with F (and "
@@ -141,10 +141,10 @@ void describeError(std::ostream& text, const simulation::ErrorResult& error) {
 
 void describeAccuracy(std::ostream& text, const RunResult& result) {
   std::ostringstream asked;
-  if (result.solve.isBalanced)
+  if (result.solve.plan.isBalanced)
     asked << "balanced";
   else
-    asked << result.solve.tolerance;
+    asked << result.solve.plan.tolerance;
   text << "  accuracy    projected gradient " << scientific(result.relativeProjectedGradient, 2) << " (asked "
        << asked.str() << "), feasibility " << scientific(result.feasibility, 2) << ", complementarity "
        << scientific(result.complementarity, 2);

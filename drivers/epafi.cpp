@@ -73,7 +73,7 @@ simulation::SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::Para
     return simulation::solveScene(scene, solver, comm,
                                   {.estimatesError = accuracy.estimate,
                                    .quantity = accuracy.quantity,
-                                   .coarserFrom = accuracy.coarserFrom,
+                                   .facts = {.coarserFrom = accuracy.coarserFrom},
                                    .companion = &watch,
                                    .meshes = model::Meshes::pieces});
   watch.expectSeries();

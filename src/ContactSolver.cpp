@@ -32,19 +32,19 @@ double longest(const Comm& comm, double since) {
 } // namespace
 
 Teuchos::ParameterList ContactSolver::validParameters() {
-  const fetidp::DualParameters dual;
+  const fetidp::Plan plan;
   Teuchos::ParameterList list("Solver");
-  addRealOrWord(list, "Tolerance", dual.tolerance, {"balanced"},
+  addRealOrWord(list, "Tolerance", plan.tolerance, {"balanced"},
                 "The iteration stops when the projected gradient is this small relative to the right-hand "
                 "side of the dual problem: ‖d̃‖ if all bodies are supported, ‖Pd‖ with floating bodies. "
                 "'balanced': when the error that is left of the iteration is the Algebraic Fraction of what "
                 "the mesh allows, both estimated in the energy norm; no digit more than the mesh can use.",
                 0.0, 1.0);
-  addReal(list, "Algebraic Fraction", fetidp::ErrorBalance().fraction,
+  addReal(list, "Algebraic Fraction", plan.algebraicFraction,
           "With Tolerance 'balanced': algebraic error as a fraction of the discretisation error. With 0.1 "
           "the two together are half a per cent more than the discretisation error alone.",
           0.0, 1.0, true);
-  addReal(list, "Equilibrium Tolerance", dual.equilibriumTolerance,
+  addReal(list, "Equilibrium Tolerance", fetidp::DualParameters().equilibriumTolerance,
           "With floating bodies: largest imbalance ‖Gλ − e‖ relative to ‖e‖, or to ‖Pd‖/‖PFP‖ if e vanishes.",
           0.0, 1.0, true);
   addChoice(list, "Algorithm", algorithms.front(),
@@ -63,27 +63,22 @@ Teuchos::ParameterList ContactSolver::validParameters() {
   return list;
 }
 
-ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters) {
+ContactSolver::ContactSolver(const Teuchos::ParameterList& parameters, const fetidp::RunFacts& run)
+    : run_(run) {
   const Teuchos::ParameterList list = validated(parameters, validParameters(), "");
+  static_cast<fetidp::FetiParameters&>(dualParameters_) = fetidp::fetiParametersFrom(list);
   dualParameters_.isBalanced = list.isType<std::string>("Tolerance");
-  if (!dualParameters_.isBalanced)
+  const auto isGiven = [&](const char* name) { return !list.getEntry(name).isDefault(); };
+  if (isGiven("Tolerance") && !dualParameters_.isBalanced)
     dualParameters_.tolerance = list.get<double>("Tolerance");
-  algebraicFraction_ = list.get<double>("Algebraic Fraction");
+  if (isGiven("Algebraic Fraction"))
+    dualParameters_.algebraicFraction = list.get<double>("Algebraic Fraction");
   dualParameters_.equilibriumTolerance = list.get<double>("Equilibrium Tolerance");
   dualParameters_.method = enumeratorFrom<fetidp::DualParameters::Method>(list, "Algorithm", algorithms);
   dualParameters_.mprgp = qp::MprgpParameters::from(list.sublist("MPRGP"));
   dualParameters_.smalbe = qp::SmalbeParameters::from(list.sublist("SMALBE"));
   dualParameters_.norm = qp::NormEstimateParameters::from(list.sublist("Norm Estimate"));
-  dualParameters_.dualOperator = fetidp::dualOperatorFrom(list.sublist("Dual Operator"));
-  dualParameters_.preconditioner = fetidp::preconditionerFrom(list.sublist("Preconditioner"));
-  dualParameters_.adaptiveConstraints = fetidp::adaptiveConstraintsFrom(list.sublist("Adaptive Constraints"));
-  directSolvers_ = fetidp::directSolversFrom(list.sublist("Direct Solvers"));
-  if (dualParameters_.isBalanced &&
-      dualParameters_.preconditioner.type == fetidp::PreconditionerParameters::Type::none)
-    throw InputError(
-        "parameter \"Tolerance\" in list \"Solver\" is \"balanced\", which measures the algebraic error by "
-        "the preconditioner, but the parameter \"Type\" in list \"Solver/Preconditioner\" is \"none\"; "
-        "choose \"dirichlet\" or \"lumped\", or a tolerance that is a number.");
+  plan_ = fetidp::plan({.run = run_}, dualParameters_);
 }
 
 void ContactSolver::setup(const decomposition::DecomposedProblem& problem,
@@ -105,8 +100,9 @@ void ContactSolver::factorise(const decomposition::ProblemData& data,
   dual_.reset(); // should this fail, there is none
   fetidp::requireFiniteMatrices(*problem_);
   fetidp::requireOwnData(*problem_, data);
-  inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, directSolvers_, std::move(earlier));
-  dual_ = std::make_unique<fetidp::DualProblem>(*problem_, data, inverse_, dualParameters_);
+  inverse_ = std::make_shared<fetidp::GeneralizedInverse>(*problem_, dualParameters_.directSolvers,
+                                                          std::move(earlier));
+  dual_ = std::make_unique<fetidp::DualProblem>(*problem_, data, inverse_, dualParameters_, run_);
   times_ = {};
   times_.setup = longest(*problem_->comm, start);
 }
@@ -124,7 +120,7 @@ fetidp::ContactSolution ContactSolver::solve(const decomposition::ProblemData& d
 
   const double recoveryStart = Teuchos::Time::wallTime();
   fetidp::ContactSolution solution = fetidp::recover(*dual_, data, dual);
-  if (!dualParameters_.isBalanced && problem_->numFriction == 0) // what slips has forces of its own
+  if (!plan().isBalanced && problem_->numFriction == 0) // what slips has forces of its own
     settle(data, dual, interruption, solution);
   solution.algebraicError = algebraicErrorOf(data, solution);
   confirm(solution, dual.errorTarget);
@@ -161,7 +157,7 @@ double allowedViolation(double tolerance) {
 /// its tolerance: responses to what is left of the gradient go on from there.
 void ContactSolver::settle(const decomposition::ProblemData& data, fetidp::DualSolution dual,
                            const qp::Interruption& interruption, fetidp::ContactSolution& solution) {
-  const double tolerance = dualParameters_.tolerance, allowed = allowedViolation(tolerance);
+  const double tolerance = plan().tolerance, allowed = allowedViolation(tolerance);
   constexpr double roundOff = 1e-13; // of u itself, which rows that are closed to the last digit do not tell
   const bool isRough = solution.relativeProjectedGradient > 2 * tolerance,
              isStagnated = dual.report.status == qp::Status::stagnated;
@@ -193,14 +189,14 @@ void ContactSolver::settle(const decomposition::ProblemData& data, fetidp::DualS
 void ContactSolver::confirm(const fetidp::ContactSolution& solution, double errorTarget) {
   if (report_.status != qp::Status::converged)
     return;
-  const double tolerance = dualParameters_.tolerance;
+  const double tolerance = plan().tolerance;
   std::ostringstream reason;
-  if (dualParameters_.isBalanced && solution.algebraicError > 2 * errorTarget)
+  if (plan().isBalanced && solution.algebraicError > 2 * errorTarget)
     reason << "recomputed from the solution the algebraic error is " << solution.algebraicError << ", not "
            << errorTarget;
-  else if (!dualParameters_.isBalanced && solution.relativeProjectedGradient > 2 * tolerance)
+  else if (!plan().isBalanced && solution.relativeProjectedGradient > 2 * tolerance)
     reason << "recomputed from the solution the projected gradient is " << solution.relativeProjectedGradient;
-  else if (!dualParameters_.isBalanced && solution.feasibility > allowedViolation(tolerance))
+  else if (!plan().isBalanced && solution.feasibility > allowedViolation(tolerance))
     reason << "constraints are violated by " << solution.feasibility << " of the largest displacement";
   else if (solution.equilibrium > 2 * dualParameters_.equilibriumTolerance)
     reason << "floating bodies are out of balance by " << solution.equilibrium << " of the loads on them";

@@ -29,18 +29,12 @@ struct SolverTimes {
 };
 
 /// What a problem was, how it was solved and what that took, in numbers; over all ranks.
-struct SolveFacts {
-  GlobalOrdinal primalDimension = 0, dualDimension = 0;              ///< DecomposedProblem has the meaning
-  GlobalOrdinal numInequalities = 0, numTies = 0, numEqualities = 0; ///< rows of B; ties are equalities, too
-  GlobalOrdinal numCrosspoints = 0;
-  int numAdaptiveConstraints = 0, numSubdomains = 0, numClusters = 0, numFloatingBodies = 0;
-  int kernelDimension = 0, numRanks = 0;
-  fetidp::Algorithm algorithm = fetidp::Algorithm::direct;
-  std::string reason;                        ///< why this algorithm
+struct SolveFacts : fetidp::PlanFacts {
+  GlobalOrdinal dualDimension = 0, numCrosspoints = 0; ///< DecomposedProblem has the meaning
+  int numAdaptiveConstraints = 0, numSubdomains = 0, numClusters = 0, numRanks = 0;
+  fetidp::Plan plan;                         ///< all choices, with reasons
   std::string preconditioner, dualOperator;  ///< in some words
   std::string subdomainSolver, coarseSolver; ///< names of direct solvers
-  double tolerance = 0;                      ///< that the iteration was asked for
-  bool isBalanced = false;                   ///< or a share of the discretisation error instead
   double operatorNorm = 0;                   ///< estimate of ‖F‖
   int normMultiplications = 0;               ///< products with F that it took
   qp::StepCounts counts;                     ///< of the iteration
@@ -55,8 +49,9 @@ public:
   /// All parameters with defaults, ranges and meaning.
   static Teuchos::ParameterList validParameters();
 
+  /// \param run  what is known beside the problem
   /// \throws InputError if the list is not valid. Not collective.
-  explicit ContactSolver(const Teuchos::ParameterList& parameters);
+  explicit ContactSolver(const Teuchos::ParameterList& parameters, const fetidp::RunFacts& run = {});
 
   /// Factorises the subdomains and the coarse problem, chooses the algorithm, estimates ‖F‖. Keeps a
   /// reference to `problem`, which must outlive the solver. Collective.
@@ -111,16 +106,12 @@ public:
   [[nodiscard]] const SolverTimes& times() const { return times_; } ///< of the last set-up and solve
   /// What the iteration works on. Precondition: `setup` was called.
   [[nodiscard]] const fetidp::DualProblem& dualProblem() const { return *dual_; }
-  /// Which `setup` will choose for the problem. Not collective.
-  [[nodiscard]] fetidp::Algorithm algorithmFor(const decomposition::DecomposedProblem& problem) const {
-    return fetidp::chosenAlgorithm(problem, dualParameters_).algorithm;
+  /// What `setup` will choose for the problem, as far as it is known before. Collective.
+  [[nodiscard]] fetidp::Plan planFor(const decomposition::DecomposedProblem& problem) const {
+    return fetidp::plan(fetidp::factsOf(problem, run_), dualParameters_);
   }
-  /// That the iteration was asked for.
-  [[nodiscard]] double tolerance() const { return dualParameters_.tolerance; }
-  /// Whether the algebraic error is to be a fraction of the discretisation error.
-  [[nodiscard]] bool isBalanced() const { return dualParameters_.isBalanced; }
-  /// That fraction.
-  [[nodiscard]] double algebraicFraction() const { return algebraicFraction_; }
+  /// All choices; before `setup` those that do not depend on the problem, such as the tolerance.
+  [[nodiscard]] const fetidp::Plan& plan() const { return dual_ ? dual_->plan() : plan_; }
 
   /// Of the last solve. Collective. Precondition: there was one.
   [[nodiscard]] SolveFacts facts() const;
@@ -137,8 +128,8 @@ private:
   [[nodiscard]] int numAdaptiveConstraints() const;
 
   fetidp::DualParameters dualParameters_;
-  double algebraicFraction_ = 0.1;
-  fetidp::DirectSolvers directSolvers_;
+  fetidp::RunFacts run_;
+  fetidp::Plan plan_;
   const decomposition::DecomposedProblem* problem_ = nullptr;
   std::shared_ptr<fetidp::GeneralizedInverse> inverse_;
   std::unique_ptr<fetidp::DualProblem> dual_;

@@ -22,7 +22,7 @@ struct TimedRun {
 
 /// In words.
 std::string toleranceOf(const Case& variant) {
-  return variant.parameter.empty() ? plain(ContactSolver(Teuchos::ParameterList()).tolerance())
+  return variant.parameter.empty() ? plain(ContactSolver(Teuchos::ParameterList()).plan().tolerance)
                                    : variant.parameter;
 }
 

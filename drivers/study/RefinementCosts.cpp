@@ -72,7 +72,7 @@ public:
   [[nodiscard]] Measured even(double size, int order) const {
     simulation::SceneRun run = simulation::solveScene(
         onEvenMesh(scene_, order, size), solver_, comm_,
-        {.estimatesError = true, .coarserFrom = simulation::AccuracyParameters().coarserFrom});
+        {.estimatesError = true, .facts = {.coarserFrom = simulation::AccuracyParameters().coarserFrom}});
     if (run.result.status != simulation::RunStatus::converged)
       throw Error(scene_.title + ": " + run.result.reason);
     return {std::move(run), {{"refinement", "even"}, {"size", size}, {"order", order}, {"meshes", 1}}};

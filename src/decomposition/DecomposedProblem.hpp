@@ -131,6 +131,12 @@ struct FrictionNode {
   OwnedMultiplier firstTangent; ///< the first row of friction
 };
 
+/// Whether nodes are displaced, as those of elastic bodies are, or carry one value alone, as those of
+/// membranes. \param components  unknowns a node
+constexpr bool isElastic(int components) {
+  return components > 1;
+}
+
 /// This rank's subdomains and the three maps that join them. Copies are deleted (it is large); moves are
 /// cheap.
 struct DecomposedProblem {

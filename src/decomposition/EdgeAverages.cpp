@@ -26,7 +26,7 @@ SparseMatrix changeOf(const std::vector<Average>& averages, Eigen::Index size) {
 } // namespace
 
 bool hasEdgeAverages(const Substructures& all) {
-  return all.places.dimension == 3 || all.components > 1;
+  return all.places.dimension == 3 || isElastic(static_cast<int>(all.components));
 }
 
 std::vector<EdgeAverage> findEdgeAverages(const Substructures& all, const SharedNodes& shared,

@@ -20,11 +20,11 @@ public:
   /// Keeps references. \param complete  makes λ of an iterate
   BalancedTarget(const DualProblem& dual, const decomposition::ProblemData& data, const ErrorBalance& balance,
                  std::function<void(Vector&)> complete)
-      : dual_(dual), data_(data), balance_(balance), complete_(std::move(complete)),
-        lookedAt_(dual.problem().multiplierMap) {}
+      : dual_(dual), data_(data), balance_(balance), fraction_(dual.plan().algebraicFraction),
+        complete_(std::move(complete)), lookedAt_(dual.problem().multiplierMap) {}
 
   double first(double error) override {
-    return balance_.expected > 0 ? balance_.fraction * balance_.expected : balance_.firstLook * error;
+    return balance_.expected > 0 ? fraction_ * balance_.expected : balance_.firstLook * error;
   }
   double at(double error, const Vector& x) override {
     if (isClear_)
@@ -33,7 +33,7 @@ public:
     complete_(lookedAt_);
     const double mesh = balance_.estimate(displacementOf(dual_, data_, lookedAt_));
     isClear_ = error <= 0.5 * mesh;
-    last_ = balance_.fraction * (isClear_ && error > balance_.fraction * mesh ? mesh - error : mesh);
+    last_ = fraction_ * (isClear_ && error > fraction_ * mesh ? mesh - error : mesh);
     return last_;
   }
   [[nodiscard]] double last() const { return last_; }
@@ -48,6 +48,7 @@ private:
   const DualProblem& dual_;
   const decomposition::ProblemData& data_;
   const ErrorBalance& balance_;
+  const double fraction_;
   std::function<void(Vector&)> complete_;
   Vector lookedAt_; ///< λ
   double last_ = 0;

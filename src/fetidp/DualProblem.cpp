@@ -6,10 +6,16 @@ namespace epafi::fetidp {
 
 DualProblem::DualProblem(const decomposition::DecomposedProblem& problem,
                          const decomposition::ProblemData& data,
-                         const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters)
+                         const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters,
+                         const RunFacts& run)
     : problem_(problem), inverse_(inverse), parameters_(parameters),
-      choice_(chosenAlgorithm(problem, parameters)), kernelEntries_(kernelConstraint(problem)),
-      operators_(makeDualOperators(problem, data, choice_.algorithm, inverse, kernelEntries_, parameters)) {}
+      kernelEntries_(kernelConstraint(problem)), facts_(factsOf(problem, run)),
+      plan_(fetidp::plan(facts_, parameters)),
+      operators_(makeDualOperators(problem, data, plan_, inverse, kernelEntries_, parameters)) {
+  facts_.isCorrected = !operators_.corrected.is_null();
+  facts_.hasDependentRows = operators_.hasDependentRows;
+  plan_ = fetidp::plan(facts_, parameters);
+}
 
 RCP<Vector> DualProblem::startFrom(const decomposition::ProblemData& data,
                                    std::span<const Eigen::VectorXd> displacement) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The problem in the multipliers, min ½λᵀFλ − λᵀd̃ with λ_I ≥ 0 (and Gλ = e where bodies float): the least
-/// algorithm that solves it and what it works on (DualOperators.hpp), and its solves.
+/// The problem in the multipliers, min ½λᵀFλ − λᵀd̃ with λ_I ≥ 0 (and Gλ = e where bodies float): the plan of
+/// its solves (Plan.hpp), what they work on (DualOperators.hpp), and the solves.
 
 #include "epafi/fetidp/DualOperators.hpp"
 #include "epafi/fetidp/ErrorBalance.hpp"
@@ -10,7 +10,6 @@
 
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace epafi::fetidp {
@@ -32,11 +31,12 @@ public:
   /// What depends on the matrices alone: F, G, the norm estimate. Keeps a reference to `problem`. Collective.
   /// \param data  for the sentences of refusals alone
   DualProblem(const decomposition::DecomposedProblem& problem, const decomposition::ProblemData& data,
-              const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters);
+              const std::shared_ptr<GeneralizedInverse>& inverse, const DualParameters& parameters,
+              const RunFacts& run = {});
 
-  [[nodiscard]] Algorithm algorithm() const { return choice_.algorithm; } ///< see chosenAlgorithm
-  /// One sentence: why this algorithm.
-  [[nodiscard]] const std::string& reason() const { return choice_.reason; }
+  [[nodiscard]] const Plan& plan() const { return plan_; } ///< by all facts, those of the operators too
+  [[nodiscard]] const PlanFacts& facts() const { return facts_; }       ///< those
+  [[nodiscard]] Algorithm algorithm() const { return plan_.algorithm; } ///< the plan's
   /// Of the Hessian.
   [[nodiscard]] const qp::NormEstimate& norm() const { return operators_.norm; }
 
@@ -88,8 +88,9 @@ private:
   const decomposition::DecomposedProblem& problem_;
   const std::shared_ptr<const GeneralizedInverse> inverse_;
   const DualParameters parameters_;
-  const AlgorithmChoice choice_;
   const std::vector<KernelEntry> kernelEntries_;
+  PlanFacts facts_;
+  Plan plan_;
   const DualOperators operators_;
 };
 

@@ -18,7 +18,6 @@ using DiscretisationError = std::function<double(std::span<const Eigen::VectorXd
 
 struct ErrorBalance {
   DiscretisationError estimate;
-  double fraction = 0.1; ///< of the discretisation error that the algebraic error may be
   double expected =
       0; ///< discretisation error as far as known before, say from a coarser mesh; 0: not at all
   /// Where nothing is expected: the first look comes once the algebraic error has fallen to this share of the

@@ -100,6 +100,12 @@ void addFetiParameters(Teuchos::ParameterList& list) {
   addAdaptiveConstraintParameters(list.sublist("Adaptive Constraints"));
 }
 
+FetiParameters fetiParametersFrom(const Teuchos::ParameterList& list) {
+  return {directSolversFrom(list.sublist("Direct Solvers")), dualOperatorFrom(list.sublist("Dual Operator")),
+          preconditionerFrom(list.sublist("Preconditioner")),
+          adaptiveConstraintsFrom(list.sublist("Adaptive Constraints"))};
+}
+
 DirectSolvers directSolversFrom(const Teuchos::ParameterList& list) {
   return {resolved(list.get<std::string>("Subdomains")), resolved(list.get<std::string>("Coarse Problem")),
           list.get<std::string>("Share Identical Subdomains") == "yes",

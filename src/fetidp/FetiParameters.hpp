@@ -52,6 +52,15 @@ struct AdaptiveConstraintParameters {
   bool operator==(const AdaptiveConstraintParameters& other) const = default;
 };
 
+/// All of them.
+struct FetiParameters {
+  DirectSolvers directSolvers = {};
+  DualOperatorParameters dualOperator = {};
+  PreconditionerParameters preconditioner = {};
+  AdaptiveConstraintParameters adaptiveConstraints = {};
+  bool operator==(const FetiParameters& other) const = default;
+};
+
 /// "none", "lumped", "dirichlet".
 std::string toString(PreconditionerParameters::Type type);
 /// For people: "dirichlet, stiffness scaling, single precision".
@@ -59,7 +68,9 @@ std::string describe(const PreconditionerParameters& parameters);
 
 /// Lists "Direct Solvers", "Dual Operator", "Preconditioner", "Adaptive Constraints".
 void addFetiParameters(Teuchos::ParameterList& list);
-/// From validated lists.
+/// From a validated list with these lists in it.
+FetiParameters fetiParametersFrom(const Teuchos::ParameterList& list);
+/// From validated lists, each the one of that name.
 DirectSolvers directSolversFrom(const Teuchos::ParameterList& list);
 DualOperatorParameters dualOperatorFrom(const Teuchos::ParameterList& list);              ///< likewise
 PreconditionerParameters preconditionerFrom(const Teuchos::ParameterList& list);          ///< likewise

@@ -13,6 +13,7 @@
 #include <Tpetra_Operator.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
@@ -41,27 +42,17 @@ double bytesOfBlocks(const DecomposedProblem& problem, const GeneralizedInverse&
 
 /// The joints to look at. Collective.
 std::vector<Joint> chosenJoints(const DecomposedProblem& problem, const GeneralizedInverse& inverse,
-                                RowKind kind, const AdaptiveConstraintParameters& parameters) {
+                                RowKind kind, const JumpSearch& search) {
   const Import& plan = *inverse.multiplierPlan();
   std::vector<Joint> all = jointsOf(problem, plan, kind);
-  if (parameters.use == AdaptiveConstraintParameters::Use::yes)
+  if (search.use == JumpSearch::Use::yes)
     return all;
-  // Where a stiff subdomain touches a stiff one, and soft ones hold them, both would rather move: M, which
-  // stretches the contact alone, knows nothing of it. Scaling takes care of gluing. Membranes do without:
-  // they gain with checkerboards and lose with stripes. A correction at a contact costs products with F and M
-  // as it is made, and active sets on their way to the zone gain less by it.
-  constexpr double worthCorrecting = 10; // times the ratio from which on constraints pay
-  const double ratio =
-      kind == RowKind::contact ? worthCorrecting * parameters.stiffnessRatio : parameters.stiffnessRatio;
   std::vector<bool> always;
-  if (kind == RowKind::contact && problem.components > 1)
-    always = bodiesOfVaryingStiffness(problem, ratio);
-  std::vector<bool> varies = stiffnessVaries(problem, plan, all, ratio, always);
-  // What uneven meshes do to the diagonal costs up to a half more products, and constraints as much time as
-  // they save: they have to be cheap in memory.
-  constexpr double ofMeshes = 10, mostBytes = 1e9;
-  if (kind == RowKind::gluing && bytesOfBlocks(problem, inverse, all, varies) > mostBytes)
-    varies = stiffnessVaries(problem, plan, all, ofMeshes * ratio);
+  if (search.betweenSubdomains)
+    always = bodiesOfVaryingStiffness(problem, search.stiffnessRatio);
+  std::vector<bool> varies = stiffnessVaries(problem, plan, all, search.stiffnessRatio, always);
+  if (std::isfinite(search.mostBytes) && bytesOfBlocks(problem, inverse, all, varies) > search.mostBytes)
+    varies = stiffnessVaries(problem, plan, all, search.ratioOfLarge);
   std::vector<Joint> chosen;
   for (std::size_t j = 0; j < all.size(); ++j)
     if (varies[j])
@@ -175,11 +166,13 @@ std::vector<Candidate> chosenCandidates(const Comm& comm, const std::vector<Cand
 } // namespace
 
 OverratedColumns findOverratedColumns(const DecomposedProblem& problem, GeneralizedInverse& inverse,
-                                      RowKind kind, const AdaptiveConstraintParameters& parameters,
+                                      RowKind kind, const JumpSearch& search,
                                       PreconditionerParameters::Scaling scaling) {
   OverratedColumns columns;
+  if (search.use == JumpSearch::Use::no)
+    return columns;
   const Comm& comm = *problem.comm;
-  const std::vector<Joint> joints = chosenJoints(problem, inverse, kind, parameters);
+  const std::vector<Joint> joints = chosenJoints(problem, inverse, kind, search);
   if (!holdsAnywhere(comm, !joints.empty()))
     return columns;
   const std::vector<std::vector<JointPart>> parts = gatheredParts(problem, inverse, joints, scaling);
@@ -192,7 +185,7 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, Generali
         continue;
       ++columns.numJoints;
       // Motions of clusters are left to G.
-      jumps[j] = overratedJumps(joined(parts[j]), parameters.threshold,
+      jumps[j] = overratedJumps(joined(parts[j]), search.threshold,
                                 kind == RowKind::gluing ? motionsOf(parts[j]) : Eigen::MatrixXd());
       for (Eigen::Index k = 0; k < jumps[j].ratios.size(); ++k)
         mine.push_back({jumps[j].ratios[k], firstRowOf(joints[j], problem), k});
@@ -201,7 +194,7 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, Generali
   columns.numJoints = sumOverRanks(comm, columns.numJoints);
   std::map<std::pair<GlobalOrdinal, GlobalOrdinal>, int> columnOf;
   for (const Candidate& candidate :
-       chosenCandidates(comm, mine, static_cast<std::size_t>(parameters.maxNumber))) {
+       chosenCandidates(comm, mine, static_cast<std::size_t>(search.maxNumber))) {
     columnOf.emplace(candidate.key(), columns.number++);
     columns.largestRatio = std::max(columns.largestRatio, candidate.ratio);
   }

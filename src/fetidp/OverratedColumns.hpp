@@ -8,9 +8,9 @@
 /// Rheinbach, *ETNA* 45 (2016)). Jumps of contact cannot be constrained, for contact may open; they correct
 /// the preconditioner (CorrectedPreconditioner.hpp).
 
-#include "epafi/fetidp/FetiParameters.hpp"
 #include "epafi/fetidp/GeneralizedInverse.hpp"
 #include "epafi/fetidp/Joints.hpp"
+#include "epafi/fetidp/Plan.hpp"
 #include "epafi/qp/ColumnSpace.hpp"
 
 #include <vector>
@@ -36,8 +36,7 @@ struct OverratedColumns {
 /// n_E. The same on any number of ranks. Collective.
 /// \throws Error if round-off has spoilt a joint's matrices, the same on all ranks.
 OverratedColumns findOverratedColumns(const decomposition::DecomposedProblem& problem,
-                                      GeneralizedInverse& inverse, RowKind kind,
-                                      const AdaptiveConstraintParameters& parameters,
+                                      GeneralizedInverse& inverse, RowKind kind, const JumpSearch& search,
                                       PreconditionerParameters::Scaling scaling);
 
 /// U beside A: the columns themselves, or M times them. Costs a product with A for each, and with M, 32 at

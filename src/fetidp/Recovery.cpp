@@ -245,12 +245,12 @@ RestCheck restCheck(const DualProblem& dual, const ProblemData& data, const Dual
   const DecomposedProblem& problem = dual.problem();
   if (found.report.status != qp::Status::converged || dual.coarseSpace().is_null())
     return {};
-  const DualParameters& parameters = dual.parameters();
+  const double tolerance = dual.plan().tolerance;
   const double norm = dual.norm().norm,
                reference = equilibriumReference(problem, data, *dual.coarseSpace(), kernelLoad(problem, data),
                                                 found.reference, norm);
-  return {true, std::max(parameters.equilibriumTolerance, parameters.tolerance) * reference, norm,
-          std::max(1e-6, 100 * parameters.tolerance)};
+  return {true, std::max(dual.parameters().equilibriumTolerance, tolerance) * reference, norm,
+          std::max(1e-6, 100 * tolerance)};
 }
 
 /// Nothing if it cannot be settled. \param settling  null if that is not wanted

@@ -14,14 +14,6 @@
 namespace epafi::linear {
 namespace {
 
-fetidp::DualParameters dualParameters(const FetiDpParameters& parameters) {
-  fetidp::DualParameters dual;
-  dual.dualOperator = parameters.dualOperator;
-  dual.preconditioner = parameters.preconditioner;
-  dual.adaptiveConstraints = parameters.adaptiveConstraints;
-  return dual;
-}
-
 std::vector<double> norms(const MultiVector& x) {
   std::vector<double> result(x.getNumVectors());
   x.norm2(Teuchos::arrayViewFromVector(result));
@@ -99,8 +91,9 @@ void FetiDpSolver::update() {
 /// What is made of the inverse.
 void FetiDpSolver::prepare() {
   const auto scaling = parameters_.preconditioner.scaling;
-  dual_ = std::make_unique<fetidp::DualProblem>(k_->problem(), decomposition::ProblemData(), inverse_,
-                                                dualParameters(parameters_));
+  dual_ = std::make_unique<fetidp::DualProblem>(
+      k_->problem(), decomposition::ProblemData(), inverse_,
+      fetidp::DualParameters{static_cast<const fetidp::FetiParameters&>(parameters_)});
   shares_ = std::make_unique<CopyShares>(k_->problem(), k_->exchange(), scaling);
   primal_ = std::make_unique<PrimalResidual>(*k_, *inverse_, scaling);
   multipliers_ = std::make_unique<fetidp::MultiplierExchange>(inverse_->multiplierPlan());

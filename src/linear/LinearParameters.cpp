@@ -17,12 +17,8 @@ Teuchos::ParameterList FetiDpParameters::validParameters() {
 }
 
 FetiDpParameters FetiDpParameters::from(const Teuchos::ParameterList& list) {
-  return {list.get<double>("Tolerance"),
-          list.get<int>("Maximum Iterations"),
-          fetidp::directSolversFrom(list.sublist("Direct Solvers")),
-          fetidp::dualOperatorFrom(list.sublist("Dual Operator")),
-          fetidp::preconditionerFrom(list.sublist("Preconditioner")),
-          fetidp::adaptiveConstraintsFrom(list.sublist("Adaptive Constraints"))};
+  return {fetidp::fetiParametersFrom(list), list.get<double>("Tolerance"),
+          list.get<int>("Maximum Iterations")};
 }
 
 Teuchos::ParameterList BddcParameters::validParameters() {

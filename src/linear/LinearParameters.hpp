@@ -7,13 +7,9 @@
 namespace epafi::linear {
 
 /// Of FetiDpSolver.
-struct FetiDpParameters {
+struct FetiDpParameters : fetidp::FetiParameters {
   double tolerance = 1e-8; ///< on ‖b − Ku‖ relative to ‖b‖
   int maxIterations = 500; ///< conjugate gradient steps
-  fetidp::DirectSolvers directSolvers;
-  fetidp::DualOperatorParameters dualOperator;
-  fetidp::PreconditionerParameters preconditioner;
-  fetidp::AdaptiveConstraintParameters adaptiveConstraints;
   bool operator==(const FetiDpParameters& other) const = default;
 
   /// Names, defaults, ranges and meaning, for `validated`.

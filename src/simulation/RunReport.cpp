@@ -27,17 +27,19 @@ void enterSolve(const SolveFacts& solve, ParameterList& list) {
       .set("Adaptive Constraints", solve.numAdaptiveConstraints)
       .set("Subdomains", solve.numSubdomains)
       .set("Clusters", solve.numClusters)
-      .set("Floating Bodies", solve.numFloatingBodies)
+      .set("Floating Bodies", static_cast<int>(solve.floatingBodies.size()))
       .set("Kernel Dimension", solve.kernelDimension)
       .set("Ranks", solve.numRanks);
   list.sublist("Algorithm")
-      .set("Name", fetidp::toString(solve.algorithm))
-      .set("Reason", solve.reason)
+      .set("Name", fetidp::toString(solve.plan.algorithm))
+      .set("Reason", solve.plan.reasons.at("Algorithm"))
       .set("Preconditioner", solve.preconditioner)
       .set("Dual Operator", solve.dualOperator)
       .set("Subdomain Solver", solve.subdomainSolver)
       .set("Coarse Solver", solve.coarseSolver)
       .set("Operator Norm", solve.operatorNorm);
+  for (const auto& [choice, reason] : solve.plan.reasons)
+    list.sublist("Plan").set(choice, reason);
   list.sublist("Iterations")
       .set("Outer", solve.counts.outer)
       .set("CG Steps", solve.counts.conjugateGradient)

@@ -49,13 +49,6 @@ double distance(const SceneRun& finer, const SceneRun& coarser) {
       .energy;
 }
 
-/// Numbers are asked to more digits than norms, and a bound of what the iteration may be off by is in their
-/// bars.
-constexpr double quantityTolerance = 1e-8;
-/// A fifth of what single runs have: some products more, where a target that is missed by the iteration's
-/// share costs another mesh.
-constexpr double fractionOnTheWay = 0.02;
-
 /// Elements halved everywhere, and as many times more subdomains.
 class EvenLevels final : public SceneLevels {
 public:
@@ -86,8 +79,10 @@ class LocalLevels final : public SceneLevels {
 public:
   LocalLevels(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
               const QuantityParameters& quantity, const RCP<const Comm>& comm, RunCompanion* companion)
-      : SceneLevels(parametersFor(scene, solverParameters), quantity, comm, companion), meshes_(scene, *comm),
-        dimension_(dimensionOf(scene.bodies.front().physics)) {}
+      : SceneLevels(solverParameters, quantity, comm, companion,
+                    std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                                [](const scene::Body& body) { return body.regions.empty(); })),
+        meshes_(scene, *comm), dimension_(dimensionOf(scene.bodies.front().physics)) {}
 
   [[nodiscard]] int dimension() const override { return dimension_; }
   /// As on the gallery's scenes before meshes measure it.
@@ -130,16 +125,6 @@ protected:
     }
     return values;
   }
-  /// Where bodies are of one material the diagonal varies with the elements' size and nodes' kinds alone,
-  /// which no preconditioner minds: no eigenproblems.
-  static Teuchos::ParameterList parametersFor(const scene::Scene& scene, Teuchos::ParameterList list) {
-    Teuchos::ParameterList& adaptive = list.sublist("Adaptive Constraints");
-    const bool isUniform = std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                                       [](const scene::Body& body) { return body.regions.empty(); });
-    if (isUniform && (!adaptive.isParameter("Use") || adaptive.getEntry("Use").isDefault()))
-      adaptive.set("Use", std::string("no"));
-    return list;
-  }
   scene::Scene prepare(int order, std::vector<model::BodyLayout>& bodies) override {
     scene::Scene scene = meshes_.scene(order);
     bodies = meshes_.layout(scene, comm());
@@ -161,28 +146,21 @@ private:
 } // namespace
 
 SceneLevels::SceneLevels(const Teuchos::ParameterList& solverParameters, QuantityParameters quantity,
-                         RCP<const Comm> comm, RunCompanion* companion)
+                         RCP<const Comm> comm, RunCompanion* companion, bool isUniform)
     : solverParameters_(solverParameters), quantity_(std::move(quantity)), comm_(std::move(comm)),
-      companion_(companion), start_(Teuchos::Time::wallTime()), bytesBefore_(resetPeakBytes()) {
-  const auto isGiven = [&](const char* name) {
-    return solverParameters_.isParameter(name) && !solverParameters_.getEntry(name).isDefault();
-  };
-  if (isGiven("Tolerance"))
-    return;
-  if (quantity_.kind != QuantityParameters::Kind::none) {
-    solverParameters_.set("Tolerance", quantityTolerance);
-    return;
-  }
-  solverParameters_.set("Tolerance", std::string("balanced"));
-  if (!isGiven("Algebraic Fraction"))
-    solverParameters_.set("Algebraic Fraction", fractionOnTheWay);
-}
+      companion_(companion), isUniform_(isUniform), start_(Teuchos::Time::wallTime()),
+      bytesBefore_(resetPeakBytes()) {}
 
 MeshResult SceneLevels::solve(int order) {
   std::vector<model::BodyLayout> bodies;
   const scene::Scene scene = prepare(order, bodies);
+  using fetidp::Purpose;
+  const bool isOfNumber = quantity_.kind != QuantityParameters::Kind::none;
   RunOptions options{
-      .estimatesError = true, .quantity = quantity_, .coarser = nullptr, .companion = companion_};
+      .estimatesError = true,
+      .quantity = quantity_,
+      .facts = {.purpose = isOfNumber ? Purpose::quantity : Purpose::mesh, .isUniform = isUniform_},
+      .companion = companion_};
   if (!bodies.empty())
     options.bodies = &bodies;
   if (hasRun_)

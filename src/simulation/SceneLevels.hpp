@@ -16,10 +16,10 @@ namespace epafi::simulation {
 /// Each run starts from the last one's solution.
 class SceneLevels : public accuracy::RefinableProblem {
 public:
-  /// \param solverParameters  the list Solver; unless it gives a tolerance that is 'balanced', or small for a
-  /// quantity
+  /// \param solverParameters  the list Solver
+  /// \param isUniform         see fetidp::RunFacts
   SceneLevels(const Teuchos::ParameterList& solverParameters, QuantityParameters quantity,
-              RCP<const Comm> comm, RunCompanion* companion);
+              RCP<const Comm> comm, RunCompanion* companion, bool isUniform = false);
 
   accuracy::MeshResult solve(int order) final;
   [[nodiscard]] SceneRun& run() { return run_; } ///< the last one
@@ -42,7 +42,7 @@ private:
   RCP<const Comm> comm_;
   RunCompanion* companion_;
   SceneRun run_;
-  bool hasRun_ = false;
+  bool isUniform_, hasRun_ = false;
   double start_, bytesBefore_;
 };
 

@@ -71,24 +71,6 @@ private:
   RunCompanion* of_;
 };
 
-/// Whether a run looks for the contact zone on a coarser mesh first. Membranes are solved in less time than
-/// it takes.
-bool beginsOnCoarserMesh(const decomposition::DecomposedProblem& problem, const RunOptions& options) {
-  return options.coarser == nullptr && problem.components > 1 && problem.numInequalities > 0 &&
-         problem.primalDimension >= options.coarserFrom;
-}
-
-/// What is left open decided for a good start: from one active sets need the fewest products where bodies are
-/// held, too; from none MPRGP does.
-Teuchos::ParameterList forGoodStart(Teuchos::ParameterList parameters) {
-  const bool isOpen = parameters.get<std::string>("Algorithm", "auto") == "auto",
-             isPreconditioned =
-                 parameters.sublist("Preconditioner").get<std::string>("Type", "dirichlet") != "none";
-  if (isOpen && isPreconditioned)
-    parameters.set("Algorithm", std::string("active set"));
-  return parameters;
-}
-
 /// A few subdomains need no clusters, which cost products. Ranks keep the subdomains that they have. Not
 /// collective.
 void joinClusters(CoarserScene& coarser, int numRanks) {
@@ -105,19 +87,18 @@ void joinClusters(CoarserScene& coarser, int numRanks) {
 /// does not end the run, and its result tells of it. Collective.
 std::optional<SceneRun> solveOnCoarserMesh(SceneRun& run, const Teuchos::ParameterList& solverParameters,
                                            const RCP<const Comm>& comm, const RunOptions& options) {
-  constexpr double enough = 1e-4; // meshes differ by more
   const double began = Teuchos::Time::wallTime();
   try {
     std::optional<CoarserScene> coarser = coarserScene(run.scene, run.decomposition->bodies, *comm);
     if (!coarser)
       return std::nullopt;
     joinClusters(*coarser, comm->getSize());
-    Teuchos::ParameterList parameters(solverParameters);
-    parameters.set("Tolerance", enough);
     Silent silent(options.companion);
     SceneRun coarse = solveScene(
-        coarser->scene, parameters, comm,
-        {.coarserFrom = 4 * options.coarserFrom, .companion = &silent, .bodies = &coarser->bodies});
+        coarser->scene, solverParameters, comm,
+        {.facts = {.purpose = fetidp::Purpose::start, .coarserFrom = 4 * options.facts.coarserFrom},
+         .companion = &silent,
+         .bodies = &coarser->bodies});
     run.result.start = {"",
                         coarser->means,
                         coarse.decomposition->problem.primalDimension,
@@ -166,14 +147,13 @@ std::vector<double> closingOf(const SceneRun& run) {
 fetidp::ErrorBalance balanceOf(const SceneRun& run, std::optional<accuracy::ErrorEstimator>& estimator,
                                std::optional<accuracy::ErrorEstimate>& looked, const RunOptions& options) {
   fetidp::ErrorBalance balance;
-  balance.fraction = run.solver->algebraicFraction();
   balance.estimate = [&](std::span<const Eigen::VectorXd> u) {
     looked = (*estimator)(u);
     return looked->toBalance();
   };
   const double guess = std::min(guessedError(run), 0.1);
-  balance.firstLook =
-      0.2 * balance.fraction * guess; // without any coupling the energy is some times the solution's
+  // Without any coupling the energy is some times the solution's.
+  balance.firstLook = 0.2 * run.solver->plan().algebraicFraction * guess;
   if (options.coarser != nullptr && options.coarser->error) // of linear elements it is halved at best
     balance.expected = 0.5 * options.coarser->error->discretisation;
   else if (run.result.start && run.result.start->failure.empty())
@@ -230,18 +210,15 @@ RCP<const Vector> prepareSolve(SceneRun& run, const Teuchos::ParameterList& solv
   RCP<const Vector> start;
   if (options.companion != nullptr)
     start = options.companion->begin(problem);
+  fetidp::RunFacts facts = options.facts;
+  facts.hasStart = !start.is_null() || options.coarser != nullptr;
   std::optional<SceneRun> coarse;
-  if (beginsOnCoarserMesh(problem, options)) {
-    auto solver = std::make_unique<ContactSolver>(forGoodStart(solverParameters));
-    const bool hasUse = solver->algorithmFor(problem) == fetidp::Algorithm::activeSets;
-    if (hasUse && start.is_null())
-      coarse = solveOnCoarserMesh(run, solverParameters, comm, options);
-    if (hasUse && (coarse || !start.is_null()))
-      run.solver = std::move(solver);
+  if (ContactSolver(solverParameters, facts).planFor(problem).beginsOnCoarserMesh) {
+    coarse = solveOnCoarserMesh(run, solverParameters, comm, options);
+    facts.hasStart = coarse.has_value();
   }
-  if (!run.solver)
-    run.solver = std::make_unique<ContactSolver>(solverParameters);
-  run.solver->setup(run.decomposition->problem, run.decomposition->data);
+  run.solver = std::make_unique<ContactSolver>(solverParameters, facts);
+  run.solver->setup(problem, run.decomposition->data);
   if (options.companion != nullptr)
     options.companion->beforeIteration();
   const double began = Teuchos::Time::wallTime();
@@ -275,11 +252,11 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   std::optional<accuracy::ErrorEstimator> estimator;
   try {
     const RCP<const Vector> start = prepareSolve(run, solverParameters, comm, options);
-    if (estimatesError || run.solver->isBalanced())
+    if (estimatesError || run.solver->plan().isBalanced)
       estimator.emplace(run.scene, *run.decomposition);
     const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
     run.solution = run.solver->solve(run.decomposition->data, start.get(), options.companion,
-                                     run.solver->isBalanced() ? &balance : nullptr);
+                                     run.solver->plan().isBalanced ? &balance : nullptr);
   } catch (const fetidp::ContradictionError& error) { // on all ranks
     throw inWordsOf(*run.decomposition, error);
   }

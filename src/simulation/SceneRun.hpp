@@ -12,7 +12,6 @@
 
 #include <Teuchos_ParameterList.hpp>
 
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -67,9 +66,8 @@ struct RunOptions {
   bool estimatesError = false;
   QuantityParameters quantity{}; ///< needs the estimate, and has it made
   const SceneRun* coarser =
-      nullptr; ///< the same scene on a coarser mesh: its solution is where this run starts
-  /// Unknowns from which on the run may look for a coarser mesh itself.
-  GlobalOrdinal coarserFrom = std::numeric_limits<GlobalOrdinal>::max();
+      nullptr;              ///< the same scene on a coarser mesh: its solution is where this run starts
+  fetidp::RunFacts facts{}; ///< what the solve is for, and from which size on it may look for a coarser mesh
   RunCompanion* companion = nullptr;
   /// How meshes of files lie on several ranks, where `bodies` does not say: whole if runs are to be compared.
   /// A displacement at a point wants them whole, and has them.

@@ -28,7 +28,6 @@ struct SolvedTo {
     ErrorEstimator estimator(scene, decomposition);
     fetidp::ErrorBalance balance;
     balance.estimate = [&](std::span<const Eigen::VectorXd> u) { return estimator(u).toBalance(); };
-    balance.fraction = solver.algebraicFraction();
     solution = solver.solve(decomposition.data, nullptr, nullptr, &balance);
   }
 };

@@ -53,12 +53,19 @@ scene::Scene withoutUpwards(scene::Scene scene) {
   return scene;
 }
 
+/// As planned with these parameters.
+OverratedColumns overrated(const Preconditioned& p, RowKind kind,
+                           const AdaptiveConstraintParameters& parameters) {
+  const Plan chosen = plan(factsOf(p.problem), {{.adaptiveConstraints = parameters}});
+  return findOverratedColumns(p.problem, *p.inverse, kind,
+                              kind == RowKind::gluing ? chosen.gluing : chosen.contact, Scaling::stiffness);
+}
+
 /// F, M and what deflation makes of F.
 struct Deflated : Preconditioned {
   Deflated(const scene::Scene& scene, const AdaptiveConstraintParameters& parameters,
            const RCP<const Comm>& comm = world())
-      : Preconditioned(scene, {}, comm),
-        constraints(findOverratedColumns(problem, *inverse, RowKind::gluing, parameters, Scaling::stiffness)),
+      : Preconditioned(scene, {}, comm), constraints(overrated(*this, RowKind::gluing, parameters)),
         operatorF(rcp(new DualOperator(inverse))),
         deflated(operatorF, spaceOf(constraints, *inverse->multiplierPlan(), *operatorF)) {}
 
@@ -207,8 +214,7 @@ TEST(AdaptiveConstraintsTest, TheyAreTheSameOnAnyNumberOfRanks) {
 struct Corrected : Deflated {
   Corrected(const scene::Scene& scene, const AdaptiveConstraintParameters& parameters,
             const RCP<const Comm>& comm = world())
-      : Deflated(scene, parameters, comm),
-        jumps(findOverratedColumns(problem, *inverse, RowKind::contact, parameters, Scaling::stiffness)),
+      : Deflated(scene, parameters, comm), jumps(overrated(*this, RowKind::contact, parameters)),
         constrained(rcp(new DualPreconditioner(problem, inverse, {}, Teuchos::rcpFromRef(deflated)))),
         corrected(constrained, spaceOf(jumps, *inverse->multiplierPlan(), deflated, constrained.get())) {}
 

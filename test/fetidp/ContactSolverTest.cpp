@@ -191,7 +191,7 @@ TEST(ContactSolverTest, AMissedToleranceIsAStatusNotAnError) {
     const ContactSolution solution = solver.solve(decomposition.data);
     EXPECT_EQ(solver.report().status, qp::Status::maxIterations);
     EXPECT_EQ(solver.facts().status, qp::Status::maxIterations);
-    EXPECT_GT(solution.relativeProjectedGradient, solver.tolerance());
+    EXPECT_GT(solution.relativeProjectedGradient, solver.plan().tolerance);
   }
 }
 
@@ -358,7 +358,7 @@ TEST(ContactSolverTest, AnInterruptedSolveGoesOnFromWhatItsObserverSaw) {
 
     EXPECT_EQ(half.solver.report().status, qp::Status::interrupted);
     EXPECT_EQ(observer.seen, gathered(*stopped.multiplier));
-    EXPECT_GT(stopped.relativeProjectedGradient, half.solver.tolerance());
+    EXPECT_GT(stopped.relativeProjectedGradient, half.solver.plan().tolerance);
     const RCP<Vector> start = spread(half.decomposition.problem.multiplierMap, observer.seen);
     const ContactSolution rest = half.solver.solve(half.decomposition.data, start.get());
     EXPECT_EQ(half.solver.report().status, qp::Status::converged);
@@ -373,7 +373,7 @@ TEST(ContactSolverTest, FactsSayWhatWasSolvedAndHow) {
   EXPECT_EQ(facts.dualDimension, facts.numEqualities + facts.numInequalities);
   EXPECT_EQ(facts.numInequalities, 7);
   EXPECT_EQ(facts.numSubdomains, 8);
-  EXPECT_EQ(facts.numFloatingBodies, 1);
+  EXPECT_EQ(facts.floatingBodies.size(), 1U);
   EXPECT_EQ(facts.kernelDimension, 1);
   EXPECT_EQ(facts.numRanks, world()->getSize());
   EXPECT_EQ(facts.status, qp::Status::converged);

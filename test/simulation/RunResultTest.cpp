@@ -20,6 +20,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> contract{
      {"Title", "Primal Dimension", "Dual Dimension", "Equality Multipliers", "Inequality Multipliers",
       "Crosspoints", "Subdomains", "Floating Bodies", "Kernel Dimension", "Ranks"}},
     {"Algorithm", {"Name", "Reason", "Preconditioner", "Dual Operator"}},
+    {"Plan", {"Algorithm", "Active Sets", "Tolerance", "Adaptive Constraints"}},
     {"Iterations",
      {"Outer", "CG Steps", "Expansion Steps", "Proportioning Steps", "Hessian Multiplications",
       "Preconditioner Applications"}},
@@ -77,7 +78,7 @@ TEST(RunResultTest, ACoarserMeshThatFailsIsToldAndTheRunGoesOn) {
   scene.contacts[0].coupling = scene::SurfaceContact::Coupling::nodes;
   const auto comm = Tpetra::getDefaultComm();
   const SceneRun plain = solveScene(scene, {}, comm);
-  const SceneRun run = solveScene(scene, {}, comm, {.coarserFrom = 0});
+  const SceneRun run = solveScene(scene, {}, comm, {.facts = {.coarserFrom = 0}});
   ASSERT_TRUE(run.result.start);
   EXPECT_NE(run.result.start->failure.find("joint"), std::string::npos) << run.result.start->failure;
   EXPECT_EQ(run.result.status, RunStatus::converged);
@@ -94,10 +95,11 @@ TEST(RunResultTest, WithoutACoarserMeshTheMethodIsTheOneForNoStart) {
     scene.bodies[0].supports = {test::slide("left"), test::slide("right")};
     scene.bodies[0].supports.push_back({"top", "top", {std::nullopt, -0.01, std::nullopt}});
     scene.contacts = {test::onPlane("floor", 0, "bottom", {0, 0, 0}, {0, 1, 0})};
-    const SceneRun run = solveScene(scene, {}, Tpetra::getDefaultComm(), {.coarserFrom = coarserFrom});
+    const SceneRun run =
+        solveScene(scene, {}, Tpetra::getDefaultComm(), {.facts = {.coarserFrom = coarserFrom}});
     EXPECT_EQ(run.result.status, RunStatus::converged);
     EXPECT_EQ(run.result.start.has_value(), elements > 1 && coarserFrom == 0);
-    return run.result.solve.algorithm;
+    return run.result.solve.plan.algorithm;
   };
   const auto cold = methodOf(1, 1000000);
   EXPECT_NE(cold, fetidp::Algorithm::activeSets);
