@@ -1,7 +1,7 @@
 #pragma once
 
-/// The run of solveByActiveSets: `settle` goes from face to face through points that may lie outside of Ω
-/// (ActiveSets.cpp); where it finds no end, and no boundary is curved, `descend` goes on through points of Ω
+/// The run of solveByActiveSets: `settle` goes from face to face (ActiveSetFaces.cpp) through points that may lie
+/// outside of Ω (ActiveSets.cpp); where it finds no end, and no boundary is curved, `descend` goes on through points of Ω
 /// (ActiveSetDescent.cpp).
 
 #include "epafi/qp/ActiveSets.hpp"
@@ -25,6 +25,7 @@ public:
 private:
   static constexpr int maxIdleFaces = 24;          ///< in a row with no smaller gradient, or objective
   static constexpr int maxFaceSteps = 200;         ///< of CG before a face is looked at again
+  static constexpr double roundOffOfX = 1e-13;     ///< of x that leaves Ω by it
   static constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
 
   Status settle();  ///< the loop of the paper

@@ -19,7 +19,6 @@ constexpr int maxFaces = 300;
 constexpr int caution = 4; ///< from so many idle faces on one bound is released at a time
 /// In CG the gradient is updated; that of the certificate, computed afresh, is to be small enough as well.
 constexpr double safety = 0.5;
-constexpr double roundOffOfX = 1e-13; ///< of x that leaves Ω by it
 /// Gradients that have grown so much on entering a face, beside b and the first one, come from entries that
 /// nearly depend on each other, with forces out of all proportion. The faces that follow may make up for it;
 /// where it happens again and again they do not.
@@ -52,24 +51,6 @@ ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Ve
   set_->activate(next_.isFree, on_.x);
   set_->followBoundary(on_.x, on_.gradient(), 0, nullptr, on_.face);
   isAtOrigin_ = on_.x.normInf() == 0;
-}
-
-/// That of the start; at the origin, where bounds hold it, that of Mb, as if M were A⁻¹.
-void ActiveSetIteration::chooseFirstFace(const ActiveSetProblem& problem) {
-  copy(on_.x, inside_);
-  if (on_.x.normInf() == 0 && !problem.preconditioner.is_null()) {
-    problem.preconditioner->apply(objective_.linearTerm(), inside_);
-    ++counts_.preconditionerApplications;
-  }
-  if (problem.setAt)
-    set_ = problem.setAt(inside_);
-  set_->project(inside_);
-  set_->freeIndicator(inside_, on_.face.isFree);
-  set_->freeIndicator(on_.x, next_.isFree);
-  const auto free = localData(next_.isFree);
-  const auto face = localDataNonConst(on_.face.isFree);
-  for (std::size_t i = 0; i < face.size(); ++i)
-    face[i] = std::max(face[i], free[i]);
 }
 
 Status ActiveSetIteration::run(Observer* observer) {
@@ -132,35 +113,6 @@ bool ActiveSetIteration::holdsEquality() const {
   return on_.constraintResidual() <= tolerances_.constraint * tolerances_.constraintReference;
 }
 
-/// Where the face cannot hold Bx = c, lets those move that first stop the motion which is left: along it the
-/// multipliers of bounds fall. False if nothing stops it.
-bool ActiveSetIteration::balance() {
-  constexpr double hindering = 1e-9; // beside what hinders it most
-  on_.unbalanced(work_);
-  const double least = hindering * work_.normInf();
-  set_->releases(inside_, on_.plainGradient(), work_, least, next_.isFree);
-  const auto distance = localData(next_.isFree);
-  const auto face = localDataNonConst(on_.face.isFree);
-  double first = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < face.size(); ++i)
-    if (face[i] == 0)
-      first = std::min(first, distance[i]);
-  for (const CircleTangent& tangent : on_.face.tangents)
-    first = std::min(first, distance[tangent.first]);
-  first = minOverRanks(*work_.getMap()->getComm(), first);
-  if (!std::isfinite(first))
-    return false;
-  const double most = (1 + hindering) * first;
-  for (std::size_t i = 0; i < face.size(); ++i)
-    if (distance[i] <= most)
-      face[i] = 1;
-  std::erase_if(on_.face.tangents,
-                [&](const CircleTangent& tangent) { return distance[tangent.first] <= most; });
-  copy(inside_, on_.x);
-  ++counts_.expansion;
-  return true;
-}
-
 /// CG until ‖Zg‖ and (gᵀMg)^½ have fallen to a share of themselves, or are small enough.
 std::optional<Status> ActiveSetIteration::minimise(int maxSteps) {
   const double goal = faceReduction_ * faceReduction_ * on_.energy(),
@@ -194,69 +146,6 @@ bool ActiveSetIteration::isEndless() {
 bool ActiveSetIteration::isNearlySmall() const {
   return watch_ ? std::sqrt(std::max(0.0, on_.energy())) / objective_.scale() <= watch_->limit()
                 : on_.gradientNorm() <= safety * enough();
-}
-
-/// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong
-/// sign; with caution only where it is the largest of these. False if that is the present face.
-bool ActiveSetIteration::chooseFace(bool isCautious) {
-  copy(on_.x, inside_);
-  followSet();
-  set_->project(inside_);
-  const Vector& gradient = on_.plainGradient();
-  const double negligible = negligibleShare * on_.gradientNorm();
-  set_->choppedGradient(inside_, gradient, negligible, work_);
-  const double least = std::max(negligible, isCautious ? work_.normInf() : 0.0);
-  set_->freeIndicator(inside_, next_.isFree);
-  reduction_.clear();
-  {
-    const auto on = localData(on_.face.isFree), wrong = localData(work_), x = localData(on_.x),
-               inside = localData(inside_);
-    const auto next = localDataNonConst(next_.isFree);
-    for (std::size_t i = 0; i < next.size(); ++i)
-      if (on[i] == 0 && next[i] == 0)
-        next[i] = wrong[i] != 0 && std::abs(wrong[i]) >= least ? 1 : 0;
-    set_->followBoundary(inside_, gradient, least, &on_.face, next_);
-    const auto sums = reduction_.sums();
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      sums[0].add(next[i] != on[i] ? 1.0 : 0.0);
-      sums[1].add(1 - next[i]);
-      sums[2].add((x[i] - inside[i]) * (x[i] - inside[i]));
-    }
-    sums[0].add(isSameFace() ? 0.0 : 1.0);
-  }
-  reduction_.reduce();
-  numActive_ = static_cast<long long>(reduction_.sum(1));
-  const bool hasSetMoved =
-      problem_.setAt && objective_.norm() * std::sqrt(reduction_.sum(2)) > on_.gradientNorm();
-  if (reduction_.sum(0) == 0 && !hasSetMoved)
-    return false;
-  copy(inside_, on_.x);
-  copy(next_, on_.face);
-  return true;
-}
-
-/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it.
-void ActiveSetIteration::followSet() {
-  if (!problem_.setAt)
-    return;
-  set_ = problem_.setAt(inside_);
-  const auto on = localData(on_.face.isFree);
-  const auto held = localDataNonConst(next_.isFree);
-  for (std::size_t i = 0; i < held.size(); ++i)
-    held[i] = 1 - on[i];
-  for (const CircleTangent& tangent : on_.face.tangents)
-    held[tangent.first] = held[tangent.second] = 1;
-  set_->activate(next_.isFree, inside_);
-}
-
-/// Whether the next face has this one's tangents, and x has not moved along them; on this rank.
-bool ActiveSetIteration::isSameFace() const {
-  const auto x = localData(on_.x);
-  return std::equal(next_.tangents.begin(), next_.tangents.end(), on_.face.tangents.begin(),
-                    on_.face.tangents.end(), [&](const CircleTangent& next, const CircleTangent& now) {
-                      return next.first == now.first &&
-                             std::abs(now.component(x) - now.origin) <= roundOffOfX * now.radius;
-                    });
 }
 
 /// Whether x, with g afresh, is within Ω and its projected gradient meets the tolerance.

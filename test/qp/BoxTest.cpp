@@ -60,6 +60,20 @@ TEST(BoxTest, LongestFeasibleStepEndsOnTheBound) {
   EXPECT_EQ((Box::Interval{-test::unbounded, test::unbounded}).maxFeasibleStep(1, 5), test::unbounded);
 }
 
+TEST(BoxTest, WhatIsMadeActiveMovesToTheNearerBoundIfOneIsNearer) {
+  const auto map = test::linearMap(5);
+  const auto lower = test::makeVector(map, [](int i) { return i == 4 ? -test::unbounded : 0.0; });
+  const auto upper = test::makeVector(map, [](int i) { return i < 2 ? test::unbounded : 1.0; });
+  const auto x =
+      test::makeVector(map, Eigen::VectorXd((Eigen::VectorXd(5) << 7, 0.3, 0.7, 0.5, -3).finished()));
+  Vector all(map);
+  all.putScalar(1.0);
+
+  Box(lower, upper).activate(all, *x);
+
+  EXPECT_EQ(test::gather(*x), (Eigen::VectorXd(5) << 0, 0, 1, 0.5, 1).finished());
+}
+
 TEST(BoxTest, CrossingBoundsAreNamedOnAllRanks) {
   const auto map = test::linearMap(5);
   const auto lower = test::makeVector(map, [](int i) { return i == 3 ? 2.0 : 0.0; });
