@@ -1,0 +1,143 @@
+#include "epafi/scene/StepReader.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Parameters.hpp"
+#include "epafi/scene/ListReader.hpp"
+#include "epafi/scene/SceneSchema.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace epafi::scene {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  constexpr const char* blanks = " \t\n\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The entries "name = number" of a parameter, parted by commas.
+std::vector<std::pair<std::string, double>> entriesOf(const ListReader& step, const std::string& parameter) {
+  std::vector<std::pair<std::string, double>> entries;
+  const std::string& text = step.word(parameter);
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string entry = trimmed(text.substr(begin, end - begin));
+    begin = end + 1;
+    if (entry.empty())
+      continue;
+    const std::size_t equals = entry.rfind('=');
+    const std::string number = equals == std::string::npos ? "" : trimmed(entry.substr(equals + 1));
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error != std::errc() || rest != number.data() + number.size() || !std::isfinite(value))
+      step.refuseValue(parameter, "\"" + entry + "\" is not of the form name = number");
+    entries.emplace_back(trimmed(entry.substr(0, equals)), value);
+  }
+  return entries;
+}
+
+[[noreturn]] void refuseName(const ListReader& step, const std::string& parameter, const std::string& name,
+                             const std::vector<std::string>& known) {
+  const std::string near = nearestName(name, known);
+  std::string all;
+  for (const std::string& each : known)
+    all += (all.empty() ? "\"" : ", \"") + each + '"';
+  step.refuseValue(parameter, "there is no \"" + name + "\"; " +
+                                  (!near.empty()   ? "did you mean \"" + near + "\"?"
+                                   : known.empty() ? "the scene has none"
+                                                   : "there are " + all));
+}
+
+/// Factors of what bodies have, named "body/what". \param of  the loads or supports of a body
+template <class Of>
+std::map<Step::Place, double> factorsOf(const ListReader& step, const std::string& parameter,
+                                        const Scene& scene, const Of& of) {
+  std::map<std::string, Step::Place> places;
+  std::vector<std::string> names;
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    for (std::size_t k = 0; k < of(scene.bodies[body]).size(); ++k) {
+      names.push_back(scene.bodies[body].name + '/' + of(scene.bodies[body])[k].name);
+      places[names.back()] = {static_cast<int>(body), static_cast<int>(k)};
+    }
+  std::map<Step::Place, double> factors;
+  for (const auto& [name, factor] : entriesOf(step, parameter)) {
+    const auto place = places.find(name);
+    if (place == places.end())
+      refuseName(step, parameter, name, names);
+    factors[place->second] = factor;
+  }
+  return factors;
+}
+
+std::map<int, double> gapsOf(const ListReader& step, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SurfaceContact& contact : scene.contacts)
+    names.push_back(contact.name);
+  std::map<int, double> gaps;
+  for (const auto& [name, gap] : entriesOf(step, "Gaps")) {
+    std::size_t place = 0;
+    while (place < names.size() && names[place] != name)
+      ++place;
+    if (place == names.size())
+      refuseName(step, "Gaps", name, names);
+    if (scene.contacts[place].kind == SurfaceContact::Kind::tied)
+      step.refuseValue("Gaps", "\"" + name + "\" is a tied joint, which keeps the gap that there is");
+    gaps[static_cast<int>(place)] = gap;
+  }
+  return gaps;
+}
+
+} // namespace
+
+std::vector<Step> readSteps(const Teuchos::ParameterList& list, const std::string& where,
+                            const Scene& scene) {
+  std::vector<Step> steps;
+  if (!list.isSublist("Steps"))
+    return steps;
+  Teuchos::ParameterList own("Epafi");
+  own.sublist("Steps") = list.sublist("Steps");
+  const Teuchos::ParameterList complete = validated(own, sceneSchema(), where);
+  const ListReader all(complete.sublist("Steps"), where, "Steps");
+  for (const std::string& name : all.names()) {
+    const ListReader entry = all.inside(name);
+    steps.push_back({name,
+                     factorsOf(entry, "Loads", scene, [](const Body& body) -> auto& { return body.loads; }),
+                     factorsOf(entry, "Supports", scene,
+                               [](const Body& body) -> auto& { return body.supports; }),
+                     gapsOf(entry, scene)});
+  }
+  return steps;
+}
+
+Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
+  std::map<Step::Place, double> loads, supports; // as they stand
+  for (std::size_t k = 0; k <= last; ++k) {
+    for (const auto& [place, factor] : steps[k].loads)
+      loads[place] = factor;
+    for (const auto& [place, factor] : steps[k].supports)
+      supports[place] = factor;
+    for (const auto& [contact, gap] : steps[k].gaps)
+      scene.contacts[static_cast<std::size_t>(contact)].gap = gap;
+  }
+  for (const auto& [place, factor] : loads)
+    for (double& component : scene.bodies[static_cast<std::size_t>(place.first)]
+                                 .loads[static_cast<std::size_t>(place.second)]
+                                 .value)
+      component *= factor;
+  for (const auto& [place, factor] : supports) {
+    SolidSupport& support = scene.bodies[static_cast<std::size_t>(place.first)]
+                                .supports[static_cast<std::size_t>(place.second)];
+    for (std::optional<double>& component : support.value)
+      if (component)
+        *component *= factor;
+    if (support.normal)
+      *support.normal *= factor;
+  }
+  return scene;
+}
+
+} // namespace epafi::scene
