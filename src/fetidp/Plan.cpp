@@ -56,9 +56,9 @@ void chooseAlgorithm(const PlanFacts& facts, const DualParameters& parameters, P
   plan.beginsOnCoarserMesh = mayBegin && !isGood && suits;
   plan.reasons["Coarser Start"] =
       !suits      ? "no: it is of use to active sets alone"
-      : isGood    ? "no: there is a start"
+      : isGood    ? "there is a start already, from a coarser mesh or an earlier run"
       : !mayBegin ? "no: the problem is solved in less time than it takes, or has no such mesh"
-                  : "yes: the contact zone of a coarser mesh leaves active sets little to find";
+                  : "looked for: the contact zone of a coarser mesh leaves active sets little to find";
 }
 
 void chooseTolerance(const PlanFacts& facts, const DualParameters& parameters, Plan& plan) {

@@ -63,7 +63,7 @@ struct RunFacts {
   GlobalOrdinal coarserFrom = std::numeric_limits<GlobalOrdinal>::max();
 };
 
-/// What choices depend on beside the parameters, the same on all ranks. By default there is nothing to iterate.
+/// What choices depend on beside the parameters, the same on all ranks. By default nothing is to be solved.
 struct PlanFacts {
   GlobalOrdinal numInequalities = 0, numTies = 0, numEqualities = 0; ///< rows of B
   GlobalOrdinal numFriction = 0;                                     ///< rows of friction

@@ -86,8 +86,8 @@ struct RunResult {
 /// "Converged", "TargetMissed", "Interrupted", "Running", or what the iteration ended with.
 std::string statusOf(const RunResult& result);
 
-/// The report of a run: the lists Epafi, Problem, Algorithm, Plan, Iterations, Accuracy, Start, Quantity, Body,
-/// Contact, Tied, Levels, Time, Memory and Status, as far as there is something to say.
+/// The report of a run: the lists Epafi, Problem, Algorithm, Plan, Iterations, Accuracy, Start, Quantity,
+/// Body, Contact, Tied, Levels, Time, Memory and Status, as far as there is something to say.
 Teuchos::ParameterList reportOf(const RunResult& result);
 
 } // namespace epafi::simulation

@@ -210,6 +210,7 @@ TEST(PlanTest, AtContactJumpsHaveToBeLargerAndMayBeBetweenSubdomainsOfElasticBod
   const Plan elastic = plan(held(), parameters);
   EXPECT_EQ(elastic.gluing.stiffnessRatio, 3);
   EXPECT_EQ(elastic.gluing.ratioOfLarge, 30);
+  EXPECT_EQ(elastic.gluing.mostBytes, 1e9);
   EXPECT_EQ(elastic.contact.stiffnessRatio, 30);
   EXPECT_FALSE(elastic.gluing.betweenSubdomains);
   EXPECT_TRUE(elastic.contact.betweenSubdomains);
