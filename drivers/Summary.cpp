@@ -297,4 +297,24 @@ std::string describe(const accuracy::MeshResult& mesh) {
   return text.str();
 }
 
+std::string describe(const simulation::StepResult& step) {
+  std::ostringstream text;
+  text << "  step        " << step.name << ": " << counted(step.multiplications, "product")
+       << " with F, strain energy " << rounded(step.strainEnergy) << ", work of the loads "
+       << rounded(step.loadWork);
+  if (step.dissipation != 0)
+    text << ", dissipation " << rounded(step.dissipation);
+  text << '\n';
+  for (const simulation::ContactResult& contact : step.contacts) {
+    text << "                " << contact.name << ": force " << rounded(contact.force);
+    if (contact.friction) {
+      const auto& [x, y, z] = contact.friction->tangentialForce;
+      text << ", friction (" << rounded(x) << ", " << rounded(y) << ", " << rounded(z) << "), sticks on "
+           << rounded(contact.friction->stickArea) << ", slips on " << rounded(contact.friction->slipArea);
+    }
+    text << '\n';
+  }
+  return text.str();
+}
+
 } // namespace epafi::drivers

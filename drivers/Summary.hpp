@@ -14,4 +14,7 @@ std::string summary(const simulation::RunResult& result);
 /// One line about a mesh of a run with an accuracy target, ends with a newline.
 std::string describe(const accuracy::MeshResult& mesh);
 
+/// A line of a load step.
+std::string describe(const simulation::StepResult& step);
+
 } // namespace epafi::drivers

@@ -7,7 +7,7 @@
 #include "StopSignals.hpp"
 #include "Summary.hpp"
 #include "epafi/simulation/AccurateRun.hpp"
-#include "epafi/simulation/SceneRun.hpp"
+#include "epafi/simulation/StepRun.hpp"
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
@@ -64,18 +64,24 @@ bool print(const std::string& text) {
 }
 
 /// On the scene's own mesh, or on finer ones until the error is small enough.
-simulation::SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::ParameterList& list,
-                                  const RCP<const Comm>& comm, RunWatch& watch, RunFiles& files,
-                                  bool speaks) {
+simulation::SceneRun solveAsAsked(const scene::Scene& scene, const std::vector<scene::Step>& steps,
+                                  const Teuchos::ParameterList& list, const RCP<const Comm>& comm,
+                                  RunWatch& watch, RunFiles& files, bool speaks) {
   const auto accuracy = simulation::AccuracyParameters::from(list.sublist("Accuracy"));
   const Teuchos::ParameterList& solver = list.sublist("Solver");
+  const simulation::RunOptions options{.estimatesError = accuracy.estimate,
+                                       .quantity = accuracy.quantity,
+                                       .facts = {.coarserFrom = accuracy.coarserFrom},
+                                       .companion = &watch,
+                                       .meshes = model::Meshes::pieces};
+  if (!steps.empty())
+    return simulation::solveSteps(scene, steps, solver, comm, options,
+                                  [&](const simulation::StepResult& step) {
+                                    if (speaks)
+                                      std::cout << describe(step) << std::flush;
+                                  });
   if (accuracy.target == 0)
-    return simulation::solveScene(scene, solver, comm,
-                                  {.estimatesError = accuracy.estimate,
-                                   .quantity = accuracy.quantity,
-                                   .facts = {.coarserFrom = accuracy.coarserFrom},
-                                   .companion = &watch,
-                                   .meshes = model::Meshes::pieces});
+    return simulation::solveScene(scene, solver, comm, options);
   watch.expectSeries();
   const auto tell = [&](const accuracy::MeshResult& mesh, simulation::SceneRun& run) {
     files.writeMesh(run);
@@ -89,6 +95,17 @@ simulation::SceneRun solveAsAsked(const scene::Scene& scene, const Teuchos::Para
   return run;
 }
 
+/// Steps go on one mesh, to no number with a bar.
+void requireOneOfBoth(const std::string& file, const std::vector<scene::Step>& steps,
+                      const Teuchos::ParameterList& list) {
+  const auto accuracy = simulation::AccuracyParameters::from(list);
+  if (!steps.empty() &&
+      (accuracy.target > 0 || accuracy.quantity.kind != simulation::QuantityParameters::Kind::none))
+    throw InputError(file +
+                     ": list \"Steps\" cannot go together with a Target or a Quantity in list "
+                     "\"Accuracy\": load steps are solved on the mesh that is given; leave out one of them.");
+}
+
 int solve(const Options& options, const RCP<const Comm>& comm) {
   const bool speaks = comm->getRank() == 0 && !options.quiet;
   const double start = Teuchos::Time::wallTime();
@@ -98,6 +115,8 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
     scene::applyOverride(given, schema, text);
   const Teuchos::ParameterList list = validated(given, schema, options.scene);
   const scene::Scene scene = scene::readScene(given, options.scene);
+  const std::vector<scene::Step> steps = scene::readSteps(given, options.scene, scene);
+  requireOneOfBoth(options.scene, steps, list.sublist("Accuracy"));
   for (const auto& file : reportsOf(options)) {
     collectively(*comm, [&] {
       std::error_code ignored;
@@ -114,7 +133,7 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
 
   RunWatch watch(options, comm);
   RunFiles files(options, watch, comm, start);
-  simulation::SceneRun run = solveAsAsked(scene, list, comm, watch, files, speaks);
+  simulation::SceneRun run = solveAsAsked(scene, steps, list, comm, watch, files, speaks);
   const bool isInterrupted = run.result.status == simulation::RunStatus::interrupted;
   const std::string signal = isInterrupted ? watch.signal() : "";
   files.finish(run);

@@ -41,10 +41,10 @@ void ActiveSetIteration::chooseFirstFace(const ActiveSetProblem& problem) {
 /// The next face: x is projected, and may move where no bound holds it or the multiplier of one has the wrong
 /// sign; with caution only where it is the largest of these. False if that is the present face.
 bool ActiveSetIteration::chooseFace(bool isCautious) {
-  copy(on_.x, inside_);
-  followSet();
-  set_->project(inside_);
   const Vector& gradient = on_.plainGradient();
+  copy(on_.x, inside_);
+  followSet(gradient);
+  set_->project(inside_);
   const double negligible = negligibleShare * on_.gradientNorm();
   set_->choppedGradient(inside_, gradient, negligible, work_);
   const double least = std::max(negligible, isCautious ? work_.normInf() : 0.0);
@@ -77,10 +77,13 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
   return true;
 }
 
-/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it.
-void ActiveSetIteration::followSet() {
+/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it. What the last set
+/// held and this one does not, a node that has just closed, goes as far against the gradient as it wants to, or
+/// as the set lets it: it sticks or slips.
+void ActiveSetIteration::followSet(const Vector& gradient) {
   if (!problem_.setAt)
     return;
+  const RCP<const ConvexSet> last = set_;
   set_ = problem_.setAt(inside_);
   const auto on = localData(on_.face.isFree);
   const auto held = localDataNonConst(next_.isFree);
@@ -89,6 +92,12 @@ void ActiveSetIteration::followSet() {
   for (const CircleTangent& tangent : on_.face.tangents)
     held[tangent.first] = held[tangent.second] = 1;
   set_->activate(next_.isFree, inside_);
+  last->fixedIndicator(next_.isFree);
+  const auto wasHeld = localData(next_.isFree), slope = localData(gradient);
+  const auto direction = localDataNonConst(work_);
+  for (std::size_t i = 0; i < direction.size(); ++i)
+    direction[i] = wasHeld[i] * slope[i];
+  set_->move(1 / on_.stiffness(), work_, inside_);
 }
 
 /// Whether the next face has this one's tangents, and x has not moved along them; on this rank.

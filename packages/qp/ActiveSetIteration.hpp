@@ -40,7 +40,7 @@ private:
   void release(double share);
   double follow(const Vector& p, double most);
   [[nodiscard]] bool isSameFace() const;
-  void followSet();
+  void followSet(const Vector& gradient);
   bool isSolved();
   [[nodiscard]] bool isSmall(double gradient, double energy);
   [[nodiscard]] bool holdsEquality() const;

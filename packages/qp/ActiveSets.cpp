@@ -151,9 +151,10 @@ bool ActiveSetIteration::isNearlySmall() const {
 /// Whether x, with g afresh, is within Ω and its projected gradient meets the tolerance.
 bool ActiveSetIteration::isSolved() {
   copy(on_.x, inside_);
-  followSet();
+  const Vector& gradient = on_.plainGradient();
+  followSet(gradient);
   set_->project(inside_);
-  set_->projectedGradient(inside_, on_.plainGradient(), 0.0, work_);
+  set_->projectedGradient(inside_, gradient, 0.0, work_);
   on_.face.restrict(work_, next_.isFree);
   addScaled(-1.0, next_.isFree, work_);
   reduction_.clear();

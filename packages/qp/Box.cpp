@@ -153,6 +153,13 @@ void Box::freeIndicator(const Vector& x, Vector& y) const {
     result[i] = bounds[i].isFree(values[i]) ? 1.0 : 0.0;
 }
 
+void Box::fixedIndicator(Vector& y) const {
+  const Local bounds = local();
+  const auto result = localDataNonConst(y);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = bounds[i].lower < bounds[i].upper ? 0 : 1;
+}
+
 void Box::distanceToBoundary(const Vector& x, double atMost, Vector& y) const {
   const Local bounds = local();
   const auto values = localData(x);

@@ -203,6 +203,13 @@ void Discs::freeIndicator(const Vector& x, Vector& y) const {
     setPair(disc, Pair::Constant(disc.isFree(pairOf(disc, values)) ? 1 : 0), result);
 }
 
+void Discs::fixedIndicator(Vector& y) const {
+  box_.fixedIndicator(y);
+  const auto result = localDataNonConst(y);
+  for (const Disc& disc : discs_)
+    setPair(disc, Pair::Constant(disc.radius > 0 ? 0 : 1), result);
+}
+
 void Discs::distanceToBoundary(const Vector& x, double atMost, Vector& y) const {
   box_.distanceToBoundary(x, atMost, y);
   const auto values = localData(x);

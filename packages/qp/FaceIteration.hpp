@@ -46,6 +46,8 @@ public:
   [[nodiscard]] const Vector& gradient() const { return g_; } ///< g
   /// g without K(x − x0); until the next step.
   [[nodiscard]] const Vector& plainGradient();
+  /// That of A in an entry, about, scaled: from what M does, or ‖A‖ where it does not tell.
+  [[nodiscard]] double stiffness() const { return stiffness_ > 0 ? stiffness_ : objective_.norm(); }
   [[nodiscard]] double gradientNorm() const { return gradient_; } ///< ‖Zg‖
   [[nodiscard]] double energy() const { return energy_; }         ///< gᵀZ P_F M P_F Zg
   [[nodiscard]] double objective() const { return f_; }           ///< f, scaled

@@ -145,7 +145,8 @@ void IterativeSolve::fixFriction(const qp::ActiveSetProblem& faces, const qp::Sm
                                  Vector& x, const MethodWithin& within) {
   constexpr int maxRounds = 60;
   const double enough = tolerances.gradient * tolerances.gradientReference;
-  Vector nearest(x.getMap());
+  Vector nearest(x.getMap()), ones(x.getMap());
+  ones.putScalar(1.0);
   for (int round = 0; round < maxRounds; ++round) {
     const RCP<const qp::ConvexSet> set = faces.setAt(x);
     goOn([&](Vector& from, const qp::MprgpParameters& limits) { return within(set, from, limits); }, x,
@@ -155,8 +156,14 @@ void IterativeSolve::fixFriction(const qp::ActiveSetProblem& faces, const qp::Sm
     nearest.assign(x);
     faces.setAt(x)->project(nearest);
     nearest.update(-1.0, x, 1.0);
-    if (dual_.norm().norm * accurateNorm(nearest) <= enough)
+    if (dual_.norm().norm * accurateNorm(nearest) <= enough) { // what was at a bound is at the new one
+      const RCP<const qp::ConvexSet> now = faces.setAt(x);
+      set->freeIndicator(x, nearest);
+      nearest.update(1.0, ones, -1.0);
+      now->activate(nearest, x);
+      now->project(x);
       return;
+    }
   }
   solution_.report.status = qp::Status::stagnated;
   solution_.report.reason =

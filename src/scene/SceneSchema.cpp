@@ -232,6 +232,17 @@ ParameterList decompositionSchema() {
   return list;
 }
 
+void describeStep(ParameterList& steps) {
+  ParameterList& step =
+      steps.sublist("<step>", false,
+                    "What changes in a step; what it does not name stays as the step before had "
+                    "it, or the scene.");
+  step.set("Loads", "", "By what loads are multiplied: \"body/load = factor\", several parted by commas.");
+  step.set("Supports", "",
+           "By what the displacements are multiplied that supports prescribe: \"body/support = factor\", …");
+  step.set("Gaps", "", "Gap of contacts: \"contact = gap\", …");
+}
+
 ParameterList sceneSchema() {
   ParameterList list("Epafi");
   list.set("Title", "", "What the scene shows, in a few words.");
@@ -243,6 +254,10 @@ ParameterList sceneSchema() {
                             "magnitude."));
   describeObstacle(list.sublist("Obstacles", false, "Rigid obstacles that elastic bodies may meet."));
   describePair(list.sublist("Contact", false, "What cannot penetrate each other, or is tied."));
+  describeStep(
+      list.sublist("Steps", false,
+                   "Load steps, in their order; without any there is one, with all loads. What friction "
+                   "slips is kept from step to step."));
   list.sublist("Decomposition", false, "How each body is cut into subdomains, unless it says so itself.")
       .setParameters(decompositionSchema());
   return list;

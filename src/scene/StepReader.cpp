@@ -105,9 +105,10 @@ std::vector<Step> readSteps(const Teuchos::ParameterList& list, const std::strin
   for (const std::string& name : all.names()) {
     const ListReader entry = all.inside(name);
     steps.push_back({name,
-                     factorsOf(entry, "Loads", scene, [](const Body& body) -> auto& { return body.loads; }),
-                     factorsOf(entry, "Supports", scene,
-                               [](const Body& body) -> auto& { return body.supports; }),
+                     factorsOf(
+                         entry, "Loads", scene, [](const Body& body) -> auto& { return body.loads; }),
+                     factorsOf(
+                         entry, "Supports", scene, [](const Body& body) -> auto& { return body.supports; }),
                      gapsOf(entry, scene)});
   }
   return steps;
@@ -129,8 +130,8 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
                                  .value)
       component *= factor;
   for (const auto& [place, factor] : supports) {
-    SolidSupport& support = scene.bodies[static_cast<std::size_t>(place.first)]
-                                .supports[static_cast<std::size_t>(place.second)];
+    SolidSupport& support =
+        scene.bodies[static_cast<std::size_t>(place.first)].supports[static_cast<std::size_t>(place.second)];
     for (std::optional<double>& component : support.value)
       if (component)
         *component *= factor;

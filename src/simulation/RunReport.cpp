@@ -138,6 +138,17 @@ void enterTie(const TieResult& tie, ParameterList& list) {
   enterBalance(tie.balance, list);
 }
 
+void enterStep(const StepResult& step, ParameterList& list) {
+  list.set("Hessian Multiplications", step.multiplications)
+      .set("Strain Energy", step.strainEnergy)
+      .set("Load Work", step.loadWork)
+      .set("Dissipation", step.dissipation)
+      .set("Converged", step.status == RunStatus::converged)
+      .set("Reason", step.reason);
+  for (const ContactResult& contact : step.contacts)
+    enterContact(contact, list.sublist("Contact").sublist(contact.name));
+}
+
 void enterMesh(const accuracy::MeshResult& mesh, ParameterList& list) {
   if (mesh.quantity)
     list.set("Quantity", mesh.quantity->value)
@@ -214,6 +225,8 @@ ParameterList reportOf(const RunResult& result) {
           .sublist(body.name)
           .set("Largest Displacement", body.largestDisplacement)
           .set("Largest von Mises Stress", body.largestStress);
+  for (const StepResult& step : result.steps)
+    enterStep(step, list.sublist("Steps").sublist(step.name));
   if (result.target)
     for (std::size_t i = 0; i < result.target->meshes.size(); ++i)
       enterMesh(result.target->meshes[i], list.sublist("Levels").sublist("level " + std::to_string(i)));

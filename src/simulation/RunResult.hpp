@@ -60,6 +60,16 @@ struct TargetResult {
   std::string choiceOfOrder;                ///< why this order; empty if it was given
 };
 
+/// What a load step has come to.
+struct StepResult {
+  std::string name;
+  int multiplications = 0;                                ///< products with F
+  double strainEnergy = 0, loadWork = 0, dissipation = 0; ///< ½uᵀKu, fᵀu, and what friction took in the step
+  std::vector<ContactResult> contacts;
+  RunStatus status = RunStatus::notConverged;
+  std::string reason; ///< one sentence
+};
+
 /// All of it.
 struct RunResult {
   std::string title; ///< of the scene
@@ -77,6 +87,7 @@ struct RunResult {
   bool choosesClusters = false; ///< whether some body's clusters were left to choose
   std::vector<ContactResult> contacts;
   std::vector<TieResult> ties;
+  std::vector<StepResult> steps; ///< in their order, the last one too; none where the scene has none
   std::optional<TargetResult> target;
   RunTimes times;
   RunStatus status = RunStatus::notConverged;

@@ -230,15 +230,35 @@ RCP<const Vector> prepareSolve(SceneRun& run, const Teuchos::ParameterList& solv
   return start;
 }
 
+/// From a start to what follows from the solution. Collective.
+void solveFrom(const Vector* start, const std::optional<QuantityOfScene>& quantity, const RunOptions& options,
+               SceneRun& run) {
+  const bool estimatesError = options.estimatesError || quantity;
+  std::optional<accuracy::ErrorEstimator> estimator;
+  if (estimatesError || run.solver->plan().isBalanced)
+    estimator.emplace(run.scene, *run.decomposition);
+  const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
+  run.solution = run.solver->solve(run.decomposition->data, start, options.companion,
+                                   run.solver->plan().isBalanced ? &balance : nullptr);
+  const double began = Teuchos::Time::wallTime();
+  if (!estimatesError)
+    run.error.reset(); // the iteration's last look, if it took one
+  else if (!run.solution.isEstimated)
+    run.error = (*estimator)(run.solution.displacement);
+  if (quantity)
+    run.result.quantity = (*quantity)(*run.solver, run.solved(), *estimator, run.error->energyNorm);
+  if (estimatesError)
+    run.result.times.errorEstimate =
+        maxOverRanks(*run.decomposition->problem.comm, Teuchos::Time::wallTime() - began);
+  evaluateRun(run);
+}
+
 } // namespace
 
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, const RunOptions& options) {
   SceneRun run;
-  const auto secondsSince = [&](double began) {
-    return maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
-  };
-  double began = Teuchos::Time::wallTime();
+  const double began = Teuchos::Time::wallTime();
   run.scene = scene;
   const model::Meshes meshes = options.quantity.point.empty() ? options.meshes : model::Meshes::whole;
   run.decomposition = std::make_unique<model::Decomposition>(
@@ -247,30 +267,23 @@ SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& sol
   std::optional<QuantityOfScene> quantity;
   if (options.quantity.kind != QuantityParameters::Kind::none)
     quantity.emplace(options.quantity, run.scene, *run.decomposition);
-  const bool estimatesError = options.estimatesError || quantity;
-  run.result.times.assembly = secondsSince(began);
-  std::optional<accuracy::ErrorEstimator> estimator;
+  run.result.times.assembly = maxOverRanks(*comm, Teuchos::Time::wallTime() - began);
   try {
     const RCP<const Vector> start = prepareSolve(run, solverParameters, comm, options);
-    if (estimatesError || run.solver->plan().isBalanced)
-      estimator.emplace(run.scene, *run.decomposition);
-    const fetidp::ErrorBalance balance = balanceOf(run, estimator, run.error, options);
-    run.solution = run.solver->solve(run.decomposition->data, start.get(), options.companion,
-                                     run.solver->plan().isBalanced ? &balance : nullptr);
+    solveFrom(start.get(), quantity, options, run);
   } catch (const fetidp::ContradictionError& error) { // on all ranks
     throw inWordsOf(*run.decomposition, error);
   }
-  began = Teuchos::Time::wallTime();
-  if (!estimatesError)
-    run.error.reset(); // the iteration's last look, if it took one
-  else if (!run.solution.isEstimated)
-    run.error = (*estimator)(run.solution.displacement);
-  if (quantity)
-    run.result.quantity = (*quantity)(*run.solver, run.solved(), *estimator, run.error->energyNorm);
-  if (estimatesError)
-    run.result.times.errorEstimate = secondsSince(began);
-  evaluateRun(run);
   return run;
+}
+
+void solveAgain(SceneRun& run, const RunOptions& options) {
+  const RCP<const Vector> start = run.solution.multiplier;
+  try {
+    solveFrom(start.get(), std::nullopt, options, run);
+  } catch (const fetidp::ContradictionError& error) { // on all ranks
+    throw inWordsOf(*run.decomposition, error);
+  }
 }
 
 } // namespace epafi::simulation

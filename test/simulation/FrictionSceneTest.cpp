@@ -3,7 +3,7 @@
 
 #include "support/SolidScenes.hpp"
 
-#include "epafi/simulation/SceneRun.hpp"
+#include "epafi/simulation/StepRun.hpp"
 
 #include <gtest/gtest.h>
 
@@ -142,6 +142,45 @@ TEST(FrictionSceneTest, InSpaceFrictionPointsAgainstTheSlip) {
     EXPECT_NEAR(std::atan2(friction.tangentialForce[1], friction.tangentialForce[0]), angle, 0.02);
     EXPECT_GT(friction.dissipation, 0);
   }
+}
+
+/// A square of order 2 that nothing but friction holds: pressed, pushed to the right, to the left, and left alone.
+TEST(FrictionSceneTest, WhatHasSlippedIsKeptFromStepToStep) {
+  scene::Scene scene = heldBlock(32, test::cutInGrid({2, 2, 1}));
+  scene.bodies[0].mesh.order = 2;
+  scene.bodies[0].supports.clear();
+  const auto loadOn = [&](const std::string& name, scene::SolidLoad::Kind kind, const std::string& surface,
+                          const Vector3& value) {
+    scene::SolidLoad load;
+    load.name = name;
+    load.kind = kind;
+    load.where = surface;
+    load.value = value;
+    scene.bodies[0].loads.push_back(load);
+  };
+  loadOn("press", scene::SolidLoad::Kind::traction, "top", {0, -0.01, 0});
+  loadOn("push", scene::SolidLoad::Kind::pressure, "left", {0.0027, 0, 0});
+  std::vector<scene::Step> steps(4);
+  const double factors[] = {0, 1, -1, 0};
+  for (std::size_t k = 0; k < 4; ++k) {
+    steps[k].name = std::string(1, static_cast<char>('a' + k));
+    steps[k].loads[{0, 1}] = factors[k];
+  }
+  int told = 0;
+  const SceneRun run =
+      solveSteps(scene, steps,
+                 Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance),
+                 Tpetra::getDefaultComm(), {}, [&](const StepResult&) { ++told; });
+
+  ASSERT_EQ(run.result.steps.size(), 4U);
+  EXPECT_EQ(told, 3);
+  const double energies[] = {4.44047407e-5, 4.67729504e-5, 5.6118295e-5, 4.46103813e-5};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(run.result.steps[k].status, RunStatus::converged) << run.result.steps[k].reason;
+    EXPECT_NEAR(run.result.steps[k].strainEnergy, energies[k], 1e-7 * energies[k]) << steps[k].name;
+  }
+  EXPECT_NEAR(run.result.steps[2].loadWork, 1.14205344e-4, 1e-7 * 1.14205344e-4);
+  EXPECT_NEAR(run.result.steps[2].dissipation, 2.08925e-6, 1e-4 * 2.08925e-6);
 }
 
 } // namespace

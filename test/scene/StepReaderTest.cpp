@@ -1,0 +1,76 @@
+#include "SceneLists.hpp"
+
+#include "epafi/scene/SceneReader.hpp"
+#include "epafi/scene/StepReader.hpp"
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace epafi;
+using namespace epafi::test;
+using Teuchos::ParameterList;
+
+std::vector<scene::Step> stepsOf(const ParameterList& list) {
+  return scene::readSteps(list, "a.xml", scene::readScene(list, "a.xml"));
+}
+
+/// Two bodies with a load on each and a support on the left one.
+ParameterList loaded() {
+  ParameterList list = twoBodies();
+  for (const char* const body : {"left", "right"})
+    bodyOf(list, body).sublist("Loads").sublist("push").set("Value", 2.0);
+  bodyOf(list, "left").sublist("Supports").sublist("wall").set("Value", 0.5);
+  return list;
+}
+
+std::string refusalOfStep(const std::string& parameter, const std::string& text) {
+  ParameterList list = loaded();
+  list.sublist("Steps").sublist("press").set(parameter, text);
+  try {
+    stepsOf(list);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StepReaderTest, WhatAStepDoesNotNameStays) {
+  ParameterList list = loaded();
+  list.sublist("Steps")
+      .sublist("press")
+      .set("Loads", "left/push = 3, right/push=0")
+      .set("Gaps", "interface=0.25");
+  list.sublist("Steps").sublist("pull").set("Loads", "right/push=-1").set("Supports", "left/wall = 2");
+  const scene::Scene whole = scene::readScene(list, "a.xml");
+  const std::vector<scene::Step> steps = stepsOf(list);
+
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0].name, "press");
+  const scene::Scene first = scene::atStep(whole, steps, 0), second = scene::atStep(whole, steps, 1);
+  EXPECT_EQ(first.bodies[0].loads[0].value[0], 6);
+  EXPECT_EQ(first.bodies[1].loads[0].value[0], 0);
+  EXPECT_EQ(first.bodies[0].supports[0].value, whole.bodies[0].supports[0].value);
+  EXPECT_EQ(first.contacts[0].gap, 0.25);
+  EXPECT_EQ(second.bodies[0].loads[0].value[0], 6);
+  EXPECT_EQ(second.bodies[1].loads[0].value[0], -2);
+  EXPECT_EQ(second.bodies[0].supports[0].value[0], 1);
+  EXPECT_EQ(second.contacts[0].gap, 0.25);
+}
+
+TEST(StepReaderTest, WithoutTheListThereAreNoSteps) {
+  EXPECT_TRUE(stepsOf(loaded()).empty());
+}
+
+TEST(StepReaderTest, RefusesWhatIsNotThere) {
+  expectSays(refusalOfStep("Loads", "left/psuh=1"),
+             {"a.xml: ", "\"Loads\"", "\"Steps/press\"", "left/psuh", "did you mean \"left/push\"?"});
+  expectSays(refusalOfStep("Supports", "right/x=1"), {"\"Supports\"", "right/x", "\"left/wall\""});
+  expectSays(refusalOfStep("Gaps", "contact=1"), {"\"Gaps\"", "contact", "\"interface\""});
+  for (const char* const text :
+       {"left/push", "left/push=", "left/push=two", "left/push=1e999", "=", "left/push=1 2"})
+    expectSays(refusalOfStep("Loads", text), {"\"Loads\"", "name = number"});
+}
+
+} // namespace
