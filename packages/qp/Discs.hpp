@@ -66,8 +66,7 @@ public:
   [[nodiscard]] bool isCurved() const override { return true; }
   void followBoundary(const Vector& x, const Vector& g, double least, const Face* from,
                       Face& face) const override;
-  void releases(const Vector& x, const Vector& g, const Vector& change, double least,
-                Vector& y) const override;
+  void releases(const Vector& x, const Vector& g, const Vector& s, double least, Vector& y) const override;
 
 private:
   [[nodiscard]] Vector withoutPairs(const Vector& x) const;
