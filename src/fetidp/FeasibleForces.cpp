@@ -12,15 +12,26 @@
 
 namespace epafi::fetidp {
 
-RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
-                                        const decomposition::ProblemData& data, const Vector* normal) {
-  constexpr double unbounded = std::numeric_limits<double>::infinity();
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// λ_n ≥ 0.
+RCP<Vector> leastForces(const decomposition::DecomposedProblem& problem) {
   const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
   const auto least = qp::localDataNonConst(*lower);
   for (std::size_t row = 0; row < least.size(); ++row)
     if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(row))) !=
         decomposition::RowKind::contact)
       least[row] = -unbounded;
+  return lower;
+}
+
+} // namespace
+
+RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
+                                        const decomposition::ProblemData& data, const Vector* normal) {
+  const RCP<Vector> lower = leastForces(problem);
   if (problem.numFriction == 0 || normal == nullptr)
     return rcp(new qp::Box(lower));
   const auto force = qp::localData(*normal);
@@ -39,6 +50,18 @@ RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& 
     upper->replaceLocalValue(node.firstTangent, boundOf(node));
     lower->replaceLocalValue(node.firstTangent, -boundOf(node));
   }
+  return rcp(new qp::Box(lower, upper));
+}
+
+RCP<const qp::ConvexSet> feasibleForcesWithoutFriction(const decomposition::DecomposedProblem& problem) {
+  const RCP<Vector> lower = leastForces(problem), upper = rcp(new Vector(problem.multiplierMap));
+  const auto least = qp::localDataNonConst(*lower), most = qp::localDataNonConst(*upper);
+  for (std::size_t row = 0; row < least.size(); ++row)
+    if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(row))) ==
+        decomposition::RowKind::friction)
+      least[row] = 0;
+    else
+      most[row] = unbounded;
   return rcp(new qp::Box(lower, upper));
 }
 
