@@ -24,7 +24,9 @@ public:
 
 private:
   static constexpr int maxIdleFaces = 24;          ///< in a row with no smaller gradient, or objective
+  static constexpr int mostIdleWithMovingSet = 12; ///< where there is no objective that falls
   static constexpr int maxFaceSteps = 200;         ///< of CG before a face is looked at again
+  static constexpr int mostLeft = 30;              ///< faces without a minimum, in a set that has one
   static constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
 
   Status settle();  ///< the loop of the paper
@@ -32,6 +34,7 @@ private:
   void chooseFirstFace(const ActiveSetProblem& problem);
   std::optional<Status> minimise(int maxSteps);
   [[nodiscard]] bool isEndless();
+  bool leave();
   [[nodiscard]] bool isNearlySmall() const;
   bool chooseFace(bool isCautious);
   bool balance();
@@ -66,6 +69,7 @@ private:
   double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled
   long long numActive_ = 0;
   bool isAtOrigin_ = false; ///< where the method starts
+  int numLeft_ = 0;         ///< how often x has left Ω along what has no curvature
 };
 
 } // namespace epafi::qp
