@@ -34,9 +34,12 @@ RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& 
   const RCP<Vector> lower = leastForces(problem);
   if (problem.numFriction == 0 || normal == nullptr)
     return rcp(new qp::Box(lower));
+  constexpr double roundOff = 1e-12; // of a force that is none: a circle of such a size has no use
   const auto force = qp::localData(*normal);
+  const double least = roundOff * normal->normInf();
   const auto boundOf = [&](const decomposition::FrictionNode& node) {
-    return data.frictionBound(node, force[static_cast<std::size_t>(int{node.contact})]);
+    const double pressing = force[static_cast<std::size_t>(int{node.contact})];
+    return data.frictionBound(node, pressing > least ? pressing : 0.0);
   };
   std::vector<qp::Disc> discs;
   if (problem.components > 2) {

@@ -81,7 +81,7 @@ public:
       if (const double squared = accurateDot(*last_, *last_); squared > 0)
         share_ = std::clamp(share_ * (1 - accurateDot(*last_, misfit) / squared), least, 1.0);
     }
-    y.update(share_, misfit, 1.0);
+    y.update(share_, x, 1 - share_);
     last_.emplace(misfit, Teuchos::Copy);
   }
 
