@@ -198,6 +198,7 @@ void IterativeSolve::fixFriction(const qp::ActiveSetProblem& faces, const qp::Sm
                                  Vector& x, const MethodWithin& within) {
   constexpr int maxRounds = 60, endless = std::numeric_limits<int>::max();
   constexpr double first = 1e-2, share = 0.1; // of what bounds still move, each problem is solved to
+  constexpr double exact = 1e-3;              // reduction on faces
   const double enough = tolerances.gradient * tolerances.gradientReference;
   qp::ActiveSetProblem given = faces;
   given.setAt = {};
@@ -209,11 +210,15 @@ void IterativeSolve::fixFriction(const qp::ActiveSetProblem& faces, const qp::Sm
   for (int round = 0; round < maxRounds; ++round) {
     if (tolerances.error == nullptr && tolerances.gradientReference > 0)
       rough.gradient = std::max(tolerances.gradient, share * moved / tolerances.gradientReference);
-    goOn(
-        [&](Vector& from, const qp::MprgpParameters& limits) {
-          return qp::solveByActiveSets(given, from, nullptr, rough, limits, observer_);
-        },
-        x, endless);
+    const Method byFaces = [&](Vector& from, const qp::MprgpParameters& limits) {
+      return qp::solveByActiveSets(given, from, nullptr, rough, limits, observer_);
+    };
+    goOn(byFaces, x, endless);
+    if (isToGoOn() &&
+        given.faceReduction > exact) { // small circles are stiff: half a step there leads nowhere
+      given.faceReduction = exact;
+      goOn(byFaces, x, endless);
+    }
     if (isToGoOn() || solution_.report.status == qp::Status::unbounded)
       goOn([&](Vector& from, const qp::MprgpParameters& limits) { return within(given.set, from, limits); },
            x, endless);
