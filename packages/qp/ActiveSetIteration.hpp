@@ -42,7 +42,6 @@ private:
   void release(double share);
   double follow(const Vector& p, double most);
   [[nodiscard]] bool isSameFace() const;
-  void alignTangents();
   void followSet();
   bool isSolved();
   [[nodiscard]] bool isSmall(double gradient, double energy);

@@ -221,7 +221,6 @@ bool ActiveSetIteration::isNearlySmall() const {
 /// sign; with caution only where it is the largest of these. False if that is the present face.
 bool ActiveSetIteration::chooseFace(bool isCautious) {
   copy(on_.x, inside_);
-  alignTangents();
   followSet();
   set_->project(inside_);
   const Vector& gradient = on_.plainGradient();
@@ -255,24 +254,6 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
   copy(inside_, on_.x);
   copy(next_, on_.face);
   return true;
-}
-
-/// Pairs go on along their circles from where a step against the gradient takes them, if that stays outside
-/// (Alart, Curnier, *Comput. Methods Appl. Mech. Engrg* 92 (1991)): on a small circle the tangent where they
-/// came in leads far past, and the gradient points inwards there only since it turns with the pair.
-void ActiveSetIteration::alignTangents() {
-  const double stiffness = on_.stiffness();
-  if (on_.face.tangents.empty() || !(stiffness > 0))
-    return;
-  const auto gradient = localData(on_.plainGradient());
-  const auto inside = localDataNonConst(inside_);
-  for (const CircleTangent& tangent : on_.face.tangents) {
-    const double along = tangent.component(gradient), inward = tangent.outward(gradient);
-    if (inward > 0 && along * along + inward * inward < 2 * stiffness * tangent.radius * inward)
-      continue;
-    for (const LocalOrdinal i : {tangent.first, tangent.second})
-      inside[static_cast<std::size_t>(i)] -= gradient[static_cast<std::size_t>(i)] / stiffness;
-  }
 }
 
 /// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it.

@@ -49,8 +49,6 @@ public:
   [[nodiscard]] double gradientNorm() const { return gradient_; } ///< ‖Zg‖
   [[nodiscard]] double energy() const { return energy_; }         ///< gᵀZ P_F M P_F Zg
   [[nodiscard]] double objective() const { return f_; }           ///< f, scaled
-  /// About that of A along tangents, scaled; 0 where it is not known.
-  [[nodiscard]] double stiffness() const { return stiffness_; }
   [[nodiscard]] double constraintResidual() const {
     return residual_;
   } ///< ‖Bx − c‖ where the face was entered
@@ -79,7 +77,7 @@ private:
   std::vector<double> missing_;           ///< Bx − c where the face was entered, k
   double f_ = 0, gradient_ = 0, energy_ = 0, residual_ = 0;
   double inverseStiffness_ = 0; ///< rᵀMr/rᵀr of the last r, not scaled; 0 before the first
-  double stiffness_ = 0;        ///< see stiffness
+  double stiffness_ = 0;        ///< about that of A along tangents, scaled; 0 where it is not known
   double timesImage_ = 0;       ///< zᵀAp
   double slope_ = 0;            ///< gᵀp
   double curvature_ = 0;        ///< pᵀAp of the last step; 0: there was none on this face
