@@ -170,7 +170,8 @@ void Box::activate(const Vector& active, Vector& x) const {
       continue;
     const Interval interval = bounds[i];
     const double below = std::abs(values[i] - interval.lower), above = std::abs(values[i] - interval.upper);
-    const bool isMiddle = std::abs(below - above) <= 1e-9 * (below + above); // no side is nearer
+    const bool isMiddle = // no side is nearer
+        std::isfinite(below + above) && std::abs(below - above) <= 1e-9 * (below + above);
     const double nearer = below <= above ? interval.lower : interval.upper;
     if (std::isfinite(nearer) && !isMiddle)
       values[i] = nearer;
