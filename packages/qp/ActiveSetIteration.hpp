@@ -24,8 +24,10 @@ public:
 
 private:
   static constexpr int maxIdleFaces = 24;          ///< in a row with no smaller gradient, or objective
+  static constexpr int mostIdleWithMovingSet = 12; ///< where there is no objective that falls
   static constexpr int maxFaceSteps = 200;         ///< of CG before a face is looked at again
   static constexpr double roundOffOfX = 1e-13;     ///< of x that leaves Ω by it
+  static constexpr int mostLeft = 30;              ///< faces without a minimum, in a set that has one
   static constexpr double negligibleShare = 1e-12; ///< multipliers no larger, beside ‖Zg‖, release nothing
 
   Status settle();  ///< the loop of the paper
@@ -33,6 +35,7 @@ private:
   void chooseFirstFace(const ActiveSetProblem& problem);
   std::optional<Status> minimise(int maxSteps);
   [[nodiscard]] bool isEndless();
+  bool leave();
   [[nodiscard]] bool isNearlySmall() const;
   bool chooseFace(bool isCautious);
   bool balance();
@@ -67,6 +70,7 @@ private:
   double gradient_ = 0; ///< ‖Zg‖, of the solution ‖g^P‖; scaled
   long long numActive_ = 0;
   bool isAtOrigin_ = false; ///< where the method starts
+  int numLeft_ = 0;         ///< how often x has left Ω along what has no curvature
 };
 
 } // namespace epafi::qp

@@ -56,7 +56,7 @@ ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Ve
 Status ActiveSetIteration::run(Observer* observer) {
   interruption_.setObserver(observer);
   const Status status = settle();
-  if ((status != Status::stagnated && status != Status::unbounded) || set_->isCurved())
+  if ((status != Status::stagnated && status != Status::unbounded) || set_->isCurved() || problem_.setAt)
     return status;
   const Status further = descend();
   return further == Status::stagnated ? status : further;
@@ -66,7 +66,8 @@ Status ActiveSetIteration::settle() {
   double least = std::numeric_limits<double>::infinity(), highest = 0, largest = 0;
   int numIdle = 0, numRunaways = 0, numRunawayFaces = 0;
   bool isRunaway = false;
-  for (int faces = 0; faces < maxFaces && numIdle <= maxIdleFaces; ++faces) {
+  const int mostIdle = problem_.setAt ? mostIdleWithMovingSet : maxIdleFaces;
+  for (int faces = 0; faces < maxFaces && numIdle <= mostIdle; ++faces) {
     copy(on_.x, inside_);
     on_.enter(isAtOrigin_ && faces == 0); // Bx = c, g afresh
     gradient_ = on_.gradientNorm();
@@ -124,8 +125,11 @@ std::optional<Status> ActiveSetIteration::minimise(int maxSteps) {
       return Status::maxIterations;
     if (step == maxSteps)
       return Status::stagnated;
-    if (const auto status = on_.step())
-      return *status == Status::unbounded && !isEndless() ? Status::stagnated : *status;
+    if (const auto status = on_.step()) {
+      if (*status != Status::unbounded || isEndless())
+        return status;
+      return leave() ? std::nullopt : std::optional(Status::stagnated);
+    }
     gradient_ = on_.gradientNorm();
     record(StepKind::conjugateGradient);
   }
@@ -140,6 +144,23 @@ bool ActiveSetIteration::isEndless() {
   set_->recessionCone(objective_.map())->project(next_.isFree);
   addScaled(-1.0, work_, next_.isFree);
   return accurateNorm(next_.isFree) <= mostOff * accurateNorm(work_);
+}
+
+/// Where the face has no minimum but Ω has: from where CG entered the face along what has no curvature, which
+/// changes no other entry's gradient, until x leaves Ω. False if it never does. Precondition: work_ is the
+/// direction, as `isEndless` leaves it, inside_ where CG came from. Collective.
+bool ActiveSetIteration::leave() {
+  constexpr double noise = 1e-3, beyond = 2, least = 0.1; // beside d, the step to the boundary, and x
+  const double largest = work_.normInf();
+  for (double& entry : localDataNonConst(work_)) // x moves against it
+    entry = std::abs(entry) > noise * largest ? -entry / largest : 0;
+  const double room = minOverRanks(*work_.getMap()->getComm(), set_->maxFeasibleStep(inside_, work_));
+  const double length = beyond * room + least * inside_.normInf();
+  if (!std::isfinite(length) || !(length > 0) || ++numLeft_ > mostLeft)
+    return false;
+  copy(inside_, on_.x);
+  addScaled(-length, work_, on_.x);
+  return true;
 }
 
 /// Whether CG has done what the tolerance asks for, with something to spare.

@@ -19,7 +19,8 @@ namespace {
 using Pair = Disc::Pair;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
-constexpr double rimShare = 1e-15; ///< of the radius: nearer the circle x is on it
+constexpr double rimShare =
+    4e-15; ///< of radius and centre, whose round-off x has: nearer the circle x is on it
 
 Pair pairOf(const Disc& disc, std::span<const double> values) {
   return {values[disc.first], values[disc.second]};
@@ -49,7 +50,7 @@ Box boxBeside(const Box& box, const std::vector<Disc>& discs, const RCP<const Ma
 } // namespace
 
 bool Disc::isFree(const Pair& x) const {
-  return (x - centre).norm() < radius * (1 - 4 * rimShare);
+  return (x - centre).norm() < radius - rimShare * (radius + centre.norm());
 }
 
 Pair Disc::outward(const Pair& x) const {

@@ -134,13 +134,12 @@ private:
 /// Whether rows with these gaps, made of length 1, can hold by displacements within reach. Collective.
 /// \param overlap  what reach is measured by
 /// \returns what proves that they cannot, or null
-RCP<Vector> provedContradiction(const DecomposedProblem& problem, const ProblemData& data,
-                                const RowProducts& products, const Vector& inverseNorms,
-                                const RCP<const Vector>& target, double overlap) {
+RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProducts& products,
+                                const Vector& inverseNorms, const RCP<const Vector>& target, double overlap) {
   constexpr int patience = 1000;
   const RCP<const Operator> gram = rcp(new RowGram(products, inverseNorms));
   const double norm = qp::estimateNorm(*gram, {}).norm;
-  const RCP<const qp::ConvexSet> set = feasibleForces(problem, data, nullptr);
+  const RCP<const qp::ConvexSet> set = feasibleForcesWithoutFriction(problem);
   Vector d(problem.multiplierMap);
   qp::MprgpParameters parameters;
   parameters.maxMultiplications = patience;
@@ -212,7 +211,7 @@ void requireFeasibleGaps(const DecomposedProblem& problem, const ProblemData& da
     for (double& value : rhs) // what is farther away does not come into it
       value = std::max(value, -reach * worst);
   }
-  if (const RCP<Vector> proof = provedContradiction(problem, data, products, *inverseNorms, target, worst);
+  if (const RCP<Vector> proof = provedContradiction(problem, products, *inverseNorms, target, worst);
       !proof.is_null())
     refuseContradiction(problem, data, *proof);
 }
@@ -231,7 +230,7 @@ void refuseContradiction(const DecomposedProblem& problem, const ProblemData& da
   AccurateSum gaps[2]; // cᵀd and the size of its terms
   double heaviest = 0;
   Vector tension(d, Teuchos::Copy); // what is not allowed
-  feasibleForces(problem, data, nullptr)->project(tension);
+  feasibleForcesWithoutFriction(problem)->project(tension);
   tension.update(1.0, d, -1.0);
   const auto mine = d.getData(), gap = data.gap().getData();
   for (LocalOrdinal row = 0; row < mine.size(); ++row) {

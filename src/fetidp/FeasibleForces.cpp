@@ -12,20 +12,34 @@
 
 namespace epafi::fetidp {
 
-RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
-                                        const decomposition::ProblemData& data, const Vector* normal) {
-  constexpr double unbounded = std::numeric_limits<double>::infinity();
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// λ_n ≥ 0.
+RCP<Vector> leastForces(const decomposition::DecomposedProblem& problem) {
   const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
   const auto least = qp::localDataNonConst(*lower);
   for (std::size_t row = 0; row < least.size(); ++row)
     if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(row))) !=
         decomposition::RowKind::contact)
       least[row] = -unbounded;
+  return lower;
+}
+
+} // namespace
+
+RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
+                                        const decomposition::ProblemData& data, const Vector* normal) {
+  const RCP<Vector> lower = leastForces(problem);
   if (problem.numFriction == 0 || normal == nullptr)
     return rcp(new qp::Box(lower));
+  constexpr double roundOff = 1e-12; // of a force that is none: a circle of such a size has no use
   const auto force = qp::localData(*normal);
+  const double least = roundOff * normal->normInf();
   const auto boundOf = [&](const decomposition::FrictionNode& node) {
-    return data.frictionBound(node, force[static_cast<std::size_t>(int{node.contact})]);
+    const double pressing = force[static_cast<std::size_t>(int{node.contact})];
+    return data.frictionBound(node, pressing > least ? pressing : 0.0);
   };
   std::vector<qp::Disc> discs;
   if (problem.components > 2) {
@@ -39,6 +53,18 @@ RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& 
     upper->replaceLocalValue(node.firstTangent, boundOf(node));
     lower->replaceLocalValue(node.firstTangent, -boundOf(node));
   }
+  return rcp(new qp::Box(lower, upper));
+}
+
+RCP<const qp::ConvexSet> feasibleForcesWithoutFriction(const decomposition::DecomposedProblem& problem) {
+  const RCP<Vector> lower = leastForces(problem), upper = rcp(new Vector(problem.multiplierMap));
+  const auto least = qp::localDataNonConst(*lower), most = qp::localDataNonConst(*upper);
+  for (std::size_t row = 0; row < least.size(); ++row)
+    if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(row))) ==
+        decomposition::RowKind::friction)
+      least[row] = 0;
+    else
+      most[row] = unbounded;
   return rcp(new qp::Box(lower, upper));
 }
 

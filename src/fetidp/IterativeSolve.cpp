@@ -12,7 +12,9 @@
 #include <Tpetra_Map.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,55 @@ RightHandSide rightHandSide(const DualProblem& dual, const ProblemData& data) {
   rhs.termSize = rhs.largest + data.gap().normInf();
   return rhs;
 }
+
+/// Moves x, a solution within `old`, into `set`, whose bounds differ, and along with its bounds where it is at
+/// them; returns how far. Collective.
+double moveWithBounds(const qp::ConvexSet& old, const qp::ConvexSet& set, Vector& x) {
+  constexpr double atBound = 1e-9; // beside the largest entry
+  const double largest = x.normInf();
+  const Vector before(x, Teuchos::Copy);
+  Vector room(x.getMap()), held(x.getMap());
+  old.distanceToBoundary(x, largest, room);
+  {
+    const auto rooms = room.getData();
+    const auto isHeld = held.getDataNonConst();
+    for (Teuchos_Ordinal i = 0; i < rooms.size(); ++i)
+      isHeld[i] = rooms[i] <= atBound * largest ? 1 : 0;
+  }
+  set.activate(held, x);
+  set.project(x);
+  set.distanceToBoundary(x, largest, room); // of bounds that were 0 and have no side to move to
+  AccurateSum sum;
+  const auto here = x.getData(), there = before.getData(), isHeld = held.getData(), rooms = room.getData();
+  for (Teuchos_Ordinal i = 0; i < here.size(); ++i) {
+    const double moved = std::hypot(here[i] - there[i], isHeld[i] != 0 ? rooms[i] : 0);
+    sum.add(moved * moved);
+  }
+  sumOverRanks(*x.getMap()->getComm(), {&sum, 1});
+  return std::sqrt(sum.value());
+}
+
+/// Relaxation of a fixed point y ← y + θ(x(y) − y): Irons, Tuck, *Int. J. Numer. Methods Eng.* 1 (1969).
+class Relaxation {
+public:
+  /// y moves towards x. Collective.
+  void step(const Vector& x, Vector& y) {
+    constexpr double least = 0.1;
+    Vector misfit(x, Teuchos::Copy);
+    misfit.update(-1.0, y, 1.0);
+    if (last_) {
+      last_->update(1.0, misfit, -1.0);
+      if (const double squared = accurateDot(*last_, *last_); squared > 0)
+        share_ = std::clamp(share_ * (1 - accurateDot(*last_, misfit) / squared), least, 1.0);
+    }
+    y.update(share_, x, 1 - share_);
+    last_.emplace(misfit, Teuchos::Copy);
+  }
+
+private:
+  std::optional<Vector> last_; ///< x(y) − y of the step before
+  double share_ = 1;           ///< θ
+};
 
 } // namespace
 
@@ -98,10 +149,12 @@ DualSolution IterativeSolve::finished() {
 /// Refuses constraints that contradict each other: then the objective falls without end along a direction.
 /// Collective.
 /// \param maxMultiplications  that are left
-void IterativeSolve::refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications) {
-  constexpr int patience = 2000; // products
+void IterativeSolve::refuseIfContradictory(const qp::ActiveSetProblem& faces, const Vector& x,
+                                           int maxMultiplications) {
+  constexpr int patience = 2000;                                                 // products
+  const RCP<const qp::ConvexSet> set = faces.setAt ? faces.setAt(x) : faces.set; // friction has bounds
   const qp::RecessionDirection found =
-      qp::findRecessionDirection(dual_.hessian(), dual_.norm().norm, *rhs_, *faces.set, faces.equality,
+      qp::findRecessionDirection(dual_.hessian(), dual_.norm().norm, *rhs_, *set, faces.equality,
                                  std::min(patience, maxMultiplications));
   solution_.report.counts.hessianMultiplications += found.multiplications;
   if (!found.direction.is_null())
@@ -143,27 +196,44 @@ RCP<const qp::ConvexSet> IterativeSolve::feasibleForces() const {
 /// along, but each of them has a solution that is found. Collective.
 void IterativeSolve::fixFriction(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances,
                                  Vector& x, const MethodWithin& within) {
-  constexpr int maxRounds = 60;
+  constexpr int maxRounds = 60, endless = std::numeric_limits<int>::max();
+  constexpr double first = 1e-2, share = 0.1; // of what bounds still move, each problem is solved to
+  constexpr double exact = 1e-3;              // reduction on faces
   const double enough = tolerances.gradient * tolerances.gradientReference;
-  Vector nearest(x.getMap()), ones(x.getMap());
-  ones.putScalar(1.0);
+  qp::ActiveSetProblem given = faces;
+  given.setAt = {};
+  qp::SmalbeTolerances rough = tolerances;
+  double moved = first / share * tolerances.gradientReference;
+  Vector pressing(x, Teuchos::Copy); // where bounds come from
+  Relaxation relaxation;
+  given.set = faces.setAt(pressing);
   for (int round = 0; round < maxRounds; ++round) {
-    const RCP<const qp::ConvexSet> set = faces.setAt(x);
-    goOn([&](Vector& from, const qp::MprgpParameters& limits) { return within(set, from, limits); }, x,
-         std::numeric_limits<int>::max());
+    if (tolerances.error == nullptr && tolerances.gradientReference > 0)
+      rough.gradient = std::max(tolerances.gradient, share * moved / tolerances.gradientReference);
+    const Method byFaces = [&](Vector& from, const qp::MprgpParameters& limits) {
+      return qp::solveByActiveSets(given, from, nullptr, rough, limits, observer_);
+    };
+    goOn(byFaces, x, endless);
+    if (isToGoOn() &&
+        given.faceReduction > exact) { // small circles are stiff: half a step there leads nowhere
+      given.faceReduction = exact;
+      goOn(byFaces, x, endless);
+    }
+    if (isToGoOn() || solution_.report.status == qp::Status::unbounded)
+      goOn([&](Vector& from, const qp::MprgpParameters& limits) { return within(given.set, from, limits); },
+           x, endless);
     if (solution_.report.status != qp::Status::converged)
       return;
-    nearest.assign(x);
-    faces.setAt(x)->project(nearest);
-    nearest.update(-1.0, x, 1.0);
-    if (dual_.norm().norm * accurateNorm(nearest) <= enough) { // what was at a bound is at the new one
-      const RCP<const qp::ConvexSet> now = faces.setAt(x);
-      set->freeIndicator(x, nearest);
-      nearest.update(1.0, ones, -1.0);
-      now->activate(nearest, x);
-      now->project(x);
+    Vector next(x, Teuchos::Copy);
+    moved = dual_.norm().norm * moveWithBounds(*given.set, *faces.setAt(x), next);
+    if (moved <= enough && rough.gradient <= tolerances.gradient) {
+      x.assign(next);
       return;
     }
+    relaxation.step(x, pressing);
+    const RCP<const qp::ConvexSet> last = given.set;
+    given.set = faces.setAt(pressing);
+    moveWithBounds(*last, *given.set, x); // what slips goes on slipping
   }
   solution_.report.status = qp::Status::stagnated;
   solution_.report.reason =
@@ -198,8 +268,8 @@ void IterativeSolve::iterate(const qp::ActiveSetProblem& faces, const qp::Smalbe
       x, endless);
   const Status status = solution_.report.status;
   if (status == Status::unbounded)
-    refuseIfContradictory(faces, dual_.plan().mprgp.maxMultiplications -
-                                     solution_.report.counts.hessianMultiplications);
+    refuseIfContradictory(
+        faces, x, dual_.plan().mprgp.maxMultiplications - solution_.report.counts.hessianMultiplications);
   if (status != Status::unbounded && status != Status::stagnated && status != Status::notFinite)
     return;
   if (faces.setAt)

@@ -45,7 +45,7 @@ private:
   [[nodiscard]] RCP<const qp::ConvexSet> feasibleForces() const;
   void goOn(const Method& method, Vector& x, int most);
   [[nodiscard]] bool isToGoOn() const;
-  void refuseIfContradictory(const qp::ActiveSetProblem& faces, int maxMultiplications);
+  void refuseIfContradictory(const qp::ActiveSetProblem& faces, const Vector& x, int maxMultiplications);
   void completeJumps(Vector& lambda) const;
   DualSolution finished();
 

@@ -33,6 +33,16 @@ TEST(DiscTest, ProjectsOntoTheNearestPoint) {
   EXPECT_EQ((Disc{0, 1, 0}.project({3, -4})), Pair(0, 0));
 }
 
+TEST(DiscTest, WhatIsProjectedOntoACircleFarFromTheOriginIsOnIt) {
+  for (int k = 0; k < 100; ++k) {
+    const double angle = 0.1 * k;
+    const Disc disc{.first = 0, .second = 1, .radius = 1e-3, .centre = {1 + angle, -2}};
+    const Pair outside = disc.centre + Pair(std::cos(angle), std::sin(angle));
+    EXPECT_FALSE(disc.isFree(disc.project(outside))) << angle;
+    EXPECT_TRUE(disc.isFree(disc.centre + 0.999 * (disc.project(outside) - disc.centre))) << angle;
+  }
+}
+
 TEST(DiscTest, OnTheCircleAGradientThatPressesOutwardsLeadsAlongItAlone) {
   for (const double angle : {0.0, 0.7, 2.5, 4.0}) {
     const Pair x = at(angle), normal = at(angle), along = at(angle + std::numbers::pi / 2);
