@@ -93,6 +93,10 @@ struct TrescaProblem {
   [[nodiscard]] Eigen::Index numNodes() const { return bounds.size(); }
 };
 
+double distance(Eigen::Index a, Eigen::Index b) {
+  return std::abs(static_cast<double>(a - b));
+}
+
 /// Nodes on a line that feel each other, normal and tangential forces coupled; loads that press here, pull
 /// there and push along all directions. \param friction  about the bounds, beside forces of size 1
 TrescaProblem trescaProblem(unsigned seed, int numNodes, double friction) {
@@ -103,7 +107,7 @@ TrescaProblem trescaProblem(unsigned seed, int numNodes, double friction) {
   Eigen::MatrixXd mixing(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      mixing(i, j) = number(random) * std::exp(-std::abs(static_cast<double>(i / 3 - j / 3)));
+      mixing(i, j) = number(random) * std::exp(-distance(i / 3, j / 3));
   problem.a = mixing * mixing.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
   for (double& value : problem.b)
     value = 2 * number(random);
