@@ -41,8 +41,8 @@ RightHandSide rightHandSide(const DualProblem& dual, const ProblemData& data) {
   return rhs;
 }
 
-/// Moves x, a solution within `old`, into `set`, whose bounds differ, and along with its bounds where it is at
-/// them; returns how far. Collective.
+/// Moves x, a solution within `old`, into `set`, whose bounds differ, and along with its bounds where it is
+/// at them; returns how far. Collective.
 double moveWithBounds(const qp::ConvexSet& old, const qp::ConvexSet& set, Vector& x) {
   constexpr double atBound = 1e-9; // beside the largest entry
   const double largest = x.normInf();
