@@ -8,7 +8,7 @@
 ///   all at once; along circles (Discs.hpp) they move on, in Newton steps for the curved boundary (Face.hpp).
 /// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not
 /// settle, a primal method goes on in Ω (Nocedal, Wright, *Numerical Optimization*, 2006, 16.5), slower and
-/// with an objective that falls, unless Ω is curved; where round-off ends that too, the method says so.
+/// with an objective that falls, unless Ω is curved or moves; where round-off ends that too, the method says so.
 
 #include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"

@@ -14,8 +14,8 @@ namespace epafi::fetidp {
 RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
                                         const decomposition::ProblemData& data, const Vector* normal);
 
-/// The same where friction holds nothing: what proves that constraints contradict each other, which friction is
-/// none of. Not collective.
+/// The same where friction holds nothing: what proves that constraints contradict each other, which friction
+/// is none of. Not collective.
 RCP<const qp::ConvexSet> feasibleForcesWithoutFriction(const decomposition::DecomposedProblem& problem);
 
 } // namespace epafi::fetidp
