@@ -137,7 +137,8 @@ double ContactSolver::algebraicErrorOf(const decomposition::ProblemData& data,
   if (dual_->preconditioner().is_null())
     return std::numeric_limits<double>::quiet_NaN();
   Vector gradient(solution.slack->getMap()), image(gradient.getMap());
-  dual_->feasibleForces(data, *solution.multiplier)->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
+  dual_->feasibleForces(data, *solution.multiplier)
+      ->projectedGradient(*solution.multiplier, *solution.slack, 0.0, gradient);
   dual_->preconditioner()->apply(gradient, image);
   return std::sqrt(std::max(0.0, accurateDot(gradient, image)));
 }

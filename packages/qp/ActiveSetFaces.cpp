@@ -77,9 +77,9 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
   return true;
 }
 
-/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it. What the last set
-/// held and this one does not, a node that has just closed, goes as far against the gradient as it wants to, or
-/// as the set lets it: it sticks or slips.
+/// Ω(x) for the point inside; what is at a bound there, or on a circle, moves along with it. What the last
+/// set held and this one does not, a node that has just closed, goes as far against the gradient as it wants
+/// to, or as the set lets it: it sticks or slips.
 void ActiveSetIteration::followSet(const Vector& gradient) {
   if (!problem_.setAt)
     return;

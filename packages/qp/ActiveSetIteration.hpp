@@ -1,8 +1,8 @@
 #pragma once
 
-/// The run of solveByActiveSets: `settle` goes from face to face (ActiveSetFaces.cpp) through points that may lie
-/// outside of Ω (ActiveSets.cpp); where it finds no end, and no boundary is curved, `descend` goes on through points of Ω
-/// (ActiveSetDescent.cpp).
+/// The run of solveByActiveSets: `settle` goes from face to face (ActiveSetFaces.cpp) through points that
+/// may lie outside of Ω (ActiveSets.cpp); where it finds no end, and no boundary is curved, `descend` goes
+/// on through points of Ω (ActiveSetDescent.cpp).
 
 #include "epafi/qp/ActiveSets.hpp"
 #include "epafi/qp/FaceIteration.hpp"

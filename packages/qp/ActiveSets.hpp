@@ -8,7 +8,8 @@
 ///   all at once; along circles (Discs.hpp) they move on, in Newton steps for the curved boundary (Face.hpp).
 /// Few faces where the first is near the last one, and no outer iteration for Bx = c. Where the faces do not
 /// settle, a primal method goes on in Ω (Nocedal, Wright, *Numerical Optimization*, 2006, 16.5), slower and
-/// with an objective that falls, unless Ω is curved or moves; where round-off ends that too, the method says so.
+/// with an objective that falls, unless Ω is curved or moves; where round-off ends that too, the method says
+/// so.
 
 #include "epafi/qp/ConvexSet.hpp"
 #include "epafi/qp/EqualityConstraint.hpp"
@@ -45,8 +46,8 @@ struct ActiveSetProblem {
 /// inverse takes (FaceInverse.hpp). Returns converged only for a gradient computed afresh; with the best
 /// point met stagnated, where faces do not settle, and unbounded, where one seems to have no minimum (whether
 /// it has none says RecessionDirection.hpp). With a set that depends on x, bounds are those of the last face
-/// while a face lasts (Hüeber, Wohlmuth, *Comput. Methods Appl. Mech. Engrg* 194 (2005)), and what they miss of
-/// Ω(x), times ‖A‖, counts as gradient. Collective.
+/// while a face lasts (Hüeber, Wohlmuth, *Comput. Methods Appl. Mech. Engrg* 194 (2005)), and what they miss
+/// of Ω(x), times ‖A‖, counts as gradient. Collective.
 SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
                               const SmalbeTolerances& tolerances, const MprgpParameters& limits,
                               Observer* observer = nullptr);

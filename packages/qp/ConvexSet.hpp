@@ -90,8 +90,9 @@ public:
   /// it already, and g leads inside, the entries become free instead.
   /// \param g      the gradient at x  \param least how long what is released is at least
   /// \param from   the last face; null for none
-  virtual void followBoundary(const Vector& /*x*/, const Vector& /*g*/, double /*least*/,
-                              const Face* /*from*/, Face& /*face*/) const {}
+  virtual void followBoundary([[maybe_unused]] const Vector& x, [[maybe_unused]] const Vector& g,
+                              [[maybe_unused]] double least, [[maybe_unused]] const Face* from,
+                              [[maybe_unused]] Face& face) const {}
   /// y_i = how far the gradient may move along s from g until the multiplier of the boundary that x_i is on
   /// vanishes: infinity where it does not, and where x is free or fixed.
   /// \param least  multipliers that fall no faster do not count

@@ -26,9 +26,13 @@ Pair pairOf(const Disc& disc, std::span<const double> values) {
   return {values[disc.first], values[disc.second]};
 }
 
+Pair both(double value) {
+  return {value, value};
+}
+
 void setPair(const Disc& disc, const Pair& pair, std::span<double> values) {
-  values[disc.first] = pair[0];
-  values[disc.second] = pair[1];
+  values[disc.first] = pair.first;
+  values[disc.second] = pair.second;
 }
 
 /// The box with −bound and bound in the entries of discs.
@@ -41,8 +45,8 @@ Box boxBeside(const Box& box, const std::vector<Disc>& discs, const RCP<const Ma
     high[i] = bounds[i].upper;
   }
   for (const Disc& disc : discs) {
-    setPair(disc, Pair::Constant(-bound), low);
-    setPair(disc, Pair::Constant(bound), high);
+    setPair(disc, {-bound, -bound}, low);
+    setPair(disc, {bound, bound}, high);
   }
   return Box(lower, upper);
 }
@@ -56,25 +60,25 @@ bool Disc::isFree(const Pair& x) const {
 Pair Disc::outward(const Pair& x) const {
   const Pair out = x - centre;
   const double length = out.norm();
-  return length > 0 ? Pair(out / length) : Pair::Zero();
+  return length > 0 ? 1 / length * out : Pair();
 }
 
 Pair Disc::project(const Pair& x) const {
   const double length = (x - centre).norm();
-  return length > radius ? Pair(centre + radius / length * (x - centre)) : x;
+  return length > radius ? centre + radius / length * (x - centre) : x;
 }
 
 Pair Disc::choppedGradient(const Pair& x, const Pair& g, double negligible) const {
   if (!(radius > 0) || isFree(x))
-    return Pair::Zero();
+    return Pair();
   const Pair normal = outward(x);
   const double inward = g.dot(normal); // x moves against g
-  const Pair chopped = inward > 0 ? g : Pair(g - inward * normal);
-  return chopped.norm() > negligible ? chopped : Pair::Zero();
+  const Pair chopped = inward > 0 ? g : g - inward * normal;
+  return chopped.norm() > negligible ? chopped : Pair();
 }
 
 Pair Disc::reducedFreeGradient(const Pair& x, const Pair& g, double step) const {
-  return (x - project(x - step * g)) / step;
+  return 1 / step * (x - project(x - step * g));
 }
 
 double Disc::maxFeasibleStep(const Pair& x, const Pair& p) const {
@@ -93,7 +97,7 @@ std::string Discs::emptiness(const Map& map) const {
   std::string found = box_.emptiness(map);
   collectively(*map.getComm(), [&] {
     for (const Disc& disc : discs_)
-      if (!(disc.radius >= 0) || !std::isfinite(disc.radius) || !disc.centre.allFinite())
+      if (!(disc.radius >= 0) || !std::isfinite(disc.radius) || !std::isfinite(disc.centre.norm()))
         throw InputError("the disc of entry " + std::to_string(map.getGlobalElement(disc.first)) +
                          " has the radius " + text(disc.radius) + "; it must be a finite number, at least 0");
   });
@@ -128,16 +132,16 @@ GradientSums Discs::measure(const Vector& x, const Vector& g, const Vector& imag
   const auto values = localData(x), gradient = localData(g), w = localData(image);
   for (const Disc& disc : discs_) {
     const Pair here = pairOf(disc, values), slope = pairOf(disc, gradient), ap = pairOf(disc, w);
-    for (int k = 0; k < 2; ++k)
-      sums.reducedTimesFree.add(-(slope[k] * slope[k]));
+    sums.reducedTimesFree.add(-(slope.first * slope.first));
+    sums.reducedTimesFree.add(-(slope.second * slope.second));
     if (disc.isFree(here)) {
       sums.reducedTimesFree.add(slope.dot(disc.reducedFreeGradient(here, slope, step)));
       continue;
     }
-    for (int k = 0; k < 2; ++k) {
-      sums.freeSquared.add(-(slope[k] * slope[k]));
-      sums.freeTimesImage.add(-(slope[k] * ap[k]));
-    }
+    sums.freeSquared.add(-(slope.first * slope.first));
+    sums.freeSquared.add(-(slope.second * slope.second));
+    sums.freeTimesImage.add(-(slope.first * ap.first));
+    sums.freeTimesImage.add(-(slope.second * ap.second));
     sums.choppedSquared.add(disc.choppedGradient(here, slope).squaredNorm());
     sums.active += 2;
   }
@@ -176,7 +180,7 @@ void Discs::restrictToFree(const Vector& x, Vector& z) const {
   const auto result = localDataNonConst(z);
   for (const Disc& disc : discs_)
     if (!disc.isFree(pairOf(disc, values)))
-      setPair(disc, Pair::Zero(), result);
+      setPair(disc, Pair(), result);
 }
 
 /// On a circle where g leads along it, z does too; where g leads inside, z may.
@@ -189,10 +193,10 @@ void Discs::restrictToReleased(const Vector& x, const Vector& g, double negligib
     if (disc.isFree(here))
       continue;
     const Pair direction = pairOf(disc, result);
-    const bool isReleased = !disc.choppedGradient(here, slope, negligible).isZero(0);
+    const bool isReleased = !disc.choppedGradient(here, slope, negligible).isZero();
     const double inward = direction.dot(normal),
                  most = slope.dot(normal) > 0 ? std::min(0.0, inward) : inward;
-    setPair(disc, isReleased ? Pair(direction - most * normal) : Pair::Zero(), result);
+    setPair(disc, isReleased ? direction - most * normal : Pair(), result);
   }
 }
 
@@ -201,14 +205,14 @@ void Discs::freeIndicator(const Vector& x, Vector& y) const {
   const auto values = localData(x);
   const auto result = localDataNonConst(y);
   for (const Disc& disc : discs_)
-    setPair(disc, Pair::Constant(disc.isFree(pairOf(disc, values)) ? 1 : 0), result);
+    setPair(disc, both(disc.isFree(pairOf(disc, values)) ? 1 : 0), result);
 }
 
 void Discs::fixedIndicator(Vector& y) const {
   box_.fixedIndicator(y);
   const auto result = localDataNonConst(y);
   for (const Disc& disc : discs_)
-    setPair(disc, Pair::Constant(disc.radius > 0 ? 0 : 1), result);
+    setPair(disc, both(disc.radius > 0 ? 0 : 1), result);
 }
 
 void Discs::distanceToBoundary(const Vector& x, double atMost, Vector& y) const {
@@ -218,7 +222,7 @@ void Discs::distanceToBoundary(const Vector& x, double atMost, Vector& y) const 
   for (const Disc& disc : discs_) {
     const Pair here = pairOf(disc, values);
     const double room = disc.isFree(here) ? (disc.radius - (here - disc.centre).norm()) / std::sqrt(2.0) : 0;
-    setPair(disc, Pair::Constant(std::min(room, atMost)), result);
+    setPair(disc, both(std::min(room, atMost)), result);
   }
 }
 
@@ -248,7 +252,7 @@ double Discs::longestMultiplierStep(const Vector& x, const Vector& g, const Vect
   const auto values = localData(x), gradient = localData(g), shift = localData(s);
   for (const Disc& disc : discs_) {
     const Pair here = pairOf(disc, values), change = pairOf(disc, shift), normal = disc.outward(here);
-    if (change.isZero(0) || !(disc.radius > 0))
+    if (change.isZero() || !(disc.radius > 0))
       continue;
     const double outwards = change.dot(normal);
     if (disc.isFree(here) || (change - outwards * normal).norm() > 1e-12 * change.norm())
@@ -263,7 +267,7 @@ RCP<const ConvexSet> Discs::shiftedBy(const Vector& x) const {
   const auto values = localData(x);
   std::vector<Disc> discs = discs_;
   for (Disc& disc : discs)
-    disc.centre -= pairOf(disc, values);
+    disc.centre = disc.centre - pairOf(disc, values);
   return rcp(new Discs(box_.shifted(x), std::move(discs), map_));
 }
 
@@ -285,7 +289,7 @@ void Discs::followBoundary(const Vector& x, const Vector& g, double least, const
     const Pair here = pairOf(disc, values);
     if (!(disc.radius > 0))
       continue;
-    setPair(disc, Pair::Ones(), isFree);
+    setPair(disc, both(1), isFree);
     if (disc.isFree(here))
       continue;
     const bool followed = !last.empty() && last.front().first == disc.first;
@@ -293,8 +297,9 @@ void Discs::followBoundary(const Vector& x, const Vector& g, double least, const
     const double inward = pairOf(disc, gradient).dot(normal);
     if (followed && inward > 0 && inward >= least)
       continue;
-    const Pair along(-normal[1], normal[0]);
-    face.tangents.push_back({disc.first, disc.second, {along[0], along[1]}, along.dot(here), disc.radius});
+    const Pair along{-normal.second, normal.first};
+    face.tangents.push_back(
+        {disc.first, disc.second, {along.first, along.second}, along.dot(here), disc.radius});
   }
 }
 
@@ -307,7 +312,7 @@ void Discs::releases(const Vector& x, const Vector& g, const Vector& s, double l
     const double outwards = pairOf(disc, shift).dot(normal);
     const bool falls = disc.radius > 0 && !disc.isFree(here) && outwards > least;
     const double multiplier = std::max(0.0, -pairOf(disc, gradient).dot(normal));
-    setPair(disc, Pair::Constant(falls ? multiplier / outwards : endless), result);
+    setPair(disc, both(falls ? multiplier / outwards : endless), result);
   }
 }
 
@@ -316,7 +321,7 @@ Vector Discs::withoutPairs(const Vector& x) const {
   Vector result(x, Teuchos::Copy);
   const auto values = localDataNonConst(result);
   for (const Disc& disc : discs_)
-    setPair(disc, Pair::Zero(), values);
+    setPair(disc, Pair(), values);
   return result;
 }
 

@@ -7,19 +7,40 @@
 #include "epafi/qp/Box.hpp"
 #include "epafi/qp/ConvexSet.hpp"
 
-#include <Eigen/Core>
-
+#include <cmath>
 #include <vector>
 
 namespace epafi::qp {
 
+/// Two entries of a vector, a vector in their plane.
+struct EntryPair {
+  double first = 0, second = 0;
+
+  [[nodiscard]] double dot(const EntryPair& other) const { ///< of both
+    return first * other.first + second * other.second;
+  }
+  [[nodiscard]] double squaredNorm() const { return dot(*this); }         ///< of the length
+  [[nodiscard]] double norm() const { return std::hypot(first, second); } ///< its length
+  [[nodiscard]] bool isZero() const { return first == 0 && second == 0; } ///< in both
+  bool operator==(const EntryPair& other) const = default;
+  friend EntryPair operator+(const EntryPair& a, const EntryPair& b) {
+    return {a.first + b.first, a.second + b.second};
+  }
+  friend EntryPair operator-(const EntryPair& a, const EntryPair& b) {
+    return {a.first - b.first, a.second - b.second};
+  }
+  friend EntryPair operator*(double factor, const EntryPair& a) {
+    return {factor * a.first, factor * a.second};
+  }
+};
+
 /// A disc in the plane of two entries.
 struct Disc {
-  using Pair = Eigen::Vector2d; ///< two entries of a vector
+  using Pair = EntryPair; ///< short for it
 
   LocalOrdinal first = 0, second = 0; ///< the entries, of this rank
   double radius = 0;                  ///< r ≥ 0; with 0 the pair is fixed
-  Pair centre = Pair::Zero();         ///< c
+  Pair centre{};                      ///< c
 
   /// Whether x is inside of the circle, and not on it but for round-off.
   [[nodiscard]] bool isFree(const Pair& x) const;

@@ -13,8 +13,8 @@
 
 namespace epafi::qp {
 
-/// With Z of the face (Face.hpp), B_F = BZ, and P_F = Z − B_Fᵀ(B_F B_Fᵀ)⁺B_F, the projector onto what moves in
-/// the face and leaves Bx as it is. Without rows it is Z.
+/// With Z of the face (Face.hpp), B_F = BZ, and P_F = Z − B_Fᵀ(B_F B_Fᵀ)⁺B_F, the projector onto what moves
+/// in the face and leaves Bx as it is. Without rows it is Z.
 class FaceEquality {
 public:
   /// \param equality  B of k rows; null for none

@@ -39,8 +39,8 @@ struct ContactLayout {
   GlobalOrdinal firstRow = 0; ///< multiplier index of its first row
   /// Number of its first row's node among those with friction; −1: it has none.
   GlobalOrdinal firstFriction = -1;
-  int firstBody = 0; ///< the one whose nodes have the rows
-  std::string firstSurface;   ///< the surface of it
+  int firstBody = 0;        ///< the one whose nodes have the rows
+  std::string firstSurface; ///< the surface of it
   /// All whose nodes have the rows, `firstSurface` among them, and those of the second body that they face.
   std::vector<std::string> firstSurfaces, secondSurfaces;
   std::vector<double> portions; ///< of each row, from 0 to 1, by area; empty: all of all

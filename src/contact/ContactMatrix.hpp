@@ -44,7 +44,8 @@ private:
 decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
                                               const NodeUnknowns& unknowns, const RCP<const Comm>& comm);
 
-/// Rows of friction beside those of contacts that have it (ContactLayout::firstFriction): tᵀ(u_first − u_second) is what they slip. Collective.
+/// Rows of friction beside those of contacts that have it (ContactLayout::firstFriction): tᵀ(u_first −
+/// u_second) is what they slip. Collective.
 decomposition::FrictionRows frictionRows(const std::vector<ContactLayout>& contacts,
                                          const NodeUnknowns& unknowns, const RCP<const Comm>& comm);
 

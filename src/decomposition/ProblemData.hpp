@@ -1,7 +1,8 @@
 #pragma once
 
 /// What of a contact problem may change from one solve to the next while its matrices stay: loads, prescribed
-/// values, gaps and the bounds of friction. A problem is set up once and solved for any number of these; copies are load cases.
+/// values, gaps and the bounds of friction. A problem is set up once and solved for any number of these;
+/// copies are load cases.
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 

@@ -70,8 +70,9 @@ public:
   /// \param data       of unknowns that are values of nodes
   void add(Subdomain subdomain, SubdomainData data, NodalSubdomain nodal);
 
-  /// Names unknowns that rows of contact may come to touch. They count as part of their subdomains' interfaces
-  /// from the start: where contact moves among them (setContact), every factor and dense block stays.
+  /// Names unknowns that rows of contact may come to touch. They count as part of their subdomains'
+  /// interfaces from the start: where contact moves among them (setContact), every factor and dense block
+  /// stays.
   /// \param unknowns  global numbers; naming each on one rank is enough
   /// What `complete` says of numbers that no subdomain has: InputError. Precondition: not yet complete. Not
   /// collective.
@@ -82,8 +83,8 @@ public:
   void setContact(const ConstraintMatrix& contact);
 
   /// Takes rows of friction, shared; their bounds are data (ProblemData::setFrictionBounds), 0 at first.
-  /// Collective after `complete`, and \throws InputError as above, for one component a node, and for rows that
-  /// do not suit those of contact.
+  /// Collective after `complete`, and \throws InputError as above, for one component a node, and for rows
+  /// that do not suit those of contact.
   void setFriction(const FrictionRows& friction);
 
   /// Takes B_T and c of tied joints, B_T u = c, both shared; rows as those of contact. Collective after

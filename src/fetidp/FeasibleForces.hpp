@@ -8,8 +8,8 @@
 
 namespace epafi::fetidp {
 
-/// λ_n ≥ 0 in the rows of contact, |λ_t| ≤ g + μ times the normal force at nodes with friction (in the plane an
-/// interval, in space a disc), any number in the rows of ties and gluing; on multiplierMap. Collective.
+/// λ_n ≥ 0 in the rows of contact, |λ_t| ≤ g + μ times the normal force at nodes with friction (in the plane
+/// an interval, in space a disc), any number in the rows of ties and gluing; on multiplierMap. Collective.
 /// \param normal  where normal forces are taken from, with friction; null: friction holds any force
 RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& problem,
                                         const decomposition::ProblemData& data, const Vector* normal);

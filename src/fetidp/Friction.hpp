@@ -24,8 +24,8 @@ std::vector<KernelEntry> withoutIdleFriction(const decomposition::DecomposedProb
                                              const decomposition::ProblemData& data,
                                              std::vector<KernelEntry> entries);
 
-/// But those of friction that slips; in space a node that slips keeps the row across its force, along which it
-/// does not, in the place of its first one.
+/// But those of friction that slips; in space a node that slips keeps the row across its force, along which
+/// it does not, in the place of its first one.
 /// \param slack  in: c − Bu; out: of that row too
 std::vector<KernelEntry> withoutSlip(const decomposition::DecomposedProblem& problem,
                                      const decomposition::ProblemData& data, const Vector& lambda,

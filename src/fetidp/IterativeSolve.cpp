@@ -137,8 +137,8 @@ bool IterativeSolve::isToGoOn() const {
          solution_.report.counts.hessianMultiplications < dual_.plan().mprgp.maxMultiplications;
 }
 
-/// What forces may be where the iteration begins: with Coulomb's friction that of the normal forces, which are
-/// not known, comes face by face.
+/// What forces may be where the iteration begins: with Coulomb's friction that of the normal forces, which
+/// are not known, comes face by face.
 RCP<const qp::ConvexSet> IterativeSolve::feasibleForces() const {
   return fetidp::feasibleForces(problem_, data_,
                                 data_.hasCoulombFriction() ? nullptr : solution_.lambda.get());

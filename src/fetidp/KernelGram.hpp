@@ -31,8 +31,8 @@ public:
   /// Which of these modes hold the bodies: no motion of a body leaves all its *anchors* at rest. Indices into
   /// modes().
   [[nodiscard]] const std::vector<int>& anchors() const { return anchors_; }
-  /// Σ gᵢgᵢᵀ over the rows of contact and friction off a face, gᵢ a column of G̃ at these modes, n × n: what N
-  /// lacks there; along a tangent the row across it is off. The same on every rank.
+  /// Σ gᵢgᵢᵀ over the rows of contact and friction off a face, gᵢ a column of G̃ at these modes, n × n: what
+  /// N lacks there; along a tangent the row across it is off. The same on every rank.
   /// \param face  rows of gluing and ties are always on it
   /// One message of the number of pairs of modes that contact joins. Collective.
   [[nodiscard]] Eigen::MatrixXd offFace(const qp::Face& face) const;

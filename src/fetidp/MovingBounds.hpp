@@ -10,8 +10,8 @@
 
 namespace epafi::fetidp {
 
-/// Moves x, a solution within `old`, into `set`, whose bounds differ, and along with its bounds where it is at
-/// them; returns how far. Collective.
+/// Moves x, a solution within `old`, into `set`, whose bounds differ, and along with its bounds where it is
+/// at them; returns how far. Collective.
 double moveWithBounds(const qp::ConvexSet& old, const qp::ConvexSet& set, Vector& x);
 
 /// Relaxation of a fixed point y ← y + θ(x(y) − y): Irons, Tuck, *Int. J. Numer. Methods Eng.* 1 (1969).

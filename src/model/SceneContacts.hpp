@@ -53,8 +53,8 @@ contact::ContactLayout layoutContact(const scene::SurfaceContact& terms,
                                      const std::vector<BodyLayout>& bodies, int components,
                                      const SupportedNodes& supported = {});
 
-/// What rows have to know of nodes; each row lies on the rank that has the lowest subdomain at its first node.
-/// Keeps references to bodies and models. Collective.
+/// What rows have to know of nodes; each row lies on the rank that has the lowest subdomain at its first
+/// node. Keeps references to bodies and models. Collective.
 contact::NodeUnknowns nodeUnknowns(const std::vector<BodyLayout>& bodies,
                                    const std::vector<std::unique_ptr<fem::BodyModel>>& models,
                                    const RCP<const Comm>& comm);

@@ -83,8 +83,8 @@ struct RunOptions {
 SceneRun solveScene(const scene::Scene& scene, const Teuchos::ParameterList& solverParameters,
                     const RCP<const Comm>& comm, const RunOptions& options = {});
 
-/// Solves the problem that a run is set up for once more, with the data that its decomposition has now, from its
-/// last solution. \param options  as then; no quantity is asked for. Collective. \throws as solveScene.
+/// Solves the problem that a run is set up for once more, with the data that its decomposition has now, from
+/// its last solution. \param options  as then; no quantity is asked for. Collective. \throws as solveScene.
 void solveAgain(SceneRun& run, const RunOptions& options);
 
 } // namespace epafi::simulation

@@ -23,8 +23,8 @@ namespace {
 
 using namespace decomposition;
 
-/// A square or cube of E = 1, ν = 0.3 and n elements of order 2 a side that stands on a floor, pressed by 0.01
-/// on its top and sheared there; nothing else holds it.
+/// A square or cube of E = 1, ν = 0.3 and n elements of order 2 a side that stands on a floor, pressed by
+/// 0.01 on its top and sheared there; nothing else holds it.
 scene::Scene blockOnFloor(int dimension, int n, const scene::Vector3& shear,
                           const scene::Decomposition& cut) {
   scene::Scene scene;

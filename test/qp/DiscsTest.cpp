@@ -22,22 +22,26 @@ using Pair = Disc::Pair;
 
 const Disc unitDisc{0, 1, 1};
 
+Pair pair(double first, double second) {
+  return {first, second};
+}
+
 Pair at(double angle, double length = 1) {
   return {length * std::cos(angle), length * std::sin(angle)};
 }
 
 TEST(DiscTest, ProjectsOntoTheNearestPoint) {
-  EXPECT_EQ(unitDisc.project({0.3, -0.4}), Pair(0.3, -0.4));
-  EXPECT_NEAR((unitDisc.project({3, -4}) - Pair(0.6, -0.8)).norm(), 0, 1e-15);
-  EXPECT_NEAR((Disc{0, 1, 2, {1, 1}}.project({1, 7}) - Pair(1, 3)).norm(), 0, 1e-15);
-  EXPECT_EQ((Disc{0, 1, 0}.project({3, -4})), Pair(0, 0));
+  EXPECT_EQ(unitDisc.project({0.3, -0.4}), pair(0.3, -0.4));
+  EXPECT_NEAR((unitDisc.project({3, -4}) - pair(0.6, -0.8)).norm(), 0, 1e-15);
+  EXPECT_NEAR((Disc{0, 1, 2, {1, 1}}.project({1, 7}) - pair(1, 3)).norm(), 0, 1e-15);
+  EXPECT_EQ((Disc{0, 1, 0}.project({3, -4})), pair(0, 0));
 }
 
 TEST(DiscTest, WhatIsProjectedOntoACircleFarFromTheOriginIsOnIt) {
   for (int k = 0; k < 100; ++k) {
     const double angle = 0.1 * k;
     const Disc disc{.first = 0, .second = 1, .radius = 1e-3, .centre = {1 + angle, -2}};
-    const Pair outside = disc.centre + Pair(std::cos(angle), std::sin(angle));
+    const Pair outside = disc.centre + pair(std::cos(angle), std::sin(angle));
     EXPECT_FALSE(disc.isFree(disc.project(outside))) << angle;
     EXPECT_TRUE(disc.isFree(disc.centre + 0.999 * (disc.project(outside) - disc.centre))) << angle;
   }
@@ -51,15 +55,15 @@ TEST(DiscTest, OnTheCircleAGradientThatPressesOutwardsLeadsAlongItAlone) {
     EXPECT_NEAR((unitDisc.choppedGradient(x, -2 * normal + 3 * along) - 3 * along).norm(), 0, 1e-14);
     EXPECT_NEAR((unitDisc.choppedGradient(x, 2 * normal + 3 * along) - (2 * normal + 3 * along)).norm(), 0,
                 1e-14);
-    EXPECT_EQ(unitDisc.choppedGradient(x, -2 * normal + 1e-13 * along, 1e-12), Pair(0, 0)) << "negligible";
+    EXPECT_EQ(unitDisc.choppedGradient(x, -2 * normal + 1e-13 * along, 1e-12), pair(0, 0)) << "negligible";
   }
-  EXPECT_EQ(unitDisc.choppedGradient({0.5, 0}, {1, 1}), Pair(0, 0)) << "inside";
-  EXPECT_EQ((Disc{0, 1, 0}.choppedGradient({0, 0}, {1, 1})), Pair(0, 0)) << "fixed";
+  EXPECT_EQ(unitDisc.choppedGradient({0.5, 0}, {1, 1}), pair(0, 0)) << "inside";
+  EXPECT_EQ((Disc{0, 1, 0}.choppedGradient({0, 0}, {1, 1})), pair(0, 0)) << "fixed";
 }
 
 TEST(DiscTest, TheLongestStepEndsOnTheCircle) {
   const Disc disc{0, 1, 2, {1, -1}};
-  for (const Pair& x : {Pair(1, -1), Pair(1.5, 0), Pair(1 - std::sqrt(2.0), -1 + std::sqrt(2.0))})
+  for (const Pair& x : {pair(1, -1), pair(1.5, 0), pair(1 - std::sqrt(2.0), -1 + std::sqrt(2.0))})
     for (int k = 0; k < 8; ++k) {
       const Pair p = at(0.1 + k, 0.3);
       const double length = disc.maxFeasibleStep(x, p);
@@ -75,15 +79,15 @@ TEST(DiscTest, TheLongestStepEndsOnTheCircle) {
 
 TEST(DiscTest, TheReducedFreeGradientKeepsTheStepInside) {
   for (const double length : {0.0, 0.5, 0.99})
-    for (const Pair& g : {Pair(10, 0), Pair(0.1, 0.1), Pair(-7, 3)}) {
+    for (const Pair& g : {pair(10, 0), pair(0.1, 0.1), pair(-7, 3)}) {
       const Pair x = at(1, length), reduced = unitDisc.reducedFreeGradient(x, g, 0.5);
       EXPECT_LE((x - 0.5 * reduced).norm(), 1 + 1e-15);
       EXPECT_GE(reduced.dot(g), 0);
     }
 }
 
-/// min ½xᵀAx − bᵀx, x_i ≥ lower_i, the pairs (3k + 1, 3k + 2) in discs: a normal force and two tangential ones
-/// a node, its friction bounded by g_k.
+/// min ½xᵀAx − bᵀx, x_i ≥ lower_i, the pairs (3k + 1, 3k + 2) in discs: a normal force and two tangential
+/// ones a node, its friction bounded by g_k.
 struct TrescaProblem {
   Eigen::MatrixXd a;
   Eigen::VectorXd b, bounds;

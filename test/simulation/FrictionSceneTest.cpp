@@ -64,7 +64,8 @@ TEST(FrictionSceneTest, AHeldBlockPressesAndRubsAsMuchAsAnIndependentSolverSays)
     }
 }
 
-/// A block of order 2 on one three times as stiff that is wider, pressed by 0.01 and sheared by 0.002, μ = 0.3.
+/// A block of order 2 on one three times as stiff that is wider, pressed by 0.01 and sheared by 0.002, μ =
+/// 0.3.
 scene::Scene twoBlocks(int n, scene::SurfaceContact::Coupling coupling, bool isUpperFirst) {
   scene::Scene scene;
   const scene::Decomposition cut = test::cutInGrid({2, 2, 1});
@@ -144,7 +145,8 @@ TEST(FrictionSceneTest, InSpaceFrictionPointsAgainstTheSlip) {
   }
 }
 
-/// A square of order 2 that nothing but friction holds: pressed, pushed to the right, to the left, and left alone.
+/// A square of order 2 that nothing but friction holds: pressed, pushed to the right, to the left, and left
+/// alone.
 TEST(FrictionSceneTest, WhatHasSlippedIsKeptFromStepToStep) {
   scene::Scene scene = heldBlock(32, test::cutInGrid({2, 2, 1}));
   scene.bodies[0].mesh.order = 2;
