@@ -7,6 +7,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
+#include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/FrictionRows.hpp"
 
@@ -252,7 +253,7 @@ public:
       MatrixXd stiffness = whole.stiffness(part.unknowns, part.unknowns);
       stiffness += stiffness.diagonal().mean() * part.kernel * part.kernel.transpose();
       part.factor.compute(stiffness);
-      const MatrixXd own = whole.rows(Eigen::all, part.unknowns);
+      const MatrixXd own = whole.rows(allOf, part.unknowns);
       part.load = force(part.unknowns);
       flexibility_ += own * part.factor.solve(own.transpose());
       offset_ += own * part.factor.solve(part.load);
@@ -372,7 +373,7 @@ public:
     VectorXd u = whole_.prescribed;
     Index column = 0;
     for (const Part& part : parts_) {
-      const MatrixXd own = whole_.rows(Eigen::all, part.unknowns);
+      const MatrixXd own = whole_.rows(allOf, part.unknowns);
       const VectorXd moved = part.factor.solve(part.load - own.transpose() * force_) +
                              part.kernel * motion_.segment(column, part.kernel.cols());
       u(part.unknowns) = moved;
@@ -411,14 +412,14 @@ private:
     }
     MatrixXd free = MatrixXd::Identity(numModes, numModes);
     if (!held.empty()) {
-      const MatrixXd rows = all(held, Eigen::all);
+      const MatrixXd rows = all(held, allOf);
       const Eigen::JacobiSVD<MatrixXd> svd(rows.transpose() * rows, Eigen::ComputeFullV);
       const Index rank = (svd.singularValues().array() > 1e-10 * svd.singularValues()[0]).count();
       free = svd.matrixV().rightCols(numModes - rank);
     }
     if (free.cols() == 0)
       return MatrixXd::Zero(static_cast<Index>(unknowns.size()), 0);
-    const MatrixXd modes = all(unknowns, Eigen::all) * free;
+    const MatrixXd modes = all(unknowns, allOf) * free;
     return Eigen::HouseholderQR<MatrixXd>(modes).householderQ() *
            MatrixXd::Identity(modes.rows(), modes.cols());
   }
