@@ -60,7 +60,7 @@ function(epafi_test name)
   set_source_files_properties(${TEST_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   foreach(ranks IN LISTS TEST_RANKS)
     set(leaks "")
-    if(EPAFI_SANITIZE AND ranks EQUAL 1 AND NOT name MATCHES "qp_random|forms|system" AND NOT "studies" IN_LIST TEST_LABELS
+    if(EPAFI_SANITIZE AND ranks EQUAL 1 AND NOT name MATCHES "qp_random|forms|friction|system" AND NOT "studies" IN_LIST TEST_LABELS
        AND NOT "random" IN_LIST TEST_LABELS)
       set(leaks leaks) # runs once, with leaks looked for
     endif()
