@@ -41,13 +41,15 @@ struct ActiveSetProblem {
 
 /// \param x     in: start; out: the last point, in Ω
 /// \param face  1 where x may move at first, else 0; if null the start's own, or, where that is 0, the face
-/// to which Mb points Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product
-/// (none at the start 0), 5 reductions (4 without rows). Allocates nothing on the way but what B's face
-/// inverse takes (FaceInverse.hpp). Returns converged only for a gradient computed afresh; with the best
-/// point met stagnated, where faces do not settle, and unbounded, where one seems to have no minimum (whether
-/// it has none says RecessionDirection.hpp). With a set that depends on x, bounds are those of the last face
-/// while a face lasts (Hüeber, Wohlmuth, *Comput. Methods Appl. Mech. Engrg* 194 (2005)), and what they miss
-/// of Ω(x), times ‖A‖, counts as gradient. Collective.
+/// to which Mb points
+///
+/// Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product (none at the start
+/// 0), 5 reductions (4 without rows). Steps allocate nothing; a face what B's inverse on it takes
+/// (FaceInverse.hpp) and, with `setAt`, the set of its point. Returns converged only for a gradient
+/// computed afresh; with the best point met stagnated, where faces do not settle, and unbounded, where
+/// one seems to have no minimum (whether it has none says RecessionDirection.hpp). With a set that
+/// depends on x, bounds are those of the last face while a face lasts (Hüeber, Wohlmuth, *Comput. Methods
+/// Appl. Mech. Engrg* 194 (2005)), and what they miss of Ω(x), times ‖A‖, counts as gradient. Collective.
 SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
                               const SmalbeTolerances& tolerances, const MprgpParameters& limits,
                               Observer* observer = nullptr);
