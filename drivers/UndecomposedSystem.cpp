@@ -68,7 +68,7 @@ UndecomposedSystem::Matrix contactRows(const DecomposedProblem& problem, const s
 /// Body, node, place and direction of the unknowns of one subdomain.
 void locate(const Decomposition& decomposition, const Subdomain& subdomain, int first,
             UndecomposedSystem& system) {
-  const fem::Mesh& mesh = *decomposition.bodies[subdomain.body].mesh;
+  const mesh::Mesh& mesh = *decomposition.bodies[subdomain.body].mesh;
   const int components = decomposition.problem.components;
   std::vector<const Eigen::Matrix3d*> axes(subdomain.nodes.size(), nullptr);
   for (const decomposition::NodeFrame& frame : subdomain.frames)

@@ -9,7 +9,7 @@ inline epafi::scene::Scene block(int elements, int subdomains) {
   using namespace epafi::scene;
   Body body;
   body.name = "block";
-  body.physics = Physics::elasticity3d;
+  body.physics = epafi::fem::Physics::elasticity3d;
   body.material.youngsModulus = 200;
   body.mesh.box = {{0, 0, 0}, {2, 2, 1}};
   body.mesh.elements = {2 * elements, 2 * elements, elements};

@@ -16,11 +16,11 @@ namespace {
 scene::Scene squareMembrane(int elements, int subdomains) {
   scene::Body square;
   square.name = "square";
-  square.mesh.box = scene::rectangle(0, 1, 0, 1);
+  square.mesh.box = mesh::rectangle(0, 1, 0, 1);
   square.mesh.elements = {elements, elements, 0};
   for (const char* edge : scene::edges)
     square.supports.push_back({edge, edge, {0.0}});
-  square.loads = {scene::loadInside("all over", square.mesh.box, 1.0)};
+  square.loads = {fem::loadInside("all over", square.mesh.box, 1.0)};
   square.decomposition.counts = {subdomains, subdomains, 1};
   scene::Scene scene;
   scene.bodies = {square};

@@ -63,7 +63,7 @@ scene::Scene read(const Request& request) {
     scene::applyOverride(list, schema, text);
   scene::Scene scene = scene::readScene(list, request.scene);
   for (const scene::Body& body : scene.bodies) // x and d of FILE mean nothing to them
-    if (body.physics == scene::Physics::membrane)
+    if (body.physics == fem::Physics::membrane)
       throw InputError("body '" + body.name + "' is a membrane; only elastic bodies can be exported");
   for (const scene::SurfaceContact& contact : scene.contacts) // the programs that read FILE know bounds alone
     if (contact.kind == scene::SurfaceContact::Kind::tied)

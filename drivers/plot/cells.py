@@ -1,4 +1,4 @@
-"""Cells, facets and edges as arrays of node numbers (order of corners: src/fem/Cell.hpp)."""
+"""Cells, facets and edges as arrays of node numbers (order of corners: src/mesh/Cell.hpp)."""
 
 import numpy
 

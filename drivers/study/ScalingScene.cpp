@@ -8,7 +8,7 @@ namespace {
 scene::Body block(const std::string& name, double bottom, const std::string& held, int counts, int elements) {
   scene::Body body;
   body.name = name;
-  body.physics = scene::Physics::elasticity3d;
+  body.physics = fem::Physics::elasticity3d;
   body.material.youngsModulus = 200;
   body.mesh.box = {{0, 0, bottom}, {1, 1, bottom + 1}};
   body.mesh.elements = {counts * elements, counts * elements, counts * elements};
@@ -24,7 +24,7 @@ scene::Scene scalingScene(const std::string& problem, int counts, int elements) 
     return scene::modelProblem(problem == "coercive", counts, counts * elements);
   scene::Scene scene;
   scene.bodies = {block("lower", 0, "bottom", counts, elements), block("upper", 1, "top", counts, elements)};
-  scene::SolidLoad press;
+  fem::SolidLoad press;
   press.name = "press";
   press.box = {{0, 0, 1}, {0.5, 1, 1.5}};
   press.value = {0, 0, -1};

@@ -37,6 +37,7 @@ using Export = Tpetra::Export<>;
 
 /// A point in the plane or in space; unused coordinates are 0.
 using Point = std::array<double, 3>;
+using Vector3 = std::array<double, 3>; ///< x, y, z of a direction, of a displacement or a force
 
 using Teuchos::RCP;
 using Teuchos::rcp;

@@ -11,8 +11,8 @@ namespace {
 /// Shapes of subdomains that are looked at in turn, and the numbers kept of them: some 4 MB.
 constexpr std::size_t maxNumberings = 8, maxNumbers = 1U << 20U;
 
-std::vector<scene::Material> materialsOf(const scene::Body& body) {
-  std::vector<scene::Material> materials;
+std::vector<fem::Material> materialsOf(const scene::Body& body) {
+  std::vector<fem::Material> materials;
   for (std::size_t region = 0; region <= body.regions.size(); ++region)
     materials.push_back(fem::materialIn(body, region));
   return materials;
@@ -22,11 +22,11 @@ std::vector<scene::Material> materialsOf(const scene::Body& body) {
 
 BodyElements::BodyElements(const scene::Body& body, const model::BodyLayout& layout)
     : layout_(layout), physics_(body.physics), materials_(materialsOf(body)),
-      shape_(fem::congruentShape(*layout.mesh)),
+      shape_(mesh::congruentShape(*layout.mesh)),
       model_(materials_.size() > 1 ? model::makeModel(body, *layout.mesh) : nullptr),
       numberings_(maxNumberings, maxNumbers) {
   if (!shape_.empty())
-    for (const scene::Material& material : materials_)
+    for (const fem::Material& material : materials_)
       congruent_.emplace_back(cellType(), shape_, physics_, material);
 }
 
@@ -57,7 +57,7 @@ std::vector<std::size_t> BodyElements::inRegion(const SubdomainElements& element
 
 Eigen::MatrixXd BodyElements::gather(const SubdomainElements& elements, std::span<const std::size_t> which,
                                      const Eigen::VectorXd& displacement) const {
-  const Eigen::Index components = scene::componentsOf(physics_);
+  const Eigen::Index components = fem::componentsOf(physics_);
   const Eigen::Index perElement = elements.numbering->nodesPerElement();
   Eigen::MatrixXd gathered(perElement * components, static_cast<Eigen::Index>(which.size()));
   double* value = gathered.data();

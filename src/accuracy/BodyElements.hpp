@@ -4,10 +4,10 @@
 /// what everything that integrates over a solution walks along.
 
 #include "epafi/fem/BodyModel.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
 #include "epafi/fem/RecentlyUsed.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>
@@ -51,11 +51,11 @@ public:
   /// Keeps references to both.
   BodyElements(const scene::Body& body, const model::BodyLayout& layout);
 
-  [[nodiscard]] scene::Physics physics() const { return physics_; }
-  [[nodiscard]] fem::CellType cellType() const { return layout_.mesh->cellType(); }
-  [[nodiscard]] const fem::Mesh& mesh() const { return *layout_.mesh; }
+  [[nodiscard]] fem::Physics physics() const { return physics_; }
+  [[nodiscard]] mesh::CellType cellType() const { return layout_.mesh->cellType(); }
+  [[nodiscard]] const mesh::Mesh& mesh() const { return *layout_.mesh; }
   /// What a region is made of.
-  [[nodiscard]] const scene::Material& materialOf(GlobalOrdinal region) const { return materials_[region]; }
+  [[nodiscard]] const fem::Material& materialOf(GlobalOrdinal region) const { return materials_[region]; }
   [[nodiscard]] GlobalOrdinal numRegions() const { return static_cast<GlobalOrdinal>(materials_.size()); }
 
   /// Precondition: the subdomain is one of this body's.
@@ -66,7 +66,7 @@ public:
     return congruent_.empty() ? nullptr : &congruent_[region];
   }
   /// Area or volume of each element of a structured mesh.
-  [[nodiscard]] double measure() const { return fem::measureOf(cellType(), shape_); }
+  [[nodiscard]] double measure() const { return mesh::measureOf(cellType(), shape_); }
   /// Places of the elements of a region among the subdomain's.
   [[nodiscard]] static std::vector<std::size_t> inRegion(const SubdomainElements& elements,
                                                          GlobalOrdinal region);
@@ -78,7 +78,7 @@ public:
   template <class Action>
   void visit(const decomposition::Subdomain& subdomain, const SubdomainElements& elements,
              const Eigen::VectorXd& displacement, Points where, Action&& action) const {
-    const std::size_t components = scene::componentsOf(physics_);
+    const std::size_t components = fem::componentsOf(physics_);
     const std::size_t perElement = elements.numbering->nodesPerElement();
     const bool looksUp = shape_.empty() || where == Points::inPlace;
     std::vector<Point> points(shape_);
@@ -99,8 +99,8 @@ public:
 
 private:
   const model::BodyLayout& layout_;
-  scene::Physics physics_;
-  std::vector<scene::Material> materials_; ///< of each region
+  fem::Physics physics_;
+  std::vector<fem::Material> materials_; ///< of each region
   std::vector<Point>
       shape_; ///< corners of every element from the origin on, where all are congruent; else empty
   std::vector<fem::CongruentFluxes> congruent_; ///< of each region; empty of other meshes

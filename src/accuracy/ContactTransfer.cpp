@@ -1,7 +1,7 @@
 #include "epafi/accuracy/ContactTransfer.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/fem/PointTree.hpp"
+#include "epafi/mesh/PointTree.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -17,7 +17,7 @@ using model::Decomposition;
 
 /// Where the rows of a contact are.
 std::vector<Point> placesOf(const Decomposition& decomposition, const ContactLayout& contact) {
-  const fem::Mesh& mesh = *decomposition.bodies[contact.firstBody].mesh;
+  const mesh::Mesh& mesh = *decomposition.bodies[contact.firstBody].mesh;
   std::vector<Point> places;
   for (const GlobalOrdinal node : contact.firstNodes)
     places.push_back(mesh.point(node));
@@ -50,7 +50,7 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
     const std::vector<double> pressure = pressures(from, coarse, lambda);
     if (pressure.empty())
       continue;
-    const fem::PointTree tree(placesOf(from, coarse));
+    const mesh::PointTree tree(placesOf(from, coarse));
     const std::vector<Point> places = placesOf(to, fine);
     for (std::size_t row = 0; row < places.size(); ++row) {
       const LocalOrdinal local = map.getLocalElement(fine.firstRow + static_cast<GlobalOrdinal>(row));

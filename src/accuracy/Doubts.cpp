@@ -15,12 +15,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d at(const fem::Mesh& mesh, GlobalOrdinal node) {
+Vector3d at(const mesh::Mesh& mesh, GlobalOrdinal node) {
   const Point point = mesh.point(node);
   return {point[0], point[1], point[2]};
 }
 
-std::vector<Vector3d> cornersOf(const fem::Mesh& mesh, const fem::Surface& surface, std::size_t facet) {
+std::vector<Vector3d> cornersOf(const mesh::Mesh& mesh, const mesh::Surface& surface, std::size_t facet) {
   std::vector<Vector3d> corners;
   for (const GlobalOrdinal node : surface.facet(facet).first(numCornersOf(surface.facetType)))
     corners.push_back(at(mesh, node));
@@ -36,7 +36,7 @@ Vector3d areaOf(const std::vector<Vector3d>& x) {
 }
 
 /// Whether any further node of a facet lies off the middle of its edge.
-bool isCurved(const fem::Mesh& mesh, const fem::Surface& surface, std::size_t facet) {
+bool isCurved(const mesh::Mesh& mesh, const mesh::Surface& surface, std::size_t facet) {
   constexpr double straight = 1e-6;
   const auto nodes = surface.facet(facet);
   const std::vector<Vector3d> corners = cornersOf(mesh, surface, facet);
@@ -63,7 +63,7 @@ std::string inWords(double value) {
 double sagOf(const model::Decomposition& decomposition, int body, const std::string& surface) {
   if (body < 0)
     return 0;
-  const fem::Mesh& mesh = *decomposition.bodies[body].mesh;
+  const mesh::Mesh& mesh = *decomposition.bodies[body].mesh;
   if (mesh.structured() != nullptr) // flat
     return 0;
   return facetSag(mesh, mesh.surface(surface));
@@ -73,14 +73,14 @@ double sagOf(const model::Decomposition& decomposition, int body, const std::str
 
 bool locks(const scene::Body& body) {
   constexpr double nearHalf = 0.48; // λ/μ = 24
-  if (body.physics == scene::Physics::membrane || body.physics == scene::Physics::planeStress)
+  if (body.physics == fem::Physics::membrane || body.physics == fem::Physics::planeStress)
     return false;
-  const auto isNear = [](const scene::Material& material) { return material.poissonsRatio >= nearHalf; };
+  const auto isNear = [](const fem::Material& material) { return material.poissonsRatio >= nearHalf; };
   return isNear(body.material) || std::any_of(body.regions.begin(), body.regions.end(),
                                               [&](const auto& region) { return isNear(region.material); });
 }
 
-double facetSag(const fem::Mesh& mesh, const fem::Surface& surface) {
+double facetSag(const mesh::Mesh& mesh, const mesh::Surface& surface) {
   constexpr double edgeOfBody = 0.7; // rad
   std::map<std::array<GlobalOrdinal, 2>, std::vector<std::size_t>> joints;
   const std::size_t count = numCornersOf(surface.facetType);
@@ -113,7 +113,7 @@ std::string doubts(const scene::Scene& scene, const model::Decomposition& decomp
   std::string text;
   const auto add = [&](const std::string& sentence) { text += (text.empty() ? "" : ". ") + sentence; };
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (locks(scene.bodies[b]) && fem::orderOf(decomposition.bodies[b].mesh->cellType()) == 1)
+    if (locks(scene.bodies[b]) && mesh::orderOf(decomposition.bodies[b].mesh->cellType()) == 1)
       add("body " + scene.bodies[b].name +
           ": linear elements lock where Poisson's ratio is near 0.5, and the estimated error knows only a "
           "part "

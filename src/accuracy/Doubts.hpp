@@ -3,7 +3,7 @@
 /// Where an error estimate knows little of the error: of meshes that lock, and of facets instead of smooth
 /// surfaces.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 #include "epafi/model/Decompose.hpp"
 #include "epafi/scene/Scene.hpp"
 
@@ -19,7 +19,7 @@ bool locks(const scene::Body& body);
 /// How far straight facets deviate from a smooth surface through their nodes: the largest h θ/8 over
 /// neighbours that turn by θ, at most by 40° (more is an edge of the body), h being the mean of their widths.
 /// 0 for curved facets. Not collective.
-double facetSag(const fem::Mesh& mesh, const fem::Surface& surface);
+double facetSag(const mesh::Mesh& mesh, const mesh::Surface& surface);
 
 /// What the estimate does not know of a scene's error, in words for users; empty if nothing stands out:
 /// bodies that lock, and contacts whose facets deviate from smooth surfaces by a quarter and more of what

@@ -1,7 +1,7 @@
 #include "epafi/accuracy/FirstGrid.hpp"
 
 #include "epafi/base/ArrayIndex.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,16 @@ namespace {
 /// Where the body itself needs lines across an axis.
 std::vector<double> ownLines(const scene::Body& body, std::size_t axis) {
   std::vector<double> lines{body.mesh.box.lower[axis], body.mesh.box.upper[axis]};
-  const auto add = [&](const scene::Box& box) {
+  const auto add = [&](const mesh::Box& box) {
     lines.push_back(box.lower[axis]);
     lines.push_back(box.upper[axis]);
   };
-  for (const scene::SolidRegion& region : body.regions)
+  for (const fem::SolidRegion& region : body.regions)
     add(region.box);
-  for (const scene::SolidLoad& load : body.loads) {
-    if (load.kind == scene::SolidLoad::Kind::body)
+  for (const fem::SolidLoad& load : body.loads) {
+    if (load.kind == fem::SolidLoad::Kind::body)
       add(load.box);
-    else if (load.kind == scene::SolidLoad::Kind::point)
+    else if (load.kind == fem::SolidLoad::Kind::point)
       lines.push_back(load.point[axis]);
   }
   return lines;
@@ -80,16 +80,16 @@ std::vector<double> linesAcross(const scene::Scene& scene, std::size_t number, s
 
 } // namespace
 
-fem::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body) {
+mesh::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body) {
   std::array<std::vector<double>, 3> lines{};
   std::array<int, 3> counts{0, 0, 0};
-  scene::Box places{{0, 0, 0}, {1, 1, 1}}; // of a line: its number
+  mesh::Box places{{0, 0, 0}, {1, 1, 1}}; // of a line: its number
   for (std::size_t d = 0; d < index(dimensionOf(scene.bodies[body].physics)); ++d) {
     lines[d] = linesAcross(scene, body, d);
     counts[d] = static_cast<int>(lines[d].size()) - 1;
     places.upper[d] = counts[d];
   }
-  fem::SimplexMesh mesh = simplicesOf(fem::StructuredMesh(places, counts));
+  mesh::SimplexMesh mesh = simplicesOf(mesh::StructuredMesh(places, counts));
   mesh.name = "Body '" + scene.bodies[body].name + "'";
   for (Point& point : mesh.points)
     for (std::size_t d = 0; d < 3; ++d)

@@ -2,7 +2,7 @@
 
 /// The coarse mesh that a body on a rectangle or box is refined from.
 
-#include "epafi/fem/SimplexMesh.hpp"
+#include "epafi/mesh/SimplexMesh.hpp"
 #include "epafi/scene/Scene.hpp"
 
 namespace epafi::accuracy {
@@ -11,6 +11,6 @@ namespace epafi::accuracy {
 /// regions, at point loads and at all these of the bodies that it touches, so that both can match; between
 /// them no more than keeps elements no longer than half of the body's least extent, or than the scene's own
 /// elements if these are longer. Cut into simplices. Precondition: the body has no mesh file.
-fem::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body);
+mesh::SimplexMesh firstGrid(const scene::Scene& scene, std::size_t body);
 
 } // namespace epafi::accuracy

@@ -1,10 +1,10 @@
 #include "epafi/accuracy/PointLocation.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/ElementMap.hpp"
-#include "epafi/fem/MeshPart.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/ElementMap.hpp"
+#include "epafi/mesh/MeshPart.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,11 @@
 namespace epafi::accuracy {
 namespace {
 
-using fem::Mesh;
+using mesh::Mesh;
 
 /// Moves reference coordinates into the reference element; returns how far they were outside.
 template <int dim>
-double pullIn(const fem::Shape<dim>& shape, fem::Coordinates<dim>& xi) {
+double pullIn(const mesh::Shape<dim>& shape, mesh::Coordinates<dim>& xi) {
   if (!shape.isSimplex) {
     const double outside = std::max(0.0, xi.cwiseAbs().maxCoeff() - 1);
     xi = xi.cwiseMin(1.0).cwiseMax(-1.0);
@@ -35,24 +35,24 @@ double pullIn(const fem::Shape<dim>& shape, fem::Coordinates<dim>& xi) {
 /// Newton's method for x(ξ) = point, exact at once where the map is affine; not finite where it does not
 /// settle, as far outside of curved elements.
 template <int dim>
-fem::Coordinates<dim> coordinatesOf(const fem::Shape<dim>& shape, std::span<const Point> corners,
-                                    const Point& point) {
-  const auto relative = fem::relativeCorners<dim>(corners);
-  fem::Coordinates<dim> wanted, xi = shape.centre();
+mesh::Coordinates<dim> coordinatesOf(const mesh::Shape<dim>& shape, std::span<const Point> corners,
+                                     const Point& point) {
+  const auto relative = mesh::relativeCorners<dim>(corners);
+  mesh::Coordinates<dim> wanted, xi = shape.centre();
   for (int i = 0; i < dim; ++i) {
     const std::size_t axis = i;
     wanted[i] = point[axis] - corners[0][axis];
   }
   for (int iteration = 0; iteration < 20; ++iteration) {
     const auto sample = shape.sampleAt(xi);
-    const fem::ElementMap map(relative, sample);
-    const fem::Coordinates<dim> off = wanted - relative.lazyProduct(sample.values);
-    const fem::Coordinates<dim> step = map.jacobian().inverse() * off;
+    const mesh::ElementMap map(relative, sample);
+    const mesh::Coordinates<dim> off = wanted - relative.lazyProduct(sample.values);
+    const mesh::Coordinates<dim> step = map.jacobian().inverse() * off;
     xi += step.cwiseMin(2.0).cwiseMax(-2.0);
     if (!(step.norm() > 1e-12))
       return xi;
   }
-  return fem::Coordinates<dim>::Constant(std::numeric_limits<double>::quiet_NaN());
+  return mesh::Coordinates<dim>::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// \param[out] outside  how far the point is outside of the element, in reference coordinates
@@ -60,10 +60,10 @@ Location locateIn(const Mesh& mesh, GlobalOrdinal element, const Point& point, d
   std::vector<Point> corners;
   mesh.elementPoints(element, corners);
   Location location{element, {}};
-  fem::withShape(mesh.cellType(), [&]<int dim>(const fem::Shape<dim>& shape) {
-    fem::Coordinates<dim> xi = coordinatesOf(shape, corners, point);
+  mesh::withShape(mesh.cellType(), [&]<int dim>(const mesh::Shape<dim>& shape) {
+    mesh::Coordinates<dim> xi = coordinatesOf(shape, corners, point);
     outside = xi.allFinite() ? pullIn(shape, xi) : std::numeric_limits<double>::infinity();
-    const fem::NodalValues values = shape.values(xi.allFinite() ? xi : shape.centre());
+    const mesh::NodalValues values = shape.values(xi.allFinite() ? xi : shape.centre());
     std::copy(values.begin(), values.end(), location.weights.begin());
   });
   return location;
@@ -78,15 +78,15 @@ int cellOf(double x, double low, double size, int number) {
 PointLocation::PointLocation(const Mesh& mesh) : mesh_(mesh) {
   if (mesh.structured() != nullptr)
     return;
-  std::vector<fem::BoxTree::Box> boxes;
+  std::vector<mesh::BoxTree::Box> boxes;
   std::vector<Point> nodes;
-  const fem::MeshPart* part = mesh.part();
+  const mesh::MeshPart* part = mesh.part();
   const GlobalOrdinal numHeld =
       part == nullptr ? mesh.numElements() : static_cast<GlobalOrdinal>(part->elements().size());
   for (GlobalOrdinal held = 0; held < numHeld; ++held) {
     const GlobalOrdinal element = part == nullptr ? held : part->elements()[held];
     mesh.elementPoints(element, nodes);
-    auto [lower, upper] = fem::boxOf(nodes);
+    auto [lower, upper] = mesh::boxOf(nodes);
     constexpr double margin = 0.01; // curved edges bulge beyond their nodes
     for (std::size_t d = 0; d < 3; ++d) {
       const double more = margin * (upper[d] - lower[d]);
@@ -103,7 +103,7 @@ Location PointLocation::best(const Point& point, const std::vector<std::size_t>&
                              double& outside) const {
   Location result;
   outside = std::numeric_limits<double>::infinity();
-  const fem::MeshPart* part = mesh_.part();
+  const mesh::MeshPart* part = mesh_.part();
   for (const std::size_t held : candidates) {
     double here = 0;
     const Location location = locateIn(
@@ -120,7 +120,7 @@ Location PointLocation::best(const Point& point, const std::vector<std::size_t>&
 
 Location PointLocation::find(const Point& point) const {
   double outside = 0;
-  if (const fem::StructuredMesh* grid = mesh_.structured()) {
+  if (const mesh::StructuredMesh* grid = mesh_.structured()) {
     std::array<GlobalOrdinal, 3> cell{};
     for (std::size_t d = 0; d < static_cast<std::size_t>(grid->dimension()); ++d)
       cell[d] = cellOf(point[d], grid->box().lower[d], grid->elementSize()[d], grid->elements()[d]);

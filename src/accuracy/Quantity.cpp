@@ -5,7 +5,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
   const std::vector<std::string> names = body.mesh->surfaceNames();
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw InputError("body '" + body.name + "' has no surface '" + name + "' to average a displacement over");
-  const fem::Surface surface = body.mesh->surface(name);
+  const mesh::Surface surface = body.mesh->surface(name);
   std::vector<Weight> weights;
   std::vector<Point> points;
   std::vector<double> shares(surface.nodesPerFacet());
@@ -32,7 +32,7 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
     body.mesh->pointsAt(nodes, points);
-    fem::nodalShares(surface.facetType, points, shares);
+    mesh::nodalShares(surface.facetType, points, shares);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       weights.push_back({surface.elements[f], nodes[a], shares[a]});
       area += shares[a];
@@ -46,7 +46,7 @@ std::vector<Weight> weightsOverSurface(const model::BodyLayout& body, const std:
 /// Meshes of round bodies leave out points close to their border.
 std::vector<Weight> weightsAtPoint(const model::BodyLayout& body, const Point& point) {
   const Location location = PointLocation(*body.mesh).find(point);
-  const fem::ElementNodes nodes(*body.mesh, location.element);
+  const mesh::ElementNodes nodes(*body.mesh, location.element);
   std::vector<Point> points;
   body.mesh->elementPoints(location.element, points);
   std::vector<Weight> weights;
@@ -55,7 +55,7 @@ std::vector<Weight> weightsAtPoint(const model::BodyLayout& body, const Point& p
     weights.push_back({location.element, nodes[i], location.weights[i]});
     found += location.weights[i] * Eigen::Map<const Eigen::Vector3d>(points[i].data());
   }
-  const auto [lower, upper] = fem::boxOf(points);
+  const auto [lower, upper] = mesh::boxOf(points);
   double size = 0;
   for (std::size_t d = 0; d < 3; ++d)
     size = std::max(size, upper[d] - lower[d]);

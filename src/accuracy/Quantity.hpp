@@ -8,7 +8,7 @@
 /// with recovered fluxes q* as in ErrorEstimate.hpp.
 
 #include "epafi/accuracy/ErrorEstimate.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 #include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>

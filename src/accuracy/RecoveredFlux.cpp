@@ -2,8 +2,8 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Maps.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <Tpetra_Export.hpp>
 #include <Tpetra_Import.hpp>
@@ -50,7 +50,7 @@ void addElements(const BodyElements& body, const Subdomain& subdomain, const Eig
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
     fem::sampledFluxes(body.cellType(), element.points, body.physics(), body.materialOf(element.region),
                        element.displacements, sampled);
-    const double measure = fem::measureOf(body.cellType(), element.points);
+    const double measure = mesh::measureOf(body.cellType(), element.points);
     sampled *= measure;
     const std::size_t nodes = element.nodes.size();
     for (std::size_t i = 0; i < nodes; ++i) {

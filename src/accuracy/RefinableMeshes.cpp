@@ -4,10 +4,10 @@
 #include "epafi/accuracy/PointLocation.hpp"
 #include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Collective.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/GmshReader.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
-#include "epafi/model/MeshFiles.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
+#include "epafi/meshing/GmshReader.hpp"
+#include "epafi/meshing/MeshFiles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace epafi::accuracy {
 namespace {
 
-using fem::SimplexMesh;
+using mesh::SimplexMesh;
 
 std::vector<Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element& element) {
   std::vector<Point> corners;
@@ -28,12 +28,12 @@ std::vector<Point> cornersOf(const SimplexMesh& mesh, const SimplexMesh::Element
 
 /// Of each element the one of another mesh that its centre lies in.
 std::vector<LocalOrdinal> elementsAround(const SimplexMesh& inner, const SimplexMesh& outer) {
-  const fem::UnstructuredMesh mesh(arraysOf(outer, 1));
+  const mesh::UnstructuredMesh mesh(arraysOf(outer, 1));
   const PointLocation location(mesh);
   std::vector<LocalOrdinal> around;
   for (const SimplexMesh::Element& element : inner.elements)
     around.push_back(
-        static_cast<LocalOrdinal>(location.find(fem::centreOf(cornersOf(inner, element))).element));
+        static_cast<LocalOrdinal>(location.find(mesh::centreOf(cornersOf(inner, element))).element));
   return around;
 }
 
@@ -64,7 +64,7 @@ std::vector<int> timesOf(const std::vector<double>& halvings, int dimension) {
 
 /// Adds the sizes that are wanted in a body: at nodes the (geometric) means of the elements around.
 void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, double stretch,
-              fem::MeshSizes& sizes) {
+              mesh::MeshSizes& sizes) {
   std::vector<double> sum(mesh.points.size(), 0), number(mesh.points.size(), 0);
   const auto count = index(mesh.dimension) + 1;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
@@ -117,11 +117,11 @@ scene::Scene RefinableMeshes::scene(int order) const {
 }
 
 std::vector<model::BodyLayout> RefinableMeshes::layout(const scene::Scene& scene, const Comm& comm) const {
-  std::vector<std::unique_ptr<const fem::Mesh>> meshes;
+  std::vector<std::unique_ptr<const mesh::Mesh>> meshes;
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes_.size(); ++b)
       meshes.push_back(
-          std::make_unique<const fem::UnstructuredMesh>(arraysOf(meshes_[b], scene.bodies[b].mesh.order)));
+          std::make_unique<const mesh::UnstructuredMesh>(arraysOf(meshes_[b], scene.bodies[b].mesh.order)));
   });
   return model::cutBodies(scene, std::move(meshes), comm);
 }
@@ -168,7 +168,7 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
   for (const auto& [geometry, bodies] : geometries) {
     const int dimension = meshes_[bodies.front()].dimension;
     double& stretch = stretch_.try_emplace(geometry, dimension == 2 ? 1.05 : 1.25).first->second;
-    fem::MeshSizes sizes{dimension, {}, {}};
+    mesh::MeshSizes sizes{dimension, {}, {}};
     double before = 0, wanted = 0, made = 0; // elements
     for (const std::size_t b : bodies) {
       addSizes(meshes_[b], halvings[b], stretch, sizes);
@@ -178,16 +178,16 @@ void RefinableMeshes::remesh(std::span<const std::vector<double>> halvings,
     }
     const double factor = scene_.bodies[bodies.front()].mesh.sizeFactor; // for what the geometry reads it
     const auto makeText = [&, &name = geometry] {
-      return fem::textOfGeometry(name, factor, fem::SizeField(std::move(sizes)));
+      return meshing::textOfGeometry(name, factor, mesh::SizeField(std::move(sizes)));
     };
-    std::string text = model::textOnAllRanks(makeText, comm);
+    std::string text = meshing::textOnAllRanks(makeText, comm);
     if (text.empty()) { // bisected as what a mesh file has
       for (const std::size_t b : bodies)
         isRemeshed_[b] = false;
       continue;
     }
     collectively(comm, [&] {
-      const fem::GmshFile mesh(fem::readMsh(geometry, std::move(text)));
+      const meshing::GmshFile mesh(meshing::readMsh(geometry, std::move(text)));
       for (const std::size_t b : bodies) {
         SimplexMesh finer = simplicesOf(mesh.body(scene_.bodies[b].mesh.group, 2));
         ancestors[b] = elementsAround(finer, meshes_[b]);
@@ -214,9 +214,9 @@ std::vector<std::vector<double>> RefinableMeshes::measures() const {
   std::vector<std::vector<double>> measures;
   for (const SimplexMesh& mesh : meshes_) {
     std::vector<double>& own = measures.emplace_back();
-    const auto type = mesh.dimension == 2 ? fem::CellType::triangle : fem::CellType::tetrahedron;
+    const auto type = mesh.dimension == 2 ? mesh::CellType::triangle : mesh::CellType::tetrahedron;
     for (const SimplexMesh::Element& element : mesh.elements)
-      own.push_back(fem::measureOf(type, cornersOf(mesh, element)));
+      own.push_back(mesh::measureOf(type, cornersOf(mesh, element)));
   }
   return measures;
 }

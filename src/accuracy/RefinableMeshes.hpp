@@ -8,7 +8,7 @@
 /// bisected too, on the arcs of its first mesh. Surfaces and groups are those of the scene.
 
 #include "epafi/base/Types.hpp"
-#include "epafi/fem/SimplexMesh.hpp"
+#include "epafi/mesh/SimplexMesh.hpp"
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
 
@@ -52,8 +52,8 @@ private:
               const Comm& comm);
 
   scene::Scene scene_;
-  std::vector<fem::SimplexMesh> meshes_; ///< of each body
-  std::vector<bool> isRemeshed_;         ///< whether Gmsh makes the next one
+  std::vector<mesh::SimplexMesh> meshes_; ///< of each body
+  std::vector<bool> isRemeshed_;          ///< whether Gmsh makes the next one
   /// By geometry: edges that Gmsh makes, on average, in units of the size it is asked for; measured mesh by
   /// mesh.
   std::map<std::string, double> stretch_;

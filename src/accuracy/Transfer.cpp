@@ -24,9 +24,9 @@ using model::Decomposition;
 /// Where a node of the fine mesh lies in the coarse one.
 struct Guess {
   std::size_t subdomain, node; ///< among this rank's subdomains, and their nodes
-  std::array<GlobalOrdinal, fem::mostNodes>
+  std::array<GlobalOrdinal, mesh::mostNodes>
       sources{}; ///< nodes of the coarse element, by numbers of the whole problem
-  std::array<double, fem::mostNodes> weights{};
+  std::array<double, mesh::mostNodes> weights{};
   std::size_t numSources = 0;
 };
 
@@ -66,7 +66,7 @@ std::vector<Guess> locate(const Decomposition& from, const Decomposition& to, No
   for (std::size_t s = 0; s < to.problem.subdomains.size(); ++s) {
     const Subdomain& subdomain = to.problem.subdomains[s];
     const std::size_t body = subdomain.body;
-    const fem::Mesh &coarse = *from.bodies[body].mesh, &fine = *to.bodies[body].mesh;
+    const mesh::Mesh &coarse = *from.bodies[body].mesh, &fine = *to.bodies[body].mesh;
     if (nodes == NodesOf::subdomains && coarse.part() != nullptr)
       throw Error("The values of a mesh are asked for at nodes anywhere, but no rank holds it whole.");
     if (!locations[body])

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ bool overlap(const Common& a, const Common& b, int dimension) {
 CoveringFacets::CoveringFacets(const ContactTerms& terms, const PlacedSurface& first,
                                const PlacedSurface& second)
     : terms_(terms), first_(viewsOf(first)), second_(viewsOf(second)), tree_(boxesOf(second_)) {
-  size_ = fem::diameterOf(boxOfAll());
+  size_ = mesh::diameterOf(boxOfAll());
   reach_ = std::min(terms.distance, size_);
 }
 
@@ -65,18 +65,18 @@ std::vector<FacetView> CoveringFacets::viewsOf(const PlacedSurface& placed) {
 }
 
 /// The box of a facet moved along its normal, from behind it to ahead of it.
-fem::BoxTree::Box CoveringFacets::boxOf(const FacetView& view, double behind, double ahead) {
+mesh::BoxTree::Box CoveringFacets::boxOf(const FacetView& view, double behind, double ahead) {
   std::vector<Point> points;
   for (Eigen::Index a = 0; a < view.points().cols(); ++a)
     for (const double along : {-behind, ahead}) {
       const Vector3d x = view.points().col(a) + along * view.normal();
       points.push_back({x[0], x[1], x[2]});
     }
-  return fem::boxOf(points, 0.1 * view.diameter()); // curved facets bulge
+  return mesh::boxOf(points, 0.1 * view.diameter()); // curved facets bulge
 }
 
-std::vector<fem::BoxTree::Box> CoveringFacets::boxesOf(const std::vector<FacetView>& views) {
-  std::vector<fem::BoxTree::Box> boxes;
+std::vector<mesh::BoxTree::Box> CoveringFacets::boxesOf(const std::vector<FacetView>& views) {
+  std::vector<mesh::BoxTree::Box> boxes;
   for (const FacetView& view : views)
     boxes.push_back(boxOf(view, 0, 0));
   return boxes;
@@ -86,10 +86,10 @@ std::vector<Point> CoveringFacets::boxOfAll() const {
   std::vector<Point> corners;
   for (const auto* views : {&first_, &second_})
     for (const FacetView& view : *views) {
-      const fem::BoxTree::Box box = boxOf(view, 0, 0);
+      const mesh::BoxTree::Box box = boxOf(view, 0, 0);
       corners.insert(corners.end(), box.begin(), box.end());
     }
-  const fem::BoxTree::Box all = fem::boxOf(corners);
+  const mesh::BoxTree::Box all = mesh::boxOf(corners);
   return {all.begin(), all.end()};
 }
 

@@ -7,7 +7,7 @@
 #include "epafi/contact/ConvexPolygon.hpp"
 #include "epafi/contact/FacetView.hpp"
 #include "epafi/contact/MortarIntegrals.hpp"
-#include "epafi/fem/BoxTree.hpp"
+#include "epafi/mesh/BoxTree.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -44,8 +44,8 @@ public:
 
 private:
   static std::vector<FacetView> viewsOf(const PlacedSurface& placed);
-  static std::vector<fem::BoxTree::Box> boxesOf(const std::vector<FacetView>& views);
-  static fem::BoxTree::Box boxOf(const FacetView& view, double behind, double ahead);
+  static std::vector<mesh::BoxTree::Box> boxesOf(const std::vector<FacetView>& views);
+  static mesh::BoxTree::Box boxOf(const FacetView& view, double behind, double ahead);
   [[nodiscard]] std::vector<Point> boxOfAll() const;
   [[nodiscard]] double deepestOf(const FacetView& own, const FacetView& other, double allowed) const;
   [[nodiscard]] Common commonOf(const FacetView& own, const FacetView& other, const ViewPlane& plane);
@@ -57,7 +57,7 @@ private:
 
   const ContactTerms& terms_;
   std::vector<FacetView> first_, second_;
-  fem::BoxTree tree_;
+  mesh::BoxTree tree_;
   double size_ = 0;
   double reach_ = 0; ///< how far the search goes along normals
   Misses misses_;

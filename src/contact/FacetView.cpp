@@ -1,8 +1,8 @@
 #include "epafi/contact/FacetView.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/ElementMap.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/ElementMap.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -20,9 +20,9 @@ using Eigen::Vector3d;
 constexpr double straight = 1e-10;
 
 /// Places of the corners of a facet's pieces, each a halving of one of order 2.
-std::vector<std::vector<int>> piecesOf(fem::CellType type, bool isStraight) {
-  using fem::CellType;
-  if (isStraight || fem::orderOf(type) == 1) {
+std::vector<std::vector<int>> piecesOf(mesh::CellType type, bool isStraight) {
+  using mesh::CellType;
+  if (isStraight || mesh::orderOf(type) == 1) {
     std::vector<int> corners;
     for (int c = 0; c < numCornersOf(type); ++c)
       corners.push_back(c);
@@ -36,16 +36,16 @@ std::vector<std::vector<int>> piecesOf(fem::CellType type, bool isStraight) {
 }
 
 /// Where the nodes would lie if edges were straight and the centre were that of the corners.
-Eigen::Matrix3Xd straightened(fem::CellType type, const Eigen::Matrix3Xd& points) {
+Eigen::Matrix3Xd straightened(mesh::CellType type, const Eigen::Matrix3Xd& points) {
   Eigen::Matrix3Xd result = points;
-  if (fem::orderOf(type) == 1)
+  if (mesh::orderOf(type) == 1)
     return result;
   const std::span<const int> edges = edgesOf(type);
   const Eigen::Index corners = numCornersOf(type);
   for (std::size_t e = 0; 2 * e < edges.size(); ++e)
     result.col(corners + static_cast<Eigen::Index>(e)) =
         (points.col(edges[2 * e]) + points.col(edges[2 * e + 1])) / 2;
-  if (type == fem::CellType::quadrilateral9)
+  if (type == mesh::CellType::quadrilateral9)
     result.col(8) = points.leftCols<4>().rowwise().mean();
   return result;
 }
@@ -63,15 +63,15 @@ ViewPlane ViewPlane::across(const Vector3d& origin, const Vector3d& normal, int 
   return plane;
 }
 
-FacetView::FacetView(fem::CellType type, std::span<const Point> points)
+FacetView::FacetView(mesh::CellType type, std::span<const Point> points)
     : type_(type), points_(3, static_cast<Eigen::Index>(points.size())) {
   for (std::size_t a = 0; a < points.size(); ++a)
     points_.col(a) = Vector3d(points[a][0], points[a][1], points[a][2]);
   centre_ = points_.leftCols(numCornersOf(type)).rowwise().mean();
-  const Vector3d vector = fem::areaVector(type, points);
+  const Vector3d vector = mesh::areaVector(type, points);
   area_ = vector.norm();
   normal_ = vector / area_;
-  diameter_ = fem::diameterOf(points);
+  diameter_ = mesh::diameterOf(points);
   const bool isStraight =
       (straightened(type, points_) - points_).cwiseAbs().maxCoeff() <= straight * diameter_;
   isAffine_ = isStraight;
@@ -86,20 +86,21 @@ FacetView::FacetView(fem::CellType type, std::span<const Point> points)
 }
 
 int FacetView::degree() const {
-  return fem::orderOf(type_) * (numCornersOf(type_) == 4 ? 2 : 1);
+  return mesh::orderOf(type_) * (numCornersOf(type_) == 4 ? 2 : 1);
 }
 
 std::optional<FacetView::Sight> FacetView::at(const Eigen::Vector2d& seen, const ViewPlane& plane) const {
-  return fem::withFacetShape(type_, [&]<int dim>(const fem::Shape<dim>& shape) -> std::optional<Sight> {
+  return mesh::withFacetShape(type_, [&]<int dim>(const mesh::Shape<dim>& shape) -> std::optional<Sight> {
     constexpr int maxSteps = 30;
-    using Point = fem::Coordinates<dim>;
-    const fem::NodalColumns<3> relative = points_.colwise() - plane.origin;
-    const fem::NodalColumns<dim> flat = plane.axes.template leftCols<dim>().transpose().lazyProduct(relative);
+    using Point = mesh::Coordinates<dim>;
+    const mesh::NodalColumns<3> relative = points_.colwise() - plane.origin;
+    const mesh::NodalColumns<dim> flat =
+        plane.axes.template leftCols<dim>().transpose().lazyProduct(relative);
     Point xi = shape.centre();
     for (int step = 0; step < maxSteps; ++step) {
       const auto sample = shape.sampleAt(xi);
       const Point off = flat.lazyProduct(sample.values) - seen.head<dim>();
-      const Eigen::Matrix<double, dim, dim> jacobian = fem::derivatives(flat, sample);
+      const Eigen::Matrix<double, dim, dim> jacobian = mesh::derivatives(flat, sample);
       const double determinant = jacobian.determinant();
       if (std::abs(determinant) <= 1e-14 * std::pow(diameter_, dim))
         return std::nullopt;
@@ -108,7 +109,7 @@ std::optional<FacetView::Sight> FacetView::at(const Eigen::Vector2d& seen, const
       if (change.norm() <= 1e-10 || // the next one would be 1e-20
           (isAffine_ && step == 0)) {
         const auto last = shape.sampleAt(xi);
-        const Eigen::Matrix<double, 3, dim> tangents = fem::derivatives(relative, last);
+        const Eigen::Matrix<double, 3, dim> tangents = mesh::derivatives(relative, last);
         double size = 0;
         if constexpr (dim == 1)
           size = tangents.norm();

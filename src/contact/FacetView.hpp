@@ -3,8 +3,8 @@
 /// A facet, straight or curved, seen along the normal of a plane: what mortar integrals ask of either side.
 
 #include "epafi/contact/ConvexPolygon.hpp"
-#include "epafi/fem/Cell.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Cell.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -15,7 +15,7 @@
 namespace epafi::contact {
 
 /// Values of a facet's shape functions.
-using FacetValues = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(fem::mostFacetNodes), 1>;
+using FacetValues = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(mesh::mostFacetNodes), 1>;
 
 /// A plane with axes; in the plane a line, whose second coordinate is 0.
 struct ViewPlane {
@@ -32,7 +32,7 @@ struct ViewPlane {
 class FacetView {
 public:
   /// Nodes in the order of Surface: the normal points outwards.
-  FacetView(fem::CellType type, std::span<const Point> points);
+  FacetView(mesh::CellType type, std::span<const Point> points);
 
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
   [[nodiscard]] const Eigen::Vector3d& normal() const { return normal_; } ///< mean, of length 1
@@ -58,7 +58,7 @@ public:
   [[nodiscard]] std::optional<Sight> at(const Eigen::Vector2d& seen, const ViewPlane& plane) const;
 
 private:
-  fem::CellType type_;
+  mesh::CellType type_;
   Eigen::Matrix3Xd points_;
   Eigen::Vector3d centre_, normal_;
   double area_, diameter_;

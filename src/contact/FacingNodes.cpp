@@ -2,8 +2,8 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
-#include "epafi/fem/BoxTree.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/BoxTree.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,22 +24,22 @@ using Eigen::Vector3d;
 constexpr double matchTolerance = 1e-2;
 
 /// Boxes of no extent around points.
-std::vector<fem::BoxTree::Box> boxesOf(const std::vector<Vector3d>& points) {
-  std::vector<fem::BoxTree::Box> boxes;
+std::vector<mesh::BoxTree::Box> boxesOf(const std::vector<Vector3d>& points) {
+  std::vector<mesh::BoxTree::Box> boxes;
   for (const Vector3d& x : points)
     boxes.push_back({Point{x[0], x[1], x[2]}, Point{x[0], x[1], x[2]}});
   return boxes;
 }
 
 /// The box around two points, with a margin.
-fem::BoxTree::Box boxAround(const Vector3d& a, const Vector3d& b, double margin) {
-  return fem::boxOf(std::array{Point{a[0], a[1], a[2]}, Point{b[0], b[1], b[2]}}, margin);
+mesh::BoxTree::Box boxAround(const Vector3d& a, const Vector3d& b, double margin) {
+  return mesh::boxOf(std::array{Point{a[0], a[1], a[2]}, Point{b[0], b[1], b[2]}}, margin);
 }
 
 /// The first node that has no partner and is near to the other surface, or `alone`.
 std::size_t lonelyNode(const ContactTerms& contact, const SurfaceNodes& surface, const SurfaceNodes& other,
                        const std::vector<char>& isPaired) {
-  const fem::BoxTree tree(boxesOf(other.points));
+  const mesh::BoxTree tree(boxesOf(other.points));
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < isPaired.size(); ++i) {
     if (isPaired[i] != 0)
@@ -210,8 +210,8 @@ FacingNodes facingNodes(const ContactTerms& contact, const SurfaceNodes& first, 
   std::iota(pairs.partner.begin(), pairs.partner.end(), std::size_t{0});
   if (contact.coincide)
     return pairs;
-  const std::vector<fem::BoxTree::Box> boxes = boxesOf(second.points);
-  const fem::BoxTree tree(boxes);
+  const std::vector<mesh::BoxTree::Box> boxes = boxesOf(second.points);
+  const mesh::BoxTree tree(boxes);
   double size = 0; // of both surfaces: nothing is farther away
   for (const auto* points : {&first.points, &second.points})
     for (const Vector3d& point : *points)

@@ -35,7 +35,7 @@ private:
   [[nodiscard]] bool reaches(const Common& common, const Vector2d& point, double margin) const;
 
   int dimension_;
-  const fem::Surface& surface_; ///< the first one
+  const mesh::Surface& surface_; ///< the first one
   CoveringFacets cover_;
   /// Of each facet of the first surface how deep it may lie in the other body, if that is more than facets
   /// are large.

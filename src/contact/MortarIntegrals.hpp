@@ -12,7 +12,7 @@
 
 #include "epafi/contact/ContactTerms.hpp"
 #include "epafi/contact/SurfaceNodes.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -41,7 +41,7 @@ struct MortarFacet {
 
 /// A surface and where its nodes lie; keeps references.
 struct PlacedSurface {
-  const fem::Surface& surface;
+  const mesh::Surface& surface;
   const NodePoints& pointAt;
 };
 

@@ -7,7 +7,7 @@
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/RowAreas.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <Eigen/Geometry>
 
@@ -212,7 +212,7 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   };
   ContactLayout layout;
   layout.name = terms.name;
-  layout.isDual = first.surface.facetType == fem::CellType::triangle6;
+  layout.isDual = first.surface.facetType == mesh::CellType::triangle6;
   RowAreas areas(terms, nodes.nodes.size());
   for (const MortarRow& row :
        maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, false, areas)) {
@@ -242,7 +242,7 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
       enter(row, nodes, areas, axis, terms.components, 0.0, layout);
   }
   requireMortarRows(terms, layout);
-  layout.isDual = first.surface.facetType == fem::CellType::triangle6;
+  layout.isDual = first.surface.facetType == mesh::CellType::triangle6;
   smoothRows(first.surface, layout);
   return layout;
 }

@@ -23,7 +23,7 @@
 #include "epafi/contact/ContactSearch.hpp"
 #include "epafi/contact/MortarIntegrals.hpp"
 #include "epafi/contact/SurfaceNodes.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 

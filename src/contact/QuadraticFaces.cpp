@@ -18,14 +18,14 @@ using Shares = std::vector<std::vector<ContactLayout::Share>>;
 /// Areas below this share of the mean are round-off.
 constexpr double roundOff = 1e-9;
 
-double alphaOf(fem::CellType facet) {
-  return facet == fem::CellType::triangle6 ? 1.0 / 6 : 0.15;
+double alphaOf(mesh::CellType facet) {
+  return facet == mesh::CellType::triangle6 ? 1.0 / 6 : 0.15;
 }
 
 /// W of one facet's nodes that have rows.
 class FacetWeights {
 public:
-  FacetWeights(fem::CellType facet, Weights& weights)
+  FacetWeights(mesh::CellType facet, Weights& weights)
       : facet_(facet), alpha_(alphaOf(facet)), weights_(weights) {}
 
   /// \param rows  of the facet's nodes, −1: none
@@ -48,7 +48,7 @@ public:
         set(second, middle, alpha_);
       }
     }
-    if (facet_ == fem::CellType::quadrilateral9)
+    if (facet_ == mesh::CellType::quadrilateral9)
       addCentre(rows, isComplete);
   }
 
@@ -69,7 +69,7 @@ private:
       weights_[{static_cast<std::size_t>(function), static_cast<std::size_t>(node)}] = weight;
   }
 
-  fem::CellType facet_;
+  mesh::CellType facet_;
   double alpha_;
   Weights& weights_;
 };
@@ -86,7 +86,7 @@ Shares dualCombinations(const Weights& weights, double alpha, std::size_t numRow
 }
 
 /// Adds W of some rows, 0 entries left out.
-void addWeights(const fem::Surface& surface, const std::map<GlobalOrdinal, std::ptrdiff_t>& rowOf,
+void addWeights(const mesh::Surface& surface, const std::map<GlobalOrdinal, std::ptrdiff_t>& rowOf,
                 Weights& weights) {
   FacetWeights facets(surface.facetType, weights);
   std::vector<std::ptrdiff_t> rows;
@@ -101,7 +101,7 @@ void addWeights(const fem::Surface& surface, const std::map<GlobalOrdinal, std::
 }
 
 /// W; of tied joints, whose nodes come once for each component that supports leave them, of each of these.
-Weights weightsOf(const fem::Surface& surface, const ContactLayout& contact) {
+Weights weightsOf(const mesh::Surface& surface, const ContactLayout& contact) {
   const std::size_t numRows = contact.firstNodes.size();
   const bool hasComponents =
       std::set<GlobalOrdinal>(contact.firstNodes.begin(), contact.firstNodes.end()).size() < numRows;
@@ -129,9 +129,9 @@ void setSmoothed(const Weights& weights, ContactLayout& contact) {
 
 } // namespace
 
-Eigen::MatrixXd dualBasis(fem::CellType facet) {
+Eigen::MatrixXd dualBasis(mesh::CellType facet) {
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(numNodesOf(facet), numNodesOf(facet));
-  if (facet != fem::CellType::triangle6)
+  if (facet != mesh::CellType::triangle6)
     return basis;
   const double alpha = alphaOf(facet);
   const std::span<const int> ends = edgesOf(facet);
@@ -143,17 +143,17 @@ Eigen::MatrixXd dualBasis(fem::CellType facet) {
   return basis;
 }
 
-void smoothRows(const fem::Surface& surface, ContactLayout& contact) {
+void smoothRows(const mesh::Surface& surface, ContactLayout& contact) {
   if (orderOf(surface.facetType) == 2)
     setSmoothed(weightsOf(surface, contact), contact);
 }
 
-void adaptRows(const fem::Surface& surface, ContactLayout& contact) {
+void adaptRows(const mesh::Surface& surface, ContactLayout& contact) {
   if (orderOf(surface.facetType) < 2)
     return;
   const Weights weights = weightsOf(surface, contact);
   setSmoothed(weights, contact);
-  if (surface.facetType != fem::CellType::triangle6)
+  if (surface.facetType != mesh::CellType::triangle6)
     return;
   contact.isDual = true;
   contact.combinations = dualCombinations(weights, alphaOf(surface.facetType), contact.firstNodes.size());

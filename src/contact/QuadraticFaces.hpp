@@ -18,23 +18,23 @@
 /// with α = 1/5).
 
 #include "epafi/contact/ContactLayout.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
 namespace epafi::contact {
 
 /// N̂ = T N on a facet for which rows are dual to N̂: six-node triangles; of others the identity.
-Eigen::MatrixXd dualBasis(fem::CellType facet);
+Eigen::MatrixXd dualBasis(mesh::CellType facet);
 
 /// Finds W of a contact whose first surface has facets of order 2; else leaves everything as it is.
 /// \param surface  the first body's
-void smoothRows(const fem::Surface& surface, ContactLayout& contact);
+void smoothRows(const mesh::Surface& surface, ContactLayout& contact);
 
 /// Finds W of a contact whose first surface has facets of order 2, and turns the rows of triangles into those
 /// of N̂ and their areas into ∫N̂; else leaves everything as it is. A middle between corners that have no
 /// row, at the rim of what contact can reach, keeps its own.
 /// \param surface  the first body's
-void adaptRows(const fem::Surface& surface, ContactLayout& contact);
+void adaptRows(const mesh::Surface& surface, ContactLayout& contact);
 
 } // namespace epafi::contact

@@ -25,17 +25,17 @@ double angleBetween(const Vector3d& a, const Vector3d& b) {
 }
 
 /// Corners of the straight pieces that make up a facet, all its nodes among them.
-std::vector<std::vector<std::size_t>> piecesOf(fem::CellType type) {
+std::vector<std::vector<std::size_t>> piecesOf(mesh::CellType type) {
   switch (type) {
-  case fem::CellType::line3:
+  case mesh::CellType::line3:
     return {{0, 2}, {2, 1}};
-  case fem::CellType::triangle6:
+  case mesh::CellType::triangle6:
     return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
-  case fem::CellType::quadrilateral9:
+  case mesh::CellType::quadrilateral9:
     return {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
-  case fem::CellType::line:
+  case mesh::CellType::line:
     return {{0, 1}};
-  case fem::CellType::triangle:
+  case mesh::CellType::triangle:
     return {{0, 1, 2}};
   default:
     return {{0, 1, 2, 3}};
@@ -44,7 +44,7 @@ std::vector<std::vector<std::size_t>> piecesOf(fem::CellType type) {
 
 } // namespace
 
-SmoothSurface::SmoothSurface(const NodePoints& pointAt, const fem::Surface& surface)
+SmoothSurface::SmoothSurface(const NodePoints& pointAt, const mesh::Surface& surface)
     : isInSpace_(dimensionOf(surface.facetType) == 2) {
   for (const GlobalOrdinal node : surface.facetNodes)
     if (placeOf_.try_emplace(node, points_.size()).second) {
@@ -72,7 +72,7 @@ SmoothSurface::SmoothSurface(const NodePoints& pointAt, const fem::Surface& surf
 }
 
 /// Notes the nodes of a facet that are no corners; returns whether they lie in the middle of these.
-bool SmoothSurface::noteMiddles(fem::CellType type, const std::vector<std::size_t>& facet) {
+bool SmoothSurface::noteMiddles(mesh::CellType type, const std::vector<std::size_t>& facet) {
   constexpr double straight = 1e-9;
   const std::span<const int> edges = edgesOf(type);
   const std::size_t numCorners = numCornersOf(type);

@@ -9,7 +9,7 @@
 /// on spheres away from rims) by a seventh of it.
 
 #include "epafi/contact/SurfaceNodes.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -31,7 +31,7 @@ struct UncertainNormal {
 class SmoothSurface {
 public:
   /// \param pointAt  of all the surface's nodes; asked for here alone
-  SmoothSurface(const NodePoints& pointAt, const fem::Surface& surface);
+  SmoothSurface(const NodePoints& pointAt, const mesh::Surface& surface);
 
   /// Outwards; nothing where facets meet at an edge (their normals are farther than `edge` off the mean),
   /// which is no noise. What is computed once is kept. Precondition: a node of the surface.
@@ -52,7 +52,7 @@ private:
     double bend; ///< largest angle of a piece's normal with it
   };
 
-  bool noteMiddles(fem::CellType type, const std::vector<std::size_t>& facet);
+  bool noteMiddles(mesh::CellType type, const std::vector<std::size_t>& facet);
   void addPiece(std::span<const std::size_t> corners);
   [[nodiscard]] Mean meanAt(std::size_t place) const;
   [[nodiscard]] std::optional<UncertainNormal> fitted(std::size_t place, Eigen::Vector3d normal) const;

@@ -3,7 +3,7 @@
 /// Contact and ties between two surfaces of an application, meshed alike or apart, as matrices for
 /// decomposition::UnassembledProblem:
 ///
-///     const fem::Surface ring{fem::CellType::line, ringNodes, ringElements}, shaft{…};
+///     const mesh::Surface ring{mesh::CellType::line, ringNodes, ringElements}, shaft{…};
 ///     const contact::CoupledSurfaces joint = contact::contactBetween(terms, {ring, points}, {shaft, points},
 ///     comm);
 ///     problem.setContact(joint.matrix);

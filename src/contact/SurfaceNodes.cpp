@@ -1,6 +1,6 @@
 #include "epafi/contact/SurfaceNodes.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ void pointsAt(const NodePoints& pointAt, std::span<const GlobalOrdinal> nodes, s
 /// surface's nodes.
 class Completion {
 public:
-  Completion(const NodePoints& pointAt, const fem::Surface& surface)
+  Completion(const NodePoints& pointAt, const mesh::Surface& surface)
       : pointAt_(pointAt), surface_(surface),
         next_(1 + *std::max_element(surface.facetNodes.begin(), surface.facetNodes.end())) {}
 
@@ -40,7 +40,7 @@ public:
     const std::span<const int> edges = edgesOf(surface_.facetType);
     for (std::size_t e = 0; e < edges.size(); e += 2)
       add(std::array{corners[edges[e]], corners[edges[e + 1]]}, nodes, points, shares);
-    if (surface_.facetType == fem::CellType::quadrilateral)
+    if (surface_.facetType == mesh::CellType::quadrilateral)
       add(corners, nodes, points, shares);
   }
 
@@ -57,19 +57,19 @@ private:
     nodes.push_back(place->second);
     std::vector<Point> around;
     pointsAt(pointAt_, between, around);
-    points.push_back(fem::centreOf(around));
+    points.push_back(mesh::centreOf(around));
     shares.push_back(std::move(share));
   }
 
   const NodePoints& pointAt_;
-  const fem::Surface& surface_;
+  const mesh::Surface& surface_;
   std::map<std::vector<GlobalOrdinal>, GlobalOrdinal> number_;
   GlobalOrdinal next_;
 };
 
 /// action(nodes, points, shares) for all facets.
 template <class Action>
-void forEachFacet(const NodePoints& pointAt, const fem::Surface& surface, bool complete,
+void forEachFacet(const NodePoints& pointAt, const mesh::Surface& surface, bool complete,
                   const Action& action) {
   Completion completion(pointAt, surface);
   std::vector<GlobalOrdinal> nodes;
@@ -98,9 +98,9 @@ void addTo(std::vector<Eigen::Vector3d>& faces, const Eigen::Vector3d& normal) {
 
 } // namespace
 
-SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface, int order) {
+SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surface, int order) {
   const bool complete = order > orderOf(surface.facetType);
-  const fem::CellType facetType = complete ? withOrder(surface.facetType, order) : surface.facetType;
+  const mesh::CellType facetType = complete ? withOrder(surface.facetType, order) : surface.facetType;
   std::map<GlobalOrdinal, std::size_t> placeOf;
   forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto&, const auto&) {
     for (const GlobalOrdinal node : nodes)
@@ -121,11 +121,11 @@ SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface
   std::vector<Eigen::Vector3d> normals;
   std::vector<double> areas(numNodesOf(facetType));
   forEachFacet(pointAt, surface, complete, [&](const auto& nodes, const auto& points, const auto& shares) {
-    fem::nodalNormals(facetType, points, normals);
-    fem::nodalShares(facetType, points, areas);
+    mesh::nodalNormals(facetType, points, normals);
+    mesh::nodalShares(facetType, points, areas);
     auto& facet = result.facets.emplace_back();
     facet.shares = areas;
-    facet.normal = fem::areaVector(facetType, points).normalized();
+    facet.normal = mesh::areaVector(facetType, points).normalized();
     const double even = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const std::size_t place = placeOf.at(nodes[a]);

@@ -3,7 +3,7 @@
 /// The nodes of a surface with their normals and shares of its area.
 
 #include "epafi/contact/ContactLayout.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -44,6 +44,6 @@ constexpr double sharpBend = 0.86602540378443865;
 
 /// \param order  2: of facets of order 1 also the points where those of order 2 would have nodes, between the
 /// corners, with numbers beyond those of the surface; 0: that of the surface
-SurfaceNodes surfaceNodes(const NodePoints& pointAt, const fem::Surface& surface, int order = 0);
+SurfaceNodes surfaceNodes(const NodePoints& pointAt, const mesh::Surface& surface, int order = 0);
 
 } // namespace epafi::contact

@@ -6,9 +6,9 @@
 
 namespace epafi::contact {
 
-UnitedSurface unite(const fem::Mesh& mesh, std::span<const std::string> names) {
+UnitedSurface unite(const mesh::Mesh& mesh, std::span<const std::string> names) {
   UnitedSurface result{mesh.surface(names.front()), {}};
-  fem::Surface& all = result.surface;
+  mesh::Surface& all = result.surface;
   result.parts.assign(all.numFacets(), 0);
   if (names.size() == 1)
     return result;
@@ -21,7 +21,7 @@ UnitedSurface unite(const fem::Mesh& mesh, std::span<const std::string> names) {
   for (std::size_t f = 0; f < all.numFacets(); ++f)
     isNew(all.facet(f));
   for (std::size_t part = 1; part < names.size(); ++part) {
-    const fem::Surface next = mesh.surface(names[part]);
+    const mesh::Surface next = mesh.surface(names[part]);
     for (std::size_t f = 0; f < next.numFacets(); ++f)
       if (isNew(next.facet(f))) {
         all.facetNodes.insert(all.facetNodes.end(), next.facet(f).begin(), next.facet(f).end());

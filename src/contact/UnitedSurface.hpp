@@ -2,7 +2,7 @@
 
 /// Several surfaces of a body as one.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <cstddef>
 #include <span>
@@ -12,11 +12,11 @@
 namespace epafi::contact {
 
 struct UnitedSurface {
-  fem::Surface surface;           ///< facets of the first, then those that the next ones have beside
+  mesh::Surface surface;          ///< facets of the first, then those that the next ones have beside
   std::vector<std::size_t> parts; ///< of each facet, which one it is of
 };
 
 /// \param names  of surfaces that the mesh has, at least one
-UnitedSurface unite(const fem::Mesh& mesh, std::span<const std::string> names);
+UnitedSurface unite(const mesh::Mesh& mesh, std::span<const std::string> names);
 
 } // namespace epafi::contact

@@ -1,10 +1,10 @@
 #include "epafi/fem/BodyModel.hpp"
 
 #include "epafi/base/Text.hpp"
-#include "epafi/fem/ConnectedElements.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
-#include "epafi/fem/MeshPart.hpp"
+#include "epafi/mesh/ConnectedElements.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -17,9 +17,9 @@ using decomposition::RigidModes;
 
 /// \throws InputError if a plane physics meets a mesh in space, or the other way round.
 void requireDimension(const SolidBody& body) {
-  const bool isPlane = dimensionOf(body.body.physics) == 2;
+  const bool isPlane = dimensionOf(body.solid.physics) == 2;
   if (isPlane != (dimensionOf(body.mesh.cellType()) == 2))
-    throw body.refusal("its physics is " + toString(body.body.physics) + ", but its mesh consists of " +
+    throw body.refusal("its physics is " + toString(body.solid.physics) + ", but its mesh consists of " +
                        toString(body.mesh.cellType()) + "s; choose " +
                        (isPlane ? "elasticity 3-D" : "membrane, plane strain or plane stress"));
 }
@@ -30,14 +30,14 @@ void requireDimension(const SolidBody& body) {
 void requireJoined(const SolidBody& body) {
   if (body.isCongruent() || body.mesh.part() != nullptr) // whoever dealt out the pieces has looked
     return;
-  const Mesh& mesh = body.mesh;
+  const mesh::Mesh& mesh = body.mesh;
   const bool isMembrane = body.components() == 1;
   std::vector<GlobalOrdinal> around;
-  const auto pieces = connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
+  const auto pieces = mesh::connectedElements(mesh.numElements(), [&](GlobalOrdinal element, auto& found) {
     if (!isMembrane)
       return mesh.elementNeighbours(element, found);
     found.clear();
-    for (const GlobalOrdinal node : ElementNodes(mesh, element)) {
+    for (const GlobalOrdinal node : mesh::ElementNodes(mesh, element)) {
       mesh.nodeElements(node, around);
       found.insert(found.end(), around.begin(), around.end());
     }
@@ -74,14 +74,14 @@ Eigen::Matrix4d rectangleStiffness(double hx, double hy) {
 
 /// About the middle of the body's bounding box.
 RigidModes rigidModesOf(const SolidBody& body) {
-  const Mesh& mesh = body.mesh;
+  const mesh::Mesh& mesh = body.mesh;
   std::vector<Point> points; // of a structured mesh the first and the last will do
   if (mesh.part() != nullptr)
     points.assign(mesh.part()->box().begin(), mesh.part()->box().end());
   else
     for (GlobalOrdinal node = 0; node < mesh.numNodes(); node += body.isCongruent() ? mesh.numNodes() - 1 : 1)
       points.push_back(mesh.point(node));
-  const auto [lower, upper] = boxOf(points);
+  const auto [lower, upper] = mesh::boxOf(points);
   Point centre{};
   double size = 0;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -93,7 +93,7 @@ RigidModes rigidModesOf(const SolidBody& body) {
 
 } // namespace
 
-BodyModel::BodyModel(const scene::Body& body, const Mesh& mesh)
+BodyModel::BodyModel(const Solid& body, const mesh::Mesh& mesh)
     : body_(checked({body, mesh})), unknowns_(mesh, body_.components()), regions_(body_),
       loads_(body_, regions_), supports_(body_), rigidModes_(rigidModesOf(body_)) {
   integrateRegions();
@@ -103,13 +103,13 @@ BodyModel::BodyModel(const scene::Body& body, const Mesh& mesh)
 
 void BodyModel::integrateRegions() {
   for (std::size_t region = 0; body_.isCongruent() && region < regions_.number(); ++region) {
-    const scene::Material& material = materialIn(body_.body, region);
+    const Material& material = materialIn(body_.solid, region);
     Eigen::MatrixXd& stiffness = stiffnesses_.emplace_back();
-    if (body_.mesh.cellType() == CellType::quadrilateral && components() == 1)
+    if (body_.mesh.cellType() == mesh::CellType::quadrilateral && components() == 1)
       stiffness = material.conductivity * rectangleStiffness(body_.mesh.structured()->elementSize()[0],
                                                              body_.mesh.structured()->elementSize()[1]);
     else
-      elementStiffness(body_.mesh.cellType(), body_.shape, body_.body.physics, material, stiffness);
+      elementStiffness(body_.mesh.cellType(), body_.shape, body_.solid.physics, material, stiffness);
   }
 }
 
@@ -177,7 +177,7 @@ void BodyModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const 
   const GlobalOrdinal element = kind - numShared;
   std::vector<Point> points;
   body_.cornersOf(element, points);
-  elementStiffness(body_.mesh.cellType(), points, body_.body.physics, materialOf(element), stiffness);
+  elementStiffness(body_.mesh.cellType(), points, body_.solid.physics, materialOf(element), stiffness);
   if (isFramed(element))
     turnIntoFrames(element, stiffness);
 }
@@ -202,7 +202,7 @@ void BodyModel::loads(std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& 
 
 /// QᵀKQ, Q of the element's nodes.
 void BodyModel::turnIntoFrames(GlobalOrdinal element, Eigen::MatrixXd& stiffness) const {
-  const ElementNodes nodes(body_.mesh, element);
+  const mesh::ElementNodes nodes(body_.mesh, element);
   const int n = components();
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (const Eigen::Matrix3d* own = frame(nodes[i])) {
@@ -216,7 +216,7 @@ void BodyModel::turnIntoFrames(GlobalOrdinal element, Eigen::MatrixXd& stiffness
 
 /// Qᵀf.
 void BodyModel::turnIntoFrames(GlobalOrdinal element, Eigen::Ref<Eigen::VectorXd> load) const {
-  const ElementNodes nodes(body_.mesh, element);
+  const mesh::ElementNodes nodes(body_.mesh, element);
   const int n = components();
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (const Eigen::Matrix3d* own = frame(nodes[i])) {

@@ -5,12 +5,12 @@
 
 #include "epafi/decomposition/RigidModes.hpp"
 #include "epafi/decomposition/RigidMotions.hpp"
+#include "epafi/fem/Solid.hpp"
 #include "epafi/fem/SolidBody.hpp"
 #include "epafi/fem/SolidDomains.hpp"
 #include "epafi/fem/SolidLoads.hpp"
 #include "epafi/fem/SolidSupports.hpp"
 #include "epafi/fem/UnknownMap.hpp"
-#include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
 
@@ -24,20 +24,20 @@ namespace epafi::fem {
 /// one. Stiffness, loads, prescribed values and kernel are all in these unknowns.
 class BodyModel {
 public:
-  /// Keeps references to scene and mesh. \throws InputError, with the body's name, if a surface or group that
-  /// the scene names is not in the mesh, a region or load meets no element, a point load no node, supports
+  /// Keeps references to solid and mesh. \throws InputError, with the body's name, if a surface or group that
+  /// the solid names is not in the mesh, a region or load meets no element, a point load no node, supports
   /// contradict each other or hardly hold the body, the physics does not go with the mesh's dimension, parts
   /// of the body are not joined, or those of an elastic one in nodes or edges only: a mechanism.
-  BodyModel(const scene::Body& body, const Mesh& mesh);
+  BodyModel(const Solid& body, const mesh::Mesh& mesh);
 
-  [[nodiscard]] const Mesh& mesh() const { return body_.mesh; } ///< that of the body
-  /// Of a piece of a mesh, what the scene names: one piece at least has to have it.
+  [[nodiscard]] const mesh::Mesh& mesh() const { return body_.mesh; } ///< that of the body
+  /// Of a piece of a mesh, what the solid names: one piece at least has to have it.
   [[nodiscard]] const std::vector<SolidBody::Need>& needs() const { return body_.needs(); }
   /// Where its unknowns are.
   [[nodiscard]] const UnknownMap& unknowns() const { return unknowns_; }
   /// Unknowns a node.
   [[nodiscard]] int components() const { return unknowns_.components(); }
-  /// Rigid modes that the supports leave free: known from the scene, not from round-off.
+  /// Rigid modes that the supports leave free: known from the supports, not from round-off.
   [[nodiscard]] int kernelDimension() const { return static_cast<int>(freeModes_.cols()); }
   /// Value of a rigid mode at a node and component, mode < kernelDimension().
   [[nodiscard]] double kernelValue(GlobalOrdinal node, int component, int mode) const;
@@ -59,7 +59,7 @@ public:
 
   /// Kind of each element: elements of one kind have the same stiffness, to the last bit.
   void kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> kinds) const;
-  /// Region of the scene that each element lies in: the last one that contains it, counted from 1; 0 outside
+  /// Region of the solid that each element lies in: the last one that contains it, counted from 1; 0 outside
   /// of all.
   void regions(std::span<const GlobalOrdinal> elements, std::span<GlobalOrdinal> regions) const {
     regions_.of(body_, elements, regions);
@@ -72,8 +72,8 @@ public:
   void element(GlobalOrdinal element, Eigen::MatrixXd& stiffness, Eigen::VectorXd& load) const;
 
   /// What an element is made of.
-  [[nodiscard]] const scene::Material& materialOf(GlobalOrdinal element) const {
-    return materialIn(body_.body, regions_.of(body_, element));
+  [[nodiscard]] const Material& materialOf(GlobalOrdinal element) const {
+    return materialIn(body_.solid, regions_.of(body_, element));
   }
 
 private:

@@ -1,8 +1,8 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/ElementMap.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/ElementMap.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
 
 #include <array>
 #include <cassert>
@@ -10,25 +10,24 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
-
 /// S: products of all shape functions' derivatives, row and column node × dimension + direction. Isotropic
 /// stiffnesses are sums of its entries.
 template <int dim>
-using GradientProducts = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
-                                       dim* static_cast<int>(mostNodes), dim* static_cast<int>(mostNodes)>;
+using GradientProducts =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, dim* static_cast<int>(mesh::mostNodes),
+                  dim* static_cast<int>(mesh::mostNodes)>;
 
-[[maybe_unused]] bool fits(CellType type, Physics physics) {
+[[maybe_unused]] bool fits(mesh::CellType type, Physics physics) {
   return dimensionOf(type) == (physics == Physics::elasticity3d ? 3 : 2);
 }
 
-[[maybe_unused]] bool boundsElement(CellType facet, Physics physics) {
-  return dimensionOf(facet) + 1 == scene::dimensionOf(physics);
+[[maybe_unused]] bool boundsElement(mesh::CellType facet, Physics physics) {
+  return dimensionOf(facet) + 1 == dimensionOf(physics);
 }
 
 /// Load of a constant force of which each node bears its share.
-void shareOut(std::span<const double> shares, Physics physics, const scene::Material& material,
-              const scene::Vector3& force, Eigen::VectorXd& load) {
+void shareOut(std::span<const double> shares, Physics physics, const Material& material, const Vector3& force,
+              Eigen::VectorXd& load) {
   const std::size_t components = componentsOf(physics);
   const double thickness = thicknessOf(physics, material);
   load.resize(shares.size() * components);
@@ -39,14 +38,14 @@ void shareOut(std::span<const double> shares, Physics physics, const scene::Mate
 
 /// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its blocks on the diagonal and above.
 template <int dim>
-GradientProducts<dim> gradientProducts(const Shape<dim>& shape, std::span<const Point> points) {
-  const auto corners = relativeCorners<dim>(points);
+GradientProducts<dim> gradientProducts(const mesh::Shape<dim>& shape, std::span<const Point> points) {
+  const auto corners = mesh::relativeCorners<dim>(points);
   const int size = dim * shape.numNodes;
   GradientProducts<dim> products(size, size);
   products.setZero();
   for (const auto& sample : shape.gaussSamples()) {
-    const ElementMap map(corners, sample);
-    const NodalColumns<dim> gradients = map.gradients(sample);
+    const mesh::ElementMap map(corners, sample);
+    const mesh::NodalColumns<dim> gradients = map.gradients(sample);
     const Eigen::Map<const Eigen::VectorXd> g(gradients.data(), size);
     const double weight = sample.weight * map.determinant();
     for (int column = 0; column < size; ++column) {
@@ -89,10 +88,10 @@ void elasticStiffness(const GradientProducts<dim>& products, double lambda, doub
 
 } // namespace
 
-void elementStiffness(CellType type, std::span<const Point> points, Physics physics,
-                      const scene::Material& material, Eigen::MatrixXd& stiffness) {
+void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
+                      const Material& material, Eigen::MatrixXd& stiffness) {
   assert(fits(type, physics));
-  withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+  withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     const GradientProducts<dim> products = gradientProducts(shape, points);
     const int size = physics == Physics::membrane ? shape.numNodes : dim * shape.numNodes;
     stiffness.resize(size, size);
@@ -107,33 +106,33 @@ void elementStiffness(CellType type, std::span<const Point> points, Physics phys
   mirror(stiffness);
 }
 
-void bodyForceLoad(CellType type, std::span<const Point> points, Physics physics,
-                   const scene::Material& material, const scene::Vector3& force, Eigen::VectorXd& load) {
+void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
+                   const Material& material, const Vector3& force, Eigen::VectorXd& load) {
   assert(fits(type, physics));
-  withShape(type, [&]<int dim>(const Shape<dim>& shape) {
-    const auto corners = relativeCorners<dim>(points);
-    NodalValues integrals = NodalValues::Zero(shape.numNodes); // ∫N_a
+  withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    const auto corners = mesh::relativeCorners<dim>(points);
+    mesh::NodalValues integrals = mesh::NodalValues::Zero(shape.numNodes); // ∫N_a
     for (const auto& sample : shape.fineSamples())
-      integrals += (sample.weight * ElementMap(corners, sample).determinant()) * sample.values;
+      integrals += (sample.weight * mesh::ElementMap(corners, sample).determinant()) * sample.values;
     shareOut({integrals.data(), points.size()}, physics, material, force, load);
   });
 }
 
-void tractionLoad(CellType facet, std::span<const Point> points, Physics physics,
-                  const scene::Material& material, const scene::Vector3& traction, Eigen::VectorXd& load) {
+void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
+                  const Material& material, const Vector3& traction, Eigen::VectorXd& load) {
   assert(boundsElement(facet, physics));
-  std::array<double, mostFacetNodes> shares{};
+  std::array<double, mesh::mostFacetNodes> shares{};
   const auto own = std::span(shares).first(points.size());
   nodalShares(facet, points, own);
   shareOut(own, physics, material, traction, load);
 }
 
-void pressureLoad(CellType facet, std::span<const Point> points, Physics physics,
-                  const scene::Material& material, double pressure, Eigen::VectorXd& load) {
+void pressureLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
+                  const Material& material, double pressure, Eigen::VectorXd& load) {
   assert(boundsElement(facet, physics) && physics != Physics::membrane);
-  withFacetShape(facet, [&]<int dim>(const Shape<dim>& shape) {
-    const auto corners = relativeCorners<dim + 1>(points);
-    NodalColumns<dim + 1> forces = NodalColumns<dim + 1>::Zero(dim + 1, shape.numNodes);
+  withFacetShape(facet, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    const auto corners = mesh::relativeCorners<dim + 1>(points);
+    mesh::NodalColumns<dim + 1> forces = mesh::NodalColumns<dim + 1>::Zero(dim + 1, shape.numNodes);
     const double factor = -pressure * thicknessOf(physics, material);
     for (const auto& sample : shape.fineSamples())
       forces +=

@@ -7,10 +7,10 @@
 /// their leastJacobian (ElementGeometry.hpp) is positive. Nothing is allocated if the result has its size
 /// already; calls from several threads do not disturb each other.
 
-#include "epafi/fem/Cell.hpp"
 #include "epafi/fem/HookesLaw.hpp"
-#include "epafi/fem/Mesh.hpp"
-#include "epafi/scene/Body.hpp"
+#include "epafi/fem/Solid.hpp"
+#include "epafi/mesh/Cell.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -20,13 +20,13 @@ namespace epafi::fem {
 
 /// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space), by full
 /// integration. Symmetric to the last bit. `stiffness` is overwritten, and resized if need be.
-void elementStiffness(CellType type, std::span<const Point> points, scene::Physics physics,
-                      const scene::Material& material, Eigen::MatrixXd& stiffness);
+void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
+                      const Material& material, Eigen::MatrixXd& stiffness);
 
 /// t∫N_a f of a constant force f per volume; of a membrane ∫N_a f₀, f₀ per area. Exact. `load` is
 /// overwritten.
-void bodyForceLoad(CellType type, std::span<const Point> points, scene::Physics physics,
-                   const scene::Material& material, const scene::Vector3& force, Eigen::VectorXd& load);
+void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
+                   const Material& material, const Vector3& force, Eigen::VectorXd& load);
 
 // Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has
 // them, in an order that makes the normal point outwards, as in Cell.hpp and Surface. Edges go with
@@ -35,12 +35,12 @@ void bodyForceLoad(CellType type, std::span<const Point> points, scene::Physics 
 
 /// t∫N_a q of a constant force q per area, t the thickness (1 in space); of a membrane ∫N_a q₀, q₀ per
 /// length. Exact on edges and plane faces. `load` is overwritten.
-void tractionLoad(CellType facet, std::span<const Point> points, scene::Physics physics,
-                  const scene::Material& material, const scene::Vector3& traction, Eigen::VectorXd& load);
+void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
+                  const Material& material, const Vector3& traction, Eigen::VectorXd& load);
 
 /// −t∫N_a p n of a constant pressure p against the outward normal n, that of each point of the face. Exact.
 /// `load` is overwritten. Precondition: not a membrane.
-void pressureLoad(CellType facet, std::span<const Point> points, scene::Physics physics,
-                  const scene::Material& material, double pressure, Eigen::VectorXd& load);
+void pressureLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
+                  const Material& material, double pressure, Eigen::VectorXd& load);
 
 } // namespace epafi::fem

@@ -2,9 +2,9 @@
 
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
-#include "epafi/fem/ElementMap.hpp"
 #include "epafi/fem/HookesLaw.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
+#include "epafi/mesh/ElementMap.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
 
 #include <array>
 #include <cassert>
@@ -15,8 +15,6 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
-
 constexpr int numMembraneFluxes = 2, numStresses = 6;
 
 /// Flux κ∇u of a membrane, and the density of its energy.
@@ -25,7 +23,7 @@ struct MembraneLaw {
   using Flux = Eigen::Matrix<double, numFluxes, 1>;
   using Gradient = Eigen::Matrix<double, components, 2>;
 
-  MembraneLaw(Physics /*physics*/, const scene::Material& material) : conductivity(material.conductivity) {}
+  MembraneLaw(Physics /*physics*/, const Material& material) : conductivity(material.conductivity) {}
   [[nodiscard]] Flux flux(const Gradient& gradient) const { return conductivity * gradient.transpose(); }
   [[nodiscard]] double density(const Flux& q) const { return q.squaredNorm() / conductivity; }
 
@@ -40,7 +38,7 @@ struct ElasticLaw {
   using Flux = Eigen::Matrix<double, numFluxes, 1>;
   using Gradient = Eigen::Matrix<double, components, dim>;
 
-  ElasticLaw(Physics bodyPhysics, const scene::Material& bodyMaterial)
+  ElasticLaw(Physics bodyPhysics, const Material& bodyMaterial)
       : physics(bodyPhysics), material(bodyMaterial), thickness(thicknessOf(bodyPhysics, bodyMaterial)) {}
   [[nodiscard]] Flux flux(const Gradient& gradient) const {
     Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
@@ -57,7 +55,7 @@ struct ElasticLaw {
   }
 
   Physics physics;
-  const scene::Material& material;
+  const Material& material;
   double thickness;
 };
 
@@ -72,17 +70,17 @@ NodalDisplacements<Law> atNodes(std::span<const double> displacements) {
 }
 
 template <class Law, int dim>
-typename Law::Flux fluxAt(const Law& law, const ElementMap<dim>& map, const ShapeSample<dim>& sample,
-                          std::span<const double> displacements) {
+typename Law::Flux fluxAt(const Law& law, const mesh::ElementMap<dim>& map,
+                          const mesh::ShapeSample<dim>& sample, std::span<const double> displacements) {
   return law.flux(derivatives(atNodes<Law>(displacements), sample) * map.jacobian().inverse());
 }
 
 /// The flux is constant, so that w = q* − q_h is linear: ∫ w:C⁻¹:w = |T|/((d+1)(d+2)) (Σ Q(w_a) + Q(Σ w_a)).
 template <class Law, int dim, class Nodal>
-FluxEnergies simplexEnergies(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
+FluxEnergies simplexEnergies(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
                              std::span<const double> displacements, const Nodal& nodalFluxes) {
   const auto& sample = shape.centreSample();
-  const ElementMap map(relativeCorners<dim>(points), sample);
+  const mesh::ElementMap map(mesh::relativeCorners<dim>(points), sample);
   const typename Law::Flux flux = fluxAt(law, map, sample, displacements);
   const double measure = sample.weight * map.determinant();
   double sum = 0;
@@ -97,12 +95,12 @@ FluxEnergies simplexEnergies(const Law& law, const Shape<dim>& shape, std::span<
 
 /// By the fine rule: w is of the shape functions' kind, but where the element map is not affine.
 template <class Law, int dim, class Nodal>
-FluxEnergies energiesByRule(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
+FluxEnergies energiesByRule(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
                             std::span<const double> displacements, const Nodal& nodalFluxes) {
-  const auto corners = relativeCorners<dim>(points);
+  const auto corners = mesh::relativeCorners<dim>(points);
   FluxEnergies energies;
   for (const auto& sample : shape.fineSamples()) {
-    const ElementMap map(corners, sample);
+    const mesh::ElementMap map(corners, sample);
     const typename Law::Flux flux = fluxAt(law, map, sample, displacements);
     const double weight = sample.weight * map.determinant();
     energies.difference += weight * law.density(nodalFluxes.lazyProduct(sample.values) - flux);
@@ -115,11 +113,11 @@ FluxEnergies energiesByRule(const Law& law, const Shape<dim>& shape, std::span<c
 /// accurate (Barlow, *Int. J. Numer. Meth. Engng* 10 (1976)), carried on to the nodes. Order 1: a constant,
 /// one column. Of simplices of order 2 with straight edges the flux is such a function itself.
 template <class Law, int dim>
-void sampleFlux(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
+void sampleFlux(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
                 std::span<const double> displacements, Eigen::MatrixXd& fluxes) {
-  const auto corners = relativeCorners<dim>(points);
-  const auto at = [&](const ShapeSample<dim>& sample) {
-    return fluxAt(law, ElementMap(corners, sample), sample, displacements);
+  const auto corners = mesh::relativeCorners<dim>(points);
+  const auto at = [&](const mesh::ShapeSample<dim>& sample) {
+    return fluxAt(law, mesh::ElementMap(corners, sample), sample, displacements);
   };
   if (shape.order == 1) {
     fluxes = at(shape.centreSample());
@@ -127,7 +125,7 @@ void sampleFlux(const Law& law, const Shape<dim>& shape, std::span<const Point> 
     for (int a = 0; a < shape.numNodes; ++a)
       fluxes.col(a) = at(shape.nodeSamples()[a]);
   } else {
-    const Shape<dim>& linear = referenceShape<dim>(withOrder(shape.type, 1));
+    const mesh::Shape<dim>& linear = referenceShape<dim>(withOrder(shape.type, 1));
     Eigen::Matrix<double, Law::numFluxes, 1 << dim> sampled;
     for (int g = 0; g < linear.numNodes; ++g)
       sampled.col(g) = at(shape.sampleAt(linear.gaussSamples()[g].xi));
@@ -169,9 +167,9 @@ constexpr std::array<std::array<double, 2>, 3> gauss{
 /// A point of the unit square or cube in the reference element; returns the factor of the weight. For a
 /// simplex the cube's top shrinks to a point (Duffy).
 template <int dim>
-double carry(const Shape<dim>& shape, Coordinates<dim>& place) {
+double carry(const mesh::Shape<dim>& shape, mesh::Coordinates<dim>& place) {
   if (!shape.isSimplex) {
-    place = 2 * place - Coordinates<dim>::Ones();
+    place = 2 * place - mesh::Coordinates<dim>::Ones();
     return 1 << dim;
   }
   double rest = 1, factor = 1;
@@ -185,15 +183,15 @@ double carry(const Shape<dim>& shape, Coordinates<dim>& place) {
 }
 
 template <class Law, int dim>
-DisplacementNorms normsOf(const Law& law, const Shape<dim>& shape, std::span<const Point> points,
+DisplacementNorms normsOf(const Law& law, const mesh::Shape<dim>& shape, std::span<const Point> points,
                           std::span<const double> displacements,
                           const std::function<FieldValue(const Point&)>& exact) {
   constexpr int numPoints = dim == 2 ? 9 : 27;
-  const auto corners = relativeCorners<dim>(points);
+  const auto corners = mesh::relativeCorners<dim>(points);
   const NodalDisplacements<Law> nodal = atNodes<Law>(displacements);
   DisplacementNorms norms;
   for (int k = 0; k < numPoints; ++k) {
-    Coordinates<dim> place;
+    mesh::Coordinates<dim> place;
     double weight = 1;
     for (int i = 0, rest = k; i < dim; ++i, rest /= 3) {
       const auto& [at, share] = gauss[rest % 3];
@@ -201,12 +199,12 @@ DisplacementNorms normsOf(const Law& law, const Shape<dim>& shape, std::span<con
       weight *= share;
     }
     weight *= carry(shape, place);
-    const ShapeSample<dim> sample = shape.sampleAt(place);
-    const ElementMap map(corners, sample);
+    const mesh::ShapeSample<dim> sample = shape.sampleAt(place);
+    const mesh::ElementMap map(corners, sample);
     typename Law::Flux flux = fluxAt(law, map, sample, displacements);
     Eigen::Matrix<double, Law::components, 1> value = nodal.lazyProduct(sample.values);
     if (exact) {
-      const Coordinates<dim> relative = corners.lazyProduct(sample.values);
+      const mesh::Coordinates<dim> relative = corners.lazyProduct(sample.values);
       Point point = points[0];
       for (int i = 0; i < dim; ++i)
         point[i] += relative[i];
@@ -223,9 +221,9 @@ DisplacementNorms normsOf(const Law& law, const Shape<dim>& shape, std::span<con
 
 /// action(shape, law) for a type of cell and a physics.
 template <class Action>
-decltype(auto) withLaw(CellType type, Physics physics, const scene::Material& material, Action&& action) {
+decltype(auto) withLaw(mesh::CellType type, Physics physics, const Material& material, Action&& action) {
   assert(dimensionOf(type) == (physics == Physics::elasticity3d ? 3 : 2));
-  return withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+  return withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     if constexpr (dim == 2)
       if (physics == Physics::membrane)
         return action(shape, MembraneLaw(physics, material));
@@ -239,20 +237,19 @@ int numFluxes(Physics physics) {
   return physics == Physics::membrane ? numMembraneFluxes : numStresses;
 }
 
-int numSampledFluxes(CellType type) {
+int numSampledFluxes(mesh::CellType type) {
   return orderOf(type) == 1 ? 1 : numNodesOf(type);
 }
 
-void sampledFluxes(CellType type, std::span<const Point> points, Physics physics,
-                   const scene::Material& material, std::span<const double> displacements,
-                   Eigen::MatrixXd& fluxes) {
+void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
+                   const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes) {
   fluxes.resize(numFluxes(physics), numSampledFluxes(type));
   withLaw(type, physics, material,
           [&](const auto& shape, const auto& law) { sampleFlux(law, shape, points, displacements, fluxes); });
 }
 
-FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, Physics physics,
-                          const scene::Material& material, std::span<const double> displacements,
+FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
+                          const Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes) {
   return withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
     using Law = std::decay_t<decltype(law)>;
@@ -265,13 +262,13 @@ FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, Physics 
   });
 }
 
-CongruentFluxes::CongruentFluxes(CellType type, std::span<const Point> points, Physics physics,
-                                 const scene::Material& material) {
+CongruentFluxes::CongruentFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
+                                 const Material& material) {
   elementStiffness(type, points, physics, material, stiffness_);
   const Eigen::Index unknowns = stiffness_.rows();
-  withLaw(type, physics, material, [&]<int dim>(const Shape<dim>& shape, const auto& law) {
+  withLaw(type, physics, material, [&]<int dim>(const mesh::Shape<dim>& shape, const auto& law) {
     constexpr int numFluxes = std::decay_t<decltype(law)>::numFluxes;
-    const auto corners = relativeCorners<dim>(points);
+    const auto corners = mesh::relativeCorners<dim>(points);
     const Eigen::MatrixXd root = rootOfDensity(law);
     const Eigen::Index numSampled = numSampledFluxes(type);
     sampled_ = columnsOf(numFluxes * numSampled, unknowns, [&](std::span<const double> u) {
@@ -284,7 +281,7 @@ CongruentFluxes::CongruentFluxes(CellType type, std::span<const Point> points, P
     ofDisplacement_.resize(numFluxes * numSamples, unknowns);
     Eigen::Index row = 0;
     for (const auto& sample : shape.fineSamples()) {
-      const ElementMap map(corners, sample);
+      const mesh::ElementMap map(corners, sample);
       const double size = std::sqrt(sample.weight * map.determinant());
       for (int a = 0; a < shape.numNodes; ++a)
         ofFluxes_.block(row, a * numFluxes, numFluxes, numFluxes) = size * sample.values[a] * root;
@@ -304,8 +301,8 @@ Eigen::VectorXd CongruentFluxes::differences(const Eigen::MatrixXd& displacement
   return weighted.colwise().squaredNorm().transpose();
 }
 
-DisplacementNorms differenceNorms(CellType type, std::span<const Point> points, Physics physics,
-                                  const scene::Material& material, std::span<const double> displacements,
+DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,
+                                  const Material& material, std::span<const double> displacements,
                                   const std::function<FieldValue(const Point&)>& exact) {
   return withLaw(type, physics, material, [&](const auto& shape, const auto& law) {
     return normsOf(law, shape, points, displacements, exact);

@@ -4,9 +4,9 @@
 /// recovered flux that is continuous: what an estimate of the discretisation error is made of (Zienkiewicz,
 /// Zhu, *Int. J. Numer. Meth. Engng* 24 (1987)). Preconditions are those of ElementIntegrals.hpp.
 
-#include "epafi/fem/Cell.hpp"
-#include "epafi/fem/Mesh.hpp"
-#include "epafi/scene/Body.hpp"
+#include "epafi/fem/Solid.hpp"
+#include "epafi/mesh/Cell.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -18,18 +18,17 @@ namespace epafi::fem {
 
 /// Components of a flux: 2 of a membrane (x, y), 6 of a stress (xx, yy, zz, xy, yz, zx; 0 what the plane has
 /// not).
-int numFluxes(scene::Physics physics);
+int numFluxes(Physics physics);
 
 /// How many columns sampledFluxes() gives: 1 of order 1, else as many as nodes.
-int numSampledFluxes(CellType type);
+int numSampledFluxes(mesh::CellType type);
 
 /// The flux as far as it is accurate, from the displacements at the nodes, node by node: of order 1 that at
 /// the centre, taken as constant; of order 2 values at the nodes, of bricks carried on from the points where
 /// the flux is most accurate.
 /// \param fluxes  numFluxes × numSampledFluxes, overwritten, and resized if need be
-void sampledFluxes(CellType type, std::span<const Point> points, scene::Physics physics,
-                   const scene::Material& material, std::span<const double> displacements,
-                   Eigen::MatrixXd& fluxes);
+void sampledFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
+                   const Material& material, std::span<const double> displacements, Eigen::MatrixXd& fluxes);
 
 /// ∫ q:C⁻¹:q, the energy norm squared of the displacement that has the flux q; for membranes ∫ |q|²/κ.
 struct FluxEnergies {
@@ -39,8 +38,8 @@ struct FluxEnergies {
 
 /// Exact on elements with straight edges (bricks: parallelepipeds). \param nodalFluxes q* at the nodes,
 /// numFluxes × nodes
-FluxEnergies fluxEnergies(CellType type, std::span<const Point> points, scene::Physics physics,
-                          const scene::Material& material, std::span<const double> displacements,
+FluxEnergies fluxEnergies(mesh::CellType type, std::span<const Point> points, Physics physics,
+                          const Material& material, std::span<const double> displacements,
                           const Eigen::Ref<const Eigen::MatrixXd>& nodalFluxes);
 
 /// sampledFluxes and fluxEnergies of many congruent elements of one material at once, as products of
@@ -49,8 +48,8 @@ class CongruentFluxes {
 public:
   /// \param points  nodes of one of them. Precondition: it is a quadrilateral or hexahedron whose
   /// Jacobian is constant.
-  CongruentFluxes(CellType type, std::span<const Point> points, scene::Physics physics,
-                  const scene::Material& material);
+  CongruentFluxes(mesh::CellType type, std::span<const Point> points, Physics physics,
+                  const Material& material);
 
   /// numFluxes · numSampledFluxes × elements. \param displacements  components · nodes × elements
   [[nodiscard]] Eigen::MatrixXd sampled(const Eigen::MatrixXd& displacements) const {
@@ -84,8 +83,8 @@ struct FieldValue {
 
 /// Norms of u_h − u, u given at points; by a rule that is exact for polynomials of degree 5 (of degree 3 on
 /// tetrahedra) of each coordinate, on elements of any form.
-DisplacementNorms differenceNorms(CellType type, std::span<const Point> points, scene::Physics physics,
-                                  const scene::Material& material, std::span<const double> displacements,
+DisplacementNorms differenceNorms(mesh::CellType type, std::span<const Point> points, Physics physics,
+                                  const Material& material, std::span<const double> displacements,
                                   const std::function<FieldValue(const Point&)>& exact);
 
 } // namespace epafi::fem

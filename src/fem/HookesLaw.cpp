@@ -5,9 +5,7 @@
 
 namespace epafi::fem {
 
-using scene::Physics;
-
-LameConstants lameConstants(Physics physics, const scene::Material& material) {
+LameConstants lameConstants(Physics physics, const Material& material) {
   assert(physics != Physics::membrane);
   const double modulus = material.youngsModulus, ratio = material.poissonsRatio;
   const double lambda = physics == Physics::planeStress ? modulus * ratio / (1 - ratio * ratio)
@@ -15,12 +13,12 @@ LameConstants lameConstants(Physics physics, const scene::Material& material) {
   return {lambda, modulus / (2 * (1 + ratio))};
 }
 
-double thicknessOf(Physics physics, const scene::Material& material) {
+double thicknessOf(Physics physics, const Material& material) {
   return physics == Physics::planeStrain || physics == Physics::planeStress ? material.thickness : 1;
 }
 
 SymmetricTensor stressOf(const Eigen::Matrix3d& displacementGradient, Physics physics,
-                         const scene::Material& material) {
+                         const Material& material) {
   const auto [lambda, mu] = lameConstants(physics, material);
   const Eigen::Matrix3d& g = displacementGradient;
   const double volumetric = lambda * g.trace();

@@ -26,7 +26,7 @@ void SolidBody::require(bool isMet, const std::string& why) const {
     throw refusal(why);
 }
 
-Surface SolidBody::surfaceOf(const std::string& user, const std::string& surface) const {
+mesh::Surface SolidBody::surfaceOf(const std::string& user, const std::string& surface) const {
   requireName(*this, user, "surface", surface, mesh.surfaceNames());
   return mesh.surface(surface);
 }

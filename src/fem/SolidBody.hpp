@@ -1,10 +1,10 @@
 #pragma once
 
-/// What the parts of a body's model share: the body as the scene has it, and its mesh.
+/// What the parts of a body's model share: the solid, and its mesh.
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/scene/Body.hpp"
+#include "epafi/fem/Solid.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 
 #include <memory>
 #include <string>
@@ -12,24 +12,24 @@
 
 namespace epafi::fem {
 
-/// Keeps references to a scene's body and its mesh, which must outlive it.
+/// Keeps references to a solid and its mesh, which must outlive it.
 struct SolidBody {
-  const scene::Body& body;
-  const Mesh& mesh;
+  const Solid& solid;
+  const mesh::Mesh& mesh;
   /// Corners of every element, from the origin on, where the mesh is structured and all are congruent; else
   /// empty.
   std::vector<Point> shape;
 
-  SolidBody(const scene::Body& ofScene, const Mesh& itsMesh)
-      : body(ofScene), mesh(itsMesh), shape(congruentShape(itsMesh)) {}
+  SolidBody(const Solid& itsSolid, const mesh::Mesh& itsMesh)
+      : solid(itsSolid), mesh(itsMesh), shape(congruentShape(itsMesh)) {}
   [[nodiscard]] bool isCongruent() const { return !shape.empty(); }
-  [[nodiscard]] int components() const { return componentsOf(body.physics); }
+  [[nodiscard]] int components() const { return componentsOf(solid.physics); }
 
   /// "body 'name': what".
   [[nodiscard]] InputError refusal(const std::string& what) const {
-    return InputError("body '" + body.name + "': " + what);
+    return InputError("body '" + solid.name + "': " + what);
   }
-  /// Something that the scene names of a body, and its mesh should have.
+  /// Something that the solid names, and its mesh should have.
   struct Need {
     bool isMet;
     std::string refusal; ///< a whole sentence
@@ -40,7 +40,7 @@ struct SolidBody {
   /// What was noted; the same needs in the same order of all pieces.
   [[nodiscard]] const std::vector<Need>& needs() const { return *needs_; }
   /// \throws InputError if the mesh has no such surface. \param user  who asks, such as "support 'floor'"
-  [[nodiscard]] Surface surfaceOf(const std::string& user, const std::string& surface) const;
+  [[nodiscard]] mesh::Surface surfaceOf(const std::string& user, const std::string& surface) const;
   /// Ascending. \throws InputError if the mesh has no such group.
   [[nodiscard]] std::vector<GlobalOrdinal> groupOf(const std::string& user, const std::string& group) const;
   /// Corners of an element up to a shift: what integrals need, and equal to the last bit where elements are

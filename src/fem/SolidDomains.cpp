@@ -1,7 +1,7 @@
 #include "epafi/fem/SolidDomains.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/MeshPart.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace epafi::fem {
 namespace {
 
 /// Whether a point lies in a box, its faces included.
-bool liesIn(const Point& point, const scene::Box& box, int dimension) {
+bool liesIn(const Point& point, const mesh::Box& box, int dimension) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
     if (!(box.lower[d] <= point[d] && point[d] <= box.upper[d]))
       return false;
@@ -18,7 +18,8 @@ bool liesIn(const Point& point, const scene::Box& box, int dimension) {
 
 /// The columns, rows or layers whose middle lies in [low, high], the ends and round-off included: the first
 /// one, and the one after the last.
-std::array<GlobalOrdinal, 2> rangeIn(const StructuredMesh& mesh, std::size_t axis, double low, double high) {
+std::array<GlobalOrdinal, 2> rangeIn(const mesh::StructuredMesh& mesh, std::size_t axis, double low,
+                                     double high) {
   const double roundOff = 1e-9 * mesh.elementSize()[axis];
   const auto middle = [&](GlobalOrdinal k) {
     return 0.5 * (mesh.coordinate(axis, k) + mesh.coordinate(axis, k + 1));
@@ -34,20 +35,20 @@ std::array<GlobalOrdinal, 2> rangeIn(const StructuredMesh& mesh, std::size_t axi
 } // namespace
 
 SolidDomain::SolidDomain(const SolidBody& body, const std::string& user, const std::string& group,
-                         const scene::Box& box)
+                         const mesh::Box& box, bool mayBeEmpty)
     : isGroup_(!group.empty()), box_(box) {
   if (isGroup_) {
     elements_ = body.groupOf(user, group);
     return;
   }
   bool isEmpty = false;
-  if (const StructuredMesh* mesh = body.mesh.structured()) {
+  if (const mesh::StructuredMesh* mesh = body.mesh.structured()) {
     for (std::size_t d = 0; d < 3; ++d) {
       ranges_[d] = mesh->dimension() == 2 && d == 2 ? std::array<GlobalOrdinal, 2>{0, 1}
                                                     : rangeIn(*mesh, d, box.lower[d], box.upper[d]);
       isEmpty = isEmpty || ranges_[d][0] == ranges_[d][1];
     }
-  } else if (const MeshPart* part = body.mesh.part()) {
+  } else if (const mesh::MeshPart* part = body.mesh.part()) {
     isEmpty = std::none_of(part->elements().begin(), part->elements().end(),
                            [&](GlobalOrdinal element) { return contains(body, element); });
   } else {
@@ -56,7 +57,7 @@ SolidDomain::SolidDomain(const SolidBody& body, const std::string& user, const s
       ++element;
     isEmpty = element == body.mesh.numElements();
   }
-  if (!isMembraneOnRectangle(body.body))
+  if (!mayBeEmpty)
     body.require(!isEmpty, user + ": no element has its centre in its box");
 }
 
@@ -65,14 +66,14 @@ bool SolidDomain::contains(const SolidBody& body, GlobalOrdinal element) const {
     return std::binary_search(elements_.begin(), elements_.end(), element);
   std::vector<Point> points;
   body.mesh.elementPoints(element, points);
-  const CellType type = body.mesh.cellType();
+  const mesh::CellType type = body.mesh.cellType();
   const auto corners = std::span(points).first(numCornersOf(type));
-  return liesIn(centreOf(corners), box_, dimensionOf(type));
+  return liesIn(mesh::centreOf(corners), box_, dimensionOf(type));
 }
 
 SolidRegions::SolidRegions(const SolidBody& body) {
-  for (const scene::SolidRegion& region : body.body.regions)
-    domains_.emplace_back(body, "region '" + region.name + "'", region.group, region.box);
+  for (const SolidRegion& region : body.solid.regions)
+    domains_.emplace_back(body, "region '" + region.name + "'", region.group, region.box, region.mayBeEmpty);
 }
 
 void SolidRegions::of(const SolidBody& body, std::span<const GlobalOrdinal> elements,
@@ -89,7 +90,7 @@ std::size_t SolidRegions::of(const SolidBody& body, GlobalOrdinal element) const
   return static_cast<std::size_t>(region);
 }
 
-const scene::Material& materialIn(const scene::Body& body, std::size_t region) {
+const Material& materialIn(const Solid& body, std::size_t region) {
   return region == 0 ? body.material : body.regions[region - 1].material;
 }
 

@@ -15,10 +15,10 @@ namespace epafi::fem {
 class SolidDomain {
 public:
   /// \param user  who asks, such as "region 'core'"; \param group  if empty, the box counts
-  /// \throws InputError if the mesh has no such group, or no element has its centre in the box; of a membrane
-  /// on a rectangle this may be so.
-  SolidDomain(const SolidBody& body, const std::string& user, const std::string& group,
-              const scene::Box& box);
+  /// \throws InputError if the mesh has no such group, or, unless that may be, no element has its centre in the
+  /// box.
+  SolidDomain(const SolidBody& body, const std::string& user, const std::string& group, const mesh::Box& box,
+              bool mayBeEmpty);
 
   /// Calls action(e) for the place e of each of the elements that belongs to it.
   template <class Action>
@@ -29,18 +29,18 @@ private:
 
   bool isGroup_;
   std::vector<GlobalOrdinal> elements_; ///< of the group, ascending
-  scene::Box box_;
+  mesh::Box box_;
   /// Of a structured mesh: first and one after the last column, row and layer.
   std::array<std::array<GlobalOrdinal, 2>, 3> ranges_{};
 };
 
-/// The regions of a body: 0 is what lies outside of them all, r the r-th of the scene.
+/// The regions of a body: 0 is what lies outside of them all, r the r-th of the solid.
 class SolidRegions {
 public:
   /// \throws InputError like SolidDomain.
   explicit SolidRegions(const SolidBody& body);
 
-  /// The last one in the scene that contains each element.
+  /// The last one of the solid that contains each element.
   void of(const SolidBody& body, std::span<const GlobalOrdinal> elements,
           std::span<GlobalOrdinal> regions) const;
   /// The same of one element.
@@ -52,13 +52,13 @@ private:
 };
 
 /// What a region is made of.
-const scene::Material& materialIn(const scene::Body& body, std::size_t region);
+const Material& materialIn(const Solid& body, std::size_t region);
 
 template <class Action>
 void SolidDomain::forEachIn(const SolidBody& body, std::span<const GlobalOrdinal> elements,
                             const Action& action) const {
-  if (const StructuredMesh* mesh = body.mesh.structured()) {
-    GridWalk walk = mesh->elementWalk();
+  if (const mesh::StructuredMesh* mesh = body.mesh.structured()) {
+    mesh::GridWalk walk = mesh->elementWalk();
     for (std::size_t e = 0; e < elements.size(); ++e) {
       walk.to(elements[e]);
       const auto isWithin = [&](std::size_t d) {

@@ -3,7 +3,7 @@
 #include "epafi/base/Text.hpp"
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/HookesLaw.hpp"
-#include "epafi/fem/MeshPart.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,8 +29,8 @@ std::array<double, 3> segmentLoad(double a, double b, double low, double high, i
 }
 
 /// The node that lies at the point of a load; nothing where a piece of a mesh does not hold it.
-std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoad& load) {
-  const Mesh& mesh = body.mesh;
+std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const SolidLoad& load) {
+  const mesh::Mesh& mesh = body.mesh;
   const std::string nothing =
       "no node lies at the point " + text(load.point) + " of load '" + load.name + "'";
   GlobalOrdinal nearest = 0;
@@ -70,8 +70,8 @@ std::optional<GlobalOrdinal> nodeAt(const SolidBody& body, const scene::SolidLoa
 } // namespace
 
 SolidLoads::SolidLoads(const SolidBody& body, const SolidRegions& regions) {
-  for (const scene::SolidLoad& load : body.body.loads) {
-    using Kind = scene::SolidLoad::Kind;
+  for (const SolidLoad& load : body.solid.loads) {
+    using Kind = SolidLoad::Kind;
     if (load.kind == Kind::point)
       addPoint(body, load);
     else if (load.kind != Kind::body)
@@ -80,14 +80,15 @@ SolidLoads::SolidLoads(const SolidBody& body, const SolidRegions& regions) {
       addGridForce(body, load);
     else
       bodyForces_.push_back(
-          {SolidDomain(body, "load '" + load.name + "'", load.where, load.box), load.value});
+          {SolidDomain(body, "load '" + load.name + "'", load.where, load.box, !load.wholeElements),
+           load.value});
   }
   std::stable_sort(forces_.begin(), forces_.end(),
                    [](const NodalForce& a, const NodalForce& b) { return a.element < b.element; });
 }
 
-void SolidLoads::addGridForce(const SolidBody& body, const scene::SolidLoad& load) {
-  const StructuredMesh& mesh = *body.mesh.structured();
+void SolidLoads::addGridForce(const SolidBody& body, const SolidLoad& load) {
+  const mesh::StructuredMesh& mesh = *body.mesh.structured();
   GridForce force{load.value, {}};
   for (std::size_t d = 0; d < 3; ++d)
     force.shares[d].assign(mesh.elements()[d], {0, 0, 0});
@@ -101,18 +102,17 @@ void SolidLoads::addGridForce(const SolidBody& body, const scene::SolidLoad& loa
   gridForces_.push_back(std::move(force));
 }
 
-void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions,
-                            const scene::SolidLoad& load) {
-  const scene::Physics physics = body.body.physics;
-  const Surface surface = body.surfaceOf("load '" + load.name + "'", load.where);
+void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions, const SolidLoad& load) {
+  const Physics physics = body.solid.physics;
+  const mesh::Surface surface = body.surfaceOf("load '" + load.name + "'", load.where);
   const int components = body.components();
   std::vector<Point> points;
   Eigen::VectorXd values;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const std::span<const GlobalOrdinal> nodes = surface.facet(f);
     body.mesh.pointsAt(nodes, points);
-    const scene::Material& material = materialIn(body.body, regions.of(body, surface.elements[f]));
-    if (load.kind == scene::SolidLoad::Kind::pressure)
+    const Material& material = materialIn(body.solid, regions.of(body, surface.elements[f]));
+    if (load.kind == SolidLoad::Kind::pressure)
       pressureLoad(surface.facetType, points, physics, material, load.value[0], values);
     else
       tractionLoad(surface.facetType, points, physics, material, load.value, values);
@@ -125,7 +125,7 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions,
   }
 }
 
-void SolidLoads::addPoint(const SolidBody& body, const scene::SolidLoad& load) {
+void SolidLoads::addPoint(const SolidBody& body, const SolidLoad& load) {
   const std::optional<GlobalOrdinal> node = nodeAt(body, load);
   if (!node)
     return;
@@ -148,18 +148,19 @@ void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,
 
 void SolidLoads::addGridForces(const SolidBody& body, const SolidRegions& regions,
                                std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
-  const StructuredMesh& mesh = *body.mesh.structured();
+  const mesh::StructuredMesh& mesh = *body.mesh.structured();
   const int components = body.components();
   std::vector<double> thickness; // of plane elastic bodies; else 1
   if (components == 2) {
     std::vector<GlobalOrdinal> region(elements.size());
     regions.of(body, elements, region);
     for (const GlobalOrdinal r : region)
-      thickness.push_back(thicknessOf(body.body.physics, materialIn(body.body, static_cast<std::size_t>(r))));
+      thickness.push_back(
+          thicknessOf(body.solid.physics, materialIn(body.solid, static_cast<std::size_t>(r))));
   }
   const std::size_t perElement = loads.rows();
   for (const GridForce& force : gridForces_) {
-    GridWalk walk = mesh.elementWalk();
+    mesh::GridWalk walk = mesh.elementWalk();
     double* load = loads.data();
     for (std::size_t e = 0; e < elements.size(); ++e, load += perElement) {
       walk.to(elements[e]);
@@ -186,21 +187,21 @@ void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& region
   for (const BodyForce& force : bodyForces_)
     force.domain.forEachIn(body, elements, [&](std::size_t e) {
       body.cornersOf(elements[e], points);
-      bodyForceLoad(body.mesh.cellType(), points, body.body.physics,
-                    materialIn(body.body, regions.of(body, elements[e])), force.value, values);
+      bodyForceLoad(body.mesh.cellType(), points, body.solid.physics,
+                    materialIn(body.solid, regions.of(body, elements[e])), force.value, values);
       loads.col(e) += values;
     });
 }
 
-void SolidLoads::addNodalForces(const Mesh& mesh, int components, std::span<const GlobalOrdinal> elements,
-                                Eigen::MatrixXd& loads) const {
+void SolidLoads::addNodalForces(const mesh::Mesh& mesh, int components,
+                                std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
   for (std::size_t e = 0; e < elements.size(); ++e) {
     auto force =
         std::lower_bound(forces_.begin(), forces_.end(), elements[e],
                          [](const NodalForce& f, GlobalOrdinal element) { return f.element < element; });
     if (force == forces_.end() || force->element != elements[e])
       continue;
-    const ElementNodes nodes(mesh, elements[e]);
+    const mesh::ElementNodes nodes(mesh, elements[e]);
     for (; force != forces_.end() && force->element == elements[e]; ++force) {
       const auto corner = std::find(nodes.begin(), nodes.end(), force->node) - nodes.begin();
       for (int c = 0; c < components; ++c)

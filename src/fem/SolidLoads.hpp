@@ -26,29 +26,29 @@ private:
   /// A force at a node, carried by one of its elements.
   struct NodalForce {
     GlobalOrdinal element, node;
-    scene::Vector3 force;
+    Vector3 force;
   };
   /// A force per volume.
   struct BodyForce {
     SolidDomain domain;
-    scene::Vector3 value;
+    Vector3 value;
   };
   /// The same on what of a structured mesh lies in a box: ∫N over the loaded part of each column, row and
   /// layer, for the functions N of one coordinate there. Products of the three are the integrals of the
   /// elements' shape functions.
   struct GridForce {
-    scene::Vector3 value;
+    Vector3 value;
     std::array<std::vector<std::array<double, 3>>, 3> shares;
   };
 
-  void addGridForce(const SolidBody& body, const scene::SolidLoad& load);
-  void addSurface(const SolidBody& body, const SolidRegions& regions, const scene::SolidLoad& load);
-  void addPoint(const SolidBody& body, const scene::SolidLoad& load);
+  void addGridForce(const SolidBody& body, const SolidLoad& load);
+  void addSurface(const SolidBody& body, const SolidRegions& regions, const SolidLoad& load);
+  void addPoint(const SolidBody& body, const SolidLoad& load);
   void addGridForces(const SolidBody& body, const SolidRegions& regions,
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   void addBodyForces(const SolidBody& body, const SolidRegions& regions,
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
-  void addNodalForces(const Mesh& mesh, int components, std::span<const GlobalOrdinal> elements,
+  void addNodalForces(const mesh::Mesh& mesh, int components, std::span<const GlobalOrdinal> elements,
                       Eigen::MatrixXd& loads) const;
 
   std::vector<GridForce> gridForces_;

@@ -71,8 +71,8 @@ SolidSupports::SolidSupports(const SolidBody& body) : components_(body.component
 /// By ascending node; at each first the components, so that frames arise only where normals add something.
 std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBody& body) {
   std::vector<Condition> conditions;
-  for (const scene::SolidSupport& support : body.body.supports) {
-    const Surface surface = body.surfaceOf("support '" + support.name + "'", support.surface);
+  for (const SolidSupport& support : body.solid.supports) {
+    const mesh::Surface surface = body.surfaceOf("support '" + support.name + "'", support.surface);
     std::vector<GlobalOrdinal> nodes = surface.facetNodes;
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -194,7 +194,7 @@ std::vector<GlobalOrdinal> SolidSupports::framedNodes() const {
   return nodes;
 }
 
-std::vector<decomposition::HeldDirection> SolidSupports::directions(const Mesh& mesh) const {
+std::vector<decomposition::HeldDirection> SolidSupports::directions(const mesh::Mesh& mesh) const {
   std::vector<decomposition::HeldDirection> directions;
   for (const Held& held : held_) {
     const Eigen::Matrix3d* own = frame(held.node);

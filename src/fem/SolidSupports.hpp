@@ -39,7 +39,7 @@ public:
   [[nodiscard]] bool hasFrames() const { return !frames_.empty(); }
 
   /// All that is held, as directions at points.
-  [[nodiscard]] std::vector<decomposition::HeldDirection> directions(const Mesh& mesh) const;
+  [[nodiscard]] std::vector<decomposition::HeldDirection> directions(const mesh::Mesh& mesh) const;
 
 private:
   struct Held {
@@ -53,7 +53,7 @@ private:
     Eigen::Vector3d direction;
     double value;
     int component; ///< −1: along a normal
-    const scene::SolidSupport* support;
+    const SolidSupport* support;
   };
 
   [[nodiscard]] static std::vector<Condition> conditionsOf(const SolidBody& body);

@@ -1,6 +1,6 @@
 #include "epafi/fem/SupportNormals.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ struct Facets {
   std::vector<Vector3d> areas;                   ///< ∫n
   std::vector<Vector3d> normals;
 
-  Facets(const Mesh& mesh, const Surface& surface) : nodes(surface.facetNodes) {
+  Facets(const mesh::Mesh& mesh, const mesh::Surface& surface) : nodes(surface.facetNodes) {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     at.resize(nodes.size());
@@ -100,7 +100,7 @@ Vector3d snapped(const Vector3d& normal) {
 
 } // namespace
 
-std::vector<NodeNormal> supportNormals(const Mesh& mesh, const Surface& surface) {
+std::vector<NodeNormal> supportNormals(const mesh::Mesh& mesh, const mesh::Surface& surface) {
   const Facets facets(mesh, surface);
   const Planes planes(facets);
   std::vector<NodeNormal> result;

@@ -2,7 +2,7 @@
 
 /// The directions in which a surface that slides along itself is held.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <Eigen/Core>
 
@@ -23,6 +23,6 @@ struct NodeNormal {
 /// points. Where a surface bends, by less than 40° from facet to facet at a node, a node has the mean of its
 /// facets' normals by area, which approximates the curved surface's normal; planes that meet at more than
 /// that are an edge, and hold along both normals. An axis that a normal meets to 1e-12 is that normal.
-std::vector<NodeNormal> supportNormals(const Mesh& mesh, const Surface& surface);
+std::vector<NodeNormal> supportNormals(const mesh::Mesh& mesh, const mesh::Surface& surface);
 
 } // namespace epafi::fem

@@ -4,7 +4,7 @@
 /// unknowns, `components` of them. Shape functions are of the mesh's order, so that the nodes are those of
 /// the mesh, and nothing is stored or looked up beyond it.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <span>
 #include <string>
@@ -16,9 +16,9 @@ namespace epafi::fem {
 class UnknownMap {
 public:
   /// \param components  unknowns a node: 1, 2 or 3
-  UnknownMap(const Mesh& mesh, int components) : mesh_(&mesh), components_(components) {}
+  UnknownMap(const mesh::Mesh& mesh, int components) : mesh_(&mesh), components_(components) {}
 
-  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+  [[nodiscard]] const mesh::Mesh& mesh() const { return *mesh_; }
   [[nodiscard]] int components() const { return components_; }
   /// Of the whole body.
   [[nodiscard]] GlobalOrdinal numNodes() const { return mesh_->numNodes(); }
@@ -42,10 +42,10 @@ public:
   /// Whether a node lies on the boundary of the body.
   [[nodiscard]] bool isBoundaryNode(GlobalOrdinal node) const { return mesh_->isBoundaryNode(node); }
   /// Facets of a surface with their nodes. Precondition: the mesh has one of that name.
-  [[nodiscard]] Surface surface(const std::string& name) const { return mesh_->surface(name); }
+  [[nodiscard]] mesh::Surface surface(const std::string& name) const { return mesh_->surface(name); }
 
 private:
-  const Mesh* mesh_;
+  const mesh::Mesh* mesh_;
   int components_;
 };
 

@@ -2,12 +2,12 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/GmshFile.hpp"
-#include "epafi/fem/GmshReader.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
+#include "epafi/meshing/GmshFile.hpp"
+#include "epafi/meshing/GmshReader.hpp"
+#include "epafi/meshing/MeshFiles.hpp"
 #include "epafi/model/ClusterSize.hpp"
 #include "epafi/model/LayoutInPieces.hpp"
-#include "epafi/model/MeshFiles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,9 +20,9 @@ namespace epafi::model {
 namespace {
 
 /// Meshes from files by file, factor of mesh sizes, refinements, and the order that Gmsh is to give them.
-using MeshFiles = std::map<std::tuple<std::string, double, int, int>, fem::GmshFile>;
+using MeshFiles = std::map<std::tuple<std::string, double, int, int>, meshing::GmshFile>;
 
-MeshFiles::key_type keyOf(const scene::MeshSource& source) {
+MeshFiles::key_type keyOf(const meshing::MeshSource& source) {
   return {source.file, source.sizeFactor, source.refinements, source.order};
 }
 
@@ -30,19 +30,19 @@ MeshFiles::key_type keyOf(const scene::MeshSource& source) {
 MeshFiles readMeshFiles(const scene::Scene& scene, const Comm& comm) {
   MeshFiles files;
   for (const scene::Body& body : scene.bodies) {
-    const scene::MeshSource& source = body.mesh;
+    const meshing::MeshSource& source = body.mesh;
     if (source.file.empty() || files.contains(keyOf(source)))
       continue;
     const auto makeText = [&] {
-      return fem::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order);
+      return meshing::textOfMeshFile(source.file, source.sizeFactor, source.refinements, source.order);
     };
-    files.emplace(keyOf(source), meshOnAllRanks(source.file, makeText, comm));
+    files.emplace(keyOf(source), meshing::meshOnAllRanks(source.file, makeText, comm));
   }
   return files;
 }
 
 /// Elements in x, y and z of a structured mesh (z: 1 in the plane); zeros of another one.
-std::array<int, 3> elementCounts(const fem::Mesh& mesh) {
+std::array<int, 3> elementCounts(const mesh::Mesh& mesh) {
   return mesh.structured() != nullptr ? mesh.structured()->elements() : std::array<int, 3>{0, 0, 0};
 }
 
@@ -53,11 +53,11 @@ constexpr double unknownsPerPart(int dimension) {
 }
 
 int componentsOf(const scene::Body& body) {
-  return scene::componentsOf(body.physics);
+  return fem::componentsOf(body.physics);
 }
 
 /// With a number of METIS' parts where the scene leaves it open.
-scene::Decomposition cutOf(const scene::Body& body, const fem::Mesh& mesh) {
+scene::Decomposition cutOf(const scene::Body& body, const mesh::Mesh& mesh) {
   scene::Decomposition cut = body.decomposition;
   if (cut.method == scene::Decomposition::Method::metis && cut.parts == 0)
     cut.parts = partsFor(body, mesh);
@@ -89,7 +89,7 @@ void chooseClusters(int numRanks, std::vector<BodyLayout>& bodies, std::vector<s
   }
 }
 
-void requireCut(const scene::Body& body, const scene::Decomposition& cut, const fem::Mesh& mesh) {
+void requireCut(const scene::Body& body, const scene::Decomposition& cut, const mesh::Mesh& mesh) {
   const std::string where = "body '" + body.name + "' has ";
   if (cut.method == scene::Decomposition::Method::metis) {
     if (cut.parts < 1 || cut.parts > mesh.numElements())
@@ -110,16 +110,16 @@ void requireCut(const scene::Body& body, const scene::Decomposition& cut, const 
                        " subdomains there; choose between 1 and " + std::to_string(elements[d]));
 }
 
-std::unique_ptr<const fem::Mesh> makeMesh(const scene::Body& body, const MeshFiles& files) {
-  const scene::MeshSource& source = body.mesh;
+std::unique_ptr<const mesh::Mesh> makeMesh(const scene::Body& body, const MeshFiles& files) {
+  const meshing::MeshSource& source = body.mesh;
   if (!source.file.empty())
-    return std::make_unique<const fem::UnstructuredMesh>(
+    return std::make_unique<const mesh::UnstructuredMesh>(
         files.at(keyOf(source)).body(source.group, source.order));
   return structuredMesh(source);
 }
 
 /// Whether two bodies are meshed and cut alike: their partitions are the same.
-bool areCutAlike(const fem::Mesh& a, const scene::Decomposition& cut, const fem::Mesh& b,
+bool areCutAlike(const mesh::Mesh& a, const scene::Decomposition& cut, const mesh::Mesh& b,
                  const scene::Decomposition& other) {
   if (elementCounts(a) != elementCounts(b) || elementCounts(a)[0] == 0 || cut.method != other.method ||
       cut.cluster > 1 || other.cluster > 1)
@@ -129,26 +129,27 @@ bool areCutAlike(const fem::Mesh& a, const scene::Decomposition& cut, const fem:
 }
 
 /// Collective.
-std::shared_ptr<const Partition> cutByMetis(const scene::Body& body, int parts, const fem::Mesh& mesh,
-                                            const Comm& comm) {
+std::shared_ptr<const meshing::Partition> cutByMetis(const scene::Body& body, int parts,
+                                                     const mesh::Mesh& mesh, const Comm& comm) {
   try {
-    return std::make_shared<const GraphPartition>(mesh, parts, comm);
+    return std::make_shared<const meshing::GraphPartition>(mesh, parts, comm);
   } catch (const InputError& error) { // the same on all ranks
     throw InputError("body '" + body.name + "': " + error.what());
   }
 }
 
 /// Collective.
-std::shared_ptr<const Partition> makePartition(const scene::Body& body, const scene::Decomposition& cut,
-                                               const fem::Mesh& mesh, const Comm& comm) {
-  std::shared_ptr<const Partition> parts;
+std::shared_ptr<const meshing::Partition> makePartition(const scene::Body& body,
+                                                        const scene::Decomposition& cut,
+                                                        const mesh::Mesh& mesh, const Comm& comm) {
+  std::shared_ptr<const meshing::Partition> parts;
   if (cut.method == scene::Decomposition::Method::metis)
     parts = cutByMetis(body, cut.parts, mesh, comm);
   else
-    parts = std::make_shared<const GridPartition>(*mesh.structured(), cut.counts);
+    parts = std::make_shared<const meshing::GridPartition>(*mesh.structured(), cut.counts);
   if (cut.cluster <= 1)
     return parts;
-  return std::make_shared<const GroupedPartition>(std::move(parts), mesh, cut.cluster);
+  return std::make_shared<const meshing::GroupedPartition>(std::move(parts), mesh, cut.cluster);
 }
 
 /// Bodies that touch have the same unknowns; a vector of the dual problem knows no other.
@@ -164,10 +165,10 @@ void requireSameComponents(const scene::Scene& scene) {
 } // namespace
 
 std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm, Meshes meshes) {
-  std::vector<std::unique_ptr<const fem::Mesh>> made;
+  std::vector<std::unique_ptr<const mesh::Mesh>> made;
   collectively(comm, [&] { requireSameComponents(scene); });
   const bool areSplit = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                    [](const scene::Body& body) { return scene::isSplit(body.mesh.file); });
+                                    [](const scene::Body& body) { return meshing::isSplit(body.mesh.file); });
   if (meshes == Meshes::pieces && (areSplit || comm.getSize() > 1))
     return layoutInPieces(scene, comm);
   const MeshFiles files = readMeshFiles(scene, comm);
@@ -178,19 +179,19 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
   return cutBodies(scene, std::move(made), comm);
 }
 
-std::unique_ptr<const fem::Mesh> structuredMesh(const scene::MeshSource& source) {
-  return std::make_unique<const fem::StructuredMesh>(source.box, source.elements, source.order);
+std::unique_ptr<const mesh::Mesh> structuredMesh(const meshing::MeshSource& source) {
+  return std::make_unique<const mesh::StructuredMesh>(source.box, source.elements, source.order);
 }
 
-int partsFor(const scene::Body& body, const fem::Mesh& mesh) {
+int partsFor(const scene::Body& body, const mesh::Mesh& mesh) {
   const double unknowns = static_cast<double>(mesh.numNodes()) * componentsOf(body),
                parts = std::ceil(unknowns / unknownsPerPart(dimensionOf(mesh.cellType())));
   return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(mesh.numElements())));
 }
 
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
-                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm,
-                                  std::vector<std::shared_ptr<const Partition>> partitions) {
+                                  std::vector<std::unique_ptr<const mesh::Mesh>> meshes, const Comm& comm,
+                                  std::vector<std::shared_ptr<const meshing::Partition>> partitions) {
   std::vector<BodyLayout> bodies;
   std::vector<scene::Decomposition> cuts;
   partitions.resize(meshes.size());
@@ -262,7 +263,7 @@ int lowestPartAt(const BodyLayout& body, GlobalOrdinal node) {
   return lowest;
 }
 
-std::unique_ptr<fem::BodyModel> makeModel(const scene::Body& body, const fem::Mesh& mesh) {
+std::unique_ptr<fem::BodyModel> makeModel(const scene::Body& body, const mesh::Mesh& mesh) {
   return std::make_unique<fem::BodyModel>(body, mesh);
 }
 

@@ -3,8 +3,8 @@
 /// The bodies of a scene: their meshes, the way they are cut, and their physics.
 
 #include "epafi/fem/BodyModel.hpp"
-#include "epafi/fem/Mesh.hpp"
-#include "epafi/model/Partition.hpp"
+#include "epafi/mesh/Mesh.hpp"
+#include "epafi/meshing/Partition.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <memory>
@@ -16,9 +16,9 @@ namespace epafi::model {
 /// A body of the scene with its mesh and the way it is cut.
 struct BodyLayout {
   std::string name;
-  std::unique_ptr<const fem::Mesh> mesh;
-  std::shared_ptr<const Partition> partition; ///< bodies that are meshed and cut alike share one
-  int firstSubdomain = 0;                     ///< number of its part 0 in the whole problem
+  std::unique_ptr<const mesh::Mesh> mesh;
+  std::shared_ptr<const meshing::Partition> partition; ///< bodies that are meshed and cut alike share one
+  int firstSubdomain = 0;                              ///< number of its part 0 in the whole problem
   int cluster = 0; ///< parts that a rank, or several, get together, and that share crosspoints; 0: all
 };
 
@@ -39,14 +39,14 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
 /// Cuts bodies that are meshed already, on all ranks alike. Collective. \throws InputError likewise.
 /// \param partitions  of each body, or nothing; those not null are taken as they are
 std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
-                                  std::vector<std::unique_ptr<const fem::Mesh>> meshes, const Comm& comm,
-                                  std::vector<std::shared_ptr<const Partition>> partitions = {});
+                                  std::vector<std::unique_ptr<const mesh::Mesh>> meshes, const Comm& comm,
+                                  std::vector<std::shared_ptr<const meshing::Partition>> partitions = {});
 
 /// The mesh of a body that has no file.
-std::unique_ptr<const fem::Mesh> structuredMesh(const scene::MeshSource& source);
+std::unique_ptr<const mesh::Mesh> structuredMesh(const meshing::MeshSource& source);
 
 /// How many parts METIS makes of a mesh where the scene leaves it open.
-int partsFor(const scene::Body& body, const fem::Mesh& mesh);
+int partsFor(const scene::Body& body, const mesh::Mesh& mesh);
 
 /// How subdomains go to ranks: rank r of P has the numbers [rN/P, (r+1)N/P), but that it begins with a
 /// cluster, where there are clusters, or shares one evenly with the others that would begin in it.
@@ -66,6 +66,6 @@ std::vector<GlobalOrdinal> firstNodes(const std::vector<BodyLayout>& bodies);
 int lowestPartAt(const BodyLayout& body, GlobalOrdinal node);
 
 /// The physics of a body; keeps references to both. \throws InputError if mesh and scene do not go together.
-std::unique_ptr<fem::BodyModel> makeModel(const scene::Body& body, const fem::Mesh& mesh);
+std::unique_ptr<fem::BodyModel> makeModel(const scene::Body& body, const mesh::Mesh& mesh);
 
 } // namespace epafi::model

@@ -10,7 +10,7 @@ bool clustersPay(int dimension, GlobalOrdinal numSubdomains, int numRanks) {
   return numRanks > 1 && numSubdomains * numRanks >= least;
 }
 
-int clusterSizeFor(const fem::StructuredMesh& mesh, std::array<int, 3> counts, GlobalOrdinal numSubdomains,
+int clusterSizeFor(const mesh::StructuredMesh& mesh, std::array<int, 3> counts, GlobalOrdinal numSubdomains,
                    int numRanks) {
   if (!clustersPay(mesh.dimension(), numSubdomains, numRanks))
     return 0;

@@ -4,7 +4,7 @@
 /// as make FETI-DP's coarse problem harmless (decomposition/Clusters.hpp).
 
 #include "epafi/base/Types.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 
 #include <array>
 
@@ -23,7 +23,7 @@ bool clustersPay(int dimension, GlobalOrdinal numSubdomains, int numRanks);
 /// leaves (GroupedPartition numbers its parts that way), whether a rank has so many or several share them; 0
 /// for all of them: where P or N is too small, where there is no such block of a useful size, and for bodies
 /// that are no grids, whose clusters can take several times the products. Not collective.
-int clusterSizeFor(const fem::StructuredMesh& mesh, std::array<int, 3> counts, GlobalOrdinal numSubdomains,
+int clusterSizeFor(const mesh::StructuredMesh& mesh, std::array<int, 3> counts, GlobalOrdinal numSubdomains,
                    int numRanks);
 
 } // namespace epafi::model

@@ -4,8 +4,8 @@
 #include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/RigidLinks.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 #include "epafi/model/ContactSurfaces.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ contact::NodePoints pointsOf(const BodyLayout& body) {
 /// Whether nodes along two edges of structured meshes meet in order.
 bool haveEqualEdges(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies) {
   const auto numElements = [&](int body, const std::string& edge) {
-    const fem::StructuredMesh* mesh = bodies[body].mesh->structured();
+    const mesh::StructuredMesh* mesh = bodies[body].mesh->structured();
     return mesh == nullptr ? 0 : mesh->elements()[edge == "left" || edge == "right" ? 1 : 0];
   };
   const auto number = numElements(terms.first, terms.firstSurface);
@@ -71,19 +71,19 @@ ContactLayout Coupler::layout() const {
 }
 
 /// Forces act on the thinner one of two plane bodies.
-std::vector<double> Coupler::thicknesses(const Side& first, const fem::Surface& surface) const {
+std::vector<double> Coupler::thicknesses(const Side& first, const mesh::Surface& surface) const {
   std::vector<double> own = supported_.thicknesses(first.body, surface);
   const Side& second = first.body == first_.body ? second_ : first_;
   if (second.body < 0 || own.empty())
     return own;
-  const fem::Surface facing = united(second).surface;
+  const mesh::Surface facing = united(second).surface;
   const std::vector<double> theirs = supported_.thicknesses(second.body, facing);
-  const auto middles = [&](const Side& side, const fem::Surface& of) {
+  const auto middles = [&](const Side& side, const mesh::Surface& of) {
     std::vector<Eigen::Vector2d> result;
     std::vector<Point> points;
     for (std::size_t f = 0; f < of.numFacets(); ++f) {
       layoutOf(side).mesh->pointsAt(of.facet(f), points);
-      const Point x = fem::centreOf(points);
+      const Point x = mesh::centreOf(points);
       result.emplace_back(x[0], x[1]);
     }
     return result;

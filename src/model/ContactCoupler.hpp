@@ -38,7 +38,7 @@ private:
   };
 
   [[nodiscard]] const BodyLayout& layoutOf(const Side& side) const { return bodies_[side.body]; }
-  [[nodiscard]] int orderOf(const Side& side) const { return fem::orderOf(layoutOf(side).mesh->cellType()); }
+  [[nodiscard]] int orderOf(const Side& side) const { return mesh::orderOf(layoutOf(side).mesh->cellType()); }
   [[nodiscard]] contact::UnitedSurface united(const Side& side) const {
     return contact::unite(*layoutOf(side).mesh, side.surfaces);
   }
@@ -47,11 +47,11 @@ private:
   [[nodiscard]] contact::UnitedSurface untied(const Side& side, const Side& other) const;
   [[nodiscard]] bool isHeld(const Side& side) const;
   [[nodiscard]] bool isTied() const { return terms_.kind == scene::SurfaceContact::Kind::tied; }
-  [[nodiscard]] Eigen::Matrix3d axesOf(const Side& side, const fem::Surface& surface) const {
+  [[nodiscard]] Eigen::Matrix3d axesOf(const Side& side, const mesh::Surface& surface) const {
     return supported_.axes ? supported_.axes(side.body, surface) : Eigen::Matrix3d::Identity();
   }
 
-  [[nodiscard]] std::vector<double> thicknesses(const Side& first, const fem::Surface& surface) const;
+  [[nodiscard]] std::vector<double> thicknesses(const Side& first, const mesh::Surface& surface) const;
   [[nodiscard]] contact::ContactTerms asked(const Side& first, const contact::UnitedSurface& surface) const;
   [[nodiscard]] contact::ContactLayout finish(contact::ContactLayout layout, const Side& first,
                                               const Side& second, std::string means) const;

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/SurfaceNodes.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/model/ContactSurfaces.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
@@ -30,13 +30,13 @@ struct Side {
 };
 
 Side sideOf(const Terms& terms, const BodyLayout& body, const std::string& name) {
-  const fem::Surface surface = surfaceOf(terms, body, name);
+  const mesh::Surface surface = surfaceOf(terms, body, name);
   Side side;
   std::vector<Point> points;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
     body.mesh->pointsAt(nodes, points);
-    const Vector3d normal = fem::areaVector(surface.facetType, points);
+    const Vector3d normal = mesh::areaVector(surface.facetType, points);
     for (const GlobalOrdinal node : nodes)
       side.normals.try_emplace(node, Vector3d::Zero()).first->second += normal;
     std::vector<GlobalOrdinal> key(nodes.begin(), nodes.end());
@@ -66,7 +66,7 @@ Meeting meetingOf(const Side& a, const Side& b) {
 
 /// Whether obstacles stop a node alike.
 bool areSame(const scene::Obstacle& a, const scene::Obstacle& b) {
-  const auto asVector = [](const scene::Vector3& x) { return Vector3d(x[0], x[1], x[2]); };
+  const auto asVector = [](const Vector3& x) { return Vector3d(x[0], x[1], x[2]); };
   const Vector3d apart = asVector(b.point) - asVector(a.point);
   constexpr double same = 1e-12;
   const double size = asVector(a.point).norm() + asVector(b.point).norm() + std::abs(a.radius);
@@ -160,7 +160,7 @@ bool Groups::joins(const std::vector<Member>& members, const Member& added) cons
   if (its.kind != own.kind || its.gap != own.gap || its.distance != own.distance ||
       its.coupling != own.coupling || its.multipliers != own.multipliers)
     return false;
-  const auto orderOf = [&](int body) { return fem::orderOf(bodies_[body].mesh->cellType()); };
+  const auto orderOf = [&](int body) { return mesh::orderOf(bodies_[body].mesh->cellType()); };
   const bool mayCarrySecond =
       own.second >= 0 && (own.multipliers == Terms::Side::second || orderOf(own.second) > orderOf(own.first));
   if (!bringsFacets(members, added, &Member::first) ||

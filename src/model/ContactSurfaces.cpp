@@ -2,8 +2,8 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/MortarIntegrals.hpp"
-#include "epafi/fem/BoxTree.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/BoxTree.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 namespace epafi::model {
 namespace {
 
-std::vector<fem::BoxTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface& surface, double margin) {
-  std::vector<fem::BoxTree::Box> boxes;
+std::vector<mesh::BoxTree::Box> boxesOf(const mesh::Mesh& mesh, const mesh::Surface& surface, double margin) {
+  std::vector<mesh::BoxTree::Box> boxes;
   std::vector<Point> points;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     mesh.pointsAt(surface.facet(f), points);
-    boxes.push_back(fem::boxOf(points, margin));
+    boxes.push_back(mesh::boxOf(points, margin));
   }
   return boxes;
 }
@@ -26,22 +26,23 @@ std::vector<fem::BoxTree::Box> boxesOf(const fem::Mesh& mesh, const fem::Surface
 struct Facets {
   double area = 0;
   int number = 0;
-  void add(const fem::Mesh& mesh, const fem::Surface& surface, std::size_t facet) {
+  void add(const mesh::Mesh& mesh, const mesh::Surface& surface, std::size_t facet) {
     std::vector<Point> points;
     mesh.pointsAt(surface.facet(facet), points);
-    area += fem::areaVector(surface.facetType, points).norm();
+    area += mesh::areaVector(surface.facetType, points).norm();
     ++number;
   }
-  [[nodiscard]] double spacing(const fem::Surface& surface) const {
+  [[nodiscard]] double spacing(const mesh::Surface& surface) const {
     return std::pow(area / std::max(number, 1), 1.0 / dimensionOf(surface.facetType)) /
            orderOf(surface.facetType);
   }
 };
 
 /// Those that the other surface is near to, by the contact's distance.
-Facets facetsNear(const fem::Mesh& mesh, const fem::Surface& surface, const fem::BoxTree& other,
+Facets facetsNear(const mesh::Mesh& mesh, const mesh::Surface& surface, const mesh::BoxTree& other,
                   double distance) {
-  const std::vector<fem::BoxTree::Box> boxes = boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
+  const std::vector<mesh::BoxTree::Box> boxes =
+      boxesOf(mesh, surface, std::isfinite(distance) ? distance : 0);
   Facets near;
   std::vector<std::size_t> found;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
@@ -59,8 +60,8 @@ double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies
                 const scene::SurfaceContact& terms, int body, const std::string& surface) {
   const bool isFirst = body == terms.first;
   const BodyLayout &own = bodies[body], &other = bodies[isFirst ? terms.second : terms.first];
-  const fem::Surface ownSurface = surfaceOf(terms, own, surface),
-                     facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
+  const mesh::Surface ownSurface = surfaceOf(terms, own, surface),
+                      facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
   constexpr std::size_t few = 400; // of more the rim is a small part, and the integrals are not for nothing
   if (std::max(ownSurface.numFacets(), facing.numFacets()) > few)
     return 1;
@@ -84,15 +85,15 @@ double beyondOf(const scene::Scene& scene, const std::vector<BodyLayout>& bodies
 
 } // namespace
 
-double spacingOf(const fem::Mesh& mesh, const fem::Surface& surface) {
+double spacingOf(const mesh::Mesh& mesh, const mesh::Surface& surface) {
   Facets all;
   for (std::size_t f = 0; f < surface.numFacets(); ++f)
     all.add(mesh, surface, f);
   return all.spacing(surface);
 }
 
-fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
-                       const std::string& surface) {
+mesh::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
+                        const std::string& surface) {
   const std::vector<std::string> names = body.mesh->surfaceNames();
   if (std::find(names.begin(), names.end(), surface) == names.end()) {
     std::string known;
@@ -109,7 +110,7 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
   const auto support = [&](int body, const std::string& surface) { // what one holds fixes no pressure
     const auto& supports = scene.bodies[body].supports;
     return std::any_of(supports.begin(), supports.end(),
-                       [&](const scene::SolidSupport& held) { return held.surface == surface; })
+                       [&](const fem::SolidSupport& held) { return held.surface == surface; })
                ? 1.0
                : 0.0;
   };
@@ -125,9 +126,9 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
   const auto spacing = [&](int body, const std::string& surface) {
     const bool isFirst = body == terms.first;
     const BodyLayout &own = bodies[body], &other = bodies[isFirst ? terms.second : terms.first];
-    const fem::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
-    const fem::Surface at = surfaceOf(terms, own, surface);
-    return facetsNear(*own.mesh, at, fem::BoxTree(boxesOf(*other.mesh, facing, 0)), terms.distance)
+    const mesh::Surface facing = surfaceOf(terms, other, isFirst ? terms.secondSurface : terms.firstSurface);
+    const mesh::Surface at = surfaceOf(terms, own, surface);
+    return facetsNear(*own.mesh, at, mesh::BoxTree(boxesOf(*other.mesh, facing, 0)), terms.distance)
         .spacing(at);
   };
   const auto beyond = [&](int body,
@@ -136,8 +137,8 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
   };
   const auto stiffness = [&](int body, const std::string&) {
     const scene::Body& owner = scene.bodies[body];
-    return owner.physics == scene::Physics::membrane ? owner.material.conductivity
-                                                     : owner.material.youngsModulus;
+    return owner.physics == fem::Physics::membrane ? owner.material.conductivity
+                                                   : owner.material.youngsModulus;
   };
   const auto decides = [&](const auto& measure, double margin) {
     const double first = measure(terms.first, terms.firstSurface),

@@ -3,7 +3,7 @@
 /// The two surfaces of a scene's contact: which ones are meant, and which one is to carry multipliers if they
 /// are meshed apart.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 #include "epafi/model/BodyLayout.hpp"
 #include "epafi/scene/Scene.hpp"
 
@@ -14,11 +14,11 @@ namespace epafi::model {
 
 /// A surface of a body by its name. \throws InputError if there is none, with the names that there are. Not
 /// collective.
-fem::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
-                       const std::string& surface);
+mesh::Surface surfaceOf(const scene::SurfaceContact& contact, const BodyLayout& body,
+                        const std::string& surface);
 
 /// Mean distance of a surface's nodes.
-double spacingOf(const fem::Mesh& mesh, const fem::Surface& surface);
+double spacingOf(const mesh::Mesh& mesh, const mesh::Surface& surface);
 
 /// Decides which surface is to carry multipliers: one that no support holds, then one that no other contact
 /// has, then one that is finer by half where they are near each other, then one of whose facets the other

@@ -60,7 +60,7 @@ std::vector<Body> describeBodies(const std::vector<BodyLayout>& layouts, const M
 
 decomposition::NodePlaces placesOf(const Models& models) {
   const auto mapOf = [&models](int body) -> const fem::UnknownMap& { return models[body]->unknowns(); };
-  return {fem::dimensionOf(models.front()->mesh().cellType()),
+  return {mesh::dimensionOf(models.front()->mesh().cellType()),
           [mapOf](int body, GlobalOrdinal node) { return mapOf(body).point(node); },
           [mapOf](int body, GlobalOrdinal node) { return mapOf(body).isBoundaryNode(node); }};
 }

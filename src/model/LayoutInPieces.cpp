@@ -2,7 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 #include "epafi/model/MeshPieces.hpp"
 #include "epafi/model/SplitFiles.hpp"
 
@@ -17,27 +17,27 @@ namespace epafi::model {
 namespace {
 
 bool isFromOneFile(const scene::Body& body) {
-  return !body.mesh.file.empty() && !scene::isSplit(body.mesh.file);
+  return !body.mesh.file.empty() && !meshing::isSplit(body.mesh.file);
 }
 
 /// All of it on one rank, numbers of nodes for keys; nothing on the others. Collective.
-LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
-  std::vector<MeshShare> shares;
-  FacetList facets;
+meshing::LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
+  std::vector<meshing::MeshShare> shares;
+  meshing::FacetList facets;
   collectively(comm, [&] {
     if (whole == nullptr)
       return;
     shares.push_back({whole->mesh.get(), whole->partition.get(), [](GlobalOrdinal node) { return node; }});
     for (const std::string& name : whole->mesh->surfaceNames()) {
-      const fem::Surface surface = whole->mesh->surface(name);
+      const mesh::Surface surface = whole->mesh->surface(name);
       for (std::size_t f = 0; f < surface.numFacets(); ++f)
         facets.add(name, surface.facet(f).first(numCornersOf(surface.facetType)));
     }
   });
-  return looseMeshOf(shares, std::make_shared<const FacetList>(gathered(facets, comm)), comm);
+  return looseMeshOf(shares, std::make_shared<const meshing::FacetList>(gathered(facets, comm)), comm);
 }
 
-using LooseMeshes = std::vector<std::optional<LooseMesh>>; ///< of each body, if it comes from files
+using LooseMeshes = std::vector<std::optional<meshing::LooseMesh>>; ///< of each body, if it comes from files
 
 /// Rank 0 makes a scene of the bodies that come from one file each, as a single rank would, and looks at them
 /// whole. Collective.
@@ -65,13 +65,13 @@ void readOnFirst(const scene::Scene& scene, const Comm& comm, LooseMeshes& meshe
 void readOnAll(const scene::Scene& scene, const Comm& comm, LooseMeshes& meshes) {
   std::map<std::string, std::vector<std::size_t>> bodiesIn;
   for (std::size_t b = 0; b < meshes.size(); ++b)
-    if (scene::isSplit(scene.bodies[b].mesh.file))
+    if (meshing::isSplit(scene.bodies[b].mesh.file))
       bodiesIn[scene.bodies[b].mesh.file].push_back(b);
   for (const auto& [files, numbers] : bodiesIn) {
     std::vector<const scene::Body*> bodies;
     for (const std::size_t b : numbers)
       bodies.push_back(&scene.bodies[b]);
-    std::vector<LooseMesh> read = readSplitFiles(bodies, comm);
+    std::vector<meshing::LooseMesh> read = readSplitFiles(bodies, comm);
     for (std::size_t i = 0; i < numbers.size(); ++i)
       meshes[numbers[i]] = std::move(read[i]);
   }
@@ -83,12 +83,13 @@ std::vector<BodyLayout> layoutInPieces(const scene::Scene& scene, const Comm& co
   LooseMeshes loose(scene.bodies.size());
   readOnFirst(scene, comm, loose);
   readOnAll(scene, comm, loose);
-  std::vector<std::unique_ptr<const fem::Mesh>> meshes(scene.bodies.size());
-  std::vector<std::shared_ptr<const Partition>> partitions(scene.bodies.size());
+  std::vector<std::unique_ptr<const mesh::Mesh>> meshes(scene.bodies.size());
+  std::vector<std::shared_ptr<const meshing::Partition>> partitions(scene.bodies.size());
   collectively(comm, [&] {
     for (std::size_t b = 0; b < meshes.size(); ++b)
       if (loose[b])
-        partitions[b] = std::make_shared<const HeldPartition>(loose[b]->numParts, HeldElements{});
+        partitions[b] =
+            std::make_shared<const meshing::HeldPartition>(loose[b]->numParts, meshing::HeldElements{});
       else
         meshes[b] = structuredMesh(scene.bodies[b].mesh);
   });

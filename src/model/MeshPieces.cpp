@@ -5,7 +5,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/PointToPoint.hpp"
 #include "epafi/decomposition/Clusters.hpp"
-#include "epafi/fem/MeshPart.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 
 #include <algorithm>
 #include <map>
@@ -29,7 +29,7 @@ void sortEach(std::vector<Number>& keys) {
 struct FoundFacet {
   int surface = 0, place = 0; ///< of its name; among the element's facets
   GlobalOrdinal element = 0;
-  std::array<GlobalOrdinal, fem::mostFacetNodes> nodes{}; ///< their keys, outwards
+  std::array<GlobalOrdinal, mesh::mostFacetNodes> nodes{}; ///< their keys, outwards
 
   [[nodiscard]] auto order() const { return std::tuple(surface, element, place); }
 };
@@ -37,10 +37,10 @@ struct FoundFacet {
 class PieceMaker {
 public:
   /// Takes the elements of its own parts.
-  PieceMaker(LooseMesh loose, Share own, const Comm& comm);
+  PieceMaker(meshing::LooseMesh loose, Share own, const Comm& comm);
 
   /// Sets the partition as well.
-  fem::PartArrays make(std::shared_ptr<const Partition>& partition);
+  mesh::PartArrays make(std::shared_ptr<const meshing::Partition>& partition);
 
 private:
   [[nodiscard]] bool isOwn(std::size_t place) const {
@@ -57,26 +57,26 @@ private:
   void markBoundary();
   void requireWhole(std::size_t element, std::size_t facet, std::size_t other) const;
   void requireJoined() const;
-  void findFacet(const NamedFacet& facet);
+  void findFacet(const meshing::NamedFacet& facet);
   void takeSurfaces();
-  fem::PartArrays arrays() const;
+  mesh::PartArrays arrays() const;
 
-  LooseMesh loose_;
+  meshing::LooseMesh loose_;
   Share own_;
   const Comm& comm_;
-  NodeDirectory directory_;
-  LooseElements& held_;
-  Keys keys_;                                 ///< of the nodes of the held elements, ascending
-  std::vector<LocalOrdinal> cells_;           ///< nodes of the held elements by their places in `keys_`
-  std::optional<fem::MeshTopology> topology_; ///< of these
-  std::vector<FoundFacet> facets_;            ///< of all named surfaces
+  meshing::NodeDirectory directory_;
+  meshing::LooseElements& held_;
+  Keys keys_;                                  ///< of the nodes of the held elements, ascending
+  std::vector<LocalOrdinal> cells_;            ///< nodes of the held elements by their places in `keys_`
+  std::optional<mesh::MeshTopology> topology_; ///< of these
+  std::vector<FoundFacet> facets_;             ///< of all named surfaces
 };
 
-PieceMaker::PieceMaker(LooseMesh loose, Share own, const Comm& comm)
+PieceMaker::PieceMaker(meshing::LooseMesh loose, Share own, const Comm& comm)
     : loose_(std::move(loose)), own_(own), comm_(comm), directory_(comm, std::move(loose_.nodes)),
       held_(loose_.elements) {}
 
-fem::PartArrays PieceMaker::make(std::shared_ptr<const Partition>& partition) {
+mesh::PartArrays PieceMaker::make(std::shared_ptr<const meshing::Partition>& partition) {
   takeOwn();
   takeAround();
   collectively(comm_, [&] { lookThrough(); });
@@ -85,11 +85,11 @@ fem::PartArrays PieceMaker::make(std::shared_ptr<const Partition>& partition) {
   takeSurfaces();
   topology_.reset();
   collectively(comm_, [&] { numberNodes(); });
-  fem::PartArrays result = arrays();
-  HeldElements held{own_.begin, own_.end, result.elements, {}};
+  mesh::PartArrays result = arrays();
+  meshing::HeldElements held{own_.begin, own_.end, result.elements, {}};
   for (std::size_t e = 0; e < held_.size(); ++e)
     held.parts.push_back(held_.part(e));
-  partition = std::make_shared<const HeldPartition>(loose_.numParts, std::move(held));
+  partition = std::make_shared<const meshing::HeldPartition>(loose_.numParts, std::move(held));
   return result;
 }
 
@@ -202,7 +202,7 @@ void PieceMaker::requireJoined() const {
 }
 
 /// Of an own element, if any has it.
-void PieceMaker::findFacet(const NamedFacet& facet) {
+void PieceMaker::findFacet(const meshing::NamedFacet& facet) {
   const std::size_t first = placeOf(facet.corners[0]);
   if (first == keys_.size() || keys_[first] != facet.corners[0])
     return;
@@ -237,7 +237,7 @@ void PieceMaker::findFacet(const NamedFacet& facet) {
 void PieceMaker::takeSurfaces() {
   Keys records;
   collectively(comm_, [&] {
-    for (const NamedFacet& facet : loose_.facets->facets)
+    for (const meshing::NamedFacet& facet : loose_.facets->facets)
       findFacet(facet);
     Keys at;
     for (const FoundFacet& facet : facets_)
@@ -262,8 +262,8 @@ void PieceMaker::takeSurfaces() {
   });
 }
 
-fem::PartArrays PieceMaker::arrays() const {
-  fem::PartArrays part;
+mesh::PartArrays PieceMaker::arrays() const {
+  mesh::PartArrays part;
   part.cellType = loose_.cellType;
   part.numNodes = directory_.numNodes();
   part.numCorners = directory_.numCorners();
@@ -279,7 +279,7 @@ fem::PartArrays PieceMaker::arrays() const {
   }
   part.numElements = sumOverRanks(comm_, numOwn);
   sumOverRanks(comm_, std::span<int>(isUsed));
-  for (const NodeDirectory::Entry& node : directory_.find(keys_)) {
+  for (const meshing::NodeDirectory::Entry& node : directory_.find(keys_)) {
     part.nodes.push_back(node.number);
     part.points.push_back(node.point);
     part.cornerNumbers.push_back(node.corner);
@@ -297,8 +297,8 @@ fem::PartArrays PieceMaker::arrays() const {
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     if (f == 0 || facets_[f].surface != facets_[f - 1].surface)
       part.surfaces.emplace_back(loose_.facets->names[index(facets_[f].surface)],
-                                 fem::Surface{facetTypeOf(loose_.cellType), {}, {}});
-    fem::Surface& surface = part.surfaces.back().second;
+                                 mesh::Surface{facetTypeOf(loose_.cellType), {}, {}});
+    mesh::Surface& surface = part.surfaces.back().second;
     surface.elements.push_back(facets_[f].element);
     for (const GlobalOrdinal key : std::span(facets_[f].nodes).first(perFacet))
       surface.facetNodes.push_back(part.nodes[placeOf(key)]);
@@ -308,9 +308,9 @@ fem::PartArrays PieceMaker::arrays() const {
 
 } // namespace
 
-void dealOut(LooseMesh loose, Share own, const Comm& comm, BodyLayout& piece) {
-  fem::PartArrays arrays = PieceMaker(std::move(loose), own, comm).make(piece.partition);
-  collectively(comm, [&] { piece.mesh = std::make_unique<const fem::MeshPart>(std::move(arrays)); });
+void dealOut(meshing::LooseMesh loose, Share own, const Comm& comm, BodyLayout& piece) {
+  mesh::PartArrays arrays = PieceMaker(std::move(loose), own, comm).make(piece.partition);
+  collectively(comm, [&] { piece.mesh = std::make_unique<const mesh::MeshPart>(std::move(arrays)); });
 }
 
 } // namespace epafi::model

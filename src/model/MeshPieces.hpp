@@ -1,11 +1,11 @@
 #pragma once
 
 /// Deals out a body's elements, so that afterwards each rank holds those of its own subdomains, those around
-/// their nodes and those at the mesh's named surfaces (fem/MeshPart.hpp), whoever had them before. No rank
+/// their nodes and those at the mesh's named surfaces (mesh/MeshPart.hpp), whoever had them before. No rank
 /// holds more of the whole body than its named surfaces with the elements there, and which parts touch.
 
+#include "epafi/meshing/LooseMesh.hpp"
 #include "epafi/model/BodyLayout.hpp"
-#include "epafi/model/LooseMesh.hpp"
 
 namespace epafi::model {
 
@@ -15,6 +15,6 @@ namespace epafi::model {
 /// Collective. \throws InputError, the same on all ranks, if a named facet lies inside the body, more than
 /// two elements share a facet, two share its corners alone, a node has two places, or parts hang on others by
 /// less than facets.
-void dealOut(LooseMesh loose, Share own, const Comm& comm, BodyLayout& piece);
+void dealOut(meshing::LooseMesh loose, Share own, const Comm& comm, BodyLayout& piece);
 
 } // namespace epafi::model

@@ -4,8 +4,8 @@
 #include "epafi/contact/KnownRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/UnitedSurface.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/MeshPart.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 #include "epafi/model/ContactCoupler.hpp"
 #include "epafi/model/ContactGroups.hpp"
 #include "epafi/model/ContactSurfaces.hpp"
@@ -49,7 +49,7 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
 void dropRoundOff(const scene::SurfaceContact& terms, const std::vector<BodyLayout>& bodies,
                   ContactLayout& contact) {
   constexpr double roundOff = 1e-13;
-  const fem::Mesh& mesh = *bodies[contact.firstBody].mesh;
+  const mesh::Mesh& mesh = *bodies[contact.firstBody].mesh;
   double largest = 0;
   for (const GlobalOrdinal node : contact.firstNodes)
     for (const double coordinate : mesh.point(node))
@@ -121,7 +121,7 @@ SupportedNodes supportedNodes(const std::vector<std::unique_ptr<fem::BodyModel>>
         free = std::hypot(free, along[c]);
     return free <= held;
   };
-  result.axes = [modelOf](int body, const fem::Surface& surface) {
+  result.axes = [modelOf](int body, const mesh::Surface& surface) {
     const fem::BodyModel& model = modelOf(body);
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     int most = 0;
@@ -145,9 +145,9 @@ namespace {
 /// What the layouts of a scene need beside supports.
 SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
                           const std::vector<BodyLayout>& bodies) {
-  supported.thicknesses = [&](int body, const fem::Surface& surface) {
+  supported.thicknesses = [&](int body, const mesh::Surface& surface) {
     const scene::Body& solid = scene.bodies[body];
-    if (solid.physics == scene::Physics::membrane || solid.physics == scene::Physics::elasticity3d)
+    if (solid.physics == fem::Physics::membrane || solid.physics == fem::Physics::elasticity3d)
       return std::vector<double>();
     std::vector<double> thicknesses(surface.numFacets(), solid.material.thickness);
     if (solid.regions.empty())
@@ -159,7 +159,7 @@ SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
   };
   auto boxes = std::make_shared<std::map<int, std::array<Point, 2>>>();
   supported.extent = [&, boxes](int body, const Eigen::Vector3d& direction) {
-    const fem::Mesh& mesh = *bodies[body].mesh;
+    const mesh::Mesh& mesh = *bodies[body].mesh;
     const auto [entry, isNew] = boxes->try_emplace(body);
     if (isNew && mesh.part() != nullptr) {
       entry->second = mesh.part()->box();
@@ -167,7 +167,7 @@ SupportedNodes withBodies(SupportedNodes supported, const scene::Scene& scene,
       std::vector<Point> points;
       for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
         points.push_back(mesh.point(node));
-      entry->second = fem::boxOf(points);
+      entry->second = mesh::boxOf(points);
     }
     double extent = 0;
     for (std::size_t d = 0; d < 3; ++d)
@@ -267,8 +267,8 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
     if (group.terms.front().kind == scene::SurfaceContact::Kind::tied)
       continue;
     ContactLayout layout = layOut(group, &tied);
-    const fem::Mesh& mesh = *bodies[layout.firstBody].mesh;
-    const fem::Surface surface = contact::unite(mesh, layout.firstSurfaces).surface;
+    const mesh::Mesh& mesh = *bodies[layout.firstBody].mesh;
+    const mesh::Surface surface = contact::unite(mesh, layout.firstSurfaces).surface;
     addDropped(known.dropFrom(layout, spacingOf(mesh, surface)), layout, all.contacts);
     layout.firstShares.empty() ? contact::adaptRows(surface, layout) : contact::smoothRows(surface, layout);
     enter(partsOf(layout, group), all.contacts);

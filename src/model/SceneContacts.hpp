@@ -27,9 +27,9 @@ struct SupportedNodes {
   /// Whether they hold a node of a body in a direction.
   std::function<bool(int body, GlobalOrdinal node, const Eigen::Vector3d& direction)> isHeld;
   /// Axes (columns) along which they hold the nodes of a surface: the frame of that which is held most.
-  std::function<Eigen::Matrix3d(int body, const fem::Surface& surface)> axes;
+  std::function<Eigen::Matrix3d(int body, const mesh::Surface& surface)> axes;
   /// Thicknesses of a plane body at the facets of a surface; empty of other bodies.
-  std::function<std::vector<double>(int body, const fem::Surface& surface)> thicknesses;
+  std::function<std::vector<double>(int body, const mesh::Surface& surface)> thicknesses;
   /// Extent of a body along a direction.
   std::function<double(int body, const Eigen::Vector3d& direction)> extent;
 };

@@ -10,10 +10,10 @@
 namespace epafi::model {
 namespace {
 
-fem::Surface joined(const fem::Mesh& mesh, const std::vector<std::string>& names) {
-  fem::Surface all = mesh.surface(names.at(0));
+mesh::Surface joined(const mesh::Mesh& mesh, const std::vector<std::string>& names) {
+  mesh::Surface all = mesh.surface(names.at(0));
   for (std::size_t k = 1; k < names.size(); ++k) {
-    const fem::Surface next = mesh.surface(names[k]);
+    const mesh::Surface next = mesh.surface(names[k]);
     all.facetNodes.insert(all.facetNodes.end(), next.facetNodes.begin(), next.facetNodes.end());
     all.elements.insert(all.elements.end(), next.elements.begin(), next.elements.end());
   }

@@ -3,10 +3,10 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
-#include "epafi/fem/GmshFile.hpp"
-#include "epafi/fem/GmshReader.hpp"
+#include "epafi/meshing/GmshFile.hpp"
+#include "epafi/meshing/GmshReader.hpp"
+#include "epafi/meshing/MeshFiles.hpp"
 #include "epafi/model/BodyLayout.hpp"
-#include "epafi/model/MeshFiles.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -47,14 +47,14 @@ std::vector<std::string> agreedFiles(const std::string& pattern, const Comm& com
     if (comm.getRank() == 0)
       text = asLines(filesLike(pattern));
   });
-  broadcastText(comm, text);
+  meshing::broadcastText(comm, text);
   return linesOf(text);
 }
 
 /// A body's share in a file.
 struct FileShare {
-  fem::UnstructuredMesh mesh;
-  std::shared_ptr<const Partition> partition;
+  mesh::UnstructuredMesh mesh;
+  std::shared_ptr<const meshing::Partition> partition;
 };
 
 /// What a rank reads of some bodies.
@@ -63,27 +63,28 @@ public:
   SplitReader(std::span<const scene::Body* const> bodies, std::vector<std::string> files)
       : bodies_(bodies), files_(std::move(files)), shares_(bodies.size()) {}
 
-  void read(std::size_t number);                                    ///< one of the files
-  [[nodiscard]] const FacetList& facets() const { return facets_; } ///< of all bodies
+  void read(std::size_t number);                                             ///< one of the files
+  [[nodiscard]] const meshing::FacetList& facets() const { return facets_; } ///< of all bodies
   /// What was read of a body, cut. Collective.
-  LooseMesh take(std::size_t body, std::shared_ptr<const FacetList> facets, const Comm& comm);
+  meshing::LooseMesh take(std::size_t body, std::shared_ptr<const meshing::FacetList> facets,
+                          const Comm& comm);
 
 private:
-  void requireAll(const fem::GmshFile& file) const;
-  [[nodiscard]] static fem::UnstructuredMesh meshOf(const scene::Body& body, const fem::GmshFile& file);
+  void requireAll(const meshing::GmshFile& file) const;
+  [[nodiscard]] static mesh::UnstructuredMesh meshOf(const scene::Body& body, const meshing::GmshFile& file);
   void requireElements(const scene::Body& body, GlobalOrdinal all, const Comm& comm) const;
   void cut(std::size_t body, GlobalOrdinal before, GlobalOrdinal all);
 
   std::span<const scene::Body* const> bodies_;
   std::vector<std::string> files_;
   std::vector<std::vector<FileShare>> shares_; ///< of each body
-  FacetList facets_;
+  meshing::FacetList facets_;
   std::set<std::string> groups_; ///< of the files that were read
 };
 
 void SplitReader::read(std::size_t number) {
   const std::string& name = files_[number];
-  const fem::GmshFile file(fem::readMsh(name, fem::textOfMeshFile(name)));
+  const meshing::GmshFile file(meshing::readMsh(name, meshing::textOfMeshFile(name)));
   requireAll(file);
   const std::vector<std::string> groups = file.groupNames();
   groups_.insert(groups.begin(), groups.end());
@@ -96,7 +97,7 @@ void SplitReader::read(std::size_t number) {
 }
 
 /// A file that is missing would be a hole in the body.
-void SplitReader::requireAll(const fem::GmshFile& file) const {
+void SplitReader::requireAll(const meshing::GmshFile& file) const {
   const GlobalOrdinal number = file.numPartitions();
   if (number > 0 && number != static_cast<GlobalOrdinal>(files_.size()))
     throw InputError("The mesh file " + inQuotes(file.file()) + " is one of " + std::to_string(number) +
@@ -104,8 +105,8 @@ void SplitReader::requireAll(const fem::GmshFile& file) const {
                      " files have such a name; complete them, or remove those of another mesh");
 }
 
-fem::UnstructuredMesh SplitReader::meshOf(const scene::Body& body, const fem::GmshFile& file) {
-  fem::UnstructuredMesh mesh = file.body(body.mesh.group, body.mesh.order);
+mesh::UnstructuredMesh SplitReader::meshOf(const scene::Body& body, const meshing::GmshFile& file) {
+  mesh::UnstructuredMesh mesh = file.body(body.mesh.group, body.mesh.order);
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
     if (mesh.nodeTag(node) < 0)
       throw InputError(
@@ -122,9 +123,9 @@ void SplitReader::cut(std::size_t body, GlobalOrdinal before, GlobalOrdinal all)
     const GlobalOrdinal here = share.mesh.numElements(), behind = before + here;
     const GlobalOrdinal parts = how.parts == 0 ? partsFor(*bodies_[body], share.mesh)
                                                : behind * how.parts / all - before * how.parts / all;
-    share.partition = cutPieces(share.mesh, static_cast<int>(std::max<GlobalOrdinal>(parts, 1)));
+    share.partition = meshing::cutPieces(share.mesh, static_cast<int>(std::max<GlobalOrdinal>(parts, 1)));
     constexpr int single = 1; // neighbours follow each other, whatever run they fall into
-    share.partition = std::make_shared<const GroupedPartition>(share.partition, share.mesh, single);
+    share.partition = std::make_shared<const meshing::GroupedPartition>(share.partition, share.mesh, single);
     before = behind;
   }
 }
@@ -133,7 +134,7 @@ void SplitReader::cut(std::size_t body, GlobalOrdinal before, GlobalOrdinal all)
 void SplitReader::requireElements(const scene::Body& body, GlobalOrdinal all, const Comm& comm) const {
   if (all == 0) {
     std::string known;
-    for (const std::string& group : allNames(groups_, comm))
+    for (const std::string& group : meshing::allNames(groups_, comm))
       known += (known.empty() ? "'" : ", '") + group + "'";
     throw InputError("none of the files " + inQuotes(body.mesh.file) + " has elements of a physical group " +
                      inQuotes(body.mesh.group) + "; they have " + (known.empty() ? "no groups" : known));
@@ -144,7 +145,8 @@ void SplitReader::requireElements(const scene::Body& body, GlobalOrdinal all, co
                      std::to_string(all));
 }
 
-LooseMesh SplitReader::take(std::size_t body, std::shared_ptr<const FacetList> facets, const Comm& comm) {
+meshing::LooseMesh SplitReader::take(std::size_t body, std::shared_ptr<const meshing::FacetList> facets,
+                                     const Comm& comm) {
   std::vector<FileShare>& own = shares_[body];
   GlobalOrdinal numElements = 0;
   for (const FileShare& share : own)
@@ -152,18 +154,18 @@ LooseMesh SplitReader::take(std::size_t body, std::shared_ptr<const FacetList> f
   const GlobalOrdinal before = sumBefore(comm, numElements), all = sumOverRanks(comm, numElements);
   requireElements(*bodies_[body], all, comm);
   collectively(comm, [&] { cut(body, before, all); });
-  std::vector<MeshShare> shares;
+  std::vector<meshing::MeshShare> shares;
   for (const FileShare& share : own)
     shares.push_back({&share.mesh, share.partition.get(),
                       [&mesh = share.mesh](GlobalOrdinal node) { return mesh.nodeTag(node); }});
-  LooseMesh loose = looseMeshOf(shares, std::move(facets), comm);
+  meshing::LooseMesh loose = looseMeshOf(shares, std::move(facets), comm);
   own.clear();
   return loose;
 }
 
 } // namespace
 
-std::vector<LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies, const Comm& comm) {
+std::vector<meshing::LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies, const Comm& comm) {
   std::vector<std::string> files = agreedFiles(bodies.front()->mesh.file, comm);
   const std::size_t number = files.size(), rank = static_cast<std::size_t>(comm.getRank()),
                     ranks = static_cast<std::size_t>(comm.getSize());
@@ -172,8 +174,8 @@ std::vector<LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies
     for (std::size_t f = rank * number / ranks; f < (rank + 1) * number / ranks; ++f)
       reader.read(f);
   });
-  const auto facets = std::make_shared<const FacetList>(gathered(reader.facets(), comm));
-  std::vector<LooseMesh> meshes;
+  const auto facets = std::make_shared<const meshing::FacetList>(gathered(reader.facets(), comm));
+  std::vector<meshing::LooseMesh> meshes;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     try {
       meshes.push_back(reader.take(b, facets, comm));

@@ -5,7 +5,7 @@
 /// reads some of them, checks them and cuts each by METIS, so that no rank has the whole mesh at any time,
 /// and parts are the same on any number of ranks.
 
-#include "epafi/model/LooseMesh.hpp"
+#include "epafi/meshing/LooseMesh.hpp"
 #include "epafi/scene/Body.hpp"
 
 #include <span>
@@ -18,11 +18,11 @@ namespace epafi::model {
 /// the files. What UnstructuredMesh checks is checked in each file by itself: nodes that hang, or lie at one
 /// place, in two files are not found.
 ///
-/// \param bodies  of one name (scene::isSplit()); their Decomposition/Parts, or what is chosen for each, is
+/// \param bodies  of one name (meshing::isSplit()); their Decomposition/Parts, or what is chosen for each, is
 /// shared among the files by their elements of the body: one part a file at least
 /// Collective. \throws InputError, the same on all ranks, if there are no such files, or not as many as the
 /// mesh was cut into, readMsh() or UnstructuredMesh refuse one, their order is not the one that is asked for,
 /// or no file has a body.
-std::vector<LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies, const Comm& comm);
+std::vector<meshing::LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies, const Comm& comm);
 
 } // namespace epafi::model

@@ -61,7 +61,7 @@ void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
                      const Eigen::VectorXd& displacement, int components, NodeValues& result) {
   const int ownPart = subdomain.number - layout.firstSubdomain;
   const NodeKinds kinds(subdomain, components);
-  const bool isPlane = fem::dimensionOf(layout.mesh->cellType()) == 2;
+  const bool isPlane = mesh::dimensionOf(layout.mesh->cellType()) == 2;
   std::vector<GlobalOrdinal> elements;
   std::vector<int> parts;
   for (std::size_t k = 0; k < subdomain.nodes.size(); ++k) {

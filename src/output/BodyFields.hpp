@@ -3,7 +3,7 @@
 /// The fields of one body, each rank holding a contiguous slab of its nodes and of its cells.
 
 #include "epafi/base/Slab.hpp"
-#include "epafi/fem/Cell.hpp"
+#include "epafi/mesh/Cell.hpp"
 #include "epafi/simulation/SolvedScene.hpp"
 
 #include <vector>
@@ -18,7 +18,7 @@ struct BodyFields {
   std::vector<double> u;      ///< n × components
 
   GlobalOrdinal numCells = 0; ///< n_e
-  fem::CellType cellType = fem::CellType::quadrilateral;
+  mesh::CellType cellType = mesh::CellType::quadrilateral;
   RowRange cells;                 ///< this rank's cells
   std::vector<long long> corners; ///< n_e × nodes of a cell, node numbers in the order of Cell.hpp
   std::vector<int> subdomain;     ///< n_e, numbered over the whole problem

@@ -27,8 +27,8 @@ void fillFacets(const simulation::SolvedScene& solved, int contact, ContactField
   const ContactLayout& layout = solved.decomposition.contacts[contact];
   std::vector<long long> corners;
   if (!solved.isAlongEdges(contact)) {
-    const fem::Mesh& mesh = *solved.decomposition.bodies[layout.firstBody].mesh;
-    const fem::Surface surface = mesh.surface(layout.firstSurface);
+    const mesh::Mesh& mesh = *solved.decomposition.bodies[layout.firstBody].mesh;
+    const mesh::Surface surface = mesh.surface(layout.firstSurface);
     const std::vector<long long> all = simulation::completeFacets(layout, surface);
     const std::vector<std::size_t> own = layout.ownRows();
     const std::ptrdiff_t perFacet = surface.nodesPerFacet();
@@ -62,8 +62,8 @@ FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) 
   if (layout.firstShares.empty())
     return result;
   const scene::SurfaceContact& terms = solved.scene.contacts[layout.number];
-  const fem::Mesh& mesh = *solved.decomposition.bodies[layout.secondBody].mesh;
-  const fem::Surface surface =
+  const mesh::Mesh& mesh = *solved.decomposition.bodies[layout.secondBody].mesh;
+  const mesh::Surface surface =
       mesh.surface(layout.secondBody == terms.second ? terms.secondSurface : terms.firstSurface);
   result.cornersPerFacet = numCornersOf(surface.facetType);
   result.numFacets = static_cast<GlobalOrdinal>(surface.numFacets());
@@ -92,7 +92,7 @@ ContactFields gatherContactFields(const simulation::SolvedScene& solved, int con
                                   const simulation::ContactState& state) {
   const auto& problem = solved.decomposition.problem;
   const ContactLayout& layout = solved.decomposition.contacts[contact];
-  const fem::Mesh& mesh = *solved.decomposition.bodies[layout.firstBody].mesh;
+  const mesh::Mesh& mesh = *solved.decomposition.bodies[layout.firstBody].mesh;
 
   ContactFields fields;
   const std::vector<std::size_t> own = layout.ownRows();

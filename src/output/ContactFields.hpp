@@ -3,7 +3,7 @@
 /// The fields of one contact, each rank holding a contiguous slab of its rows.
 
 #include "epafi/base/Slab.hpp"
-#include "epafi/fem/Cell.hpp"
+#include "epafi/mesh/Cell.hpp"
 #include "epafi/simulation/ContactState.hpp"
 #include "epafi/simulation/FrictionResults.hpp"
 #include "epafi/simulation/SolvedScene.hpp"
@@ -33,11 +33,11 @@ struct ContactFields {
   GlobalOrdinal numFacets =
       0; ///< m, of the first body's surface between nodes that all have a row; perhaps none
   /// Nothing where each row is a facet of its own: edges of membranes, or no facet is complete.
-  std::optional<fem::CellType> facetType;
+  std::optional<mesh::CellType> facetType;
   RowRange facets;                ///< this rank's facets
   std::vector<long long> corners; ///< m × nodesPerFacet(), rows, the normal outwards
 
-  [[nodiscard]] int nodesPerFacet() const { return facetType ? fem::numNodesOf(*facetType) : 1; }
+  [[nodiscard]] int nodesPerFacet() const { return facetType ? mesh::numNodesOf(*facetType) : 1; }
 };
 
 /// The other surface of a contact by mortars, which has a mesh of its own; each rank holds slabs.

@@ -54,7 +54,7 @@ XdmfGrid putBody(Hdf5File& file, const std::string& group, const simulation::Sol
   const std::string& name = solved.decomposition.bodies[place].name;
   file.createGroup(group);
   file.attribute(group, "name", name);
-  file.attribute(group, "cell_type", std::string(fem::toString(fields.cellType)));
+  file.attribute(group, "cell_type", std::string(mesh::toString(fields.cellType)));
   file.attribute(group, "physics", toString(solved.scene.bodies[place].physics));
   const GlobalOrdinal n = fields.numNodes;
   const GlobalOrdinal cells = fields.numCells;
@@ -85,7 +85,7 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   file.attribute(group, "name", name);
   file.attribute(group, "first_body", firstBody);
   if (fields.facetType)
-    file.attribute(group, "cell_type", std::string(fem::toString(*fields.facetType)));
+    file.attribute(group, "cell_type", std::string(mesh::toString(*fields.facetType)));
   const GlobalOrdinal n = fields.numRows;
   XdmfGrid grid;
   grid.name = name;

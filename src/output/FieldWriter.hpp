@@ -24,14 +24,14 @@ struct FieldFiles {
 ///
 /// Datasets (lengths, deflections, forces and stresses in the scene's units; each body's nodes appear once):
 /// - `/bodies/<body>/points` n×3, `cells` n_e×nodes of a cell (int64, node numbers in the order of
-/// fem/Cell.hpp, which is VTK's),
+/// mesh/Cell.hpp, which is VTK's),
 ///    `u` n×components, `subdomain` n_e (int32, numbered over all bodies), `crosspoints` m×3 (where they lie,
 ///    supported
 ///    ones too in the plane);
 ///    of elastic bodies `von_mises` n (vonMisesAtNodes), and of plane ones `displacement` n×3: u with a third
 ///    column of
 ///    zeros, which viewers take as a vector (in space that is u itself);
-///    attributes `name`, `cell_type` (as fem::toString says) and `physics` (as scene::toString says);
+///    attributes `name`, `cell_type` (as mesh::toString says) and `physics` (as fem::toString says);
 ///  - `/contact/<pair>/points` n×3 (nodes of the first body's surface), `cells` m×2, 3 or 4, of order 2 3, 6
 ///  or 9 (that surface's edges or
 ///    faces, by rows; which, the attribute `cell_type` says; n×1, each point one, for pairs of membranes'

@@ -20,7 +20,7 @@ std::string escaped(const std::string& text) {
 }
 
 /// Value of TopologyType, and the attribute that goes with it where cells are of any length.
-const char* nameOf(std::optional<fem::CellType> type) {
+const char* nameOf(std::optional<mesh::CellType> type) {
   constexpr std::array names{"Triangle",
                              "Quadrilateral",
                              "Tetrahedron",

@@ -4,7 +4,7 @@
 /// their readers for Xdmf2 and Xdmf3 both open).
 
 #include "epafi/base/Types.hpp"
-#include "epafi/fem/Cell.hpp"
+#include "epafi/mesh/Cell.hpp"
 
 #include <optional>
 #include <string>
@@ -30,8 +30,8 @@ struct XdmfAttribute {
 /// A mesh of cells of one kind.
 struct XdmfGrid {
   std::string name;
-  XdmfData points;                       ///< n × 3
-  std::optional<fem::CellType> cellType; ///< nothing: points
+  XdmfData points;                        ///< n × 3
+  std::optional<mesh::CellType> cellType; ///< nothing: points
   XdmfData cells; ///< n_e × nodes of a cell, in the order of VTK, which is that of CellType; points: n × 1
   std::vector<XdmfAttribute> attributes;
 };

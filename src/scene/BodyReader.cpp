@@ -11,7 +11,7 @@ namespace epafi::scene {
 namespace {
 
 bool isElastic(const Body& body) {
-  return body.physics != Physics::membrane;
+  return body.physics != fem::Physics::membrane;
 }
 
 int dimensionOf(const Body& body) {
@@ -23,15 +23,16 @@ std::string text(const std::array<int, 3>& counts) {
          (counts[2] > 0 ? ", " + std::to_string(counts[2]) : "") + '}';
 }
 
-Physics physicsOf(const std::string& word) {
-  for (const Physics physics : {Physics::planeStrain, Physics::planeStress, Physics::elasticity3d})
+fem::Physics physicsOf(const std::string& word) {
+  for (const fem::Physics physics :
+       {fem::Physics::planeStrain, fem::Physics::planeStress, fem::Physics::elasticity3d})
     if (toString(physics) == word)
       return physics;
-  return Physics::membrane;
+  return fem::Physics::membrane;
 }
 
 /// Nodes are counted by int, and their coordinates must be told apart by a double with digits to spare.
-void requireTellableNodes(const ListReader& list, const std::string& extent, const MeshSource& mesh,
+void requireTellableNodes(const ListReader& list, const std::string& extent, const meshing::MeshSource& mesh,
                           std::size_t dimension) {
   constexpr double mostNodes = std::numeric_limits<int>::max();
   double numNodes = 1;
@@ -49,8 +50,8 @@ void requireTellableNodes(const ListReader& list, const std::string& extent, con
   }
 }
 
-MeshSource readMesh(const ListReader& list, int dimension) {
-  MeshSource source;
+meshing::MeshSource readMesh(const ListReader& list, int dimension) {
+  meshing::MeshSource source;
   if (list.hasEntries("Mesh")) {
     list.refuseGiven({"Rectangle", "Box", "Elements"}, "the body has a mesh file; remove one of them");
     source.file = list.file("Mesh");
@@ -58,7 +59,7 @@ MeshSource readMesh(const ListReader& list, int dimension) {
     if (!source.file.ends_with(".geo"))
       list.refuseGiven({"Mesh Size Factor"}, "only a geometry (.geo) is meshed in a size of your choice");
     source.refinements = list.integer("Mesh Refinements");
-    if (isSplit(source.file)) {
+    if (meshing::isSplit(source.file)) {
       if (!source.file.ends_with(".msh"))
         list.refuseValue(
             "Mesh", "several files hold a mesh by parts only as Gmsh saves it, so the name must end in .msh");
@@ -88,20 +89,21 @@ MeshSource readMesh(const ListReader& list, int dimension) {
 }
 
 /// What is not given is as in `outer`. Of a region nothing is required.
-Material readMaterial(const ListReader& list, Physics physics, const Material& outer, bool isRegion) {
-  Material material = outer;
+fem::Material readMaterial(const ListReader& list, fem::Physics physics, const fem::Material& outer,
+                           bool isRegion) {
+  fem::Material material = outer;
   const auto take = [&](const char* name, double& value) {
     if (list.has(name))
       value = list.positive(name);
   };
-  if (physics == Physics::membrane) {
+  if (physics == fem::Physics::membrane) {
     list.refuseGiven({"Young's Modulus", "Poisson's Ratio", "Thickness"}, "membranes have none; remove it");
     take("Conductivity", material.conductivity);
     return material;
   }
   const std::string useless = "bodies of the physics \"" + toString(physics) + "\" have none; remove it";
   list.refuseGiven({"Conductivity"}, useless);
-  if (physics == Physics::elasticity3d)
+  if (physics == fem::Physics::elasticity3d)
     list.refuseGiven({"Thickness"}, useless);
   if (!isRegion)
     for (const char* const name : {"Young's Modulus", "Poisson's Ratio"})
@@ -114,8 +116,8 @@ Material readMaterial(const ListReader& list, Physics physics, const Material& o
 }
 
 /// A box that meets the body's own, if this is known.
-Box boxIn(const ListReader& list, const Body& body) {
-  const Box box = list.box("Box", dimensionOf(body));
+mesh::Box boxIn(const ListReader& list, const Body& body) {
+  const mesh::Box box = list.box("Box", dimensionOf(body));
   if (body.mesh.file.empty())
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimensionOf(body)); ++d) {
       const double lower = body.mesh.box.lower[d], upper = body.mesh.box.upper[d];
@@ -126,24 +128,26 @@ Box boxIn(const ListReader& list, const Body& body) {
   return box;
 }
 
-void requireOneDomain(const ListReader& list, const MeshSource& mesh) {
+void requireOneDomain(const ListReader& list, const meshing::MeshSource& mesh) {
   if (list.hasEntries("Box"))
     list.refuseGiven({"Group"}, "there is a box, too; give one of them");
   if (mesh.file.empty())
     list.refuseGiven({"Group"}, "the body has no mesh file with groups; give a box");
 }
 
-std::vector<SolidRegion> readRegions(const ListReader& list, const Body& body) {
-  std::vector<SolidRegion> regions;
+std::vector<fem::SolidRegion> readRegions(const ListReader& list, const Body& body) {
+  std::vector<fem::SolidRegion> regions;
   for (const std::string& name : list.names()) {
     const ListReader entry = list.inside(name);
-    SolidRegion region{name, {}, entry.word("Group"), readMaterial(entry, body.physics, body.material, true)};
+    fem::SolidRegion region{
+        name, {}, entry.word("Group"), readMaterial(entry, body.physics, body.material, true)};
     requireOneDomain(entry, body.mesh);
     if (region.group.empty()) {
       entry.require("Box", body.mesh.file.empty() ? "" : " unless there is a group");
       region.box = boxIn(entry, body);
     }
-    if (isMembraneOnRectangle(body))
+    region.mayBeEmpty = isMembraneOnRectangle(body);
+    if (region.mayBeEmpty)
       entry.require("Conductivity");
     regions.push_back(region);
   }
@@ -151,10 +155,12 @@ std::vector<SolidRegion> readRegions(const ListReader& list, const Body& body) {
 }
 
 /// Throws unless an edge has no support yet and those that it meets in corners have its value.
-void requireAgreement(const ListReader& entry, const SolidSupport& support,
-                      const std::vector<SolidSupport>& others) {
-  const auto isVertical = [](const SolidSupport& s) { return s.surface == "left" || s.surface == "right"; };
-  for (const SolidSupport& other : others) {
+void requireAgreement(const ListReader& entry, const fem::SolidSupport& support,
+                      const std::vector<fem::SolidSupport>& others) {
+  const auto isVertical = [](const fem::SolidSupport& s) {
+    return s.surface == "left" || s.surface == "right";
+  };
+  for (const fem::SolidSupport& other : others) {
     if (other.surface == support.surface)
       entry.refuseValue("Edge", "that edge has the support \"" + other.name + "\" already");
     if (isVertical(other) != isVertical(support) && other.value != support.value)
@@ -164,7 +170,7 @@ void requireAgreement(const ListReader& entry, const SolidSupport& support,
 }
 
 /// The components of an elastic body, or its normal.
-void readComponents(const ListReader& entry, const Body& body, SolidSupport& support) {
+void readComponents(const ListReader& entry, const Body& body, fem::SolidSupport& support) {
   entry.refuseGiven({"Value"}, "the components \"X\", \"Y\" and \"Z\" say what is held of an elastic body");
   if (dimensionOf(body) == 2)
     entry.refuseGiven({"Z"}, "the body lies in the plane");
@@ -179,11 +185,11 @@ void readComponents(const ListReader& entry, const Body& body, SolidSupport& sup
                      std::string(dimensionOf(body) == 3 ? ", \"Z\"" : "") + ", or \"Normal\"");
 }
 
-std::vector<SolidSupport> readSupports(const ListReader& list, const Body& body) {
-  std::vector<SolidSupport> supports;
+std::vector<fem::SolidSupport> readSupports(const ListReader& list, const Body& body) {
+  std::vector<fem::SolidSupport> supports;
   for (const std::string& name : list.names()) {
     const ListReader entry = list.inside(name);
-    SolidSupport support{name, "", {}, {}};
+    fem::SolidSupport support{name, "", {}, {}};
     if (isElastic(body) || !body.mesh.file.empty()) {
       entry.refuseGiven({"Edge"}, "only membranes on rectangles have edges; name the \"Surface\"");
       entry.require("Surface");
@@ -207,9 +213,9 @@ std::vector<SolidSupport> readSupports(const ListReader& list, const Body& body)
 }
 
 /// Where a load acts; the parameters of the other kinds are refused.
-void readPlace(const ListReader& list, const Body& body, SolidLoad& load) {
+void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
   const std::string reason = "a load of the kind \"" + list.word("Kind") + "\" has no use for it";
-  using Kind = SolidLoad::Kind;
+  using Kind = fem::SolidLoad::Kind;
   if (load.kind != Kind::body)
     list.refuseGiven({"Box", "Group"}, reason);
   if (load.kind == Kind::body || load.kind == Kind::point)
@@ -231,27 +237,27 @@ void readPlace(const ListReader& list, const Body& body, SolidLoad& load) {
   }
 }
 
-SolidLoad::Kind kindOf(const std::string& word) {
-  using Kind = SolidLoad::Kind;
+fem::SolidLoad::Kind kindOf(const std::string& word) {
+  using Kind = fem::SolidLoad::Kind;
   return word == "body"       ? Kind::body
          : word == "traction" ? Kind::traction
          : word == "pressure" ? Kind::pressure
                               : Kind::point;
 }
 
-std::vector<SolidLoad> readLoads(const ListReader& list, const Body& body) {
-  std::vector<SolidLoad> loads;
+std::vector<fem::SolidLoad> readLoads(const ListReader& list, const Body& body) {
+  std::vector<fem::SolidLoad> loads;
   for (const std::string& name : list.names()) {
     const ListReader entry = list.inside(name);
-    SolidLoad load;
+    fem::SolidLoad load;
     load.name = name;
     load.kind = kindOf(entry.word("Kind"));
-    if (load.kind != SolidLoad::Kind::body && isMembraneOnRectangle(body))
+    if (load.kind != fem::SolidLoad::Kind::body && isMembraneOnRectangle(body))
       entry.refuseValue("Kind", "a membrane on a rectangle carries loads of the kind \"body\" only");
-    if (load.kind == SolidLoad::Kind::pressure && !isElastic(body))
+    if (load.kind == fem::SolidLoad::Kind::pressure && !isElastic(body))
       entry.refuseValue("Kind", "membranes carry no pressure on their edges; give a traction");
     readPlace(entry, body, load);
-    if (!isElastic(body) || load.kind == SolidLoad::Kind::pressure) {
+    if (!isElastic(body) || load.kind == fem::SolidLoad::Kind::pressure) {
       entry.refuseGiven({"Force"}, "a load of this kind is a number, its \"Value\"");
       entry.require("Value");
       load.value[0] = entry.real("Value");

@@ -79,7 +79,7 @@ Obstacle obstacleOf(const ListReader& entry, const Body& body, const std::vector
   const auto& [name, dimension, obstacle] =
       obstacles[indexOf(entry, "Obstacle", obstacles, "obstacle", "obstacles")];
   const std::string who = "body \"" + body.name + "\" ";
-  if (body.physics == Physics::membrane)
+  if (body.physics == fem::Physics::membrane)
     entry.refuseValue("Obstacle", who + "is a membrane; only elastic bodies meet obstacles");
   if (dimensionOf(body.physics) != dimension)
     entry.refuseValue("Obstacle", "it is an obstacle " +
@@ -148,7 +148,7 @@ void readFriction(const ListReader& entry, const Body& body, SurfaceContact& pai
     entry.refuseValue("Friction Bound", "Coulomb's Friction is given as well; leave out one of them");
   if (pair.kind == SurfaceContact::Kind::tied)
     entry.refuseValue(given, "a tied joint does not slip; remove it, or make the pair a contact");
-  if (body.physics == Physics::membrane)
+  if (body.physics == fem::Physics::membrane)
     entry.refuseValue(given, "membranes move along z alone and cannot slip; friction is for elastic bodies");
 }
 

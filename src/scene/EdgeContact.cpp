@@ -14,7 +14,7 @@ std::string objectionTo(const Scene& scene, std::size_t contact, int body, const
   if (std::find(edges.begin(), edges.end(), edge) == edges.end())
     return "body \"" + owner.name + "\" has no edge \"" + edge + '"';
   const std::string that = "that edge of body \"" + owner.name + "\" ";
-  for (const SolidSupport& support : owner.supports)
+  for (const fem::SolidSupport& support : owner.supports)
     if (support.surface == edge)
       return that + "has the support \"" + support.name + "\"; an edge is either supported or in contact";
   for (std::size_t c = 0; c < contact; ++c) {
@@ -28,7 +28,7 @@ std::string objectionTo(const Scene& scene, std::size_t contact, int body, const
 
 } // namespace
 
-EdgeSegment segmentOf(const Box& rectangle, const std::string& edge) {
+EdgeSegment segmentOf(const mesh::Box& rectangle, const std::string& edge) {
   const Vector3 &lower = rectangle.lower, &upper = rectangle.upper;
   if (edge == "left" || edge == "right")
     return {true, edge == "left" ? lower[0] : upper[0], lower[1], upper[1]};

@@ -20,7 +20,7 @@ struct EdgeSegment {
   double at = 0, from = 0, to = 0;
 };
 
-EdgeSegment segmentOf(const Box& rectangle, const std::string& edge);
+EdgeSegment segmentOf(const mesh::Box& rectangle, const std::string& edge);
 
 /// "x = 1, y from 0 to 1", with as many digits as tell numbers apart.
 std::string toString(const EdgeSegment& segment);

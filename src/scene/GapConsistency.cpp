@@ -42,7 +42,7 @@ std::vector<Constraint> constraintsOf(const Scene& scene) {
   std::vector<Constraint> constraints;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (isMembraneOnRectangle(scene.bodies[b]))
-      for (const SolidSupport& support : scene.bodies[b].supports)
+      for (const fem::SolidSupport& support : scene.bodies[b].supports)
         for (const int corner : cornersOf(support.surface)) {
           const double value = support.value[0].value_or(0);
           constraints.push_back({ground, nodeOf(b, corner), value, -1, static_cast<int>(b)});
@@ -102,7 +102,7 @@ std::string listedOnce(std::vector<std::string> names) {
 }
 
 std::string placeOf(const Scene& scene, int node) {
-  const Box& box = scene.bodies[node / 4].mesh.box;
+  const mesh::Box& box = scene.bodies[node / 4].mesh.box;
   const int corner = node % 4;
   return '(' + valueText((corner % 2 == 0 ? box.lower : box.upper)[0]) + ", " +
          valueText((corner < 2 ? box.lower : box.upper)[1]) + ')';

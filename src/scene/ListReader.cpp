@@ -58,12 +58,12 @@ const std::string& ListReader::edge(const std::string& name) const {
   return word(name);
 }
 
-Box ListReader::box(const std::string& name, int dimension) const {
+mesh::Box ListReader::box(const std::string& name, int dimension) const {
   const std::string form = dimension == 3 ? "{x0, x1, y0, y1, z0, z1}" : "{x0, x1, y0, y1}";
   const auto& values = list_.get<Teuchos::Array<double>>(name);
   requireLength(name, 2 * dimension, form);
   requireModerate(name);
-  Box box;
+  mesh::Box box;
   for (int d = 0; d < dimension; ++d) {
     const double lower = values[2 * d], upper = values[2 * d + 1];
     if (!(lower < upper))

@@ -43,7 +43,7 @@ public:
   [[nodiscard]] const std::string& edge(const std::string& name) const;
   /// {x0, x1, y0, y1} in the plane, {x0, x1, y0, y1, z0, z1} in space, of positive size; coordinates as
   /// real(), sides 1e-30 … 1e30. In the plane z is unbounded.
-  [[nodiscard]] Box box(const std::string& name, int dimension) const;
+  [[nodiscard]] mesh::Box box(const std::string& name, int dimension) const;
   /// {nx, ny} in the plane, {nx, ny, nz} in space, each ≥ 1; nz = 1 in the plane.
   [[nodiscard]] std::array<int, 3> counts(const std::string& name, int dimension) const;
   /// {x, y} or {x, y, z}, as real(); z = 0 in the plane.

@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int bestOrder = 2;
 
 void describeMaterial(ParameterList& list, const std::string& of) {
-  const Material material;
+  const fem::Material material;
   addReal(list, "Conductivity", material.conductivity, "Membranes: conductivity (tension) " + of + '.', 0.0,
           infinity, true);
   addReal(list, "Young's Modulus", material.youngsModulus,
@@ -56,11 +56,11 @@ void describeMesh(ParameterList& list) {
       "Order of the elements: linear or quadratic. Of a mesh file (.msh) its own order counts if none is "
       "given; quadratic elements of a geometry (.geo) are curved where it is.",
       1, 2);
-  addReal(list, "Mesh Size Factor", MeshSource().sizeFactor,
+  addReal(list, "Mesh Size Factor", meshing::MeshSource().sizeFactor,
           "With a .geo file: by which all its mesh sizes are multiplied; 0.5 halves the elements.", 0.0,
           infinity, true);
   addInteger(
-      list, "Mesh Refinements", MeshSource().refinements,
+      list, "Mesh Refinements", meshing::MeshSource().refinements,
       "With a mesh file: how many times every element is split, into 4 in the plane and into 8 in space.", 0,
       8);
   list.set("Group", "",

@@ -130,7 +130,7 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
                                  .value)
       component *= factor;
   for (const auto& [place, factor] : supports) {
-    SolidSupport& support =
+    fem::SolidSupport& support =
         scene.bodies[static_cast<std::size_t>(place.first)].supports[static_cast<std::size_t>(place.second)];
     for (std::optional<double>& component : support.value)
       if (component)

@@ -1,9 +1,9 @@
 #include "epafi/simulation/CoarserScene.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/fem/MeshPart.hpp"
-#include "epafi/fem/SimplexMesh.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/MeshPart.hpp"
+#include "epafi/mesh/SimplexMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -20,7 +20,7 @@ void mergeParts(scene::Decomposition& decomposition, int times) {
 
 /// Half as many cells along each axis, or elements twice as large; false if that cannot be.
 bool halve(scene::Body& body, int dimension) {
-  scene::MeshSource& mesh = body.mesh;
+  meshing::MeshSource& mesh = body.mesh;
   if (mesh.file.empty()) {
     scene::Decomposition& cut = body.decomposition;
     const std::size_t axes = dimension;
@@ -50,7 +50,7 @@ bool halve(scene::Body& body, int dimension) {
 std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
                                          const std::vector<model::BodyLayout>& fine, const Comm& comm) {
   CoarserScene coarser{scene, {}, {}};
-  const auto isQuadratic = [&](std::size_t b) { return fem::orderOf(fine[b].mesh->cellType()) == 2; };
+  const auto isQuadratic = [&](std::size_t b) { return mesh::orderOf(fine[b].mesh->cellType()) == 2; };
   const std::size_t number = fine.size();
   bool hasQuadratic = false, isCoarser = false;
   for (std::size_t b = 0; b < number; ++b)
@@ -59,7 +59,7 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
       fine.begin(), fine.end(), [](const model::BodyLayout& body) { return isOfSimplices(*body.mesh); });
   if (!(hasQuadratic && areSimplices) && // others are read once more, and whole
       std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                  [](const scene::Body& body) { return scene::isSplit(body.mesh.file); }))
+                  [](const scene::Body& body) { return meshing::isSplit(body.mesh.file); }))
     return std::nullopt;
   if (!hasQuadratic) {
     for (scene::Body& body : coarser.scene.bodies)
@@ -80,15 +80,16 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
     coarser.bodies = model::layoutBodies(coarser.scene, comm);
     return coarser;
   }
-  std::vector<std::unique_ptr<const fem::Mesh>> meshes;
-  std::vector<std::shared_ptr<const model::Partition>> partitions;
+  std::vector<std::unique_ptr<const mesh::Mesh>> meshes;
+  std::vector<std::shared_ptr<const meshing::Partition>> partitions;
   collectively(comm, [&] { // Gmsh is not to mesh a geometry once more
     for (const model::BodyLayout& body : fine) {
-      const fem::MeshPart* piece = body.mesh->part();
+      const mesh::MeshPart* piece = body.mesh->part();
       if (piece != nullptr)
         meshes.push_back(piece->ofOrder1());
       else
-        meshes.push_back(std::make_unique<const fem::UnstructuredMesh>(arraysOf(simplicesOf(*body.mesh), 1)));
+        meshes.push_back(
+            std::make_unique<const mesh::UnstructuredMesh>(arraysOf(simplicesOf(*body.mesh), 1)));
       partitions.push_back(piece != nullptr ? body.partition
                                             : nullptr); // what is dealt out stays cut as it is
     }

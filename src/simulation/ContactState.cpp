@@ -3,7 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/base/Slab.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
@@ -21,7 +21,7 @@ using Shares = std::vector<std::vector<ContactLayout::Share>>;
 /// Penetration is looked for at this many points and one along each edge of a facet.
 constexpr int latticeSteps = 8;
 
-const fem::Mesh& meshOf(const SolvedScene& solved, const ContactLayout& layout) {
+const mesh::Mesh& meshOf(const SolvedScene& solved, const ContactLayout& layout) {
   return *solved.decomposition.bodies[layout.firstBody].mesh;
 }
 
@@ -93,13 +93,13 @@ Shares forceShares(const ContactLayout& layout) {
 }
 
 /// Values of a facet's shape functions at a lattice of points.
-std::vector<Eigen::VectorXd> latticeOn(fem::CellType facet) {
-  return withFacetShape(facet, []<int dim>(const fem::Shape<dim>& shape) {
+std::vector<Eigen::VectorXd> latticeOn(mesh::CellType facet) {
+  return withFacetShape(facet, []<int dim>(const mesh::Shape<dim>& shape) {
     constexpr int across = dim == 1 ? 0 : latticeSteps;
     std::vector<Eigen::VectorXd> values;
     for (int i = 0; i <= latticeSteps; ++i)
       for (int j = 0; j <= across && (!shape.isSimplex || i + j <= latticeSteps); ++j) {
-        fem::Coordinates<dim> xi = fem::Coordinates<dim>::Constant(static_cast<double>(j) / latticeSteps);
+        mesh::Coordinates<dim> xi = mesh::Coordinates<dim>::Constant(static_cast<double>(j) / latticeSteps);
         xi[0] = static_cast<double>(i) / latticeSteps;
         if (!shape.isSimplex)
           xi = (2 * xi.array() - 1).matrix();
@@ -110,7 +110,7 @@ std::vector<Eigen::VectorXd> latticeOn(fem::CellType facet) {
 }
 
 /// Of the facets that are this rank's. Collective.
-double penetrationOn(const fem::Surface& surface, const ContactLayout& layout, const Shares& toNodes,
+double penetrationOn(const mesh::Surface& surface, const ContactLayout& layout, const Shares& toNodes,
                      const Vector& slack) {
   const std::vector<long long> all = completeFacets(layout, surface);
   const std::size_t perFacet = surface.nodesPerFacet();
@@ -133,7 +133,7 @@ double penetrationOn(const fem::Surface& surface, const ContactLayout& layout, c
 
 } // namespace
 
-std::vector<long long> completeFacets(const ContactLayout& layout, const fem::Surface& surface) {
+std::vector<long long> completeFacets(const ContactLayout& layout, const mesh::Surface& surface) {
   std::unordered_map<GlobalOrdinal, long long> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     rowOf.emplace(layout.firstNodes[row], static_cast<long long>(row));

@@ -2,7 +2,7 @@
 
 /// Pressure, gap and penetration of a contact, from the multipliers and slacks of its rows.
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 #include "epafi/simulation/SolvedScene.hpp"
 
 #include <vector>
@@ -30,6 +30,6 @@ ContactState contactState(const SolvedScene& solved, int contact);
 
 /// The facets of the first surface whose nodes all have rows, as places of rows, nodesPerFacet() each. Not
 /// collective.
-std::vector<long long> completeFacets(const contact::ContactLayout& layout, const fem::Surface& surface);
+std::vector<long long> completeFacets(const contact::ContactLayout& layout, const mesh::Surface& surface);
 
 } // namespace epafi::simulation

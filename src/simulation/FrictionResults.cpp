@@ -64,7 +64,7 @@ std::vector<double> valuesOf(const Vector& vector, const std::vector<GlobalOrdin
 FrictionResult frictionResult(const SolvedScene& solved, const ContactLayout& contact,
                               const std::vector<double>& areas) {
   const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
-  const fem::Mesh& mesh = *solved.decomposition.bodies[contact.firstBody].mesh;
+  const mesh::Mesh& mesh = *solved.decomposition.bodies[contact.firstBody].mesh;
   const RowTangents tangents(solved, contact);
   const auto force = solved.solution.multiplier->getData(), slack = solved.solution.slack->getData(),
              active = solved.solution.active->getData();

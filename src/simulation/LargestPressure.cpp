@@ -3,8 +3,8 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/contact/UnitedSurface.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fem/ElementMap.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
+#include "epafi/mesh/ElementMap.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
 #include "epafi/simulation/ContactState.hpp"
 
 #include <Eigen/Core>
@@ -74,8 +74,8 @@ private:
   [[nodiscard]] MatrixXd moments(const Patch& patch) const;
 
   const ContactLayout& layout_;
-  const fem::Mesh& mesh_;
-  fem::Surface surface_;
+  const mesh::Mesh& mesh_;
+  mesh::Surface surface_;
   int dimension_;
   std::vector<std::vector<std::size_t>> facets_; ///< places of rows; none where a node has no row
   VectorXd areas_, means_;                       ///< ∫N̂_k, p_k
@@ -88,7 +88,7 @@ Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
     : layout_(layout), mesh_(*solved.decomposition.bodies[layout.firstBody].mesh),
       surface_(layout.firstSurfaces.empty() ? mesh_.surface(layout.firstSurface)
                                             : contact::unite(mesh_, layout.firstSurfaces).surface),
-      dimension_(fem::dimensionOf(surface_.facetType)) {
+      dimension_(mesh::dimensionOf(surface_.facetType)) {
   std::unordered_map<GlobalOrdinal, std::size_t> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     rowOf.emplace(layout.firstNodes[row], row);
@@ -176,14 +176,14 @@ Patch Pressures::patch(double share) const {
 MatrixXd Pressures::moments(const Patch& patch) const {
   MatrixXd sums = MatrixXd::Zero(numMonomials(), at(layout_.firstNodes.size()));
   std::vector<Point> points;
-  fem::withFacetShape(surface_.facetType, [&]<int dim>(const fem::Shape<dim>& shape) {
-    const fem::Shape<dim>& fine = fem::referenceShape<dim>(fem::withOrder(shape.type, 2));
+  mesh::withFacetShape(surface_.facetType, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    const mesh::Shape<dim>& fine = mesh::referenceShape<dim>(mesh::withOrder(shape.type, 2));
     for (std::size_t f = 0; f < facets_.size(); ++f) {
       mesh_.pointsAt(surface_.facet(f), points);
       const Eigen::Map<const Eigen::Matrix3Xd> nodes(points.front().data(), 3, shape.numNodes);
       for (const auto& rule : fine.fineSamples()) {
         const auto sample = shape.sampleAt(rule.xi, rule.weight);
-        const Eigen::Matrix<double, 3, dim> tangents = fem::derivatives(nodes, sample);
+        const Eigen::Matrix<double, 3, dim> tangents = mesh::derivatives(nodes, sample);
         const double area = sample.weight * std::sqrt((tangents.transpose() * tangents).determinant());
         const VectorXd values = area * monomials(patch.coordinates(nodes * sample.values), dimension_);
         for (std::size_t a = 0; a < facets_[f].size(); ++a)

@@ -115,7 +115,7 @@ QuantityOfScene::QuantityOfScene(const QuantityParameters& parameters, const sce
   if (terms.surface.empty() && !isVector(parameters.point))
     refuse("needs a \"Point\" of " + std::to_string(dimension) + " finite numbers");
   std::copy(parameters.point.begin(), parameters.point.end(), terms.point.begin());
-  if (scene.bodies.front().physics == scene::Physics::membrane) {
+  if (scene.bodies.front().physics == fem::Physics::membrane) {
     if (!parameters.direction.empty())
       refuse("has a \"Direction\", and membranes deflect along z alone");
   } else {

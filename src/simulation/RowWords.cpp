@@ -47,9 +47,9 @@ fetidp::ContradictionError inWordsOf(const model::Decomposition& decomposition,
   for (const GlobalOrdinal row : error.rows())
     names.push_back(nameOf(decomposition, originOf(decomposition, row)));
   const Origin first = originOf(decomposition, error.rows().front());
-  const fem::Mesh& mesh = *decomposition.bodies[first.layout.firstBody].mesh;
+  const mesh::Mesh& mesh = *decomposition.bodies[first.layout.firstBody].mesh;
   const Point point = mesh.point(first.node);
-  const std::size_t dimension = fem::dimensionOf(mesh.cellType());
+  const std::size_t dimension = mesh::dimensionOf(mesh.cellType());
   return {error.rows(), error.misfit(), std::move(names), text(std::span(point.data(), dimension))};
 }
 

@@ -182,7 +182,7 @@ MeshResult SceneLevels::resultOf(const SceneRun& run) {
   MeshResult result;
   result.order = 1;
   for (const model::BodyLayout& body : run.decomposition->bodies)
-    result.order = std::max(result.order, fem::orderOf(body.mesh->cellType()));
+    result.order = std::max(result.order, mesh::orderOf(body.mesh->cellType()));
   result.unknowns = run.decomposition->problem.primalDimension;
   result.multiplications = run.solver->report().counts.hessianMultiplications;
   result.energyNorm = run.error->energyNorm;

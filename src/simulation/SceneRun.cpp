@@ -78,7 +78,7 @@ void joinClusters(CoarserScene& coarser, int numRanks) {
   for (const model::BodyLayout& body : coarser.bodies)
     number += body.partition->numParts();
   for (scene::Body& body : coarser.scene.bodies)
-    if (!model::clustersPay(scene::dimensionOf(body.physics), number, numRanks))
+    if (!model::clustersPay(fem::dimensionOf(body.physics), number, numRanks))
       body.decomposition.cluster = 0;
 }
 
@@ -122,7 +122,7 @@ double guessedError(const SceneRun& run) {
   const auto& bodies = run.scene.bodies;
   const double nodes =
       static_cast<double>(problem.primalDimension) / problem.components / static_cast<double>(bodies.size());
-  return std::pow(nodes, -1.0 / scene::dimensionOf(bodies.front().physics));
+  return std::pow(nodes, -1.0 / fem::dimensionOf(bodies.front().physics));
 }
 
 /// Of each contact: the most by which a closed node has changed its gap. Collective.

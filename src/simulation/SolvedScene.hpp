@@ -21,7 +21,7 @@ struct SolvedScene {
   /// What the scene says of a body if it is elastic, else null.
   [[nodiscard]] const scene::Body* elasticBody(int body) const {
     const scene::Body& candidate = scene.bodies[body];
-    return candidate.physics != scene::Physics::membrane ? &candidate : nullptr;
+    return candidate.physics != fem::Physics::membrane ? &candidate : nullptr;
   }
   /// Whether a contact is that of membranes' edges.
   [[nodiscard]] bool isAlongEdges(int contact) const {

@@ -47,7 +47,7 @@ double energyDistance(const SolvedTo& a, const SolvedTo& b) {
 /// Scenes with all algorithms: MPRGP, SMALBE, CG.
 std::vector<scene::Scene> scenes(const BalanceTest& fixture) {
   scene::Scene glued = test::membrane(16, 4);
-  glued.bodies[0].loads.push_back(scene::loadInside("load", scene::rectangle(0, 2, 0, 0.5), -1));
+  glued.bodies[0].loads.push_back(fem::loadInside("load", mesh::rectangle(0, 2, 0, 0.5), -1));
   return {scene::modelProblem(true, 3, 24), scene::modelProblem(false, 3, 24),
           test::stackedBlocks(test::kinds()[1], 5, 1, fixture.directory, *fixture.comm), glued};
 }

@@ -1,6 +1,6 @@
 #include "epafi/accuracy/Doubts.hpp"
-#include "epafi/fem/MeshOrder.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,16 +11,16 @@ namespace {
 
 /// A ring sector of quadrilaterals between radii 1 and 2, or, extruded by 1, of hexahedra; its inner side is
 /// "inner".
-fem::MeshArrays sector(int parts, double step, bool isSolid) {
-  fem::MeshArrays arrays;
+mesh::MeshArrays sector(int parts, double step, bool isSolid) {
+  mesh::MeshArrays arrays;
   arrays.name = "sector";
-  arrays.cellType = isSolid ? fem::CellType::hexahedron : fem::CellType::quadrilateral;
+  arrays.cellType = isSolid ? mesh::CellType::hexahedron : mesh::CellType::quadrilateral;
   const int layers = isSolid ? 2 : 1, perLayer = 2 * (parts + 1);
   for (int z = 0; z < layers; ++z)
     for (int i = 0; i <= parts; ++i)
       for (const double radius : {1.0, 2.0})
         arrays.points.push_back({radius * std::cos(i * step), radius * std::sin(i * step), 1.0 * z});
-  fem::NamedFacets inner{"inner", {}};
+  mesh::NamedFacets inner{"inner", {}};
   for (int i = 0; i < parts; ++i) {
     const int a = 2 * i;
     for (int z = 0; z < layers; ++z)
@@ -37,7 +37,7 @@ fem::MeshArrays sector(int parts, double step, bool isSolid) {
   return arrays;
 }
 
-double sagOf(const fem::UnstructuredMesh& mesh) {
+double sagOf(const mesh::UnstructuredMesh& mesh) {
   return facetSag(mesh, mesh.surface("inner"));
 }
 
@@ -47,32 +47,32 @@ TEST(DoubtsTest, SagIsWhatChordsDeviateFromTheirArc) {
   const double sag = 1 - std::cos(angle / 2);
   for (const bool isSolid : {false, true})
     for (const int order : {1, 2}) { // quadratic elements with straight edges are no better
-      fem::MeshArrays arrays = sector(8, angle, isSolid);
+      mesh::MeshArrays arrays = sector(8, angle, isSolid);
       if (order == 2)
-        arrays = fem::completed(std::move(arrays), false);
-      EXPECT_NEAR(sagOf(fem::UnstructuredMesh(std::move(arrays))), sag, 0.01 * sag) << isSolid << order;
+        arrays = mesh::completed(std::move(arrays), false);
+      EXPECT_NEAR(sagOf(mesh::UnstructuredMesh(std::move(arrays))), sag, 0.01 * sag) << isSolid << order;
     }
 }
 
 TEST(DoubtsTest, NeitherCurvedFacetsNorEdgesOfABodyHaveSag) {
-  fem::MeshArrays arrays = fem::completed(sector(8, 0.1, false), false);
+  mesh::MeshArrays arrays = mesh::completed(sector(8, 0.1, false), false);
   for (Point& point : arrays.points) // onto the circles
     if (const double radius = std::hypot(point[0], point[1]), whole = std::round(radius);
         std::abs(radius - whole) < 0.01)
       for (double& coordinate : point)
         coordinate *= whole / radius;
-  EXPECT_EQ(sagOf(fem::UnstructuredMesh(std::move(arrays))), 0);
-  EXPECT_EQ(sagOf(fem::UnstructuredMesh(sector(3, 0.8, false))), 0);
+  EXPECT_EQ(sagOf(mesh::UnstructuredMesh(std::move(arrays))), 0);
+  EXPECT_EQ(sagOf(mesh::UnstructuredMesh(sector(3, 0.8, false))), 0);
 }
 
 TEST(DoubtsTest, BodiesLockWherePoissonsRatioIsNearOneHalfInAnyRegion) {
   scene::Body body;
-  body.physics = scene::Physics::planeStrain;
+  body.physics = fem::Physics::planeStrain;
   body.material.poissonsRatio = 0.3;
   EXPECT_FALSE(locks(body));
   body.regions.emplace_back().material.poissonsRatio = 0.4999;
   EXPECT_TRUE(locks(body));
-  body.physics = scene::Physics::planeStress;
+  body.physics = fem::Physics::planeStress;
   EXPECT_FALSE(locks(body));
 }
 

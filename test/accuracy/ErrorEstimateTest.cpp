@@ -32,7 +32,7 @@ TEST_F(ErrorEstimateTest, AStateOfConstantStressHasNoError) {
 TEST_F(ErrorEstimateTest, AFluxThatJumpsWithTheMaterialHasNoError) {
   // κ = 1 left of x = 1 and 100 right of it; the flux along x is the same, that along y jumps.
   scene::Scene scene = test::membrane(6, 3);
-  scene.bodies[0].regions.push_back({"right", scene::rectangle(1, 2, 0, 1), "", {100}});
+  scene.bodies[0].regions.push_back({"right", mesh::rectangle(1, 2, 0, 1), "", {100}});
   const Field field = [](const Point& x) {
     return std::array<double, 3>{(x[0] < 1 ? x[0] : 1 + (x[0] - 1) / 100) + x[1], 0, 0};
   };
@@ -73,7 +73,7 @@ TEST_F(ErrorEstimateTest, IsTheSameForEveryCutAndNumberOfRanks) {
   for (const test::Kind& kind : test::kinds()) {
     const auto estimate = [&](int parts, const RCP<const Comm>& ranks) {
       scene::Scene scene = test::stackedBlocks(kind, parts, 1, directory, *comm);
-      scene::SolidRegion core{"core", {{-1, -1, -1}, {0.5, 0.5, 0.5}}, "", scene.bodies[0].material};
+      fem::SolidRegion core{"core", {{-1, -1, -1}, {0.5, 0.5, 0.5}}, "", scene.bodies[0].material};
       core.material.youngsModulus *= 10;
       scene.bodies[0].regions.push_back(core);
       const auto decomposition = model::decompose(scene, ranks);

@@ -45,7 +45,7 @@ TEST_F(ErrorNormsTest, OfALinearDisplacementAreExactOnAllElements) {
     const scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
     const auto decomposition = model::decompose(scene, comm);
     const auto u = displacement(decomposition, field);
-    const bool isPlane = fem::dimensionOf(kind.cell) == 2;
+    const bool isPlane = mesh::dimensionOf(kind.cell) == 2;
     Eigen::Matrix3d inPlane = gradient;
     if (isPlane) {
       inPlane.row(2).setZero();

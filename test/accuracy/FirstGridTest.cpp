@@ -5,7 +5,7 @@
 
 #include "RefinementSamples.hpp"
 
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <algorithm>
 
@@ -23,14 +23,14 @@ using FirstGridTest = test::RefinementTest;
 scene::Scene loadedMembrane() {
   scene::Scene scene = test::membrane(4, 2);
   scene::Body& body = scene.bodies[0];
-  body.loads.push_back(scene::loadInside("load", scene::rectangle(0.3, 1.1, -1, 0.7), -1));
-  body.loads.push_back({"point", scene::SolidLoad::Kind::point, {}, "", {1.9, 0.45, 0}, {1, 0, 0}});
-  body.regions.push_back({"stiff", scene::rectangle(1.25, 2, 0, 1), "", {100}});
+  body.loads.push_back(fem::loadInside("load", mesh::rectangle(0.3, 1.1, -1, 0.7), -1));
+  body.loads.push_back({"point", fem::SolidLoad::Kind::point, {}, "", {1.9, 0.45, 0}, {1, 0, 0}});
+  body.regions.push_back({"stiff", mesh::rectangle(1.25, 2, 0, 1), "", {100}});
   return scene;
 }
 
 /// A narrow block on a wide one, of elements as different as may be.
-scene::Scene blocks(scene::Physics physics) {
+scene::Scene blocks(fem::Physics physics) {
   const bool isPlane = dimensionOf(physics) == 2;
   scene::Scene scene;
   scene.bodies.resize(2);
@@ -38,9 +38,9 @@ scene::Scene blocks(scene::Physics physics) {
   lower.name = "lower";
   upper.name = "upper";
   lower.physics = upper.physics = physics;
-  lower.mesh.box = isPlane ? scene::Box{{0, 0, 0}, {3, 1, 0}} : scene::Box{{0, 0, 0}, {3, 2, 1}};
+  lower.mesh.box = isPlane ? mesh::Box{{0, 0, 0}, {3, 1, 0}} : mesh::Box{{0, 0, 0}, {3, 2, 1}};
   upper.mesh.box =
-      isPlane ? scene::Box{{0.7, 1, 0}, {2.2, 1.4, 0}} : scene::Box{{0.7, -0.5, 1}, {2.2, 1.1, 1.4}};
+      isPlane ? mesh::Box{{0.7, 1, 0}, {2.2, 1.4, 0}} : mesh::Box{{0.7, -0.5, 1}, {2.2, 1.1, 1.4}};
   lower.mesh.elements = isPlane ? std::array{2, 1, 0} : std::array{2, 2, 1};
   upper.mesh.elements = isPlane ? std::array{7, 3, 0} : std::array{5, 3, 2};
   scene::SurfaceContact joint;
@@ -54,9 +54,9 @@ scene::Scene blocks(scene::Physics physics) {
 }
 
 /// Whether no element has corners on both sides.
-bool isLine(const fem::Mesh& mesh, std::size_t axis, double place) {
+bool isLine(const mesh::Mesh& mesh, std::size_t axis, double place) {
   for (const std::vector<Point>& element : elementsOf(mesh)) {
-    const auto [lower, upper] = fem::boxOf(element);
+    const auto [lower, upper] = mesh::boxOf(element);
     if (lower[axis] < place - roundOff && upper[axis] > place + roundOff)
       return false;
   }
@@ -67,7 +67,7 @@ TEST_F(FirstGridTest, FirstMeshesHaveLinesWhereTheSceneNeedsThemAlsoOnceRefined)
   RefinableMeshes meshes(loadedMembrane(), *comm);
   for (int round = 0; round < 3; ++round) {
     const auto bodies = bodiesOf(meshes);
-    const fem::Mesh& mesh = *bodies[0].mesh;
+    const mesh::Mesh& mesh = *bodies[0].mesh;
     for (const double place : {0.3, 1.1, 1.25, 1.9})
       EXPECT_TRUE(isLine(mesh, 0, place)) << "x = " << place;
     for (const double place : {0.45, 0.7})
@@ -86,25 +86,25 @@ TEST_F(FirstGridTest, ElementsOfTheFirstMeshAreNoLongerThanHalfTheBodyOrThoseOfT
   for (const int elements : {1, 8}) {
     scene::Scene scene = loadedMembrane();
     scene.bodies[0].mesh.elements = {elements, 1, 0};
-    const fem::UnstructuredMesh mesh(arraysOf(firstGrid(scene, 0), 1));
+    const mesh::UnstructuredMesh mesh(arraysOf(firstGrid(scene, 0), 1));
     for (const std::vector<Point>& element : elementsOf(mesh)) {
-      const auto [lower, upper] = fem::boxOf(element);
+      const auto [lower, upper] = mesh::boxOf(element);
       EXPECT_LE(upper[0] - lower[0], std::max(0.5, 2.0 / elements) + roundOff);
       EXPECT_LE(upper[1] - lower[1], 1 + roundOff);
     }
   }
-  const fem::SimplexMesh plain =
+  const mesh::SimplexMesh plain =
       firstGrid(test::membrane(9, 2), 0); // 4 × 2 squares, whatever the scene's own
   EXPECT_EQ(plain.elements.size(), 16U);
 }
 
 /// All facets of the one that lie within the other, by their centres.
-std::vector<Point> centresWithin(const fem::Mesh& mesh, const std::string& surface, const scene::Box& box) {
+std::vector<Point> centresWithin(const mesh::Mesh& mesh, const std::string& surface, const mesh::Box& box) {
   std::vector<Point> centres, points;
-  const fem::Surface facets = mesh.surface(surface);
+  const mesh::Surface facets = mesh.surface(surface);
   for (std::size_t f = 0; f < facets.numFacets(); ++f) {
     mesh.pointsAt(facets.facet(f), points);
-    const Point centre = fem::centreOf(points);
+    const Point centre = mesh::centreOf(points);
     bool isWithin = true;
     for (std::size_t d = 0; d < 3; ++d)
       isWithin = isWithin && centre[d] >= box.lower[d] - roundOff && centre[d] <= box.upper[d] + roundOff;
@@ -115,10 +115,10 @@ std::vector<Point> centresWithin(const fem::Mesh& mesh, const std::string& surfa
 }
 
 TEST_F(FirstGridTest, SurfacesThatTouchMatchAtFirst) {
-  for (const scene::Physics physics : {scene::Physics::planeStrain, scene::Physics::elasticity3d}) {
+  for (const fem::Physics physics : {fem::Physics::planeStrain, fem::Physics::elasticity3d}) {
     scene::Scene scene = blocks(physics);
     scene.bodies[1].loads.push_back(
-        {"load", scene::SolidLoad::Kind::body, {{1, -9, -9}, {1.3, 9, 9}}, "", {0, 0, 0}, {1, 0, 0}});
+        {"load", fem::SolidLoad::Kind::body, {{1, -9, -9}, {1.3, 9, 9}}, "", {0, 0, 0}, {1, 0, 0}});
     const RefinableMeshes meshes(scene, *comm);
     const auto bodies = bodiesOf(meshes);
     for (const double place : {0.7, 1.0, 1.3, 2.2})

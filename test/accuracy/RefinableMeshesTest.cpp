@@ -102,19 +102,19 @@ TEST_F(RefinableMeshesTest, PartsMakeUpTheirAncestorsAndSurfacesStay) {
       }
       for (std::size_t e = 0; e < before[b].size(); ++e) {
         EXPECT_NEAR(sums[e], before[b][e], roundOff);
-        EXPECT_GE(numbers[e], std::exp2(fem::dimensionOf(kind.cell) * wanted[b][e]));
+        EXPECT_GE(numbers[e], std::exp2(mesh::dimensionOf(kind.cell) * wanted[b][e]));
       }
     }
     const auto bodies = bodiesOf(meshes);
     for (const std::size_t b : {0U, 1U}) {
       EXPECT_EQ(static_cast<std::size_t>(bodies[b].mesh->numElements()), after[b].size());
       for (const std::string name : {"left", "bottom", "top"}) {
-        const fem::Surface surface = bodies[b].mesh->surface(name);
+        const mesh::Surface surface = bodies[b].mesh->surface(name);
         double area = 0;
         std::vector<Point> points;
         for (std::size_t f = 0; f < surface.numFacets(); ++f) {
           bodies[b].mesh->pointsAt(surface.facet(f), points);
-          area += fem::areaVector(surface.facetType, points).norm();
+          area += mesh::areaVector(surface.facetType, points).norm();
         }
         EXPECT_NEAR(area, 1, roundOff) << name;
       }
@@ -165,7 +165,7 @@ TEST_F(RefinableMeshesTest, BodiesAreCutIntoMorePartsAsTheirMeshesGrow) {
   EXPECT_EQ(finer.bodies[0].mesh.order, 2);
   const auto bodies = bodiesOf(meshes, 2);
   EXPECT_GT(bodies[0].partition->numParts(), bodiesOf(meshes, 1)[0].partition->numParts());
-  EXPECT_EQ(bodies[0].mesh->cellType(), fem::CellType::triangle6);
+  EXPECT_EQ(bodies[0].mesh->cellType(), mesh::CellType::triangle6);
 }
 
 const std::string disk = R"(
@@ -185,8 +185,8 @@ TEST_F(RefinableMeshesTest, AGeometryIsMeshedAnewWithNodesOnIt) {
   double missing = 1; // of the disk
   for (int round = 0; round < 3; ++round) {
     const auto curved = bodiesOf(meshes, 2), straight = bodiesOf(meshes, 1);
-    const fem::Surface rim = curved[0].mesh->surface("rim");
-    EXPECT_EQ(rim.facetType, fem::CellType::line3);
+    const mesh::Surface rim = curved[0].mesh->surface("rim");
+    EXPECT_EQ(rim.facetType, mesh::CellType::line3);
     for (const GlobalOrdinal node : rim.facetNodes)
       EXPECT_NEAR(distance(curved[0].mesh->point(node), {0, 0, 0}), 1, 1e-9);
     const Values measures = meshes.measures()[0];
@@ -213,8 +213,8 @@ TEST_F(RefinableMeshesTest, ANewElementLiesInTheOneThatIsItsAncestor) {
   std::set<LocalOrdinal> parents;
   for (std::size_t e = 0; e < young.size(); ++e) {
     const std::vector<Point>& ancestor = old.at(ancestors[0][e]);
-    const Point centre = fem::centreOf(young[e]);
-    EXPECT_LT(distance(centre, fem::centreOf(ancestor)), fem::diameterOf(ancestor));
+    const Point centre = mesh::centreOf(young[e]);
+    EXPECT_LT(distance(centre, mesh::centreOf(ancestor)), mesh::diameterOf(ancestor));
     parents.insert(ancestors[0][e]);
   }
   EXPECT_GT(static_cast<double>(parents.size()), 0.9 * static_cast<double>(old.size()));
@@ -226,8 +226,8 @@ TEST_F(RefinableMeshesTest, AGeometryGetsFinerWhereThatIsWantedAndCoarserElsewhe
   const auto areaOn = [&](double side) { // mean area of the elements there
     double sum = 0, number = 0;
     for (const std::vector<Point>& element : elementsOf(*bodiesOf(meshes)[0].mesh))
-      if (side * fem::centreOf(element)[0] > 0.5) {
-        sum += fem::measureOf(fem::CellType::triangle, element);
+      if (side * mesh::centreOf(element)[0] > 0.5) {
+        sum += mesh::measureOf(mesh::CellType::triangle, element);
         ++number;
       }
     return sum / number;

@@ -5,7 +5,7 @@
 #include "Samples.hpp"
 
 #include "epafi/accuracy/RefinableMeshes.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <cmath>
 #include <functional>
@@ -21,17 +21,17 @@ inline double sumOf(const Values& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-inline std::vector<std::vector<Point>> elementsOf(const fem::Mesh& mesh) {
+inline std::vector<std::vector<Point>> elementsOf(const mesh::Mesh& mesh) {
   std::vector<std::vector<Point>> elements(mesh.numElements());
   for (std::size_t e = 0; e < elements.size(); ++e)
     mesh.elementPoints(static_cast<GlobalOrdinal>(e), elements[e]);
   return elements;
 }
 
-inline double measureOf(const fem::Mesh& mesh) {
+inline double measureOf(const mesh::Mesh& mesh) {
   double sum = 0;
   for (const std::vector<Point>& element : elementsOf(mesh))
-    sum += fem::measureOf(mesh.cellType(), element);
+    sum += mesh::measureOf(mesh.cellType(), element);
   return sum;
 }
 
@@ -52,7 +52,7 @@ struct RefinementTest : AccuracyTest {
     std::vector<Values> result;
     for (const model::BodyLayout& body : bodiesOf(meshes))
       for (Values& own = result.emplace_back(); const std::vector<Point>& element : elementsOf(*body.mesh))
-        own.push_back(wanted(fem::centreOf(element)));
+        own.push_back(wanted(mesh::centreOf(element)));
     return result;
   }
 };

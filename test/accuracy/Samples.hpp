@@ -38,7 +38,7 @@ struct AccuracyTest : testing::Test {
 inline scene::Scene membrane(int elements, int counts) {
   scene::Body body;
   body.name = "membrane";
-  body.mesh.box = scene::rectangle(0, 2, 0, 1);
+  body.mesh.box = mesh::rectangle(0, 2, 0, 1);
   body.mesh.elements = {2 * elements, elements, 0};
   body.supports.push_back({"left", "left", {0}});
   body.decomposition.counts = {counts, counts, 1};

@@ -49,8 +49,8 @@ TEST_F(StartTest, TheMultipliersOfASolutionAreItsOwn) {
   for (const test::Kind& kind : test::kinds()) { // turned axes, averages along edges, floating bodies
     scene::Scene scene = test::stackedBlocks(kind, 6, 1, directory, *comm);
     scene.bodies[1].loads.push_back(
-        {"corner", scene::SolidLoad::Kind::point, {}, "", {1, 1, 2}, {0.01, -0.02, 0.03}});
-    if (fem::dimensionOf(kind.cell) == 2)
+        {"corner", fem::SolidLoad::Kind::point, {}, "", {1, 1, 2}, {0.01, -0.02, 0.03}});
+    if (mesh::dimensionOf(kind.cell) == 2)
       scene.bodies[1].loads.back().point = {1, 2, 0};
     const SolvedScene solved(scene, comm);
     const RCP<const Vector> lambda =

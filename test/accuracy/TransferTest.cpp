@@ -20,8 +20,8 @@ namespace {
 using test::Field;
 using TransferTest = test::AccuracyTest;
 
-Point pointAt(const fem::Mesh& mesh, const Location& location) {
-  std::array<GlobalOrdinal, fem::mostNodes> nodes{};
+Point pointAt(const mesh::Mesh& mesh, const Location& location) {
+  std::array<GlobalOrdinal, mesh::mostNodes> nodes{};
   const std::size_t number = mesh.nodesPerElement();
   mesh.elementNodes(location.element, std::span(nodes).first(number));
   Point point{};
@@ -36,20 +36,20 @@ TEST_F(TransferTest, EveryPointOfABodyIsFoundWhereItIs) {
   std::uniform_real_distribution<double> inside(0, 1);
   for (const test::Kind& kind : test::kinds()) {
     const auto decomposition = model::decompose(test::stackedBlocks(kind, 1, 1, directory, *comm), comm);
-    const fem::Mesh& mesh = *decomposition.bodies[0].mesh;
+    const mesh::Mesh& mesh = *decomposition.bodies[0].mesh;
     PointLocation location(mesh);
     for (int k = 0; k < 200; ++k) {
       Point point{inside(random), inside(random), inside(random)};
-      if (fem::dimensionOf(kind.cell) == 2)
+      if (mesh::dimensionOf(kind.cell) == 2)
         point[2] = 0;
       if (k == 0)
         point = mesh.point(0);
       const Point found = pointAt(mesh, location.find(point));
       for (std::size_t d = 0; d < 3; ++d)
-        EXPECT_NEAR(found[d], point[d], 1e-12) << fem::toString(kind.cell);
+        EXPECT_NEAR(found[d], point[d], 1e-12) << mesh::toString(kind.cell);
     }
     const Point outside =
-        pointAt(mesh, location.find({1.05, 0.5, kind.physics == scene::Physics::elasticity3d ? 0.5 : 0}));
+        pointAt(mesh, location.find({1.05, 0.5, kind.physics == fem::Physics::elasticity3d ? 0.5 : 0}));
     EXPECT_NEAR(outside[0], 1, 0.2); // near, and in the body
     EXPECT_LE(outside[0], 1 + 1e-12);
   }
@@ -59,19 +59,19 @@ TEST_F(TransferTest, EveryPointOfABodyIsFoundWhereItIs) {
 TEST_F(TransferTest, PointsAreFoundAmongElementsOfAllSizes) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> inside(0, 1);
-  for (fem::SimplexMesh& simplices :
-       std::vector{fem::test::unevenGrid({2, 2, 0}), fem::test::unevenGrid({1, 1, 1})}) {
+  for (mesh::SimplexMesh& simplices :
+       std::vector{epafi::test::unevenGrid({2, 2, 0}), epafi::test::unevenGrid({1, 1, 1})}) {
     const int steps = simplices.dimension == 2 ? 20 : 7;
     for (int step = 0; step < steps; ++step) {
       std::vector<int> times;
-      for (const fem::SimplexMesh::Element& element : simplices.elements)
+      for (const mesh::SimplexMesh::Element& element : simplices.elements)
         times.push_back(std::find(element.corners.begin(), element.corners.begin() + simplices.dimension + 1,
                                   0) == element.corners.begin() + simplices.dimension + 1
                             ? 0
                             : simplices.dimension);
       bisect(simplices, times);
     }
-    const fem::UnstructuredMesh mesh(arraysOf(simplices, 1));
+    const mesh::UnstructuredMesh mesh(arraysOf(simplices, 1));
     const PointLocation location(mesh);
     for (int k = 0; k < 200; ++k) {
       const double scale = std::exp2(-k % (steps + 1));
@@ -91,8 +91,8 @@ TEST_F(TransferTest, PointsOfCurvedElementsAreFoundAndNearOnesOfThoseBeyond) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> inside(0, 1);
   for (const std::array<int, 3>& elements : {std::array{2, 4, 0}, std::array{1, 4, 1}}) {
-    const fem::UnstructuredMesh mesh(
-        arraysOf(simplicesOf(fem::UnstructuredMesh(fem::test::quarterRing(elements))), 2));
+    const mesh::UnstructuredMesh mesh(
+        arraysOf(simplicesOf(mesh::UnstructuredMesh(epafi::test::quarterRing(elements))), 2));
     const PointLocation location(mesh);
     for (int k = 0; k < 200; ++k) {
       const double angle = 0.5 * std::numbers::pi * inside(random);

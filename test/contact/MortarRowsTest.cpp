@@ -9,9 +9,9 @@
 #include "support/SampleCells.hpp"
 #include "support/TurnedMesh.hpp"
 
-#include "epafi/fem/MeshOrder.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -25,6 +25,8 @@
 namespace epafi::contact {
 namespace {
 
+using namespace test;
+
 using Eigen::Vector3d;
 
 const HeldNodes nothingIsHeld = [](GlobalOrdinal, const Vector3d&) { return false; };
@@ -35,12 +37,12 @@ Vector3d vectorOf(const Point& x) {
 
 /// Two bodies whose surfaces "top" and "bottom" meet.
 struct Joint {
-  std::unique_ptr<const fem::Mesh> lower, upper;
-  fem::Surface top, bottom;
+  std::unique_ptr<const mesh::Mesh> lower, upper;
+  mesh::Surface top, bottom;
   int dimension;
   NodePoints lowerPoints, upperPoints;
 
-  Joint(std::unique_ptr<const fem::Mesh> below, std::unique_ptr<const fem::Mesh> above)
+  Joint(std::unique_ptr<const mesh::Mesh> below, std::unique_ptr<const mesh::Mesh> above)
       : lower(std::move(below)), upper(std::move(above)), top(lower->surface("top")),
         bottom(upper->surface("bottom")), dimension(dimensionOf(lower->cellType())),
         lowerPoints([mesh = lower.get()](GlobalOrdinal node) { return mesh->point(node); }),
@@ -65,14 +67,14 @@ Point asItIs(const Point& x) {
 }
 
 /// A block on one side of the joint, of bricks or simplices of an order, formed.
-std::unique_ptr<const fem::Mesh> block(const scene::Box& box, const std::array<int, 3>& elements,
-                                       bool isSimplex, int order, const Form& form) {
-  fem::MeshArrays arrays = fem::test::arraysOf(fem::StructuredMesh(box, elements), {}, isSimplex);
+std::unique_ptr<const mesh::Mesh> block(const mesh::Box& box, const std::array<int, 3>& elements,
+                                        bool isSimplex, int order, const Form& form) {
+  mesh::MeshArrays arrays = epafi::test::arraysOf(mesh::StructuredMesh(box, elements), {}, isSimplex);
   if (order == 2)
-    arrays = fem::completed(std::move(arrays), false);
+    arrays = mesh::completed(std::move(arrays), false);
   for (Point& point : arrays.points)
     point = form(point);
-  return std::make_unique<const fem::UnstructuredMesh>(std::move(arrays));
+  return std::make_unique<const mesh::UnstructuredMesh>(std::move(arrays));
 }
 
 struct Sides {
@@ -88,8 +90,8 @@ constexpr Sides allSides[] = {
 /// Blocks from `from` to 1 + `from` above, 0 to 1 below.
 Joint jointOf(const Sides& sides, double from, const Form& form) {
   const auto box = [&](double start, double low, double high) {
-    return sides.isPlane ? scene::Box{{start, low, 0}, {start + 1, high, 0}}
-                         : scene::Box{{start, start / 2, low}, {start + 1, start / 2 + 1, high}};
+    return sides.isPlane ? mesh::Box{{start, low, 0}, {start + 1, high, 0}}
+                         : mesh::Box{{start, start / 2, low}, {start + 1, start / 2 + 1, high}};
   };
   const auto elements = [&](int n) { return sides.isPlane ? std::array{n, 2, 0} : std::array{n, n - 1, 2}; };
   return {block(box(0, -0.5, 0), elements(4), sides.isFirstSimplex, sides.firstOrder, form),
@@ -102,7 +104,7 @@ struct Resultant {
   Vector3d place{0, 0, 0};
 };
 
-Resultant resultantOf(const std::vector<NodeShare>& shares, const fem::Mesh& mesh) {
+Resultant resultantOf(const std::vector<NodeShare>& shares, const mesh::Mesh& mesh) {
   Resultant result;
   for (const NodeShare& share : shares) {
     result.force += share.weight;
@@ -277,8 +279,8 @@ TEST(MortarRowsTest, SaysWhySurfacesDoNotMeet) {
     return test::refusal([&] { meetByMortar(terms, joint.first(), joint.second()); });
   };
   const auto moved = [&](double up) {
-    return Joint(block(scene::rectangle(0, 1, -1, 0), {4, 2, 0}, false, 1, asItIs),
-                 block(scene::rectangle(0, 1, up, up + 1), {3, 2, 0}, false, 1, asItIs));
+    return Joint(block(mesh::rectangle(0, 1, -1, 0), {4, 2, 0}, false, 1, asItIs),
+                 block(mesh::rectangle(0, 1, up, up + 1), {3, 2, 0}, false, 1, asItIs));
   };
   EXPECT_NE(complaint(jointOf(sides, 2, asItIs), jointOf(sides, 2, asItIs).terms()).find("do not overlap"),
             std::string::npos);

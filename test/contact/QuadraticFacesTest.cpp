@@ -3,10 +3,10 @@
 #include "support/TurnedMesh.hpp"
 
 #include "epafi/contact/SurfaceNodes.hpp"
-#include "epafi/fem/MeshOrder.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,14 @@ namespace epafi {
 namespace {
 
 struct Side {
-  fem::UnstructuredMesh mesh;
-  fem::Surface surface;
+  mesh::UnstructuredMesh mesh;
+  mesh::Surface surface;
   contact::SurfaceNodes nodes;
   contact::ContactLayout layout; ///< a row for each node
 
   explicit Side(bool simplices)
-      : mesh(completed(arraysOf(fem::StructuredMesh({{0, 0, 0}, {2, 3, 1}}, {2, 3, 1}),
-                                fem::test::placed(3, 0.3, {1, 0, 0}), simplices),
+      : mesh(completed(arraysOf(mesh::StructuredMesh({{0, 0, 0}, {2, 3, 1}}, {2, 3, 1}),
+                                epafi::test::placed(3, 0.3, {1, 0, 0}), simplices),
                        false)),
         surface(mesh.surface("top")),
         nodes(contact::surfaceNodes([&](GlobalOrdinal node) { return mesh.point(node); }, surface, 2)) {
@@ -118,8 +118,8 @@ TEST(QuadraticFacesTest, ComponentsOfATieAreSmoothedEachForItself) {
 
 /// On an even mesh, of p = |x|² in the surface, whose forces divided by areas alternate by h²/10.
 TEST(QuadraticFacesTest, MeansOfAQuadraticPressureAreOffByTheSameEverywhere) {
-  const fem::StructuredMesh mesh({{0, 0, 0}, {4, 4, 1}}, {4, 4, 1}, 2);
-  const fem::Surface surface = mesh.surface("top");
+  const mesh::StructuredMesh mesh({{0, 0, 0}, {4, 4, 1}}, {4, 4, 1}, 2);
+  const mesh::Surface surface = mesh.surface("top");
   const contact::SurfaceNodes nodes =
       contact::surfaceNodes([&](GlobalOrdinal node) { return mesh.point(node); }, surface, 2);
   contact::ContactLayout layout;
@@ -127,7 +127,7 @@ TEST(QuadraticFacesTest, MeansOfAQuadraticPressureAreOffByTheSameEverywhere) {
   layout.areas = nodes.areas;
   contact::adaptRows(surface, layout);
   std::vector<double> forces(nodes.nodes.size(), 0.0);
-  const auto& shape = fem::referenceShape<2>(fem::CellType::quadrilateral9);
+  const auto& shape = mesh::referenceShape<2>(mesh::CellType::quadrilateral9);
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto facet = surface.facet(f);
     for (const auto& sample : shape.fineSamples()) {

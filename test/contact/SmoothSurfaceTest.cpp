@@ -1,6 +1,6 @@
 #include "epafi/contact/SmoothSurface.hpp"
 
-#include "epafi/fem/Cell.hpp"
+#include "epafi/mesh/Cell.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,10 +22,10 @@ using Eigen::Vector3d;
 
 /// A surface with facets, and its nodes.
 struct Facets {
-  fem::Surface surface;
+  mesh::Surface surface;
   std::vector<Vector3d> points;
 
-  explicit Facets(fem::CellType type) { surface.facetType = type; }
+  explicit Facets(mesh::CellType type) { surface.facetType = type; }
   void add(std::initializer_list<std::size_t> nodes) {
     for (const std::size_t node : nodes)
       surface.facetNodes.push_back(node);
@@ -53,7 +53,7 @@ private:
 /// `number` edges around a circle of radius 1, each turned by up to `unevenness` of their angle; all but
 /// `open` of them.
 Facets polygon(int number, double unevenness, unsigned seed, int open = 0) {
-  Facets facets(fem::CellType::line);
+  Facets facets(mesh::CellType::line);
   Random random(seed);
   for (int i = 0; i < number; ++i) {
     const double angle = 2 * std::numbers::pi / number * (i + random(unevenness));
@@ -67,7 +67,7 @@ Facets polygon(int number, double unevenness, unsigned seed, int open = 0) {
 /// A cylinder about z with `number` nodes around and triangles about as high as long; nodes are off their
 /// even places.
 Facets cylinder(int number, double unevenness, unsigned seed) {
-  Facets facets(fem::CellType::triangle);
+  Facets facets(mesh::CellType::triangle);
   Random random(seed);
   const std::size_t n = number;
   constexpr std::size_t numRings = 5;
@@ -98,7 +98,7 @@ Facets cylinder(int number, double unevenness, unsigned seed) {
 /// places.
 Facets sphere(int level, double unevenness, unsigned seed) {
   const double g = std::numbers::phi;
-  Facets facets(fem::CellType::triangle);
+  Facets facets(mesh::CellType::triangle);
   for (const auto& [x, y, z] : std::vector<std::array<double, 3>>{{-1, g, 0},
                                                                   {1, g, 0},
                                                                   {-1, -g, 0},

@@ -21,7 +21,7 @@ scene::Scene solid(int dimension, const scene::Decomposition& cut, bool isHeld) 
   scene::Scene scene;
   scene::Body body;
   body.name = "block";
-  body.physics = dimension == 3 ? scene::Physics::elasticity3d : scene::Physics::planeStrain;
+  body.physics = dimension == 3 ? fem::Physics::elasticity3d : fem::Physics::planeStrain;
   body.mesh.box = {{3, 5, 7}, {5, 6, 8}};
   body.mesh.elements = dimension == 3 ? std::array{6, 6, 6} : std::array{12, 6, 0};
   body.decomposition = cut;
@@ -169,7 +169,7 @@ TEST(ClustersTest, RowsBetweenThemAreOfOneLengthHoweverTheStiffnessJumps) {
   for (const auto& [cut, isEach] :
        {std::pair(clustered(grid(3, 3), 1), true), {clustered(grid(3, 2), 2), false}}) {
     scene::Scene scene = oneBody(12, 12, cut, {{"wall", "left", {0.0}}});
-    scene.bodies[0].regions = {{"stiff", scene::rectangle(0.2, 0.6, 0.1, 0.9), "", {1e5}}};
+    scene.bodies[0].regions = {{"stiff", mesh::rectangle(0.2, 0.6, 0.1, 0.9), "", {1e5}}};
     const Decomposition cutScene = decompose(scene, world());
     const std::map<GlobalOrdinal, double> lengths = lengthsOfRows(cutScene.problem);
     ASSERT_GT(lengths.size(), 20U);

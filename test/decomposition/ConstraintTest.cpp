@@ -59,7 +59,7 @@ TEST(ConstraintTest, NoRowIsRedundant) {
 /// Energy minimum of a floating or held scene whose gluing is enforced by eliminating rows from the merged
 /// problem.
 TEST(ConstraintTest, GluedSubdomainsAreTheUndividedBody) {
-  const std::vector<scene::SolidSupport> supports = {{"left", "left", {1.0}}};
+  const std::vector<fem::SolidSupport> supports = {{"left", "left", {1.0}}};
   const auto whole = decompose(oneBody(6, 5, grid(1, 1), supports), world());
   const auto energyOf = [](const Decomposition& cut) {
     const DecomposedProblem& p = cut.problem;

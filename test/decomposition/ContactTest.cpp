@@ -109,7 +109,7 @@ TEST(ContactTest, TwoPairsOfABodyMayShareACorner) {
   scene::Scene scene = twoMembranes(true, 3, grid(2, 2));
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[2].name = "above";
-  scene.bodies[2].mesh.box = scene::rectangle(0, 1, 1, 2);
+  scene.bodies[2].mesh.box = mesh::rectangle(0, 1, 1, 2);
   scene.bodies[2].supports = {{"roof", "top", {0.0}}};
   scene.contacts.push_back({"ceiling", 0, "top", 2, "bottom", {}, 0.5});
   const auto result = decompose(scene, world());
@@ -153,13 +153,13 @@ TEST(ContactTest, BodiesOfOrderOneAndTwoMeetAtTheNodesOfOrderTwo) {
 
 TEST(ContactTest, EdgesThatDoNotCoincideAreRefusedWithBothPlaces) {
   scene::Scene scene = twoMembranes(true, 4, grid(2, 2));
-  scene.bodies[1].mesh.box = scene::rectangle(1, 2, 0, 1.5);
+  scene.bodies[1].mesh.box = mesh::rectangle(1, 2, 0, 1.5);
   EXPECT_TRUE(mentions(refusal(scene), {"interface", "coincide", "from 0 to 1,", "from 0 to 1.5"}))
       << refusal(scene);
   scene = twoMembranes(true, 4, grid(2, 2));
-  scene.bodies[1].mesh.box = scene::rectangle(1 + 1e-6, 2, 0, 1);
+  scene.bodies[1].mesh.box = mesh::rectangle(1 + 1e-6, 2, 0, 1);
   EXPECT_TRUE(mentions(refusal(scene), {"interface", "coincide", "x = 1,", "x = 1.000001,"}));
-  scene.bodies[1].mesh.box = scene::rectangle(1 + 1e-13, 2, 0, 1);
+  scene.bodies[1].mesh.box = mesh::rectangle(1 + 1e-13, 2, 0, 1);
   EXPECT_EQ(refusal(scene), "");
 }
 

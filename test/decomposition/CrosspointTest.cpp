@@ -72,10 +72,10 @@ TEST(CrosspointTest, UnknownsAreSplitWithoutLossOrOverlap) {
 }
 
 TEST(CrosspointTest, AGridHasItsInnerAndEdgeCornersOnlyWhateverIsSupported) {
-  const scene::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}},
+  const fem::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}},
       top{"top", "top", {0.0}}, bottom{"bottom", "bottom", {0.0}};
-  for (const std::vector<scene::SolidSupport>& supports :
-       {std::vector<scene::SolidSupport>{}, {left}, {left, right}, {bottom}, {left, right, top, bottom}})
+  for (const std::vector<fem::SolidSupport>& supports :
+       {std::vector<fem::SolidSupport>{}, {left}, {left, right}, {bottom}, {left, right, top, bottom}})
     for (const auto& [nx, ny] : {std::pair{2, 2}, {3, 2}, {4, 4}, {1, 2}, {2, 1}}) {
       const auto result = decompose(oneBody(8, 8, grid(nx, ny), supports), world());
       EXPECT_EQ(result.problem.numCrosspoints, (nx + 1) * (ny + 1) - 4)
@@ -85,7 +85,7 @@ TEST(CrosspointTest, AGridHasItsInnerAndEdgeCornersOnlyWhateverIsSupported) {
 
 TEST(CrosspointTest, AMiddleRowBetweenSupportedEndsIsHeldByItsOwnSupports) {
   // Both ends of each interface are supported, and so are both sides of it: nothing is added.
-  const scene::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}};
+  const fem::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}};
   EXPECT_EQ(decompose(oneBody(4, 6, grid(1, 3), {left, right}), world()).problem.numCrosspoints, 4);
 }
 
@@ -103,7 +103,7 @@ TEST(CrosspointTest, AFloatingBodyInOnePieceIsHeldAtItsCentre) {
 /// Part 1 is a box of elements inside part 0.
 class InclusionPartition final : public Partition {
 public:
-  InclusionPartition(const fem::StructuredMesh& mesh, int margin)
+  InclusionPartition(const mesh::StructuredMesh& mesh, int margin)
       : elements_(mesh.elements()), margin_(margin) {}
   [[nodiscard]] int numParts() const override { return 2; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override {
@@ -128,7 +128,7 @@ private:
 TEST(CrosspointTest, AnInterfaceThatIsAClosedLoopGetsOnePoint) {
   const scene::Body body = oneBody(6, 6, grid(1, 1), {{"left", "left", {0.0}}}).bodies.front();
   std::vector<BodyLayout> bodies(1);
-  auto mesh = std::make_unique<const fem::StructuredMesh>(body.mesh.box, body.mesh.elements);
+  auto mesh = std::make_unique<const mesh::StructuredMesh>(body.mesh.box, body.mesh.elements);
   bodies[0].partition = std::make_unique<InclusionPartition>(*mesh, 2);
   bodies[0].mesh = std::move(mesh);
   bodies[0].name = body.name;

@@ -24,12 +24,12 @@ using model::makeModel;
 scene::Scene cube(int subdomains, int elementsPerSubdomain) {
   scene::Body solid;
   solid.name = "cube";
-  solid.physics = scene::Physics::elasticity3d;
+  solid.physics = fem::Physics::elasticity3d;
   solid.mesh.box = {{0, 0, 0}, {1, 1, 1}};
   const int n = subdomains * elementsPerSubdomain;
   solid.mesh.elements = {n, n, n};
   solid.supports = {{"floor", "bottom", {0.0, 0.0, 0.0}}};
-  scene::SolidLoad weight;
+  fem::SolidLoad weight;
   weight.value = {0.5, 0.25, -1};
   solid.loads = {weight};
   solid.decomposition.counts = {subdomains, subdomains, subdomains};
@@ -71,7 +71,7 @@ TEST(EdgeAveragesTest, ValuesOfNodesComeBack) {
 TEST(EdgeAveragesTest, EnergyIsThatOfTheValuesOfNodes) {
   const scene::Scene scene = cube(2, 3);
   const Decomposition cut = decomposed(2, 3);
-  const fem::Mesh& mesh = *cut.bodies[0].mesh;
+  const mesh::Mesh& mesh = *cut.bodies[0].mesh;
   const auto model = makeModel(scene.bodies[0], mesh);
   for (std::size_t s = 0; s < cut.problem.subdomains.size(); ++s) {
     const Subdomain& subdomain = cut.problem.subdomains[s];

@@ -27,8 +27,8 @@ Decomposition decomposedAlone(const scene::Scene& scene) {
 }
 
 TEST(EqualSubdomainsTest, InnerSubdomainsOfAUniformMeshAreEqualToTheLastBit) {
-  for (const scene::Box& rectangle : {scene::rectangle(0, 1, 0, 1), scene::rectangle(0.1, 0.8, -3.3, 1.1),
-                                      scene::rectangle(100, 101, 7, 9)}) {
+  for (const mesh::Box& rectangle :
+       {mesh::rectangle(0, 1, 0, 1), mesh::rectangle(0.1, 0.8, -3.3, 1.1), mesh::rectangle(100, 101, 7, 9)}) {
     scene::Scene scene = oneBody(30, 30, grid(5, 5), {{"wall", "left", {0.3}}});
     scene.bodies[0].mesh.box = rectangle; // 1/30 is no binary fraction
     const auto result = decomposedAlone(scene);
@@ -71,7 +71,7 @@ TEST(EqualSubdomainsTest, UnevenGridsHaveAsManyMatricesAsShapes) {
 
 TEST(EqualSubdomainsTest, AnotherMaterialMakesAnotherMatrixOfTheSamePattern) {
   scene::Scene scene = oneBody(30, 30, grid(5, 5), {});
-  scene.bodies[0].regions = {{"middle", scene::rectangle(0.4, 0.6, 0.4, 0.6), "", {10}}};
+  scene.bodies[0].regions = {{"middle", mesh::rectangle(0.4, 0.6, 0.4, 0.6), "", {10}}};
   const auto result = decomposedAlone(scene);
   const std::vector<Subdomain>& s = result.problem.subdomains;
   EXPECT_FALSE(haveEqualBits(*s[12].stiffness, *s[6].stiffness));

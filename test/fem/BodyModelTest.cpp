@@ -10,7 +10,7 @@ namespace {
 
 TEST(BodyModelTest, AnySupportRemovesTheRigidMode) {
   scene::Body body = plainBody();
-  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   EXPECT_EQ(BodyModel(body, mesh).kernelDimension(), 1);
   body.supports = {{"wall", "bottom", {0.0}}};
   EXPECT_EQ(BodyModel(body, mesh).kernelDimension(), 0);
@@ -19,7 +19,7 @@ TEST(BodyModelTest, AnySupportRemovesTheRigidMode) {
 TEST(BodyModelTest, SupportsHoldTheirEdgesAndNothingElse) {
   scene::Body body = plainBody();
   body.supports = {{"wall", "left", {2.5}}};
-  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const BodyModel model(body, mesh);
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
     EXPECT_EQ(model.prescribed(node, 0).value_or(-1), node % 5 == 0 ? 2.5 : -1) << node;
@@ -28,7 +28,7 @@ TEST(BodyModelTest, SupportsHoldTheirEdgesAndNothingElse) {
 TEST(BodyModelTest, SupportsThatDisagreeInACornerAreRefusedByName) {
   scene::Body body = plainBody();
   body.supports = {{"wall", "left", {0.0}}, {"roof", "top", {1.0}}};
-  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   try {
     const BodyModel model(body, mesh);
     FAIL() << "accepted";
@@ -45,9 +45,9 @@ TEST(BodyModelTest, SupportsThatDisagreeInACornerAreRefusedByName) {
 TEST(BodyModelTest, TheLastRegionAroundAnElementsCentreHolds) {
   scene::Body body = plainBody();
   body.material.conductivity = 2;
-  body.regions = {{"left half", scene::rectangle(0, 1, 0, 1), "", {10}},
-                  {"corner", scene::rectangle(0, 0.6, 0, 0.4), "", {100}}};
-  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  body.regions = {{"left half", mesh::rectangle(0, 1, 0, 1), "", {10}},
+                  {"corner", mesh::rectangle(0, 0.6, 0, 0.4), "", {100}}};
+  const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const BodyModel model(body, mesh);
   Eigen::MatrixXd stiffness, unit;
   Eigen::VectorXd load;
@@ -66,10 +66,10 @@ TEST(BodyModelTest, TheLastRegionAroundAnElementsCentreHolds) {
 TEST(BodyModelTest, AnElementWhoseCentreLiesOnARegionsEdgeBelongsToItWhateverTheRoundOff) {
   for (const double x : {0.0, 1.0, 7.0, 100.0}) { // centres x + 0.1, 0.3, … 0.9, the box ends at x + 0.7
     scene::Body body = plainBody();
-    body.mesh.box = scene::rectangle(x, x + 1, 0, 1);
+    body.mesh.box = mesh::rectangle(x, x + 1, 0, 1);
     body.mesh.elements = {5, 1, 0};
-    body.regions = {{"patch", scene::rectangle(x + 0.3, x + 0.7, 0, 1), "", {10}}};
-    const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+    body.regions = {{"patch", mesh::rectangle(x + 0.3, x + 0.7, 0, 1), "", {10}}};
+    const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
     const BodyModel model(body, mesh);
     std::vector<double> conductivity;
     for (GlobalOrdinal element = 0; element < 5; ++element) {
@@ -85,26 +85,26 @@ TEST(BodyModelTest, AnElementWhoseCentreLiesOnARegionsEdgeBelongsToItWhateverThe
 }
 
 TEST(BodyModelTest, LoadsAreExactForBoxesThatCutElements) {
-  const scene::Box cut = scene::rectangle(1.5, 7, -3, 0.5);
-  const auto loadOf = [](const scene::Box& box, bool inSpace) {
+  const mesh::Box cut = mesh::rectangle(1.5, 7, -3, 0.5);
+  const auto loadOf = [](const mesh::Box& box, bool inSpace) {
     scene::Body body = plainBody();
-    body.physics = inSpace ? scene::Physics::elasticity3d : scene::Physics::membrane;
+    body.physics = inSpace ? fem::Physics::elasticity3d : fem::Physics::membrane;
     body.mesh.box = {{1, 0, 0}, {2, 2, 3}};
     body.mesh.elements = {1, 1, inSpace ? 1 : 0};
-    body.loads = {scene::loadInside("load", box, 1)};
-    const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+    body.loads = {fem::loadInside("load", box, 1)};
+    const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
     Eigen::MatrixXd loads;
     BodyModel(body, mesh).loads(std::vector<GlobalOrdinal>{0}, loads);
     return Eigen::VectorXd(loads.col(0));
   };
   const Eigen::VectorXd load = loadOf(cut, false);
   ASSERT_EQ(load.size(), 4);
-  EXPECT_NEAR(load.sum(), 0.5 * 0.5, 1e-15);                        // area in common
-  EXPECT_NEAR(load[1] + load[2], 0.5 * 0.5 * 0.75, 1e-15);          // ∫(x − 1)
-  EXPECT_NEAR(load[2] + load[3], 0.5 * 0.5 * 0.25 / 2, 1e-15);      // ∫y/2
-  EXPECT_EQ(loadOf(scene::rectangle(2, 3, 0, 2), false).norm(), 0); // only an edge in common
-  EXPECT_LT((loadOf(scene::rectangle(0, 9, -9, 9), false) - Eigen::Vector4d::Constant(0.5)).norm(), 1e-15);
-  EXPECT_LT((loadOf(scene::Box(), false) - Eigen::Vector4d::Constant(0.5)).norm(), 1e-15);
+  EXPECT_NEAR(load.sum(), 0.5 * 0.5, 1e-15);                       // area in common
+  EXPECT_NEAR(load[1] + load[2], 0.5 * 0.5 * 0.75, 1e-15);         // ∫(x − 1)
+  EXPECT_NEAR(load[2] + load[3], 0.5 * 0.5 * 0.25 / 2, 1e-15);     // ∫y/2
+  EXPECT_EQ(loadOf(mesh::rectangle(2, 3, 0, 2), false).norm(), 0); // only an edge in common
+  EXPECT_LT((loadOf(mesh::rectangle(0, 9, -9, 9), false) - Eigen::Vector4d::Constant(0.5)).norm(), 1e-15);
+  EXPECT_LT((loadOf(mesh::Box(), false) - Eigen::Vector4d::Constant(0.5)).norm(), 1e-15);
   const Eigen::VectorXd inSpace = loadOf(cut, true);
   ASSERT_EQ(inSpace.size(), 24);
   for (Eigen::Index node = 0; node < 8; ++node)
@@ -115,9 +115,9 @@ TEST(BodyModelTest, LoadsAreExactForBoxesThatCutElements) {
 
 TEST(BodyModelTest, WholeElementsAreLoadedByTheirCentres) {
   scene::Body body = plainBody(); // columns of width 0.5
-  body.loads = {scene::loadInside("load", scene::rectangle(0.2, 0.8, 0, 1), 6)};
+  body.loads = {fem::loadInside("load", mesh::rectangle(0.2, 0.8, 0, 1), 6)};
   body.loads[0].wholeElements = true;
-  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   Eigen::MatrixXd loads;
   BodyModel(body, mesh).loads(allElements(12), loads);
   for (Eigen::Index element = 0; element < 12; ++element)

@@ -1,7 +1,7 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include "support/SampleCells.hpp"
 
@@ -12,21 +12,23 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
+using namespace test;
 
-int componentsIn(CellType type, Physics physics) {
+using fem::Physics;
+
+int componentsIn(mesh::CellType type, Physics physics) {
   return physics == Physics::membrane ? 1 : dimensionOf(type);
 }
 
-Eigen::MatrixXd stiffnessOf(CellType type, std::span<const Point> points, Physics physics,
-                            const scene::Material& of = material) {
+Eigen::MatrixXd stiffnessOf(mesh::CellType type, std::span<const Point> points, Physics physics,
+                            const fem::Material& of = material) {
   Eigen::MatrixXd stiffness;
   elementStiffness(type, points, physics, of, stiffness);
   return stiffness;
 }
 
-Eigen::VectorXd bodyLoadOf(CellType type, std::span<const Point> points, Physics physics,
-                           const scene::Vector3& force) {
+Eigen::VectorXd bodyLoadOf(mesh::CellType type, std::span<const Point> points, Physics physics,
+                           const Vector3& force) {
   Eigen::VectorXd load;
   bodyForceLoad(type, points, physics, material, force, load);
   return load;
@@ -35,7 +37,7 @@ Eigen::VectorXd bodyLoadOf(CellType type, std::span<const Point> points, Physics
 /// action(type, points, physics) for distorted elements of all types and all physics that go with them.
 template <class Action>
 void onDistortedElements(const Action& action) {
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : allPhysics(type))
       for (std::uint32_t seed = 10; seed < 20; ++seed) {
         SCOPED_TRACE(testing::Message()
@@ -45,7 +47,7 @@ void onDistortedElements(const Action& action) {
 }
 
 /// Translations and infinitesimal rotations, a column each; the constant of a membrane.
-Eigen::MatrixXd rigidModes(CellType type, std::span<const Point> points, Physics physics) {
+Eigen::MatrixXd rigidModes(mesh::CellType type, std::span<const Point> points, Physics physics) {
   const int components = componentsIn(type, physics);
   const auto rows = static_cast<Eigen::Index>(points.size()) * components;
   const int turns = components == 1 ? 0 : components == 2 ? 1 : 3;
@@ -61,7 +63,7 @@ Eigen::MatrixXd rigidModes(CellType type, std::span<const Point> points, Physics
 }
 
 TEST(ElementStiffnessTest, IsSymmetricToTheLastBitAndTheSameAgain) {
-  onDistortedElements([](CellType type, const std::vector<Point>& points, Physics physics) {
+  onDistortedElements([](mesh::CellType type, const std::vector<Point>& points, Physics physics) {
     const Eigen::MatrixXd stiffness = stiffnessOf(type, points, physics);
     ASSERT_EQ(stiffness.rows(), numNodesOf(type) * componentsIn(type, physics));
     EXPECT_EQ(stiffness, stiffness.transpose());
@@ -70,7 +72,7 @@ TEST(ElementStiffnessTest, IsSymmetricToTheLastBitAndTheSameAgain) {
 }
 
 TEST(ElementStiffnessTest, IsSemidefiniteAndItsKernelAreTheRigidModes) {
-  onDistortedElements([](CellType type, const std::vector<Point>& points, Physics physics) {
+  onDistortedElements([](mesh::CellType type, const std::vector<Point>& points, Physics physics) {
     const Eigen::MatrixXd stiffness = stiffnessOf(type, points, physics);
     const Eigen::MatrixXd modes = rigidModes(type, points, physics);
     EXPECT_LT((stiffness * modes).norm(), 1e-13 * stiffness.norm());
@@ -83,7 +85,7 @@ TEST(ElementStiffnessTest, IsSemidefiniteAndItsKernelAreTheRigidModes) {
 }
 
 TEST(ElementStiffnessTest, TurnsWithTheElement) {
-  onDistortedElements([](CellType type, const std::vector<Point>& points, Physics physics) {
+  onDistortedElements([](mesh::CellType type, const std::vector<Point>& points, Physics physics) {
     const int components = componentsIn(type, physics), size = numNodesOf(type) * components;
     const Eigen::Matrix3d turn = rotation(type, 0.7);
     const auto turned = mapped(points, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return turn * x; });
@@ -99,7 +101,7 @@ TEST(ElementStiffnessTest, TurnsWithTheElement) {
 }
 
 TEST(ElementStiffnessTest, DoesNotKnowWhereTheElementIs) {
-  onDistortedElements([](CellType type, const std::vector<Point>& points, Physics physics) {
+  onDistortedElements([](mesh::CellType type, const std::vector<Point>& points, Physics physics) {
     // Multiples of 2⁻²⁰ can be moved by 2²⁰ without rounding.
     const auto rounded = mapped(points, [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
       return (x * 0x1p20).array().round() * 0x1p-20;
@@ -113,9 +115,9 @@ TEST(ElementStiffnessTest, DoesNotKnowWhereTheElementIs) {
 
 /// K ~ modulus · length^(dimension − 2) · thickness in the plane.
 TEST(ElementStiffnessTest, FollowsTheUnits) {
-  onDistortedElements([](CellType type, const std::vector<Point>& points, Physics physics) {
+  onDistortedElements([](mesh::CellType type, const std::vector<Point>& points, Physics physics) {
     const double length = 1e3, modulus = 1e6, thickness = physics == Physics::membrane ? 1 : 20;
-    scene::Material other = material;
+    fem::Material other = material;
     other.conductivity *= modulus;
     other.youngsModulus *= modulus;
     if (dimensionOf(type) == 2)
@@ -146,17 +148,18 @@ TEST(ElementStiffnessTest, OfRectangularMembranesIsThatInClosedForm) {
     const std::vector<Point> rectangle{{7, 1, 0}, {7 + hx, 1, 0}, {7 + hx, 1 + hy, 0}, {7, 1 + hy, 0}};
     const double width = rectangle[1][0] - 7, height = rectangle[2][1] - 1; // as rounded
     const Eigen::Matrix4d expected = 3 * rectangleStiffness(width, height);
-    EXPECT_LT(
-        (stiffnessOf(CellType::quadrilateral, rectangle, Physics::membrane) - expected).cwiseAbs().maxCoeff(),
-        1e-14 * expected.cwiseAbs().maxCoeff());
+    EXPECT_LT((stiffnessOf(mesh::CellType::quadrilateral, rectangle, Physics::membrane) - expected)
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-14 * expected.cwiseAbs().maxCoeff());
   }
 }
 
 TEST(ElementStiffnessTest, OfTheUnitTriangleIsTheTextbooksOne) {
   Eigen::Matrix3d membrane; // κ = 3
   membrane << 3, -1.5, -1.5, -1.5, 1.5, 0, -1.5, 0, 1.5;
-  const auto triangle = unitCell(CellType::triangle);
-  EXPECT_LT((stiffnessOf(CellType::triangle, triangle, Physics::membrane) - membrane).norm(), 1e-14);
+  const auto triangle = unitCell(mesh::CellType::triangle);
+  EXPECT_LT((stiffnessOf(mesh::CellType::triangle, triangle, Physics::membrane) - membrane).norm(), 1e-14);
   // Plane strain, E = 10, ν = ¼: λ = μ = 4; area and thickness ½ each.
   Eigen::MatrixXd plane(6, 6);
   plane << 4, 2, -3, -1, -1, -1, //
@@ -165,13 +168,13 @@ TEST(ElementStiffnessTest, OfTheUnitTriangleIsTheTextbooksOne) {
       -1, -1, 0, 1, 1, 0,        //
       -1, -1, 0, 1, 1, 0,        //
       -1, -3, 1, 0, 0, 3;
-  EXPECT_LT((stiffnessOf(CellType::triangle, triangle, Physics::planeStrain) - plane).norm(), 1e-14);
+  EXPECT_LT((stiffnessOf(mesh::CellType::triangle, triangle, Physics::planeStrain) - plane).norm(), 1e-14);
 }
 
 /// A layer of hexahedra as thick as the quadrilateral, moved as it and not across, has the same energy.
 TEST(ElementStiffnessTest, OfPlaneStrainIsThatOfALayerWithoutStrainAcross) {
   for (std::uint32_t seed = 30; seed < 35; ++seed) {
-    const auto base = distortedCell(CellType::quadrilateral, seed);
+    const auto base = distortedCell(mesh::CellType::quadrilateral, seed);
     auto layer = base;
     for (const Point& point : base)
       layer.push_back({point[0], point[1], material.thickness});
@@ -180,16 +183,16 @@ TEST(ElementStiffnessTest, OfPlaneStrainIsThatOfALayerWithoutStrainAcross) {
     for (int node = 0; node < 8; ++node)
       for (int i = 0; i < 2; ++i)
         across(3 * node + i, 2 * (node % 4) + i) = 1;
-    const Eigen::MatrixXd inThePlane = stiffnessOf(CellType::quadrilateral, base, Physics::planeStrain);
+    const Eigen::MatrixXd inThePlane = stiffnessOf(mesh::CellType::quadrilateral, base, Physics::planeStrain);
     const Eigen::MatrixXd ofTheLayer =
-        across.transpose() * stiffnessOf(CellType::hexahedron, layer, Physics::elasticity3d) * across;
+        across.transpose() * stiffnessOf(mesh::CellType::hexahedron, layer, Physics::elasticity3d) * across;
     EXPECT_LT((inThePlane - ofTheLayer).norm(), 1e-13 * inThePlane.norm());
   }
 }
 
 /// Plane stress is the layer whose displacement across is free: −ν/(1 − ν)(ε_xx + ε_yy) z in a linear field.
 TEST(ElementStiffnessTest, OfPlaneStressHasTheEnergyOfALayerFreeAcross) {
-  const auto base = distortedCell(CellType::quadrilateral, 36);
+  const auto base = distortedCell(mesh::CellType::quadrilateral, 36);
   auto layer = base;
   for (const Point& point : base)
     layer.push_back({point[0], point[1], material.thickness});
@@ -199,15 +202,15 @@ TEST(ElementStiffnessTest, OfPlaneStressHasTheEnergyOfALayerFreeAcross) {
   gradient(2, 2) = -(1.0 / 3) * (gradient(0, 0) + gradient(1, 1)); // ν = ¼
   const Eigen::VectorXd solid = linearField(layer, 3, gradient);
   const double planeEnergy =
-      plane.dot(stiffnessOf(CellType::quadrilateral, base, Physics::planeStress) * plane);
+      plane.dot(stiffnessOf(mesh::CellType::quadrilateral, base, Physics::planeStress) * plane);
   const double solidEnergy =
-      solid.dot(stiffnessOf(CellType::hexahedron, layer, Physics::elasticity3d) * solid);
+      solid.dot(stiffnessOf(mesh::CellType::hexahedron, layer, Physics::elasticity3d) * solid);
   EXPECT_NEAR(planeEnergy, solidEnergy, 1e-13 * solidEnergy);
 }
 
 TEST(BodyForceLoadTest, SumsToForceTimesMeasure) {
-  onDistortedElements([](CellType type, const std::vector<Point>& points, Physics physics) {
-    const scene::Vector3 force{1, -2, 4};
+  onDistortedElements([](mesh::CellType type, const std::vector<Point>& points, Physics physics) {
+    const Vector3 force{1, -2, 4};
     const int components = componentsIn(type, physics);
     const Eigen::VectorXd load = bodyLoadOf(type, points, physics, force);
     ASSERT_EQ(load.size(), numNodesOf(type) * components);
@@ -223,12 +226,14 @@ TEST(BodyForceLoadTest, SumsToForceTimesMeasure) {
 /// pyramid.
 TEST(BodyForceLoadTest, ActsAtTheCentroid) {
   const std::vector<Point> trapezium{{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}};
-  const Eigen::VectorXd plane = bodyLoadOf(CellType::quadrilateral, trapezium, Physics::membrane, {6, 0, 0});
+  const Eigen::VectorXd plane =
+      bodyLoadOf(mesh::CellType::quadrilateral, trapezium, Physics::membrane, {6, 0, 0});
   EXPECT_NEAR(3 * plane[1] + 2 * plane[2] + plane[3], 12 * 1.5, 1e-14);
   EXPECT_NEAR(plane[2] + plane[3], 12 * 5.0 / 12, 1e-14);
   const std::vector<Point> frustum{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0},
                                    {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
-  const Eigen::VectorXd solid = bodyLoadOf(CellType::hexahedron, frustum, Physics::elasticity3d, {1, 0, 0});
+  const Eigen::VectorXd solid =
+      bodyLoadOf(mesh::CellType::hexahedron, frustum, Physics::elasticity3d, {1, 0, 0});
   // Sides 4 − 2z: ∫(4 − 2z)² = 28/3, ∫z(4 − 2z)² = 11/3.
   EXPECT_NEAR(solid.sum(), 28.0 / 3, 1e-14);
   EXPECT_NEAR(solid[12] + solid[15] + solid[18] + solid[21], 11.0 / 3, 1e-14);

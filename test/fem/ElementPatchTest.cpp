@@ -4,7 +4,7 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 #include "epafi/fem/FluxIntegrals.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include "support/SampleCells.hpp"
 
@@ -13,10 +13,12 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
+using namespace test;
+
+using fem::Physics;
 
 /// The displacement's gradient in these tests, 0 where the plane has no component.
-Eigen::Matrix3d gradientIn(CellType type) {
+Eigen::Matrix3d gradientIn(mesh::CellType type) {
   Eigen::Matrix3d gradient;
   gradient << 1, 2, -3, 0.5, -1, 4, 2, 1.5, 0.25;
   if (dimensionOf(type) == 2) {
@@ -43,7 +45,7 @@ Eigen::Matrix3d hooke(const Eigen::Matrix3d& gradient, Physics physics) {
   return (modulus * strain + ratio * pressure * Eigen::Matrix3d::Identity()) / (1 + ratio);
 }
 
-Eigen::VectorXd nodalForces(CellType type, std::span<const Point> points, Physics physics,
+Eigen::VectorXd nodalForces(mesh::CellType type, std::span<const Point> points, Physics physics,
                             const Eigen::VectorXd& displacements) {
   Eigen::MatrixXd stiffness;
   elementStiffness(type, points, physics, material, stiffness);
@@ -51,7 +53,7 @@ Eigen::VectorXd nodalForces(CellType type, std::span<const Point> points, Physic
 }
 
 TEST(ElementPatchTest, LinearDisplacementsGiveHookesStress) {
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       SCOPED_TRACE(toString(type));
       const auto points = distortedCell(type, 40);
@@ -70,8 +72,8 @@ TEST(ElementPatchTest, LinearDisplacementsGiveHookesStress) {
 }
 
 TEST(ElementPatchTest, LinearFieldsGiveAMembranesFlux) {
-  for (const CellType type :
-       {CellType::triangle, CellType::quadrilateral, CellType::triangle6, CellType::quadrilateral9}) {
+  for (const mesh::CellType type : {mesh::CellType::triangle, mesh::CellType::quadrilateral,
+                                    mesh::CellType::triangle6, mesh::CellType::quadrilateral9}) {
     const auto points = distortedCell(type, 41);
     const Eigen::VectorXd field = linearField(points, 1, gradientIn(type));
     Eigen::MatrixXd sampled;
@@ -83,7 +85,7 @@ TEST(ElementPatchTest, LinearFieldsGiveAMembranesFlux) {
 
 /// K u = Σ ∫N σn over the facets: the patch test of one element.
 TEST(ElementPatchTest, ConstantStressIsInEquilibriumWithItsTractions) {
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       SCOPED_TRACE(toString(type));
       const auto points = planeFacedCell(type);
@@ -103,7 +105,7 @@ TEST(ElementPatchTest, ConstantStressIsInEquilibriumWithItsTractions) {
 }
 
 TEST(ElementPatchTest, ConstantFluxOfAMembraneIsInEquilibriumWithItsTractions) {
-  for (const CellType type : {CellType::triangle, CellType::quadrilateral}) {
+  for (const mesh::CellType type : {mesh::CellType::triangle, mesh::CellType::quadrilateral}) {
     const auto points = distortedCell(type, 42);
     const Eigen::VectorXd forces =
         nodalForces(type, points, Physics::membrane, linearField(points, 1, gradientIn(type)));
@@ -120,7 +122,7 @@ TEST(ElementPatchTest, ConstantFluxOfAMembraneIsInEquilibriumWithItsTractions) {
 
 /// The same with warped faces, where a stress of −p in all directions is the pressure p at every point.
 TEST(ElementPatchTest, HydrostaticStressIsInEquilibriumWithItsPressure) {
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       SCOPED_TRACE(toString(type));
       Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
@@ -140,7 +142,7 @@ TEST(ElementPatchTest, HydrostaticStressIsInEquilibriumWithItsPressure) {
 
 /// Energy of a linear field: stress times strain times volume.
 TEST(ElementPatchTest, EnergyIsThatOfTheConstantStress) {
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       const auto points = distortedCell(type, 44);
       const Eigen::VectorXd displacements = linearField(points, dimensionOf(type), gradientIn(type));

@@ -1,6 +1,6 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include "support/SampleCells.hpp"
 
@@ -11,7 +11,9 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
+using namespace test;
+
+using fem::Physics;
 
 /// Σ x_a × f_a
 Eigen::Vector3d moment(std::span<const Point> points, const Eigen::VectorXd& load) {
@@ -29,22 +31,22 @@ TEST(FacetLoadsTest, TractionsOfUnitFacetsAreSharedEquallyByTheirNodes) {
   Eigen::VectorXd load;
   const std::vector<Point> edge{{0, 0, 0}, {2, 0, 0}}, triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
       square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  tractionLoad(CellType::line, edge, Physics::membrane, material, {3, 9, 9}, load);
+  tractionLoad(mesh::CellType::line, edge, Physics::membrane, material, {3, 9, 9}, load);
   EXPECT_EQ(load, Eigen::Vector2d(3, 3));
-  tractionLoad(CellType::line, edge, Physics::planeStrain, material, {3, -2, 9}, load);
+  tractionLoad(mesh::CellType::line, edge, Physics::planeStrain, material, {3, -2, 9}, load);
   EXPECT_EQ(load, Eigen::Vector4d(1.5, -1, 1.5, -1)); // thickness ½
-  tractionLoad(CellType::triangle, triangle, Physics::elasticity3d, material, {6, 0, 12}, load);
+  tractionLoad(mesh::CellType::triangle, triangle, Physics::elasticity3d, material, {6, 0, 12}, load);
   ASSERT_EQ(load.size(), 9);
   EXPECT_LT((load.reshaped(3, 3).colwise() - Eigen::Vector3d(1, 0, 2)).norm(), 1e-15);
-  tractionLoad(CellType::quadrilateral, square, Physics::elasticity3d, material, {4, 0, -8}, load);
+  tractionLoad(mesh::CellType::quadrilateral, square, Physics::elasticity3d, material, {4, 0, -8}, load);
   ASSERT_EQ(load.size(), 12);
   EXPECT_LT((load.reshaped(3, 4).colwise() - Eigen::Vector3d(1, 0, -2)).norm(), 1e-15);
 }
 
 TEST(FacetLoadsTest, TractionsSumToForceTimesMeasure) {
-  const scene::Vector3 traction{1, -2, 4};
+  const Vector3 traction{1, -2, 4};
   Eigen::VectorXd load;
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       const auto points = distortedCell(type, 5);
       const int components = dimensionOf(type);
@@ -68,14 +70,14 @@ TEST(FacetLoadsTest, TractionsActAtTheCentroidOfTheFacet) {
   const std::vector<Point> trapezium{{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}};
   const Eigen::Vector3d centroid(1.5, 5.0 / 12, 0), force(0, 0, 2 * 6);
   Eigen::VectorXd load;
-  tractionLoad(CellType::quadrilateral, trapezium, Physics::elasticity3d, material, {0, 0, 6}, load);
+  tractionLoad(mesh::CellType::quadrilateral, trapezium, Physics::elasticity3d, material, {0, 0, 6}, load);
   EXPECT_LT((resultant(load, 3) - force).norm(), 1e-14);
   EXPECT_LT((moment(trapezium, load) - centroid.cross(force)).norm(), 1e-14);
 }
 
 TEST(FacetLoadsTest, PressureActsAgainstTheNormal) {
   Eigen::VectorXd load;
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       const auto points = distortedCell(type, 6);
       for (const auto& facet : facetsOf(type)) {
@@ -91,7 +93,7 @@ TEST(FacetLoadsTest, PressureActsAgainstTheNormal) {
 
 TEST(FacetLoadsTest, PressureOnPlaneFacetsIsTheTractionAlongTheirNormal) {
   Eigen::VectorXd pressure, traction;
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       const auto points = planeFacedCell(type);
       for (const auto& facet : facetsOf(type)) {
@@ -106,7 +108,7 @@ TEST(FacetLoadsTest, PressureOnPlaneFacetsIsTheTractionAlongTheirNormal) {
 
 TEST(FacetLoadsTest, PressureAllAroundAnElementIsInEquilibrium) {
   Eigen::VectorXd load;
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : elasticPhysics(type)) {
       const auto points = distortedCell(type, 7);
       Eigen::Vector3d force = Eigen::Vector3d::Zero(), turning = Eigen::Vector3d::Zero();

@@ -11,10 +11,12 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
+using namespace test;
+
+using fem::Physics;
 
 Eigen::VectorXd randomValues(Eigen::Index size, std::uint32_t seed) {
-  RandomNumbers random(seed);
+  SignedRandomNumbers random(seed);
   Eigen::VectorXd values(size);
   for (double& value : values)
     value = random();
@@ -22,7 +24,7 @@ Eigen::VectorXd randomValues(Eigen::Index size, std::uint32_t seed) {
 }
 
 /// A parallelogram or parallelepiped.
-std::vector<Point> affineCell(CellType type) {
+std::vector<Point> affineCell(mesh::CellType type) {
   return mapped(unitCell(type), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     const bool inSpace = dimensionOf(type) == 3;
     return {2 * x[0] + 0.3 * x[1], 1.5 * x[1] - 0.2 * x[0], inSpace ? 0.8 * x[2] + 0.1 * x[0] : 0.0};
@@ -30,7 +32,7 @@ std::vector<Point> affineCell(CellType type) {
 }
 
 TEST(FluxIntegralsTest, TheEnergyOfADisplacementIsThatOfTheStiffness) {
-  for (const CellType type : allCellTypes)
+  for (const mesh::CellType type : allCellTypes)
     for (const Physics physics : allPhysics(type)) {
       SCOPED_TRACE(std::string(toString(type)) + ", " + toString(physics));
       const std::vector<Point> points = affineCell(type);
@@ -50,11 +52,11 @@ TEST(FluxIntegralsTest, TheEnergyOfADisplacementIsThatOfTheStiffness) {
 /// q* as a function of space is what differenceNorms can integrate with a rule of its own: on simplices q* is
 /// linear.
 TEST(FluxIntegralsTest, TheDifferenceOnASimplexIsIntegratedExactly) {
-  for (const CellType type : {CellType::triangle, CellType::tetrahedron})
+  for (const mesh::CellType type : {mesh::CellType::triangle, mesh::CellType::tetrahedron})
     for (const Physics physics : allPhysics(type)) {
       const std::vector<Point> points = affineCell(type);
       const int fluxes = numFluxes(physics), nodes = numNodesOf(type);
-      const Eigen::VectorXd u = randomValues(nodes * scene::componentsOf(physics), 5);
+      const Eigen::VectorXd u = randomValues(nodes * fem::componentsOf(physics), 5);
       Eigen::MatrixXd nodal = randomValues(fluxes * nodes, 6).reshaped(fluxes, nodes);
       Eigen::MatrixXd corners(nodes, dimensionOf(type) + 1); // [1 x y z] of each node
       for (int a = 0; a < nodes; ++a)
@@ -75,13 +77,13 @@ TEST(FluxIntegralsTest, TheDifferenceOnASimplexIsIntegratedExactly) {
 }
 
 TEST(FluxIntegralsTest, CongruentElementsInBlocksAreAsOneByOne) {
-  for (const CellType type :
-       {CellType::quadrilateral, CellType::hexahedron, CellType::quadrilateral9, CellType::hexahedron27})
+  for (const mesh::CellType type : {mesh::CellType::quadrilateral, mesh::CellType::hexahedron,
+                                    mesh::CellType::quadrilateral9, mesh::CellType::hexahedron27})
     for (const Physics physics : allPhysics(type)) {
       SCOPED_TRACE(toString(physics));
       const std::vector<Point> points = affineCell(type);
       const int fluxes = numFluxes(physics), nodes = numNodesOf(type), number = 5;
-      const int unknowns = nodes * scene::componentsOf(physics);
+      const int unknowns = nodes * fem::componentsOf(physics);
       const Eigen::MatrixXd u = randomValues(unknowns * number, 8).reshaped(unknowns, number);
       const Eigen::MatrixXd nodal = randomValues(fluxes * nodes * number, 9).reshaped(fluxes * nodes, number);
       const CongruentFluxes together(type, points, physics, material);

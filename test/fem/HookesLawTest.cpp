@@ -7,9 +7,9 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
+using fem::Physics;
 
-const scene::Material steel{.conductivity = 1, .youngsModulus = 210e3, .poissonsRatio = 0.3, .thickness = 2};
+const fem::Material steel{.conductivity = 1, .youngsModulus = 210e3, .poissonsRatio = 0.3, .thickness = 2};
 
 Eigen::Matrix3d diagonal(double x, double y, double z) {
   return Eigen::Vector3d(x, y, z).asDiagonal();

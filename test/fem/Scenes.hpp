@@ -14,7 +14,7 @@ namespace epafi::fem {
 inline scene::Body plainBody() {
   scene::Body body;
   body.name = "plate";
-  body.mesh.box = scene::rectangle(0, 2, 0, 1);
+  body.mesh.box = mesh::rectangle(0, 2, 0, 1);
   body.mesh.elements = {4, 3, 0};
   return body;
 }

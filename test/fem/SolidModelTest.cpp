@@ -3,21 +3,22 @@
 #include "WholeBody.hpp"
 
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
+using fem::Physics;
 using Value = std::optional<double>;
 
-std::unique_ptr<Mesh> meshFor(Physics physics) {
+std::unique_ptr<mesh::Mesh> meshFor(Physics physics) {
   if (physics == Physics::elasticity3d)
-    return std::make_unique<StructuredMesh>(scene::Box{{1, -1, 0}, {3, 1, 1}}, std::array<int, 3>{3, 2, 2});
-  return std::make_unique<StructuredMesh>(scene::rectangle(1, 3, -1, 1), std::array<int, 3>{4, 3, 0});
+    return std::make_unique<mesh::StructuredMesh>(mesh::Box{{1, -1, 0}, {3, 1, 1}},
+                                                  std::array<int, 3>{3, 2, 2});
+  return std::make_unique<mesh::StructuredMesh>(mesh::rectangle(1, 3, -1, 1), std::array<int, 3>{4, 3, 0});
 }
 
 scene::Body solidOf(Physics physics) {
@@ -36,7 +37,7 @@ int numZeroEigenvalues(const AssembledSubdomain& body) {
 struct Supported {
   std::string name;
   Physics physics;
-  std::vector<scene::SolidSupport> supports;
+  std::vector<fem::SolidSupport> supports;
   int numModes;
 };
 
@@ -87,7 +88,7 @@ Eigen::Vector3d resultant(const BodyModel& model) {
 }
 
 TEST(SolidModelTest, LoadsAddUpToTheirForces) {
-  using Kind = scene::SolidLoad::Kind;
+  using Kind = fem::SolidLoad::Kind;
   const auto space = meshFor(Physics::elasticity3d), plane = meshFor(Physics::planeStress);
   scene::Body solid = solidOf(Physics::elasticity3d), plate = solidOf(Physics::planeStress);
   solid.loads = {{"weight", Kind::body, {}, "", {}, {1, 2, 3}},
@@ -109,7 +110,7 @@ TEST(SolidModelTest, LoadsAddUpToTheirForces) {
 TEST(SolidModelTest, RegionsHaveTheirMaterial) {
   const auto mesh = meshFor(Physics::planeStrain);
   scene::Body solid = solidOf(Physics::planeStrain);
-  scene::Material hard = solid.material;
+  fem::Material hard = solid.material;
   hard.youngsModulus *= 8;
   solid.regions = {{"right half", {{2, -1, 0}, {3, 1, 0}}, "", hard}};
   const scene::Body plain = solidOf(Physics::planeStrain);
@@ -125,7 +126,7 @@ TEST(SolidModelTest, RegionsHaveTheirMaterial) {
   }
 }
 
-std::string complaint(const scene::Body& solid, const Mesh& mesh) {
+std::string complaint(const scene::Body& solid, const mesh::Mesh& mesh) {
   try {
     const BodyModel model(solid, mesh);
   } catch (const InputError& error) {
@@ -135,7 +136,7 @@ std::string complaint(const scene::Body& solid, const Mesh& mesh) {
 }
 
 TEST(SolidModelTest, SaysWhatDoesNotGoTogether) {
-  using Kind = scene::SolidLoad::Kind;
+  using Kind = fem::SolidLoad::Kind;
   const Value free, held = 0.0, other = 1.0;
   const auto mesh = meshFor(Physics::elasticity3d);
   const auto expectSays = [&](const auto& change, const std::string& words) {
@@ -158,27 +159,27 @@ TEST(SolidModelTest, SaysWhatDoesNotGoTogether) {
 }
 
 TEST(SolidModelTest, RefusesPartsThatHangTogetherByANode) {
-  MeshArrays arrays;
+  mesh::MeshArrays arrays;
   arrays.name = "hinge";
-  arrays.cellType = CellType::triangle;
+  arrays.cellType = mesh::CellType::triangle;
   arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   arrays.cells = {0, 1, 2, 0, 3, 4};
   arrays.nodeTags = {1, 2, 3, 4, 5};
   arrays.elementTags = {1, 2};
-  const UnstructuredMesh mesh(arrays);
+  const mesh::UnstructuredMesh mesh(arrays);
   EXPECT_NE(complaint(solidOf(Physics::planeStrain), mesh).find("mechanism"), std::string::npos);
   EXPECT_EQ(complaint(solidOf(Physics::membrane), mesh), ""); // a membrane cannot turn
 }
 
 TEST(SolidModelTest, RefusesPartsThatDoNotHangTogether) {
-  MeshArrays arrays;
+  mesh::MeshArrays arrays;
   arrays.name = "islands";
-  arrays.cellType = CellType::triangle;
+  arrays.cellType = mesh::CellType::triangle;
   arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {-2, -1, 0}, {-1, -2, 0}};
   arrays.cells = {0, 1, 2, 3, 4, 5};
   arrays.nodeTags = {1, 2, 3, 4, 5, 6};
   arrays.elementTags = {1, 2};
-  const UnstructuredMesh mesh(arrays);
+  const mesh::UnstructuredMesh mesh(arrays);
   for (const Physics physics : {Physics::planeStrain, Physics::membrane})
     EXPECT_NE(complaint(solidOf(physics), mesh).find("only 1 of its 2 elements are joined"),
               std::string::npos);

@@ -7,7 +7,7 @@
 #include "epafi/direct/DenseSymmetric.hpp"
 #include "epafi/fem/BodyModel.hpp"
 #include "epafi/fem/SupportNormals.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@
 namespace epafi::fem {
 namespace {
 
-using scene::Physics;
-using scene::SolidSupport;
+using fem::Physics;
+using fem::SolidSupport;
 using test::arraysOf;
 using test::expectRefusal;
 using test::placed;
@@ -31,15 +31,16 @@ SolidSupport slide(const std::string& surface, double normal = 0) {
   return {"slide " + surface, surface, {none, none, none}, normal};
 }
 
-std::unique_ptr<Mesh> structured(int dimension) {
+std::unique_ptr<mesh::Mesh> structured(int dimension) {
   if (dimension == 3)
-    return std::make_unique<StructuredMesh>(scene::Box{{0, 0, 0}, {2, 1, 1.5}}, std::array<int, 3>{3, 2, 2});
-  return std::make_unique<StructuredMesh>(scene::rectangle(0, 2, 0, 1), std::array<int, 3>{4, 3, 0});
+    return std::make_unique<mesh::StructuredMesh>(mesh::Box{{0, 0, 0}, {2, 1, 1.5}},
+                                                  std::array<int, 3>{3, 2, 2});
+  return std::make_unique<mesh::StructuredMesh>(mesh::rectangle(0, 2, 0, 1), std::array<int, 3>{4, 3, 0});
 }
 
-UnstructuredMesh turned(int dimension, double angle, bool simplices, double shift = 17) {
+mesh::UnstructuredMesh turned(int dimension, double angle, bool simplices, double shift = 17) {
   const Eigen::Vector3d far(shift, -shift / 2, dimension == 3 ? 3 : 0);
-  return UnstructuredMesh(arraysOf(*structured(dimension), placed(dimension, angle, far), simplices));
+  return mesh::UnstructuredMesh(arraysOf(*structured(dimension), placed(dimension, angle, far), simplices));
 }
 
 scene::Body solidWith(int dimension, std::vector<SolidSupport> supports) {
@@ -89,7 +90,7 @@ TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
     for (const bool simplices : {false, true})
       for (const auto& [supports, numModes] : dimension == 2 ? plane : space) {
         const scene::Body solid = solidWith(dimension, supports);
-        const UnstructuredMesh mesh = turned(dimension, 0.7, simplices);
+        const mesh::UnstructuredMesh mesh = turned(dimension, 0.7, simplices);
         const BodyModel model(solid, mesh);
         EXPECT_TRUE(model.hasFrames());
         EXPECT_EQ(model.kernelDimension(), numModes);
@@ -120,7 +121,7 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
       const scene::Body solid = solidWith(dimension, supports);
       const test::Placement placement = placed(dimension, 0.7, {11, -5, dimension == 3 ? 3.0 : 0.0});
       const auto straightMesh = structured(dimension);
-      const UnstructuredMesh mesh(arraysOf(*straightMesh, placement, simplices)),
+      const mesh::UnstructuredMesh mesh(arraysOf(*straightMesh, placement, simplices)),
           original(arraysOf(*straightMesh, {}, simplices));
       const BodyModel model(solid, mesh), straight(solid, original);
       const auto solution = [](const BodyModel& m) {
@@ -140,13 +141,13 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
 }
 
 TEST(SolidSupportsTest, LoadsAndEnergyTurnWithTheFrames) {
-  using Kind = scene::SolidLoad::Kind;
+  using Kind = fem::SolidLoad::Kind;
   for (const int dimension : {2, 3}) {
     scene::Body framed = solidWith(dimension, {slide("left")}), plain = solidWith(dimension, {});
     framed.loads = {{"press", Kind::pressure, {}, "left", {}, {7, 0, 0}},
                     {"weight", Kind::body, {}, "", {}, {1, 2, dimension == 3 ? 3.0 : 0.0}}};
     plain.loads = framed.loads;
-    const UnstructuredMesh mesh = turned(dimension, 1.1, false);
+    const mesh::UnstructuredMesh mesh = turned(dimension, 1.1, false);
     const BodyModel a(framed, mesh), b(plain, mesh);
     for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
       Eigen::MatrixXd k, reference;
@@ -188,7 +189,7 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
       supports.push_back(support);
     }
     const scene::Body solid = solidWith(dimension, supports);
-    const UnstructuredMesh mesh = turned(dimension, trial % 4 < 2 ? 0.0 : 0.1 * trial, trial % 3 == 0);
+    const mesh::UnstructuredMesh mesh = turned(dimension, trial % 4 < 2 ? 0.0 : 0.1 * trial, trial % 3 == 0);
     const BodyModel model(solid, mesh);
     SCOPED_TRACE(trial);
     expectKernelOfMatrix(model);
@@ -200,19 +201,19 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
 
 TEST(SolidSupportsTest, NormalsAndComponentsMeetInANode) {
   const double s = std::sqrt(0.5);
-  const UnstructuredMesh mesh = turned(2, std::atan(1.0), false, 0); // left: outward (−s, −s)
+  const mesh::UnstructuredMesh mesh = turned(2, std::atan(1.0), false, 0); // left: outward (−s, −s)
   const scene::Body solid =
       solidWith(2, {{"pull", "left", {1.0, none, none}}, slide("left", 0.0)}); // held altogether: (1, −1)
   const BodyModel model(solid, mesh);
   EXPECT_FALSE(model.hasFrames());
-  const Surface left = mesh.surface("left");
+  const mesh::Surface left = mesh.surface("left");
   EXPECT_NEAR(*model.prescribed(left.facetNodes[0], 0), 1.0, 1e-14);
   EXPECT_NEAR(*model.prescribed(left.facetNodes[0], 1), -1.0, 1e-14);
   EXPECT_NEAR(supportNormals(mesh, left)[0].normal.dot(Eigen::Vector3d(-s, -s, 0)), 1.0, 1e-14);
 }
 
 TEST(SolidSupportsTest, ContradictionsAreRefused) {
-  const UnstructuredMesh mesh = turned(3, 0.4, false);
+  const mesh::UnstructuredMesh mesh = turned(3, 0.4, false);
   const auto refused = [&](std::vector<SolidSupport> supports, const std::vector<std::string>& words) {
     const scene::Body solid = solidWith(3, std::move(supports));
     expectRefusal([&] { BodyModel(solid, mesh); }, words);
@@ -233,9 +234,9 @@ TEST(SolidSupportsTest, ContradictionsAreRefused) {
 
 /// A ring of quadrilaterals, its outer edge "rim"; spacing of the spokes: `angle(i)`.
 template <class Angle>
-UnstructuredMesh ring(int spokes, const Angle& angle) {
-  MeshArrays arrays;
-  arrays.cellType = CellType::quadrilateral;
+mesh::UnstructuredMesh ring(int spokes, const Angle& angle) {
+  mesh::MeshArrays arrays;
+  arrays.cellType = mesh::CellType::quadrilateral;
   arrays.surfaces = {{"rim", {}}};
   for (const double radius : {1.0, 2.0})
     for (int i = 0; i < spokes; ++i)
@@ -249,12 +250,12 @@ UnstructuredMesh ring(int spokes, const Angle& angle) {
     arrays.nodeTags.push_back(n);
   for (GlobalOrdinal e = 1; e <= spokes; ++e)
     arrays.elementTags.push_back(e);
-  return UnstructuredMesh(arrays);
+  return mesh::UnstructuredMesh(arrays);
 }
 
 TEST(SolidSupportsTest, ARimThatSlidesAlongItselfLeavesTheTurnWhereItsNormalsDo) {
   const scene::Body solid = solidWith(2, {slide("rim")});
-  const UnstructuredMesh even = ring(24, [](int i) { return i * M_PI / 12; });
+  const mesh::UnstructuredMesh even = ring(24, [](int i) { return i * M_PI / 12; });
   for (const NodeNormal& at : supportNormals(even, even.surface("rim"))) {
     const Point x = even.point(at.node); // the mean of two chords' normals is the circle's
     EXPECT_LE((2 * at.normal - Eigen::Vector3d(x[0] - 3, x[1], 0)).norm(), 1e-14);
@@ -263,14 +264,14 @@ TEST(SolidSupportsTest, ARimThatSlidesAlongItselfLeavesTheTurnWhereItsNormalsDo)
   EXPECT_EQ(turns.kernelDimension(), 1);
   expectKernelOfMatrix(turns);
   // Uneven chords: their mean normals are no radii, and hold the turn; K says so too.
-  const UnstructuredMesh uneven = ring(24, [](int i) { return (i + 0.3 * (i % 3)) * M_PI / 12; });
+  const mesh::UnstructuredMesh uneven = ring(24, [](int i) { return (i + 0.3 * (i % 3)) * M_PI / 12; });
   const BodyModel holds(solid, uneven);
   EXPECT_EQ(holds.kernelDimension(), 0);
   expectKernelOfMatrix(holds);
 }
 
 TEST(SolidSupportsTest, AnEdgeOfASurfaceHoldsAlongBothNormals) {
-  const UnstructuredMesh square = ring(4, [](int i) { return i * M_PI / 2; });
+  const mesh::UnstructuredMesh square = ring(4, [](int i) { return i * M_PI / 2; });
   const auto normals = supportNormals(square, square.surface("rim"));
   EXPECT_EQ(normals.size(), 8U);
   const scene::Body solid = solidWith(2, {slide("rim")});
@@ -280,20 +281,21 @@ TEST(SolidSupportsTest, AnEdgeOfASurfaceHoldsAlongBothNormals) {
 }
 
 /// Points moved at random by up to `size`.
-UnstructuredMesh disturbed(MeshArrays arrays, double size, unsigned seed) {
+mesh::UnstructuredMesh disturbed(mesh::MeshArrays arrays, double size, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> move(-size, size);
   for (Point& point : arrays.points)
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimensionOf(arrays.cellType)); ++d)
       point[d] += move(random);
-  return UnstructuredMesh(std::move(arrays));
+  return mesh::UnstructuredMesh(std::move(arrays));
 }
 
 TEST(SolidSupportsTest, TinyChangesOfTheGeometryKeepTheMotionsOfSlidingPlanes) {
   for (const int dimension : {2, 3})
     for (const double size : {1e-12, 1e-9, 1e-7}) {
-      const MeshArrays arrays = arraysOf(*structured(dimension), placed(dimension, 0.7, {11, -5, 0}), true);
-      const UnstructuredMesh mesh = disturbed(arrays, size, 5);
+      const mesh::MeshArrays arrays =
+          arraysOf(*structured(dimension), placed(dimension, 0.7, {11, -5, 0}), true);
+      const mesh::UnstructuredMesh mesh = disturbed(arrays, size, 5);
       const scene::Body solid = solidWith(dimension, {slide("left")});
       const BodyModel model(solid, mesh);
       EXPECT_EQ(model.kernelDimension(), dimension == 2 ? 1 : 3) << size;
@@ -305,11 +307,11 @@ TEST(SolidSupportsTest, TinyChangesOfTheGeometryKeepTheMotionsOfSlidingPlanes) {
 TEST(SolidSupportsTest, ABodyThatIsHardlyHeldIsRefused) {
   // A long strip slides on two planes at its ends that meet at an angle of 1e-7 only: too little to hold its
   // height.
-  MeshArrays arrays = arraysOf(*structured(2), {}, false);
+  mesh::MeshArrays arrays = arraysOf(*structured(2), {}, false);
   for (Point& point : arrays.points)
     if (point[0] == 2)
       point[0] += 1e-7 * 3 * point[1];
-  const UnstructuredMesh mesh(arrays);
+  const mesh::UnstructuredMesh mesh(arrays);
   const scene::Body solid = solidWith(2, {slide("left"), slide("right")});
   expectRefusal([&] { BodyModel(solid, mesh); }, {"'block'", "hardly hold"});
 }

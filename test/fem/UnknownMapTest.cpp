@@ -1,6 +1,6 @@
 #include "epafi/fem/UnknownMap.hpp"
 
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@ namespace epafi::fem {
 namespace {
 
 TEST(UnknownMapTest, TheNodesAreThoseOfTheMesh) {
-  const StructuredMesh linear(scene::rectangle(0, 3, 0, 2), {3, 2, 0});
+  const mesh::StructuredMesh linear(mesh::rectangle(0, 3, 0, 2), {3, 2, 0});
   std::vector<GlobalOrdinal> nodes(8), elements, around;
   UnknownMap(linear, 2).elementNodes(std::vector<GlobalOrdinal>{0, 5}, nodes);
   EXPECT_EQ(nodes, (std::vector<GlobalOrdinal>{0, 1, 5, 4, 6, 7, 11, 10}));
 
-  const StructuredMesh mesh(scene::rectangle(0, 3, 0, 2), {3, 2, 0}, 2);
+  const mesh::StructuredMesh mesh(mesh::rectangle(0, 3, 0, 2), {3, 2, 0}, 2);
   const UnknownMap unknowns(mesh, 2);
   EXPECT_EQ(unknowns.numNodes(), 7 * 5);
   EXPECT_EQ(unknowns.nodesPerElement(), 9);

@@ -16,9 +16,9 @@ namespace {
 /// in part.
 scene::Body slidingPlate() {
   scene::Body body = plainBody(); // 4 × 3 elements
-  body.physics = scene::Physics::planeStress;
+  body.physics = fem::Physics::planeStress;
   body.supports = {{"floor", "bottom", {std::nullopt, 1.5, std::nullopt}}};
-  scene::SolidLoad load = scene::loadInside("load", scene::rectangle(0.3, 1.7, 0.1, 0.8), 2);
+  fem::SolidLoad load = fem::loadInside("load", mesh::rectangle(0.3, 1.7, 0.1, 0.8), 2);
   load.value[1] = -5;
   body.loads = {load};
   return body;
@@ -75,7 +75,7 @@ void expectEqualToDense(const BodyModel& model, std::span<const GlobalOrdinal> e
 
 TEST(VectorModelTest, PartlySupportedNodesAreAssembledAsTheDenseSumSays) {
   const scene::Body body = slidingPlate();
-  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const BodyModel model(body, mesh);
   ASSERT_EQ(model.kernelDimension(), 1);
   SubdomainAssembler assembler(model);
@@ -90,7 +90,7 @@ TEST(VectorModelTest, PartlySupportedNodesAreAssembledAsTheDenseSumSays) {
 
 TEST(VectorModelTest, WhatAnAssemblerRemembersDoesNotShowInItsResults) {
   const scene::Body body = slidingPlate();
-  const StructuredMesh mesh(body.mesh.box, body.mesh.elements);
+  const mesh::StructuredMesh mesh(body.mesh.box, body.mesh.elements);
   const BodyModel model(body, mesh);
   ASSERT_EQ(model.kernelDimension(), 1);
   SubdomainAssembler assembler(model);

@@ -32,8 +32,8 @@ scene::Scene channels(bool coercive, double jump, const scene::Decomposition& cu
   for (scene::Body& body : scene.bodies)
     for (const int row : {1, elements / 3, elements / 2 + 1, elements - 2}) {
       const double x = body.mesh.box.lower[0];
-      body.regions.push_back({"along", scene::rectangle(x, x + 1, row * h, (row + 1) * h), "", {jump}});
-      body.regions.push_back({"upwards", scene::rectangle(x + row * h, x + (row + 1) * h, 0, 1), "", {jump}});
+      body.regions.push_back({"along", mesh::rectangle(x, x + 1, row * h, (row + 1) * h), "", {jump}});
+      body.regions.push_back({"upwards", mesh::rectangle(x + row * h, x + (row + 1) * h, 0, 1), "", {jump}});
     }
   return scene;
 }
@@ -192,7 +192,7 @@ TEST(AdaptiveConstraintsTest, AutoLooksAlongJumpsOnly) {
   EXPECT_EQ(uniform.constraints.numJoints, 0);
   scene::Scene scene = channels(true, 1, grid(3, 3));
   scene.bodies[0].regions = {
-      {"channel", scene::rectangle(0, 1, 1.0 / 12, 2.0 / 12), "", {1e6}}}; // crosses two edges
+      {"channel", mesh::rectangle(0, 1, 1.0 / 12, 2.0 / 12), "", {1e6}}}; // crosses two edges
   EXPECT_EQ(Deflated(scene, {}).constraints.numJoints, 2);
   EXPECT_EQ(Deflated(scene, {Use::yes}).constraints.numJoints, 24);
 }
@@ -253,7 +253,7 @@ TEST(AdaptiveConstraintsTest, WithTheCorrectionContactForgetsTheJumpToo) {
     SCOPED_TRACE(cut.parts);
     scene::Scene scene = channels(false, 1e6, cut);
     for (scene::Body& body : scene.bodies)
-      std::erase_if(body.regions, [](const scene::SolidRegion& region) { return region.name == "upwards"; });
+      std::erase_if(body.regions, [](const fem::SolidRegion& region) { return region.name == "upwards"; });
     const Corrected c(scene, {}, thisRankOnly());
     const Eigen::VectorXd deflated = spectrum(c, *c.constrained), corrected = spectrum(c, c.corrected);
     EXPECT_GE(deflated.maxCoeff(), 1e3); // channels end at the contact
@@ -314,7 +314,7 @@ TEST(AdaptiveConstraintsTest, TheyServeOtherLoadsAndWarmStarts) {
     solution.decomposition.data.scaleLoads(-2);
     scene::Scene other = scene;
     for (scene::Body& body : other.bodies)
-      for (scene::SolidLoad& load : body.loads)
+      for (fem::SolidLoad& load : body.loads)
         load.value[0] *= -2;
     if (!coercive)
       continue; // it would be pulled off

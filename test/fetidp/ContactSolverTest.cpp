@@ -108,7 +108,7 @@ TEST(ContactSolverTest, AnyStartLeadsToTheSolution) {
 }
 
 TEST(ContactSolverTest, ChoosesTheLeastAlgorithm) {
-  const scene::SolidSupport wall{"wall", "left", {0.0}};
+  const fem::SolidSupport wall{"wall", "left", {0.0}};
   const auto algorithmOf = [](const scene::Scene& scene) {
     return Solved(scene, 1e-6).solver.dualProblem().algorithm();
   };
@@ -138,7 +138,7 @@ TEST(ContactSolverTest, EveryAlgorithmFindsTheSameSolution) {
 }
 
 TEST(ContactSolverTest, BodiesWithoutContactAreSolvedToo) {
-  const scene::SolidSupport wall{"wall", "left", {0.5}}, foot{"foot", "bottom", {0.5}};
+  const fem::SolidSupport wall{"wall", "left", {0.5}}, foot{"foot", "bottom", {0.5}};
   for (const auto& cut : {grid(1, 1), grid(2, 2), metis(3)}) {
     const Solved solved(decomposition::oneBody(4, 5, cut, {wall, foot}));
     const PrimalSolution reference = solveUndecomposed(solved.decomposition);
@@ -246,8 +246,8 @@ TEST(ContactSolverTest, ABodyThatHardlyAnythingHoldsIsSolvedToItsDisplacements) 
   scene::Body& right = scene.bodies[1];
   const double h = (right.mesh.box.upper[0] - right.mesh.box.lower[0]) / right.mesh.elements[0];
   right.regions = {{"springs",
-                    scene::rectangle(right.mesh.box.upper[0] - h, right.mesh.box.upper[0],
-                                     right.mesh.box.lower[1], right.mesh.box.upper[1]),
+                    mesh::rectangle(right.mesh.box.upper[0] - h, right.mesh.box.upper[0],
+                                    right.mesh.box.lower[1], right.mesh.box.upper[1]),
                     "",
                     {1e-8}}};
   setLoad(right, -1.0);

@@ -231,7 +231,7 @@ TEST(DualPreconditionerTest, ABodyWithoutContactLeavesTheOthersAlone) {
   const Eigen::MatrixXd two = matrixOf(Preconditioned(scene).m);
   scene.bodies.push_back(scene.bodies.back()); // its subdomains are identical to those of a body with contact
   scene.bodies.back().name = "alone";
-  scene.bodies.back().mesh.box = scene::rectangle(5, 6, 0, 1);
+  scene.bodies.back().mesh.box = mesh::rectangle(5, 6, 0, 1);
   const Eigen::MatrixXd three = matrixOf(Preconditioned(scene).m);
   ASSERT_GT(three.rows(), two.rows());
   EXPECT_LE(relativeError(three.topLeftCorner(two.rows(), two.cols()), two), 1e-12); // its rows come last

@@ -63,9 +63,8 @@ struct Draw {
   std::string words;
 };
 
-scene::SolidLoad loadOn(const std::string& surface, scene::SolidLoad::Kind kind,
-                        const scene::Vector3& value) {
-  scene::SolidLoad load;
+fem::SolidLoad loadOn(const std::string& surface, fem::SolidLoad::Kind kind, const Vector3& value) {
+  fem::SolidLoad load;
   load.name = surface;
   load.kind = kind;
   load.where = surface;
@@ -101,7 +100,7 @@ Draw drawn(unsigned seed, int dimension, Hold hold) {
       isFree ? dice.between(-1.05, 1.05) * std::min(holds, 0.5 * press) : dice.between(-1, 1) * press;
   const double angle = dice.between(0, 1.5);
   const std::size_t vertical = static_cast<std::size_t>(dimension - 1);
-  scene::Vector3 top{shear, 0, 0}, up{0, 0, 0}, tilted{0, 0, 0};
+  Vector3 top{shear, 0, 0}, up{0, 0, 0}, tilted{0, 0, 0};
   if (dimension == 3)
     top = {shear * std::cos(angle), shear * std::sin(angle), 0};
   top[vertical] = -press;
@@ -110,7 +109,7 @@ Draw drawn(unsigned seed, int dimension, Hold hold) {
   const int deep = dimension == 3 ? n : 0;
   const double height = dice.upTo(3) == 0 ? 0.5 : 1;
   const auto body = [&](const std::string& name, double low, double high) {
-    scene::Box box{{0, 0, low}, {1, 1, high}};
+    mesh::Box box{{0, 0, low}, {1, 1, high}};
     if (dimension == 2)
       box = {{0, low, 0}, {1, high, 0}};
     scene::Body made = test::block(name, box, {n, n, deep}, {});
@@ -120,20 +119,20 @@ Draw drawn(unsigned seed, int dimension, Hold hold) {
     return made;
   };
   scene::Body upper = body("upper", 0, height);
-  upper.loads.push_back(loadOn("top", scene::SolidLoad::Kind::traction, top));
+  upper.loads.push_back(loadOn("top", fem::SolidLoad::Kind::traction, top));
   if (dice.upTo(2) == 0)
     upper.loads.push_back(
-        loadOn("left", scene::SolidLoad::Kind::pressure,
+        loadOn("left", fem::SolidLoad::Kind::pressure,
                {(isFree ? 0.5 * std::min(holds, 0.5 * press) : press) * dice.between(-1, 1), 0, 0}));
   if (dice.upTo(4) == 0) {
-    scene::Vector3 weight{0, 0, 0};
+    Vector3 weight{0, 0, 0};
     weight[vertical] = -press * dice.between(0, 0.5);
     upper.loads.push_back(test::weight(weight));
   }
   std::optional<double> none;
   if (hold == Hold::held) {
     if (dice.upTo(2) == 0) {
-      scene::SolidSupport push{"push", "top", {dice.between(-0.006, 0.006), 0.0, 0.0}};
+      fem::SolidSupport push{"push", "top", {dice.between(-0.006, 0.006), 0.0, 0.0}};
       push.value[vertical] = dice.between(-0.012, -0.004);
       if (dimension == 3)
         push.value[1] = dice.between(-0.006, 0.006);
@@ -164,7 +163,7 @@ Draw drawn(unsigned seed, int dimension, Hold hold) {
     if (hold == Hold::pair)
       draw.scene.bodies.back().supports.push_back({"foot", "bottom", {0.0, 0.0, 0.0}});
     else {
-      scene::Vector3 low{0, 0, 0};
+      Vector3 low{0, 0, 0};
       low[vertical] = -1;
       draw.scene.contacts.push_back(test::onPlane("floor", 1, "bottom", low, tilted));
     }

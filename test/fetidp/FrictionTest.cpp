@@ -25,22 +25,21 @@ using namespace decomposition;
 
 /// A square or cube of E = 1, ν = 0.3 and n elements of order 2 a side that stands on a floor, pressed by
 /// 0.01 on its top and sheared there; nothing else holds it.
-scene::Scene blockOnFloor(int dimension, int n, const scene::Vector3& shear,
-                          const scene::Decomposition& cut) {
+scene::Scene blockOnFloor(int dimension, int n, const Vector3& shear, const scene::Decomposition& cut) {
   scene::Scene scene;
   scene::Body block = test::block("block", {{0, 0, 0}, {1, 1, 1}}, {n, n, dimension == 3 ? n : 0}, cut);
   block.material.youngsModulus = 1;
   block.material.poissonsRatio = 0.3;
   block.mesh.order = 2;
-  scene::SolidLoad top;
+  fem::SolidLoad top;
   top.name = "top";
-  top.kind = scene::SolidLoad::Kind::traction;
+  top.kind = fem::SolidLoad::Kind::traction;
   top.where = "top";
   top.value = shear;
   top.value[static_cast<std::size_t>(dimension - 1)] = -0.01;
   block.loads.push_back(top);
   scene.bodies.push_back(block);
-  scene::Vector3 up{0, 0, 0};
+  Vector3 up{0, 0, 0};
   up[static_cast<std::size_t>(dimension - 1)] = 1;
   scene.contacts.push_back(test::onPlane("floor", 0, "bottom", {0, 0, 0}, up));
   return scene;
@@ -126,10 +125,10 @@ struct Handed {
 /// Values of an independent solver (whole bodies by one factor, exact Newton), the same meshes and rows.
 struct Reference {
   int dimension, n;
-  scene::Vector3 shear;
+  Vector3 shear;
   double traction, coefficient, strainEnergy, loadWork;
 };
-const scene::Vector3 inPlane{0.002, 0, 0}, inSpace{0.0018, 0.0009, 0};
+const Vector3 inPlane{0.002, 0, 0}, inSpace{0.0018, 0.0009, 0};
 const std::vector<Reference> references{{2, 16, inPlane, 0.003, 0, 5.80514928e-5, 1.17344228e-4},
                                         {2, 16, inPlane, 0, 0.3, 5.76169527e-5, 1.15260975e-4},
                                         {3, 2, inSpace, 0.003, 0, 6.29551509e-5, 1.27857219e-4},

@@ -15,7 +15,7 @@ scene::Scene cutMembranes(bool coercive, int elements, const scene::Decompositio
 
 /// The coordinates and the gap in another unit of length; `deflection` scales u alone.
 scene::Scene rescaled(scene::Scene scene, double length, double load, double conductivity) {
-  const auto scale = [length](scene::Box& box) {
+  const auto scale = [length](mesh::Box& box) {
     for (std::size_t d = 0; d < 2; ++d) {
       box.lower[d] *= length;
       box.upper[d] *= length;
@@ -24,11 +24,11 @@ scene::Scene rescaled(scene::Scene scene, double length, double load, double con
   for (scene::Body& body : scene.bodies) {
     scale(body.mesh.box);
     body.material.conductivity *= conductivity;
-    for (scene::SolidRegion& region : body.regions) {
+    for (fem::SolidRegion& region : body.regions) {
       scale(region.box);
       region.material.conductivity *= conductivity;
     }
-    for (scene::SolidLoad& l : body.loads) {
+    for (fem::SolidLoad& l : body.loads) {
       scale(l.box);
       l.value[0] *= load;
     }
@@ -76,8 +76,8 @@ TEST(IndependenceTest, TheConductivityMayJumpAcrossAndInsideSubdomains) {
       for (const auto& cut : {grid(2, 2), metis(3)}) { // along the cut of the one, across that of the other
         SCOPED_TRACE(testing::Message() << coercive << ' ' << jump << ' ' << cut.parts);
         scene::Scene scene = cutMembranes(coercive, 4, cut);
-        scene.bodies[0].regions = {{"corner", scene::rectangle(0, 0.5, 0, 0.5), "", {jump}}};
-        scene.bodies[1].regions = {{"right half", scene::rectangle(1.5, 2, 0, 1), "", {jump}}};
+        scene.bodies[0].regions = {{"corner", mesh::rectangle(0, 0.5, 0, 0.5), "", {jump}}};
+        scene.bodies[1].regions = {{"right half", mesh::rectangle(1.5, 2, 0, 1), "", {jump}}};
         const Solved solved(scene);
         const PrimalSolution reference = solveUndecomposed(solved.decomposition);
         ASSERT_LE(reference.violation, 1e-10);

@@ -40,7 +40,7 @@ scene::Scene elasticBar(int cutsAlong, int cutsAcross) {
   scene::Scene scene;
   scene::Body body;
   body.name = "bar";
-  body.physics = scene::Physics::planeStrain;
+  body.physics = fem::Physics::planeStrain;
   body.mesh.box = {{0, 0, 0}, {2, 1, 0}};
   body.mesh.elements = {8, 4, 0};
   body.supports = {{"wall", "left", {0.0, 0.0, std::nullopt}}};
@@ -51,7 +51,7 @@ scene::Scene elasticBar(int cutsAlong, int cutsAcross) {
 
 scene::Scene membranesWithAChannel() {
   scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
-  scene.bodies[0].regions = {{"channel", scene::rectangle(0, 1, 0.125, 0.25), "", {1e3}}};
+  scene.bodies[0].regions = {{"channel", mesh::rectangle(0, 1, 0.125, 0.25), "", {1e3}}};
   return scene;
 }
 

@@ -36,7 +36,7 @@ scene::Scene cube(int elements, int cuts) {
   scene::Scene scene;
   scene::Body body;
   body.name = "cube";
-  body.physics = scene::Physics::elasticity3d;
+  body.physics = fem::Physics::elasticity3d;
   body.mesh.box = {{0, 0, 0}, {1, 1, 1}};
   body.mesh.elements = {elements, elements, elements};
   body.supports = {{"floor", "bottom", {0.0, 0.0, 0.0}}};
@@ -116,7 +116,7 @@ TEST(JointsTest, StiffnessVariesAlongTheJointsThatAChannelCrosses) {
   scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
   EXPECT_EQ(Found(scene).varies(), std::vector<bool>(Found(scene).joints.size(), false));
   scene.bodies[0].regions = {
-      {"channel", scene::rectangle(0, 1, 0.125, 0.25), "", {1e3}}}; // through subdomains 0 and 1
+      {"channel", mesh::rectangle(0, 1, 0.125, 0.25), "", {1e3}}}; // through subdomains 0 and 1
   const Found found(scene);
   const std::vector<bool> varies = found.varies(), never = found.varies(1e4);
   for (std::size_t j = 0; j < varies.size(); ++j) {
@@ -127,8 +127,8 @@ TEST(JointsTest, StiffnessVariesAlongTheJointsThatAChannelCrosses) {
 
 TEST(JointsTest, StiffnessDoesNotVaryAlongJumpsThatFollowTheCut) {
   scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
-  scene.bodies[0].regions = {{"corner", scene::rectangle(0, 0.5, 0, 0.5), "", {1e6}},
-                             {"opposite", scene::rectangle(0.5, 1, 0.5, 1), "", {1e6}}};
+  scene.bodies[0].regions = {{"corner", mesh::rectangle(0, 0.5, 0, 0.5), "", {1e6}},
+                             {"opposite", mesh::rectangle(0.5, 1, 0.5, 1), "", {1e6}}};
   const Found found(scene);
   EXPECT_EQ(found.varies(2.1),
             std::vector<bool>(found.joints.size(), false)); // ends of edges have half the elements
@@ -138,14 +138,14 @@ TEST(JointsTest, BodiesVaryWhereOneSubdomainIsStifferThanAnother) {
   scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
   const auto vary = [&](double ratio) { return bodiesOfVaryingStiffness(Found(scene).problem, ratio); };
   EXPECT_EQ(vary(2.1), (std::vector<bool>{false, false}));
-  scene.bodies[1].regions = {{"corner", scene::rectangle(1, 1.5, 0, 0.5), "", {1e-3}}};
+  scene.bodies[1].regions = {{"corner", mesh::rectangle(1, 1.5, 0, 0.5), "", {1e-3}}};
   EXPECT_EQ(vary(100), (std::vector<bool>{false, true}));
   EXPECT_EQ(vary(1e4), (std::vector<bool>{false, false}));
 }
 
 TEST(JointsTest, ContactOfABodyThatVariesIsAlwaysLookedAt) {
   scene::Scene scene = twoMembranes(true, 8, grid(2, 2));
-  scene.bodies[1].regions = {{"far from the contact", scene::rectangle(1.5, 2, 0, 1), "", {1e3}}};
+  scene.bodies[1].regions = {{"far from the contact", mesh::rectangle(1.5, 2, 0, 1), "", {1e3}}};
   const Found found(scene, RowKind::contact);
   EXPECT_EQ(found.varies(10), std::vector<bool>(found.joints.size(), false));
   const std::vector<bool> always = bodiesOfVaryingStiffness(found.problem, 10);
@@ -157,12 +157,12 @@ TEST(JointsTest, ContactOfABodyThatVariesIsAlwaysLookedAt) {
 TEST(JointsTest, StiffnessThatVariesIsSeenBehindAverages) {
   for (const double place : {0.1, 0.3, 0.5, 0.6}) {
     scene::Scene scene = cube(10, 1);
-    scene.bodies[0].physics = scene::Physics::planeStrain;
+    scene.bodies[0].physics = fem::Physics::planeStrain;
     scene.bodies[0].mesh.elements = {10, 10, 0};
     scene.bodies[0].decomposition.counts = {2, 1, 1};
     scene.bodies[0].supports = {{"wall", "left", {0.0, 0.0, std::nullopt}}};
     EXPECT_EQ(Found(scene).varies(10), std::vector<bool>(Found(scene).joints.size(), false));
-    scene::SolidRegion channel;
+    fem::SolidRegion channel;
     channel.name = "channel";
     channel.box.lower[1] = place;
     channel.box.upper[1] = place + 0.1;

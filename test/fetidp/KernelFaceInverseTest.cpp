@@ -108,12 +108,12 @@ TEST(KernelFaceInverseTest, IsAGeneralisedInverseOnEveryFace) {
 TEST(KernelFaceInverseTest, KeepsItsDigitsWhereFewContactsHoldManyClusters) {
   scene::Scene scene = twoMembranes(false, 2, clustered(grid(32, 1), 1));
   for (scene::Body& body : scene.bodies) {
-    body.physics = scene::Physics::planeStrain;
+    body.physics = fem::Physics::planeStrain;
     body.mesh.elements = {64, 2, 0};
     body.supports.clear();
   }
-  scene.bodies[0].mesh.box = scene::rectangle(0, 32, 0, 1);
-  scene.bodies[1].mesh.box = scene::rectangle(0, 32, 1, 2);
+  scene.bodies[0].mesh.box = mesh::rectangle(0, 32, 0, 1);
+  scene.bodies[1].mesh.box = mesh::rectangle(0, 32, 1, 2);
   scene.bodies[0].supports = {{"foot", "bottom", {0.0, 0.0}}};
   scene.bodies[1].supports = {{"stop", "left", {0.0, std::nullopt}}};
   scene.contacts = {{"joint", 0, "top", 1, "bottom", {}, 0.0}};

@@ -133,8 +133,8 @@ TEST(PreconditionerConditionTest, StiffnessScalingForgetsJumpsBetweenBodiesAndAl
 /// Rows of contact at a crosspoint know one of the subdomains that meet there; the others may be far stiffer.
 TEST(PreconditionerConditionTest, StiffnessScalingSeesAllSubdomainsAtACrosspoint) {
   scene::Scene scene = twoMembranes(true, 4, metis(3));
-  scene.bodies[0].regions = {{"corner", scene::rectangle(0.5, 1, 0, 0.5), "", {1e-6}}};
-  scene.bodies[1].regions = {{"strip", scene::rectangle(1, 1.75, 0, 0.25), "", {1e-6}}};
+  scene.bodies[0].regions = {{"corner", mesh::rectangle(0.5, 1, 0, 0.5), "", {1e-6}}};
+  scene.bodies[1].regions = {{"strip", mesh::rectangle(1, 1.75, 0, 0.25), "", {1e-6}}};
   EXPECT_LE(conditionNumber(Preconditioned(scene)),
             1.2 * 6.0); // measured: 6.00; 10⁶ with one subdomain's stiffness
 }

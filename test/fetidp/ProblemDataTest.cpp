@@ -27,7 +27,7 @@ scene::Scene pushedBlock(int dimension) {
                               test::cutInGrid({2, 2, isPlane ? 1 : 2}))};
   scene::Body& block = scene.bodies.front();
   block.supports = {{"wall", "left", {0.01, 0.003, 0.0}}};
-  scene::Vector3 force{0.5, 0, 0}, point{}, up{};
+  Vector3 force{0.5, 0, 0}, point{}, up{};
   force[dimension - 1] = -1;
   point[dimension - 1] = -0.002;
   up[dimension - 1] = 1;
@@ -53,7 +53,7 @@ using Change = std::function<void(scene::Scene&)>;
 Change loadsTimes(double factor) {
   return [factor](scene::Scene& scene) {
     for (scene::Body& body : scene.bodies)
-      for (scene::SolidLoad& load : body.loads)
+      for (fem::SolidLoad& load : body.loads)
         for (double& component : load.value)
           component *= factor;
   };
@@ -62,7 +62,7 @@ Change loadsTimes(double factor) {
 Change supportsTimes(double factor) {
   return [factor](scene::Scene& scene) {
     for (scene::Body& body : scene.bodies)
-      for (scene::SolidSupport& support : body.supports)
+      for (fem::SolidSupport& support : body.supports)
         for (auto& component : support.value)
           if (component)
             *component *= factor;

@@ -157,7 +157,7 @@ TEST(SolvabilityTest, DecisionsDoNotDependOnUnits) {
       for (auto [scene, verdict] : cases) {
         for (scene::Body& body : scene.bodies) {
           body.material.conductivity *= conductivity;
-          for (scene::SolidLoad& l : body.loads)
+          for (fem::SolidLoad& l : body.loads)
             l.value[0] *= load;
         }
         EXPECT_EQ(judge(scene).verdict, verdict) << load << ' ' << conductivity;

@@ -83,8 +83,8 @@ TEST(UnassembledProblemTest, SurfacesMeshedApartAreCoupledAsInAScene) {
         const contact::NodePoints points = [&](GlobalOrdinal node) {
           return node < second ? bodies[0].mesh->point(node) : bodies[1].mesh->point(node - second);
         };
-        const fem::Surface right = bodies[0].mesh->surface("right");
-        fem::Surface left = bodies[1].mesh->surface("left");
+        const mesh::Surface right = bodies[0].mesh->surface("right");
+        mesh::Surface left = bodies[1].mesh->surface("left");
         for (GlobalOrdinal& node : left.facetNodes)
           node += second;
         contact::ContactTerms terms{"joint", "right"};

@@ -3,8 +3,8 @@
 
 #include "Refusals.hpp"
 
-#include "epafi/fem/GmshFile.hpp"
-#include "epafi/fem/MshReader.hpp"
+#include "epafi/meshing/GmshFile.hpp"
+#include "epafi/meshing/MshReader.hpp"
 
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 using namespace epafi;
 
 /// What a body is asked for.
-void use(const fem::UnstructuredMesh& mesh) {
+void use(const mesh::UnstructuredMesh& mesh) {
   for (const std::string& surface : mesh.surfaceNames())
     (void)mesh.surface(surface);
   for (const std::string& group : mesh.groupNames())
@@ -26,7 +26,7 @@ void use(const fem::UnstructuredMesh& mesh) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string text(reinterpret_cast<const char*>(data), size);
   fuzz::orRefused([&] {
-    const fem::GmshFile file(fem::readMsh("mesh.msh", std::move(text)));
+    const meshing::GmshFile file(meshing::readMsh("mesh.msh", std::move(text)));
     fuzz::orRefused([&] { use(file.body("")); });
     fuzz::orRefused([&] { use(file.body("nobody")); });
     for (const std::string& group : file.groupNames())

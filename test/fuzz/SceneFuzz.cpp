@@ -4,7 +4,7 @@
 #include "Refusals.hpp"
 
 #include "epafi/fem/BodyModel.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 #include "epafi/scene/ParameterFile.hpp"
 #include "epafi/scene/SceneReader.hpp"
 
@@ -47,7 +47,7 @@ void model(const scene::Body& body) {
     if (number > mostElements)
       return;
   }
-  const fem::StructuredMesh mesh(body.mesh.box, elements);
+  const mesh::StructuredMesh mesh(body.mesh.box, elements);
   assemble(fem::BodyModel(body, mesh));
 }
 

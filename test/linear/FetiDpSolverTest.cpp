@@ -171,7 +171,7 @@ TEST(FetiDpSolverTest, EveryChoiceOfParametersSolves) {
   using Use = fetidp::AdaptiveConstraintParameters::Use;
   scene::Scene scene = patchwork(12, 1e4);
   scene.bodies.front().regions.push_back(
-      {"channel", scene::rectangle(0, 1, 0.25, 0.34), "", {1e6}}); // jumps inside subdomains
+      {"channel", mesh::rectangle(0, 1, 0.25, 0.34), "", {1e6}}); // jumps inside subdomains
   const LinearProblem problem(scene);
   const RCP<const Vector> b = problem.load();
   for (const Type type : {Type::none, Type::lumped, Type::dirichlet})

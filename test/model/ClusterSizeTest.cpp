@@ -2,7 +2,7 @@
 
 #include "epafi/model/ClusterSize.hpp"
 
-#include "epafi/model/Partition.hpp"
+#include "epafi/meshing/Partition.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 using Counts = std::array<int, 3>;
 
-fem::StructuredMesh bricks(const scene::Vector3& sides, const Counts& elements) {
-  return fem::StructuredMesh(scene::Box{{0, 0, 0}, sides}, elements);
+mesh::StructuredMesh bricks(const Vector3& sides, const Counts& elements) {
+  return mesh::StructuredMesh(mesh::Box{{0, 0, 0}, sides}, elements);
 }
 
 int sizeOf(const Counts& counts, GlobalOrdinal numSubdomains, int numRanks) {
@@ -29,7 +29,7 @@ TEST(ClusterSizeTest, FewSubdomainsOrRanksShareOneCoarseProblem) {
   EXPECT_EQ(sizeOf({4, 4, 4}, 128, 4), 0);
   EXPECT_EQ(sizeOf({12, 12, 12}, 3456, 2), 0);
   EXPECT_GT(sizeOf({16, 16, 16}, 8192, 2), 0);
-  const fem::StructuredMesh plane(scene::rectangle(0, 1, 0, 1), {256, 256, 0}, 1);
+  const mesh::StructuredMesh plane(mesh::rectangle(0, 1, 0, 1), {256, 256, 0}, 1);
   EXPECT_EQ(clusterSizeFor(plane, {128, 128, 1}, 32768, 8), 0);
   EXPECT_EQ(clusterSizeFor(plane, {128, 128, 1}, 32768, 64), 64);
 }
@@ -48,17 +48,18 @@ TEST(ClusterSizeTest, BodiesThatCannotBeHalvedShareOneCoarseProblem) {
 /// Bounding boxes of the runs of parts hold nothing but them.
 TEST(ClusterSizeTest, RunsOfSuchSizesAreBlocks) {
   struct Case {
-    scene::Vector3 sides;
+    Vector3 sides;
     Counts counts;
   };
   for (const Case& c : {Case{{1, 1, 1}, {12, 12, 12}}, Case{{4, 2, 1}, {16, 8, 8}},
                         Case{{1, 3, 1}, {8, 24, 8}}, Case{{9, 1, 1}, {4, 8, 16}}}) {
-    const fem::StructuredMesh mesh = bricks(c.sides, c.counts); // an element each
+    const mesh::StructuredMesh mesh = bricks(c.sides, c.counts); // an element each
     const int size = clusterSizeFor(mesh, c.counts, 20'000, 8),
               number = c.counts[0] * c.counts[1] * c.counts[2];
     ASSERT_GT(size, 0);
     EXPECT_EQ(number % size, 0);
-    const GroupedPartition grouped(std::make_shared<const GridPartition>(mesh, c.counts), mesh, size);
+    const meshing::GroupedPartition grouped(std::make_shared<const meshing::GridPartition>(mesh, c.counts),
+                                            mesh, size);
     for (int first = 0; first < number; first += size) {
       Counts low, high;
       low.fill(std::numeric_limits<int>::max());

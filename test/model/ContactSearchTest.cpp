@@ -1,8 +1,8 @@
 #include "epafi/model/SceneContacts.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ namespace epafi::model {
 using contact::ContactLayout;
 namespace {
 
-BodyLayout box(const std::string& name, const scene::Box& extent, std::array<int, 3> elements) {
-  return {name, std::make_unique<const fem::StructuredMesh>(extent, elements), nullptr, 0};
+BodyLayout box(const std::string& name, const mesh::Box& extent, std::array<int, 3> elements) {
+  return {name, std::make_unique<const mesh::StructuredMesh>(extent, elements), nullptr, 0};
 }
 
 scene::SurfaceContact topOnBottom() {
@@ -63,16 +63,16 @@ TEST(ContactSearchTest, FindsTheNodesThatFaceEachOther) {
 
 TEST(ContactSearchTest, NodesBesideAPunchGetNoRow) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(box("ground", scene::rectangle(0, 4, 0, 1), {8, 2, 0}));
-  bodies.push_back(box("punch", scene::rectangle(1, 2, 1, 3), {2, 2, 0}));
+  bodies.push_back(box("ground", mesh::rectangle(0, 4, 0, 1), {8, 2, 0}));
+  bodies.push_back(box("punch", mesh::rectangle(1, 2, 1, 3), {2, 2, 0}));
   const ContactLayout contact = layoutContact(topOnBottom(), bodies, 2);
   EXPECT_EQ(contact.numRows(), 3);
 }
 
 TEST(ContactSearchTest, NodesTooFarFromTheOtherSideGetNoRow) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(box("ground", scene::rectangle(0, 1, 0, 1), {4, 2, 0}));
-  bodies.push_back(box("far", scene::rectangle(0, 1, 1.5, 3), {4, 2, 0}));
+  bodies.push_back(box("ground", mesh::rectangle(0, 1, 0, 1), {4, 2, 0}));
+  bodies.push_back(box("far", mesh::rectangle(0, 1, 1.5, 3), {4, 2, 0}));
   scene::SurfaceContact contact = topOnBottom();
   contact.distance = 0.4;
   EXPECT_NE(complaint(contact, bodies, 2).find("distance"), std::string::npos);
@@ -85,8 +85,8 @@ TEST(ContactSearchTest, CouplesByMortarsWhereNodesAndFacetsDoNotFaceEachOtherOne
   const auto meansOf = [](std::array<int, 3> lower, std::array<int, 3> upper, double distance,
                           double gap = 0) {
     std::vector<BodyLayout> bodies;
-    bodies.push_back(box("lower", scene::rectangle(0, 1, 0, 1), lower));
-    bodies.push_back(box("upper", scene::rectangle(0, 1, 1 + gap, 2 + gap), upper));
+    bodies.push_back(box("lower", mesh::rectangle(0, 1, 0, 1), lower));
+    bodies.push_back(box("upper", mesh::rectangle(0, 1, 1 + gap, 2 + gap), upper));
     scene::SurfaceContact contact = topOnBottom();
     contact.distance = distance + gap;
     return layoutContact(contact, bodies, 2).means;
@@ -106,8 +106,8 @@ TEST(ContactSearchTest, CouplesByMortarsWhereNodesAndFacetsDoNotFaceEachOtherOne
 
 TEST(ContactSearchTest, RefusesSurfacesThatDoNotMatch) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(box("lower", scene::rectangle(0, 1, 0, 1), {4, 2, 0}));
-  bodies.push_back(box("upper", scene::rectangle(0, 1, 1, 2), {5, 2, 0}));
+  bodies.push_back(box("lower", mesh::rectangle(0, 1, 0, 1), {4, 2, 0}));
+  bodies.push_back(box("upper", mesh::rectangle(0, 1, 1, 2), {5, 2, 0}));
   scene::SurfaceContact pairs = topOnBottom();
   pairs.coupling = scene::SurfaceContact::Coupling::nodes;
   EXPECT_NE(complaint(pairs, bodies, 2).find("do not match"), std::string::npos);
@@ -119,7 +119,7 @@ TEST(ContactSearchTest, RefusesSurfacesThatDoNotMatch) {
 
 TEST(ContactSearchTest, ObstaclesHaveTheGapOfTheirGeometry) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(box("block", scene::rectangle(-1, 1, 0, 1), {8, 2, 0}));
+  bodies.push_back(box("block", mesh::rectangle(-1, 1, 0, 1), {8, 2, 0}));
   scene::SurfaceContact contact = topOnBottom();
   contact.second = -1;
   contact.obstacle.kind = scene::Obstacle::Kind::sphere;
@@ -146,8 +146,8 @@ TEST(ContactSearchTest, ObstaclesHaveTheGapOfTheirGeometry) {
 
 TEST(ContactSearchTest, SaysWhyNothingMeets) {
   std::vector<BodyLayout> bodies;
-  bodies.push_back(box("block", scene::rectangle(-1, 1, 0, 1), {8, 2, 0}));
-  bodies.push_back(box("aside", scene::rectangle(5, 7, 1, 2), {8, 2, 0}));
+  bodies.push_back(box("block", mesh::rectangle(-1, 1, 0, 1), {8, 2, 0}));
+  bodies.push_back(box("aside", mesh::rectangle(5, 7, 1, 2), {8, 2, 0}));
   const auto says = [&](const scene::SurfaceContact& contact, const std::string& words) {
     const std::string said = complaint(contact, bodies, 2);
     EXPECT_NE(said.find("contact 'joint'"), std::string::npos) << said;
@@ -167,15 +167,15 @@ TEST(ContactSearchTest, SaysWhyNothingMeets) {
 
 /// An even pressure loads them so, see tractionLoad().
 TEST(ContactSearchTest, NodesHaveTheShareOfTheirShapeFunctions) {
-  fem::MeshArrays arrays; // one hexahedron, its top a trapezium
-  arrays.cellType = fem::CellType::hexahedron;
+  mesh::MeshArrays arrays; // one hexahedron, its top a trapezium
+  arrays.cellType = mesh::CellType::hexahedron;
   arrays.points = {{0, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 0, 1}, {3, 0, 1}, {2, 1, 1}, {1, 1, 1}};
   arrays.cells = {0, 1, 2, 3, 4, 5, 6, 7};
   arrays.nodeTags = {1, 2, 3, 4, 5, 6, 7, 8};
   arrays.elementTags = {1};
   arrays.surfaces = {{"top", {4, 5, 6, 7}}};
   std::vector<BodyLayout> bodies;
-  bodies.push_back({"block", std::make_unique<const fem::UnstructuredMesh>(arrays), nullptr, 0});
+  bodies.push_back({"block", std::make_unique<const mesh::UnstructuredMesh>(arrays), nullptr, 0});
   scene::SurfaceContact contact = topOnBottom();
   contact.second = -1;
   contact.obstacle = {scene::Obstacle::Kind::plane, {0, 0, 2}, {0, 0, -1}, 1};

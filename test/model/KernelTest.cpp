@@ -14,7 +14,7 @@ scene::Scene block(int dimension) {
   scene::Scene scene;
   scene::Body body;
   body.name = "block";
-  body.physics = dimension == 3 ? scene::Physics::elasticity3d : scene::Physics::planeStrain;
+  body.physics = dimension == 3 ? fem::Physics::elasticity3d : fem::Physics::planeStrain;
   body.mesh.box = {{100, 50, 7}, {101, 51, 8}};
   body.mesh.elements = {4, 4, dimension == 3 ? 4 : 0};
   scene.bodies = {body};

@@ -4,8 +4,8 @@
 #include "support/Gathered.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/MeshPart.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/MeshPart.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 #include "epafi/model/MeshPieces.hpp"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@
 namespace epafi::decomposition {
 namespace {
 
-using fem::Mesh;
-using fem::MeshPart;
-using fem::StructuredMesh;
-using fem::Surface;
+using mesh::Mesh;
+using mesh::MeshPart;
+using mesh::StructuredMesh;
+using mesh::Surface;
 using Numbers = std::vector<GlobalOrdinal>;
 
 StructuredMesh meshOf(int dimension, int order) {
@@ -64,13 +64,13 @@ GlobalOrdinal keyOf(GlobalOrdinal node) {
 }
 
 /// The elements in turn on all ranks, in one group those of odd numbers.
-model::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
-  model::LooseMesh loose;
+meshing::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
+  meshing::LooseMesh loose;
   loose.cellType = mesh.cellType();
   loose.numParts = columns.grid().numParts();
   loose.groups = {"every one", "none", "odd"};
 
-  loose.elements = model::LooseElements(3, static_cast<std::size_t>(mesh.nodesPerElement()));
+  loose.elements = meshing::LooseElements(3, static_cast<std::size_t>(mesh.nodesPerElement()));
   const auto isHere = [](GlobalOrdinal element) {
     return element % world()->getSize() == world()->getRank();
   };
@@ -78,7 +78,7 @@ model::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
     if (!isHere(element))
       continue;
     Numbers keys;
-    for (const GlobalOrdinal node : fem::ElementNodes(mesh, element)) {
+    for (const GlobalOrdinal node : mesh::ElementNodes(mesh, element)) {
       keys.push_back(keyOf(node));
       const bool isCorner = keys.size() <= static_cast<std::size_t>(numCornersOf(mesh.cellType()));
       loose.nodes.push_back({keyOf(node), mesh.point(node), isCorner});
@@ -88,7 +88,7 @@ model::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
     if (element % 2 == 1)
       loose.elements.setIn(loose.elements.size() - 1, 2);
   }
-  model::FacetList own;
+  meshing::FacetList own;
   for (const std::string& name : mesh.surfaceNames()) {
     const Surface surface = mesh.surface(name);
     for (std::size_t f = 0; f < surface.numFacets(); ++f) {
@@ -100,7 +100,7 @@ model::LooseMesh scattered(const StructuredMesh& mesh, const Columns& columns) {
       own.add(name, corners);
     }
   }
-  loose.facets = std::make_shared<const model::FacetList>(gathered(own, *world()));
+  loose.facets = std::make_shared<const meshing::FacetList>(gathered(own, *world()));
 
   return loose;
 }
@@ -211,14 +211,14 @@ protected:
   BodyLayout body_;
 
   /// One more in the surface "bottom".
-  model::LooseMesh withFacet(const Numbers& corners) const {
-    model::LooseMesh loose = scattered(whole_, columns_);
-    model::FacetList facets = *loose.facets;
+  meshing::LooseMesh withFacet(const Numbers& corners) const {
+    meshing::LooseMesh loose = scattered(whole_, columns_);
+    meshing::FacetList facets = *loose.facets;
     facets.add("bottom", corners);
-    loose.facets = std::make_shared<const model::FacetList>(gathered(facets, *world()));
+    loose.facets = std::make_shared<const meshing::FacetList>(gathered(facets, *world()));
     return loose;
   }
-  void expectRefused(model::LooseMesh loose, const std::string& words) {
+  void expectRefused(meshing::LooseMesh loose, const std::string& words) {
     try {
       dealOut(std::move(loose), columns_.own(), *world(), body_);
       ADD_FAILURE() << "not refused";
@@ -256,7 +256,7 @@ TEST_F(DealtMeshTest, FacetsOfOtherBodiesDoNotMatter) {
 }
 
 TEST_F(DealtMeshTest, ThreeElementsAtAFacetAreRefused) {
-  model::LooseMesh loose = scattered(whole_, columns_);
+  meshing::LooseMesh loose = scattered(whole_, columns_);
   if (world()->getRank() == 0) {
     const Numbers keys{keyOf(0), keyOf(1), keyOf(42), keyOf(41)};
     for (const GlobalOrdinal more : {0, 1})
@@ -268,8 +268,8 @@ TEST_F(DealtMeshTest, ThreeElementsAtAFacetAreRefused) {
 TEST_F(DealtMeshTest, ElementsThatShareTheCornersOfAFacetAloneAreRefused) {
   const StructuredMesh quadratic({{0, 0, 0}, {1, 1, 0}}, {9, 4, 0}, 2);
   const Columns columns(quadratic);
-  model::LooseMesh loose = scattered(quadratic, columns), torn = loose;
-  torn.elements = model::LooseElements(3, 9);
+  meshing::LooseMesh loose = scattered(quadratic, columns), torn = loose;
+  torn.elements = meshing::LooseElements(3, 9);
   const GlobalOrdinal between = 2 + 19, other = keyOf(quadratic.numNodes()); // on the edge of two elements
   for (std::size_t e = 0; e < loose.elements.size(); ++e) {
     Numbers nodes(loose.elements.nodes(e).begin(), loose.elements.nodes(e).end());
@@ -289,7 +289,7 @@ TEST_F(DealtMeshTest, ElementsThatShareTheCornersOfAFacetAloneAreRefused) {
 }
 
 TEST_F(DealtMeshTest, PartsThatAreNotJoinedInFacetsAreRefused) {
-  model::LooseMesh loose = scattered(whole_, columns_);
+  meshing::LooseMesh loose = scattered(whole_, columns_);
   const int last = loose.numParts++; // at a corner of the body
   const GlobalOrdinal corner = keyOf(whole_.numNodes() - 1), key = 10 * corner;
   if (world()->getRank() == 0) {
@@ -307,7 +307,7 @@ TEST_F(DealtMeshTest, PartsThatAreNotJoinedInFacetsAreRefused) {
 }
 
 TEST_F(DealtMeshTest, NodesAtTwoPlacesAreRefused) {
-  model::LooseMesh loose = scattered(whole_, columns_);
+  meshing::LooseMesh loose = scattered(whole_, columns_);
   if (world()->getRank() == world()->getSize() - 1)
     loose.nodes.push_back({keyOf(7), {7, 7, 0}, true});
   expectRefused(std::move(loose), "different places");

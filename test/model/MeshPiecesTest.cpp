@@ -3,14 +3,14 @@
 #include "support/Gathered.hpp"
 #include "support/MeshFiles.hpp"
 
-#include "epafi/fem/MeshPart.hpp"
+#include "epafi/mesh/MeshPart.hpp"
 
 #include <gtest/gtest.h>
 
 namespace epafi::decomposition {
 namespace {
 
-using fem::test::MeshFolder;
+using epafi::test::MeshFolder;
 using model::Meshes;
 
 /// A round lower body and a box on it, meshed apart, of two materials where wanted.
@@ -28,7 +28,7 @@ Physical Surface("foot") = {8}; Physical Surface("lid") = {9};
 scene::Body body(const std::string& name, const MeshFolder& folder, int parts, int order) {
   scene::Body body;
   body.name = name;
-  body.physics = scene::Physics::elasticity3d;
+  body.physics = fem::Physics::elasticity3d;
   body.material.youngsModulus = name == "lower" ? 200 : 70;
   body.mesh.file = folder.path("bodies.geo");
   body.mesh.group = name;
@@ -48,7 +48,7 @@ scene::Scene sceneOf(const MeshFolder& folder, int order, scene::SurfaceContact:
   lower.supports = {{"floor", "bottom", {std::nullopt, std::nullopt, 0.0}}, {"wall", "side", {}, 0.0}};
   lower.regions = {{"core", {{-1, -1, 0}, {0.1, 1, 1}}, "", {}}};
   lower.regions[0].material.youngsModulus = 500;
-  using Kind = scene::SolidLoad::Kind;
+  using Kind = fem::SolidLoad::Kind;
   upper.loads = {{"press", Kind::pressure, {}, "lid", {}, {3, 0, 0}},
                  {"corner", Kind::point, {}, "", {0.5, 0.5, 1.7}, {0, 0.1, 0.2}},
                  {"weight", Kind::body, {{-1, -1, 1.2}, {1, 0.2, 2}}, "", {}, {0, 0, -1}}};
@@ -120,7 +120,7 @@ protected:
       words = error.what();
     }
     EXPECT_NE(words.find(part), std::string::npos) << words;
-    fem::test::expectRefusal([&] { decompose(scene_, world(), Meshes::pieces); }, {words});
+    epafi::test::expectRefusal([&] { decompose(scene_, world(), Meshes::pieces); }, {words});
   }
 };
 

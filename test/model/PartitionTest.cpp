@@ -3,7 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace epafi::decomposition {
 namespace {
 
 /// Every element is in exactly one part, as both queries say, and every part is non-empty and connected.
-void expectSound(const Partition& partition, const fem::Mesh& mesh) {
+void expectSound(const Partition& partition, const mesh::Mesh& mesh) {
   GlobalOrdinal total = 0;
   std::vector<GlobalOrdinal> neighbours;
   for (int part = 0; part < partition.numParts(); ++part) {
@@ -45,7 +45,7 @@ void expectSound(const Partition& partition, const fem::Mesh& mesh) {
 TEST(PartitionTest, GridsCutIntoEqualPartsThatCoverTheBody) {
   for (const auto& [n, m] : {std::pair{8, 8}, {7, 5}, {3, 11}})
     for (const auto& [a, b] : {std::pair{1, 1}, {2, 2}, {3, 5}, {3, 1}}) {
-      const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {n, m, 0});
+      const mesh::StructuredMesh mesh(mesh::rectangle(0, 1, 0, 1), {n, m, 0});
       const GridPartition partition(mesh, {a, b, 1});
       EXPECT_EQ(partition.numParts(), a * b);
       expectSound(partition, mesh);
@@ -57,12 +57,12 @@ TEST(PartitionTest, GridsCutIntoEqualPartsThatCoverTheBody) {
     }
 }
 
-fem::StructuredMesh boxMesh(int nx, int ny, int nz) {
+mesh::StructuredMesh boxMesh(int nx, int ny, int nz) {
   return {{{0, 0, 0}, {1, 1, 1}}, {nx, ny, nz}};
 }
 
 TEST(PartitionTest, GridsCutBoxesXFirstThenYThenZ) {
-  const fem::StructuredMesh mesh = boxMesh(4, 3, 2);
+  const mesh::StructuredMesh mesh = boxMesh(4, 3, 2);
   const GridPartition partition(mesh, {2, 3, 2});
   EXPECT_EQ(partition.numParts(), 12);
   EXPECT_EQ(partition.elementsOf(0), (std::vector<GlobalOrdinal>{0, 1}));
@@ -77,7 +77,7 @@ TEST(PartitionTest, GridsCutBoxesXFirstThenYThenZ) {
 TEST(PartitionTest, GridsCutBoxesIntoEqualPartsThatCoverTheBody) {
   for (const auto& size : {std::array{6, 6, 6}, {7, 5, 4}, {3, 8, 5}})
     for (const auto& counts : {std::array{1, 1, 1}, {2, 2, 2}, {3, 5, 4}, {3, 1, 2}, {1, 4, 1}}) {
-      const fem::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
+      const mesh::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
       const GridPartition partition(mesh, counts);
       ASSERT_EQ(partition.numParts(), counts[0] * counts[1] * counts[2]);
       expectSound(partition, mesh);
@@ -95,7 +95,7 @@ TEST(PartitionTest, GridsCutBoxesIntoEqualPartsThatCoverTheBody) {
 }
 
 TEST(PartitionTest, OneLayerIsCutAsARectangle) {
-  const fem::StructuredMesh rectangle(scene::rectangle(0, 1, 0, 1), {7, 5, 0});
+  const mesh::StructuredMesh rectangle(mesh::rectangle(0, 1, 0, 1), {7, 5, 0});
   const GridPartition flat(rectangle, {3, 2, 1}), solid(boxMesh(7, 5, 1), {3, 2, 1});
   ASSERT_EQ(solid.numParts(), flat.numParts());
   for (int part = 0; part < flat.numParts(); ++part)
@@ -106,7 +106,7 @@ TEST(PartitionTest, OneLayerIsCutAsARectangle) {
 
 /// Numberings that are different from each other, and how often each of them was found.
 std::vector<std::pair<fem::LocalNumbering, int>> numberingsOf(const Partition& partition,
-                                                              const fem::Mesh& mesh) {
+                                                              const mesh::Mesh& mesh) {
   std::vector<std::pair<fem::LocalNumbering, int>> known;
   for (int part = 0; part < partition.numParts(); ++part) {
     const std::vector<GlobalOrdinal> elements = partition.elementsOf(part);
@@ -128,7 +128,7 @@ std::vector<std::pair<fem::LocalNumbering, int>> numberingsOf(const Partition& p
 }
 
 TEST(PartitionTest, EqualBoxesOfAMeshAreNumberedAlike) {
-  const fem::StructuredMesh mesh = boxMesh(6, 9, 8);
+  const mesh::StructuredMesh mesh = boxMesh(6, 9, 8);
   const auto equal = numberingsOf(GridPartition(mesh, {2, 3, 4}), mesh);
   ASSERT_EQ(equal.size(), 1u);
   EXPECT_EQ(equal[0].second, 24);
@@ -139,7 +139,7 @@ TEST(PartitionTest, EqualBoxesOfAMeshAreNumberedAlike) {
 }
 
 TEST(PartitionTest, GraphPartsAreConnectedAndCoverTheBody) {
-  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {13, 9, 0});
+  const mesh::StructuredMesh mesh(mesh::rectangle(0, 1, 0, 1), {13, 9, 0});
   for (const int parts : {1, 2, 3, 7, 16, 40, 117}) {
     const GraphPartition partition(mesh, parts, *world());
     EXPECT_LE(partition.numParts(), parts);
@@ -151,7 +151,7 @@ TEST(PartitionTest, GraphPartsAreConnectedAndCoverTheBody) {
 }
 
 TEST(PartitionTest, GraphPartsAreTheSameOnEveryRank) {
-  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {13, 9, 0});
+  const mesh::StructuredMesh mesh(mesh::rectangle(0, 1, 0, 1), {13, 9, 0});
   const GraphPartition partition(mesh, 7, *world());
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const double part = partition.partOf(element);
@@ -170,7 +170,7 @@ double imbalanceOf(const Partition& partition) {
   return largest * partition.numParts() / sum;
 }
 
-std::vector<int> partsOf(const Partition& partition, const fem::Mesh& mesh) {
+std::vector<int> partsOf(const Partition& partition, const mesh::Mesh& mesh) {
   std::vector<int> parts(mesh.numElements());
   for (std::size_t element = 0; element < parts.size(); ++element)
     parts[element] = partition.partOf(static_cast<GlobalOrdinal>(element));
@@ -179,7 +179,7 @@ std::vector<int> partsOf(const Partition& partition, const fem::Mesh& mesh) {
 
 TEST(PartitionTest, GraphPartsOfBoxesAreConnectedAndBalanced) {
   for (const auto& size : {std::array{12, 12, 12}, {20, 9, 5}, {31, 30, 1}}) {
-    const fem::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
+    const mesh::StructuredMesh mesh = boxMesh(size[0], size[1], size[2]);
     for (const int parts : {1, 2, 5, 8, 13}) {
       const GraphPartition partition(mesh, parts, *world());
       EXPECT_EQ(partition.numParts(), parts);
@@ -187,19 +187,19 @@ TEST(PartitionTest, GraphPartsOfBoxesAreConnectedAndBalanced) {
       EXPECT_LE(imbalanceOf(partition), 1.1) << size[0] << ' ' << parts;
     }
   }
-  const fem::StructuredMesh tiny = boxMesh(3, 3, 3);
+  const mesh::StructuredMesh tiny = boxMesh(3, 3, 3);
   for (const int parts : {1, 2, 9, 20, 27})
     expectSound(GraphPartition(tiny, parts, *world()), tiny);
 }
 
 TEST(PartitionTest, GraphPartsDoNotDependOnTheNumberOfRanks) {
   const Teuchos::MpiComm<int> alone(MPI_COMM_SELF);
-  const fem::StructuredMesh mesh = boxMesh(9, 8, 7);
+  const mesh::StructuredMesh mesh = boxMesh(9, 8, 7);
   EXPECT_EQ(partsOf(GraphPartition(mesh, 6, *world()), mesh), partsOf(GraphPartition(mesh, 6, alone), mesh));
 }
 
 /// Number of parts that have elements; each of them connected.
-int expectConnected(const fem::Mesh& mesh, const std::vector<int>& part) {
+int expectConnected(const mesh::Mesh& mesh, const std::vector<int>& part) {
   std::set<int> begun;
   std::vector<char> seen(part.size(), 0);
   std::vector<GlobalOrdinal> neighbours;
@@ -221,7 +221,7 @@ int expectConnected(const fem::Mesh& mesh, const std::vector<int>& part) {
 }
 
 TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
-  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {12, 11, 0});
+  const mesh::StructuredMesh mesh(mesh::rectangle(0, 1, 0, 1), {12, 11, 0});
   const std::size_t size = mesh.numElements();
   std::vector<int> checkerboard(size), stripes(size), scattered(size);
   for (std::size_t e = 0; e < size; ++e) {
@@ -230,7 +230,7 @@ TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
     scattered[e] = static_cast<int>(e * 7919 % 13 * (e % 5) % 6);
   }
   for (std::vector<int>* part : {&checkerboard, &stripes, &scattered}) {
-    model::makeConnected(mesh, *part);
+    meshing::makeConnected(mesh, *part);
     EXPECT_GE(expectConnected(mesh, *part), 1);
   }
   // A stray element goes where most of its edges are.
@@ -239,12 +239,12 @@ TEST(PartitionTest, PartsInManyPiecesAreMadeConnected) {
     halves[e] = e % 12 < 6 ? 0 : 1;
   std::vector<int> withStray = halves;
   withStray[12 * 5 + 2] = 1;
-  model::makeConnected(mesh, withStray);
+  meshing::makeConnected(mesh, withStray);
   EXPECT_EQ(withStray, halves);
 }
 
 TEST(PartitionTest, PartsOfABoxInManyPiecesAreMadeConnectedThroughFaces) {
-  const fem::StructuredMesh mesh = boxMesh(5, 4, 6);
+  const mesh::StructuredMesh mesh = boxMesh(5, 4, 6);
   const std::size_t size = mesh.numElements();
   std::vector<int> checkerboard(size), scattered(size), halves(size);
   for (std::size_t e = 0; e < size; ++e) {
@@ -253,20 +253,20 @@ TEST(PartitionTest, PartsOfABoxInManyPiecesAreMadeConnectedThroughFaces) {
     halves[e] = e < size / 2 ? 0 : 1;
   }
   for (std::vector<int>* part : {&checkerboard, &scattered}) {
-    model::makeConnected(mesh, *part);
+    meshing::makeConnected(mesh, *part);
     EXPECT_GE(expectConnected(mesh, *part), 1);
   }
   // A stray element goes where most of its faces are.
   std::vector<int> withStray = halves;
   withStray[2 + 5 * (1 + 4 * 1)] = 1;
-  model::makeConnected(mesh, withStray);
+  meshing::makeConnected(mesh, withStray);
   EXPECT_EQ(withStray, halves);
 }
 
 TEST(PartitionTest, BoxesThatTouchInAnEdgeOrACornerAreNotConnected) {
   std::vector<int> edge{0, 1, 1, 1, 1, 1, 0, 1}, corner{0, 1, 1, 1, 1, 1, 1, 0}; // part 0 is two of 2 × 2 × 2
   for (std::vector<int>* part : {&edge, &corner}) {
-    model::makeConnected(boxMesh(2, 2, 2), *part);
+    meshing::makeConnected(boxMesh(2, 2, 2), *part);
     EXPECT_EQ(*part, (std::vector<int>{0, 1, 1, 1, 1, 1, 1, 1})); // of equal pieces, the first one stays
   }
 }
@@ -283,21 +283,21 @@ TEST(PartitionTest, BodiesThatAreMeshedAndCutAlikeShareTheirPartition) {
 }
 
 TEST(PartitionTest, ImpossibleCountsAreRefused) {
-  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {3, 2, 0});
+  const mesh::StructuredMesh mesh(mesh::rectangle(0, 1, 0, 1), {3, 2, 0});
   EXPECT_THROW(GraphPartition(mesh, 0, *world()), InputError);
   EXPECT_THROW(GraphPartition(mesh, 7, *world()), InputError);
   EXPECT_NO_THROW(GraphPartition(mesh, 6, *world()));
 }
 
 TEST(PartitionTest, MeshesInPiecesAreNotCut) {
-  fem::MeshArrays arrays;
+  mesh::MeshArrays arrays;
   arrays.name = "hinge";
-  arrays.cellType = fem::CellType::triangle;
+  arrays.cellType = mesh::CellType::triangle;
   arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   arrays.cells = {0, 1, 2, 0, 3, 4}; // joined in a node
   arrays.nodeTags = {1, 2, 3, 4, 5};
   arrays.elementTags = {1, 2};
-  const fem::UnstructuredMesh mesh(arrays);
+  const mesh::UnstructuredMesh mesh(arrays);
   EXPECT_EQ(GraphPartition(mesh, 1, *world()).numParts(), 1);
   try {
     const GraphPartition partition(mesh, 2, *world());
@@ -309,9 +309,9 @@ TEST(PartitionTest, MeshesInPiecesAreNotCut) {
 }
 
 TEST(PartitionTest, AGroupedGridFallsIntoBlocks) {
-  const fem::StructuredMesh mesh(scene::rectangle(0, 1, 0, 1), {16, 16, 0}, 1);
+  const mesh::StructuredMesh mesh(mesh::rectangle(0, 1, 0, 1), {16, 16, 0}, 1);
   const auto parts = std::make_shared<const GridPartition>(mesh, std::array{8, 8, 1});
-  const model::GroupedPartition grouped(parts, mesh, 16);
+  const meshing::GroupedPartition grouped(parts, mesh, 16);
   std::vector<int> elements(64, 0);
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const int part = grouped.partOf(element);

@@ -89,8 +89,7 @@ TEST(SharedRowsTest, FacesOnBothSidesOfAnEdgeKeepRowsOfTheirOwn) {
     SurfaceContact& contact = blocks.join(surface, surface, "");
     contact.second = -1;
     contact.obstacle.point = {2, 0, 0};
-    contact.obstacle.normal =
-        surface == std::string("top") ? scene::Vector3{0, -1, 0} : scene::Vector3{-1, 0, 0};
+    contact.obstacle.normal = surface == std::string("top") ? Vector3{0, -1, 0} : Vector3{-1, 0, 0};
   }
   const std::vector<ContactLayout> layouts = blocks.layout().contacts;
   EXPECT_EQ(layouts[0].numRows() + layouts[1].numRows(), 5 + 3);
@@ -144,7 +143,7 @@ TEST(SharedRowsTest, ASkinTakesTheNormalAndTheAreaOfTheFaceThatFacesTheOtherSide
     blocks.add("block", 0, 2, 0, 1, 4);
     SurfaceContact& contact = blocks.join("floor", "skin", "");
     contact.second = -1;
-    contact.obstacle.normal = meshing.dimension == 2 ? scene::Vector3{0, 1, 0} : scene::Vector3{0, 0, 1};
+    contact.obstacle.normal = meshing.dimension == 2 ? Vector3{0, 1, 0} : Vector3{0, 0, 1};
     contact.distance = 0.125;
     EXPECT_NEAR(total(blocks.layout().contacts.at(0).areas), 2, 1e-12) << toString(meshing);
   }
@@ -201,7 +200,7 @@ TEST(SharedRowsTest, PlaneBodiesMeetOnTheThicknessOfTheThinnerOne) {
             return kind == Kind::tied ? ownArea(layouts.ties.at(0)) / 2 : ownArea(layouts.contacts.at(0));
           };
           EXPECT_NEAR(areaOf(), 1, 1e-12);
-          scene::SolidRegion thin{"thin", {{-1, -2, 0}, {1, 1, 0}}, "", blocks.scene.bodies[0].material};
+          fem::SolidRegion thin{"thin", {{-1, -2, 0}, {1, 1, 0}}, "", blocks.scene.bodies[0].material};
           thin.material.thickness = 0.25;
           blocks.scene.bodies[0].regions = {thin};
           if (upper == 4) { // facets of 7 lie across the step

@@ -5,9 +5,9 @@
 #include "support/MeshFiles.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/fem/GmshFile.hpp"
-#include "epafi/fem/GmshReader.hpp"
-#include "epafi/fem/MeshPart.hpp"
+#include "epafi/mesh/MeshPart.hpp"
+#include "epafi/meshing/GmshFile.hpp"
+#include "epafi/meshing/GmshReader.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace epafi::decomposition {
 namespace {
 
-using fem::test::MeshFolder;
+using epafi::test::MeshFolder;
 using model::Meshes;
 
 /// Two bodies that share a face.
@@ -42,7 +42,7 @@ protected:
   /// A geometry, meshed and saved as whole.msh and as part_1.msh …
   void mesh(const std::string& geometry, int order, int files, const std::string& more) const {
     if (world()->getRank() == 0)
-      (void)fem::textOfMeshFile(own_.write(
+      (void)meshing::textOfMeshFile(own_.write(
           "bodies.geo", geometry + "Mesh 3; SetOrder " + std::to_string(order) + ";\n" + more + "Save \"" +
                             path("whole.msh") + "\";\nMesh.PartitionSplitMeshFiles = 1;\nPartitionMesh " +
                             std::to_string(files) + ";\nSave \"" + path("part.msh") + "\";\n"));
@@ -52,7 +52,7 @@ protected:
   static scene::Body body(const std::string& name, const std::string& file, const std::string& group) {
     scene::Body body;
     body.name = name;
-    body.physics = scene::Physics::elasticity3d;
+    body.physics = fem::Physics::elasticity3d;
     body.material.youngsModulus = name == "left" ? 200 : 70;
     body.mesh.file = file;
     body.mesh.group = group;
@@ -69,7 +69,7 @@ protected:
     scene.bodies[0].supports = {{"wall", "wall", {}, 0.0}};
     scene.bodies[1].regions = {{"end", {{1.6, -1, -1}, {3, 2, 2}}, "", {}}};
     scene.bodies[1].regions[0].material.youngsModulus = 500;
-    using Kind = scene::SolidLoad::Kind;
+    using Kind = fem::SolidLoad::Kind;
     scene.bodies[1].loads = {{"press", Kind::pressure, {}, "top", {}, {3, 0, 0}},
                              {"corner", Kind::point, {}, "", {2.2, 1, 1}, {0, 0.1, 0.2}},
                              {"weight", Kind::body, {{1.2, -1, -1}, {3, 2, 2}}, "", {}, {0, 0, -1}}};
@@ -85,7 +85,7 @@ protected:
   }
 
   void expectRefused(const scene::Scene& scene, const std::string& words) const {
-    fem::test::expectRefusal([&] { decompose(scene, world(), Meshes::pieces); }, {words});
+    epafi::test::expectRefusal([&] { decompose(scene, world(), Meshes::pieces); }, {words});
   }
   /// Removes a file of rank 0's.
   void remove(const std::string& name) const {
@@ -141,10 +141,10 @@ TEST_P(SplitFilesTest, HoldTheMeshOfOneFile) {
   mesh(boxes, order, files, format);
   const scene::Scene scene = sceneOf("part_*.msh");
   const Decomposition split = decompose(scene, world(), Meshes::pieces);
-  const fem::GmshFile file(path("whole.msh"));
+  const meshing::GmshFile file(path("whole.msh"));
   for (std::size_t b = 0; b < 2; ++b) {
-    const fem::UnstructuredMesh whole = file.body(scene.bodies[b].mesh.group);
-    const fem::MeshPart& piece = *split.bodies[b].mesh->part();
+    const mesh::UnstructuredMesh whole = file.body(scene.bodies[b].mesh.group);
+    const mesh::MeshPart& piece = *split.bodies[b].mesh->part();
     EXPECT_EQ(piece.numNodes(), whole.numNodes());
     EXPECT_EQ(piece.numElements(), whole.numElements());
     EXPECT_EQ(piece.cellType(), whole.cellType());
@@ -289,8 +289,8 @@ TEST_P(RefusedSplitFilesTest, PiecesThatAreNotJoinedAreRefused) {
 
 TEST_P(RefusedSplitFilesTest, MeshesThatEachRankWantsWholeAreRefused) {
   mesh(boxes, 1, 4, inText);
-  fem::test::expectRefusal([&] { decompose(sceneOf("part_*.msh"), world(), Meshes::whole); },
-                           {"are read by parts"});
+  epafi::test::expectRefusal([&] { decompose(sceneOf("part_*.msh"), world(), Meshes::whole); },
+                             {"are read by parts"});
 }
 
 } // namespace

@@ -63,8 +63,8 @@ TEST(TieRowsTest, ATieOfBodiesOfTwoOrdersLeavesTheContactItsNodesBesideIt) {
       const SceneContacts found = blocks.layout();
       const ContactLayout& touch = found.contacts.at(0);
       ASSERT_EQ(touch.means, "pairs of nodes");
-      const fem::Mesh& mesh = *blocks.bodies[touch.firstBody].mesh;
-      const fem::Surface surface = mesh.surface(touch.firstBody == 0 ? "top right" : "bottom right");
+      const mesh::Mesh& mesh = *blocks.bodies[touch.firstBody].mesh;
+      const mesh::Surface surface = mesh.surface(touch.firstBody == 0 ? "top right" : "bottom right");
       std::set<GlobalOrdinal> beside;
       for (std::size_t f = 0; f < surface.numFacets(); ++f)
         for (const GlobalOrdinal node : surface.facet(f))
@@ -145,7 +145,7 @@ TEST(TieRowsTest, ATieBesideASupportHoldsTurns) {
   blocks.add("narrow", 0.25, 1.75, 0, 1, 1);
   blocks.join("tie", "top", "bottom", Kind::tied).multipliers = Side::first;
   SupportedNodes supports;
-  const fem::Mesh& wide = *blocks.bodies[0].mesh;
+  const mesh::Mesh& wide = *blocks.bodies[0].mesh;
   supports.isHeld = [&](int body, GlobalOrdinal node, const Eigen::Vector3d&) {
     return body == 0 && wide.point(node)[0] == 0;
   };

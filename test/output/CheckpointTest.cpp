@@ -118,7 +118,7 @@ TEST_F(CheckpointTest, TheFingerprintDoesNotDependOnTheRanks) {
 
 TEST_F(CheckpointTest, LoadsGapsAndPrescribedValuesMayChange) {
   scene::Scene scene = test::sampleScene();
-  scene.bodies[0].loads = {scene::loadInside("weight", scene::rectangle(0, 1, 0, 1), -3.0)};
+  scene.bodies[0].loads = {fem::loadInside("weight", mesh::rectangle(0, 1, 0, 1), -3.0)};
   scene.bodies[0].supports[0].value[0] = 0.5;
   scene.contacts[0].gap = 0.75;
   const auto other = model::decompose(scene, comm);

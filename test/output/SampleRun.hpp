@@ -16,13 +16,13 @@ inline scene::Scene sampleScene() {
   scene.title = "sample";
   scene::Body left;
   left.name = "left body";
-  left.mesh.box = scene::rectangle(0, 1, 0, 1);
+  left.mesh.box = mesh::rectangle(0, 1, 0, 1);
   left.mesh.elements = {5, 4, 0};
   left.supports = {{"wall", "left", {0.0}}};
   left.decomposition.counts = {2, 2};
   scene::Body right = left;
   right.name = "right";
-  right.mesh.box = scene::rectangle(1, 3, 0, 1);
+  right.mesh.box = mesh::rectangle(1, 3, 0, 1);
   right.mesh.elements = {6, 4, 0};
   right.supports = {};
   right.decomposition.counts = {3, 1};

@@ -32,7 +32,7 @@ void writeBlocks(const std::filesystem::path& directory, const std::string& cell
                  const RCP<const Comm>& comm) {
   using namespace output;
   const auto kind = std::find_if(test::kinds().begin(), test::kinds().end(),
-                                 [&](const test::Kind& k) { return fem::toString(k.cell) == cells; });
+                                 [&](const test::Kind& k) { return mesh::toString(k.cell) == cells; });
   if (kind == test::kinds().end())
     throw std::invalid_argument("no cells are called " + cells);
   const test::TemporaryDirectory meshes(comm);

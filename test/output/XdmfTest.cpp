@@ -7,7 +7,7 @@
 namespace epafi::output {
 namespace {
 
-using fem::CellType;
+using mesh::CellType;
 using Type = XdmfData::Type;
 using Center = XdmfAttribute::Center;
 

@@ -17,10 +17,10 @@ namespace {
 
 /// The size of all loads on bodies of some size, those that supports carry at once included.
 double nominalLoad(const scene::Scene& scene, double size) {
-  using Kind = scene::SolidLoad::Kind;
+  using Kind = fem::SolidLoad::Kind;
   double sum = 0;
   for (const scene::Body& body : scene.bodies)
-    for (const scene::SolidLoad& load : body.loads) {
+    for (const fem::SolidLoad& load : body.loads) {
       const int extent = dimensionOf(body.physics) - (load.kind == Kind::body ? 0 : 1);
       sum += std::hypot(load.value[0], load.value[1], load.value[2]) *
              (load.kind == Kind::point ? 1.0 : std::pow(size, extent));

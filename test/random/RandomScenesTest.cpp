@@ -143,7 +143,7 @@ bool isLinear(const DrawnScene& scene) {
 class RandomScenesTest : public testing::Test {
 protected:
   RCP<const Comm> comm_ = Tpetra::getDefaultComm();
-  fem::test::MeshFolder temporary_;
+  epafi::test::MeshFolder temporary_;
   std::string folder_ = temporary_.path("");
 
   void SetUp() override {

@@ -30,14 +30,14 @@ std::string bodyName(int body) {
   return "body " + std::string(1, static_cast<char>('a' + body));
 }
 
-scene::Box sceneBox(const DrawnBody& body) {
+mesh::Box sceneBox(const DrawnBody& body) {
   return {{body.lower[0], body.lower[1], body.lower[2]}, {body.upper[0], body.upper[1], body.upper[2]}};
 }
 
 void writeMesh(const DrawnScene& scene, const DrawnBody& body, const std::string& path) {
-  const fem::StructuredMesh mesh(sceneBox(body), body.elements);
-  std::ofstream(path) << fem::test::fileOf(
-      fem::test::arraysOf(mesh, {scene.turn, scene.shift}, body.isSimplex));
+  const mesh::StructuredMesh mesh(sceneBox(body), body.elements);
+  std::ofstream(path) << epafi::test::fileOf(
+      epafi::test::arraysOf(mesh, {scene.turn, scene.shift}, body.isSimplex));
 }
 
 void addMesh(const DrawnScene& scene, int number, const std::string& folder, ParameterList& list) {

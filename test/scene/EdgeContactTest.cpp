@@ -7,7 +7,7 @@ namespace {
 using namespace epafi::scene;
 
 TEST(EdgeSegmentTest, RunsUpwardsOrToTheRight) {
-  const Box box = rectangle(1, 2, 0, 0.5);
+  const mesh::Box box = mesh::rectangle(1, 2, 0, 0.5);
   EXPECT_EQ(toString(segmentOf(box, "left")), "x = 1, y from 0 to 0.5");
   EXPECT_EQ(toString(segmentOf(box, "right")), "x = 2, y from 0 to 0.5");
   EXPECT_EQ(toString(segmentOf(box, "bottom")), "y = 0, x from 1 to 2");

@@ -12,8 +12,8 @@ namespace {
 /// u_c, u_c ≤ u_d, u_d ≤ u_a.
 Scene ring(double gap) {
   Scene scene;
-  const Box places[] = {rectangle(0, 1, 0, 1), rectangle(1, 2, 0, 1), rectangle(1, 2, 1, 2),
-                        rectangle(0, 1, 1, 2)};
+  const mesh::Box places[] = {mesh::rectangle(0, 1, 0, 1), mesh::rectangle(1, 2, 0, 1),
+                              mesh::rectangle(1, 2, 1, 2), mesh::rectangle(0, 1, 1, 2)};
   for (int b = 0; b < 4; ++b) {
     Body body;
     body.name = std::string(1, static_cast<char>('a' + b));

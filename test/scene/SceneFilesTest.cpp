@@ -27,7 +27,7 @@ Scene sceneOf(const std::string& file) {
   return readScene(readParameterFile(pathOf(file), *Tpetra::getDefaultComm()), file);
 }
 
-void expectSame(const scene::Box& a, const scene::Box& b) {
+void expectSame(const mesh::Box& a, const mesh::Box& b) {
   EXPECT_EQ(a.lower, b.lower);
   EXPECT_EQ(a.upper, b.upper);
 }

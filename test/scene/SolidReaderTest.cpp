@@ -56,7 +56,7 @@ TEST(SolidReaderTest, RefusesToTieABodyToAnObstacleOrToGiveItAMesh) {
 
 TEST(SolidReaderTest, ReadsMeshAndMaterialOfABodyInSpace) {
   const scene::Body solid = solidOf(cubeOnFloor());
-  EXPECT_EQ(solid.physics, scene::Physics::elasticity3d);
+  EXPECT_EQ(solid.physics, fem::Physics::elasticity3d);
   EXPECT_EQ(solid.mesh.elements, (std::array<int, 3>{2, 2, 2}));
   EXPECT_EQ(solid.mesh.box.upper[2], 1.0);
   EXPECT_EQ(solid.material.youngsModulus, 200.0);
@@ -64,8 +64,8 @@ TEST(SolidReaderTest, ReadsMeshAndMaterialOfABodyInSpace) {
 }
 
 TEST(SolidReaderTest, ReadsBodiesInThePlaneWithThickness) {
-  for (const auto& [word, physics] : {std::pair("plane strain", scene::Physics::planeStrain),
-                                      std::pair("plane stress", scene::Physics::planeStress)}) {
+  for (const auto& [word, physics] : {std::pair("plane strain", fem::Physics::planeStrain),
+                                      std::pair("plane stress", fem::Physics::planeStress)}) {
     ParameterList list;
     ParameterList& plate = bodyOf(list, "plate");
     plate.set("Physics", word).set("Rectangle", numbers({0, 4, 0, 2})).set("Elements", counts({4, 2}));
@@ -104,7 +104,7 @@ TEST(SolidReaderTest, ReadsAMembraneOnAMeshFile) {
   body.sublist("Supports").sublist("rim").set("Surface", "rim").set("Value", 0.5);
   body.sublist("Loads").sublist("wind").set("Value", -2.0);
   const scene::Body solid = solidOf(list);
-  EXPECT_EQ(solid.physics, scene::Physics::membrane);
+  EXPECT_EQ(solid.physics, fem::Physics::membrane);
   EXPECT_EQ(solid.material.conductivity, 3.0);
   EXPECT_EQ(solid.supports.at(0).value[0], 0.5);
   EXPECT_EQ(solid.loads.at(0).value[0], -2.0);
@@ -118,7 +118,7 @@ TEST(SolidReaderTest, HoldsOnlyTheComponentsThatAreGiven) {
       .set("Surface", "left")
       .set("X", 0.0)
       .set("Z", -1.0);
-  const scene::SolidSupport support = solidOf(list).supports.at(0);
+  const fem::SolidSupport support = solidOf(list).supports.at(0);
   EXPECT_EQ(support.surface, "left");
   EXPECT_EQ(support.value[0], 0.0);
   EXPECT_FALSE(support.value[1]);
@@ -155,15 +155,15 @@ TEST(SolidReaderTest, ReadsEveryKindOfLoad) {
       .set("Kind", "point")
       .set("Point", numbers({0, 0, 1}))
       .set("Force", numbers({0, 2, 0}));
-  const std::vector<scene::SolidLoad> read = solidOf(list).loads;
+  const std::vector<fem::SolidLoad> read = solidOf(list).loads;
   ASSERT_EQ(read.size(), 4u);
-  EXPECT_EQ(read[0].kind, scene::SolidLoad::Kind::body);
+  EXPECT_EQ(read[0].kind, fem::SolidLoad::Kind::body);
   EXPECT_EQ(read[0].value[2], -9.81);
-  EXPECT_EQ(read[1].kind, scene::SolidLoad::Kind::traction);
+  EXPECT_EQ(read[1].kind, fem::SolidLoad::Kind::traction);
   EXPECT_EQ(read[1].where, "left");
-  EXPECT_EQ(read[2].kind, scene::SolidLoad::Kind::pressure);
+  EXPECT_EQ(read[2].kind, fem::SolidLoad::Kind::pressure);
   EXPECT_EQ(read[2].value[0], 7.0);
-  EXPECT_EQ(read[3].kind, scene::SolidLoad::Kind::point);
+  EXPECT_EQ(read[3].kind, fem::SolidLoad::Kind::point);
   EXPECT_EQ(read[3].point[2], 1.0);
   EXPECT_EQ(read[3].value[1], 2.0);
 }
@@ -175,7 +175,7 @@ TEST(SolidReaderTest, ARegionKeepsWhatItDoesNotChange) {
       .sublist("soft")
       .set("Box", numbers({0, 1, 0, 1, 0, 0.5}))
       .set("Young's Modulus", 2.0);
-  const scene::SolidRegion region = solidOf(list).regions.at(0);
+  const fem::SolidRegion region = solidOf(list).regions.at(0);
   EXPECT_EQ(region.material.youngsModulus, 2.0);
   EXPECT_EQ(region.material.poissonsRatio, 0.3);
   EXPECT_EQ(region.box.upper[2], 0.5);
@@ -185,7 +185,7 @@ TEST(SolidReaderTest, ReadsObstaclesWithNormalsOfLengthOne) {
   const scene::SurfaceContact contact = scene::readScene(cubeOnFloor(), "a.xml").contacts.at(0);
   EXPECT_EQ(contact.second, -1);
   EXPECT_EQ(contact.obstacle.kind, scene::Obstacle::Kind::plane);
-  EXPECT_EQ(contact.obstacle.normal, (scene::Vector3{0, 0, 1}));
+  EXPECT_EQ(contact.obstacle.normal, (Vector3{0, 0, 1}));
   EXPECT_TRUE(std::isinf(contact.distance)) << "no limit unless one is given";
   ParameterList list = cubeOnFloor();
   list.sublist("Obstacles").sublist("floor") = ParameterList();
@@ -259,9 +259,9 @@ TEST(SolidReaderTest, RefusesAMeshSizeForAMeshThatIsThere) {
 }
 
 TEST(SolidReaderTest, MeshesInSeveralFilesAreThoseOfGmshAndNotRefined) {
-  EXPECT_TRUE(scene::isSplit("meshes/press_*.msh"));
-  EXPECT_TRUE(scene::isSplit("press_*.msh"));
-  EXPECT_FALSE(scene::isSplit("a*b/press.msh"));
+  EXPECT_TRUE(meshing::isSplit("meshes/press_*.msh"));
+  EXPECT_TRUE(meshing::isSplit("press_*.msh"));
+  EXPECT_FALSE(meshing::isSplit("a*b/press.msh"));
   ParameterList list = cubeOnFloor();
   ParameterList& cube = bodyOf(list, "cube");
   cube.remove("Box");

@@ -18,14 +18,14 @@
 namespace epafi::simulation {
 namespace {
 
-using scene::Physics;
+using fem::Physics;
 
 struct EvaluationTest : testing::Test {
   RCP<const Comm> comm = Tpetra::getDefaultComm();
   test::TemporaryDirectory directory{comm};
 
   [[nodiscard]] static std::string text(const test::Kind& kind) {
-    return toString(kind.physics) + ", " + fem::toString(kind.cell) + "s";
+    return toString(kind.physics) + ", " + mesh::toString(kind.cell) + "s";
   }
   [[nodiscard]] std::vector<double> stress(const scene::Scene& scene, const test::Field& field, int body,
                                            const RCP<const Comm>& ranks) const {
@@ -48,7 +48,7 @@ TEST_F(EvaluationTest, StressOfALinearDisplacementIsExactAtEveryNode) {
       const double mu = fem::lameConstants(kind.physics, scene.bodies[0].material).mu;
       for (const int body : {0, 1}) {
         const std::vector<double> values = stress(scene, field, body, comm);
-        const GlobalOrdinal numNodes = fem::dimensionOf(kind.cell) == 2 ? 25 : 125;
+        const GlobalOrdinal numNodes = mesh::dimensionOf(kind.cell) == 2 ? 25 : 125;
         ASSERT_EQ(static_cast<GlobalOrdinal>(values.size()), evenShare(numNodes, *comm).count);
         for (const double value : values)
           EXPECT_NEAR(value, std::sqrt(3.0) * mu * shear, 1e-11);
@@ -113,7 +113,7 @@ TEST_F(EvaluationTest, StressIsTheSameForEveryCutAndNumberOfRanks) {
 TEST_F(EvaluationTest, ElementsCountByTheirSize) {
   // Cells of width 1 and 3, stretched by 1 and 2 of a hundred: in between the stress is (1 · 1 + 3 · 2)/4 of
   // E/100.
-  const test::Kind kind{Physics::planeStress, fem::CellType::quadrilateral};
+  const test::Kind kind{Physics::planeStress, mesh::CellType::quadrilateral};
   scene::Scene scene;
   scene.bodies = {test::elasticBlock(kind, "strip", 0, 1, directory, *comm)};
   scene::Body& solid = scene.bodies[0];
@@ -132,9 +132,9 @@ TEST_F(EvaluationTest, ElementsCountByTheirSize) {
 }
 
 TEST_F(EvaluationTest, StressKnowsTheMaterialOfRegions) {
-  const test::Kind kind{Physics::elasticity3d, fem::CellType::hexahedron};
+  const test::Kind kind{Physics::elasticity3d, mesh::CellType::hexahedron};
   scene::Scene scene = test::stackedBlocks(kind, 3, 1, directory, *comm);
-  scene::SolidRegion stiff;
+  fem::SolidRegion stiff;
   stiff.box.lower[0] = 0.5;
   stiff.material = scene.bodies[0].material;
   stiff.material.youngsModulus *= 3;
@@ -153,7 +153,7 @@ TEST_F(EvaluationTest, MembranesHaveNoStress) {
   scene::Scene scene;
   scene.bodies.resize(1);
   scene.bodies[0].name = "membrane";
-  scene.bodies[0].mesh.box = scene::rectangle(0, 1, 0, 1);
+  scene.bodies[0].mesh.box = mesh::rectangle(0, 1, 0, 1);
   scene.bodies[0].mesh.elements = {8, 8, 0};
   scene.bodies[0].supports = {{"wall", "left", {0.0}}};
   const auto decomposition = model::decompose(scene, comm);
@@ -171,7 +171,7 @@ TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheResults) {
   const double pressure = 3;
   for (const test::Kind& kind : test::kinds()) {
     SCOPED_TRACE(text(kind));
-    const bool isPlane = fem::dimensionOf(kind.cell) == 2;
+    const bool isPlane = mesh::dimensionOf(kind.cell) == 2;
     const scene::Scene scene = test::stackedBlocks(kind, 3, pressure, directory, *comm);
     const auto decomposition = model::decompose(scene, comm);
     Teuchos::ParameterList parameters;
@@ -188,8 +188,8 @@ TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheResults) {
       EXPECT_NEAR(value, pressure, 1e-8);
     for (std::size_t k = 0; k < fields.normals.size(); ++k)
       EXPECT_NEAR(fields.normals[k], k % 3 == (isPlane ? 1 : 2) ? 1 : 0, 1e-14);
-    EXPECT_EQ(fields.nodesPerFacet(), fem::nodesPerFacet(kind.cell));
-    EXPECT_EQ(fields.numFacets, isPlane ? 4 : kind.cell == fem::CellType::tetrahedron ? 32 : 16);
+    EXPECT_EQ(fields.nodesPerFacet(), mesh::nodesPerFacet(kind.cell));
+    EXPECT_EQ(fields.numFacets, isPlane ? 4 : kind.cell == mesh::CellType::tetrahedron ? 32 : 16);
 
     const ContactResult joint = contactResults(solved, evaluation).at(0);
     EXPECT_EQ(joint.name, "joint");
@@ -215,9 +215,9 @@ TEST_F(EvaluationTest, PatchTestHasTheLoadAsPressureAndItsStressInTheResults) {
 }
 
 TEST_F(EvaluationTest, ResultsCountActiveRowsAndSumAllForces) {
-  const test::Kind kind{Physics::planeStrain, fem::CellType::quadrilateral};
+  const test::Kind kind{Physics::planeStrain, mesh::CellType::quadrilateral};
   scene::Scene scene = test::stackedBlocks(kind, 2, 1, directory, *comm);
-  scene::SolidRegion thick; // the right half of both blocks
+  fem::SolidRegion thick; // the right half of both blocks
   thick.box.lower[0] = 0.5;
   thick.material = scene.bodies[0].material;
   thick.material.thickness = 2;

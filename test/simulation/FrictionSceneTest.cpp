@@ -14,8 +14,6 @@
 namespace epafi::simulation {
 namespace {
 
-using scene::Vector3;
-
 constexpr double tolerance = 1e-10;
 
 SceneRun solved(const scene::Scene& scene) {
@@ -28,7 +26,7 @@ const FrictionResult& frictionOf(const RunResult& result) {
   return *result.contacts.front().friction;
 }
 
-scene::Body softBlock(const std::string& name, const scene::Box& box, std::array<int, 3> elements,
+scene::Body softBlock(const std::string& name, const mesh::Box& box, std::array<int, 3> elements,
                       double stiffness, const scene::Decomposition& cut) {
   scene::Body body = test::block(name, box, elements, cut);
   body.material.youngsModulus = stiffness;
@@ -74,9 +72,9 @@ scene::Scene twoBlocks(int n, scene::SurfaceContact::Coupling coupling, bool isU
   for (scene::Body& body : scene.bodies)
     body.mesh.order = 2;
   scene.bodies[0].supports.push_back({"foot", "bottom", {0.0, 0.0}});
-  scene::SolidLoad top;
+  fem::SolidLoad top;
   top.name = "top";
-  top.kind = scene::SolidLoad::Kind::traction;
+  top.kind = fem::SolidLoad::Kind::traction;
   top.where = "top";
   top.value = {0.002, -0.01, 0};
   scene.bodies[1].loads.push_back(top);
@@ -151,17 +149,17 @@ TEST(FrictionSceneTest, WhatHasSlippedIsKeptFromStepToStep) {
   scene::Scene scene = heldBlock(32, test::cutInGrid({2, 2, 1}));
   scene.bodies[0].mesh.order = 2;
   scene.bodies[0].supports.clear();
-  const auto loadOn = [&](const std::string& name, scene::SolidLoad::Kind kind, const std::string& surface,
+  const auto loadOn = [&](const std::string& name, fem::SolidLoad::Kind kind, const std::string& surface,
                           const Vector3& value) {
-    scene::SolidLoad load;
+    fem::SolidLoad load;
     load.name = name;
     load.kind = kind;
     load.where = surface;
     load.value = value;
     scene.bodies[0].loads.push_back(load);
   };
-  loadOn("press", scene::SolidLoad::Kind::traction, "top", {0, -0.01, 0});
-  loadOn("push", scene::SolidLoad::Kind::pressure, "left", {0.0027, 0, 0});
+  loadOn("press", fem::SolidLoad::Kind::traction, "top", {0, -0.01, 0});
+  loadOn("push", fem::SolidLoad::Kind::pressure, "left", {0.0027, 0, 0});
   std::vector<scene::Step> steps(4);
   const double factors[] = {0, 1, -1, 0};
   for (std::size_t k = 0; k < 4; ++k) {

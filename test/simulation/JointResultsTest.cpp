@@ -22,8 +22,7 @@ scene::Scene pressedBlocks(scene::SurfaceContact::Kind kind) {
   for (scene::Body& body : scene.bodies)
     body.supports = {test::slide("left"), test::slide("front")};
   scene.bodies[0].supports.push_back(test::slide("bottom"));
-  scene.bodies[1].loads = {
-      {"press", scene::SolidLoad::Kind::pressure, {}, "top", {0, 0, 0}, {pressure, 0, 0}}};
+  scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {0, 0, 0}, {pressure, 0, 0}}};
   scene.contacts = {test::between("joint", 0, "top", 1, "bottom")};
   scene.contacts[0].kind = kind;
   return scene;

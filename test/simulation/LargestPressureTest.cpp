@@ -62,14 +62,14 @@ struct LargestPressureTest : testing::Test {
   [[nodiscard]] scene::Scene block(const test::Kind& kind, int order, int parts) const {
     scene::Scene scene;
     scene::Body body = test::elasticBlock(kind, "block", 0, parts, directory, *comm);
-    const int dimension = fem::dimensionOf(kind.cell);
+    const int dimension = mesh::dimensionOf(kind.cell);
     body.mesh.elements = {cells, dimension == 2 ? 2 : cells, dimension == 2 ? 0 : 2};
     body.mesh.order = order;
     scene.bodies = {body};
     scene::SurfaceContact contact;
     contact.name = "floor";
     contact.firstSurface = "bottom";
-    contact.obstacle.normal = dimension == 2 ? scene::Vector3{0, 1, 0} : scene::Vector3{0, 0, 1};
+    contact.obstacle.normal = dimension == 2 ? Vector3{0, 1, 0} : Vector3{0, 0, 1};
     scene.contacts = {contact};
     return scene;
   }
@@ -88,13 +88,13 @@ struct LargestPressureTest : testing::Test {
 };
 
 TEST_F(LargestPressureTest, AQuadraticPeakIsFoundExactlyAndIsASumOfMultipliers) {
-  using scene::Physics;
-  for (const test::Kind& kind : {test::Kind{Physics::planeStrain, fem::CellType::quadrilateral},
-                                 test::Kind{Physics::elasticity3d, fem::CellType::hexahedron}})
+  using fem::Physics;
+  for (const test::Kind& kind : {test::Kind{Physics::planeStrain, mesh::CellType::quadrilateral},
+                                 test::Kind{Physics::elasticity3d, mesh::CellType::hexahedron}})
     for (const int order : {1, 2})
       for (const int parts : {1, 3}) {
         SCOPED_TRACE(toString(kind.physics) + ", order " + std::to_string(order));
-        const int dimension = fem::dimensionOf(kind.cell);
+        const int dimension = mesh::dimensionOf(kind.cell);
         const scene::Scene scene = block(kind, order, parts);
         const auto decomposition = model::decompose(scene, comm);
         auto solution = test::solutionWith(decomposition, [](const Point&) { return Point{}; });

@@ -4,9 +4,9 @@
 
 #include "support/TurnedMesh.hpp"
 
-#include "epafi/fem/MeshOrder.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 #include "epafi/model/SceneContacts.hpp"
 
 #include <array>
@@ -52,17 +52,17 @@ struct Blocks {
   /// all of its outside but what is opposite to the joint.
   void add(const std::string& name, double left, double right, double low, double high, int elements) {
     const bool isPlane = meshing.dimension == 2;
-    const fem::StructuredMesh grid(isPlane ? scene::Box{{left, low, 0}, {right, high, 0}}
-                                           : scene::Box{{left, 0, low}, {right, 1, high}},
-                                   isPlane ? std::array{elements, 2, 0} : std::array{elements, 2, 2});
-    fem::MeshArrays arrays = fem::test::arraysOf(grid, {}, meshing.isSimplex);
+    const mesh::StructuredMesh grid(isPlane ? mesh::Box{{left, low, 0}, {right, high, 0}}
+                                            : mesh::Box{{left, 0, low}, {right, 1, high}},
+                                    isPlane ? std::array{elements, 2, 0} : std::array{elements, 2, 2});
+    mesh::MeshArrays arrays = epafi::test::arraysOf(grid, {}, meshing.isSimplex);
     const std::size_t perFacet = numNodesOf(facetTypeOf(arrays.cellType));
     const double middle = (left + right) / 2;
-    std::vector<fem::NamedFacets> more;
-    for (const fem::NamedFacets& facets : arrays.surfaces)
+    std::vector<mesh::NamedFacets> more;
+    for (const mesh::NamedFacets& facets : arrays.surfaces)
       if (facets.name == "top" || facets.name == "bottom") {
-        fem::NamedFacets halves[2] = {{facets.name + " left", {}}, {facets.name + " right", {}}},
-                         inner{facets.name + " inner", {}};
+        mesh::NamedFacets halves[2] = {{facets.name + " left", {}}, {facets.name + " right", {}}},
+                          inner{facets.name + " inner", {}};
         for (std::size_t f = 0; f < facets.nodes.size(); f += perFacet) {
           const auto begin = facets.nodes.begin() + static_cast<std::ptrdiff_t>(f),
                      end = begin + static_cast<std::ptrdiff_t>(perFacet);
@@ -76,18 +76,18 @@ struct Blocks {
         }
         more.insert(more.end(), {halves[0], halves[1], inner});
       }
-    fem::NamedFacets skin{"skin", {}};
-    for (const fem::NamedFacets& facets : arrays.surfaces)
+    mesh::NamedFacets skin{"skin", {}};
+    for (const mesh::NamedFacets& facets : arrays.surfaces)
       if (facets.name != (low < 0 ? "bottom" : "top"))
         skin.nodes.insert(skin.nodes.end(), facets.nodes.begin(), facets.nodes.end());
     more.push_back(skin);
     arrays.surfaces.insert(arrays.surfaces.end(), more.begin(), more.end());
     if (meshing.order == 2)
-      arrays = fem::completed(std::move(arrays), false);
-    bodies.push_back({name, std::make_unique<const fem::UnstructuredMesh>(std::move(arrays)), nullptr, 0});
+      arrays = mesh::completed(std::move(arrays), false);
+    bodies.push_back({name, std::make_unique<const mesh::UnstructuredMesh>(std::move(arrays)), nullptr, 0});
     scene::Body body;
     body.name = name;
-    body.physics = isPlane ? scene::Physics::planeStrain : scene::Physics::elasticity3d;
+    body.physics = isPlane ? fem::Physics::planeStrain : fem::Physics::elasticity3d;
     scene.bodies.push_back(body);
   }
 

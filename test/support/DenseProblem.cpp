@@ -35,7 +35,7 @@ scene::Scene threeMembranes(bool lastFloats, int elements, const scene::Decompos
   scene::Scene scene = twoMembranes(false, elements, cut);
   scene::Body last = scene.bodies.back();
   scene.bodies.back().name = "middle";
-  last.mesh.box = scene::rectangle(2, 3, 0, 1);
+  last.mesh.box = mesh::rectangle(2, 3, 0, 1);
   if (!lastFloats)
     last.supports = {{"wall", "right", {0.0}}};
   scene.bodies.push_back(last);
@@ -46,13 +46,13 @@ scene::Scene threeMembranes(bool lastFloats, int elements, const scene::Decompos
 }
 
 void setLoad(scene::Body& body, double value) {
-  body.loads = {scene::loadInside("all over", body.mesh.box, value)};
+  body.loads = {fem::loadInside("all over", body.mesh.box, value)};
 }
 
 void setHalves(scene::Body& body, double lower, double upper) {
-  scene::Box low = body.mesh.box, high = low;
+  mesh::Box low = body.mesh.box, high = low;
   low.upper[1] = high.lower[1] = 0.5 * (body.mesh.box.lower[1] + body.mesh.box.upper[1]);
-  body.loads = {scene::loadInside("lower half", low, lower), scene::loadInside("upper half", high, upper)};
+  body.loads = {fem::loadInside("lower half", low, lower), fem::loadInside("upper half", high, upper)};
 }
 
 std::vector<ContactCase> clusteredCases() {

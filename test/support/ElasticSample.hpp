@@ -18,13 +18,13 @@ namespace epafi::test {
 
 /// A kind of elastic body.
 struct Kind {
-  scene::Physics physics = scene::Physics::planeStrain;
-  fem::CellType cell = fem::CellType::quadrilateral;
+  fem::Physics physics = fem::Physics::planeStrain;
+  mesh::CellType cell = mesh::CellType::quadrilateral;
 };
 
 inline const std::vector<Kind>& kinds() {
-  using fem::CellType;
-  using scene::Physics;
+  using fem::Physics;
+  using mesh::CellType;
   static const std::vector<Kind> all{{Physics::planeStrain, CellType::triangle},
                                      {Physics::planeStress, CellType::quadrilateral},
                                      {Physics::elasticity3d, CellType::tetrahedron},
@@ -41,7 +41,7 @@ inline std::vector<double> evenLines(double from, double to, int cells) {
 
 /// Writes a mesh file on rank 0; every rank may read it afterwards. Collective.
 inline std::string writeMesh(const TemporaryDirectory& directory, const Comm& comm, const std::string& name,
-                             fem::CellType type, const GridLines& lines) {
+                             mesh::CellType type, const GridLines& lines) {
   const std::filesystem::path file = directory.path() / name;
   comm.barrier(); // other ranks may still read an older file of the name
   if (comm.getRank() == 0)
@@ -55,20 +55,20 @@ inline std::string writeMesh(const TemporaryDirectory& directory, const Comm& co
 inline scene::Body elasticBlock(const Kind& kind, const std::string& name, double bottom, int parts,
                                 const TemporaryDirectory& directory, const Comm& comm) {
   constexpr int cells = 4;
-  const bool isPlane = fem::dimensionOf(kind.cell) == 2;
+  const bool isPlane = mesh::dimensionOf(kind.cell) == 2;
   scene::Body body;
   body.name = name;
   body.decomposition.method = scene::Decomposition::Method::metis;
   body.decomposition.parts = parts;
   body.physics = kind.physics;
   body.material = {1.0, 200.0, 0.3, 0.5};
-  if (kind.cell == fem::CellType::triangle || kind.cell == fem::CellType::tetrahedron) {
+  if (kind.cell == mesh::CellType::triangle || kind.cell == mesh::CellType::tetrahedron) {
     const std::vector<double> across = evenLines(0, 1, cells), up = evenLines(bottom, bottom + 1, cells);
     body.mesh.file = writeMesh(directory, comm, name + ".msh", kind.cell,
                                isPlane ? GridLines{across, up, {}} : GridLines{across, across, up});
   } else {
-    body.mesh.box = isPlane ? scene::Box{{0, bottom, 0}, {1, bottom + 1, 0}}
-                            : scene::Box{{0, 0, bottom}, {1, 1, bottom + 1}};
+    body.mesh.box = isPlane ? mesh::Box{{0, bottom, 0}, {1, bottom + 1, 0}}
+                            : mesh::Box{{0, 0, bottom}, {1, 1, bottom + 1}};
     body.mesh.elements = {cells, cells, isPlane ? 0 : cells};
   }
   body.supports.push_back({"symmetry in x", "left", {0.0, std::nullopt, std::nullopt}});
@@ -83,12 +83,12 @@ inline scene::Scene stackedBlocks(const Kind& kind, int parts, double pressure,
   scene::Scene scene;
   scene.bodies = {elasticBlock(kind, "lower", 0, parts, directory, comm),
                   elasticBlock(kind, "upper", 1, parts, directory, comm)};
-  scene::SolidSupport floor{"floor", "bottom", {}};
-  floor.value[static_cast<std::size_t>(fem::dimensionOf(kind.cell)) - 1] = 0.0;
+  fem::SolidSupport floor{"floor", "bottom", {}};
+  floor.value[static_cast<std::size_t>(mesh::dimensionOf(kind.cell)) - 1] = 0.0;
   scene.bodies[0].supports.push_back(floor);
-  scene::SolidLoad press;
+  fem::SolidLoad press;
   press.name = "press";
-  press.kind = scene::SolidLoad::Kind::pressure;
+  press.kind = fem::SolidLoad::Kind::pressure;
   press.where = "top";
   press.value[0] = pressure;
   scene.bodies[1].loads.push_back(press);

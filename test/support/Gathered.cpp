@@ -43,14 +43,14 @@ scene::Decomposition metis(int parts) {
 }
 
 scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
-                     const std::vector<scene::SolidSupport>& supports) {
+                     const std::vector<fem::SolidSupport>& supports) {
   scene::Body body;
   body.name = "plate";
-  body.mesh.box = scene::rectangle(0, 1, 0, 1);
+  body.mesh.box = mesh::rectangle(0, 1, 0, 1);
   body.mesh.elements = {n, m, 0};
   body.supports = supports;
   body.decomposition = cut;
-  body.loads = {scene::loadInside("all", scene::rectangle(0, 1, 0, 1), -1.0)};
+  body.loads = {fem::loadInside("all", mesh::rectangle(0, 1, 0, 1), -1.0)};
   return {"one body", {body}, {}};
 }
 
@@ -59,7 +59,7 @@ scene::Scene twoMembranes(bool coercive, int elements, const scene::Decompositio
   scene.bodies.push_back(scene.bodies.front());
   scene.bodies.front().name = "left";
   scene.bodies.back().name = "right";
-  scene.bodies.back().mesh.box = scene::rectangle(1, 2, 0, 1);
+  scene.bodies.back().mesh.box = mesh::rectangle(1, 2, 0, 1);
   scene.bodies.back().supports.clear();
   if (coercive)
     scene.bodies.back().supports = {{"wall", "right", {0.0}}};
@@ -132,7 +132,7 @@ scene::Decomposition clustered(scene::Decomposition cut, int size) {
 }
 
 std::vector<Case> smallCases() {
-  const scene::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}},
+  const fem::SolidSupport left{"left", "left", {0.0}}, right{"right", "right", {0.0}},
       top{"top", "top", {0.0}}, bottom{"bottom", "bottom", {0.0}};
   std::vector<Case> cases;
   for (const bool coercive : {true, false}) {

@@ -16,14 +16,14 @@
 namespace epafi::decomposition {
 
 using contact::ContactLayout;
+using meshing::GraphPartition;
+using meshing::GridPartition;
+using meshing::Partition;
 using model::BodyLayout;
 using model::decompose;
 using model::Decomposition;
-using model::GraphPartition;
-using model::GridPartition;
 using model::layoutBodies;
 using model::makeModel;
-using model::Partition;
 
 /// Lets `change(matrix)` change the stiffness of one subdomain, and of no other that shares it.
 template <class Change>
@@ -46,7 +46,7 @@ scene::Decomposition clustered(scene::Decomposition cut, int size);
 
 /// One square body of n × m elements, without contact.
 scene::Scene oneBody(int n, int m, const scene::Decomposition& cut,
-                     const std::vector<scene::SolidSupport>& supports);
+                     const std::vector<fem::SolidSupport>& supports);
 
 /// Sums a vector or matrix over ranks. Collective.
 template <class Matrix>

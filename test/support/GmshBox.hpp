@@ -1,6 +1,6 @@
 #pragma once
 
-#include "epafi/fem/Cell.hpp"
+#include "epafi/mesh/Cell.hpp"
 
 #include <array>
 #include <sstream>
@@ -13,13 +13,13 @@ namespace epafi::test {
 using GridLines = std::array<std::vector<double>, 3>;
 
 /// Corners of the cells that a square or cube of the grid is cut into, by their bits x, y, z.
-inline std::vector<std::vector<int>> cellsOfCube(fem::CellType type) {
+inline std::vector<std::vector<int>> cellsOfCube(mesh::CellType type) {
   switch (type) {
-  case fem::CellType::triangle:
+  case mesh::CellType::triangle:
     return {{0, 1, 3}, {0, 3, 2}};
-  case fem::CellType::quadrilateral:
+  case mesh::CellType::quadrilateral:
     return {{0, 1, 3, 2}};
-  case fem::CellType::tetrahedron: // around the diagonal 0–7
+  case mesh::CellType::tetrahedron: // around the diagonal 0–7
     return {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
   default:
     return {{0, 1, 3, 2, 4, 5, 7, 6}};
@@ -30,13 +30,13 @@ inline std::vector<std::vector<int>> cellsOfCube(fem::CellType type) {
 /// in space), "bottom" and "top" (last coordinate least and greatest).
 class GmshBox {
 public:
-  GmshBox(fem::CellType type, GridLines lines) : type_(type), lines_(std::move(lines)) {
+  GmshBox(mesh::CellType type, GridLines lines) : type_(type), lines_(std::move(lines)) {
     for (std::size_t d = 0; d < 3; ++d)
       counts_[d] = lines_[d].empty() ? 1 : static_cast<int>(lines_[d].size());
   }
 
   [[nodiscard]] std::string text() {
-    const int last = fem::dimensionOf(type_) - 1;
+    const int last = mesh::dimensionOf(type_) - 1;
     for (int k = 0; k + 1 < std::max(counts_[2], 2); ++k)
       for (int j = 0; j + 1 < counts_[1]; ++j)
         for (int i = 0; i + 1 < counts_[0]; ++i)
@@ -92,9 +92,9 @@ private:
   }
 
   void addSurface(const std::vector<Cell>& cells, int group, int direction, int line) {
-    const int corners = fem::nodesPerFacet(type_);
+    const int corners = mesh::nodesPerFacet(type_);
     for (const Cell& cell : cells)
-      for (const auto& facet : fem::facetsOf(type_)) {
+      for (const auto& facet : mesh::facetsOf(type_)) {
         std::vector<int> nodes;
         for (int i = 0; i < corners; ++i)
           nodes.push_back(cell.nodes[facet[i]]);
@@ -121,7 +121,7 @@ private:
     file << "$EndNodes\n";
   }
 
-  fem::CellType type_;
+  mesh::CellType type_;
   GridLines lines_;
   std::array<int, 3> counts_{};
   std::vector<Cell> cells_;

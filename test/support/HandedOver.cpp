@@ -51,7 +51,7 @@ std::unique_ptr<UnassembledProblem> handOver(const scene::Scene& scene,
   for (const BodyLayout& body : bodies)
     names.push_back(body.name);
   auto problem =
-      std::make_unique<UnassembledProblem>(world(), fem::dimensionOf(bodies.front().mesh->cellType()),
+      std::make_unique<UnassembledProblem>(world(), mesh::dimensionOf(bodies.front().mesh->cellType()),
                                            modelsOf(scene, bodies).front()->components(), std::move(names));
   for (SubdomainMatrix& matrix : matrices)
     problem->add(std::move(matrix));
@@ -63,7 +63,7 @@ std::vector<SubdomainMatrix> matricesOf(const scene::Scene& scene, Supports supp
   const scene::Scene assembled = supports == Supports::prescribed ? withoutSupports(scene) : scene;
   const Models models = modelsOf(assembled, bodies), supported = modelsOf(scene, bodies);
   const std::vector<GlobalOrdinal> first = firstNodesOf(bodies);
-  const int dimension = fem::dimensionOf(bodies.front().mesh->cellType()),
+  const int dimension = mesh::dimensionOf(bodies.front().mesh->cellType()),
             components = models.front()->components();
   std::vector<SubdomainMatrix> matrices;
   const model::Share share = model::shareOf(bodies, *world());

@@ -32,8 +32,8 @@ inline scene::Scene plate(int elements, const scene::Decomposition& cut) {
 /// A grid whose conductivity jumps from subdomain to subdomain.
 inline scene::Scene patchwork(int elements, double jump) {
   scene::Scene scene = plate(elements, decomposition::grid(2, 2));
-  scene.bodies.front().regions = {{"corner", scene::rectangle(0, 0.5, 0, 0.5), "", {jump}},
-                                  {"other corner", scene::rectangle(0.5, 1, 0.5, 1), "", {jump}}};
+  scene.bodies.front().regions = {{"corner", mesh::rectangle(0, 0.5, 0, 0.5), "", {jump}},
+                                  {"other corner", mesh::rectangle(0.5, 1, 0.5, 1), "", {jump}}};
   return scene;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
+#include "support/SampleCells.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 #include <fstream>
 #include <string>
 
-namespace epafi::fem::test {
+namespace epafi::test {
 
 /// A folder for mesh files that goes with the object.
 class MeshFolder {
@@ -49,13 +50,9 @@ void expectRefusal(const Work& work, const std::vector<std::string>& parts) {
   }
 }
 
-inline Eigen::Vector3d vectorOf(const Point& point) {
-  return {point[0], point[1], point[2]};
-}
-
 /// Area vectors (in the plane: normal times length) of a surface's facets, outward if the facets are ordered
 /// so.
-inline std::vector<Eigen::Vector3d> areaVectors(const Mesh& mesh, const Surface& surface) {
+inline std::vector<Eigen::Vector3d> areaVectors(const mesh::Mesh& mesh, const mesh::Surface& surface) {
   std::vector<Eigen::Vector3d> vectors;
   const std::size_t count = surface.nodesPerFacet();
   for (std::size_t f = 0; f < surface.elements.size(); ++f) {
@@ -72,4 +69,4 @@ inline std::vector<Eigen::Vector3d> areaVectors(const Mesh& mesh, const Surface&
   return vectors;
 }
 
-} // namespace epafi::fem::test
+} // namespace epafi::test

@@ -82,7 +82,7 @@ scene::Scene contactsThatMeet(bool coercive) {
   scene::Scene scene = twoMembranes(coercive, 4, grid(2, 2));
   scene::Body top = scene.bodies.front();
   top.name = "top";
-  top.mesh.box = scene::rectangle(0, 1, 1, 2);
+  top.mesh.box = mesh::rectangle(0, 1, 1, 2);
   top.supports = {{"ceiling", "top", {0.0}}};
   scene.bodies.push_back(top);
   scene.contacts.push_back({"seam", 0, "top", 2, "bottom", {}, 0.0});
@@ -104,9 +104,9 @@ std::vector<ContactCase> hardCases() {
       cases.push_back({what + "between bodies, METIS", bodies, coercive});
       // Where a body floats P mixes all rows of contact, so that a soft part of the other one must not be
       // among them.
-      const scene::Box corner = scene::rectangle(coercive ? 0.5 : 0.0, coercive ? 1.0 : 0.5, 0, 0.5);
+      const mesh::Box corner = mesh::rectangle(coercive ? 0.5 : 0.0, coercive ? 1.0 : 0.5, 0, 0.5);
       regions.bodies[0].regions = {{"corner", corner, "", {jump}}};
-      regions.bodies[1].regions = {{"lower right", scene::rectangle(1.5, 2, 0, 0.5), "", {jump}}};
+      regions.bodies[1].regions = {{"lower right", mesh::rectangle(1.5, 2, 0, 0.5), "", {jump}}};
       cases.push_back({what + "between regions", regions, coercive});
     }
     scene::Scene heldEnd = twoMembranes(coercive, 4, grid(2, 2));
@@ -128,8 +128,8 @@ std::vector<ContactCase> jumpsInside() {
     for (const double jump : {1e-6, 1e6})
       for (const auto& cut : {grid(2, 2), metis(3)}) {
         scene::Scene scene = twoMembranes(coercive, 4, cut);
-        scene.bodies[0].regions = {{"corner", scene::rectangle(0.5, 1, 0, 0.5), "", {jump}}};
-        scene.bodies[1].regions = {{"strip", scene::rectangle(1, 1.75, 0, 0.25), "", {jump}}};
+        scene.bodies[0].regions = {{"corner", mesh::rectangle(0.5, 1, 0, 0.5), "", {jump}}};
+        scene.bodies[1].regions = {{"strip", mesh::rectangle(1, 1.75, 0, 0.25), "", {jump}}};
         cases.push_back({kindOf(coercive) + (jump < 1 ? "1e-6 inside" : "1e6 inside"), scene, coercive});
       }
   return cases;

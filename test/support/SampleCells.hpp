@@ -2,9 +2,9 @@
 
 /// Elements to test with: of every type, of every form.
 
-#include "epafi/fem/Cell.hpp"
-#include "epafi/fem/Mesh.hpp"
-#include "epafi/fem/ShapeFunctions.hpp"
+#include "epafi/mesh/Cell.hpp"
+#include "epafi/mesh/Mesh.hpp"
+#include "epafi/mesh/ShapeFunctions.hpp"
 #include "epafi/scene/Body.hpp"
 
 #include <Eigen/Core>
@@ -20,30 +20,31 @@
 #include <utility>
 #include <vector>
 
-namespace epafi::fem {
+namespace epafi::test {
 
-inline constexpr std::array linearCellTypes{CellType::triangle, CellType::quadrilateral,
-                                            CellType::tetrahedron, CellType::hexahedron};
-inline constexpr std::array allCellTypes{
-    CellType::triangle,  CellType::quadrilateral,  CellType::tetrahedron,   CellType::hexahedron,
-    CellType::triangle6, CellType::quadrilateral9, CellType::tetrahedron10, CellType::hexahedron27};
+inline constexpr std::array linearCellTypes{mesh::CellType::triangle, mesh::CellType::quadrilateral,
+                                            mesh::CellType::tetrahedron, mesh::CellType::hexahedron};
+inline constexpr std::array allCellTypes{mesh::CellType::triangle,      mesh::CellType::quadrilateral,
+                                         mesh::CellType::tetrahedron,   mesh::CellType::hexahedron,
+                                         mesh::CellType::triangle6,     mesh::CellType::quadrilateral9,
+                                         mesh::CellType::tetrahedron10, mesh::CellType::hexahedron27};
 
 /// Physics that go with a type of cell, membranes apart.
-inline std::vector<scene::Physics> elasticPhysics(CellType type) {
+inline std::vector<fem::Physics> elasticPhysics(mesh::CellType type) {
   if (dimensionOf(type) == 3)
-    return {scene::Physics::elasticity3d};
-  return {scene::Physics::planeStrain, scene::Physics::planeStress};
+    return {fem::Physics::elasticity3d};
+  return {fem::Physics::planeStrain, fem::Physics::planeStress};
 }
 
 /// Physics that go with a type of cell.
-inline std::vector<scene::Physics> allPhysics(CellType type) {
+inline std::vector<fem::Physics> allPhysics(mesh::CellType type) {
   auto all = elasticPhysics(type);
   if (dimensionOf(type) == 2)
-    all.push_back(scene::Physics::membrane);
+    all.push_back(fem::Physics::membrane);
   return all;
 }
 
-inline const scene::Material material{
+inline const fem::Material material{
     .conductivity = 3, .youngsModulus = 10, .poissonsRatio = 0.25, .thickness = 0.5};
 
 inline std::span<const double> spanOf(const Eigen::VectorXd& vector) {
@@ -58,11 +59,11 @@ inline Point pointOf(const Eigen::Vector3d& vector) {
 }
 
 /// The nodes of a cell whose shape functions of order 1 these corners have.
-inline std::vector<Point> withAllNodes(CellType type, const std::vector<Point>& corners) {
-  return withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+inline std::vector<Point> withAllNodes(mesh::CellType type, const std::vector<Point>& corners) {
+  return withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     std::vector<Point> points;
     for (int node = 0; node < shape.numNodes; ++node) {
-      const NodalValues values = referenceShape<dim>(withOrder(type, 1)).values(shape.node(node));
+      const mesh::NodalValues values = referenceShape<dim>(withOrder(type, 1)).values(shape.node(node));
       Point& point = points.emplace_back();
       for (std::size_t a = 0; a < corners.size(); ++a)
         for (std::size_t d = 0; d < 3; ++d)
@@ -73,15 +74,15 @@ inline std::vector<Point> withAllNodes(CellType type, const std::vector<Point>& 
 }
 
 /// The cell of side 1 at the origin.
-inline std::vector<Point> unitCell(CellType type) {
+inline std::vector<Point> unitCell(mesh::CellType type) {
   if (orderOf(type) == 2)
     return withAllNodes(type, unitCell(withOrder(type, 1)));
   switch (type) {
-  case CellType::triangle:
+  case mesh::CellType::triangle:
     return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  case CellType::quadrilateral:
+  case mesh::CellType::quadrilateral:
     return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  case CellType::tetrahedron:
+  case mesh::CellType::tetrahedron:
     return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   default:
     break;
@@ -98,9 +99,9 @@ std::vector<Point> mapped(std::vector<Point> points, const Map& map) {
 }
 
 /// Numbers in [−1, 1], the same on every machine.
-class RandomNumbers {
+class SignedRandomNumbers {
 public:
-  explicit RandomNumbers(std::uint32_t seed) : engine_(seed) {}
+  explicit SignedRandomNumbers(std::uint32_t seed) : engine_(seed) {}
   double operator()() { return static_cast<double>(engine_()) / 2147483647.5 - 1; }
   Eigen::Vector3d vector() {
     const double x = (*this)(), y = (*this)(), z = (*this)();
@@ -113,8 +114,8 @@ private:
 
 /// The unit cell with each corner moved by up to 0.15 along each axis: faces of hexahedra are warped. Of
 /// order 2 the nodes follow, and are moved by up to 0.02 themselves: edges are curved.
-inline std::vector<Point> distortedCell(CellType type, std::uint32_t seed) {
-  RandomNumbers random(seed);
+inline std::vector<Point> distortedCell(mesh::CellType type, std::uint32_t seed) {
+  SignedRandomNumbers random(seed);
   const double most = orderOf(type) == 1 ? 0.15 : 0.02;
   const std::vector<Point> points =
       orderOf(type) == 1 ? unitCell(type) : withAllNodes(type, distortedCell(withOrder(type, 1), seed + 1));
@@ -128,7 +129,7 @@ inline std::vector<Point> distortedCell(CellType type, std::uint32_t seed) {
 
 /// No parallelogram or parallelepiped, but with plane faces: the image of the unit cell under a projective
 /// map.
-inline std::vector<Point> planeFacedCell(CellType type) {
+inline std::vector<Point> planeFacedCell(mesh::CellType type) {
   const bool inSpace = dimensionOf(type) == 3;
   return mapped(unitCell(type), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     Eigen::Vector3d image = Eigen::Vector3d(2 * x[0] + 0.3 * x[1], 1.5 * x[1] - 0.2 * x[0], 0.8 * x[2]) +
@@ -141,14 +142,14 @@ inline std::vector<Point> planeFacedCell(CellType type) {
 
 /// The cell inside out: two neighbouring corners exchanged, or below and above. Of order 2 the edges become
 /// straight.
-inline std::vector<Point> inverted(CellType type, std::vector<Point> points) {
+inline std::vector<Point> inverted(mesh::CellType type, std::vector<Point> points) {
   if (orderOf(type) == 2) {
     points.resize(numCornersOf(type));
     return withAllNodes(type, inverted(withOrder(type, 1), std::move(points)));
   }
-  if (type == CellType::hexahedron)
+  if (type == mesh::CellType::hexahedron)
     std::swap_ranges(points.begin(), points.begin() + 4, points.begin() + 4);
-  else if (type == CellType::quadrilateral)
+  else if (type == mesh::CellType::quadrilateral)
     std::reverse(points.begin(), points.end());
   else
     std::swap(points[0], points[1]);
@@ -156,14 +157,15 @@ inline std::vector<Point> inverted(CellType type, std::vector<Point> points) {
 }
 
 /// Rotation by an angle about z, in space about an oblique axis.
-inline Eigen::Matrix3d rotation(CellType type, double angle) {
+inline Eigen::Matrix3d rotation(mesh::CellType type, double angle) {
   const Eigen::Vector3d axis =
       dimensionOf(type) == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, 3).normalized();
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
 /// Corners of a facet.
-inline std::vector<Point> facetPoints(CellType /*type*/, std::span<const Point> points, const Facet& facet) {
+inline std::vector<Point> facetPoints(mesh::CellType /*type*/, std::span<const Point> points,
+                                      const mesh::Facet& facet) {
   std::vector<Point> corners;
   for (const int place : facet)
     corners.push_back(points[place]);
@@ -171,7 +173,7 @@ inline std::vector<Point> facetPoints(CellType /*type*/, std::span<const Point> 
 }
 
 /// Adds a facet's load to that of the element.
-inline void addFacetLoad(CellType type, const Facet& facet, const Eigen::VectorXd& facetLoad,
+inline void addFacetLoad(mesh::CellType type, const mesh::Facet& facet, const Eigen::VectorXd& facetLoad,
                          Eigen::VectorXd& load) {
   const auto components = facetLoad.size() / nodesPerFacet(type);
   for (int i = 0; i < nodesPerFacet(type); ++i)
@@ -196,4 +198,4 @@ inline Eigen::Vector3d resultant(const Eigen::VectorXd& load, int components) {
   return sum;
 }
 
-} // namespace epafi::fem
+} // namespace epafi::test

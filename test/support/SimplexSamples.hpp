@@ -4,10 +4,10 @@
 
 #include "SampleCells.hpp"
 
-#include "epafi/fem/ElementGeometry.hpp"
-#include "epafi/fem/SimplexMesh.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
-#include "epafi/fem/UnstructuredMesh.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
+#include "epafi/mesh/SimplexMesh.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
+#include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,13 +18,13 @@
 #include <string>
 #include <vector>
 
-namespace epafi::fem::test {
+namespace epafi::test {
 
 /// A mesh as arrays with all its surfaces, its nodes moved by `map`; every third element is in the group
 /// "third".
 template <class Map>
-MeshArrays moved(const Mesh& mesh, const Map& map) {
-  MeshArrays arrays;
+mesh::MeshArrays moved(const mesh::Mesh& mesh, const Map& map) {
+  mesh::MeshArrays arrays;
   arrays.name = "Body 'sample'";
   arrays.cellType = mesh.cellType();
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
@@ -33,15 +33,15 @@ MeshArrays moved(const Mesh& mesh, const Map& map) {
   }
   arrays.groups = {{"third", {}}};
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
-    for (const GlobalOrdinal node : ElementNodes(mesh, element))
+    for (const GlobalOrdinal node : mesh::ElementNodes(mesh, element))
       arrays.cells.push_back(static_cast<LocalOrdinal>(node));
     arrays.elementTags.push_back(element);
     if (element % 3 == 0)
       arrays.groups[0].elements.push_back(static_cast<LocalOrdinal>(element));
   }
   for (const std::string& name : mesh.surfaceNames()) {
-    NamedFacets& facets = arrays.surfaces.emplace_back(NamedFacets{name, {}});
-    const Surface surface = mesh.surface(name);
+    mesh::NamedFacets& facets = arrays.surfaces.emplace_back(mesh::NamedFacets{name, {}});
+    const mesh::Surface surface = mesh.surface(name);
     for (std::size_t f = 0; f < surface.numFacets(); ++f)
       for (int i = 0; i < numCornersOf(surface.facetType); ++i)
         facets.nodes.push_back(static_cast<LocalOrdinal>(surface.facet(f)[i]));
@@ -51,9 +51,9 @@ MeshArrays moved(const Mesh& mesh, const Map& map) {
 
 /// The unit square (elements in z: 0) or cube, the inner nodes of its grid moved by up to a quarter of a
 /// cell, in simplices.
-inline SimplexMesh unevenGrid(const std::array<int, 3>& elements, std::uint32_t seed = 1) {
-  const StructuredMesh grid({{0, 0, 0}, {1, 1, 1}}, elements);
-  RandomNumbers random(seed);
+inline mesh::SimplexMesh unevenGrid(const std::array<int, 3>& elements, std::uint32_t seed = 1) {
+  const mesh::StructuredMesh grid({{0, 0, 0}, {1, 1, 1}}, elements);
+  SignedRandomNumbers random(seed);
   const auto shaken = [&](Point point) {
     bool isInside = true;
     for (int d = 0; d < grid.dimension(); ++d)
@@ -62,21 +62,21 @@ inline SimplexMesh unevenGrid(const std::array<int, 3>& elements, std::uint32_t 
       point[d] += 0.25 / elements[d] * random();
     return point;
   };
-  return simplicesOf(UnstructuredMesh(moved(grid, shaken)));
+  return simplicesOf(mesh::UnstructuredMesh(moved(grid, shaken)));
 }
 
 /// A quarter of a ring of radii 1 and 2 round the origin, in space of height 1, in bricks of order 2; its
 /// surface "right" is the outer arc, "left" the inner one. \param elements along the radius, round it, and in
 /// z (0: in the plane)
-inline MeshArrays quarterRing(const std::array<int, 3>& elements) {
-  return moved(StructuredMesh({{1, 0, 0}, {2, 1, 1}}, elements, 2), [](const Point& x) {
+inline mesh::MeshArrays quarterRing(const std::array<int, 3>& elements) {
+  return moved(mesh::StructuredMesh({{1, 0, 0}, {2, 1, 1}}, elements, 2), [](const Point& x) {
     const double angle = 0.5 * std::numbers::pi * x[1];
     return Point{x[0] * std::cos(angle), x[0] * std::sin(angle), x[2]};
   });
 }
 
 /// Area or volume of each element.
-inline std::vector<double> measuresOf(const Mesh& mesh) {
+inline std::vector<double> measuresOf(const mesh::Mesh& mesh) {
   std::vector<double> measures;
   std::vector<Point> points;
   for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element) {
@@ -90,7 +90,7 @@ inline double sumOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-inline double measureOfGroup(const Mesh& mesh, const std::string& name) {
+inline double measureOfGroup(const mesh::Mesh& mesh, const std::string& name) {
   const std::vector<double> measures = measuresOf(mesh);
   double sum = 0;
   for (const GlobalOrdinal element : mesh.group(name))
@@ -99,8 +99,8 @@ inline double measureOfGroup(const Mesh& mesh, const std::string& name) {
 }
 
 /// Length or area of a surface.
-inline double measureOfSurface(const Mesh& mesh, const std::string& name) {
-  const Surface surface = mesh.surface(name);
+inline double measureOfSurface(const mesh::Mesh& mesh, const std::string& name) {
+  const mesh::Surface surface = mesh.surface(name);
   std::vector<Point> points;
   std::vector<double> shares(surface.nodesPerFacet());
   double sum = 0;
@@ -114,8 +114,8 @@ inline double measureOfSurface(const Mesh& mesh, const std::string& name) {
 
 /// As a mesh, which refuses what is not sound, hanging nodes above all. What its surfaces do not show is
 /// inside: no facet has lost its neighbour. Precondition: every facet of the border is on one surface.
-inline UnstructuredMesh soundBody(const SimplexMesh& mesh, int order = 1) {
-  UnstructuredMesh body(arraysOf(mesh, order));
+inline mesh::UnstructuredMesh soundBody(const mesh::SimplexMesh& mesh, int order = 1) {
+  mesh::UnstructuredMesh body(arraysOf(mesh, order));
   std::size_t alone = 0, onSurfaces = 0;
   std::vector<GlobalOrdinal> neighbours;
   for (GlobalOrdinal element = 0; element < body.numElements(); ++element) {
@@ -128,4 +128,4 @@ inline UnstructuredMesh soundBody(const SimplexMesh& mesh, int order = 1) {
   return body;
 }
 
-} // namespace epafi::fem::test
+} // namespace epafi::test

@@ -19,7 +19,7 @@
 
 namespace epafi::test {
 
-using scene::Physics;
+using fem::Physics;
 
 inline scene::Decomposition cutByMetis(int parts) {
   scene::Decomposition cut;
@@ -34,12 +34,12 @@ inline scene::Decomposition cutInGrid(std::array<int, 3> counts) {
   return cut;
 }
 
-inline scene::SolidSupport slide(const std::string& surface, double normal = 0) {
+inline fem::SolidSupport slide(const std::string& surface, double normal = 0) {
   return {"slide on " + surface, surface, {}, normal};
 }
 
 /// A block in the plane (z: 0) or in space.
-inline scene::Body block(const std::string& name, const scene::Box& box, std::array<int, 3> elements,
+inline scene::Body block(const std::string& name, const mesh::Box& box, std::array<int, 3> elements,
                          const scene::Decomposition& cut) {
   scene::Body body;
   body.name = name;
@@ -51,16 +51,16 @@ inline scene::Body block(const std::string& name, const scene::Box& box, std::ar
   return body;
 }
 
-inline scene::SolidLoad weight(const scene::Vector3& force) {
-  return {"weight", scene::SolidLoad::Kind::body, {}, "", {0, 0, 0}, force};
+inline fem::SolidLoad weight(const Vector3& force) {
+  return {"weight", fem::SolidLoad::Kind::body, {}, "", {0, 0, 0}, force};
 }
 
-inline scene::SolidLoad pointForce(const scene::Vector3& point, const scene::Vector3& force) {
-  return {"force", scene::SolidLoad::Kind::point, {}, "", point, force};
+inline fem::SolidLoad pointForce(const Vector3& point, const Vector3& force) {
+  return {"force", fem::SolidLoad::Kind::point, {}, "", point, force};
 }
 
 inline scene::SurfaceContact onPlane(const std::string& name, int body, const std::string& surface,
-                                     const scene::Vector3& point, const scene::Vector3& normal) {
+                                     const Vector3& point, const Vector3& normal) {
   scene::SurfaceContact contact;
   contact.name = name;
   contact.first = body;

@@ -2,8 +2,8 @@
 
 /// Structured meshes as arrays, turned, shifted and cut into simplices, and their files.
 
-#include "epafi/fem/MeshArrays.hpp"
-#include "epafi/fem/StructuredMesh.hpp"
+#include "epafi/mesh/MeshArrays.hpp"
+#include "epafi/mesh/StructuredMesh.hpp"
 
 #include <Eigen/Geometry>
 
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace epafi::fem::test {
+namespace epafi::test {
 
 /// x ↦ Qx + shift.
 struct Placement {
@@ -42,11 +42,11 @@ inline const std::vector<std::array<int, 4>>& tetrahedraOfCube() {
   return cut;
 }
 
-inline std::vector<std::vector<int>> pieces(CellType type, bool simplices) {
+inline std::vector<std::vector<int>> pieces(mesh::CellType type, bool simplices) {
   if (!simplices)
-    return type == CellType::quadrilateral ? std::vector<std::vector<int>>{{0, 1, 2, 3}}
-                                           : std::vector<std::vector<int>>{{0, 1, 2, 3, 4, 5, 6, 7}};
-  if (type == CellType::quadrilateral)
+    return type == mesh::CellType::quadrilateral ? std::vector<std::vector<int>>{{0, 1, 2, 3}}
+                                                 : std::vector<std::vector<int>>{{0, 1, 2, 3, 4, 5, 6, 7}};
+  if (type == mesh::CellType::quadrilateral)
     return {{0, 1, 2}, {0, 2, 3}};
   std::vector<std::vector<int>> result;
   for (const auto& cut : tetrahedraOfCube())
@@ -55,14 +55,15 @@ inline std::vector<std::vector<int>> pieces(CellType type, bool simplices) {
 }
 
 /// Boundary facets all of whose nodes belong to a surface of the structured mesh.
-inline NamedFacets facetsOn(const Mesh& mesh, const std::string& name, const MeshArrays& arrays) {
-  const Surface surface = mesh.surface(name);
+inline mesh::NamedFacets facetsOn(const mesh::Mesh& mesh, const std::string& name,
+                                  const mesh::MeshArrays& arrays) {
+  const mesh::Surface surface = mesh.surface(name);
   const std::set<GlobalOrdinal> on(surface.facetNodes.begin(), surface.facetNodes.end());
   std::map<std::vector<LocalOrdinal>, std::pair<int, std::vector<LocalOrdinal>>>
       seen; // sorted: count, ordered
   for (LocalOrdinal e = 0; e < arrays.numElements(); ++e) {
     const auto nodes = nodesOf(arrays.cellType, arrays.cells, e);
-    for (const Facet& facet : facetsOf(arrays.cellType)) {
+    for (const mesh::Facet& facet : facetsOf(arrays.cellType)) {
       std::vector<LocalOrdinal> own;
       for (const int place : facet)
         own.push_back(nodes[place]);
@@ -73,7 +74,7 @@ inline NamedFacets facetsOn(const Mesh& mesh, const std::string& name, const Mes
       entry.second = own;
     }
   }
-  NamedFacets facets{name, {}};
+  mesh::NamedFacets facets{name, {}};
   for (const auto& [key, entry] : seen)
     if (entry.first == 1 &&
         std::all_of(key.begin(), key.end(), [&](LocalOrdinal node) { return on.count(node) > 0; }))
@@ -82,11 +83,13 @@ inline NamedFacets facetsOn(const Mesh& mesh, const std::string& name, const Mes
 }
 
 /// A structured mesh as arrays with all its surfaces.
-inline MeshArrays arraysOf(const Mesh& mesh, const Placement& placement, bool simplices) {
-  MeshArrays arrays;
+inline mesh::MeshArrays arraysOf(const mesh::Mesh& mesh, const Placement& placement, bool simplices) {
+  mesh::MeshArrays arrays;
   arrays.name = "turned";
-  const bool isPlane = mesh.cellType() == CellType::quadrilateral;
-  arrays.cellType = !simplices ? mesh.cellType() : isPlane ? CellType::triangle : CellType::tetrahedron;
+  const bool isPlane = mesh.cellType() == mesh::CellType::quadrilateral;
+  arrays.cellType = !simplices ? mesh.cellType()
+                    : isPlane  ? mesh::CellType::triangle
+                               : mesh::CellType::tetrahedron;
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node) {
     const Eigen::Vector3d x = placement.of(mesh.point(node));
     arrays.points.push_back({x[0], x[1], isPlane ? 0.0 : x[2]});
@@ -130,7 +133,7 @@ inline std::vector<std::size_t> gmshOrder(std::size_t numNodes, int dimension) {
 
 /// A file of format 2.2 with one group for the body and one for each surface.
 /// \param perElement  nodes of the cells; 0: as their type has
-inline std::string fileOf(const MeshArrays& arrays, std::size_t perElement = 0) {
+inline std::string fileOf(const mesh::MeshArrays& arrays, std::size_t perElement = 0) {
   const int dimension = dimensionOf(arrays.cellType);
   std::ostringstream file;
   file.precision(17);
@@ -162,4 +165,4 @@ inline std::string fileOf(const MeshArrays& arrays, std::size_t perElement = 0) 
   return file.str();
 }
 
-} // namespace epafi::fem::test
+} // namespace epafi::test

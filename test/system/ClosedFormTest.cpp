@@ -34,7 +34,7 @@ scene::Scene sceneOf(const Column& column, int elements) {
   scene::Scene scene = scene::modelProblem(column.coercive, 2, elements);
   const double loads[] = {column.f1, column.f2};
   for (std::size_t b = 0; b < 2; ++b)
-    scene.bodies[b].loads = {scene::loadInside("everywhere", scene.bodies[b].mesh.box, loads[b])};
+    scene.bodies[b].loads = {fem::loadInside("everywhere", scene.bodies[b].mesh.box, loads[b])};
   return scene;
 }
 
@@ -82,8 +82,8 @@ TEST(SmallResultantTest, ABodyThatBarelyRestsOnItsContactIsSolvedInFewOuterItera
   for (const double rest : {1e-2, 1e-4, 1e-6, 1e-7, 1e-8})
     for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
       scene::Scene scene = scene::modelProblem(false, 4, 32);
-      scene.bodies[1].loads = {scene::loadInside("down", scene::rectangle(1, 2, 0, 0.25), -1),
-                               scene::loadInside("up", scene::rectangle(1, 2, 0.75, 1), 1 - 4 * rest)};
+      scene.bodies[1].loads = {fem::loadInside("down", mesh::rectangle(1, 2, 0, 0.25), -1),
+                               fem::loadInside("up", mesh::rectangle(1, 2, 0.75, 1), 1 - 4 * rest)};
 
       const simulation::SceneRun run = test::solve(scene, tolerance);
 

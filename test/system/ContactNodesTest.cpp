@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-const scene::Vector3 corner{0, 0, 0};
+const Vector3 corner{0, 0, 0};
 
 /// A square in the corner of a floor and a wall, pressed into it.
 scene::Scene inCorner(const scene::Decomposition& cut) {
@@ -61,8 +61,7 @@ TEST(ContactNodesTest, AContactThatStaysOpenDoesNotSpoilTheOthers) {
     for (const bool isFloating : {false, true}) {
       SCOPED_TRACE(testing::Message() << dimension << "-D, " << (isFloating ? "floating" : "held"));
       const bool isPlane = dimension == 2;
-      const scene::Vector3 up = isPlane ? scene::Vector3{0, 1, 0} : scene::Vector3{0, 0, 1},
-                           down{0, -up[1], -up[2]};
+      const Vector3 up = isPlane ? Vector3{0, 1, 0} : Vector3{0, 0, 1}, down{0, -up[1], -up[2]};
       scene::Scene scene;
       scene.bodies = {block("block", {{0, 0, 0}, {2, 1, isPlane ? 0.0 : 1.0}}, {8, 4, isPlane ? 0 : 2},
                             cutInGrid({2, 1, 1}))};
@@ -71,7 +70,7 @@ TEST(ContactNodesTest, AContactThatStaysOpenDoesNotSpoilTheOthers) {
         scene.bodies[0].supports.push_back(slide("front"));
       if (!isFloating)
         scene.bodies[0].supports = {{"left", "left", {0.0, 0.0, 0.0}}};
-      scene.bodies[0].loads = {weight(isPlane ? scene::Vector3{0.3, -1, 0} : scene::Vector3{0.3, 0, -1})};
+      scene.bodies[0].loads = {weight(isPlane ? Vector3{0.3, -1, 0} : Vector3{0.3, 0, -1})};
       scene.contacts = {onPlane("floor", 0, "bottom", {0, 0, 0}, up)};
       const SolidRun alone(scene, tolerance);
       ASSERT_GT(alone.solution.contactForce, 0.1);
@@ -113,7 +112,7 @@ TEST(ContactNodesTest, ASideThatASupportHoldsCarriesNoMultipliers) {
         const auto stacked = [&](const std::string& name, double low, int elements) {
           scene::Body body = block(
               name,
-              isPlane ? scene::Box{{0, low, 0}, {2, low + 1, 0}} : scene::Box{{0, 0, low}, {2, 1, low + 1}},
+              isPlane ? mesh::Box{{0, low, 0}, {2, low + 1, 0}} : mesh::Box{{0, 0, low}, {2, 1, low + 1}},
               {elements, isPlane ? 2 : elements / 2, isPlane ? 0 : 2}, cutInGrid({1, 1, 1}));
           body.mesh.order = order;
           body.supports = {slide("left")};

@@ -19,9 +19,9 @@ scene::Scene chain(const std::vector<double>& loads, int elements) {
     const auto x = static_cast<double>(b);
     scene::Body body;
     body.name = std::string("b").append(std::to_string(b));
-    body.mesh.box = scene::rectangle(x, x + 1, 0, 1);
+    body.mesh.box = mesh::rectangle(x, x + 1, 0, 1);
     body.mesh.elements = {elements, elements, 0};
-    body.loads = {scene::loadInside("all", body.mesh.box, loads[b])};
+    body.loads = {fem::loadInside("all", body.mesh.box, loads[b])};
     if (b == 0)
       body.supports = {{"wall", "left", {0.0}}};
     else

@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-const scene::Vector3 origin{0, 0, 0}, upward{0, 0, 1}, upInPlane{0, 1, 0}, right{1, 0, 0};
+const Vector3 origin{0, 0, 0}, upward{0, 0, 1}, upInPlane{0, 1, 0}, right{1, 0, 0};
 
 scene::Body cube(const std::string& name, double bottom, double size = 1) {
   scene::Body body =
@@ -23,7 +23,7 @@ scene::Body cube(const std::string& name, double bottom, double size = 1) {
 }
 
 /// A cube that its weight presses on the plane z = 0, with some supports.
-scene::Scene cubeOnPlane(const std::vector<scene::SolidSupport>& supports) {
+scene::Scene cubeOnPlane(const std::vector<fem::SolidSupport>& supports) {
   scene::Scene scene;
   scene.bodies = {cube("cube", 0)};
   scene.bodies[0].supports = supports;
@@ -211,9 +211,9 @@ TEST(FloatingSolidTest, WallsThatNothingPressesOnLeaveTheWayBetweenThemOpen) {
 }
 
 /// Half a ring of quadrilaterals around the origin, cut along x = 0, by its angles from −90° to 90°.
-fem::MeshArrays halfRing(int numSpokes) {
-  fem::MeshArrays arrays;
-  arrays.cellType = fem::CellType::quadrilateral;
+mesh::MeshArrays halfRing(int numSpokes) {
+  mesh::MeshArrays arrays;
+  arrays.cellType = mesh::CellType::quadrilateral;
   arrays.surfaces = {{"cut", {}}, {"rim", {}}};
   for (int i = 0; i <= numSpokes; ++i)
     for (int ring = 0; ring < 3; ++ring) {
@@ -236,11 +236,11 @@ fem::MeshArrays halfRing(int numSpokes) {
 }
 
 /// A ring between a floor and a lid that leave it less than its height.
-scene::Scene squeezedRing(const fem::test::MeshFolder& folder, bool isCutHeld) {
+scene::Scene squeezedRing(const epafi::test::MeshFolder& folder, bool isCutHeld) {
   scene::Scene scene;
   scene.bodies = {block("ring", {}, {0, 0, 0}, cutByMetis(3))};
   scene.bodies[0].mesh = {};
-  scene.bodies[0].mesh.file = folder.write("ring.msh", fem::test::fileOf(halfRing(24)));
+  scene.bodies[0].mesh.file = folder.write("ring.msh", epafi::test::fileOf(halfRing(24)));
   scene.bodies[0].mesh.group = "body";
   if (isCutHeld)
     scene.bodies[0].supports = {slide("cut")};
@@ -250,7 +250,7 @@ scene::Scene squeezedRing(const fem::test::MeshFolder& folder, bool isCutHeld) {
 }
 
 TEST(FloatingSolidTest, ARingBetweenPlatesIsSqueezedAlike) {
-  const fem::test::MeshFolder folder;
+  const epafi::test::MeshFolder folder;
   const SolidRun run(squeezedRing(folder, true));
   EXPECT_EQ(run.decomposition.problem.kernelDimension, 1);
   EXPECT_EQ(run.solver.report().status, qp::Status::converged);

@@ -7,7 +7,7 @@
 
 #include "epafi/accuracy/ErrorEstimate.hpp"
 #include "epafi/accuracy/ErrorNorms.hpp"
-#include "epafi/fem/MeshOrder.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,7 @@ namespace epafi {
 namespace {
 
 using namespace test;
-using fem::CellType;
+using mesh::CellType;
 
 constexpr double inner = 1, outer = 2, pressure = 3, young = 200, poisson = 0.3;
 
@@ -35,11 +35,11 @@ fem::FieldValue lame(int /*body*/, const Point& point) {
 
 /// A quarter of the ring: n elements across and n around, in space n/2 along the axis; all nodes where they
 /// belong.
-scene::Scene quarter(CellType cell, int order, int n, const fem::test::MeshFolder& folder) {
-  const bool isSpace = fem::dimensionOf(cell) == 3,
+scene::Scene quarter(CellType cell, int order, int n, const epafi::test::MeshFolder& folder) {
+  const bool isSpace = mesh::dimensionOf(cell) == 3,
              isSimplex = cell == CellType::triangle || cell == CellType::tetrahedron;
-  const fem::StructuredMesh square({{0, 0, 0}, {1, 1, 0.5}}, {n, n, isSpace ? n / 2 : 0});
-  fem::MeshArrays arrays = fem::test::arraysOf(square, {}, isSimplex);
+  const mesh::StructuredMesh square({{0, 0, 0}, {1, 1, 0.5}}, {n, n, isSpace ? n / 2 : 0});
+  mesh::MeshArrays arrays = epafi::test::arraysOf(square, {}, isSimplex);
   if (order == 2)
     arrays = completed(std::move(arrays), false);
   arrays.nodeTags.clear();
@@ -53,7 +53,7 @@ scene::Scene quarter(CellType cell, int order, int n, const fem::test::MeshFolde
   ring.name = "ring";
   ring.physics = isSpace ? Physics::elasticity3d : Physics::planeStrain;
   ring.material = {1.0, young, poisson, 1.0};
-  ring.mesh.file = folder.write("ring" + std::to_string(n) + ".msh", fem::test::fileOf(arrays));
+  ring.mesh.file = folder.write("ring" + std::to_string(n) + ".msh", epafi::test::fileOf(arrays));
   ring.mesh.group = "body";
   ring.mesh.order = 0;
   ring.decomposition = cutByMetis(4);
@@ -62,7 +62,7 @@ scene::Scene quarter(CellType cell, int order, int n, const fem::test::MeshFolde
     ring.supports.push_back(slide("bottom"));
     ring.supports.push_back(slide("top"));
   }
-  ring.loads = {{"inside", scene::SolidLoad::Kind::pressure, {}, "left", {0, 0, 0}, {pressure, 0, 0}}};
+  ring.loads = {{"inside", fem::SolidLoad::Kind::pressure, {}, "left", {0, 0, 0}, {pressure, 0, 0}}};
   scene::Scene scene;
   scene.bodies = {ring};
   return scene;
@@ -72,8 +72,8 @@ class LameTest : public testing::TestWithParam<std::tuple<CellType, int>> {};
 
 TEST_P(LameTest, EnergyAndL2ErrorsFallWithTheOrder) {
   const auto [cell, order] = GetParam();
-  const fem::test::MeshFolder folder;
-  const bool isSpace = fem::dimensionOf(cell) == 3;
+  const epafi::test::MeshFolder folder;
+  const bool isSpace = mesh::dimensionOf(cell) == 3;
   std::vector<accuracy::ErrorNorms> errors;
   for (const int n : isSpace ? std::vector{4, 8} : std::vector{6, 12}) {
     const scene::Scene scene = quarter(cell, order, n, folder);
@@ -91,7 +91,7 @@ TEST_P(LameTest, EnergyAndL2ErrorsFallWithTheOrder) {
 }
 
 std::string nameOf(const testing::TestParamInfo<std::tuple<CellType, int>>& instance) {
-  return fem::toString(std::get<0>(instance.param)) + std::to_string(std::get<1>(instance.param));
+  return mesh::toString(std::get<0>(instance.param)) + std::to_string(std::get<1>(instance.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ring, LameTest,

@@ -113,14 +113,14 @@ TEST(MembranesApartTest, TiedPartsAreOneMembrane) {
   for (const bool isHeld : {true, false}) {
     scene::Scene parts = scene::modelProblem(isHeld, 1, 12);
     for (scene::Body& body : parts.bodies)
-      body.loads = {scene::loadInside("weight", body.mesh.box, -1)};
+      body.loads = {fem::loadInside("weight", body.mesh.box, -1)};
     parts.contacts[0].kind = scene::SurfaceContact::Kind::tied;
     scene::Scene whole = parts;
     whole.bodies.pop_back();
     whole.contacts.clear();
-    whole.bodies[0].mesh.box = scene::rectangle(0, 2, 0, 1);
+    whole.bodies[0].mesh.box = mesh::rectangle(0, 2, 0, 1);
     whole.bodies[0].mesh.elements = {24, 12, 0};
-    whole.bodies[0].loads = {scene::loadInside("weight", whole.bodies[0].mesh.box, -1)};
+    whole.bodies[0].loads = {fem::loadInside("weight", whole.bodies[0].mesh.box, -1)};
     if (isHeld)
       whole.bodies[0].supports.push_back({"end", "right", {0.0}});
     const double expected = energyOf(whole);

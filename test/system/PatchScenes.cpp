@@ -2,17 +2,17 @@
 
 #include "support/SampleCells.hpp"
 
-#include "epafi/fem/MeshOrder.hpp"
-#include "epafi/fem/MeshTopology.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/mesh/MeshTopology.hpp"
 
 #include <array>
 #include <utility>
 
 namespace epafi::test {
 
-using fem::CellType;
-using fem::test::MeshFolder;
-using fem::test::Placement;
+using epafi::test::MeshFolder;
+using epafi::test::Placement;
+using mesh::CellType;
 
 bool isSimplex(CellType cell) {
   return cell == CellType::triangle || cell == CellType::tetrahedron;
@@ -23,7 +23,7 @@ namespace {
 /// Both blocks in one geometry; the nodes of the joint fit, and belong to one block each.
 std::string geometryOf(CellType cell, double gap) {
   const std::string top = std::to_string(1 + gap), up = std::to_string(gap);
-  if (fem::dimensionOf(cell) == 2)
+  if (mesh::dimensionOf(cell) == 2)
     return R"(SetFactory("OpenCASCADE");
 Mesh.CharacteristicLengthMax = 0.2;
 Rectangle(1) = {0, 0, 0, 1, 1};
@@ -60,13 +60,13 @@ Physical Surface("front") = {lower(2), upper(2)}; Physical Surface("left") = {lo
 }
 
 /// Of order 2, the nodes inside moved about: all edges inside are curved.
-fem::MeshArrays curved(fem::MeshArrays arrays) {
+mesh::MeshArrays curved(mesh::MeshArrays arrays) {
   arrays = completed(std::move(arrays), false);
   for (std::size_t node = 0; node < arrays.nodeTags.size(); ++node)
     arrays.nodeTags[node] = static_cast<GlobalOrdinal>(node) + 1;
-  const fem::MeshTopology topology(arrays.cellType, static_cast<LocalOrdinal>(arrays.points.size()),
-                                   arrays.cells);
-  fem::RandomNumbers random(7);
+  const mesh::MeshTopology topology(arrays.cellType, static_cast<LocalOrdinal>(arrays.points.size()),
+                                    arrays.cells);
+  test::SignedRandomNumbers random(7);
   for (std::size_t node = 0; node < arrays.points.size(); ++node)
     for (int d = 0;
          d < dimensionOf(arrays.cellType) && !topology.isOnBoundary(static_cast<LocalOrdinal>(node)); ++d)
@@ -75,13 +75,13 @@ fem::MeshArrays curved(fem::MeshArrays arrays) {
 }
 
 /// The mesh of a block in [0, 1]ⁿ, lifted by `bottom`.
-scene::MeshSource meshOf(const Kind& kind, bool isLower, double bottom, const MeshFolder& folder) {
+meshing::MeshSource meshOf(const Kind& kind, bool isLower, double bottom, const MeshFolder& folder) {
   const bool isSpace = kind.dimension() == 3;
   const int order = isLower ? kind.lowerOrder : kind.order;
   const CellType cell = isLower ? kind.lowerCell : kind.cell;
-  scene::MeshSource source;
-  source.box = isSpace ? scene::Box{{0, 0, bottom}, {1, 1, bottom + 1}}
-                       : scene::Box{{0, bottom, 0}, {1, bottom + 1, 0}};
+  meshing::MeshSource source;
+  source.box =
+      isSpace ? mesh::Box{{0, 0, bottom}, {1, 1, bottom + 1}} : mesh::Box{{0, bottom, 0}, {1, bottom + 1, 0}};
   source.elements = isSpace ? std::array{4, 4, 3} : std::array{6, 6, 0};
   if (const int along = isLower ? kind.lowerElements : kind.upperElements; along > 0)
     source.elements[0] = along;
@@ -90,12 +90,12 @@ scene::MeshSource meshOf(const Kind& kind, bool isLower, double bottom, const Me
   source.order = order;
   if (kind.source == Source::structured && !isSimplex(cell))
     return source;
-  const fem::StructuredMesh mesh(source.box, source.elements);
-  fem::MeshArrays arrays = arraysOf(mesh, kind.placement(), isSimplex(cell));
+  const mesh::StructuredMesh mesh(source.box, source.elements);
+  mesh::MeshArrays arrays = arraysOf(mesh, kind.placement(), isSimplex(cell));
   if (kind.source == Source::curved)
     arrays = curved(std::move(arrays));
-  scene::MeshSource file;
-  file.file = folder.write(isLower ? "lower.msh" : "upper.msh", fem::test::fileOf(arrays));
+  meshing::MeshSource file;
+  file.file = folder.write(isLower ? "lower.msh" : "upper.msh", epafi::test::fileOf(arrays));
   file.group = "body";
   file.order = kind.source == Source::curved ? 0 : order;
   return file;
@@ -124,8 +124,7 @@ scene::Scene stack(const Kind& kind, Below below, const MeshFolder& folder) {
     scene.bodies.push_back(body);
   }
   scene.bodies[0].supports.push_back(slide("bottom"));
-  scene.bodies[1].loads = {
-      {"press", scene::SolidLoad::Kind::pressure, {}, "top", {0, 0, 0}, {pressure, 0, 0}}};
+  scene.bodies[1].loads = {{"press", fem::SolidLoad::Kind::pressure, {}, "top", {0, 0, 0}, {pressure, 0, 0}}};
   scene.contacts = {between("joint", 0, "top", 1, "bottom")};
   if (below == Below::tiedBlock)
     scene.contacts[0].kind = scene::SurfaceContact::Kind::tied;

@@ -17,23 +17,23 @@ enum class Source { structured, turned, curved, gmsh };
 
 struct Kind {
   Physics physics;
-  fem::CellType cell;
+  mesh::CellType cell;
   Source source;
   int order = 1;
-  int lowerOrder = order;         ///< of the lower block
-  fem::CellType lowerCell = cell; ///< likewise
-  int lowerElements = 0;          ///< along the joint, if the lower block is meshed apart
-  int upperElements = 0;          ///< along the joint, if not as usual
+  int lowerOrder = order;          ///< of the lower block
+  mesh::CellType lowerCell = cell; ///< likewise
+  int lowerElements = 0;           ///< along the joint, if the lower block is meshed apart
+  int upperElements = 0;           ///< along the joint, if not as usual
 
-  [[nodiscard]] int dimension() const { return fem::dimensionOf(cell); }
-  [[nodiscard]] fem::test::Placement placement() const {
+  [[nodiscard]] int dimension() const { return mesh::dimensionOf(cell); }
+  [[nodiscard]] epafi::test::Placement placement() const {
     return source == Source::turned || source == Source::curved
-               ? fem::test::placed(dimension(), 0.7, {2, -1, dimension() == 3 ? 3.0 : 0.0})
-               : fem::test::Placement{};
+               ? epafi::test::placed(dimension(), 0.7, {2, -1, dimension() == 3 ? 3.0 : 0.0})
+               : epafi::test::Placement{};
   }
 };
 
-bool isSimplex(fem::CellType cell);
+bool isSimplex(mesh::CellType cell);
 
 /// What the upper block is pressed against.
 enum class Below { block, tiedBlock, blockAtADistance, plane };
@@ -42,6 +42,6 @@ inline constexpr double distance = 0.01;
 
 /// Two blocks, one on the other, on a sliding floor, or the upper one alone on a plane in the lower one's
 /// place; the upper one floats and is pressed down.
-scene::Scene stack(const Kind& kind, Below below, const fem::test::MeshFolder& folder);
+scene::Scene stack(const Kind& kind, Below below, const epafi::test::MeshFolder& folder);
 
 } // namespace epafi::test

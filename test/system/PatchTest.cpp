@@ -7,8 +7,8 @@
 
 #include "epafi/fem/FluxIntegrals.hpp"
 #include "epafi/fem/HookesLaw.hpp"
-#include "epafi/fem/MeshOrder.hpp"
-#include "epafi/fem/MeshTopology.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/mesh/MeshTopology.hpp"
 
 #include <array>
 #include <vector>
@@ -17,9 +17,9 @@ namespace epafi {
 namespace {
 
 using namespace test;
-using fem::CellType;
-using fem::test::MeshFolder;
-using fem::test::Placement;
+using epafi::test::MeshFolder;
+using epafi::test::Placement;
+using mesh::CellType;
 
 constexpr double patchAccuracy = 1e-10;
 
@@ -35,7 +35,7 @@ public:
     const bool isPlaneStrain = kind_.physics == Physics::planeStrain;
     const double along = -(isPlaneStrain ? 1 - nu * nu : 1) / e,
                  across = nu * (isPlaneStrain ? 1 + nu : 1) / e;
-    const Eigen::Vector3d x = placement.turn.transpose() * (fem::test::vectorOf(point) - placement.shift);
+    const Eigen::Vector3d x = placement.turn.transpose() * (epafi::test::vectorOf(point) - placement.shift);
     const double gap = below_ == Below::blockAtADistance && body == 1 ? distance : 0,
                  rest = below_ == Below::plane ? 1 : gap;
     Eigen::Vector3d u = across * pressure * x;
@@ -73,7 +73,7 @@ double displacementError(const SolidRun& run, const UniaxialStress& exact) {
   double error = 0;
   for (std::size_t s = 0; s < problem.subdomains.size(); ++s) {
     const auto& subdomain = problem.subdomains[s];
-    const fem::Mesh& mesh = *run.decomposition.bodies[subdomain.body].mesh;
+    const mesh::Mesh& mesh = *run.decomposition.bodies[subdomain.body].mesh;
     for (std::size_t k = 0; k < subdomain.nodes.size(); ++k) {
       const Eigen::Vector3d expected = exact.displacement(subdomain.body, mesh.point(subdomain.nodes[k]));
       for (int c = 0; c < n; ++c) {
@@ -87,7 +87,7 @@ double displacementError(const SolidRun& run, const UniaxialStress& exact) {
 
 /// Largest error of the stress over all elements of a body.
 double stressError(const SolidRun& run, const scene::Scene& scene, int body, const UniaxialStress& exact) {
-  const fem::Mesh& mesh = *run.decomposition.bodies[body].mesh;
+  const mesh::Mesh& mesh = *run.decomposition.bodies[body].mesh;
   const scene::Body& solid = scene.bodies[body];
   const Eigen::VectorXd u = run.displacement(body);
   const int n = run.decomposition.problem.components;
@@ -186,14 +186,14 @@ TEST_P(PatchTest, StressIsConstantThroughAGapThatClosesOnAPlaneAndThroughATiedJo
 
 std::string nameOfKind(const testing::TestParamInfo<Kind>& instance) {
   const Kind& kind = instance.param;
-  std::string name = toString(kind.physics) + fem::toString(kind.cell) +
+  std::string name = toString(kind.physics) + mesh::toString(kind.cell) +
                      (kind.source == Source::structured ? "structured"
                       : kind.source == Source::turned   ? "turned"
                       : kind.source == Source::curved   ? "curved"
                                                         : "gmsh") +
                      std::to_string(kind.order) +
                      (kind.lowerOrder != kind.order ? "on" + std::to_string(kind.lowerOrder) : "") +
-                     (kind.lowerCell != kind.cell ? std::string("on") + fem::toString(kind.lowerCell) : "") +
+                     (kind.lowerCell != kind.cell ? std::string("on") + mesh::toString(kind.lowerCell) : "") +
                      (kind.upperElements > 0 ? "from" + std::to_string(kind.upperElements) : "") +
                      (kind.lowerElements > 0 ? "apart" + std::to_string(kind.lowerElements) : "");
   std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
@@ -215,7 +215,7 @@ std::vector<Kind> kinds() {
           all.push_back({physics, cell, source, order});
   for (const CellType cell : {CellType::quadrilateral, CellType::tetrahedron, CellType::hexahedron})
     for (const int order : {1, 2})
-      all.push_back({fem::dimensionOf(cell) == 2 ? Physics::planeStrain : Physics::elasticity3d, cell,
+      all.push_back({mesh::dimensionOf(cell) == 2 ? Physics::planeStrain : Physics::elasticity3d, cell,
                      Source::structured, order, 3 - order});
   return all;
 }
@@ -232,17 +232,17 @@ std::vector<Kind> kindsApart() {
     for (const auto& [order, lowerOrder] : {std::pair(1, 1), {2, 2}, {2, 1}, {1, 2}})
       for (const int elements : {3, 7})
         if (elements == 3 || order + lowerOrder == 2)
-          all.push_back({fem::dimensionOf(upper) == 2 ? Physics::planeStrain : Physics::elasticity3d, upper,
+          all.push_back({mesh::dimensionOf(upper) == 2 ? Physics::planeStrain : Physics::elasticity3d, upper,
                          Source::structured, order, lowerOrder, lower, elements});
   for (const auto& [upper, lower] : {std::pair(1, 20), {20, 1}, {20, 21}})
     for (const int order : {1, 2})
       all.push_back({Physics::planeStrain, quadrilateral, Source::structured, order, order, quadrilateral,
                      lower, upper});
   for (const CellType cell : {quadrilateral, tetrahedron, hexahedron})
-    all.push_back({fem::dimensionOf(cell) == 2 ? Physics::planeStress : Physics::elasticity3d, cell,
+    all.push_back({mesh::dimensionOf(cell) == 2 ? Physics::planeStress : Physics::elasticity3d, cell,
                    Source::turned, 1, 1, cell, 5});
   for (const CellType cell : {triangle, hexahedron, tetrahedron})
-    all.push_back({fem::dimensionOf(cell) == 2 ? Physics::planeStrain : Physics::elasticity3d, cell,
+    all.push_back({mesh::dimensionOf(cell) == 2 ? Physics::planeStrain : Physics::elasticity3d, cell,
                    Source::curved, 2, 2, cell, 5});
   return all;
 }

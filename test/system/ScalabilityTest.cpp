@@ -31,21 +31,21 @@ scene::Scene twoBlocks(int dimension, Load load, Decomposition::Method method, i
             ? test::block(level == 0 ? "lower" : "upper", {{0, 0, low}, {1, 1, high}}, {n, n, n}, cut)
             : test::block(level == 0 ? "lower" : "upper", {{0, low, 0}, {1, high, 0}}, {n, n, 0}, cut));
   }
-  scene::SolidSupport floor{"floor", "bottom", {0.0, 0.0, std::nullopt}},
+  fem::SolidSupport floor{"floor", "bottom", {0.0, 0.0, std::nullopt}},
       lid{"lid", "top", {0.0, 0.0, std::nullopt}};
   if (dimension == 3)
     floor.value[2] = lid.value[2] = 0.0;
   lid.value[up] = -0.01;
   scene.bodies[0].supports = {floor};
   scene.bodies[1].supports = {lid};
-  scene::SolidLoad weight;
+  fem::SolidLoad weight;
   weight.name = "weight";
   weight.value[up] = -1;
   weight.box.upper[0] = 0.5;
-  scene::SolidLoad lift = weight;
+  fem::SolidLoad lift = weight;
   lift.name = "lift";
   lift.value[up] = 8;
-  lift.box = scene::Box{};
+  lift.box = mesh::Box{};
   lift.box.lower[0] = 0.5;
   scene.bodies[1].loads = {weight};
   if (load == Load::halfLifted)

@@ -27,7 +27,7 @@ std::vector<std::string> sceneFiles() {
 /// The scene on meshes that a solver without decomposition is quick on.
 scene::Scene coarsened(scene::Scene scene) {
   for (scene::Body& body : scene.bodies) {
-    scene::MeshSource& mesh = body.mesh;
+    meshing::MeshSource& mesh = body.mesh;
     if (!mesh.file.empty()) {
       mesh.sizeFactor = componentsOf(body.physics) == 3 ? 8 : 4;
       if (componentsOf(body.physics) == 3)

@@ -134,7 +134,7 @@ protected:
   }
 
 private:
-  fem::test::MeshFolder folder_;
+  epafi::test::MeshFolder folder_;
   int count_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace epafi {
 namespace {
 
 using namespace test;
-using fem::test::MeshFolder;
+using epafi::test::MeshFolder;
 
 /// How the upper of two blocks is held: its lid pressed down, or by a plane along which it slides up and
 /// down; it weighs down at the left and is pulled up at the right.
@@ -44,8 +44,8 @@ scene::Scene halfOpen(const Case& c, const MeshFolder& folder) {
   const std::size_t up = c.dimension - 1;
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
-    const scene::Box box = isSpace ? scene::Box{{0, 0, 1.0 * level}, {1, 1, 1.0 + level}}
-                                   : scene::Box{{0, 1.0 * level, 0}, {1, 1.0 + level, 0}};
+    const mesh::Box box = isSpace ? mesh::Box{{0, 0, 1.0 * level}, {1, 1, 1.0 + level}}
+                                  : mesh::Box{{0, 1.0 * level, 0}, {1, 1.0 + level, 0}};
     scene::Body body = block(level == 0 ? "lower" : "upper", box,
                              isSpace ? std::array{4, 4, 3} : std::array{10, 10, 0}, cutByMetis(1));
     if (c.isGmsh) {
@@ -61,7 +61,7 @@ scene::Scene halfOpen(const Case& c, const MeshFolder& folder) {
     lower.supports[0].value[2].reset();
   upper.material.youngsModulus = 350;
   if (c.upper == Upper::held) {
-    scene::SolidSupport lid = lower.supports[0];
+    fem::SolidSupport lid = lower.supports[0];
     lid.surface = "top";
     lid.value[up] = -0.002;
     upper.supports = {lid};
@@ -70,7 +70,7 @@ scene::Scene halfOpen(const Case& c, const MeshFolder& folder) {
     if (isSpace)
       upper.supports.push_back(slide("front"));
   }
-  scene::SolidLoad down = weight({0, 0, 0}), lift = down;
+  fem::SolidLoad down = weight({0, 0, 0}), lift = down;
   down.value[up] = -5;
   lift.value[up] = c.upper == Upper::held ? 8 : 4;
   lift.box.lower[0] = 0.5;

@@ -2,7 +2,7 @@
 
 #include "support/SolidScenes.hpp"
 
-#include "epafi/fem/Mesh.hpp"
+#include "epafi/mesh/Mesh.hpp"
 
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
   for (int level = 0; level < 2; ++level) {
     const int cells = level == 0 ? (isSpace ? 8 : 24) : (isSpace ? 6 : 16);
     const double width = level == 0 ? (isSpace ? 4.0 / 3 : 1.5) : 1;
-    scene::Box box{{0, 0, 0}, {0, 0, 0}};
+    mesh::Box box{{0, 0, 0}, {0, 0, 0}};
     std::array<int, 3> elements{0, 0, 0};
     for (std::size_t d = 0; d < up; ++d) {
       box.lower[d] = half[d] ? 0 : -width / 2;
@@ -35,8 +35,7 @@ scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
     elements[up] = isSpace ? 2 : 4;
     scene.bodies.push_back(block(level == 0 ? "lower" : "upper", box, elements, cutByMetis(6)));
     scene::Body& solid = scene.bodies.back();
-    scene::SolidSupport held{
-        "held sideways", level == 0 ? "bottom" : "top", {0.0, std::nullopt, std::nullopt}};
+    fem::SolidSupport held{"held sideways", level == 0 ? "bottom" : "top", {0.0, std::nullopt, std::nullopt}};
     if (isSpace)
       held.value[1] = 0.0;
     if (level == 0)
@@ -46,7 +45,7 @@ scene::Scene pressedInTheMiddle(int dimension, std::array<bool, 2> half) {
       if (half[d])
         solid.supports.push_back(slide(d == 0 ? "left" : "front"));
   }
-  scene::SolidLoad press = weight({0, 0, 0});
+  fem::SolidLoad press = weight({0, 0, 0});
   press.value[up] = -20;
   for (std::size_t d = 0; d < up; ++d) {
     press.box.lower[d] = -0.2;
@@ -64,7 +63,7 @@ std::array<long, 3> keyOf(const Point& x) {
 
 /// Values at the nodes of a body by place.
 template <class Value>
-std::map<std::array<long, 3>, Value> byPlace(const fem::Mesh& mesh, const std::vector<GlobalOrdinal>& nodes,
+std::map<std::array<long, 3>, Value> byPlace(const mesh::Mesh& mesh, const std::vector<GlobalOrdinal>& nodes,
                                              const std::vector<Value>& values) {
   std::map<std::array<long, 3>, Value> result;
   for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -72,12 +71,12 @@ std::map<std::array<long, 3>, Value> byPlace(const fem::Mesh& mesh, const std::v
   return result;
 }
 
-const fem::Mesh& meshOfBody(const SolidRun& run, int body) {
+const mesh::Mesh& meshOfBody(const SolidRun& run, int body) {
   return *run.decomposition.bodies[body].mesh;
 }
 
 std::map<std::array<long, 3>, Eigen::VectorXd> displacements(const SolidRun& run, int body) {
-  const fem::Mesh& mesh = meshOfBody(run, body);
+  const mesh::Mesh& mesh = meshOfBody(run, body);
   const Eigen::VectorXd u = run.displacement(body);
   const int n = run.decomposition.problem.components;
   std::vector<GlobalOrdinal> nodes;

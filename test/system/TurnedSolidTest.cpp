@@ -4,7 +4,7 @@
 #include "support/SolidScenes.hpp"
 #include "support/TurnedMesh.hpp"
 
-#include "epafi/fem/MeshOrder.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
 
 #include <cmath>
 
@@ -12,8 +12,8 @@ namespace epafi {
 namespace {
 
 using namespace test;
-using fem::test::MeshFolder;
-using fem::test::Placement;
+using epafi::test::MeshFolder;
+using epafi::test::Placement;
 
 struct TurnedCase {
   int dimension;
@@ -28,10 +28,10 @@ scene::Scene stack(const TurnedCase& c, const Placement& placement, const MeshFo
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
     const double low = level, high = 1.0 + level;
-    const fem::StructuredMesh mesh(isSpace ? scene::Box{{0, 0, low}, {1, 1.5, high}}
-                                           : scene::rectangle(0, 1.5, low, high),
-                                   isSpace ? std::array{3, 3, 2} : std::array{6, 4, 0});
-    fem::MeshArrays arrays = arraysOf(mesh, placement, c.simplices);
+    const mesh::StructuredMesh mesh(isSpace ? mesh::Box{{0, 0, low}, {1, 1.5, high}}
+                                            : mesh::rectangle(0, 1.5, low, high),
+                                    isSpace ? std::array{3, 3, 2} : std::array{6, 4, 0});
+    mesh::MeshArrays arrays = arraysOf(mesh, placement, c.simplices);
     if (c.order == 2) {
       arrays = completed(std::move(arrays), false);
       for (std::size_t node = 0; node < arrays.nodeTags.size(); ++node)
@@ -40,7 +40,7 @@ scene::Scene stack(const TurnedCase& c, const Placement& placement, const MeshFo
     const std::string name = level == 0 ? "lower" : "upper";
     scene::Body body = block(name, {}, {0, 0, isSpace ? 1 : 0}, cutByMetis(c.parts));
     body.mesh = {};
-    body.mesh.file = folder.write(name + ".msh", fem::test::fileOf(arrays));
+    body.mesh.file = folder.write(name + ".msh", epafi::test::fileOf(arrays));
     body.mesh.order = 0;
     body.mesh.group = "body";
     body.supports = {slide("left")};
@@ -56,7 +56,7 @@ scene::Scene stack(const TurnedCase& c, const Placement& placement, const MeshFo
   const Eigen::Vector3d force =
       placement.turn * (isSpace ? Eigen::Vector3d(0.25, 0.5, -1) : Eigen::Vector3d(0.25, -1, 0));
   upper.loads = {weight({force[0], force[1], force[2]})};
-  upper.loads.push_back({"press", scene::SolidLoad::Kind::pressure, {}, "right", {}, {0.3, 0, 0}});
+  upper.loads.push_back({"press", fem::SolidLoad::Kind::pressure, {}, "right", {}, {0.3, 0, 0}});
   scene.contacts = {between("joint", 0, "top", 1, "bottom")};
   return scene;
 }
@@ -72,7 +72,7 @@ TEST_P(TurnedSolidTest, TurnsItsSolution) {
   EXPECT_GT(straight.solution.contactForce, 0.1);
   for (const double angle : {0.3, 2.0}) {
     const Placement placement =
-        fem::test::placed(c.dimension, angle, {12, -9, c.dimension == 3 ? 10.0 : 0.0});
+        epafi::test::placed(c.dimension, angle, {12, -9, c.dimension == 3 ? 10.0 : 0.0});
     const SolidRun turned(stack(c, placement, turnedFolder), 1e-12);
     ASSERT_EQ(turned.solver.report().status, qp::Status::converged) << turned.solver.report().reason;
     EXPECT_EQ(turned.decomposition.problem.kernelDimension, c.coercive ? 0 : 1);
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Stacks, TurnedSolidTest,
                          });
 
 TEST(TurnedContactTest, TheCutOfATurnedSceneDoesNotMatter) {
-  const Placement placement = fem::test::placed(3, 0.8, {4, 7, -3});
+  const Placement placement = epafi::test::placed(3, 0.8, {4, 7, -3});
   const MeshFolder folder;
   const SolidRun whole(stack({3, false, false, 1}, placement, folder), 1e-12),
       cut(stack({3, false, false, 9}, placement, folder), 1e-12);
@@ -124,7 +124,7 @@ TEST(TurnedContactTest, TheCutOfATurnedSceneDoesNotMatter) {
 
 TEST(TurnedContactTest, AFloatingBlockOnATurnedPlaneKeepsItsModes) {
   for (const int dimension : {2, 3}) {
-    const Placement placement = fem::test::placed(dimension, 0.8, {20, 7, dimension == 3 ? -3.0 : 0.0});
+    const Placement placement = epafi::test::placed(dimension, 0.8, {20, 7, dimension == 3 ? -3.0 : 0.0});
     const MeshFolder folder;
     const TurnedCase c{dimension, true, false, 3};
     scene::Scene scene = stack(c, placement, folder);

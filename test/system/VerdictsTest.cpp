@@ -12,8 +12,8 @@ namespace epafi {
 namespace {
 
 using namespace test;
-using fem::test::MeshFolder;
-using fem::test::Placement;
+using epafi::test::MeshFolder;
+using epafi::test::Placement;
 using Kind = SolvabilityError::Kind;
 
 enum class Verdict { solved, noSolution, notUnique, stopped };
@@ -39,23 +39,23 @@ Outcome outcomeOf(const scene::Scene& scene, const std::string& algorithm = "aut
 scene::Body turnedBlock(const std::string& name, int dimension, double low, const Placement& placement,
                         const MeshFolder& folder, const scene::Decomposition& cut) {
   const bool isSpace = dimension == 3;
-  const fem::StructuredMesh mesh(isSpace ? scene::Box{{0, 0, low}, {1, 1, low + 1}}
-                                         : scene::rectangle(0, 1, low, low + 1),
-                                 isSpace ? std::array{2, 2, 2} : std::array{2, 2, 0});
+  const mesh::StructuredMesh mesh(isSpace ? mesh::Box{{0, 0, low}, {1, 1, low + 1}}
+                                          : mesh::rectangle(0, 1, low, low + 1),
+                                  isSpace ? std::array{2, 2, 2} : std::array{2, 2, 0});
   scene::Body body = block(name, {}, {0, 0, isSpace ? 1 : 0}, cut);
   body.mesh = {};
-  body.mesh.file = folder.write(name + ".msh", fem::test::fileOf(arraysOf(mesh, placement, false)));
+  body.mesh.file = folder.write(name + ".msh", epafi::test::fileOf(arraysOf(mesh, placement, false)));
   body.mesh.order = 0;
   body.mesh.group = "body";
   return body;
 }
 
-scene::Vector3 vectorOf(const Eigen::Vector3d& v) {
+Vector3 vectorOf(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};
 }
 
-scene::SolidLoad pressure(const std::string& surface, double value) {
-  return {"pressure on " + surface, scene::SolidLoad::Kind::pressure, {}, surface, {}, {value, 0, 0}};
+fem::SolidLoad pressure(const std::string& surface, double value) {
+  return {"pressure on " + surface, fem::SolidLoad::Kind::pressure, {}, surface, {}, {value, 0, 0}};
 }
 
 const std::vector<double> angles{0, 0.3, 0.25 * M_PI, M_PI / 3, 75 * M_PI / 180, 2.0};
@@ -72,7 +72,8 @@ TEST(VerdictsTest, WhatSlidesBetweenParallelPlanesHasNoSolutionWhateverItsAngle)
   for (const int dimension : {2, 3})
     for (const double angle : angles)
       for (const auto& cut : cuts()) {
-        const Placement placement = fem::test::placed(dimension, angle, {3, -2, dimension == 3 ? 1.0 : 0.0});
+        const Placement placement =
+            epafi::test::placed(dimension, angle, {3, -2, dimension == 3 ? 1.0 : 0.0});
         scene::Scene scene;
         scene.bodies = {turnedBlock("block", dimension, 0, placement, folder, cut)};
         scene.bodies[0].supports = {slide("bottom")};
@@ -93,7 +94,7 @@ TEST(VerdictsTest, ABodyWhoseLoadsCancelHidesNoOther) {
   std::optional<double> energy;
   for (const double angle : angles)
     for (const double unit : {1.0, 1e-9, 1e9}) {
-      const Placement placement = fem::test::placed(2, angle, {-4, 1, 0});
+      const Placement placement = epafi::test::placed(2, angle, {-4, 1, 0});
       scene::Scene scene;
       for (int level = 0; level < 2; ++level) {
         scene.bodies.push_back(
@@ -117,7 +118,7 @@ TEST(VerdictsTest, ABodyWhoseLoadsCancelHidesNoOther) {
 /// A square between a floor and a circle that overlaps it, pushed to the left by its right side.
 scene::Scene squeezed(double poissonsRatio) {
   scene::Scene scene;
-  scene.bodies = {block("block", scene::rectangle(0, 1, 0, 1), {4, 4, 0}, cutInGrid({1, 1, 1}))};
+  scene.bodies = {block("block", mesh::rectangle(0, 1, 0, 1), {4, 4, 0}, cutInGrid({1, 1, 1}))};
   scene::Body& body = scene.bodies[0];
   body.mesh.order = 2;
   body.material = {1, 1, poissonsRatio, 1};
@@ -143,7 +144,7 @@ TEST(VerdictsTest, ForcesWithinTheToleranceHoldNothing) {
     for (const double unit : {1.0, 1e9})
       for (const std::string algorithm : {"auto", "MPRGP"})
         for (const auto& cut : cuts()) {
-          const Placement placement = fem::test::placed(2, angle, {0, 0, 0});
+          const Placement placement = epafi::test::placed(2, angle, {0, 0, 0});
           const Eigen::Vector3d up = placement.turn.col(1);
           scene::Scene scene;
           scene.bodies = {turnedBlock("block", 2, 0, placement, folder, cut)};
@@ -165,7 +166,7 @@ TEST(VerdictsTest, ForcesWithinTheToleranceHoldNothing) {
 scene::Scene tiedApart(double apart, bool floats, bool isOverlap) {
   scene::Scene scene;
   for (int level = 0; level < 2; ++level) {
-    scene.bodies.push_back(block(level == 0 ? "lower" : "upper", scene::rectangle(0, 1, level, level + 1),
+    scene.bodies.push_back(block(level == 0 ? "lower" : "upper", mesh::rectangle(0, 1, level, level + 1),
                                  {2, 2, 0}, cutInGrid({1, 1, 1})));
     scene.bodies.back().loads = {weight({0, -1, 0})};
   }
@@ -209,7 +210,7 @@ TEST(VerdictsTest, ABodyOfOnePartMayBeStiffInside) {
   for (const int parts : {1, 2, 4})
     for (const double jump : {1e-7, 1e7}) {
       scene::Scene scene;
-      scene.bodies = {block("block", scene::rectangle(0, 1, 0, 1), {8, 8, 0}, cutByMetis(parts))};
+      scene.bodies = {block("block", mesh::rectangle(0, 1, 0, 1), {8, 8, 0}, cutByMetis(parts))};
       scene::Body& body = scene.bodies[0];
       body.regions = {{"inside", {{0.3, 0.3, 0}, {0.7, 0.7, 0}}, "", body.material}};
       body.regions[0].material.youngsModulus *= jump;

@@ -175,7 +175,7 @@ void write(const std::string& what, double value, model::Decomposition& decompos
 /// edge the first, along the next one the second.
 void layCrosswise(scene::Scene& scene) {
   for (scene::Body& body : scene.bodies) {
-    body.physics = scene::Physics::membrane;
+    body.physics = fem::Physics::membrane;
     body.mesh.box = scene.bodies[0].mesh.box;
     body.supports = {{"wall", "right", {0.0}}};
     body.loads.clear();
@@ -189,7 +189,7 @@ CaseResult solve(const Case& which, const RCP<const Comm>& comm) {
   const std::string application = given.get("Application", "");
   scene::Scene scene = scene::readScene(which.scene(), "scene.xml");
   for (scene::Body& body : scene.bodies)
-    for (scene::SolidLoad& load : body.loads)
+    for (fem::SolidLoad& load : body.loads)
       for (double& component : load.value)
         component *= given.get("Unit of Loads", 1.0);
   const bool isScene = application.empty() || application.starts_with("two membranes");

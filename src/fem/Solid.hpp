@@ -1,0 +1,91 @@
+#pragma once
+
+/// What a body is made of, held by and loaded with, as plain validated values: membranes are solids of one
+/// component. Lengths, forces and moduli share one consistent system of units of the user's choice (such as
+/// mm, N, MPa); nothing in Epafi depends on which. Angles do not occur.
+
+#include "epafi/mesh/Box.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace epafi::fem {
+
+/// membrane      −∇·(κ∇u) = f, one unknown a node
+/// planeStrain   linear elasticity in the plane, no strain across it; two unknowns
+/// planeStress   the same, no stress across it
+/// elasticity3d  linear elasticity in space; three unknowns
+enum class Physics { membrane, planeStrain, planeStress, elasticity3d };
+
+/// "membrane", "plane strain", "plane stress", "elasticity 3-D".
+std::string toString(Physics physics);
+
+/// Unknowns a node: 1, 2, 2, 3.
+int componentsOf(Physics physics);
+
+/// Of what fills the body: 3 in space, else 2.
+int dimensionOf(Physics physics);
+
+/// What a body or a region of it is made of; which numbers count follows from the physics.
+struct Material {
+  double conductivity = 1;    ///< κ of a membrane (its tension)
+  double youngsModulus = 1;   ///< E > 0, force per area
+  double poissonsRatio = 0.3; ///< ν, −1 < ν < ½
+  double thickness = 1;       ///< of plane bodies
+};
+
+/// Another material in the elements whose centre lies in a box, or that belong to a group of the mesh file;
+/// where several overlap, the last one in the file holds.
+struct SolidRegion {
+  std::string name;
+  mesh::Box box;     ///< counts if `group` is empty
+  std::string group; ///< physical group of the mesh file
+  Material material;
+  bool mayBeEmpty = false; ///< that no element has its centre in the box is no fault, but of a coarse mesh
+};
+
+/// Components of the displacement prescribed on a surface, or the displacement along its outward normal. One
+/// alone makes a sliding support.
+struct SolidSupport {
+  std::string name;
+  std::string surface; ///< "left" … "top" of a structured mesh, or a physical group
+  std::array<std::optional<double>, 3> value;
+  std::optional<double> normal = std::nullopt; ///< uᵀn, n the outward normal; the surface slides along itself
+};
+
+/// A load; loads add up.
+struct SolidLoad {
+  /// What the load acts on.
+  enum class Kind {
+    body, ///< force per volume (per area of a membrane) in the elements whose centre lies in a box or a group
+    traction, ///< force per area on a surface
+    pressure, ///< force per area against a surface's outward normal; value[0]
+    point     ///< force at the node that lies at a point
+  };
+  std::string name;
+  Kind kind = Kind::body;
+  mesh::Box box;
+  std::string where; ///< group (body; may be empty: the box counts) or surface
+  Vector3 point{0, 0, 0};
+  Vector3 value{0, 0, 0};
+  /// Kind body with a box: elements carry the load as a whole or not at all. If false, on structured meshes
+  /// exactly the part of the body that lies in the box does.
+  bool wholeElements = true;
+};
+
+/// All that assembly asks of a body beside its mesh.
+struct Solid {
+  std::string name;
+  Physics physics = Physics::membrane;
+  Material material;
+  std::vector<SolidRegion> regions;
+  std::vector<SolidSupport> supports;
+  std::vector<SolidLoad> loads;
+};
+
+/// A membrane's load per area on exactly what lies in a box.
+SolidLoad loadInside(std::string name, const mesh::Box& box, double value);
+
+} // namespace epafi::fem

@@ -1,0 +1,50 @@
+#pragma once
+
+/// A body's mesh as plain arrays, as a file gives them: what UnstructuredMesh is made from, and MeshChecks
+/// looks at.
+
+#include "epafi/base/Types.hpp"
+#include "epafi/mesh/Cell.hpp"
+#include "epafi/mesh/Mesh.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace epafi::mesh {
+
+/// A named part of the boundary: facets by their corners, as many each as facets of the cells have, in any
+/// order round the facet.
+struct NamedFacets {
+  std::string name;
+  std::vector<LocalOrdinal> nodes;
+};
+
+struct NamedElements {
+  std::string name;
+  std::vector<LocalOrdinal> elements;
+};
+
+struct MeshArrays {
+  std::string name; ///< how errors call the body, such as `"plate" of "press.msh"`
+  CellType cellType = CellType::triangle;
+  std::vector<Point> points;
+  std::vector<LocalOrdinal> cells; ///< nodes of the elements, numNodesOf(cellType) each
+  std::vector<NamedFacets> surfaces;
+  std::vector<NamedElements> groups;
+  /// Numbers that nodes and elements have in the file, for errors; −1: the file does not have the node.
+  std::vector<GlobalOrdinal> nodeTags, elementTags;
+
+  [[nodiscard]] LocalOrdinal numElements() const {
+    return static_cast<LocalOrdinal>(cells.size() / static_cast<std::size_t>(numNodesOf(cellType)));
+  }
+};
+
+/// The nodes of one element among those of all.
+inline std::span<const LocalOrdinal> nodesOf(CellType type, std::span<const LocalOrdinal> cells,
+                                             LocalOrdinal element) {
+  const std::size_t count = numNodesOf(type);
+  return cells.subspan(static_cast<std::size_t>(element) * count, count);
+}
+
+} // namespace epafi::mesh

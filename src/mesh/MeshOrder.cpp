@@ -1,0 +1,134 @@
+#include "epafi/mesh/MeshOrder.hpp"
+
+#include "epafi/base/ArrayIndex.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+namespace epafi::mesh {
+namespace {
+
+/// Adds the nodes element by element; what elements share is added once.
+class Completion {
+public:
+  Completion(MeshArrays mesh, bool hasEdgeNodes)
+      : mesh_(std::move(mesh)), given_(index(numCornersOf(mesh_.cellType))), edges_(edgesOf(mesh_.cellType)),
+        hasEdgeNodes_(hasEdgeNodes) {
+    if (hasEdgeNodes)
+      given_ += edges_.size() / 2;
+    mesh_.cellType = withOrder(mesh_.cellType, 2);
+  }
+
+  MeshArrays make() {
+    const std::vector<LocalOrdinal> cells = std::exchange(mesh_.cells, {});
+    for (std::size_t first = 0; first < cells.size(); first += given_) {
+      nodes_.assign(cells.begin() + static_cast<std::ptrdiff_t>(first),
+                    cells.begin() + static_cast<std::ptrdiff_t>(first + given_));
+      if (!hasEdgeNodes_)
+        addEdgeNodes();
+      if (mesh_.cellType == CellType::hexahedron27)
+        addFaceNodes();
+      if (mesh_.cellType == CellType::hexahedron27 || mesh_.cellType == CellType::quadrilateral9)
+        nodes_.push_back(addPoint(middle(nodes_, index(numCornersOf(mesh_.cellType)), edges_.size() / 2)));
+      mesh_.cells.insert(mesh_.cells.end(), nodes_.begin(), nodes_.end());
+    }
+    return std::move(mesh_);
+  }
+
+private:
+  LocalOrdinal addPoint(const Point& point) {
+    mesh_.points.push_back(point);
+    mesh_.nodeTags.push_back(-1);
+    return static_cast<LocalOrdinal>(mesh_.points.size()) - 1;
+  }
+
+  void addEdgeNodes() {
+    for (std::size_t e = 0; e < edges_.size(); e += 2) {
+      const auto ends = std::minmax(nodes_[index(edges_[e])], nodes_[index(edges_[e + 1])]);
+      const auto [place, isNew] = onEdge_.try_emplace(ends, 0);
+      if (isNew) {
+        const Point &a = mesh_.points[index(ends.first)], &b = mesh_.points[index(ends.second)];
+        place->second = addPoint({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
+      }
+      nodes_.push_back(place->second);
+    }
+  }
+
+  /// In the order −x +x −y +y −z +z, in which facetsOf() has the places of their nodes.
+  void addFaceNodes() {
+    constexpr std::size_t faces = 6, corners = 4, middles = 4, first = 20;
+    const auto facets = facetsOf(CellType::hexahedron27);
+    for (std::size_t face = 0; face < faces; ++face) {
+      const auto facet = std::find_if(facets.begin(), facets.end(), [&](const Facet& candidate) {
+        return index(candidate[corners + middles]) == first + face;
+      });
+      std::vector<LocalOrdinal> around;
+      for (std::size_t i = 0; i < corners + middles; ++i)
+        around.push_back(nodes_[index((*facet)[i])]);
+      std::array<LocalOrdinal, corners> key{};
+      std::copy_n(around.begin(), corners, key.begin());
+      std::sort(key.begin(), key.end());
+      const auto [place, isNew] = onFace_.try_emplace(key, 0);
+      if (isNew)
+        place->second = addPoint(middle(around, corners, middles));
+      nodes_.push_back(place->second);
+    }
+  }
+
+  /// Where the Serendipity functions of corners and edges put the middle of a face or brick.
+  [[nodiscard]] Point middle(const std::vector<LocalOrdinal>& nodes, std::size_t corners,
+                             std::size_t middles) const {
+    Point point{0, 0, 0};
+    for (std::size_t i = 0; i < corners + middles; ++i)
+      for (std::size_t d = 0; d < 3; ++d)
+        point[d] += (i < corners ? -0.25 : middles == 4 ? 0.5 : 0.25) * mesh_.points[index(nodes[i])][d];
+    return point;
+  }
+
+  MeshArrays mesh_;
+  std::size_t given_; ///< nodes a cell
+  std::span<const int> edges_;
+  bool hasEdgeNodes_;
+  std::vector<LocalOrdinal> nodes_; ///< of the cell at hand
+  std::map<std::pair<LocalOrdinal, LocalOrdinal>, LocalOrdinal> onEdge_;
+  std::map<std::array<LocalOrdinal, 4>, LocalOrdinal> onFace_;
+};
+
+} // namespace
+
+MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes) {
+  return Completion(std::move(mesh), hasEdgeNodes).make();
+}
+
+MeshArrays linearised(MeshArrays mesh) {
+  const std::size_t perElement = index(numNodesOf(mesh.cellType)),
+                    corners = index(numCornersOf(mesh.cellType));
+  std::vector<LocalOrdinal> number(mesh.points.size(), -1);
+  std::vector<LocalOrdinal> cells;
+  for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+    if (i % perElement < corners) {
+      cells.push_back(mesh.cells[i]);
+      number[index(mesh.cells[i])] = 0;
+    }
+  LocalOrdinal next = 0;
+  for (std::size_t node = 0; node < number.size(); ++node)
+    if (number[node] == 0) {
+      mesh.points[index(next)] = mesh.points[node];
+      mesh.nodeTags[index(next)] = mesh.nodeTags[node];
+      number[node] = next++;
+    }
+  mesh.points.resize(index(next));
+  mesh.nodeTags.resize(index(next));
+  mesh.cellType = withOrder(mesh.cellType, 1);
+  mesh.cells = std::move(cells);
+  for (LocalOrdinal& node : mesh.cells)
+    node = number[index(node)];
+  for (NamedFacets& surface : mesh.surfaces)
+    for (LocalOrdinal& node : surface.nodes)
+      node = number[index(node)];
+  return mesh;
+}
+
+} // namespace epafi::mesh

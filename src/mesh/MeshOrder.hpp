@@ -1,0 +1,21 @@
+#pragma once
+
+/// Meshes of order 2 from those of order 1, and back.
+
+#include "epafi/mesh/MeshArrays.hpp"
+
+namespace epafi::mesh {
+
+/// Adds the nodes that elements of order 2 have beyond those that are given: where they are missing, in the
+/// middle of straight edges; and on faces with four corners and inside of bricks where the given nodes of the
+/// edges put them (Serendipity), so that elements of 8 and 20 nodes keep their form. Added nodes stand behind
+/// the others, with the tag −1.
+/// \param mesh  cells with their corners and, if `hasEdgeNodes`, the nodes on their edges, in the order of
+/// Cell.hpp; `cellType` of any order. Nodes of surfaces are corners of facets
+/// \param hasEdgeNodes  whether the cells have them
+MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes);
+
+/// The corners alone; all others are dropped.
+MeshArrays linearised(MeshArrays mesh);
+
+} // namespace epafi::mesh

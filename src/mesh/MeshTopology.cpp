@@ -1,0 +1,119 @@
+#include "epafi/mesh/MeshTopology.hpp"
+
+#include "epafi/mesh/MeshArrays.hpp"
+
+#include <algorithm>
+
+namespace epafi::mesh {
+namespace {
+
+/// A facet in the bucket of its lowest corner: its other corners, ascending (those that it lacks: −1), and
+/// its place among the facets of all elements.
+struct BucketEntry {
+  std::array<LocalOrdinal, mostFacetCorners - 1> others;
+  std::uint32_t place;
+};
+
+/// Calls `visit(place, corners)` for every facet of every element; the corners ascend.
+template <class Visit>
+void forEachFacet(CellType type, std::span<const LocalOrdinal> cells, const Visit& visit) {
+  const std::size_t perElement = numNodesOf(type);
+  const std::size_t perFacet = numCornersOf(facetTypeOf(type));
+  const auto facets = facetsOf(type);
+  std::array<LocalOrdinal, mostFacetCorners> nodes{};
+  std::uint32_t number = 0;
+  for (std::size_t first = 0; first < cells.size(); first += perElement)
+    for (const Facet& facet : facets) {
+      for (std::size_t i = 0; i < perFacet; ++i) { // sorted by insertion
+        const LocalOrdinal node = cells[first + static_cast<std::size_t>(facet[i])];
+        std::size_t place = i;
+        for (; place > 0 && nodes[place - 1] > node; --place)
+          nodes[place] = nodes[place - 1];
+        nodes[place] = node;
+      }
+      visit(number++, std::span<const LocalOrdinal>(nodes.data(), perFacet));
+    }
+}
+
+/// Turns counts, of which that of bucket n stands at n + 1, into the places where the buckets begin.
+void accumulate(std::vector<std::size_t>& counts) {
+  for (std::size_t i = 1; i < counts.size(); ++i)
+    counts[i] += counts[i - 1];
+}
+
+} // namespace
+
+MeshTopology::MeshTopology(CellType type, LocalOrdinal numNodes, std::span<const LocalOrdinal> cells)
+    : type_(type), facetsPerElement_(facetsOf(type).size()) {
+  findElementsOfNodes(numNodes, cells);
+  pairFacets(numNodes, cells);
+  markBoundary(cells);
+}
+
+std::span<const LocalOrdinal> MeshTopology::elementsOf(LocalOrdinal node) const {
+  const std::size_t n = node;
+  return std::span(elements_).subspan(firstElement_[n], firstElement_[n + 1] - firstElement_[n]);
+}
+
+void MeshTopology::findElementsOfNodes(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
+  firstElement_.assign(static_cast<std::size_t>(numNodes) + 1, 0);
+  for (const LocalOrdinal node : cells)
+    ++firstElement_[static_cast<std::size_t>(node) + 1];
+  accumulate(firstElement_);
+  elements_.resize(cells.size());
+  std::vector<std::size_t> next(firstElement_.begin(), firstElement_.end() - 1);
+  const std::size_t perElement = numNodesOf(type_);
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    elements_[next[cells[i]]++] = static_cast<LocalOrdinal>(i / perElement);
+}
+
+void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
+  // Buckets by lowest node: each holds a few dozen facets, whatever the mesh's size.
+  std::vector<std::size_t> first(static_cast<std::size_t>(numNodes) + 1, 0);
+  forEachFacet(type_, cells, [&](std::uint32_t, std::span<const LocalOrdinal> nodes) {
+    ++first[static_cast<std::size_t>(nodes[0]) + 1];
+  });
+  accumulate(first);
+  std::vector<BucketEntry> facets(first.back());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  forEachFacet(type_, cells, [&](std::uint32_t place, std::span<const LocalOrdinal> nodes) {
+    BucketEntry& facet = facets[next[nodes[0]]++];
+    facet = {{-1, -1, -1}, place};
+    std::copy(nodes.begin() + 1, nodes.end(), facet.others.begin());
+  });
+
+  across_.assign(facets.size(), -1);
+  const auto elementOf = [&](const BucketEntry& facet) {
+    return static_cast<LocalOrdinal>(facet.place / facetsPerElement_);
+  };
+  const auto at = [&](std::size_t i) { return facets.begin() + static_cast<std::ptrdiff_t>(i); };
+  for (std::size_t node = 0; node + 1 < first.size(); ++node) {
+    const auto end = at(first[node + 1]);
+    std::sort(at(first[node]), end, [](const BucketEntry& a, const BucketEntry& b) {
+      return a.others != b.others ? a.others < b.others : a.place < b.place;
+    });
+    for (auto facet = at(first[node]); facet != end;) {
+      const auto other = std::find_if(
+          facet, end, [&](const BucketEntry& candidate) { return candidate.others != facet->others; });
+      if (other - facet == 2) {
+        across_[facet[0].place] = elementOf(facet[1]);
+        across_[facet[1].place] = elementOf(facet[0]);
+      } else if (other - facet > 2 && !crowdedFacet_) {
+        crowdedFacet_ = {elementOf(facet[0]), elementOf(facet[1]), elementOf(facet[2])};
+      }
+      facet = other;
+    }
+  }
+}
+
+void MeshTopology::markBoundary(std::span<const LocalOrdinal> cells) {
+  isOnBoundary_.assign(firstElement_.size() - 1, 0);
+  const std::size_t perElement = numNodesOf(type_);
+  const auto facets = facetsOf(type_);
+  for (std::size_t place = 0; place < across_.size(); ++place)
+    if (across_[place] < 0)
+      for (const int node : facets[place % facetsPerElement_])
+        isOnBoundary_[cells[place / facetsPerElement_ * perElement + static_cast<std::size_t>(node)]] = 1;
+}
+
+} // namespace epafi::mesh

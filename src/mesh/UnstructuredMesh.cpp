@@ -1,0 +1,143 @@
+#include "epafi/mesh/UnstructuredMesh.hpp"
+
+#include "epafi/base/ArrayIndex.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/mesh/MeshChecks.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace epafi::mesh {
+namespace {
+
+template <class Named>
+std::vector<std::string> namesOf(const std::vector<Named>& list) {
+  std::vector<std::string> names;
+  for (const Named& entry : list)
+    names.push_back(entry.name);
+  return names;
+}
+
+template <class Named>
+std::size_t placeOf(const std::string& name, const std::vector<Named>& list) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const Named& entry) { return entry.name == name; });
+  assert(found != list.end());
+  return static_cast<std::size_t>(found - list.begin());
+}
+
+} // namespace
+
+UnstructuredMesh::UnstructuredMesh(MeshArrays arrays)
+    : arrays_(std::move(arrays)),
+      topology_(arrays_.cellType, static_cast<LocalOrdinal>(arrays_.points.size()), arrays_.cells) {
+  checkMesh(arrays_, topology_);
+  if (dimensionOf(arrays_.cellType) == 2)
+    for (Point& point : arrays_.points)
+      point[2] = 0; // it is, but for rounding
+  for (NamedFacets& surface : arrays_.surfaces) {
+    findFacets(surface);
+    surface.nodes = {};
+  }
+  for (NamedElements& group : arrays_.groups)
+    std::sort(group.elements.begin(), group.elements.end());
+}
+
+void UnstructuredMesh::findFacets(const NamedFacets& surface) {
+  const auto perFacet = index(numCornersOf(facetTypeOf(arrays_.cellType)));
+  std::vector<FacetPlace> facets;
+  facets.reserve(surface.nodes.size() / perFacet);
+  for (std::size_t i = 0; i < surface.nodes.size(); i += perFacet)
+    facets.push_back(findFacet(surface.name, std::span(surface.nodes).subspan(i, perFacet)));
+  std::sort(facets.begin(), facets.end());
+  const auto copy = std::adjacent_find(facets.begin(), facets.end());
+  if (copy != facets.end())
+    throw InputError(
+        arrays_.name + ": the surface \"" + surface.name + "\" lists a facet of element " +
+        std::to_string(elementTag(copy->element)) +
+        " twice; list it once (Gmsh writes it once per physical group in format 2.2, so save overlapping "
+        "groups in format 4.1)");
+  facets_.push_back(std::move(facets));
+}
+
+UnstructuredMesh::FacetPlace UnstructuredMesh::findFacet(const std::string& surface,
+                                                         std::span<const LocalOrdinal> nodes) const {
+  const auto facets = facetsOf(withOrder(arrays_.cellType, 1));
+  LocalOrdinal inside = -1;
+  for (const LocalOrdinal element : topology_.elementsOf(nodes[0])) {
+    const auto own = nodesOf(arrays_.cellType, arrays_.cells, element);
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+      const bool isSame = std::all_of(facets[f].begin(), facets[f].end(), [&](int place) {
+        return std::find(nodes.begin(), nodes.end(), own[index(place)]) != nodes.end();
+      });
+      if (isSame && topology_.across(element, f) < 0)
+        return {element, static_cast<std::uint8_t>(f)};
+      if (isSame)
+        inside = element;
+    }
+  }
+  std::string text = arrays_.name + ": the surface \"" + surface + "\" has a facet with the nodes ";
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(nodeTag(nodes[i]));
+  if (inside >= 0)
+    throw InputError(text + ", which lies inside the body, at element " + std::to_string(elementTag(inside)) +
+                     "; a surface belongs to the boundary, so take this part out of the physical group");
+  throw InputError(text + ", which is no facet of any element; mesh surface and body together");
+}
+
+void UnstructuredMesh::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const {
+  const auto own = nodesOf(arrays_.cellType, arrays_.cells, static_cast<LocalOrdinal>(element));
+  std::copy(own.begin(), own.end(), nodes.begin());
+}
+
+void UnstructuredMesh::elementNodes(std::span<const GlobalOrdinal> elements,
+                                    std::span<GlobalOrdinal> nodes) const {
+  const auto count = index(nodesPerElement());
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    elementNodes(elements[i], nodes.subspan(i * count, count));
+}
+
+void UnstructuredMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
+  const auto own = topology_.elementsOf(static_cast<LocalOrdinal>(node));
+  elements.assign(own.begin(), own.end());
+}
+
+void UnstructuredMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    numbers[i] = static_cast<int>(topology_.elementsOf(static_cast<LocalOrdinal>(nodes[i])).size());
+}
+
+void UnstructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
+  elements.clear();
+  for (std::size_t f = 0; f < facetsOf(arrays_.cellType).size(); ++f)
+    if (const LocalOrdinal other = topology_.across(static_cast<LocalOrdinal>(element), f); other >= 0)
+      elements.push_back(other);
+}
+
+std::vector<std::string> UnstructuredMesh::surfaceNames() const {
+  return namesOf(arrays_.surfaces);
+}
+
+Surface UnstructuredMesh::surface(const std::string& name) const {
+  const std::vector<FacetPlace>& facets = facets_[placeOf(name, arrays_.surfaces)];
+  Surface surface;
+  surface.facetType = facetTypeOf(arrays_.cellType);
+  for (const FacetPlace& facet : facets) {
+    const auto nodes = nodesOf(arrays_.cellType, arrays_.cells, facet.element);
+    for (const int node : facetsOf(arrays_.cellType)[facet.place])
+      surface.facetNodes.push_back(nodes[index(node)]);
+    surface.elements.push_back(facet.element);
+  }
+  return surface;
+}
+
+std::vector<std::string> UnstructuredMesh::groupNames() const {
+  return namesOf(arrays_.groups);
+}
+
+std::vector<GlobalOrdinal> UnstructuredMesh::group(const std::string& name) const {
+  const std::vector<LocalOrdinal>& elements = arrays_.groups[placeOf(name, arrays_.groups)].elements;
+  return {elements.begin(), elements.end()};
+}
+
+} // namespace epafi::mesh

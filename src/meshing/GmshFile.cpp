@@ -1,0 +1,343 @@
+#include "epafi/meshing/GmshFile.hpp"
+
+#include "epafi/base/ArrayIndex.hpp"
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
+#include "epafi/meshing/GmshReader.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <set>
+#include <span>
+#include <utility>
+
+namespace epafi::meshing {
+namespace {
+
+using Blocks = std::vector<const GmshBlock*>;
+
+bool holds(const GmshGroup& group, int entity) {
+  return std::binary_search(group.entities.begin(), group.entities.end(), entity);
+}
+
+std::vector<std::string> namesOf(const std::vector<GmshGroup>& groups) {
+  std::vector<std::string> names;
+  for (const GmshGroup& group : groups)
+    names.push_back(group.name);
+  return names;
+}
+
+/// Corners of elements of a kind.
+std::size_t numCornersOfGmsh(int type) {
+  return index(numNodesOfGmsh(linearKindOfGmsh(type)));
+}
+
+/// Which facets of the file, in its order, have all their corners in one of the elements.
+std::vector<bool> facetsIn(const GmshContents& file, const Blocks& elements) {
+  using Nodes = std::span<const LocalOrdinal>;
+  std::vector<std::vector<std::pair<std::size_t, Nodes>>> at(file.points.size()); // by their first nodes
+  std::size_t numFacets = 0;
+  for (const GmshBlock& block : file.facets) {
+    const auto count = index(numNodesOfGmsh(block.type));
+    for (std::size_t i = 0; i < block.nodes.size(); i += count)
+      at[index(block.nodes[i])].emplace_back(numFacets++,
+                                             Nodes(block.nodes).subspan(i, numCornersOfGmsh(block.type)));
+  }
+  std::vector<bool> isIn(numFacets, false);
+  for (const GmshBlock* block : elements) {
+    const auto count = index(numNodesOfGmsh(block->type));
+    for (std::size_t i = 0; i < block->nodes.size(); i += count) {
+      const Nodes element = Nodes(block->nodes).subspan(i, numCornersOfGmsh(block->type));
+      for (const LocalOrdinal node : element)
+        for (const auto& [facet, nodes] : at[index(node)])
+          if (std::all_of(nodes.begin(), nodes.end(), [&](LocalOrdinal other) {
+                return std::find(element.begin(), element.end(), other) != element.end();
+              }))
+            isIn[facet] = true;
+    }
+  }
+  return isIn;
+}
+
+Blocks allBlocks(const GmshContents& file) {
+  Blocks blocks;
+  for (const GmshBlock& block : file.elements)
+    blocks.push_back(&block);
+  return blocks;
+}
+
+/// Named surfaces must be surfaces of something.
+void checkSurfaces(const GmshContents& file) {
+  const auto nameOf = [&](int entity) {
+    const auto found = std::find_if(file.surfaces.begin(), file.surfaces.end(),
+                                    [&](const GmshGroup& surface) { return holds(surface, entity); });
+    return found == file.surfaces.end() ? std::string() : found->name;
+  };
+  const std::vector<bool> isIn = facetsIn(file, allBlocks(file));
+  std::size_t facet = 0;
+  for (const GmshBlock& block : file.facets)
+    for (const GlobalOrdinal tag : block.tags)
+      if (!isIn[facet++])
+        throw InputError("Mesh file " + inQuotes(file.file) + ": the surface " +
+                         inQuotes(nameOf(block.entity)) + " has a facet (element " + std::to_string(tag) +
+                         ") that belongs to no element of dimension " + std::to_string(file.dimension) +
+                         "; mesh and save surfaces and bodies together, or drop that physical group");
+  std::vector<bool> isUsed(file.points.size(), false);
+  for (const GmshBlock& block : file.elements)
+    for (const LocalOrdinal node : block.nodes)
+      isUsed[index(node)] = true;
+  for (std::size_t n = 0; n < isUsed.size(); ++n) {
+    const auto [dimension, entity] = file.nodeEntities[n];
+    if (isUsed[n] || dimension != file.dimension - 1)
+      continue;
+    if (const std::string name = nameOf(entity); !name.empty())
+      throw InputError("Mesh file " + inQuotes(file.file) + ": node " + std::to_string(file.nodeTags[n]) +
+                       " is listed with the surface " + inQuotes(name) +
+                       " but belongs to no element; remove it from the file, or mesh anew");
+  }
+}
+
+/// Makes the arrays of one body.
+class BodyMaker {
+public:
+  BodyMaker(const GmshContents& file, const std::string& group) : file_(file), group_(group) {}
+
+  mesh::MeshArrays make();
+
+private:
+  void chooseBlocks();
+  void chooseCellType();
+  void numberNodes();
+  void addCells();
+  void addGroups();
+  void addSurfaces();
+  [[noreturn]] void refuseGroup() const;
+  [[nodiscard]] bool isOfBody(int entity) const { return chosen_ == nullptr || holds(*chosen_, entity); }
+
+  const GmshContents& file_;
+  const std::string& group_;
+  const GmshGroup* chosen_ = nullptr; ///< null: all elements
+  Blocks blocks_;
+  std::vector<LocalOrdinal> newNumber_; ///< of each node of the file; −1: not of the body
+  std::vector<int> entities_;           ///< of each element
+  mesh::MeshArrays arrays_;
+};
+
+mesh::MeshArrays BodyMaker::make() {
+  arrays_.name = group_.empty() ? "Mesh file " + inQuotes(file_.file)
+                                : "Body " + inQuotes(group_) + " of the mesh file " + inQuotes(file_.file);
+  chooseBlocks();
+  chooseCellType();
+  numberNodes();
+  addCells();
+  addGroups();
+  addSurfaces();
+  const int given = numNodesOfGmsh(blocks_.front()->type);
+  return given < numNodesOf(arrays_.cellType) ? completed(std::move(arrays_), true) : std::move(arrays_);
+}
+
+void BodyMaker::chooseBlocks() {
+  if (!group_.empty()) {
+    const auto found = std::find_if(file_.groups.begin(), file_.groups.end(),
+                                    [&](const GmshGroup& group) { return group.name == group_; });
+    if (found == file_.groups.end())
+      refuseGroup();
+    chosen_ = &*found;
+  }
+  for (const GmshBlock& block : file_.elements)
+    if (isOfBody(block.entity))
+      blocks_.push_back(&block);
+  if (blocks_.empty())
+    throw InputError(arrays_.name + " has no elements; mesh it first");
+}
+
+void BodyMaker::refuseGroup() const {
+  const std::vector<std::string> names = namesOf(file_.groups);
+  std::vector<std::string> lower = namesOf(file_.surfaces);
+  for (const GmshGroup& group : file_.lesser)
+    lower.push_back(group.name);
+  std::string text = "The mesh file " + inQuotes(file_.file) + " has no physical group " + inQuotes(group_) +
+                     " of dimension " + std::to_string(file_.dimension);
+  if (std::find(lower.begin(), lower.end(), group_) != lower.end())
+    text += " (there is one of lower dimension, which is no body)";
+  if (names.empty())
+    throw InputError(text + ", and no other either; name its groups in Gmsh, or take all its elements");
+  text += names.size() == 1 ? "; there is " : "; there are ";
+  text += listed(names, "\"");
+  const std::string near = nearestName(group_, names);
+  throw InputError(near.empty() ? text : text + "; did you mean " + inQuotes(near) + '?');
+}
+
+void BodyMaker::chooseCellType() {
+  static const std::array<std::string, 8> names{"",           "lines",     "triangles", "quadrilaterals",
+                                                "tetrahedra", "hexahedra", "prisms",    "pyramids"};
+  constexpr std::array<mesh::CellType, 4> types{mesh::CellType::triangle, mesh::CellType::quadrilateral,
+                                                mesh::CellType::tetrahedron, mesh::CellType::hexahedron};
+  const std::string allowed =
+      file_.dimension == 2 ? "a body in the plane is made of triangles alone or of quadrilaterals alone"
+                           : "a solid body is made of tetrahedra alone or of hexahedra alone";
+  std::set<int> shapes, kinds;
+  for (const GmshBlock* block : blocks_) {
+    kinds.insert(block->type);
+    shapes.insert(linearKindOfGmsh(block->type));
+  }
+  if (shapes.size() > 1) {
+    std::vector<std::string> found;
+    for (const int shape : shapes)
+      found.push_back(names[shape]);
+    throw InputError(arrays_.name + " mixes " + listed(found) + "; " + allowed);
+  }
+  if (kinds.size() > 1)
+    throw InputError(arrays_.name +
+                     " mixes elements of one shape with different numbers of nodes; mesh all of it "
+                     "in one order");
+  const int kind = *shapes.begin();
+  if (kind > 5)
+    throw InputError(arrays_.name + " is made of " + names[kind] + "; " + allowed);
+  arrays_.cellType = types[kind - 2];
+  if (kind != *kinds.begin())
+    arrays_.cellType = withOrder(arrays_.cellType, 2);
+}
+
+/// Places of a cell's nodes among those of Gmsh's element; of bricks without nodes inside as far as they have
+/// them.
+std::vector<std::size_t> placesInGmsh(mesh::CellType type, std::size_t count) {
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  if (type == mesh::CellType::tetrahedron10)
+    std::swap(places[8], places[9]);
+  constexpr std::array<std::size_t, 18> hexahedron{11, 13, 9,  16, 18, 19, 17, 10, 12,
+                                                   14, 15, 22, 23, 21, 24, 20, 25, 26};
+  if (type == mesh::CellType::hexahedron27)
+    std::copy(hexahedron.begin(), hexahedron.begin() + static_cast<std::ptrdiff_t>(count - 9),
+              places.begin() + 9);
+  return places;
+}
+
+/// Nodes that the file lists inside the body count even if no element has them: the checks refuse them.
+void BodyMaker::numberNodes() {
+  newNumber_.assign(file_.points.size(), -1);
+  for (const GmshBlock* block : blocks_)
+    for (const LocalOrdinal node : block->nodes)
+      newNumber_[index(node)] = 0;
+  for (std::size_t n = 0; n < newNumber_.size(); ++n) {
+    const auto [dimension, entity] = file_.nodeEntities[n];
+    if (newNumber_[n] < 0 && !(dimension == file_.dimension && isOfBody(entity)))
+      continue;
+    newNumber_[n] = static_cast<LocalOrdinal>(arrays_.points.size());
+    arrays_.points.push_back(file_.points[n]);
+    arrays_.nodeTags.push_back(file_.nodeTags[n]);
+  }
+}
+
+void BodyMaker::addCells() {
+  struct Place {
+    GlobalOrdinal tag;
+    std::uint32_t block, element;
+  };
+  std::vector<Place> order;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (std::size_t e = 0; e < blocks_[b]->tags.size(); ++e)
+      order.push_back({blocks_[b]->tags[e], static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(e)});
+  std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.tag < b.tag; });
+  const auto count = index(numNodesOfGmsh(blocks_.front()->type));
+  const std::vector<std::size_t> places = placesInGmsh(arrays_.cellType, count);
+  arrays_.cells.reserve(order.size() * count);
+  for (const Place& place : order) {
+    const GmshBlock& block = *blocks_[place.block];
+    for (const std::size_t i : places)
+      arrays_.cells.push_back(newNumber_[index(block.nodes[place.element * count + i])]);
+    arrays_.elementTags.push_back(place.tag);
+    entities_.push_back(block.entity);
+  }
+}
+
+void BodyMaker::addGroups() {
+  for (const GmshGroup& group : file_.groups) {
+    if (&group == chosen_)
+      continue;
+    mesh::NamedElements part{group.name, {}};
+    for (std::size_t e = 0; e < entities_.size(); ++e)
+      if (holds(group, entities_[e]))
+        part.elements.push_back(static_cast<LocalOrdinal>(e));
+    if (!part.elements.empty())
+      arrays_.groups.push_back(std::move(part));
+  }
+}
+
+void BodyMaker::addSurfaces() {
+  const auto perFacet = index(numCornersOf(facetTypeOf(arrays_.cellType)));
+  const std::vector<bool> isIn = facetsIn(file_, blocks_);
+  for (const GmshGroup& surface : file_.surfaces) {
+    mesh::NamedFacets part{surface.name, {}};
+    std::size_t facet = 0;
+    for (const GmshBlock& block : file_.facets) {
+      const auto count = index(numNodesOfGmsh(block.type));
+      for (std::size_t i = 0; i < block.tags.size(); ++i) {
+        if (!isIn[facet++] || !holds(surface, block.entity))
+          continue;
+        if (numCornersOfGmsh(block.type) != perFacet)
+          throw InputError(arrays_.name + ": the surface " + inQuotes(surface.name) + " has a facet of " +
+                           std::to_string(count) + " nodes (element " + std::to_string(block.tags[i]) +
+                           "), but those of the body's elements have " + std::to_string(perFacet) +
+                           " corners; mesh surface and body together");
+        for (const LocalOrdinal node : std::span(block.nodes).subspan(i * count, perFacet))
+          part.nodes.push_back(newNumber_[index(node)]);
+      }
+    }
+    if (!part.nodes.empty())
+      arrays_.surfaces.push_back(std::move(part));
+  }
+}
+
+} // namespace
+
+GmshFile::GmshFile(const std::string& file) : GmshFile(readMsh(file, textOfMeshFile(file))) {}
+
+GmshFile::GmshFile(GmshContents contents) : contents_(std::move(contents)) {
+  checkSurfaces(contents_);
+}
+
+std::vector<std::string> GmshFile::groupNames() const {
+  return namesOf(contents_.groups);
+}
+
+bool GmshFile::hasElements(const std::string& group) const {
+  return std::any_of(contents_.elements.begin(), contents_.elements.end(), [&](const GmshBlock& block) {
+    return group.empty() ||
+           std::any_of(contents_.groups.begin(), contents_.groups.end(), [&](const GmshGroup& known) {
+             return known.name == group && holds(known, block.entity);
+           });
+  });
+}
+
+mesh::UnstructuredMesh GmshFile::body(const std::string& group, int order) const {
+  mesh::MeshArrays arrays = BodyMaker(contents_, group).make();
+  if (order == 0 || order == orderOf(arrays.cellType))
+    return mesh::UnstructuredMesh(std::move(arrays));
+  if (order == 1)
+    return mesh::UnstructuredMesh(linearised(std::move(arrays)));
+  const mesh::UnstructuredMesh sound(arrays); // what is wrong with it is said in terms of the file
+  return mesh::UnstructuredMesh(completed(std::move(arrays), false));
+}
+
+void GmshFile::visitFacets(
+    const std::function<void(const std::string&, std::span<const GlobalOrdinal>)>& visit) const {
+  std::vector<GlobalOrdinal> tags;
+  for (const GmshGroup& surface : contents_.surfaces)
+    for (const GmshBlock& block : contents_.facets) {
+      if (!holds(surface, block.entity))
+        continue;
+      const auto count = index(numNodesOfGmsh(block.type));
+      for (std::size_t i = 0; i < block.nodes.size(); i += count) {
+        tags.clear();
+        for (const LocalOrdinal node : std::span(block.nodes).subspan(i, numCornersOfGmsh(block.type)))
+          tags.push_back(contents_.nodeTags[index(node)]);
+        visit(surface.name, tags);
+      }
+    }
+}
+
+} // namespace epafi::meshing

@@ -1,0 +1,124 @@
+#include "epafi/meshing/GmshReader.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/meshing/ChildProcess.hpp"
+#include "epafi/meshing/GmshSession.hpp"
+#include "epafi/meshing/MeshSource.hpp"
+#include "epafi/meshing/MshReader.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+namespace epafi::meshing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of our own, which is removed with all that is in it.
+class TemporaryFolder {
+public:
+  TemporaryFolder() : path_(fs::temp_directory_path() / "epafi-XXXXXX") {
+    std::string name = path_.string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error("No folder for Gmsh's mesh can be made in " + path_.parent_path().string() + ": " +
+                  std::strerror(errno) + "; name another one in TMPDIR");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] std::string file() const { return path_ / "mesh.msh"; }
+
+private:
+  fs::path path_;
+};
+
+/// What Gmsh would take for an empty model, or read without a word.
+void checkFile(const std::string& file) {
+  const fs::path path(file);
+  if (path.extension() != ".msh" && path.extension() != ".geo")
+    throw InputError("The mesh file " + inQuotes(file) +
+                     " is of an unknown kind; its name must end in .msh or .geo");
+  if (isSplit(file))
+    throw InputError(
+        "The mesh files " + inQuotes(file) +
+        " are read by parts, but here one mesh is needed that a rank reads whole, as where it is refined "
+        "or a point in it is looked for; name one file");
+  if (!fs::is_regular_file(path))
+    throw InputError("There is no mesh file " + inQuotes(file) + "; check its name and the folder");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+    throw InputError("The mesh file " + inQuotes(file) + " cannot be opened; check its permissions");
+  if (path.extension() != ".geo")
+    return;
+  stream.seekg(-1, std::ios::end);
+  if (stream.get() != '\n')
+    throw InputError("The last line of the mesh file " + inQuotes(file) +
+                     " has no end, so that Gmsh would pass over it; end it with a line break");
+}
+
+std::string textOf(const std::string& path, const std::string& file) {
+  std::string text(fs::file_size(path), '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream)
+    throw InputError("The mesh file " + inQuotes(file) + " could not be read to its end");
+  return text;
+}
+
+/// What Gmsh saves of a file; empty if `run` saves nothing.
+std::string textOfGmsh(const std::string& file, double meshSizeFactor,
+                       const std::function<void(const GmshSession&, const std::string&)>& run) {
+  loadGmsh();
+  const TemporaryFolder folder; // removed by this process, however the other one ends
+  inChildProcess(
+      [&] {
+        const GmshSession session(file);
+        session.open(meshSizeFactor);
+        run(session, folder.file());
+      },
+      "Gmsh, at work on the mesh file " + inQuotes(file) + ',',
+      "it must not say Exit, and Gmsh (gmsh " + file + ") must be able to mesh and save it by itself");
+  return fs::exists(folder.file()) ? textOf(folder.file(), file) : "";
+}
+
+std::string textOfGmsh(const std::string& file, double meshSizeFactor, int refinements, int order) {
+  return textOfGmsh(file, meshSizeFactor, [&](const GmshSession& session, const std::string& saved) {
+    session.mesh(refinements, order);
+    session.requireKnown();
+    session.save(saved);
+  });
+}
+
+} // namespace
+
+std::string textOfGeometry(const std::string& file, double meshSizeFactor, const mesh::SizeField& sizes) {
+  checkFile(file);
+  return textOfGmsh(file, meshSizeFactor, [&](const GmshSession& session, const std::string& saved) {
+    if (session.isDiscrete())
+      return;
+    session.meshWith(sizes);
+    session.save(saved);
+  });
+}
+
+std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int refinements, int order) {
+  checkFile(file);
+  if (file.ends_with(".geo"))
+    return textOfGmsh(file, meshSizeFactor, refinements, order);
+  std::string text = textOf(file, file);
+  if (refinements == 0)
+    return text;
+  (void)readMsh(file, std::move(text)); // a file that is known to be sound can be handed to Gmsh
+  return textOfGmsh(file, meshSizeFactor, refinements, order);
+}
+
+} // namespace epafi::meshing

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "epafi/mesh/Box.hpp"
+
+#include <array>
+#include <string>
+
+namespace epafi::meshing {
+
+/// Where the elements come from: a structured box, or a file.
+struct MeshSource {
+  mesh::Box box;                        ///< of a structured mesh
+  std::array<int, 3> elements{0, 0, 0}; ///< in x, y and z (z: 0 in the plane); of a structured mesh
+  std::string file;                     ///< if not empty, a file that Gmsh reads, or several
+  double sizeFactor = 1;                ///< by which all element sizes of a geometry (.geo) are multiplied
+  int refinements = 0;                  ///< how often every element of the file is split
+  int order = 1;                        ///< of the elements, 1 or 2; 0: as the mesh file has it
+  std::string group; ///< the physical group in it that is this body; empty: all its elements
+};
+
+/// Whether the name of a mesh file stands for several, which hold a mesh by parts: "press_*.msh".
+bool isSplit(const std::string& file);
+
+} // namespace epafi::meshing
