@@ -109,11 +109,14 @@ function(epafi_library target name)
 endfunction()
 
 # epafi_room(<room> SOURCES ... USES ... [NEEDS ...])
-# The library of the folder, as above, and the include path epafi/<room>/.
+# The library of the folder, as above, and the include path epafi/<room>/; that of the room fetidp/solve is Epafi::fetidp_solve.
 function(epafi_room room)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "SOURCES;USES;NEEDS")
+  string(REPLACE "/" "_" name "${room}")
+  cmake_path(GET room PARENT_PATH above)
+  file(MAKE_DIRECTORY "${EPAFI_INCLUDE_ROOT}/epafi/${above}")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${EPAFI_INCLUDE_ROOT}/epafi/${room}" SYMBOLIC)
-  epafi_library(epafi_${room} ${room} SOURCES ${ROOM_SOURCES} USES ${ROOM_USES} NEEDS ${ROOM_NEEDS})
+  epafi_library(epafi_${name} ${name} SOURCES ${ROOM_SOURCES} USES ${ROOM_USES} NEEDS ${ROOM_NEEDS})
   if(EPAFI_INSTALL)
     epafi_install_headers(${room})
   endif()

@@ -4,8 +4,8 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Parameters.hpp"
-#include "epafi/fetidp/ProblemChecks.hpp"
-#include "epafi/fetidp/Recovery.hpp"
+#include "epafi/fetidp/equilibrium/ProblemChecks.hpp"
+#include "epafi/fetidp/solve/Recovery.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <Tpetra_Map.hpp>

@@ -10,9 +10,9 @@
 ///     problem.subdomains[0].stiffness = k;    // new matrices, new rows of B: what still holds is kept
 ///     solver.update(data);
 
-#include "epafi/fetidp/ContactResponse.hpp"
-#include "epafi/fetidp/ContactSolution.hpp"
-#include "epafi/fetidp/DualProblem.hpp"
+#include "epafi/fetidp/solve/ContactResponse.hpp"
+#include "epafi/fetidp/solve/ContactSolution.hpp"
+#include "epafi/fetidp/solve/DualProblem.hpp"
 #include "epafi/qp/Interruption.hpp"
 
 #include <Teuchos_ParameterList.hpp>

@@ -3,7 +3,7 @@
 #include "Median.hpp"
 
 #include "epafi/base/Compatibility.hpp"
-#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/fetidp/operator/GeneralizedInverse.hpp"
 #include "epafi/model/Decompose.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 

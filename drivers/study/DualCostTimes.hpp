@@ -1,10 +1,11 @@
 #pragma once
 
-/// What the two forms of F cost beside what src/fetidp/CostModel.cpp expects, from which 'auto' chooses.
+/// What the two forms of F cost beside what src/fetidp/operator/CostModel.cpp expects, from which 'auto'
+/// chooses.
 
 #include "Table.hpp"
 
-#include "epafi/fetidp/CostModel.hpp"
+#include "epafi/fetidp/operator/CostModel.hpp"
 
 namespace epafi::drivers {
 

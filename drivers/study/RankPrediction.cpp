@@ -4,9 +4,9 @@
 #include "ScalingScene.hpp"
 
 #include "epafi/base/RankGroups.hpp"
-#include "epafi/fetidp/GeneralizedInverse.hpp"
-#include "epafi/fetidp/KernelConstraint.hpp"
-#include "epafi/fetidp/KernelGram.hpp"
+#include "epafi/fetidp/equilibrium/KernelConstraint.hpp"
+#include "epafi/fetidp/equilibrium/KernelGram.hpp"
+#include "epafi/fetidp/operator/GeneralizedInverse.hpp"
 #include "epafi/model/Decompose.hpp"
 
 #include <Eigen/SparseCholesky>

@@ -6,7 +6,7 @@
 #include "epafi/base/PeakMemory.hpp"
 #include "epafi/simulation/SceneRun.hpp"
 
-#include "epafi/fetidp/DualPreconditioner.hpp"
+#include "epafi/fetidp/precondition/DualPreconditioner.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Operator.hpp>

@@ -15,8 +15,8 @@ namespace epafi::fem {
 class SolidDomain {
 public:
   /// \param user  who asks, such as "region 'core'"; \param group  if empty, the box counts
-  /// \throws InputError if the mesh has no such group, or, unless that may be, no element has its centre in the
-  /// box.
+  /// \throws InputError if the mesh has no such group, or, unless that may be, no element has its centre in
+  /// the box.
   SolidDomain(const SolidBody& body, const std::string& user, const std::string& group, const mesh::Box& box,
               bool mayBeEmpty);
 

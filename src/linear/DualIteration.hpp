@@ -3,7 +3,7 @@
 /// Conjugate gradients on F λ = d̃ for several right-hand sides at once (Belos), until the primal residual is
 /// small.
 
-#include "epafi/fetidp/ScaledConstraint.hpp"
+#include "epafi/fetidp/precondition/ScaledConstraint.hpp"
 #include "epafi/linear/UnassembledOperator.hpp"
 
 #include <span>

@@ -3,7 +3,7 @@
 /// K u = b by FETI-DP: conjugate gradients on F with a Dirichlet preconditioner, and u from λ. A linear
 /// problem without contact; contact is for ContactSolver.
 
-#include "epafi/fetidp/DualProblem.hpp"
+#include "epafi/fetidp/solve/DualProblem.hpp"
 #include "epafi/linear/DualIteration.hpp"
 #include "epafi/linear/LinearParameters.hpp"
 

@@ -2,7 +2,7 @@
 
 /// What the linear solvers can be told.
 
-#include "epafi/fetidp/FetiParameters.hpp"
+#include "epafi/fetidp/operator/FetiParameters.hpp"
 
 namespace epafi::linear {
 

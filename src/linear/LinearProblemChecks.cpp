@@ -2,9 +2,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fetidp/MultiplierExchange.hpp"
-#include "epafi/fetidp/ProblemChecks.hpp"
-#include "epafi/fetidp/SharedRows.hpp"
+#include "epafi/fetidp/equilibrium/ProblemChecks.hpp"
+#include "epafi/fetidp/operator/MultiplierExchange.hpp"
+#include "epafi/fetidp/precondition/SharedRows.hpp"
 #include "epafi/linear/NodalBasis.hpp"
 #include "epafi/qp/StartVector.hpp"
 

@@ -5,7 +5,7 @@
 /// so that those at unknowns are Tᵀf. T is the identity where there are no averages.
 /// decomposition::toNodalValues is T itself. Nothing is collective.
 
-#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/fetidp/operator/GeneralizedInverse.hpp"
 
 namespace epafi::linear {
 

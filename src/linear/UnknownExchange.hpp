@@ -3,8 +3,8 @@
 /// Between vectors of the whole problem and this rank's subdomains: the restrictions R^s and their
 /// transposes. Built once.
 
-#include "epafi/fetidp/FetiParameters.hpp"
-#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/fetidp/operator/FetiParameters.hpp"
+#include "epafi/fetidp/operator/GeneralizedInverse.hpp"
 #include "epafi/linear/GlobalUnknowns.hpp"
 
 #include <Tpetra_Import.hpp>

@@ -2,7 +2,7 @@
 
 /// Rows of contact and ties in the words of the scene that they come from.
 
-#include "epafi/fetidp/Contradictions.hpp"
+#include "epafi/fetidp/equilibrium/Contradictions.hpp"
 #include "epafi/model/Decompose.hpp"
 
 namespace epafi::simulation {

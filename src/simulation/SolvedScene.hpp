@@ -2,7 +2,7 @@
 
 /// A scene with its solution: what everything in this room looks at.
 
-#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/fetidp/solve/ContactSolution.hpp"
 #include "epafi/model/Decompose.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 #include "epafi/scene/Scene.hpp"

@@ -1,7 +1,7 @@
 #include "support/LinearSamples.hpp"
 
 #include "epafi/adapters/ThyraOperators.hpp"
-#include "epafi/fetidp/Projector.hpp"
+#include "epafi/fetidp/equilibrium/Projector.hpp"
 #include "epafi/linear/BddcPreconditioner.hpp"
 #include "epafi/linear/PartiallyAssembledInverse.hpp"
 

@@ -1,9 +1,9 @@
 #include "support/DenseProblem.hpp"
 
 #include "epafi/adapters/ThyraOperators.hpp"
-#include "epafi/fetidp/DualOperator.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
-#include "epafi/fetidp/ProjectedOperator.hpp"
+#include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/equilibrium/ProjectedOperator.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
 
 #include <Thyra_LinearOpBase.hpp>
 #include <Thyra_MultiVectorBase.hpp>

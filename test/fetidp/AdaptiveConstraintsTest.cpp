@@ -3,10 +3,10 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fetidp/CorrectedPreconditioner.hpp"
-#include "epafi/fetidp/Joints.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
-#include "epafi/fetidp/OverratedColumns.hpp"
+#include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/precondition/CorrectedPreconditioner.hpp"
+#include "epafi/fetidp/precondition/Joints.hpp"
+#include "epafi/fetidp/precondition/OverratedColumns.hpp"
 #include "epafi/qp/DeflatedOperator.hpp"
 
 #include <Teuchos_Comm.hpp>

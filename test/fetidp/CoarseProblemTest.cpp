@@ -1,7 +1,7 @@
 #include "support/Preconditioned.hpp"
 #include "support/Reference.hpp"
 
-#include "epafi/fetidp/DualOperator.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
 
 #include "epafi/base/Collective.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fetidp/CondensedSubdomain.hpp"
+#include "epafi/fetidp/operator/CondensedSubdomain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fetidp/ContactCrosspoints.hpp"
+#include "epafi/fetidp/precondition/ContactCrosspoints.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>

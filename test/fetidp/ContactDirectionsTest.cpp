@@ -1,4 +1,4 @@
-#include "epafi/fetidp/ContactDirections.hpp"
+#include "epafi/fetidp/equilibrium/ContactDirections.hpp"
 
 #include "support/DenseProblem.hpp"
 

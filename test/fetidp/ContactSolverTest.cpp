@@ -5,7 +5,7 @@
 
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>

@@ -1,5 +1,5 @@
-#include "epafi/fetidp/CostModel.hpp"
-#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/fetidp/operator/CostModel.hpp"
+#include "epafi/fetidp/operator/GeneralizedInverse.hpp"
 #include "epafi/model/Decompose.hpp"
 #include "epafi/scene/ModelProblem.hpp"
 

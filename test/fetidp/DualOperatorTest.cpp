@@ -3,7 +3,7 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fetidp/DualOperator.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

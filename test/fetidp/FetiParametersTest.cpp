@@ -3,7 +3,7 @@
 #include "support/Refusal.hpp"
 
 #include "epafi/direct/SpdFactor.hpp"
-#include "epafi/fetidp/FetiParameters.hpp"
+#include "epafi/fetidp/operator/FetiParameters.hpp"
 
 #include <gtest/gtest.h>
 

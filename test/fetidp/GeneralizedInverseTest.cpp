@@ -2,7 +2,7 @@
 
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fetidp/DualOperator.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>

@@ -3,8 +3,8 @@
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fetidp/JointStiffness.hpp"
-#include "epafi/fetidp/Joints.hpp"
+#include "epafi/fetidp/precondition/JointStiffness.hpp"
+#include "epafi/fetidp/precondition/Joints.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "support/DenseProblem.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/fetidp/Joints.hpp"
+#include "epafi/fetidp/precondition/Joints.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Import.hpp>

@@ -3,8 +3,8 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fetidp/KernelFaceInverse.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/equilibrium/KernelFaceInverse.hpp"
+#include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

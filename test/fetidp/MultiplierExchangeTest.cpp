@@ -2,7 +2,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Compatibility.hpp"
-#include "epafi/fetidp/MultiplierExchange.hpp"
+#include "epafi/fetidp/operator/MultiplierExchange.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

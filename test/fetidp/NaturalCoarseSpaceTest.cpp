@@ -2,10 +2,10 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fetidp/DualOperator.hpp"
-#include "epafi/fetidp/DualProblem.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
-#include "epafi/fetidp/ProjectedOperator.hpp"
+#include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/equilibrium/ProjectedOperator.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
+#include "epafi/fetidp/solve/DualProblem.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

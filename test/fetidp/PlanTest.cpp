@@ -1,4 +1,4 @@
-#include "epafi/fetidp/Plan.hpp"
+#include "epafi/fetidp/solve/Plan.hpp"
 
 #include "epafi/base/Errors.hpp"
 #include "support/Refusal.hpp"

@@ -1,7 +1,7 @@
 #include "support/Preconditioned.hpp"
 
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
-#include "epafi/fetidp/ProjectedPreconditioner.hpp"
+#include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/equilibrium/ProjectedPreconditioner.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

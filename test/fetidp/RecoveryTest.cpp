@@ -1,7 +1,7 @@
 #include "support/Reference.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/fetidp/Recovery.hpp"
+#include "epafi/fetidp/solve/Recovery.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -1,8 +1,8 @@
 #include "support/DataChanges.hpp"
 #include "support/Reference.hpp"
 
-#include "epafi/fetidp/DualOperator.hpp"
-#include "epafi/fetidp/SharedRows.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
+#include "epafi/fetidp/precondition/SharedRows.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Import.hpp>

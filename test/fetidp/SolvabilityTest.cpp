@@ -3,9 +3,9 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/fetidp/Contradictions.hpp"
-#include "epafi/fetidp/DualProblem.hpp"
-#include "epafi/fetidp/Solvability.hpp"
+#include "epafi/fetidp/equilibrium/Contradictions.hpp"
+#include "epafi/fetidp/equilibrium/Solvability.hpp"
+#include "epafi/fetidp/solve/DualProblem.hpp"
 
 #include <Tpetra_Vector.hpp>
 #include <gtest/gtest.h>

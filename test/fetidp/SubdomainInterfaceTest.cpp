@@ -1,7 +1,7 @@
 #include "support/Preconditioned.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/fetidp/SubdomainInterface.hpp"
+#include "epafi/fetidp/operator/SubdomainInterface.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>

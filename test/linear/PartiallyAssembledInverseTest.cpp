@@ -1,6 +1,6 @@
 #include "support/LinearSamples.hpp"
 
-#include "epafi/fetidp/DualOperator.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
 #include "epafi/linear/PartiallyAssembledInverse.hpp"
 
 #include <Tpetra_Map.hpp>

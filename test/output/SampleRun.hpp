@@ -1,6 +1,6 @@
 #pragma once
 
-#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/fetidp/solve/ContactSolution.hpp"
 #include "epafi/model/Decompose.hpp"
 #include "epafi/qp/SolveReport.hpp"
 #include "epafi/scene/Scene.hpp"

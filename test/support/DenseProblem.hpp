@@ -4,7 +4,7 @@
 
 #include "Gathered.hpp"
 
-#include "epafi/fetidp/GeneralizedInverse.hpp"
+#include "epafi/fetidp/operator/GeneralizedInverse.hpp"
 #include "epafi/model/Decompose.hpp"
 
 #include <Eigen/Core>

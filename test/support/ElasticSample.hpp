@@ -3,7 +3,7 @@
 #include "GmshBox.hpp"
 #include "TemporaryDirectory.hpp"
 
-#include "epafi/fetidp/ContactSolution.hpp"
+#include "epafi/fetidp/solve/ContactSolution.hpp"
 #include "epafi/model/Decompose.hpp"
 #include "epafi/scene/Scene.hpp"
 

@@ -4,7 +4,7 @@
 #include "epafi/base/EigenCompatibility.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/fetidp/NaturalCoarseSpace.hpp"
+#include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>

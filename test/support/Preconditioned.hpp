@@ -4,8 +4,8 @@
 
 #include "DenseProblem.hpp"
 
-#include "epafi/fetidp/DualOperator.hpp"
-#include "epafi/fetidp/DualPreconditioner.hpp"
+#include "epafi/fetidp/operator/DualOperator.hpp"
+#include "epafi/fetidp/precondition/DualPreconditioner.hpp"
 
 #include <string>
 #include <vector>

@@ -1,0 +1,113 @@
+#include "epafi/fetidp/equilibrium/Friction.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
+#include "epafi/fetidp/equilibrium/FeasibleForces.hpp"
+#include "epafi/qp/Feasibility.hpp"
+#include "epafi/qp/LocalData.hpp"
+
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include <cmath>
+#include <set>
+
+namespace epafi::fetidp {
+namespace {
+
+using decomposition::DecomposedProblem;
+using decomposition::FrictionNode;
+using decomposition::ProblemData;
+
+/// The tangential force of a node, its second component 0 in the plane.
+Eigen::Vector2d tangentialForce(const DecomposedProblem& problem, const FrictionNode& node,
+                                const Vector& lambda) {
+  const auto force = qp::localData(lambda);
+  const std::size_t first = node.firstTangent;
+  return {force[first], problem.components > 2 ? force[first + 1] : 0.0};
+}
+
+} // namespace
+
+bool sticks(const DecomposedProblem& problem, const ProblemData& data, const FrictionNode& node,
+            const Vector& lambda) {
+  constexpr double roundOff = 1e-9;
+  const double bound = data.frictionBound(node, lambda.getData()[node.contact]);
+  return tangentialForce(problem, node, lambda).norm() < bound * (1 - roundOff);
+}
+
+void ontoFrictionBounds(const DecomposedProblem& problem, const ProblemData& data, Vector& lambda) {
+  const auto force = qp::localDataNonConst(lambda);
+  for (const FrictionNode& node : problem.frictionNodes) {
+    if (sticks(problem, data, node, lambda))
+      continue;
+    const std::size_t first = node.firstTangent, contact = node.contact;
+    const double bound = data.frictionBound(node, force[contact]);
+    if (problem.components == 2) {
+      force[first] = std::copysign(bound, force[first]);
+      continue;
+    }
+    const double length = std::hypot(force[first], force[first + 1]);
+    for (std::size_t k = first; k < first + 2; ++k)
+      force[k] *= length > 0 ? bound / length : 0;
+  }
+}
+
+std::vector<KernelEntry> withoutIdleFriction(const DecomposedProblem& problem, const ProblemData& data,
+                                             std::vector<KernelEntry> entries) {
+  std::set<int> idle;
+  for (const FrictionNode& node : problem.frictionNodes)
+    if (!(data.frictionBound(node, 1) > 0))
+      for (int k = 0; k < problem.components - 1; ++k)
+        idle.insert(node.firstTangent + k);
+  std::erase_if(entries, [&](const KernelEntry& entry) { return idle.contains(entry.row); });
+  return entries;
+}
+
+std::vector<KernelEntry> withoutSlip(const DecomposedProblem& problem, const ProblemData& data,
+                                     const Vector& lambda, std::vector<KernelEntry> entries, Vector& slack) {
+  const auto values = qp::localDataNonConst(slack);
+  std::set<int> gone;
+  std::vector<KernelEntry> across;
+  for (const FrictionNode& node : problem.frictionNodes) {
+    if (sticks(problem, data, node, lambda))
+      continue;
+    const int first = node.firstTangent;
+    gone.insert({first, first + problem.components - 2});
+    const Eigen::Vector2d force = tangentialForce(problem, node, lambda);
+    if (problem.components < 3 || !(force.norm() > 0))
+      continue;
+    const Eigen::Vector2d along(-force[1] / force.norm(), force[0] / force.norm());
+    for (const KernelEntry& entry : entries)
+      if (entry.row == first || entry.row == first + 1)
+        across.push_back({first, entry.mode, along[entry.row - first] * entry.value});
+    values[first] = along[0] * values[first] + along[1] * values[first + 1];
+  }
+  std::erase_if(entries, [&](const KernelEntry& entry) { return gone.contains(entry.row); });
+  entries.insert(entries.end(), across.begin(), across.end());
+  return entries;
+}
+
+void requireEnoughFriction(const DecomposedProblem& problem, const ProblemData& data,
+                           const RCP<const NaturalCoarseSpace>& space, const Eigen::VectorXd& resultants) {
+  if (data.hasCoulombFriction()) // see Solvability.hpp
+    return;
+  Vector feasible(problem.multiplierMap), forces(problem.multiplierMap);
+  space->feasiblePoint(resultants, feasible); // G̃λ̃ = ẽ
+  const RCP<const qp::ConvexSet> set = feasibleForces(problem, data, &feasible)->shiftedBy(feasible);
+  const qp::Feasibility found = qp::findFeasiblePoint(space, set, forces);
+  if (found.isFeasible)
+    return;
+  forces.update(1.0, feasible, 1.0);
+  const Eigen::VectorXd missing = space->product(forces) - resultants;
+  refuseSliding(text(space->normOf(missing) / space->normOf(resultants)) + " of their resultant");
+}
+
+void refuseSliding(const std::string& missing) {
+  throw SolvabilityError(SolvabilityError::Kind::noSolution,
+                         "no solution: the loads on floating bodies are more than friction holds, by " +
+                             missing +
+                             "; lower the load along the contact, raise the friction or add a support");
+}
+
+} // namespace epafi::fetidp
