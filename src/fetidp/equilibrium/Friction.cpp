@@ -10,6 +10,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace epafi::fetidp {
@@ -32,7 +33,8 @@ Eigen::Vector2d tangentialForce(const DecomposedProblem& problem, const Friction
 bool sticks(const DecomposedProblem& problem, const ProblemData& data, const FrictionNode& node,
             const Vector& lambda) {
   constexpr double roundOff = 1e-9;
-  const double bound = data.frictionBound(node, lambda.getData()[node.contact]);
+  const double bound =
+      data.frictionBound(node, qp::localData(lambda)[static_cast<std::size_t>(node.contact)]);
   return tangentialForce(problem, node, lambda).norm() < bound * (1 - roundOff);
 }
 
@@ -66,25 +68,33 @@ std::vector<KernelEntry> withoutIdleFriction(const DecomposedProblem& problem, c
 
 std::vector<KernelEntry> withoutSlip(const DecomposedProblem& problem, const ProblemData& data,
                                      const Vector& lambda, std::vector<KernelEntry> entries, Vector& slack) {
+  struct Share {
+    int row;      ///< the node's first one, in whose place the row across its force is
+    double value; ///< what a row has of that; 0 of all rows in the plane
+  };
+  constexpr int nowhere = -1;
   const auto values = qp::localDataNonConst(slack);
-  std::set<int> gone;
-  std::vector<KernelEntry> across;
+  std::map<int, Share> shares; // of rows that slip
   for (const FrictionNode& node : problem.frictionNodes) {
     if (sticks(problem, data, node, lambda))
       continue;
     const int first = node.firstTangent;
-    gone.insert({first, first + problem.components - 2});
-    const Eigen::Vector2d force = tangentialForce(problem, node, lambda);
-    if (problem.components < 3 || !(force.norm() > 0))
+    if (problem.components < 3) {
+      shares[first] = {first, 0.0};
       continue;
-    const Eigen::Vector2d along(-force[1] / force.norm(), force[0] / force.norm());
-    for (const KernelEntry& entry : entries)
-      if (entry.row == first || entry.row == first + 1)
-        across.push_back({first, entry.mode, along[entry.row - first] * entry.value});
-    values[first] = along[0] * values[first] + along[1] * values[first + 1];
+    }
+    const Eigen::Vector2d force = tangentialForce(problem, node, lambda);
+    const double length = force.norm();
+    shares[first] = {first, length > 0 ? -force[1] / length : 0.0};
+    shares[first + 1] = {first, length > 0 ? force[0] / length : 0.0};
+    if (length > 0)
+      values[first] = shares[first].value * values[first] + shares[first + 1].value * values[first + 1];
   }
-  std::erase_if(entries, [&](const KernelEntry& entry) { return gone.contains(entry.row); });
-  entries.insert(entries.end(), across.begin(), across.end());
+  for (KernelEntry& entry : entries)
+    if (const auto slips = shares.find(entry.row); slips != shares.end())
+      entry = {slips->second.value != 0 ? slips->second.row : nowhere, entry.mode,
+               slips->second.value * entry.value};
+  std::erase_if(entries, [&](const KernelEntry& entry) { return entry.row == nowhere; });
   return entries;
 }
 
