@@ -5,6 +5,7 @@
 #include "epafi/scene/ListReader.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -35,7 +36,10 @@ std::vector<std::pair<std::string, double>> entriesOf(const ListReader& step, co
     const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (error != std::errc() || rest != number.data() + number.size() || !std::isfinite(value))
       step.refuseValue(parameter, "\"" + entry + "\" is not of the form name = number");
-    entries.emplace_back(trimmed(entry.substr(0, equals)), value);
+    const std::string name = trimmed(entry.substr(0, equals));
+    if (std::any_of(entries.begin(), entries.end(), [&](const auto& other) { return other.first == name; }))
+      step.refuseValue(parameter, "\"" + name + "\" is named twice");
+    entries.emplace_back(name, value);
   }
   return entries;
 }

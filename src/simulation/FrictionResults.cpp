@@ -11,6 +11,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace epafi::simulation {
 namespace {
@@ -58,6 +59,52 @@ std::vector<double> valuesOf(const Vector& vector, const std::vector<GlobalOrdin
   const auto values = here.getData();
   return {values.begin(), values.end()};
 }
+
+/// Means of λ_t around nodes, taken as those of the pressure are (ContactState), so that one is μ times the
+/// other where all that counts slips.
+class MeanTractions {
+public:
+  /// Collective.
+  MeanTractions(const SolvedScene& solved, const ContactLayout& contact, const RowTangents& tangents,
+                const std::vector<std::size_t>& rows)
+      : contact_(contact) {
+    std::vector<std::size_t> near;
+    for (const std::size_t row : rows)
+      forEach(row, [&](std::size_t other, double) { near.push_back(other); });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    std::vector<GlobalOrdinal> numbers;
+    for (const std::size_t row : near)
+      for (int k = 0; k < tangents.numTangents(); ++k)
+        numbers.push_back(tangents.numberOf(solved.decomposition.problem, row, k));
+    const std::vector<double> values = valuesOf(*solved.solution.multiplier, numbers);
+    std::size_t next = 0;
+    for (const std::size_t row : near)
+      for (int k = 0; k < tangents.numTangents(); ++k)
+        forces_.try_emplace(row, Vector3d::Zero()).first->second += values[next++] * tangents.at(row, k);
+  }
+  [[nodiscard]] Vector3d at(std::size_t row) const {
+    Vector3d force = Vector3d::Zero();
+    double area = 0;
+    forEach(row, [&](std::size_t other, double weight) {
+      force += weight * forces_.at(other);
+      area += weight * contact_.areas[other];
+    });
+    return force / area;
+  }
+
+private:
+  template <class Action>
+  void forEach(std::size_t row, const Action& action) const {
+    if (contact_.isDual || contact_.smoothed.empty())
+      return action(row, 1.0);
+    for (const ContactLayout::Share& share : contact_.smoothed[row])
+      action(share.node, share.weight);
+  }
+
+  const ContactLayout& contact_;
+  std::unordered_map<std::size_t, Vector3d> forces_;
+};
 
 } // namespace
 
@@ -121,20 +168,19 @@ FrictionFields frictionFields(const SolvedScene& solved, const ContactLayout& co
     for (int k = 0; k < tangents.numTangents(); ++k)
       numbers.push_back(tangents.numberOf(problem, row, k));
   }
-  const std::vector<double> forces = valuesOf(*solved.solution.multiplier, numbers),
-                            slacks = valuesOf(*solved.solution.slack, numbers),
+  const MeanTractions tractions(solved, contact, tangents, rows);
+  const std::vector<double> slacks = valuesOf(*solved.solution.slack, numbers),
                             sticks = valuesOf(*solved.solution.active, numbers),
                             closed = valuesOf(*solved.solution.active, normals);
   FrictionFields fields;
   const double sign = signOf(solved, contact);
   std::size_t next = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    Vector3d traction = Vector3d::Zero(), slip = Vector3d::Zero();
+    const Vector3d traction = sign * tractions.at(rows[i]);
+    Vector3d slip = Vector3d::Zero();
     const bool isStick = sticks[next] > 0.5;
-    for (int k = 0; k < tangents.numTangents(); ++k, ++next) {
-      traction += sign * forces[next] / contact.areas[rows[i]] * tangents.at(rows[i], k);
+    for (int k = 0; k < tangents.numTangents(); ++k, ++next)
       slip -= sign * slacks[next] * tangents.at(rows[i], k);
-    }
     fields.traction.insert(fields.traction.end(), traction.begin(), traction.end());
     fields.slip.insert(fields.slip.end(), slip.begin(), slip.end());
     const FrictionState state = closed[i] <= 0.5 ? FrictionState::open

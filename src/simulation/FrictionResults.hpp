@@ -24,7 +24,7 @@ enum class FrictionState { open, slip, stick };
 
 /// Friction at this rank's slab of ContactLayout::ownRows.
 struct FrictionFields {
-  std::vector<double> traction; ///< λ_t/area on the second side, 3 a node
+  std::vector<double> traction; ///< on the second side, as the pressure is a mean around a node, 3 a node
   std::vector<double> slip;     ///< w, by how much the first side slips on the second, 3 a node
   std::vector<int> state;       ///< FrictionState
 };

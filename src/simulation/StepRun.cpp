@@ -1,11 +1,13 @@
 #include "epafi/simulation/StepRun.hpp"
 
 #include "epafi/base/Compatibility.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <string>
 #include <utility>
 
 namespace epafi::simulation {
@@ -24,6 +26,16 @@ StepResult resultOf(const std::string& name, const RunResult& result) {
           result.contacts,
           result.status,
           result.reason};
+}
+
+/// Does what a step needs; whether it has a solution is said with its name.
+template <class Action>
+auto inStep(const scene::Step& step, const Action& action) {
+  try {
+    return action();
+  } catch (const SolvabilityError& error) {
+    throw SolvabilityError(error.kind(), std::string(error.what()) + " (in step \"" + step.name + "\")");
+  }
 }
 
 /// c of rows of friction: what they have slipped at the end of a step, from where the scene begins.
@@ -57,7 +69,8 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
                     const RunOptions& options, const std::function<void(const StepResult&)>& tell) {
   RunOptions first = options;
   first.facts.coarserFrom = fetidp::RunFacts().coarserFrom; // a coarser mesh would know one step alone
-  SceneRun run = solveScene(scene::atStep(scene, steps, 0), solverParameters, comm, first);
+  SceneRun run = inStep(
+      steps[0], [&] { return solveScene(scene::atStep(scene, steps, 0), solverParameters, comm, first); });
   model::Decomposition& cut = *run.decomposition;
   std::vector<StepResult> results{resultOf(steps[0].name, run.result)};
   Slip slip(cut.problem);
@@ -66,13 +79,15 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
       tell(results.back());
     slip.add(*run.solution.slack);
     run.scene = scene::atStep(scene, steps, k);
-    model::Decomposition next = model::decompose(run.scene, std::move(cut.bodies), comm); // its data alone
-    cut.bodies = std::move(next.bodies);
-    cut.contacts = std::move(next.contacts);
-    cut.ties = std::move(next.ties);
-    cut.data = std::move(next.data);
-    slip.enter(cut.data);
-    solveAgain(run, options);
+    inStep(steps[k], [&] {
+      model::Decomposition next = model::decompose(run.scene, std::move(cut.bodies), comm); // its data alone
+      cut.bodies = std::move(next.bodies);
+      cut.contacts = std::move(next.contacts);
+      cut.ties = std::move(next.ties);
+      cut.data = std::move(next.data);
+      slip.enter(cut.data);
+      solveAgain(run, options);
+    });
     results.push_back(resultOf(steps[k].name, run.result));
   }
   run.result.steps = std::move(results);

@@ -71,6 +71,8 @@ TEST(StepReaderTest, RefusesWhatIsNotThere) {
   for (const char* const text :
        {"left/push", "left/push=", "left/push=two", "left/push=1e999", "=", "left/push=1 2"})
     expectSays(refusalOfStep("Loads", text), {"\"Loads\"", "name = number"});
+  expectSays(refusalOfStep("Loads", "left/push = 1, left/push = 0"),
+             {"\"Loads\"", "\"left/push\" is named twice"});
 }
 
 } // namespace

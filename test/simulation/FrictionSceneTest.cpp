@@ -3,6 +3,9 @@
 
 #include "support/SolidScenes.hpp"
 
+#include "epafi/base/Errors.hpp"
+#include "epafi/simulation/ContactState.hpp"
+#include "epafi/simulation/FrictionResults.hpp"
 #include "epafi/simulation/StepRun.hpp"
 
 #include <gtest/gtest.h>
@@ -145,6 +148,44 @@ TEST(FrictionSceneTest, InSpaceFrictionPointsAgainstTheSlip) {
 
 /// A square of order 2 that nothing but friction holds: pressed, pushed to the right, to the left, and left
 /// alone.
+TEST(FrictionSceneTest, AStepThatFrictionDoesNotHoldIsNamed) {
+  scene::Scene scene = heldBlock(4, test::cutInGrid({2, 1, 1}));
+  scene.bodies[0].supports.clear();
+  scene::SolidLoad load;
+  load.kind = scene::SolidLoad::Kind::traction;
+  load.where = "top";
+  for (const Vector3& value : {Vector3{0, -0.01, 0}, Vector3{0.001, 0, 0}}) {
+    load.value = value;
+    scene.bodies[0].loads.push_back(load);
+  }
+  std::vector<scene::Step> steps(2);
+  steps[0].name = "held";
+  steps[1].name = "slides";
+  steps[1].loads[{0, 1}] = 4; // 0.004 beside 0.3 times 0.01
+  try {
+    solveSteps(scene, steps, {}, Tpetra::getDefaultComm(), {}, {});
+    FAIL() << "no refusal";
+  } catch (const SolvabilityError& error) {
+    EXPECT_EQ(error.kind(), SolvabilityError::Kind::noSolution);
+    EXPECT_NE(std::string(error.what()).find("(in step \"slides\")"), std::string::npos) << error.what();
+  }
+}
+
+/// Elements of order 2, whose nodes are not alike.
+TEST(FrictionSceneTest, WhatSlidesHasTractionsOfCoulombsLawAtEachNode) {
+  scene::Scene scene = heldBlock(4, test::cutInGrid({2, 1, 1}));
+  scene.bodies[0].mesh.order = 2;
+  scene.bodies[0].supports[0].value[0] = 0.05;
+  const SceneRun run = solved(scene);
+  const contact::ContactLayout& layout = run.decomposition->contacts[0];
+  const FrictionFields fields = frictionFields(run.solved(), layout);
+  const ContactState state = contactState(run.solved(), 0);
+  for (std::size_t node = 0; node < fields.state.size(); ++node) {
+    EXPECT_NE(fields.state[node], static_cast<int>(FrictionState::stick));
+    EXPECT_NEAR(fields.traction[3 * node], 0.3 * state.pressure[node], 1e-9);
+  }
+}
+
 TEST(FrictionSceneTest, WhatHasSlippedIsKeptFromStepToStep) {
   scene::Scene scene = heldBlock(32, test::cutInGrid({2, 2, 1}));
   scene.bodies[0].mesh.order = 2;
