@@ -63,8 +63,22 @@ def draw_meshes(axes, pair, curves):
                       transform=axes.get_xaxis_transform(), label=name if number == 0 else None)
 
 
+def draw_friction(multiplier, active, curves, dots):
+    """The traction beside the pressure, and what slips and sticks. Where all slips they are in the ratio of Coulomb's law."""
+    for number, (s, curve) in enumerate(curves):
+        multiplier.plot(s, curve.shear(), color=style.BLUE, linewidth=1.6, clip_on=False, **dots,
+                        label="friction, along the line" if number == 0 else None)
+        active.step(s, curve.friction_state, where="mid", color=style.BLACK, linewidth=1.4)
+    multiplier.lines[1].set_label("pressure")
+    multiplier.legend(loc="best")
+    multiplier.set_ylabel("contact pressure, friction\n[force per area]")
+    active.set_yticks([0, 1, 2], ["open", "slips", "sticks"])
+    active.set_ylim(-0.5, 2.5)
+    active.set_ylabel("")
+
+
 def figure(run, pair):
-    """Gap and multiplier; of elastic bodies the pressure."""
+    """Gap and multiplier; of elastic bodies the pressure, and friction if there is any."""
     curves = pieces(pair)
     closed = [span for s, curve in curves if len(s) > 1 for span in spans(s, curve.active)]
     dots = dict(marker="o", markersize=3.6) if len(pair.points) <= 130 else {}
@@ -93,12 +107,15 @@ def figure(run, pair):
     for s, curve in curves:
         multiplier.plot(s, curve.pressure if run.is_elastic() else curve.multiplier, color=style.VERMILLION, linewidth=1.6,
                         clip_on=False, **dots)
-        active.step(s, curve.active.astype(float), where="mid", color=style.BLACK, linewidth=1.4)
+        if pair.friction_state is None:
+            active.step(s, curve.active.astype(float), where="mid", color=style.BLACK, linewidth=1.4)
     multiplier.set_ylabel("contact pressure\n[force per area]" if run.is_elastic() else "multiplier λ [force a node]")
 
     active.set_yticks([0, 1], ["open", "closed"])
     active.set_ylim(-0.25, 1.25)
     active.set_ylabel("active set")
+    if pair.friction_state is not None:
+        draw_friction(multiplier, active, curves, dots)
     active.set_xlabel("arclength along the contact line [length]")
     end = curves[-1][0][-1]
     active.set_xlim(0, end if end > 0 else 1)

@@ -1,13 +1,13 @@
 """Finds the files and draws every picture that they allow."""
 
-from . import (accuracy, accuracy_peers, contact, convergence, hertz, heterogeneity, mesh, part, plane, pressure, qp, scaling, space, spectra,
-               stability, subdomains, surface, table, tables, targets)
+from . import (accuracy, accuracy_peers, contact, convergence, friction, hertz, heterogeneity, mesh, part, plane, pressure, qp,
+               scaling, space, spectra, stability, subdomains, surface, table, tables, targets)
 from .errors import PlotError
 from .run import read_run
 from .style import Canvas
 
 STUDIES = ("accuracy.csv", "tables.csv", "qp.csv", "scaling.csv", "stability.csv", "heterogeneity.csv", "hertz.csv",
-           "spectra.csv", "targets.csv", "meshes.csv")
+           "spectra.csv", "targets.csv", "meshes.csv", "friction_traction.csv", "friction_loop.csv")
 
 
 def draw(source, output, extension, dpi, box=None):
@@ -81,6 +81,10 @@ def draw_table(file, canvas):
         yield canvas.save(targets.figure(file, rows), file.stem)
     elif table.has(rows, targets.MESHES):
         yield canvas.save(targets.meshes(file, rows), file.stem)
+    elif table.has(rows, friction.TRACTION):
+        yield canvas.save(friction.tractions(file, rows), file.stem)
+    elif table.has(rows, friction.LOOP):
+        yield canvas.save(friction.loop(file, rows), file.stem)
     elif table.has(rows, convergence.COLUMNS):
         history = convergence.history_of_table(file, rows)
         if not convergence.can_draw(history):
@@ -97,4 +101,6 @@ def draw_table(file, canvas):
                         f"nor those of hertz.csv ({', '.join(hertz.COLUMNS)}) "
                         f"nor those of targets.csv ({', '.join(targets.COLUMNS)}) "
                         f"nor those of meshes.csv ({', '.join(targets.MESHES)}) "
+                        f"nor those of friction_traction.csv ({', '.join(friction.TRACTION)}) "
+                        f"nor those of friction_loop.csv ({', '.join(friction.LOOP)}) "
                         f"nor those of history.csv ({', '.join(convergence.COLUMNS)}).")

@@ -59,6 +59,8 @@ class Contact:
     cells: numpy.ndarray = None  # m x 1, 2, 3 or 4, rows
     first_body: str = ""  # name of its group
     facing: tuple = None  # points and facets of the other surface, if it is meshed apart
+    traction: numpy.ndarray = None  # n x 3, of friction on the second side
+    friction_state: numpy.ndarray = None  # 0 open, 1 slips, 2 sticks
 
     def curves(self):
         """Rows in their order along the contact line, in the plane; several lists if the line has gaps."""
@@ -72,7 +74,15 @@ class Contact:
             return None if values is None else values[curve]
         return dataclasses.replace(self, points=self.points[curve], gap=self.gap[curve], multiplier=self.multiplier[curve],
                                    active=self.active[curve], initial_gap=chosen(self.initial_gap),
-                                   pressure=chosen(self.pressure), normal=chosen(self.normal), cells=None)
+                                   pressure=chosen(self.pressure), normal=chosen(self.normal), cells=None,
+                                   traction=chosen(self.traction), friction_state=chosen(self.friction_state))
+
+    def shear(self):
+        """Component of the traction along the line in its order."""
+        if len(self.points) < 2:
+            return numpy.linalg.norm(self.traction, axis=1)
+        way = numpy.gradient(self.points, axis=0)
+        return (self.traction * way).sum(axis=1) / numpy.linalg.norm(way, axis=1)
 
     def arclength(self):
         steps = numpy.linalg.norm(numpy.diff(self.points, axis=0), axis=1)
@@ -145,7 +155,7 @@ def read_body(name, group):
 
 def read_contact(name, group):
     initial = group["initial_gap"][:] if "initial_gap" in group else None
-    later = {key: group[key][:] if key in group else None for key in ("pressure", "normal", "cells")}
+    later = {key: group[key][:] if key in group else None for key in ("pressure", "normal", "cells", "traction", "friction_state")}
     if later["cells"] is not None:
         later["cells"] = linear(text(group.attrs.get("cell_type", "")), later["cells"])[1]
     return Contact(title(name, group), name, group["points"][:], group["gap"][:], group["multiplier"][:],

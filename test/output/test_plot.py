@@ -49,6 +49,21 @@ hertz_cylinder,1,0.05,0.5,0.01,0.1,0.02
 hertz_cylinder,4,0.1,0.5,0.04,0.2,0
 hertz_sphere,1,0.1,0.5,0.04,0.2,0.03
 """
+TRACTION = """source,x,pressure,shear,bound
+computed,-0.5,0,0,0
+computed,0,1000,100,300
+computed,0.5,0,0,0
+closed form,-0.5,0,0,0
+closed form,0.5,0,0,0
+"""
+LOOP = """source,step,displacement,force
+computed,press,0,-80
+computed,half way,0.01,400
+computed,to the right,0.02,600
+computed,to the left,-0.02,-700
+thin strip,,0,-80
+thin strip,,0.02,600
+"""
 TARGETS = """scene,order,target,unknowns,seconds,estimated_error,true_error
 punch,2,0.05,1348,0.014,0.044,0.033
 punch,2,0.025,4058,0.036,0.017,0.014
@@ -301,6 +316,29 @@ class Plot(unittest.TestCase):
             self.assertIn(words, picture.read_text())
         (self.directory / "hertz.csv").write_text(HERTZ.replace("0.05", "fine"))
         self.assertIn("fine", self.refused(self.directory))
+
+    def test_friction_is_drawn_beside_its_closed_forms(self):
+        (self.directory / "friction_traction.csv").write_text(TRACTION)
+        (self.directory / "friction_loop.csv").write_text(LOOP)
+        pictures = self.pictures(self.directory, "--format", "svg")
+        self.assertEqual([picture.name for picture in pictures], ["friction_traction.svg", "friction_loop.svg"])
+        for picture, words in zip(pictures, (("closed form", "computed", "friction [MPa]"), ("thin strip", "to the right", "press"))):
+            for word in words:
+                self.assertIn(word, picture.read_text())
+        self.assertNotIn("half way", pictures[1].read_text())  # names stand at turns
+        (self.directory / "friction_loop.csv").write_text(LOOP.replace("600", "strong"))
+        self.assertIn("strong", self.refused(self.directory / "friction_loop.csv"))
+
+    def test_contacts_with_friction_show_what_slips(self):
+        elastic_runs.write(self.directory / "run.h5", "quadrilateral")
+        self.assertNotIn("sticks", self.pictures(self.directory, "--format", "svg")[2].read_text())
+        with h5py.File(self.directory / "run.h5", "a") as content:
+            pair = content["contact/joint"]
+            number = len(pair["points"])
+            pair["traction"], pair["friction_state"] = numpy.ones((number, 3)), numpy.arange(number) % 3
+        picture = self.pictures(self.directory, "--format", "svg")[2]
+        for word in ("slips", "sticks", "friction, along the line"):
+            self.assertIn(word, picture.read_text())
 
     def test_runs_to_a_target_are_drawn(self):
         (self.directory / "targets.csv").write_text(TARGETS)

@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+"""test_friction.py EPAFI SOURCE_DIR: scenes with friction beside closed forms, by the study that compares them."""
+
+import csv
+import math
+import pathlib
+import runpy
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+
+EPAFI, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+STUDY = SOURCE / "drivers/study/friction"
+COMPLETE, FAILED, WRONG_USAGE = range(3)
+study = types.SimpleNamespace(**runpy.run_path(str(STUDY), run_name="study"))
+
+
+def run(*arguments):
+    return subprocess.run([STUDY, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120,
+                          check=False)
+
+
+class Friction(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = pathlib.Path(place.name)
+
+    def compared(self, part, factor=1.0):
+        """Rows of the table, and by how much each of its lines is off."""
+        options = types.SimpleNamespace(program=EPAFI, factor=factor)
+        rows, lines = getattr(study, part)(options, self.place)
+        return rows, {name.split(" [")[0]: abs(found / exact - 1) for name, found, exact in lines}
+
+    def test_the_closed_form_of_cylinders_carries_its_forces_and_sticks_where_it_says(self):
+        p, q, mu, n = 900.0, 100.0, 0.3, 20000
+        form = study.Mindlin(p, q, mu, 50.0, 210000.0, 0.3)
+        places = [(2 * (k + 0.5) / n - 1) * form.a for k in range(n)]
+        self.assertAlmostEqual(sum(map(form.pressure, places)) * 2 * form.a / n / p, 1, places=5)
+        self.assertAlmostEqual(sum(map(form.shear, places)) * 2 * form.a / n / q, 1, places=5)
+        self.assertAlmostEqual(form.largest_shear(), mu * form.p0 * math.sqrt(q / (mu * p)), places=9)
+        self.assertAlmostEqual(form.shear(1.01 * form.c), mu * form.pressure(1.01 * form.c), places=9)
+        self.assertLess(form.shear(0.99 * form.c), 0.9 * mu * form.pressure(0.99 * form.c))
+
+    def test_the_loop_of_a_strip_closes_and_has_the_area_that_friction_takes(self):
+        n, u = 2000, 0.025
+        way = [u * k / n for k in (*range(n), *range(n, -n, -1), *range(-n, n + 1))]
+        forces = study.strip_loop(9e5, 10.0, -80.0, way)
+        self.assertAlmostEqual(forces[n], forces[-1], places=9)
+        area = sum((a + b) / 2 * (v - w) for a, b, w, v in zip(forces[n:], forces[n + 1:], way[n:], way[n + 1:]))
+        self.assertAlmostEqual(area / (4 / 3 * study.strip_force(9e5, 10.0, u) * u), 1, places=4)
+
+    def test_cylinders_stick_and_slip_as_cattaneo_and_mindlin_say(self):
+        rows, off = self.compared("mindlin")
+        for name, most in (("a", 2e-3), ("c", 3e-3), ("c/a", 2e-3), ("largest pressure", 1e-3), ("largest shear", 0.03),
+                           ("sum of pressures", 2e-3), ("sum of shears", 2e-3)):
+            self.assertLess(off[name], most, name)
+        computed = [row for row in rows if row["source"] == "computed"]
+        slips = [row for row in computed if row["shear"] > 0.999 * row["bound"] > 0]
+        self.assertGreater(len(slips), 10)
+        for row in computed:
+            self.assertLess(row["shear"], row["bound"] * (1 + 1e-5) + 1e-6)
+        coarser = self.compared("mindlin", 2.0)[1]
+        for name in ("largest pressure", "largest shear"):
+            self.assertLess(off[name], coarser[name], name)
+
+    def test_a_clamped_strap_goes_through_the_loop_of_a_thin_strip(self):
+        rows, off = self.compared("loop")
+        for name, most in (("force when pressed", 1e-4), ("force when pulled first", 6e-3), ("half the loop's height", 3e-3),
+                           ("closes with", 1e-4), ("work of a loop", 0.02)):
+            self.assertLess(off[name], most, name)
+        self.assertEqual(len([row for row in rows if row["source"] == "computed"]), 13)
+        report = study.xml.etree.ElementTree.parse(self.place / "report.xml").getroot()
+        self.assertAlmostEqual(float(study.listed(report, "Contact", "joint", "Force")), 50.0 * 100, delta=1e-3)
+
+    def test_the_study_writes_tables_and_says_what_went_wrong(self):
+        ended = run("--program", EPAFI, "--output", self.place, "--factor", 4)
+        self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
+        for name, first in (("traction", "x"), ("loop", "displacement")):
+            with open(self.place / f"friction_{name}.csv", newline="", encoding="utf-8") as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual({row["source"] for row in rows} - {"closed form", "thin strip"}, {"computed"})
+            self.assertTrue(all(math.isfinite(float(row[first])) for row in rows))
+        ended = run("--program", "/bin/false", "--output", self.place)
+        self.assertEqual(ended.returncode, FAILED)
+        self.assertIn("cattaneo_mindlin ended with code 1", ended.stderr)
+        self.assertEqual(run("--program", self.place).returncode, WRONG_USAGE)
+        self.assertEqual(run("--program", EPAFI, "--factor", 0).returncode, WRONG_USAGE)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
