@@ -9,9 +9,9 @@
 set(epafi_packages_trilinos Tpetra Belos) # all that base and qp need
 set(epafi_packages_amesos2 Amesos2)
 set(epafi_packages_thyra ThyraTpetraAdapters)
-set(epafi_packages_muelu MueLu) # for studies and examples alone
+set(epafi_packages_muelu MueLu) # for drivers/study alone
 set(epafi_packages_stratimikos Stratimikos) # for Epafi::adapters alone
-set(epafi_packages_frosch ShyLU_DDFROSch) # for a side-by-side run alone
+set(epafi_packages_frosch ShyLU_DDFROSch) # likewise
 
 function(epafi_dependency name missing)
   set(sentence "")

@@ -14,9 +14,7 @@ include(CMakePackageConfigHelpers)
 set(EPAFI_INSTALL_CMAKEDIR "${CMAKE_INSTALL_LIBDIR}/cmake/Epafi")
 set(EPAFI_INSTALL_DATADIR "${CMAKE_INSTALL_DATADIR}/epafi")
 
-# Programs find scenes and shared libraries of ours by their place beside them, wherever the whole is moved.
-file(RELATIVE_PATH EPAFI_SCENES_FROM_PROGRAMS "${CMAKE_INSTALL_FULL_BINDIR}"
-     "${CMAKE_INSTALL_FULL_DATADIR}/epafi/xml")
+# Programs find shared libraries of ours by their place beside them, wherever the whole is moved.
 if(BUILD_SHARED_LIBS)
   file(RELATIVE_PATH epafi_libraries_from_programs "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
   list(PREPEND CMAKE_INSTALL_RPATH "$ORIGIN" "$ORIGIN/${epafi_libraries_from_programs}")
@@ -33,6 +31,7 @@ function(epafi_install_library target name)
           INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
   install(EXPORT Epafi-${name} NAMESPACE Epafi:: FILE EpafiTargets-${name}.cmake
           DESTINATION "${EPAFI_INSTALL_CMAKEDIR}" COMPONENT development)
+  export(EXPORT Epafi-${name} NAMESPACE Epafi:: FILE "${PROJECT_BINARY_DIR}/EpafiTargets-${name}.cmake") # find_package(Epafi) may name the build, too
   set(uses ${LIBRARY_USES})
   if(NOT BUILD_SHARED_LIBS)
     list(APPEND uses ${LIBRARY_NEEDS})
@@ -56,6 +55,7 @@ function(epafi_install_config)
   configure_file("${PROJECT_SOURCE_DIR}/cmake/EpafiConfig.cmake.in" "${PROJECT_BINARY_DIR}/EpafiConfig.cmake" @ONLY)
   # Before 1.0 the second number counts what is not compatible.
   write_basic_package_version_file("${PROJECT_BINARY_DIR}/EpafiConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/cmake/EpafiDependencies.cmake" "${PROJECT_BINARY_DIR}/EpafiDependencies.cmake" SYMBOLIC)
   install(FILES "${PROJECT_BINARY_DIR}/EpafiConfig.cmake" "${PROJECT_BINARY_DIR}/EpafiConfigVersion.cmake"
                 "${PROJECT_SOURCE_DIR}/cmake/EpafiDependencies.cmake"
           DESTINATION "${EPAFI_INSTALL_CMAKEDIR}" COMPONENT development)

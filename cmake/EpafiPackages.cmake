@@ -33,8 +33,8 @@ membranes, described by scenes in XML, on one or many processes. It cuts the
 bodies into subdomains, joins them by FETI-DP, and finds the contact forces by
 quadratic programming algorithms that stop with a certificate of their accuracy.
 
-This package has the programs epafi, epafi-study, epafi-export and epafi-plot,
-scenes that work, and the documentation.")
+This package has the programs epafi and epafi-plot, scenes that work, and the
+documentation.")
 
 # What the static libraries link, and what headers and CMake's files name.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libepafi-dev)

@@ -81,7 +81,7 @@ def find_programs(options, script):
         if all(os.access(place / program, os.X_OK) and (place / program).is_file() for program in needed):
             return place.absolute()
     raise UsageError(f"{' and '.join(sorted(needed))} not found in {' or '.join(map(str, places))}; "
-                     "call ./setup build first, or name the folder by --programs")
+                     "call ./setup studies first, or name the folder by --programs")
 
 
 def start(command, case, further=None):

@@ -7,7 +7,7 @@ std::filesystem::path programDirectory() {
 }
 
 std::filesystem::path sceneDirectory() {
-  return (programDirectory() / EPAFI_SCENES_FROM_PROGRAMS).lexically_normal();
+  return EPAFI_SCENES;
 }
 
 } // namespace epafi::drivers

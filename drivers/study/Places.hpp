@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where things lie beside the running program, in the build tree as when installed.
+/// Where things lie that a study uses.
 
 #include <filesystem>
 
@@ -9,7 +9,7 @@ namespace epafi::drivers {
 /// The folder that holds this program and its sisters.
 std::filesystem::path programDirectory();
 
-/// The scenes that come with Epafi.
+/// The scenes of the clone that the program was built in.
 std::filesystem::path sceneDirectory();
 
 } // namespace epafi::drivers

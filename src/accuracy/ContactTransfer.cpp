@@ -1,12 +1,14 @@
 #include "epafi/accuracy/ContactTransfer.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/mesh/PointTree.hpp"
+#include "epafi/mesh/BoxTree.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace epafi::accuracy {
@@ -50,13 +52,17 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
     const std::vector<double> pressure = pressures(from, coarse, lambda);
     if (pressure.empty())
       continue;
-    const mesh::PointTree tree(placesOf(from, coarse));
-    const std::vector<Point> places = placesOf(to, fine);
+    const std::vector<Point> sources = placesOf(from, coarse), places = placesOf(to, fine);
+    const mesh::BoxTree tree(sources);
+    std::vector<std::size_t> near;
     for (std::size_t row = 0; row < places.size(); ++row) {
       const LocalOrdinal local = map.getLocalElement(fine.firstRow + static_cast<GlobalOrdinal>(row));
       if (local < 0 || fine.portion(row) == 0)
         continue;
-      const double nearest = pressure[tree.nearest(places[row])];
+      tree.nearest(places[row], 4, near); // of equally near ones, as in the middle of a facet, the first
+      const double nearest = pressure[*std::ranges::min_element(near, {}, [&](std::size_t i) {
+        return fem::diameterOf(std::array{sources[i], places[row]});
+      })];
       values[local] = std::max(0.0, nearest) * fine.areas[row];
     }
   }

@@ -24,14 +24,15 @@ TreeBox toTree(const BoxTree::Box& box) {
   return {toTree(box[0]), toTree(box[1])};
 }
 
-std::vector<NumberedBox> entriesOf(std::span<const BoxTree::Box> boxes) {
-  std::vector<NumberedBox> entries;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    entries.emplace_back(toTree(boxes[i]), i);
-  return entries;
-}
-
 using Boxes = geometry::index::rtree<NumberedBox, geometry::index::quadratic<16>>;
+
+template <class Things>
+Boxes treeOf(const Things& things) {
+  std::vector<NumberedBox> entries;
+  for (std::size_t i = 0; i < things.size(); ++i)
+    entries.emplace_back(geometry::return_envelope<TreeBox>(toTree(things[i])), i);
+  return Boxes(entries);
+}
 
 template <class Query>
 void find(const Boxes& boxes, const Query& query, std::vector<std::size_t>& found) {
@@ -47,8 +48,9 @@ struct BoxTree::Tree {
   Boxes boxes;
 };
 
-BoxTree::BoxTree(std::span<const Box> boxes)
-    : tree_(std::make_unique<const Tree>(Tree{Boxes(entriesOf(boxes))})) {}
+BoxTree::BoxTree(std::span<const Box> boxes) : tree_(std::make_unique<const Tree>(Tree{treeOf(boxes)})) {}
+
+BoxTree::BoxTree(std::span<const Point> points) : tree_(std::make_unique<const Tree>(Tree{treeOf(points)})) {}
 
 BoxTree::~BoxTree() = default;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Boxes in a tree, to find those that meet a box, or the nearest ones, without looking at the others.
+/// Boxes or points in a tree, to find those that meet a box, or the nearest, without looking at the others.
 
 #include "epafi/mesh/Mesh.hpp"
 
@@ -18,6 +18,7 @@ public:
   using Box = std::array<Point, 2>; ///< lowest and highest coordinates
 
   explicit BoxTree(std::span<const Box> boxes);
+  explicit BoxTree(std::span<const Point> points); ///< a box each
   BoxTree(const BoxTree&) = delete;
   BoxTree& operator=(const BoxTree&) = delete;
   BoxTree(BoxTree&&) = delete;

@@ -66,10 +66,10 @@ double distanceFrom(CellType type, std::span<const Point> facet, const Point& po
 }
 
 std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTopology& topology,
-                                           const PointTree& tree) {
+                                           const BoxTree& tree) {
   const auto facets = facetsOf(mesh.cellType);
   std::vector<Point> corners;
-  std::vector<LocalOrdinal> found;
+  std::vector<std::size_t> found;
   for (LocalOrdinal element = 0; element < mesh.numElements(); ++element) {
     const auto nodes = nodesOf(mesh.cellType, mesh.cells, element);
     for (std::size_t f = 0; f < facets.size(); ++f) {
@@ -79,10 +79,9 @@ std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTop
       for (const int place : facets[f])
         corners.push_back(mesh.points[nodes[place]]);
       const double tolerance = facetTolerance * diameterOf(corners);
-      const auto [lower, upper] = boxOf(corners, tolerance);
-      tree.inBox(lower, upper, found);
-      std::sort(found.begin(), found.end());
-      for (const LocalOrdinal node : found) {
+      tree.meeting(boxOf(corners, tolerance), found);
+      for (const std::size_t place : found) {
+        const auto node = static_cast<LocalOrdinal>(place);
         if (!topology.isOnBoundary(node) || std::find(nodes.begin(), nodes.end(), node) != nodes.end())
           continue; // inner nodes touch no unmatched facet
         const double distance = distanceFrom(facetTypeOf(mesh.cellType), corners, mesh.points[node]);

@@ -2,9 +2,9 @@
 
 /// Nodes that lie on the boundary of an element without belonging to it.
 
+#include "epafi/mesh/BoxTree.hpp"
 #include "epafi/mesh/MeshArrays.hpp"
 #include "epafi/mesh/MeshTopology.hpp"
-#include "epafi/mesh/PointTree.hpp"
 
 #include <optional>
 
@@ -22,7 +22,7 @@ struct HangingNode {
 ///
 /// \param tree  of the mesh's points; no two of them may coincide.
 std::optional<HangingNode> findHangingNode(const MeshArrays& mesh, const MeshTopology& topology,
-                                           const PointTree& tree);
+                                           const BoxTree& tree);
 
 /// Distance of a point from a facet: an edge, a triangle, or the bilinear patch that four points span. Exact
 /// where the nearest point is not on the facet's rim, else an upper bound.

@@ -32,9 +32,9 @@ public:
   void checkNodes() const;
   void checkPoints();
   void checkShapes() const;
-  void checkPlaces(const PointTree& tree) const;
+  void checkPlaces(const BoxTree& tree) const;
   void checkSharing() const;
-  void checkHangingNodes(const PointTree& tree) const;
+  void checkHangingNodes(const BoxTree& tree) const;
 
 private:
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(mesh_.name + ": " + what); }
@@ -160,17 +160,16 @@ void Checker::refuseShape(LocalOrdinal first, const ElementShape& bad) const {
          finer);
 }
 
-void Checker::checkPlaces(const PointTree& tree) const {
+void Checker::checkPlaces(const BoxTree& tree) const {
   const double tolerance = placeTolerance * size_;
-  std::vector<LocalOrdinal> found;
+  std::vector<std::size_t> found;
   for (const Point& point : mesh_.points) {
-    const auto [lower, upper] = boxOf(std::span(&point, 1), tolerance);
-    tree.inBox(lower, upper, found);
+    tree.meeting(boxOf(std::span(&point, 1), tolerance), found);
     if (found.size() < 2)
       continue;
-    std::sort(found.begin(), found.end());
+    const auto first = static_cast<LocalOrdinal>(found[0]), second = static_cast<LocalOrdinal>(found[1]);
     refuse(
-        node(found[0]) + " and " + node(found[1]) + " are both at " + place(found[0]) +
+        node(first) + " and " + node(second) + " are both at " + place(first) +
         ", so that the body is cut there; merge them (in a .geo file \"Coherence Mesh;\" after meshing). If "
         "the cut "
         "is meant, as where parts or a crack's lips meet, make a body of each side, by physical groups, and "
@@ -224,7 +223,7 @@ void Checker::checkSharing() const {
     }
 }
 
-void Checker::checkHangingNodes(const PointTree& tree) const {
+void Checker::checkHangingNodes(const BoxTree& tree) const {
   if (const auto hanging = findHangingNode(mesh_, topology_, tree))
     refuse(
         node(hanging->node) + " at " + place(hanging->node) + " lies on the boundary of " +
@@ -244,7 +243,7 @@ void checkMesh(const MeshArrays& mesh, const MeshTopology& topology) {
   checker.checkNodes();
   checker.checkPoints();
   checker.checkShapes();
-  const PointTree tree(mesh.points);
+  const BoxTree tree(mesh.points);
   checker.checkPlaces(tree);
   checker.checkSharing();
   checker.checkHangingNodes(tree);

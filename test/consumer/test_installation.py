@@ -62,10 +62,6 @@ def configure(project, *definitions):
     return folder
 
 
-# Those that only measure are installed where they were made.
-PROGRAMS = ["bin/epafi", *(f"bin/{name}" for name in ("epafi-study", "epafi-export") if (BUILD / "drivers" / name).exists())]
-
-
 def is_shared():
     return cache()["BUILD_SHARED_LIBS"] == "ON"
 
@@ -101,7 +97,7 @@ class Places(unittest.TestCase):
         return sorted((PREFIX / "include").rglob("*.hpp"))
 
     def test_everything_lies_where_the_platform_has_it(self):
-        for name in (*PROGRAMS, "bin/epafi-plot", "share/epafi/xml/coercive.xml",
+        for name in ("bin/epafi", "bin/epafi-plot", "share/epafi/xml/coercive.xml",
                      "share/epafi/xml/meshes/bracket.geo", "share/epafi/plot/run.py", "share/doc/epafi/README.md",
                      "share/doc/epafi/LICENSE", "share/doc/epafi/docs/user-guide.md", "include/epafi/ContactSolver.hpp",
                      "include/epafi/qp/QpSolver.hpp"):
@@ -134,7 +130,7 @@ class Places(unittest.TestCase):
                 self.assertNotIn(str(place), text, file)
 
     def test_programs_and_libraries_find_their_own_by_their_place(self):
-        for file in [*(PREFIX / name for name in PROGRAMS), *self.libraries()]:
+        for file in [PREFIX / "bin/epafi", *self.libraries()]:
             if file.suffix == ".a":
                 continue
             header = must(cache()["CMAKE_READELF"], "-d", file)
@@ -160,12 +156,6 @@ class Programs(unittest.TestCase):
         self.assertGreaterEqual(len(pictures), 3)
         for picture in pictures:
             self.assertTrue(pathlib.Path(picture).is_file(), picture)
-
-    @unittest.skipUnless("bin/epafi-study" in PROGRAMS, "the studies are not built")
-    def test_the_studies_find_the_scenes_that_were_installed(self):
-        text = must(PREFIX / "bin/epafi-study", "--help")
-        self.assertEqual(pathlib.Path(re.search(r"^The scenes are those in (.*)[.]$", text, re.MULTILINE)[1]).resolve(),
-                         (PREFIX / "share/epafi/xml").resolve())
 
 
 class Consumer(unittest.TestCase):

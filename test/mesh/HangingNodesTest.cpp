@@ -25,26 +25,25 @@ TEST(HangingNodesTest, DistancesFromEdgesTrianglesAndWarpedPatches) {
   EXPECT_GT(distanceFrom(CellType::quadrilateral, warped, {0.3, 0.9, 0.3}), 0.01);
 }
 
-TEST(PointTreeTest, FindsWhatASearchOfAllPointsFinds) {
+TEST(BoxTreeTest, OfPointsFindsWhatASearchOfAllFinds) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> digit(0, 9); // many equal coordinates
   std::vector<Point> points(1000);
   for (Point& point : points)
     point = {0.1 * digit(random), 1.0 * digit(random), digit(random) < 5 ? 0.0 : 1.0};
-  const PointTree tree(points);
-  std::vector<LocalOrdinal> found;
+  const BoxTree tree(points);
+  std::vector<std::size_t> found;
   for (int k = 0; k < 100; ++k) {
     const Point lower{0.1 * digit(random), 1.0 * digit(random), 0};
     const Point upper{lower[0] + 0.1, lower[1] + 3, k % 2 == 0 ? 0.5 : 1.0};
-    tree.inBox(lower, upper, found);
-    std::sort(found.begin(), found.end());
-    std::vector<LocalOrdinal> expected;
+    tree.meeting({lower, upper}, found);
+    std::vector<std::size_t> expected;
     for (std::size_t i = 0; i < points.size(); ++i) {
       bool isInside = true;
       for (std::size_t axis = 0; axis < 3; ++axis)
         isInside = isInside && points[i][axis] >= lower[axis] && points[i][axis] <= upper[axis];
       if (isInside)
-        expected.push_back(static_cast<LocalOrdinal>(i));
+        expected.push_back(i);
     }
     EXPECT_EQ(found, expected);
   }
@@ -57,9 +56,10 @@ TEST(PointTreeTest, FindsWhatASearchOfAllPointsFinds) {
     const auto nearest = std::min_element(points.begin(), points.end(), [&](const Point& a, const Point& b) {
       return squared(a) < squared(b);
     });
-    EXPECT_DOUBLE_EQ(squared(points[tree.nearest(x)]), squared(*nearest));
+    tree.nearest(x, 1, found);
+    EXPECT_DOUBLE_EQ(squared(points[found.at(0)]), squared(*nearest));
   }
-  PointTree(std::span<const Point>{}).inBox({0, 0, 0}, {1, 1, 1}, found);
+  BoxTree(std::span<const Point>{}).meeting({{{0, 0, 0}, {1, 1, 1}}}, found);
   EXPECT_TRUE(found.empty());
 }
 
