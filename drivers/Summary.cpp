@@ -85,7 +85,7 @@ void describeProblem(std::ostream& text, const RunResult& result) {
     if (body.askedParts > 0 && body.askedParts != body.parts)
       text << "              METIS cut body '" << body.name << "' into "
            << counted(body.parts, "connected part") << ", not the " << body.askedParts << " asked for\n";
-  if (solve.numClusters > static_cast<int>(result.bodies.size()))
+  if (solve.numClusters > std::ssize(result.bodies))
     text << "  clusters    " << solve.numClusters << " of subdomains that share crosspoints, "
          << counted(solve.kernelDimension, "rigid motion") << " of them"
          << (result.choosesClusters

@@ -35,11 +35,10 @@ private:
 SaddlePoint::SaddlePoint(const UndecomposedSystem& system, const std::vector<bool>& active) {
   const Eigen::Index n = system.load.size(), m = system.gap.size();
   Triplets triplets;
-  triplets.reserve(
-      static_cast<std::size_t>(system.stiffness.nonZeros() + 2 * system.constraint.nonZeros() + m));
+  triplets.reserve(system.stiffness.nonZeros() + 2 * system.constraint.nonZeros() + m);
   for (int row = 0; row < n; ++row)
     for (Matrix::InnerIterator entry(system.stiffness, row); entry; ++entry)
-      triplets.emplace_back(row, static_cast<int>(entry.col()), entry.value());
+      triplets.emplace_back(row, entry.col(), entry.value());
   rhs_ = Eigen::VectorXd::Zero(n + m);
   rhs_.head(n) = system.load;
   for (int i = 0; i < m; ++i) {
@@ -49,8 +48,8 @@ SaddlePoint::SaddlePoint(const UndecomposedSystem& system, const std::vector<boo
       continue;
     }
     for (Matrix::InnerIterator entry(system.constraint, i); entry; ++entry) {
-      triplets.emplace_back(line, static_cast<int>(entry.col()), entry.value());
-      triplets.emplace_back(static_cast<int>(entry.col()), line, entry.value());
+      triplets.emplace_back(line, entry.col(), entry.value());
+      triplets.emplace_back(entry.col(), line, entry.value());
     }
     rhs_[line] = system.gap[i];
   }

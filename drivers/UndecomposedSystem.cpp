@@ -47,7 +47,7 @@ UndecomposedSystem::Matrix blockDiagonal(const DecomposedProblem& problem, const
     const decomposition::SparseMatrix& block = *problem.subdomains[s].stiffness;
     for (int row = 0; row < block.outerSize(); ++row)
       for (decomposition::SparseMatrix::InnerIterator entry(block, row); entry; ++entry)
-        result.insert(first[s] + row, first[s] + static_cast<int>(entry.row())) = entry.value();
+        result.insert(first[s] + row, first[s] + entry.row()) = entry.value();
   }
   result.makeCompressed();
   return result;
@@ -76,16 +76,15 @@ void locate(const Decomposition& decomposition, const Subdomain& subdomain, int 
   for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
     const std::size_t node = subdomain.unknownPosition[i] / components;
     const int component = subdomain.unknownPosition[i] % components;
-    const auto unknown = static_cast<std::size_t>(first) + i;
-    const Eigen::Index column = unknown;
+    const std::size_t unknown = first + i;
     const Point point = mesh.point(subdomain.nodes[node]);
     system.body[unknown] = subdomain.body;
     system.node[unknown] = static_cast<int>(subdomain.nodes[node]);
-    system.place.col(column) << point[0], point[1], point[2];
+    system.place.col(unknown) << point[0], point[1], point[2];
     if (axes[node] == nullptr)
-      system.direction.col(column) = Eigen::Vector3d::Unit(component);
+      system.direction.col(unknown) = Eigen::Vector3d::Unit(component);
     else
-      system.direction.col(column) = axes[node]->col(component);
+      system.direction.col(unknown) = axes[node]->col(component);
   }
 }
 
@@ -94,9 +93,7 @@ void locate(const Decomposition& decomposition, const Subdomain& subdomain, int 
 std::vector<Eigen::VectorXd> UndecomposedSystem::valuesOf(const Eigen::VectorXd& u) const {
   std::vector<Eigen::VectorXd> values = prescribed;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const std::size_t unknown = i;
-    values[body[unknown]].segment(node[unknown] * components, components) +=
-        u[i] * direction.col(i).head(components);
+    values[body[i]].segment(node[i] * components, components) += u[i] * direction.col(i).head(components);
   }
   return values;
 }
@@ -104,8 +101,8 @@ std::vector<Eigen::VectorXd> UndecomposedSystem::valuesOf(const Eigen::VectorXd&
 Eigen::VectorXd UndecomposedSystem::unknownsOf(const std::vector<Eigen::VectorXd>& values) const {
   Eigen::VectorXd u(load.size());
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    const auto unknown = static_cast<std::size_t>(i), of = static_cast<std::size_t>(body[unknown]);
-    const Eigen::Index position = node[unknown] * components;
+    const int of = body[i];
+    const Eigen::Index position = node[i] * components;
     u[i] = direction.col(i)
                .head(components)
                .dot(values[of].segment(position, components) - prescribed[of].segment(position, components));
@@ -147,7 +144,7 @@ UndecomposedSystem undecomposedSystem(const scene::Scene& scene) {
     Eigen::VectorXd& all = system.prescribed[subdomain.body];
     for (std::size_t k = 0; k < subdomain.nodes.size(); ++k)
       all.segment(static_cast<Eigen::Index>(subdomain.nodes[k]) * problem.components, problem.components) =
-          prescribed.segment(static_cast<Eigen::Index>(k) * problem.components, problem.components);
+          prescribed.segment(k * problem.components, problem.components);
     locate(decomposition, subdomain, first[s], system);
   }
   return system;

@@ -20,8 +20,8 @@ namespace {
 std::span<AccurateSum> blockOf(void* message, int block, MPI_Datatype type) {
   int bytes = 0;
   MPI_Type_size(type, &bytes);
-  const std::size_t length = static_cast<std::size_t>(bytes) / sizeof(AccurateSum);
-  return {static_cast<AccurateSum*>(message) + static_cast<std::size_t>(block) * length, length};
+  const std::size_t length = bytes / sizeof(AccurateSum);
+  return {static_cast<AccurateSum*>(message) + block * length, length};
 }
 
 // NOLINTBEGIN(readability-non-const-parameter): MPI prescribes the signature

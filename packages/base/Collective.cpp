@@ -108,7 +108,7 @@ void gather(const Comm& comm, const void* mine, std::span<const int> counts, std
   const int count = counts[comm.getRank()];
   if (comm.getSize() == 1) {
     if (count > 0)
-      std::memcpy(all, mine, static_cast<std::size_t>(count) * size);
+      std::memcpy(all, mine, count * size);
     return;
   }
   std::vector<int> offsets(counts.size());
@@ -130,7 +130,7 @@ GlobalOrdinal sumBefore(const Comm& comm, GlobalOrdinal mine) {
   long long sum = 0;
   const long long own = mine;
   MPI_Scan(&own, &sum, 1, MPI_LONG_LONG, MPI_SUM, rawCommunicator(comm));
-  return static_cast<GlobalOrdinal>(sum - own);
+  return sum - own;
 }
 
 } // namespace epafi

@@ -16,10 +16,8 @@ RCP<const Map> makeMap(std::vector<GlobalOrdinal> indices, const RCP<const Comm>
 }
 
 RCP<const Map> mapInOrder(const std::vector<GlobalOrdinal>& indices, const RCP<const Comm>& comm) {
-  return rcp(new Map(
-      Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-      Teuchos::ArrayView<const GlobalOrdinal>(indices.data(), static_cast<Teuchos_Ordinal>(indices.size())),
-      0, comm));
+  return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                     Teuchos::ArrayView<const GlobalOrdinal>(indices.data(), indices.size()), 0, comm));
 }
 
 std::vector<int> ownersOf(const Map& map, std::span<const GlobalOrdinal> indices) {

@@ -32,7 +32,7 @@ std::string textOf(const std::string& value) {
 template <class T>
 std::string textOf(const Array<T>& values) {
   std::string text = "{";
-  for (int i = 0; i < static_cast<int>(values.size()); ++i)
+  for (int i = 0; i < values.size(); ++i)
     text += (i == 0 ? "" : ", ") + textOf(values[i]);
   return text + '}';
 }

@@ -32,9 +32,8 @@ void exchange(const Comm& comm, std::span<const Message> outgoing, const std::se
       MPI_Status status;
       MPI_Probe(rank, tag, raw, &status);
       MPI_Get_count(&status, MPI_BYTE, &length);
-      MPI_Recv(place(rank, from, static_cast<std::size_t>(length)), length, MPI_BYTE, rank, tag, raw,
-               MPI_STATUS_IGNORE);
-      from += static_cast<std::size_t>(length);
+      MPI_Recv(place(rank, from, length), length, MPI_BYTE, rank, tag, raw, MPI_STATUS_IGNORE);
+      from += length;
     } while (static_cast<std::size_t>(length) == longest);
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);

@@ -20,14 +20,14 @@ Grid Grid::square(int n, double left, double right, double bottom, double top) {
 }
 
 RCP<const Map> Grid::map(const RCP<const Comm>& comm) const {
-  return rcp(new Map(static_cast<Tpetra::global_size_t>(size()), 0, comm));
+  return rcp(new Map(size(), 0, comm));
 }
 
 RCP<Vector> Grid::vector(const RCP<const Map>& map, const std::function<double(int, int)>& values) const {
   const RCP<Vector> result = rcp(new Vector(map));
   const auto entries = result->getDataNonConst();
-  for (Teuchos_Ordinal k = 0; k < entries.size(); ++k) {
-    const auto [i, j] = place(map->getGlobalElement(static_cast<LocalOrdinal>(k)));
+  for (LocalOrdinal k = 0; k < entries.size(); ++k) {
+    const auto [i, j] = place(map->getGlobalElement(k));
     entries[k] = values(i, j);
   }
   return result;

@@ -87,8 +87,8 @@ std::string failureText() {
 /// The lower triangle of a matrix of which both are stored, as CHOLMOD sees it. Nothing is copied.
 cholmod_sparse viewOf(const SparseMatrix& matrix) {
   cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
-  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  view.nrow = view.ncol = matrix.rows();
+  view.nzmax = matrix.nonZeros();
   view.p = const_cast<int*>(matrix.outerIndexPtr()); // NOLINT: CHOLMOD's interface knows no const
   view.i = const_cast<int*>(matrix.innerIndexPtr()); // NOLINT
   view.x = const_cast<double*>(matrix.valuePtr());   // NOLINT
@@ -103,9 +103,9 @@ cholmod_sparse viewOf(const SparseMatrix& matrix) {
 
 cholmod_dense viewOf(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   cholmod_dense view{};
-  view.nrow = static_cast<std::size_t>(matrix.rows());
-  view.ncol = static_cast<std::size_t>(matrix.cols());
-  view.d = static_cast<std::size_t>(matrix.outerStride());
+  view.nrow = matrix.rows();
+  view.ncol = matrix.cols();
+  view.d = matrix.outerStride();
   view.nzmax = view.d * view.ncol;
   view.x = const_cast<double*>(matrix.data()); // NOLINT
   view.xtype = CHOLMOD_REAL;
@@ -143,9 +143,8 @@ public:
   }
 
   [[nodiscard]] bool fits(const SparseMatrix& matrix, const std::vector<int>& kept) const {
-    return matrix.rows() + 1 == static_cast<Eigen::Index>(start_.size()) &&
-           matrix.nonZeros() == static_cast<Eigen::Index>(rows_.size()) && kept == kept_ &&
-           std::equal(start_.begin(), start_.end(), matrix.outerIndexPtr()) &&
+    return matrix.rows() + 1 == std::ssize(start_) && matrix.nonZeros() == std::ssize(rows_) &&
+           kept == kept_ && std::equal(start_.begin(), start_.end(), matrix.outerIndexPtr()) &&
            std::equal(rows_.begin(), rows_.end(), matrix.innerIndexPtr());
   }
   [[nodiscard]] FactorHandle makeFactor() const {

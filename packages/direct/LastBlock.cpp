@@ -136,7 +136,7 @@ std::size_t LastBlock::numEntries() const {
   std::size_t entries = 0;
   for (const Panel& panel : panels_) {
     const std::size_t width = panel.width;
-    entries += width * (width + 1) / 2 + width * static_cast<std::size_t>(panel.numBelow);
+    entries += width * (width + 1) / 2 + width * panel.numBelow;
   }
   return entries;
 }

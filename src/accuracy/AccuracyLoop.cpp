@@ -116,7 +116,7 @@ std::string obstacle(const std::vector<MeshResult>& meshes, double growth, const
     seconds += mesh.seconds;
   if (!last.failure.empty())
     text << last.failure;
-  else if (static_cast<int>(meshes.size()) >= goal.maxMeshes)
+  else if (std::ssize(meshes) >= goal.maxMeshes)
     text << "no more than " << goal.maxMeshes << " meshes are allowed";
   else if (next > goal.maxUnknowns)
     text << "the next mesh would have some " << rounded(next) << " unknowns, and "

@@ -34,7 +34,7 @@ SubdomainElements BodyElements::elementsOf(const decomposition::Subdomain& subdo
   SubdomainElements result;
   result.elements = layout_.partition->elementsOf(subdomain.number - layout_.firstSubdomain);
   const int perElement = layout_.mesh->nodesPerElement();
-  std::vector<GlobalOrdinal> corners(result.elements.size() * static_cast<std::size_t>(perElement));
+  std::vector<GlobalOrdinal> corners(result.elements.size() * perElement);
   layout_.mesh->elementNodes(result.elements, corners);
   result.numbering = numberings_.find(
       [&](const fem::LocalNumbering& known) { return known.firstNodeIfShifted(corners).has_value(); });
@@ -59,7 +59,7 @@ Eigen::MatrixXd BodyElements::gather(const SubdomainElements& elements, std::spa
                                      const Eigen::VectorXd& displacement) const {
   const Eigen::Index components = fem::componentsOf(physics_);
   const Eigen::Index perElement = elements.numbering->nodesPerElement();
-  Eigen::MatrixXd gathered(perElement * components, static_cast<Eigen::Index>(which.size()));
+  Eigen::MatrixXd gathered(perElement * components, which.size());
   double* value = gathered.data();
   for (const std::size_t element : which)
     for (const int node : elements.numbering->elementNodes(element)) {

@@ -33,7 +33,7 @@ std::vector<double> pressures(const Decomposition& decomposition, const ContactL
   const auto values = lambda.getData();
   std::vector<double> result(contact.firstNodes.size(), 0.0);
   for (std::size_t row = 0; row < result.size(); ++row) {
-    const LocalOrdinal local = map.getLocalElement(contact.firstRow + static_cast<GlobalOrdinal>(row));
+    const LocalOrdinal local = map.getLocalElement(contact.firstRow + row);
     if (local >= 0 && contact.areas[row] > 0)
       result[row] = values[local] / contact.areas[row];
   }
@@ -56,7 +56,7 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
     const mesh::BoxTree tree(sources);
     std::vector<std::size_t> near;
     for (std::size_t row = 0; row < places.size(); ++row) {
-      const LocalOrdinal local = map.getLocalElement(fine.firstRow + static_cast<GlobalOrdinal>(row));
+      const LocalOrdinal local = map.getLocalElement(fine.firstRow + row);
       if (local < 0 || fine.portion(row) == 0)
         continue;
       tree.nearest(places[row], 4, near); // of equally near ones, as in the middle of a facet, the first

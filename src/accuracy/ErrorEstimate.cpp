@@ -25,8 +25,7 @@ double estimateElements(const BodyElements& body, const decomposition::Subdomain
                         const SubdomainFlux& flux, const Eigen::VectorXd& displacement,
                         std::vector<double>& estimates) {
   const std::span<const int> slots = flux.cornerSlots();
-  Eigen::MatrixXd nodal(flux.values.rows() - 1,
-                        static_cast<Eigen::Index>(flux.elements.numbering->nodesPerElement()));
+  Eigen::MatrixXd nodal(flux.values.rows() - 1, flux.elements.numbering->nodesPerElement());
   double energy = 0;
   body.visit(subdomain, flux.elements, displacement, Points::shape, [&](const ElementView& element) {
     const std::size_t corners = nodal.cols();
@@ -50,11 +49,11 @@ double estimateCongruentElements(const BodyElements& body, const SubdomainFlux& 
   double energy = 0;
   for (GlobalOrdinal region = 0; region < body.numRegions(); ++region) {
     const std::vector<std::size_t> which = BodyElements::inRegion(flux.elements, region);
-    Eigen::MatrixXd nodal(numFluxes * perElement, static_cast<Eigen::Index>(which.size()));
+    Eigen::MatrixXd nodal(numFluxes * perElement, which.size());
     double* place = nodal.data();
     for (const std::size_t element : which)
       for (std::size_t i = 0; i < static_cast<std::size_t>(perElement); ++i, place += numFluxes) {
-        const int slot = slots[element * static_cast<std::size_t>(perElement) + i];
+        const int slot = slots[element * perElement + i];
         std::copy_n(flux.values.data() + slot * flux.values.rows(), numFluxes, place);
       }
     const Eigen::MatrixXd u = body.gather(flux.elements, which, displacement);

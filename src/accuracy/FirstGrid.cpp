@@ -39,9 +39,9 @@ double longestElement(const scene::Body& body, std::size_t axis) {
 std::vector<const scene::Body*> together(const scene::Scene& scene, std::size_t body) {
   std::vector<const scene::Body*> bodies{&scene.bodies[body]};
   for (const scene::SurfaceContact& contact : scene.contacts) {
-    const int other = index(contact.first) == body               ? contact.second
-                      : contact.second == static_cast<int>(body) ? contact.first
-                                                                 : -1;
+    const int other = index(contact.first) == body    ? contact.second
+                      : index(contact.second) == body ? contact.first
+                                                      : -1;
     if (other >= 0 && scene.bodies[index(other)].mesh.file.empty())
       bodies.push_back(&scene.bodies[index(other)]);
   }

@@ -22,7 +22,7 @@ using model::Decomposition;
 /// Gives every corner its slot, where there are several materials. Returns the number of slots.
 Eigen::Index findSlots(const Subdomain& subdomain, SubdomainFlux& flux) {
   if (flux.elements.regions.empty())
-    return static_cast<Eigen::Index>(subdomain.nodes.size());
+    return subdomain.nodes.size();
   const std::span<const int> corners = flux.elements.numbering->corners();
   const std::size_t perElement = flux.elements.numbering->nodesPerElement();
   std::vector<std::pair<int, GlobalOrdinal>> pairs(corners.size());
@@ -39,7 +39,7 @@ Eigen::Index findSlots(const Subdomain& subdomain, SubdomainFlux& flux) {
     flux.nodes.push_back(node);
     flux.regions.push_back(region);
   }
-  return static_cast<Eigen::Index>(distinct.size());
+  return distinct.size();
 }
 
 void addElements(const BodyElements& body, const Subdomain& subdomain, const Eigen::VectorXd& displacement,
@@ -76,7 +76,7 @@ void addCongruentElements(const BodyElements& body, const Eigen::VectorXd& displ
     for (std::size_t k = 0; k < which.size(); ++k)
       for (std::size_t i = 0; i < perElement; ++i) {
         auto sum = flux.values.col(slots[which[k] * perElement + i]);
-        sum.head(numFluxes) += sampled.col(k).segment(static_cast<Eigen::Index>(i) * step, numFluxes);
+        sum.head(numFluxes) += sampled.col(k).segment(i * step, numFluxes);
         sum[numFluxes] += measure;
       }
   }
@@ -131,7 +131,7 @@ void addShared(const Decomposition& decomposition, std::span<SubdomainFlux> flux
   for (std::size_t row = 0; row < rows; ++row) {
     const auto data = sums.getDataNonConst(row);
     for (std::size_t k = 0; k < shared.size(); ++k)
-      data[places[k]] += fluxes[shared[k].subdomain].values(static_cast<Eigen::Index>(row), shared[k].slot);
+      data[places[k]] += fluxes[shared[k].subdomain].values(row, shared[k].slot);
   }
   if (comm->getSize() > 1) {
     const RCP<const Map> owned = Tpetra::createOneToOne(here);
@@ -143,7 +143,7 @@ void addShared(const Decomposition& decomposition, std::span<SubdomainFlux> flux
   for (std::size_t row = 0; row < rows; ++row) {
     const auto data = sums.getData(row);
     for (std::size_t k = 0; k < shared.size(); ++k)
-      fluxes[shared[k].subdomain].values(static_cast<Eigen::Index>(row), shared[k].slot) = data[places[k]];
+      fluxes[shared[k].subdomain].values(row, shared[k].slot) = data[places[k]];
   }
 }
 
@@ -169,7 +169,7 @@ std::vector<SubdomainFlux> recoverFlux(std::vector<BodyElements>& bodies, const 
       fluxes.push_back(sumFlux(bodies[problem.subdomains[s].body], problem.subdomains[s], displacement[s]));
   });
   const int numFluxes = fem::numFluxes(bodies.front().physics()); // all bodies have as many unknowns a node
-  addShared(decomposition, fluxes, static_cast<std::size_t>(numFluxes) + 1);
+  addShared(decomposition, fluxes, numFluxes + 1);
   for (SubdomainFlux& flux : fluxes)
     for (Eigen::Index slot = 0; slot < flux.values.cols(); ++slot)
       flux.values.col(slot) *= 1 / flux.values(numFluxes, slot);

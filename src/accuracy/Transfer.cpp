@@ -95,8 +95,7 @@ RCP<MultiVector> gatherSources(const Decomposition& from, std::span<const Eigen:
     for (const GlobalOrdinal node : subdomain.nodes)
       here.push_back(first[subdomain.body] + node);
   for (const Guess& guess : guesses)
-    wanted.insert(wanted.end(), guess.sources.begin(),
-                  guess.sources.begin() + static_cast<std::ptrdiff_t>(guess.numSources));
+    wanted.insert(wanted.end(), guess.sources.begin(), guess.sources.begin() + guess.numSources);
   const RCP<const Map> local = makeMap(std::move(here), problem.comm);
   const std::size_t components = problem.components;
   MultiVector mine(local, components);
@@ -130,8 +129,7 @@ std::vector<Eigen::VectorXd> interpolate(const Decomposition& from,
   const std::size_t components = to.problem.components;
   std::vector<Eigen::VectorXd> result;
   for (const Subdomain& subdomain : to.problem.subdomains)
-    result.emplace_back(
-        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.nodes.size() * components)));
+    result.emplace_back(Eigen::VectorXd::Zero(subdomain.nodes.size() * components));
   for (std::size_t c = 0; c < components; ++c) {
     const auto values = sources->getData(c);
     for (const Guess& guess : guesses) {

@@ -142,12 +142,11 @@ decomposition::FrictionRows frictionRows(const std::vector<ContactLayout>& conta
     if (contact.firstFriction < 0)
       return;
     const ContactTangents& frames = tangents.try_emplace(contact.firstRow, contact).first->second;
-    const auto offset = static_cast<GlobalOrdinal>(place);
+    const GlobalOrdinal offset = place;
     result.contactRows.push_back(contact.firstRow + offset);
     for (GlobalOrdinal k = 0; k < numTangents; ++k)
       enterAlong(
-          contact, place, unknowns,
-          [&](std::size_t node) { return frames.at(node)[static_cast<std::size_t>(k)]; },
+          contact, place, unknowns, [&](std::size_t node) { return frames.at(node)[k]; },
           rows.emplace_back(MatrixRow{numTangents * (contact.firstFriction + offset) + k, 0, {}, {}}));
   });
   result.tangents = matrixOf(rows, comm);

@@ -43,8 +43,7 @@ Eigen::Matrix3Xd straightened(mesh::CellType type, const Eigen::Matrix3Xd& point
   const std::span<const int> edges = edgesOf(type);
   const Eigen::Index corners = numCornersOf(type);
   for (std::size_t e = 0; 2 * e < edges.size(); ++e)
-    result.col(corners + static_cast<Eigen::Index>(e)) =
-        (points.col(edges[2 * e]) + points.col(edges[2 * e + 1])) / 2;
+    result.col(corners + e) = (points.col(edges[2 * e]) + points.col(edges[2 * e + 1])) / 2;
   if (type == mesh::CellType::quadrilateral9)
     result.col(8) = points.leftCols<4>().rowwise().mean();
   return result;
@@ -64,7 +63,7 @@ ViewPlane ViewPlane::across(const Vector3d& origin, const Vector3d& normal, int 
 }
 
 FacetView::FacetView(mesh::CellType type, std::span<const Point> points)
-    : type_(type), points_(3, static_cast<Eigen::Index>(points.size())) {
+    : type_(type), points_(3, points.size()) {
   for (std::size_t a = 0; a < points.size(); ++a)
     points_.col(a) = Vector3d(points[a][0], points[a][1], points[a][2]);
   centre_ = points_.leftCols(numCornersOf(type)).rowwise().mean();

@@ -85,7 +85,7 @@ std::vector<KnownRows::Dropped> KnownRows::dropFrom(ContactLayout& contact, doub
       dropped.push_back({known->second.number, known->second.place, contact.areas[place]});
       continue;
     }
-    entry.second.place = static_cast<GlobalOrdinal>(kept.size());
+    entry.second.place = kept.size();
     kept.push_back(place);
     added.push_back(std::move(entry));
   }

@@ -87,7 +87,7 @@ MortarFacet Integrator::integrateOver(std::size_t f) {
                     Eigen::VectorXd::Zero(n),
                     Eigen::MatrixXd::Zero(n, n),
                     {},
-                    std::vector<char>(static_cast<std::size_t>(n), 0)};
+                    std::vector<char>(n, 0)};
   for (const auto& [g, common] : cover_.covering(f, plane, allowed_[f])) {
     const FacetView& other = cover_.second()[g];
     auto& across =

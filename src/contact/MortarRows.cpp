@@ -89,7 +89,7 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
   for (std::size_t a = 0; a < places.size(); ++a)
     for (Eigen::Index r = 0; r < numRows; ++r)
       if (representative[places[a]] == rows[r])
-        sum(r, static_cast<Eigen::Index>(a)) = 1;
+        sum(r, a) = 1;
   const MatrixXd functions = sum * basis_;
   const VectorXd integrals = functions * facet.shares;
   MatrixXd psi;
@@ -106,14 +106,14 @@ void RowMaker::add(const MortarFacet& facet, const std::vector<std::size_t>& rep
     integralsOfRows[row] += integrals[r];
     areas.add(facet.facet, row, integrals[r]);
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      first[row][nodes[a]] += own(r, static_cast<Eigen::Index>(a));
+      first[row][nodes[a]] += own(r, a);
   }
   for (const MortarFacet::Across& across : facet.across) {
     const MatrixXd theirs = psi * across.coupling;
     const auto others = second_.surface.facet(across.facet);
     for (Eigen::Index r = 0; r < numRows; ++r)
       for (std::size_t a = 0; a < others.size(); ++a)
-        second[rows[r]][others[a]] += theirs(r, static_cast<Eigen::Index>(a));
+        second[rows[r]][others[a]] += theirs(r, a);
   }
 }
 
@@ -121,7 +121,7 @@ std::vector<MortarRow> RowMaker::rows(const std::function<bool(std::size_t)>& is
                                       RowAreas& areas) const {
   const std::vector<std::size_t> representative = multiplierNodes_.representatives(isHeld, holdTurns);
   const std::size_t n = nodes_.nodes.size();
-  VectorXd integrals = VectorXd::Zero(static_cast<Eigen::Index>(n));
+  VectorXd integrals = VectorXd::Zero(n);
   Sums first(n), second(n);
   for (const MortarFacet& facet : facets_)
     add(facet, representative, integrals, areas, first, second);

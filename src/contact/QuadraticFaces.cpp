@@ -136,7 +136,7 @@ Eigen::MatrixXd dualBasis(mesh::CellType facet) {
   const double alpha = alphaOf(facet);
   const std::span<const int> ends = edgesOf(facet);
   for (std::size_t end = 0; end < ends.size(); ++end) {
-    const Eigen::Index middle = numCornersOf(facet) + static_cast<Eigen::Index>(end / 2);
+    const Eigen::Index middle = numCornersOf(facet) + end / 2;
     basis(ends[end], middle) = alpha;
     basis(middle, middle) = 1 - 2 * alpha;
   }

@@ -82,7 +82,7 @@ bool SmoothSurface::noteMiddles(mesh::CellType type, const std::vector<std::size
     if (const std::size_t e = 2 * (node - numCorners); e < edges.size())
       ends = {facet[edges[e]], facet[edges[e + 1]]};
     else
-      ends.assign(facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(numCorners));
+      ends.assign(facet.begin(), facet.begin() + numCorners);
     Vector3d middle(0, 0, 0);
     for (const std::size_t end : ends)
       middle += points_[end] / static_cast<double>(ends.size());

@@ -24,8 +24,7 @@ CoupledSurfaces asMatrix(const ContactTerms& terms, ContactLayout layout, const 
   unknowns.isHeld = [](int, GlobalOrdinal, int) { return false; };
   unknowns.isMine = [&](int, GlobalOrdinal node) {
     const std::size_t place = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
-    return place * static_cast<std::size_t>(comm->getSize()) / nodes.size() ==
-           static_cast<std::size_t>(comm->getRank());
+    return place * comm->getSize() / nodes.size() == static_cast<std::size_t>(comm->getRank());
   };
   decomposition::ConstraintMatrix matrix = contactMatrix({layout}, unknowns, comm);
   return {std::move(matrix), std::move(layout)};

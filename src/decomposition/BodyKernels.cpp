@@ -14,7 +14,7 @@ namespace {
 
 /// Whether unknowns are displacements, of which rigid motions cost nothing; else constants do.
 bool movesRigidly(const Substructures& all) {
-  return static_cast<int>(all.components) == all.places.dimension;
+  return all.components == all.places.dimension;
 }
 
 /// Of each body, about its middle and scaled by half of its largest extent; of unknowns that are no
@@ -41,7 +41,7 @@ std::vector<RigidModes> rigidModesOf(const Substructures& all) {
       centre[d] = 0.5 * (low + high);
       size = std::max(size, 0.5 * (high - low));
     }
-    modes.emplace_back(static_cast<int>(all.components), centre, size > 0 ? size : 1.0);
+    modes.emplace_back(all.components, centre, size > 0 ? size : 1.0);
   }
   return modes;
 }
@@ -55,14 +55,13 @@ std::vector<Motions> motionsOf(const Substructures& all, const std::vector<Rigid
     const RigidModes& own = modes[subdomain.body];
     std::map<std::size_t, const Eigen::Matrix3d*> axes;
     for (const NodeFrame& frame : subdomain.frames)
-      axes.emplace(static_cast<std::size_t>(frame.node), &frame.axes);
+      axes.emplace(frame.node, &frame.axes);
     Motions& target = motions.emplace_back(Motions{subdomain.body, all.nodal[s].stiffness.get(), {}});
-    target.near.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()),
-                       isElastic ? own.number() : static_cast<Eigen::Index>(all.components));
+    target.near.resize(subdomain.unknownPosition.size(), isElastic ? own.number() : all.components);
     for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
-      const std::size_t position = subdomain.unknownPosition[i];
+      const int position = subdomain.unknownPosition[i];
       const std::size_t node = position / all.components;
-      const auto component = static_cast<int>(position % all.components);
+      const int component = position % all.components;
       const auto found = axes.find(node);
       const Eigen::Index row = i;
       if (!isElastic)
@@ -91,7 +90,7 @@ void requireEqualNumbers(const std::vector<Motions>& motions, const Substructure
   std::vector<GlobalOrdinal> numModes(all.bodies.size(), -1);
   for (const Motions& m : motions) {
     GlobalOrdinal& number = numModes[m.group];
-    number = std::max(number, static_cast<GlobalOrdinal>(m.near.cols()));
+    number = std::max<GlobalOrdinal>(number, m.near.cols());
   }
   for (GlobalOrdinal& number : numModes)
     number = maxOverRanks(*all.comm, number);

@@ -21,7 +21,7 @@ std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
   const auto cluster = [&](int number) { return clusterOf[number]; };
   std::vector<Link> links;
   for (std::size_t s = 0; s < all.size(); ++s) {
-    const int own = static_cast<int>(all.subdomains[s].number);
+    const int own = all.subdomains[s].number;
     std::map<int, HoldingPoints> points; // of each higher neighbour
     for (const SharedNodes::Copy& copy : shared.copiesOf(s)) {
       const std::span<const int> at = shared.subdomainsAt(copy.node);
@@ -29,8 +29,7 @@ std::vector<Link> linksOf(const Substructures& all, const SharedNodes& shared,
           !std::all_of(at.begin(), at.end(), [&](int number) { return cluster(number) == cluster(own); }))
         continue;
       for (const int other : at.subspan(copy.order + 1))
-        points.try_emplace(other, static_cast<int>(all.components))
-            .first->second.add(all.point(s, copy.place));
+        points.try_emplace(other, all.components).first->second.add(all.point(s, copy.place));
     }
     for (const auto& [other, holding] : points)
       if (holding.hold())
@@ -47,13 +46,13 @@ std::vector<Eigen::MatrixXd> clusterSums(const Comm& comm, const std::vector<Mot
                                          const std::function<const Eigen::MatrixXd&(std::size_t)>& factor) {
   std::vector<std::size_t> first(1, 0);
   for (std::size_t c = 0; c < clusters.size(); ++c)
-    first.push_back(first.back() + static_cast<std::size_t>(clusters[c].kernelDimension * columns[c]));
+    first.push_back(first.back() + clusters[c].kernelDimension * columns[c]);
   std::vector<double> values(first.back(), 0.0);
   const auto sum = [&](std::size_t c) {
     return Eigen::Map<Eigen::MatrixXd>(values.data() + first[c], clusters[c].kernelDimension, columns[c]);
   };
   for (std::size_t s = 0; s < kernels.size(); ++s)
-    sum(static_cast<std::size_t>(motions[s].group)) += kernels[s].transpose() * factor(s);
+    sum(motions[s].group) += kernels[s].transpose() * factor(s);
   sumOverRanks(comm, std::span<double>(values));
   std::vector<Eigen::MatrixXd> sums;
   for (std::size_t c = 0; c < clusters.size(); ++c)
@@ -72,8 +71,7 @@ std::vector<int> piecesOf(std::size_t numSubdomains, std::span<const Link> links
     return s;
   };
   for (const Link& link : links) {
-    const std::size_t a = find(static_cast<std::size_t>(link.subdomain)),
-                      b = find(static_cast<std::size_t>(link.other));
+    const std::size_t a = find(link.subdomain), b = find(link.other);
     root[std::max(a, b)] = std::min(a, b);
   }
   std::vector<int> piece(numSubdomains);
@@ -94,17 +92,17 @@ std::vector<int> findClusters(const Substructures& all, const SharedNodes& share
   std::vector<int> count(all.bodies.size(), 0), first(all.bodies.size(), 0); // first of the run
   std::vector<Link> whole; // what is not to be cut, whatever holds it
   int next = 0;
-  for (std::size_t s = 0; s < clusterOf.size(); ++s) {
+  for (int s = 0; s < std::ssize(clusterOf); ++s) {
     const std::size_t body = clusterOf[s];
     const int number = count[body]++;
     if (number == 0 || (sizes[body] > 0 && number % sizes[body] == 0)) {
-      first[body] = static_cast<int>(s);
+      first[body] = s;
       clusterOf[s] = next++;
       continue;
     }
     clusterOf[s] = clusterOf[first[body]];
     if (sizes[body] == 0)
-      whole.push_back({first[body], static_cast<int>(s)});
+      whole.push_back({first[body], s});
   }
   for (int before = 0; before != next;) { // a cut takes nodes away from what it leaves
     before = next;
@@ -118,8 +116,8 @@ std::vector<int> findClusters(const Substructures& all, const SharedNodes& share
 
 std::vector<Cluster> clustersOfBodies(std::span<const Body> bodies) {
   std::vector<Cluster> clusters;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    clusters.push_back({static_cast<int>(b), bodies[b].kernelDimension, bodies[b].kernelOffset,
+  for (int b = 0; b < std::ssize(bodies); ++b)
+    clusters.push_back({b, bodies[b].kernelDimension, bodies[b].kernelOffset,
                         Eigen::MatrixXd::Identity(bodies[b].kernelDimension, bodies[b].kernelDimension)});
   return clusters;
 }

@@ -26,12 +26,11 @@ void requireRows(const ConstraintMatrix& contact) {
   typename CrsMatrix::local_inds_host_view_type columns;
   typename CrsMatrix::values_host_view_type values;
   const GlobalOrdinal numRows = rows.getGlobalNumElements();
-  for (LocalOrdinal row = 0; row < static_cast<LocalOrdinal>(numLocal(rows)); ++row) {
-    const GlobalOrdinal number = rows.getGlobalElement(row);
+  for (const GlobalOrdinal number : localIndices(rows)) {
     if (number < 0 || number >= numRows)
       throw InputError("the contact matrix has " + std::to_string(numRows) + " rows, one of number " +
                        std::to_string(number) + "; rows must be numbered from 0 without holes.");
-    contact.rows->getLocalRowView(row, columns, values);
+    contact.rows->getLocalRowView(rows.getLocalElement(number), columns, values);
     double largest = 0;
     for (std::size_t k = 0; k < values.extent(0); ++k) {
       if (!std::isfinite(values(k)))
@@ -48,13 +47,11 @@ void requireRows(const ConstraintMatrix& contact) {
 /// Names a column of B_I that is no unknown. Collective.
 void requireColumns(const CrsMatrix& b, const Map& unknowns) {
   const Map& columns = *b.getColMap();
-  std::vector<GlobalOrdinal> wanted;
-  for (LocalOrdinal k = 0; k < static_cast<LocalOrdinal>(numLocal(columns)); ++k)
-    wanted.push_back(columns.getGlobalElement(k));
+  const auto wanted = localIndices(columns);
   std::vector<int> ranks(wanted.size());
-  unknowns.getRemoteIndexList(Teuchos::arrayViewFromVector(wanted), Teuchos::arrayViewFromVector(ranks));
+  unknowns.getRemoteIndexList(wanted, Teuchos::arrayViewFromVector(ranks));
   collectively(*unknowns.getComm(), [&] {
-    for (std::size_t k = 0; k < wanted.size(); ++k)
+    for (LocalOrdinal k = 0; k < wanted.size(); ++k)
       if (ranks[k] < 0)
         throw InputError("the contact matrix has a column for unknown " + std::to_string(wanted[k]) +
                          ", which no subdomain has.");
@@ -62,11 +59,11 @@ void requireColumns(const CrsMatrix& b, const Map& unknowns) {
 }
 
 /// The nodes with entries in B, of all bodies, ascending, on every rank. Collective.
-std::vector<GlobalOrdinal> nodesOf(const CrsMatrix& b, std::size_t components) {
+std::vector<GlobalOrdinal> nodesOf(const CrsMatrix& b, int components) {
   const Map& columns = *b.getColMap();
   std::vector<GlobalOrdinal> nodes;
-  for (LocalOrdinal k = 0; k < static_cast<LocalOrdinal>(numLocal(columns)); ++k)
-    nodes.push_back(columns.getGlobalElement(k) / static_cast<GlobalOrdinal>(components));
+  for (const GlobalOrdinal unknown : localIndices(columns))
+    nodes.push_back(unknown / components);
   nodes = gatherOnAll(*columns.getComm(), nodes);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -99,7 +96,7 @@ std::vector<Place> placesOf(const Substructures& all, std::span<const GlobalOrdi
 RCP<const CrsMatrix> columnsAt(const CrsMatrix& b, const Substructures& all, std::span<const Place> places) {
   std::vector<GlobalOrdinal> unknowns;
   for (const Place& place : places)
-    for (std::size_t c = 0; c < all.components; ++c)
+    for (int c = 0; c < all.components; ++c)
       unknowns.push_back(all.globalUnknown(place.subdomain, place.node, c));
   std::sort(unknowns.begin(), unknowns.end());
   unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
@@ -137,7 +134,7 @@ std::vector<double> sharesAt(const Substructures& all, const SharedNodes& shared
       shared.exchange(std::move(own), all.components, [&](std::size_t node) { return isWanted[node] != 0; });
   std::vector<double> shares;
   for (const Place& place : places)
-    for (std::size_t c = 0; c < all.components; ++c) {
+    for (int c = 0; c < all.components; ++c) {
       const auto copy = meanAt(place);
       if (!copy) {
         shares.push_back(shared.isLowest(place.subdomain, place.node) ? 1 : 0);
@@ -195,7 +192,7 @@ ContactRows contactRows(const Substructures& all, const SharedNodes& shared, con
   typename CrsMatrix::values_host_view_type values;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto& [s, node] = places[k];
-    for (std::size_t c = 0; c < all.components; ++c) {
+    for (int c = 0; c < all.components; ++c) {
       const GlobalOrdinal unknown = all.globalUnknown(s, node, c);
       if (!columns->getRowMap()->isNodeGlobalElement(unknown))
         continue;

@@ -18,7 +18,7 @@ using Marks = std::vector<std::vector<char>>;
 
 /// Whether the nodes without unknowns hold a subdomain.
 bool isHeld(const Substructures& all, std::size_t s) {
-  HoldingPoints points(static_cast<int>(all.components));
+  HoldingPoints points(all.components);
   if (all.subdomains[s].unknownPosition.size() < all.nodal[s].unknownOf.size())
     for (std::size_t node = 0; node < all.numNodes(s) && !points.hold(); ++node)
       if (!all.isFree(s, node))
@@ -92,7 +92,7 @@ void addInterfacePoints(const Substructures& all, const SharedNodes& shared, std
   for (const auto& [other, nodes] : interfacesOf(all, shared, s)) {
     if (isHeldHere && held[other] != 0)
       continue;
-    HoldingPoints points(static_cast<int>(all.components));
+    HoldingPoints points(all.components);
     for (const std::size_t node : nodes)
       if (isCrosspoint[node] != 0 && !points.hold())
         points.add(all.point(s, node));
@@ -116,7 +116,7 @@ void addPointsInside(const Substructures& all, const SharedNodes& shared, std::s
       free.push_back(node);
       candidates.push_back(all.point(s, node));
     }
-  HoldingPoints points(static_cast<int>(all.components));
+  HoldingPoints points(all.components);
   for (const std::size_t place : points.complete(candidates)) {
     isCrosspoint[free[place]] = 1;
     extra.push_back(nodeAt(all, s, free[place]));
@@ -191,7 +191,7 @@ Crosspoints::Crosspoints(const Substructures& all, const SharedNodes& inside, co
   extra = gatherNodes(*all.comm, extra);
   mark(all, inside, extra, isCrosspoint_);
   unite(nodes_, extra);
-  numCorners_ = static_cast<GlobalOrdinal>(nodes_.size());
+  numCorners_ = nodes_.size();
   // Interfaces lack corners where they meet other clusters.
   const bool isSplit = holdsAnywhere(*all.comm, inside.numNodes() < shared.numNodes());
   if (isSplit || hasEdgeAverages(all))

@@ -26,7 +26,7 @@ SparseMatrix changeOf(const std::vector<Average>& averages, Eigen::Index size) {
 } // namespace
 
 bool hasEdgeAverages(const Substructures& all) {
-  return all.places.dimension == 3 || isElastic(static_cast<int>(all.components));
+  return all.places.dimension == 3 || isElastic(all.components);
 }
 
 std::vector<EdgeAverage> findEdgeAverages(const Substructures& all, const SharedNodes& shared,
@@ -57,7 +57,7 @@ std::vector<Average> averagesOf(const Substructures& all, std::size_t subdomain,
                                 const std::vector<EdgeAverage>& edges) {
   std::vector<Average> averages;
   for (const EdgeAverage& edge : edges)
-    for (std::size_t c = 0; c < all.components; ++c) {
+    for (int c = 0; c < all.components; ++c) {
       Average average{all.unknownsAt(subdomain, edge.carrier)[c], {}};
       if (average.carrier < 0)
         continue;

@@ -65,7 +65,7 @@ std::vector<EdgeEnd> findEdgeEnds(const Substructures& all, const SharedNodes& i
     const std::span<const int> averages = all.unknownsAt(subdomain, edge.carrier);
     for (const std::size_t node : edge.around) {
       GlobalOrdinal index = crosspoints.firstIndex(all.globalNode(subdomain, edge.carrier));
-      for (std::size_t c = 0; c < all.components; ++c) {
+      for (int c = 0; c < all.components; ++c) {
         if (averages[c] < 0)
           continue;
         if (const int unknown = all.unknownsAt(subdomain, node)[c]; unknown >= 0)

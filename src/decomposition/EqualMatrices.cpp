@@ -8,7 +8,7 @@ namespace {
 
 template <class T>
 bool areEqual(const T* a, const T* b, Eigen::Index count) {
-  return count == 0 || std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0;
+  return count == 0 || std::memcmp(a, b, count * sizeof(T)) == 0;
 }
 
 } // namespace
@@ -26,7 +26,7 @@ std::uint64_t fingerprint(const SparseMatrix& matrix) {
     hash = (hash ^ value) * 0x100000001b3ULL;
     hash ^= hash >> 29U;
   };
-  mix(static_cast<std::uint64_t>(matrix.nonZeros()));
+  mix(matrix.nonZeros());
   for (Eigen::Index i = 0; i < matrix.nonZeros(); i += 1 + matrix.nonZeros() / 64) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, matrix.valuePtr() + i, sizeof bits);

@@ -28,7 +28,7 @@ std::vector<Eigen::Index> numbersOfModes(const std::vector<Motions>& motions, co
   std::vector<GlobalOrdinal> sums(2 * numGroups, 0); // of modes, and of subdomains, which agree
   for (const Motions& m : motions) {
     sums[m.group] += m.near.cols();
-    ++sums[numGroups + static_cast<std::size_t>(m.group)];
+    ++sums[numGroups + m.group];
   }
   sumOverRanks(comm, std::span(sums));
   std::vector<Eigen::Index> numbers;
@@ -46,12 +46,11 @@ Energies energiesOf(const std::vector<Motions>& motions, const Comm& comm, std::
   const std::vector<Eigen::Index> numModes = numbersOfModes(motions, comm, numGroups);
   std::vector<std::size_t> first(1, 0); // of each group's two matrices, which one message sums
   for (const Eigen::Index k : numModes)
-    first.push_back(first.back() + 2 * static_cast<std::size_t>(k * k));
+    first.push_back(first.back() + 2 * k * k);
   std::vector<double> values(first.back(), 0.0);
   const auto matrix = [&](std::size_t group, std::size_t which) {
     const Eigen::Index k = numModes[group];
-    return Eigen::Map<Eigen::MatrixXd>(values.data() + first[group] + which * static_cast<std::size_t>(k * k),
-                                       k, k);
+    return Eigen::Map<Eigen::MatrixXd>(values.data() + first[group] + which * (k * k), k, k);
   };
   for (const Motions& m : motions) {
     const std::size_t group = m.group;

@@ -27,8 +27,8 @@ Vectors vectorsOf(const CrsMatrix& rows, LocalOrdinal row, int components) {
   Vectors vectors;
   for (std::size_t k = 0; k < columns.extent(0); ++k) {
     const GlobalOrdinal unknown = rows.getColMap()->getGlobalElement(columns(k));
-    vectors.try_emplace(unknown / components, Eigen::Vector3d::Zero())
-        .first->second[static_cast<Eigen::Index>(unknown % components)] += values(k);
+    vectors.try_emplace(unknown / components, Eigen::Vector3d::Zero()).first->second[unknown % components] +=
+        values(k);
   }
   return vectors;
 }
@@ -73,17 +73,15 @@ FrictionRows frictionAlong(const ConstraintMatrix& contact, int components) {
       numbers.push_back(numTangents * row + k);
   }
   const RCP<const Map> map = mapInOrder(numbers, rows.getComm());
-  const RCP<CrsMatrix> matrix =
-      rcp(new CrsMatrix(map, static_cast<std::size_t>(components) * rows.getGlobalMaxNumRowEntries()));
+  const RCP<CrsMatrix> matrix = rcp(new CrsMatrix(map, components * rows.getGlobalMaxNumRowEntries()));
   collectively(*rows.getComm(), [&] {
-    for (std::size_t i = 0; i < result.contactRows.size(); ++i) {
-      const Vectors vectors = vectorsOf(rows, static_cast<LocalOrdinal>(i), components);
+    for (LocalOrdinal i = 0; i < std::ssize(result.contactRows); ++i) {
+      const Vectors vectors = vectorsOf(rows, i, components);
       const Eigen::Vector3d normal = normalOf(vectors, result.contactRows[i]);
       for (GlobalOrdinal k = 0; k < numTangents; ++k)
         for (const auto& [node, vector] : vectors)
           for (int c = 0; c < components; ++c)
-            if (const double value = vector.dot(normal) * tangentsOf(normal)[static_cast<std::size_t>(k)][c];
-                value != 0)
+            if (const double value = vector.dot(normal) * tangentsOf(normal)[k][c]; value != 0)
               matrix->insertGlobalValues(numTangents * result.contactRows[i] + k,
                                          Teuchos::tuple<GlobalOrdinal>(node * components + c),
                                          Teuchos::tuple(value));

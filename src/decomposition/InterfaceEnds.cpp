@@ -18,9 +18,7 @@ public:
     std::vector<int> copyAt(all.numNodes(subdomain), -1);
     for (std::size_t k = 0; k < copies_.size(); ++k)
       copyAt[copies_[k].place] = static_cast<int>(k);
-    const auto copyOf = [&](int unknown) {
-      return copyAt[static_cast<std::size_t>(positions[unknown]) / all.components];
-    };
+    const auto copyOf = [&](Eigen::Index unknown) { return copyAt[positions[unknown] / all.components]; };
     const SparseMatrix& stiffness = *all.nodal[subdomain].stiffness;
     for (int column = 0; column < stiffness.outerSize(); ++column) {
       const int k = copyOf(column);
@@ -28,7 +26,7 @@ public:
         continue;
       auto& list = neighbours_[k];
       for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry) {
-        const int other = copyOf(static_cast<int>(entry.row()));
+        const int other = copyOf(entry.row());
         if (other >= 0 && other != k && std::find(list.begin(), list.end(), other) == list.end())
           list.push_back(other);
       }
@@ -66,7 +64,7 @@ public:
   [[nodiscard]] bool isBesideCorner(std::size_t k) const {
     const std::span<const int> own = subdomainsAt(k);
     return std::any_of(neighbours_[k].begin(), neighbours_[k].end(), [&](int neighbour) {
-      const std::span<const int> parts = subdomainsAt(static_cast<std::size_t>(neighbour));
+      const std::span<const int> parts = subdomainsAt(neighbour);
       return parts.size() > own.size() && std::includes(parts.begin(), parts.end(), own.begin(), own.end());
     });
   }

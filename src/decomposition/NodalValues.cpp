@@ -16,7 +16,7 @@ void toNodalValues(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> u) {
 void toSpace(const Subdomain& subdomain, Eigen::Ref<Eigen::VectorXd> values) {
   if (subdomain.frames.empty())
     return;
-  const Eigen::Index components = values.size() / static_cast<Eigen::Index>(subdomain.nodes.size());
+  const Eigen::Index components = values.size() / std::ssize(subdomain.nodes);
   for (const NodeFrame& frame : subdomain.frames) {
     auto own = values.segment(frame.node * components, components);
     own = (frame.axes.topLeftCorner(components, components) * own).eval();
@@ -34,7 +34,7 @@ namespace {
 
 /// From components in space, in place.
 void toFrames(const Subdomain& subdomain, Eigen::VectorXd& values) {
-  const Eigen::Index components = values.size() / static_cast<Eigen::Index>(subdomain.nodes.size());
+  const Eigen::Index components = values.size() / std::ssize(subdomain.nodes);
   for (const NodeFrame& frame : subdomain.frames) {
     auto own = values.segment(frame.node * components, components);
     own = (frame.axes.topLeftCorner(components, components).transpose() * own).eval();

@@ -7,7 +7,7 @@ namespace epafi::decomposition {
 namespace {
 
 Eigen::Index numFreeOf(const OwnSubdomain& own) {
-  return own.row.size() - static_cast<std::size_t>(std::count(own.row.begin(), own.row.end(), -1));
+  return own.row.size() - std::count(own.row.begin(), own.row.end(), -1);
 }
 
 } // namespace
@@ -22,15 +22,14 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   subdomain.nodes.erase(std::unique(subdomain.nodes.begin(), subdomain.nodes.end()), subdomain.nodes.end());
 
   const Eigen::Index n = matrix.unknowns.size();
-  const auto numPositions = subdomain.nodes.size() * static_cast<std::size_t>(components);
+  const auto numPositions = subdomain.nodes.size() * components;
   std::vector<int> unknownAt(numPositions, -1); // of the application
   own.unknowns = matrix.unknowns;
   for (std::size_t i = 0; i < own.unknowns.size(); ++i) {
     const auto node =
         std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), own.unknowns[i] / components) -
         subdomain.nodes.begin();
-    own.position.push_back(
-        static_cast<int>(node * components + static_cast<int>(own.unknowns[i] % components)));
+    own.position.push_back(static_cast<int>(node * components + own.unknowns[i] % components));
     unknownAt[own.position.back()] = static_cast<int>(i);
   }
   own.prescribed = Eigen::VectorXd::Zero(n);
@@ -42,7 +41,7 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   }
   own.row.assign(own.unknowns.size(), -1);
   nodal.unknownOf.assign(numPositions, -1);
-  data.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numPositions));
+  data.prescribed = Eigen::VectorXd::Zero(numPositions);
   for (std::size_t position = 0; position < numPositions; ++position) {
     const int i = unknownAt[position];
     if (i < 0)

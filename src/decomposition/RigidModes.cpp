@@ -49,8 +49,8 @@ Eigen::VectorXd RigidModes::at(const Point& point, int component) const {
   if (components_ == 3) {
     // Rotation about axis a moves a point by e_a × x.
     const int next = (component + 1) % 3, last = (component + 2) % 3;
-    modes[3 + next] = x(static_cast<std::size_t>(last));
-    modes[3 + last] = -x(static_cast<std::size_t>(next));
+    modes[3 + next] = x(last);
+    modes[3 + last] = -x(next);
   }
   return modes;
 }

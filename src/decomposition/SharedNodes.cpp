@@ -157,7 +157,7 @@ SharedNodes::SharedNodes(const Substructures& all, std::span<const int> clusterO
   firstCopy_.assign(all.size() + 1, 0);
   for (const Sighting& sighting : shared)
     if (sighting.rank == me)
-      ++firstCopy_[static_cast<std::size_t>(sighting.number - firstNumber) + 1];
+      ++firstCopy_[sighting.number - firstNumber + 1];
   for (std::size_t s = 0; s < all.size(); ++s)
     firstCopy_[s + 1] += firstCopy_[s];
   copies_.resize(firstCopy_.back());
@@ -177,7 +177,7 @@ SharedNodes::SharedNodes(const Substructures& all, std::span<const int> clusterO
       }
       const std::size_t s = sighting.number - firstNumber;
       const std::vector<int>& candidates = all.nodal[s].borderNodes;
-      while (all.globalNode(s, static_cast<std::size_t>(candidates[border[s]])) != sighting.node)
+      while (all.globalNode(s, candidates[border[s]]) != sighting.node)
         ++border[s];
       slots_.push_back(next[s]);
       copies_[next[s]++] = {static_cast<std::size_t>(candidates[border[s]]), node,
@@ -205,7 +205,7 @@ std::optional<std::size_t> SharedNodes::find(SubdomainPlace subdomain, NodePlace
                        [](const Copy& copy, std::size_t wanted) { return copy.place < wanted; });
   if (found == copies.end() || found->place != place)
     return std::nullopt;
-  return firstCopy_[subdomain] + static_cast<std::size_t>(found - copies.begin());
+  return firstCopy_[subdomain] + (found - copies.begin());
 }
 
 bool SharedNodes::isLowest(SubdomainPlace subdomain, NodePlace place) const {

@@ -57,19 +57,18 @@ SparseMatrix fromCompressedRows(std::span<const int> starts, std::span<const int
                                 std::span<const double> values) {
   const int n = static_cast<int>(starts.size()) - 1;
   if (n < 0 || starts.front() != 0 || !std::is_sorted(starts.begin(), starts.end()) ||
-      static_cast<std::size_t>(starts.back()) != columns.size() || columns.size() != values.size())
+      starts.back() != std::ssize(columns) || columns.size() != values.size())
     throw InputError(
         "compressed rows must start at 0, ascend, and end at the number of columns and values (" +
         std::to_string(columns.size()) + " and " + std::to_string(values.size()) + ").");
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(values.size());
   for (int row = 0; row < n; ++row)
-    for (int k = starts[row]; k < starts[static_cast<std::size_t>(row) + 1]; ++k) {
-      const std::size_t place = k;
-      if (columns[place] < 0 || columns[place] >= n)
+    for (int k = starts[row]; k < starts[row + 1]; ++k) {
+      if (columns[k] < 0 || columns[k] >= n)
         throw InputError("row " + std::to_string(row) + " of a matrix of " + std::to_string(n) +
-                         " compressed rows has an entry in column " + std::to_string(columns[place]) + ".");
-      entries.emplace_back(row, columns[place], values[place]);
+                         " compressed rows has an entry in column " + std::to_string(columns[k]) + ".");
+      entries.emplace_back(row, columns[k], values[k]);
     }
   SparseMatrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());

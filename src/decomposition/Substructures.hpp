@@ -33,7 +33,7 @@ struct NodePlaces {
 /// A view; keeps references.
 struct Substructures {
   RCP<const Comm> comm;
-  std::size_t components; ///< unknowns a node, the same everywhere
+  int components; ///< unknowns a node, the same everywhere
   const NodePlaces& places;
   std::span<const Body> bodies;          ///< all, on every rank
   std::span<const Subdomain> subdomains; ///< of this rank: their nodes, unknowns and kernels
@@ -47,9 +47,8 @@ struct Substructures {
     return bodies[subdomains[s].body].firstNode + subdomains[s].nodes[node];
   }
   /// Number of an unknown, or prescribed value, among those of all bodies.
-  [[nodiscard]] GlobalOrdinal globalUnknown(SubdomainPlace s, NodePlace node, std::size_t component) const {
-    return globalNode(s, node) * static_cast<GlobalOrdinal>(components) +
-           static_cast<GlobalOrdinal>(component);
+  [[nodiscard]] GlobalOrdinal globalUnknown(SubdomainPlace s, NodePlace node, int component) const {
+    return globalNode(s, node) * components + component;
   }
   [[nodiscard]] Point point(SubdomainPlace s, NodePlace node) const {
     return places.point(subdomains[s].body, subdomains[s].nodes[node]);

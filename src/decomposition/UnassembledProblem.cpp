@@ -89,14 +89,8 @@ void UnassembledProblem::requireComplete() const {
 }
 
 Substructures UnassembledProblem::view() const {
-  return {comm_,
-          static_cast<std::size_t>(problem_.components),
-          places_,
-          problem_.bodies,
-          problem_.subdomains,
-          data_.subdomains_,
-          nodal_,
-          problem_.numSubdomains};
+  return {comm_,  problem_.components,   places_, problem_.bodies, problem_.subdomains, data_.subdomains_,
+          nodal_, problem_.numSubdomains};
 }
 
 // ----------------------------------------------------------------------------------------------------------
@@ -167,14 +161,12 @@ void UnassembledProblem::takeAdded(int first) {
       SparseMatrix free = freeStiffness(matrix.stiffness, own_.back());
       nodal.stiffness = known.store(free);
       for (std::size_t i = 0; i < matrix.unknowns.size(); ++i)
-        points->try_emplace(matrix.unknowns[i] / components,
-                            pointAt(matrix.coordinates, static_cast<Eigen::Index>(i)));
+        points->try_emplace(matrix.unknowns[i] / components, pointAt(matrix.coordinates, i));
       const std::vector<GlobalOrdinal>& nodes = subdomain.nodes;
       nodal.borderNodes.resize(nodes.size()); // nobody knows which others share
       std::iota(nodal.borderNodes.begin(), nodal.borderNodes.end(), 0);
       for (const GlobalOrdinal wanted : matrix.crosspoints)
-        nodal.crosspoints.push_back(
-            static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), wanted) - nodes.begin()));
+        nodal.crosspoints.push_back(std::lower_bound(nodes.begin(), nodes.end(), wanted) - nodes.begin());
       add(std::move(subdomain), std::move(data), std::move(nodal));
     }
   });
@@ -239,13 +231,13 @@ void UnassembledProblem::split() {
     data.reaction = loadInBasisOf(averages, std::move(data.reaction));
     subdomain.kernel = kernelInBasisOf(averages, std::move(subdomain.kernel));
     positions += problem_.numPositions(subdomain);
-    remainders += static_cast<GlobalOrdinal>(subdomain.remainderUnknowns.size());
+    remainders += subdomain.remainderUnknowns.size();
   }
   problem_.numCrosspoints = crosspoints_->numNodes();
   problem_.primalDimension = sumOverRanks(*comm_, positions);
   problem_.crosspointMap = makeMap(std::move(splitting.ownedCrosspoints), comm_);
-  problem_.remainderMap = rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
-                                      static_cast<std::size_t>(remainders), 0, comm_));
+  problem_.remainderMap =
+      rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), remainders, 0, comm_));
 }
 
 } // namespace epafi::decomposition

@@ -98,15 +98,14 @@ void UnassembledProblem::attach() {
 
 /// Candidates touch what rows of contact on them would. Collective.
 void UnassembledProblem::nameCandidates() {
-  const auto here = static_cast<GlobalOrdinal>(candidates_.size());
+  const GlobalOrdinal here = candidates_.size();
   if (sumOverRanks(*comm_, here) == 0)
     return;
   const RCP<const Map> map =
       rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), candidates_.size(), 0, comm_));
   const RCP<CrsMatrix> units = rcp(new CrsMatrix(map, 1));
-  for (std::size_t i = 0; i < candidates_.size(); ++i)
-    units->insertGlobalValues(map->getGlobalElement(static_cast<LocalOrdinal>(i)),
-                              Teuchos::tuple(candidates_[i]), Teuchos::tuple(1.0));
+  for (LocalOrdinal i = 0; i < std::ssize(candidates_); ++i)
+    units->insertGlobalValues(map->getGlobalElement(i), Teuchos::tuple(candidates_[i]), Teuchos::tuple(1.0));
   units->fillComplete(Tpetra::createOneToOne(makeMap(std::move(candidates_), comm_)), map);
   const ConstraintMatrix rows{units, rcp(new Vector(map))};
   requireSound(rows, unknownMap_);
@@ -130,26 +129,24 @@ void UnassembledProblem::setFriction(const FrictionRows& friction) {
 void UnassembledProblem::requireSoundFriction() const {
   if (!friction_)
     return;
-  const auto tangents = static_cast<std::size_t>(problem_.components - 1);
+  const GlobalOrdinal tangents = problem_.components - 1;
   collectively(*comm_, [&] {
     if (tangents == 0)
       throw InputError("rows of friction were given for nodes of one component, which have no tangents.");
     if (!contact_)
       throw InputError("rows of friction were given without rows of contact; call setContact as well.");
     const auto rows = localIndices(*friction_->tangents.rows->getRowMap());
-    const std::size_t numNodes = friction_->contactRows.size();
-    if (static_cast<std::size_t>(rows.size()) != tangents * numNodes)
+    const GlobalOrdinal numNodes = friction_->contactRows.size();
+    if (rows.size() != tangents * numNodes)
       throw InputError("there are " + std::to_string(rows.size()) + " rows of friction on this rank for " +
                        std::to_string(numNodes) + " nodes; each has " + std::to_string(tangents) + ".");
-    for (std::size_t node = 0; node < numNodes; ++node) {
+    for (GlobalOrdinal node = 0; node < numNodes; ++node) {
       if (!contact_->rows->getRowMap()->isNodeGlobalElement(friction_->contactRows[node]))
         throw InputError("the row of contact " + std::to_string(friction_->contactRows[node]) +
                          " is not on the rank that has its rows of friction.");
-      const GlobalOrdinal first = rows[static_cast<Teuchos_Ordinal>(tangents * node)];
-      for (std::size_t k = 0; k < tangents; ++k)
-        if (rows[static_cast<Teuchos_Ordinal>(tangents * node + k)] !=
-                first + static_cast<GlobalOrdinal>(k) ||
-            first % static_cast<GlobalOrdinal>(tangents) != 0)
+      const GlobalOrdinal first = rows[tangents * node];
+      for (GlobalOrdinal k = 0; k < tangents; ++k)
+        if (rows[tangents * node + k] != first + k || first % tangents != 0)
           throw InputError("the rows of friction of a node do not follow each other from number " +
                            std::to_string(first) + " on; number them node by node.");
     }
@@ -164,7 +161,7 @@ void UnassembledProblem::placeFriction() {
   const auto rows = localIndices(*friction_->tangents.rows->getRowMap());
   const Map& multipliers = *problem_.multiplierMap;
   for (std::size_t node = 0; node < friction_->contactRows.size(); ++node) {
-    const auto place = static_cast<Teuchos_Ordinal>(node * static_cast<std::size_t>(problem_.components - 1));
+    const Teuchos_Ordinal place = node * (problem_.components - 1);
     problem_.frictionNodes.push_back(
         {OwnedMultiplier(multipliers.getLocalElement(friction_->contactRows[node])),
          OwnedMultiplier(multipliers.getLocalElement(problem_.numInequalities + rows[place]))});

@@ -12,8 +12,7 @@
 namespace epafi::decomposition {
 
 std::vector<GlobalOrdinal> UnassembledProblem::globalUnknowns(std::size_t subdomain) const {
-  std::vector<GlobalOrdinal> result(
-      static_cast<std::size_t>(problem_.numPositions(problem_.subdomains[subdomain])), -1);
+  std::vector<GlobalOrdinal> result(problem_.numPositions(problem_.subdomains[subdomain]), -1);
   const OwnSubdomain& own = own_[subdomain];
   for (std::size_t i = 0; i < own.unknowns.size(); ++i)
     result[own.position[i]] = own.unknowns[i];

@@ -165,7 +165,7 @@ void BodyModel::kinds(std::span<const GlobalOrdinal> elements, std::span<GlobalO
   regions_.of(body_, elements, kinds);
   for (std::size_t e = 0; !framedElements_.empty() && e < elements.size(); ++e)
     if (isFramed(elements[e]))
-      kinds[e] = static_cast<GlobalOrdinal>(regions_.number()) + elements[e];
+      kinds[e] = regions_.number() + elements[e];
 }
 
 void BodyModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const {
@@ -207,7 +207,7 @@ void BodyModel::turnIntoFrames(GlobalOrdinal element, Eigen::MatrixXd& stiffness
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (const Eigen::Matrix3d* own = frame(nodes[i])) {
       const Eigen::MatrixXd q = own->topLeftCorner(n, n);
-      const Eigen::Index first = n * static_cast<Eigen::Index>(i);
+      const Eigen::Index first = n * i;
       stiffness.middleCols(first, n) = (stiffness.middleCols(first, n) * q).eval();
       stiffness.middleRows(first, n) = (q.transpose() * stiffness.middleRows(first, n)).eval();
     }
@@ -220,7 +220,7 @@ void BodyModel::turnIntoFrames(GlobalOrdinal element, Eigen::Ref<Eigen::VectorXd
   const int n = components();
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (const Eigen::Matrix3d* own = frame(nodes[i])) {
-      auto part = load.segment(n * static_cast<Eigen::Index>(i), n);
+      auto part = load.segment(n * i, n);
       part = (own->topLeftCorner(n, n).transpose() * part).eval();
     }
 }

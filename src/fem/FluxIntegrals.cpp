@@ -65,8 +65,7 @@ using NodalDisplacements = Eigen::Map<const Eigen::Matrix<double, Law::component
 
 template <class Law>
 NodalDisplacements<Law> atNodes(std::span<const double> displacements) {
-  return {displacements.data(), Law::components,
-          static_cast<Eigen::Index>(displacements.size()) / Law::components};
+  return {displacements.data(), Law::components, std::ssize(displacements) / Law::components};
 }
 
 template <class Law, int dim>

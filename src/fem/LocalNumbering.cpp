@@ -28,15 +28,13 @@ Nodes distinctNodes(std::span<const GlobalOrdinal> corners, std::size_t perEleme
 /// Place of a node that is known to be among `nodes`, searched from a place near it.
 std::size_t locate(const Nodes& nodes, std::size_t near, GlobalOrdinal node) {
   if (nodes[near] > node)
-    return static_cast<std::size_t>(
-        std::lower_bound(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(near), node) -
-        nodes.begin());
+    return std::lower_bound(nodes.begin(), nodes.begin() + near, node) - nodes.begin();
   std::size_t step = 1; // doubled, so that a far place is found quickly too
   while (near + step < nodes.size() && nodes[near + step] <= node)
     step *= 2;
-  const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(near + step / 2);
-  const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(std::min(near + step, nodes.size()));
-  return static_cast<std::size_t>(std::lower_bound(begin, end, node) - nodes.begin());
+  const auto begin = nodes.begin() + (near + step / 2);
+  const auto end = nodes.begin() + std::min(near + step, nodes.size());
+  return std::lower_bound(begin, end, node) - nodes.begin();
 }
 
 } // namespace

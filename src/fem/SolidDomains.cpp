@@ -80,14 +80,13 @@ void SolidRegions::of(const SolidBody& body, std::span<const GlobalOrdinal> elem
                       std::span<GlobalOrdinal> regions) const {
   std::fill(regions.begin(), regions.end(), GlobalOrdinal{0});
   for (std::size_t r = 0; r < domains_.size(); ++r)
-    domains_[r].forEachIn(body, elements,
-                          [&](std::size_t e) { regions[e] = static_cast<GlobalOrdinal>(r) + 1; });
+    domains_[r].forEachIn(body, elements, [&](std::size_t e) { regions[e] = r + 1; });
 }
 
 std::size_t SolidRegions::of(const SolidBody& body, GlobalOrdinal element) const {
   GlobalOrdinal region = 0;
   of(body, std::span(&element, 1), std::span(&region, 1));
-  return static_cast<std::size_t>(region);
+  return region;
 }
 
 const Material& materialIn(const Solid& body, std::size_t region) {

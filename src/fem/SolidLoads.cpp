@@ -94,9 +94,8 @@ void SolidLoads::addGridForce(const SolidBody& body, const SolidLoad& load) {
     force.shares[d].assign(mesh.elements()[d], {0, 0, 0});
   for (std::size_t d = 0; d < 3; ++d)
     for (std::size_t k = 0; k < force.shares[d].size(); ++k)
-      force.shares[d][k] = segmentLoad(mesh.coordinate(d, static_cast<GlobalOrdinal>(k)),
-                                       mesh.coordinate(d, static_cast<GlobalOrdinal>(k) + 1),
-                                       load.box.lower[d], load.box.upper[d], orderOf(mesh.cellType()));
+      force.shares[d][k] = segmentLoad(mesh.coordinate(d, k), mesh.coordinate(d, k + 1), load.box.lower[d],
+                                       load.box.upper[d], orderOf(mesh.cellType()));
   if (mesh.dimension() == 2)
     force.shares[2].front() = {1, 0, 0};
   gridForces_.push_back(std::move(force));
@@ -137,8 +136,7 @@ void SolidLoads::addPoint(const SolidBody& body, const SolidLoad& load) {
 void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,
                     std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const {
   const int components = body.components();
-  loads.setZero(static_cast<Eigen::Index>(body.mesh.nodesPerElement()) * components,
-                static_cast<Eigen::Index>(elements.size()));
+  loads.setZero(static_cast<Eigen::Index>(body.mesh.nodesPerElement()) * components, elements.size());
   if (!gridForces_.empty())
     addGridForces(body, regions, elements, loads);
   addBodyForces(body, regions, elements, loads);
@@ -155,8 +153,7 @@ void SolidLoads::addGridForces(const SolidBody& body, const SolidRegions& region
     std::vector<GlobalOrdinal> region(elements.size());
     regions.of(body, elements, region);
     for (const GlobalOrdinal r : region)
-      thickness.push_back(
-          thicknessOf(body.solid.physics, materialIn(body.solid, static_cast<std::size_t>(r))));
+      thickness.push_back(thicknessOf(body.solid.physics, materialIn(body.solid, r)));
   }
   const std::size_t perElement = loads.rows();
   for (const GridForce& force : gridForces_) {
@@ -205,7 +202,7 @@ void SolidLoads::addNodalForces(const mesh::Mesh& mesh, int components,
     for (; force != forces_.end() && force->element == elements[e]; ++force) {
       const auto corner = std::find(nodes.begin(), nodes.end(), force->node) - nodes.begin();
       for (int c = 0; c < components; ++c)
-        loads(corner * components + c, static_cast<Eigen::Index>(e)) += force->force[c];
+        loads(corner * components + c, e) += force->force[c];
     }
   }
 }

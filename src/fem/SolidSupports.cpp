@@ -123,7 +123,7 @@ void SolidSupports::holdInFrame(GlobalOrdinal node, int components, std::span<co
                                 std::span<const double> values) {
   const bool isAlong =
       std::all_of(axes.begin(), axes.end(), [](const Vector3d& axis) { return axisOf(axis) >= 0; });
-  if (isAlong || static_cast<int>(axes.size()) == components) {
+  if (isAlong || std::ssize(axes) == components) {
     Vector3d value(0, 0, 0), isHeld(0, 0, 0);
     for (std::size_t k = 0; k < axes.size(); ++k) {
       value += values[k] * axes[k];

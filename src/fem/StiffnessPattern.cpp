@@ -41,14 +41,14 @@ public:
     const auto perElement = static_cast<int>(numbering_.nodesPerElement());
     const auto me = static_cast<int>(node);
     for (const int corner : corners)
-      for (const int other : numbering_.elementNodes(static_cast<std::size_t>(corner / perElement)))
+      for (const int other : numbering_.elementNodes(corner / perElement))
         if (std::exchange(seenBy_[other], me) != me)
           neighbours_.push_back(other);
     std::sort(neighbours_.begin(), neighbours_.end());
     rows_.clear();
     for (const int other : neighbours_)
       for (std::size_t c = 0; c < components_; ++c) {
-        const std::size_t position = static_cast<std::size_t>(other) * components_ + c;
+        const std::size_t position = other * components_ + c;
         if (unknownOf_[position] < 0)
           continue;
         place_[position] = static_cast<int>(rows_.size());
@@ -90,8 +90,8 @@ void StiffnessPattern::findSupportedElements() {
   const std::span<const int> corners = numbering_->corners();
   const std::size_t perElement = numbering_->nodesPerElement();
   const auto isSupported = [this](int node) {
-    const auto first = unknownOf_.begin() + static_cast<std::ptrdiff_t>(components_) * node;
-    const auto end = first + static_cast<std::ptrdiff_t>(components_);
+    const auto first = unknownOf_.begin() + components_ * node;
+    const auto end = first + components_;
     return std::find(first, end, -1) != end;
   };
   for (std::size_t element = 0; element < numbering_->numElements(); ++element) {
@@ -109,12 +109,11 @@ void StiffnessPattern::addColumn(const NodeColumn& column, std::span<const int> 
   const auto perElement = static_cast<int>(numbering_->nodesPerElement());
   for (const int corner : corners) {
     const std::size_t element = corner / perElement;
-    const std::size_t value = static_cast<std::size_t>(corner % perElement) * components_ + component;
-    auto place = places_.begin() +
-                 static_cast<std::ptrdiff_t>((element * valuesPerElement_ + value) * valuesPerElement_);
+    const std::size_t value = corner % perElement * components_ + component;
+    auto place = places_.begin() + (element * valuesPerElement_ + value) * valuesPerElement_;
     for (const int node : numbering_->elementNodes(element))
       for (std::size_t c = 0; c < components_; ++c, ++place) {
-        const std::size_t position = static_cast<std::size_t>(node) * components_ + c;
+        const std::size_t position = node * components_ + c;
         if (unknownOf_[position] >= 0)
           *place = start + column.placeOf(position);
       }
@@ -122,9 +121,9 @@ void StiffnessPattern::addColumn(const NodeColumn& column, std::span<const int> 
 }
 
 void StiffnessPattern::shape(Eigen::SparseMatrix<double, Eigen::ColMajor, int>& stiffness) const {
-  const auto size = static_cast<Eigen::Index>(columnStart_.size()) - 1;
+  const Eigen::Index size = columnStart_.size() - 1;
   stiffness.resize(size, size);
-  stiffness.resizeNonZeros(static_cast<Eigen::Index>(rows_.size()));
+  stiffness.resizeNonZeros(rows_.size());
   std::copy(columnStart_.begin(), columnStart_.end(), stiffness.outerIndexPtr());
   std::copy(rows_.begin(), rows_.end(), stiffness.innerIndexPtr());
   std::fill_n(stiffness.valuePtr(), rows_.size(), 0.0);

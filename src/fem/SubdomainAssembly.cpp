@@ -18,11 +18,11 @@ std::size_t square(std::size_t n) {
 
 void fillKernel(const BodyModel& model, AssembledSubdomain& subdomain) {
   const int components = model.components(), modes = model.kernelDimension();
-  subdomain.kernel.resize(static_cast<Eigen::Index>(subdomain.unknownPosition.size()), modes);
+  subdomain.kernel.resize(subdomain.unknownPosition.size(), modes);
   for (int mode = 0; mode < modes; ++mode)
     for (std::size_t i = 0; i < subdomain.unknownPosition.size(); ++i) {
       const int position = subdomain.unknownPosition[i];
-      subdomain.kernel(static_cast<Eigen::Index>(i), mode) =
+      subdomain.kernel(i, mode) =
           model.kernelValue(subdomain.nodes[position / components], position % components, mode);
     }
 }
@@ -41,8 +41,7 @@ void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, Assem
       [&](const StiffnessPattern& known) { return known.fits(*numbering, subdomain.unknownOf); });
   if (!pattern)
     pattern = patterns_.add(StiffnessPattern(numbering, model_.components(), subdomain.unknownOf),
-                            elements.size() *
-                                square(static_cast<std::size_t>(model_.unknowns().unknownsPerElement())));
+                            elements.size() * square(model_.unknowns().unknownsPerElement()));
 
   kinds_.resize(elements.size());
   model_.kinds(elements, kinds_);
@@ -57,7 +56,7 @@ void SubdomainAssembler::assemble(std::span<const GlobalOrdinal> elements, Assem
 std::shared_ptr<const LocalNumbering> SubdomainAssembler::number(std::span<const GlobalOrdinal> elements,
                                                                  AssembledSubdomain& subdomain) {
   const int perElement = model_.unknowns().nodesPerElement();
-  corners_.resize(elements.size() * static_cast<std::size_t>(perElement));
+  corners_.resize(elements.size() * perElement);
   model_.unknowns().elementNodes(elements, corners_);
   std::optional<GlobalOrdinal> firstNode;
   std::shared_ptr<const LocalNumbering> numbering = numberings_.find([&](const LocalNumbering& known) {
@@ -85,7 +84,7 @@ void SubdomainAssembler::findBorder(const LocalNumbering& numbering, AssembledSu
 void SubdomainAssembler::hold(AssembledSubdomain& subdomain) {
   const std::size_t numPositions = subdomain.nodes.size() * components_;
   subdomain.unknownOf.assign(numPositions, 0);
-  subdomain.data.prescribed.setZero(static_cast<Eigen::Index>(numPositions));
+  subdomain.data.prescribed.setZero(numPositions);
   model_.prescribed(subdomain.nodes, prescribed_);
   for (const auto& [position, value] : prescribed_) {
     subdomain.unknownOf[position] = -1;
@@ -122,12 +121,12 @@ void SubdomainAssembler::addStiffness(const StiffnessPattern& pattern, Assembled
 }
 
 void SubdomainAssembler::addLoads(const LocalNumbering& numbering, AssembledSubdomain& subdomain) {
-  subdomain.data.load.setZero(static_cast<Eigen::Index>(subdomain.unknownPosition.size()));
+  subdomain.data.load.setZero(subdomain.unknownPosition.size());
   subdomain.data.heldLoad = 0;
   const double* load = loads_.data();
   for (const int node : numbering.corners())
     for (std::size_t c = 0; c < components_; ++c, ++load) {
-      const int unknown = subdomain.unknownOf[static_cast<std::size_t>(node) * components_ + c];
+      const int unknown = subdomain.unknownOf[node * components_ + c];
       if (unknown >= 0)
         subdomain.data.load[unknown] += *load;
       else
@@ -145,7 +144,7 @@ void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const Stiffn
     const std::span<const int> nodes = numbering.elementNodes(e);
     const auto positionOf = [&](Eigen::Index value) {
       const std::size_t v = value;
-      return static_cast<std::size_t>(nodes[v / components_]) * components_ + v % components_;
+      return nodes[v / components_] * components_ + v % components_;
     };
     const auto heldAt = [&](std::size_t position) { return data.prescribed[position]; };
     const Eigen::MatrixXd& k = stiffnessOf(kinds_[e]);
@@ -153,7 +152,7 @@ void SubdomainAssembler::eliminate(const LocalNumbering& numbering, const Stiffn
       const double held = heldAt(positionOf(j)); // 0 at the free positions
       if (held == 0)
         continue;
-      data.heldWork += loads_(j, static_cast<Eigen::Index>(e)) * held;
+      data.heldWork += loads_(j, e) * held;
       for (Eigen::Index i = 0; i < k.rows(); ++i) {
         const std::size_t other = positionOf(i);
         if (subdomain.unknownOf[other] >= 0)

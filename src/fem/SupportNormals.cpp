@@ -82,7 +82,7 @@ std::vector<std::vector<std::size_t>> smoothGroups(const Facets& facets, std::ve
       for (std::size_t r = 0; r < rest.size();)
         if (facets.normals[group[k]].dot(facets.normals[rest[r]]) > smoothCosine) {
           group.push_back(rest[r]);
-          rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(r));
+          rest.erase(rest.begin() + r);
         } else {
           ++r;
         }

@@ -36,7 +36,7 @@ SparseMatrix unknownsFromValues(const Subdomain& subdomain) {
   }
   for (std::size_t i = 0; i < isAveraged.size(); ++i)
     if (isAveraged[i] == 0)
-      entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
+      entries.emplace_back(i, i, 1.0);
   const Eigen::Index n = isAveraged.size();
   SparseMatrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());

@@ -37,8 +37,7 @@ void BoundaryStiffness::apply(const SubdomainVectors& u, SubdomainVectors& force
     const auto members = groups[g].members();
     const std::vector<int>& boundary = boundary_[members.front()];
     const Eigen::Index columns = u[members.front()].cols();
-    input_.resize(static_cast<Eigen::Index>(boundary.size()),
-                  static_cast<Eigen::Index>(members.size()) * columns);
+    input_.resize(boundary.size(), members.size() * columns);
     output_.resizeLike(input_);
     Eigen::Index place = 0;
     for (const std::size_t member : members) {

@@ -85,7 +85,7 @@ void PrimalResidual::norms(const MultiVector& r, std::vector<double>& result) {
   if (residual_->getNumVectors() != r.getNumVectors())
     residual_ = rcp(new MultiVector(k_.getRangeMap(), r.getNumVectors()));
   const auto values = exchange_.toSubdomains(r);
-  const auto stride = static_cast<Eigen::Index>(values.size()) / numColumns;
+  const Eigen::Index stride = std::ssize(values) / numColumns;
   const auto& subdomains = k_.problem().subdomains;
   jumps_.resize(subdomains.size());
   forces_.resize(subdomains.size());

@@ -16,7 +16,7 @@ namespace {
 std::vector<GlobalOrdinal> atUnknowns(const decomposition::Subdomain& subdomain, Eigen::Index numPositions,
                                       const std::vector<GlobalOrdinal>& atPositions) {
   const std::string name = "subdomain " + std::to_string(subdomain.number);
-  if (static_cast<Eigen::Index>(atPositions.size()) != numPositions)
+  if (std::ssize(atPositions) != numPositions)
     throw InputError(name + " has " + std::to_string(numPositions) +
                      " positions (nodes times components), but " + std::to_string(atPositions.size()) +
                      " global numbers; give one for each position, at prescribed ones any");

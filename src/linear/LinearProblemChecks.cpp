@@ -24,9 +24,9 @@ using decomposition::DecomposedProblem;
 SubdomainVectors sample(const DecomposedProblem& problem, const GlobalUnknowns& unknowns) {
   SubdomainVectors u;
   for (std::size_t s = 0; s < unknowns.size(); ++s) {
-    Eigen::MatrixXd& values = u.emplace_back(static_cast<Eigen::Index>(unknowns[s].size()), 1);
+    Eigen::MatrixXd& values = u.emplace_back(unknowns[s].size(), 1);
     for (std::size_t i = 0; i < unknowns[s].size(); ++i)
-      values(static_cast<Eigen::Index>(i)) = qp::pseudoRandom(unknowns[s][i]);
+      values(i) = qp::pseudoRandom(unknowns[s][i]);
     toUnknowns(problem.subdomains[s], values);
   }
   return u;
@@ -103,11 +103,10 @@ void requireJoinedCopies(const DecomposedProblem& problem, const GlobalUnknowns&
   const SubdomainVectors u = sample(problem, unknowns);
   requireNoJump(problem, unknowns, u);
   requireCommonCrosspoints(problem, u);
-  const auto joined = static_cast<GlobalOrdinal>(problem.remainderMap->getGlobalNumElements() +
-                                                 problem.crosspointMap->getGlobalNumElements()) -
-                      problem.numEqualities;
-  const auto numbers = static_cast<GlobalOrdinal>(exchange.map()->getGlobalNumElements()) -
-                       sumOverRanks(*problem.comm, static_cast<GlobalOrdinal>(numOthers));
+  const GlobalOrdinal joined = problem.remainderMap->getGlobalNumElements() +
+                               problem.crosspointMap->getGlobalNumElements() - problem.numEqualities;
+  const GlobalOrdinal numbers = exchange.map()->getGlobalNumElements() -
+                                sumOverRanks(*problem.comm, static_cast<GlobalOrdinal>(numOthers));
   if (numbers != joined)
     throw InputError("the unknowns have " + std::to_string(numbers) +
                      " global numbers, but the subdomains, joined by gluing rows and crosspoints, have " +

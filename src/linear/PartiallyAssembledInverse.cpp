@@ -11,7 +11,7 @@ namespace {
 using decomposition::DecomposedProblem;
 
 GlobalOrdinal numRemainders(const DecomposedProblem& problem) {
-  return static_cast<GlobalOrdinal>(problem.remainderMap->getGlobalNumElements());
+  return problem.remainderMap->getGlobalNumElements();
 }
 
 /// Remainders, then crosspoint values.

@@ -21,9 +21,9 @@ std::vector<LocalOrdinal> rowsWithoutUnknown(const decomposition::DecomposedProb
   exchange.sum(ones, copies);
   std::vector<LocalOrdinal> rows;
   const auto numbers = copies.getData(0);
-  for (Teuchos_Ordinal i = 0; i < numbers.size(); ++i)
+  for (LocalOrdinal i = 0; i < numbers.size(); ++i)
     if (numbers[i] == 0)
-      rows.push_back(static_cast<LocalOrdinal>(i));
+      rows.push_back(i);
   return rows;
 }
 

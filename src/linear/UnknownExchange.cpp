@@ -50,12 +50,12 @@ void UnknownExchange::toSubdomains(const MultiVector& x, SubdomainVectors& u) co
   const Eigen::Index columns = x.getNumVectors();
   u.resize(places_.size());
   for (std::size_t s = 0; s < places_.size(); ++s)
-    u[s].resize(static_cast<Eigen::Index>(places_[s].size()), columns);
+    u[s].resize(places_[s].size(), columns);
   for (Eigen::Index j = 0; j < columns; ++j) {
-    const auto values = touched_->getData(static_cast<std::size_t>(j));
+    const auto values = touched_->getData(j);
     for (std::size_t s = 0; s < places_.size(); ++s)
       for (std::size_t i = 0; i < places_[s].size(); ++i)
-        u[s](static_cast<Eigen::Index>(i), j) = values[places_[s][i]];
+        u[s](i, j) = values[places_[s][i]];
   }
 }
 
@@ -66,7 +66,7 @@ void UnknownExchange::sum(const SubdomainVectors& f, MultiVector& y) const {
     const auto values = touched_->getDataNonConst(j);
     for (std::size_t s = 0; s < places_.size(); ++s)
       for (std::size_t i = 0; i < places_[s].size(); ++i)
-        values[places_[s][i]] += f[s](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        values[places_[s][i]] += f[s](i, j);
   }
   y.putScalar(0.0);
   y.doExport(*touched_, *import_, Tpetra::ADD);

@@ -75,9 +75,8 @@ public:
     for (int code = 0; code < power(degree_ + 1, dim); ++code) {
       Exponents exponents{};
       exponents.back() = degree_;
-      for (std::size_t i = 0, left = static_cast<std::size_t>(code),
-                       base = static_cast<std::size_t>(degree_) + 1;
-           i < dim; ++i, left /= base)
+      for (std::size_t i = 0, left = code, base = static_cast<std::size_t>(degree_) + 1; i < dim;
+           ++i, left /= base)
         exponents.back() -= exponents[i] = static_cast<int>(left % base);
       if (isSimplex_ && exponents.back() < 0)
         continue;
@@ -90,8 +89,7 @@ public:
     Eigen::MatrixXd values(all.size(), all.size());
     for (std::size_t row = 0; row < all.size(); ++row)
       for (std::size_t column = 0; column < all.size(); ++column)
-        values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
-            at(points_[row], all[column]);
+        values(row, column) = at(points_[row], all[column]);
     toCoefficients_ = direct::leastSquares(values, Eigen::MatrixXd::Identity(values.rows(), values.cols()));
   }
 

@@ -24,8 +24,7 @@ public:
   MeshArrays make() {
     const std::vector<LocalOrdinal> cells = std::exchange(mesh_.cells, {});
     for (std::size_t first = 0; first < cells.size(); first += given_) {
-      nodes_.assign(cells.begin() + static_cast<std::ptrdiff_t>(first),
-                    cells.begin() + static_cast<std::ptrdiff_t>(first + given_));
+      nodes_.assign(cells.begin() + first, cells.begin() + (first + given_));
       if (!hasEdgeNodes_)
         addEdgeNodes();
       if (mesh_.cellType == CellType::hexahedron27)

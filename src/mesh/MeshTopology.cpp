@@ -25,7 +25,7 @@ void forEachFacet(CellType type, std::span<const LocalOrdinal> cells, const Visi
   for (std::size_t first = 0; first < cells.size(); first += perElement)
     for (const Facet& facet : facets) {
       for (std::size_t i = 0; i < perFacet; ++i) { // sorted by insertion
-        const LocalOrdinal node = cells[first + static_cast<std::size_t>(facet[i])];
+        const LocalOrdinal node = cells[first + facet[i]];
         std::size_t place = i;
         for (; place > 0 && nodes[place - 1] > node; --place)
           nodes[place] = nodes[place - 1];
@@ -58,7 +58,7 @@ std::span<const LocalOrdinal> MeshTopology::elementsOf(LocalOrdinal node) const 
 void MeshTopology::findElementsOfNodes(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
   firstElement_.assign(static_cast<std::size_t>(numNodes) + 1, 0);
   for (const LocalOrdinal node : cells)
-    ++firstElement_[static_cast<std::size_t>(node) + 1];
+    ++firstElement_[node + 1];
   accumulate(firstElement_);
   elements_.resize(cells.size());
   std::vector<std::size_t> next(firstElement_.begin(), firstElement_.end() - 1);
@@ -70,9 +70,8 @@ void MeshTopology::findElementsOfNodes(LocalOrdinal numNodes, std::span<const Lo
 void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
   // Buckets by lowest node: each holds a few dozen facets, whatever the mesh's size.
   std::vector<std::size_t> first(static_cast<std::size_t>(numNodes) + 1, 0);
-  forEachFacet(type_, cells, [&](std::uint32_t, std::span<const LocalOrdinal> nodes) {
-    ++first[static_cast<std::size_t>(nodes[0]) + 1];
-  });
+  forEachFacet(type_, cells,
+               [&](std::uint32_t, std::span<const LocalOrdinal> nodes) { ++first[nodes[0] + 1]; });
   accumulate(first);
   std::vector<BucketEntry> facets(first.back());
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
@@ -86,7 +85,7 @@ void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdina
   const auto elementOf = [&](const BucketEntry& facet) {
     return static_cast<LocalOrdinal>(facet.place / facetsPerElement_);
   };
-  const auto at = [&](std::size_t i) { return facets.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto at = [&](std::size_t i) { return facets.begin() + i; };
   for (std::size_t node = 0; node + 1 < first.size(); ++node) {
     const auto end = at(first[node + 1]);
     std::sort(at(first[node]), end, [](const BucketEntry& a, const BucketEntry& b) {
@@ -113,7 +112,7 @@ void MeshTopology::markBoundary(std::span<const LocalOrdinal> cells) {
   for (std::size_t place = 0; place < across_.size(); ++place)
     if (across_[place] < 0)
       for (const int node : facets[place % facetsPerElement_])
-        isOnBoundary_[cells[place / facetsPerElement_ * perElement + static_cast<std::size_t>(node)]] = 1;
+        isOnBoundary_[cells[place / facetsPerElement_ * perElement + node]] = 1;
 }
 
 } // namespace epafi::mesh

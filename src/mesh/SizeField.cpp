@@ -45,7 +45,7 @@ double SizeField::sizeIn(std::size_t simplex, const Point& point, double& outsid
   weights /= weights.sum();
   double size = 0;
   for (int i = 0; i <= n; ++i)
-    size += weights[i] * sizes_.sizes[simplex + static_cast<std::size_t>(i)];
+    size += weights[i] * sizes_.sizes[simplex + i];
   return size;
 }
 

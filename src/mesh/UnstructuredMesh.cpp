@@ -23,7 +23,7 @@ std::size_t placeOf(const std::string& name, const std::vector<Named>& list) {
   const auto found =
       std::find_if(list.begin(), list.end(), [&](const Named& entry) { return entry.name == name; });
   assert(found != list.end());
-  return static_cast<std::size_t>(found - list.begin());
+  return found - list.begin();
 }
 
 } // namespace

@@ -101,7 +101,7 @@ std::string readAll(int pipe, StallWatch& watch) {
     }
     const ssize_t size = ::read(pipe, part.data(), part.size());
     if (size > 0)
-      text.append(part.data(), static_cast<std::size_t>(size));
+      text.append(part.data(), size);
     else if (size == 0 || errno != EINTR)
       return text;
   }

@@ -211,8 +211,7 @@ std::vector<std::size_t> placesInGmsh(mesh::CellType type, std::size_t count) {
   constexpr std::array<std::size_t, 18> hexahedron{11, 13, 9,  16, 18, 19, 17, 10, 12,
                                                    14, 15, 22, 23, 21, 24, 20, 25, 26};
   if (type == mesh::CellType::hexahedron27)
-    std::copy(hexahedron.begin(), hexahedron.begin() + static_cast<std::ptrdiff_t>(count - 9),
-              places.begin() + 9);
+    std::copy(hexahedron.begin(), hexahedron.begin() + (count - 9), places.begin() + 9);
   return places;
 }
 

@@ -68,7 +68,7 @@ void checkFile(const std::string& file) {
 std::string textOf(const std::string& path, const std::string& file) {
   std::string text(fs::file_size(path), '\0');
   std::ifstream stream(path, std::ios::binary);
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.read(text.data(), text.size());
   if (!stream)
     throw InputError("The mesh file " + inQuotes(file) + " could not be read to its end");
   return text;

@@ -263,8 +263,7 @@ void GmshSession::requireKnown() const {
     constexpr std::size_t task = 0, numTasks = 1;
     call(Gmsh::get().elements, type, &tags.data, &tags.size, &nodes.data, &nodes.size, anyEntity, task,
          numTasks);
-    throw InputError("The mesh file " + inQuotes(file_) + ": " +
-                     unknownKind(type, static_cast<GlobalOrdinal>(*tags.data)));
+    throw InputError("The mesh file " + inQuotes(file_) + ": " + unknownKind(type, *tags.data));
   }
 }
 

@@ -16,7 +16,7 @@ constexpr std::size_t groupsEach = 32; ///< bits of a number that stand for grou
 constexpr std::size_t groupsAt = 2;    ///< where they stand in a record
 
 std::size_t placeOf(const std::string& name, const std::vector<std::string>& names) {
-  return static_cast<std::size_t>(std::lower_bound(names.begin(), names.end(), name) - names.begin());
+  return std::lower_bound(names.begin(), names.end(), name) - names.begin();
 }
 
 /// Collective.
@@ -55,7 +55,7 @@ void Collector::add(const MeshShare& share) {
   addElements(share);
   for (const std::string& name : share.mesh->groupNames())
     for (const GlobalOrdinal element : share.mesh->group(name))
-      loose_.elements.setIn(first + static_cast<std::size_t>(element), placeOf(name, loose_.groups));
+      loose_.elements.setIn(first + element, placeOf(name, loose_.groups));
   nextElement_ += share.mesh->numElements();
   nextPart_ += share.partition->numParts();
 }
@@ -168,7 +168,7 @@ LooseMesh looseMeshOf(std::span<const MeshShare> shares, std::shared_ptr<const F
   loose.numParts = static_cast<int>(sumOverRanks(comm, numParts));
   const GlobalOrdinal firstElement = sumBefore(comm, numElements), firstPart = sumBefore(comm, numParts);
   collectively(comm, [&] {
-    loose.elements = LooseElements(loose.groups.size(), static_cast<std::size_t>(numNodesOf(loose.cellType)));
+    loose.elements = LooseElements(loose.groups.size(), numNodesOf(loose.cellType));
     loose.elements.reserve(numElements);
     loose.nodes.reserve(numNodes);
     Collector collector(loose, firstElement, static_cast<int>(firstPart));

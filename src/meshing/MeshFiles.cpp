@@ -12,7 +12,7 @@ namespace epafi::meshing {
 
 /// In messages whose length an int counts.
 void broadcastText(const Comm& comm, std::string& text) {
-  auto size = static_cast<long long>(text.size());
+  long long size = text.size();
   Teuchos::broadcast(comm, 0, 1, &size);
   collectively(comm, [&] { text.resize(size); });
   constexpr long long longest = 1 << 30;

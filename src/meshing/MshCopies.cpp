@@ -26,7 +26,7 @@ std::vector<Place> sortedPlaces(const std::vector<MshBlock>& blocks) {
     for (std::uint32_t e = 0; e < blocks[b].block.tags.size(); ++e) {
       std::uint64_t key = 0;
       for (const GlobalOrdinal node : nodesOf(blocks[b], e)) { // in any order
-        std::uint64_t mixed = static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15U;
+        std::uint64_t mixed = node * 0x9E3779B97F4A7C15U;
         mixed = (mixed ^ (mixed >> 31U)) * 0xBF58476D1CE4E5B9U;
         key += mixed ^ (mixed >> 29U);
       }

@@ -225,7 +225,7 @@ std::vector<GmshBlock> Contents::blocksOf(int dimension) {
 } // namespace
 
 int numNodesOfGmsh(int type) {
-  return type > 0 && type < static_cast<int>(kinds.size()) ? kinds[type].numNodes : 0;
+  return type > 0 && type < std::ssize(kinds) ? kinds[type].numNodes : 0;
 }
 
 int linearKindOfGmsh(int type) {

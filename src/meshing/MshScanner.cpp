@@ -17,7 +17,7 @@ constexpr std::string_view blanks = " \t\r\n";
 } // namespace
 
 void MshScanner::refuse(const std::string& what) const {
-  const auto numLines = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(last_), '\n');
+  const auto numLines = std::count(text_.begin(), text_.begin() + last_, '\n');
   throw InputError("The mesh file \"" + name_ + "\", " +
                    (isBinary_ ? "byte " + std::to_string(last_) : "line " + std::to_string(numLines + 1)) +
                    ": " + what);
@@ -88,7 +88,7 @@ GlobalOrdinal MshScanner::whole() {
   const auto value = fromBytes<std::uint64_t>();
   if (value > static_cast<std::uint64_t>(std::numeric_limits<GlobalOrdinal>::max()))
     refuse("the number " + std::to_string(value) + " is too large; the file is damaged, so save it anew");
-  return static_cast<GlobalOrdinal>(value);
+  return value;
 }
 
 double MshScanner::real() {

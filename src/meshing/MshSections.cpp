@@ -226,7 +226,7 @@ void readNodes4(MshScanner& file, MshRecords& records) {
       skipReals(file, numParameters);
     }
   }
-  requireTotal(file, "nodes", totals.things, static_cast<GlobalOrdinal>(records.nodeTags.size()));
+  requireTotal(file, "nodes", totals.things, records.nodeTags.size());
 }
 
 void readElements4(MshScanner& file, MshRecords& records) {

@@ -80,7 +80,7 @@ NodeDirectory::Keys NodeDirectory::byHome(const std::vector<GlobalOrdinal>& keys
 }
 
 std::size_t NodeDirectory::placeOf(GlobalOrdinal key) const {
-  return static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
+  return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
 }
 
 NodeDirectory::Keys NodeDirectory::shared(const std::vector<GlobalOrdinal>& keys) const {

@@ -208,7 +208,7 @@ GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const
     }
   }
   std::iota(order_.begin(), order_.end(), 0);
-  bisect(order_, static_cast<std::size_t>(size), centres);
+  bisect(order_, size, centres);
   for (std::size_t part = 0; part < order_.size(); ++part)
     number_[order_[part]] = static_cast<int>(part);
 }
@@ -242,7 +242,7 @@ std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
   for (std::size_t d = 0; d < 3; ++d) {
     first[d] = firstOf(place[d], elements_[d], counts_[d]);
     end[d] = firstOf(place[d] + 1, elements_[d], counts_[d]);
-    size *= static_cast<std::size_t>(end[d] - first[d]);
+    size *= end[d] - first[d];
   }
   std::vector<GlobalOrdinal> elements(size);
   auto next = elements.begin();
@@ -271,9 +271,9 @@ GraphPartition::GraphPartition(const mesh::Mesh& mesh, int parts, const Comm& co
   Teuchos::broadcast(comm, 0, 1, &numParts_);
   Teuchos::broadcast(comm, 0, static_cast<int>(part_.size()), part_.data());
 
-  start_.assign(static_cast<std::size_t>(numParts_) + 1, 0);
+  start_.assign(numParts_ + 1, 0);
   for (const int p : part_)
-    ++start_[static_cast<std::size_t>(p) + 1];
+    ++start_[p + 1];
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   members_.resize(part_.size());
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);

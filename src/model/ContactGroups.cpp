@@ -82,7 +82,7 @@ class Groups {
 public:
   Groups(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) : scene_(scene), bodies_(bodies) {}
 
-  void add(std::size_t number);
+  void add(int number);
   [[nodiscard]] std::vector<ContactGroup> take();
 
 private:
@@ -178,7 +178,7 @@ bool Groups::joins(const std::vector<Member>& members, const Member& added) cons
   return isConnected;
 }
 
-void Groups::add(std::size_t number) {
+void Groups::add(int number) {
   Member added = memberOf(scene_.contacts[number]);
   for (std::size_t g = 0; g < groups_.size() && !isAlongEdges(scene_, added.terms); ++g) {
     std::vector<Member> members = members_[g];
@@ -246,7 +246,7 @@ std::vector<ContactGroup> Groups::take() {
 
 std::vector<ContactGroup> contactGroups(const scene::Scene& scene, const std::vector<BodyLayout>& bodies) {
   Groups groups(scene, bodies);
-  for (std::size_t number = 0; number < scene.contacts.size(); ++number)
+  for (int number = 0; number < std::ssize(scene.contacts); ++number)
     groups.add(number);
   return groups.take();
 }

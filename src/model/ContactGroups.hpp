@@ -11,7 +11,7 @@
 namespace epafi::model {
 
 struct ContactGroup {
-  std::vector<std::size_t> numbers; ///< of the scene's contacts, ascending
+  std::vector<int> numbers; ///< of the scene's contacts, ascending
   /// The same, with the same bodies first and second. Each of the first one's surfaces has facets that those
   /// before it have not; what two of them have belongs to the earlier one.
   std::vector<scene::SurfaceContact> terms;

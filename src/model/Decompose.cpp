@@ -70,7 +70,7 @@ std::size_t bodyOf(const std::vector<BodyLayout>& bodies, int number) {
   const auto next =
       std::upper_bound(bodies.begin(), bodies.end(), number,
                        [](int wanted, const BodyLayout& body) { return wanted < body.firstSubdomain; });
-  return static_cast<std::size_t>(next - bodies.begin()) - 1;
+  return next - bodies.begin() - 1;
 }
 
 /// Assembles this rank's subdomains and hands them over, in the order of their numbers. Not collective.

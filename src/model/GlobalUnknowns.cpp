@@ -10,7 +10,7 @@ std::vector<std::vector<GlobalOrdinal>> globalUnknowns(const Decomposition& deco
   unknowns.reserve(problem.subdomains.size());
   for (const decomposition::Subdomain& subdomain : problem.subdomains) {
     std::vector<GlobalOrdinal>& numbers = unknowns.emplace_back();
-    numbers.reserve(subdomain.nodes.size() * static_cast<std::size_t>(components));
+    numbers.reserve(subdomain.nodes.size() * components);
     for (const GlobalOrdinal node : subdomain.nodes)
       for (GlobalOrdinal component = 0; component < components; ++component)
         numbers.push_back((firstNode[subdomain.body] + node) * components + component);

@@ -48,7 +48,7 @@ private:
     return own_.begin <= part && part < own_.end;
   }
   [[nodiscard]] std::size_t placeOf(GlobalOrdinal key) const {
-    return static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
+    return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
   }
   void numberNodes();
   void lookThrough();
@@ -109,7 +109,7 @@ void PieceMaker::numberNodes() {
 
 void PieceMaker::lookThrough() {
   numberNodes();
-  topology_.emplace(loose_.cellType, static_cast<LocalOrdinal>(keys_.size()), cells_);
+  topology_.emplace(loose_.cellType, keys_.size(), cells_);
 }
 
 void PieceMaker::takeOwn() {

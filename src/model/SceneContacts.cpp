@@ -31,7 +31,7 @@ void requireSound(const scene::Scene& scene, std::size_t number) {
   const scene::SurfaceContact& contact = scene.contacts[number];
   const std::string who = "contact '" + contact.name + "' ";
   for (const int body : {contact.first, contact.second})
-    if (body < -1 || body >= static_cast<int>(scene.bodies.size()) || contact.first < 0)
+    if (body < -1 || body >= std::ssize(scene.bodies) || contact.first < 0)
       throw InputError(who + "names body number " + std::to_string(body) + ", but the scene has " +
                        std::to_string(scene.bodies.size()) + " bodies, numbered from 0");
   if (!isAlongEdges(scene, contact))
@@ -79,7 +79,7 @@ std::vector<ContactLayout> partsOf(const ContactLayout& whole, const ContactGrou
   std::vector<ContactLayout> layouts;
   for (std::size_t part = 0; part < group.numbers.size(); ++part) {
     ContactLayout& layout = layouts.emplace_back(whole);
-    layout.number = static_cast<int>(group.numbers[part]);
+    layout.number = group.numbers[part];
     if (group.numbers.size() == 1)
       continue;
     layout.name = group.terms[part].name;
@@ -190,9 +190,8 @@ void numberRows(const std::vector<ContactGroup>& groups, std::vector<ContactLayo
       continue;
     }
     for (const ContactGroup& group : groups)
-      if (std::find(group.numbers.begin(), group.numbers.end(), static_cast<std::size_t>(layout.number)) !=
-          group.numbers.end())
-        layout.firstRow = firstRows.at(static_cast<int>(group.numbers.front()));
+      if (std::find(group.numbers.begin(), group.numbers.end(), layout.number) != group.numbers.end())
+        layout.firstRow = firstRows.at(group.numbers.front());
   }
 }
 
@@ -249,7 +248,7 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
     }
     const int components = componentsOf(scene.bodies[terms.first].physics);
     ContactLayout layout = Coupler(group, bodies, components, supported, tied).layout();
-    layout.number = static_cast<int>(group.numbers.front());
+    layout.number = group.numbers.front();
     dropRoundOff(terms, bodies, layout);
     if (!layout.firstShares.empty())
       layout.means += why;
@@ -307,7 +306,7 @@ void setFrictionData(const scene::Scene& scene, const std::vector<ContactLayout>
     for (const ContactLayout& contact : contacts)
       if (const GlobalOrdinal place = number - contact.firstRow; 0 <= place && place < contact.numRows()) {
         const scene::SurfaceContact& terms = scene.contacts[contact.number];
-        const auto row = static_cast<std::size_t>(place);
+        const std::size_t row = place;
         bound += terms.frictionBound * contact.portion(row) * contact.areas[row];
         coefficient += terms.friction * contact.portion(row);
       }

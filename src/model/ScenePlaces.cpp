@@ -45,7 +45,7 @@ contactPlaces(const std::vector<BodyLayout>& bodies, const std::vector<contact::
       continue;
     std::optional<Smooth> first, second; // once a row asks for them
     for (std::size_t row = 0; row < contact.firstNodes.size(); ++row) {
-      if (!rows.isNodeGlobalElement(contact.firstRow + static_cast<GlobalOrdinal>(row)))
+      if (!rows.isNodeGlobalElement(contact.firstRow + row))
         continue;
       if (!first) {
         first.emplace(bodies[contact.firstBody], contact.firstSurfaces);

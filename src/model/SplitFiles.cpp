@@ -99,7 +99,7 @@ void SplitReader::read(std::size_t number) {
 /// A file that is missing would be a hole in the body.
 void SplitReader::requireAll(const meshing::GmshFile& file) const {
   const GlobalOrdinal number = file.numPartitions();
-  if (number > 0 && number != static_cast<GlobalOrdinal>(files_.size()))
+  if (number > 0 && number != std::ssize(files_))
     throw InputError("The mesh file " + inQuotes(file.file()) + " is one of " + std::to_string(number) +
                      ", but " + std::to_string(files_.size()) +
                      " files have such a name; complete them, or remove those of another mesh");
@@ -167,8 +167,7 @@ meshing::LooseMesh SplitReader::take(std::size_t body, std::shared_ptr<const mes
 
 std::vector<meshing::LooseMesh> readSplitFiles(std::span<const scene::Body* const> bodies, const Comm& comm) {
   std::vector<std::string> files = agreedFiles(bodies.front()->mesh.file, comm);
-  const std::size_t number = files.size(), rank = static_cast<std::size_t>(comm.getRank()),
-                    ranks = static_cast<std::size_t>(comm.getSize());
+  const std::size_t number = files.size(), rank = comm.getRank(), ranks = comm.getSize();
   SplitReader reader(bodies, std::move(files));
   collectively(comm, [&] {
     for (std::size_t f = rank * number / ranks; f < (rank + 1) * number / ranks; ++f)

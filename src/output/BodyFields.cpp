@@ -71,7 +71,7 @@ void appendSubdomain(const BodyLayout& layout, const Subdomain& subdomain,
       continue;
     result.nodes.push_back(node);
     for (int component = 0; component < components; ++component)
-      result.values.push_back(displacement[static_cast<Eigen::Index>(k) * components + component]);
+      result.values.push_back(displacement[k * components + component]);
     const bool wouldBe =
         isPlane && (parts.size() > 2 || (parts.size() == 2 && layout.mesh->isBoundaryNode(node)));
     const bool isCrosspoint = kinds.free[k] != 0 ? kinds.crosspoint[k] != 0 : wouldBe;
@@ -92,7 +92,7 @@ NodeValues valuesOfSubdomains(const simulation::SolvedScene& solved, int body) {
     const Subdomain& subdomain = problem.subdomains[s];
     if (subdomain.body != body)
       continue;
-    const auto expected = static_cast<Eigen::Index>(subdomain.nodes.size()) * problem.components;
+    const Eigen::Index expected = subdomain.nodes.size() * problem.components;
     if (solution.displacement[s].size() != expected)
       throw Error("The displacement of subdomain " + std::to_string(subdomain.number) + " has " +
                   std::to_string(solution.displacement[s].size()) + " values instead of " +
@@ -115,7 +115,7 @@ MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal nu
   for (std::size_t column = 0; column < columns; ++column) {
     const auto data = from.getDataNonConst(column);
     for (Teuchos::Ordinal row = 0; row < data.size(); ++row)
-      data[row] = sent.values[static_cast<std::size_t>(row) * columns + column];
+      data[row] = sent.values[row * columns + column];
   }
   MultiVector to(target, columns);
   to.doImport(from, Import(source, target), Tpetra::INSERT);
@@ -123,10 +123,10 @@ MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal nu
 }
 
 void fillNodes(const MultiVector& values, int components, BodyFields& fields) {
-  const auto crosspoint = values.getData(static_cast<std::size_t>(components));
+  const auto crosspoint = values.getData(components);
   fields.u.resize(fields.nodes.count * components);
   for (int component = 0; component < components; ++component) {
-    const auto data = values.getData(static_cast<std::size_t>(component));
+    const auto data = values.getData(component);
     for (Teuchos::Ordinal row = 0; row < data.size(); ++row)
       fields.u[row * components + component] = data[row];
   }
@@ -174,13 +174,12 @@ void fillCells(const simulation::SolvedScene& solved, int body, BodyFields& fiel
                 width * sizeof(GlobalOrdinal));
     const std::size_t row = record[0] - fields.cells.first;
     fields.subdomain[row] = static_cast<int>(record[1]);
-    std::copy(record.begin() + 2, record.end(),
-              fields.corners.begin() + static_cast<std::ptrdiff_t>(row * perCell));
+    std::copy(record.begin() + 2, record.end(), fields.corners.begin() + row * perCell);
   }
 }
 
 void numberCrosspoints(const Comm& comm, BodyFields& fields) {
-  fields.crosspoints.count = static_cast<GlobalOrdinal>(fields.crosspointPoints.size() / 3);
+  fields.crosspoints.count = fields.crosspointPoints.size() / 3;
   fields.crosspoints.first = sumBefore(comm, fields.crosspoints.count);
   fields.numCrosspoints = sumOverRanks(comm, fields.crosspoints.count);
 }

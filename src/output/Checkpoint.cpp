@@ -134,16 +134,15 @@ Checkpoint readOnThisRank(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw InputError(std::string("cannot be opened: ") + std::strerror(errno));
-  const auto take = [&stream](void* bytes, std::size_t size) {
-    stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size));
-    return static_cast<std::size_t>(stream.gcount());
+  const auto take = [&stream](void* bytes, std::size_t size) -> std::size_t {
+    stream.read(static_cast<char*>(bytes), size);
+    return stream.gcount();
   };
   std::string text(longestHeader, '\0');
   text.resize(take(text.data(), text.size()));
   const Header header = parsed(text);
   std::uint64_t stored = 0;
-  const auto expected = header.length + sizeof stored +
-                        sizeof(double) * static_cast<std::uintmax_t>(header.fingerprint.numMultipliers());
+  const auto expected = header.length + sizeof stored + sizeof(double) * header.fingerprint.numMultipliers();
   if (const std::uintmax_t size = fs::file_size(file, error); size != expected)
     throw InputError("has " + std::to_string(size) + " bytes instead of " + std::to_string(expected) +
                      (size < expected ? ": it is cut off" : ": something was added to it"));
@@ -194,7 +193,7 @@ void writeCheckpoint(const fs::path& file, const Fingerprint& fingerprint, const
   ordered.doImport(lambda, Import(lambda.getMap(), inOrder), Tpetra::INSERT);
   const auto mine = ordered.getData();
   const std::vector<double> values =
-      gatherOnFirst(*comm, std::span<const double>(mine.getRawPtr(), static_cast<std::size_t>(mine.size())));
+      gatherOnFirst(*comm, std::span<const double>(mine.getRawPtr(), mine.size()));
   writeTextFile(
       file,
       [&] {
@@ -230,8 +229,8 @@ RCP<Vector> multipliersOf(const Checkpoint& checkpoint, const decomposition::Dec
         throw InputError("belongs to another problem: it " + difference);
     });
   });
-  const RCP<const Map> onFirst = rcp(new Map(static_cast<Tpetra::global_size_t>(fingerprint.numMultipliers()),
-                                             checkpoint.values.size(), 0, problem.comm));
+  const RCP<const Map> onFirst =
+      rcp(new Map(fingerprint.numMultipliers(), checkpoint.values.size(), 0, problem.comm));
   Vector whole(onFirst);
   std::copy(checkpoint.values.begin(), checkpoint.values.end(), whole.getDataNonConst().begin());
   const RCP<Vector> lambda = rcp(new Vector(problem.multiplierMap));

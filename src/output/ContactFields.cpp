@@ -33,12 +33,10 @@ void fillFacets(const simulation::SolvedScene& solved, int contact, ContactField
     const std::vector<std::size_t> own = layout.ownRows();
     const std::ptrdiff_t perFacet = surface.nodesPerFacet();
     for (auto begin = all.begin(); begin != all.end(); begin += perFacet) {
-      if (std::any_of(begin, begin + perFacet,
-                      [&](long long row) { return layout.portion(static_cast<std::size_t>(row)) == 0; }))
+      if (std::any_of(begin, begin + perFacet, [&](long long row) { return layout.portion(row) == 0; }))
         continue;
       for (auto row = begin; row != begin + perFacet; ++row)
-        corners.push_back(std::lower_bound(own.begin(), own.end(), static_cast<std::size_t>(*row)) -
-                          own.begin());
+        corners.push_back(std::lower_bound(own.begin(), own.end(), *row) - own.begin());
     }
     if (!corners.empty())
       fields.facetType = surface.facetType;
@@ -48,7 +46,7 @@ void fillFacets(const simulation::SolvedScene& solved, int contact, ContactField
     std::iota(corners.begin(), corners.end(), 0LL);
   }
   const int perFacet = fields.nodesPerFacet();
-  fields.numFacets = static_cast<GlobalOrdinal>(corners.size()) / perFacet;
+  fields.numFacets = std::ssize(corners) / perFacet;
   fields.facets = evenShare(fields.numFacets, solved.comm());
   const auto begin = corners.begin() + fields.facets.first * perFacet;
   fields.corners.assign(begin, begin + fields.facets.count * perFacet);
@@ -66,12 +64,12 @@ FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) 
   const mesh::Surface surface =
       mesh.surface(layout.secondBody == terms.second ? terms.secondSurface : terms.firstSurface);
   result.cornersPerFacet = numCornersOf(surface.facetType);
-  result.numFacets = static_cast<GlobalOrdinal>(surface.numFacets());
+  result.numFacets = surface.numFacets();
   std::map<GlobalOrdinal, long long> placeOf;
   for (std::size_t f = 0; f < surface.numFacets(); ++f)
     for (const GlobalOrdinal node : surface.facet(f).first(result.cornersPerFacet))
       placeOf.emplace(node, 0);
-  result.numPoints = static_cast<GlobalOrdinal>(placeOf.size());
+  result.numPoints = placeOf.size();
   result.points = evenShare(result.numPoints, solved.comm());
   result.facets = evenShare(result.numFacets, solved.comm());
   GlobalOrdinal next = 0;
@@ -83,7 +81,7 @@ FacingSurface facingSurface(const simulation::SolvedScene& solved, int contact) 
     result.places.insert(result.places.end(), point.begin(), point.end());
   }
   for (GlobalOrdinal f = result.facets.first; f < result.facets.first + result.facets.count; ++f)
-    for (const GlobalOrdinal node : surface.facet(static_cast<std::size_t>(f)).first(result.cornersPerFacet))
+    for (const GlobalOrdinal node : surface.facet(f).first(result.cornersPerFacet))
       result.corners.push_back(placeOf.at(node));
   return result;
 }
@@ -96,12 +94,12 @@ ContactFields gatherContactFields(const simulation::SolvedScene& solved, int con
 
   ContactFields fields;
   const std::vector<std::size_t> own = layout.ownRows();
-  fields.numRows = static_cast<GlobalOrdinal>(own.size());
+  fields.numRows = own.size();
   fields.rows = evenShare(fields.numRows, *problem.comm);
   std::vector<GlobalOrdinal> multipliers;
   for (GlobalOrdinal k = fields.rows.first; k < fields.rows.first + fields.rows.count; ++k) {
     const std::size_t row = own[k];
-    multipliers.push_back(layout.firstRow + static_cast<GlobalOrdinal>(row));
+    multipliers.push_back(layout.firstRow + row);
     const Point point = mesh.point(layout.firstNodes[row]);
     fields.points.insert(fields.points.end(), point.begin(), point.end());
     const Eigen::Vector3d normal = layout.spatialDirectionOf(row);

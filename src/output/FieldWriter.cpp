@@ -170,7 +170,7 @@ void putHead(Hdf5File& file, const model::Decomposition& decomposition,
              const fetidp::ContactSolution& solution) {
   file.attribute("/", "program", std::string("Epafi"));
   file.attribute("/", "format", 1LL);
-  file.attribute("/", "components", static_cast<long long>(decomposition.problem.components));
+  file.attribute("/", "components", GlobalOrdinal{decomposition.problem.components});
   file.attribute("/", "energy", solution.energy);
   file.attribute("/", "contact_force", solution.contactForce);
 }
@@ -231,14 +231,14 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
   file.createGroup("/bodies");
   file.createGroup("/contact");
   const auto bodyGroups = groupNames(decomposition.bodies);
-  for (std::size_t b = 0; b < bodyGroups.size(); ++b)
-    grids.push_back(putBody(file, "/bodies/" + bodyGroups[b], solved, evaluation, static_cast<int>(b)));
+  for (int b = 0; b < std::ssize(bodyGroups); ++b)
+    grids.push_back(putBody(file, "/bodies/" + bodyGroups[b], solved, evaluation, b));
   const auto contactGroups = groupNames(decomposition.contacts);
-  for (std::size_t c = 0; c < contactGroups.size(); ++c) {
+  for (int c = 0; c < std::ssize(contactGroups); ++c) {
     grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
                                bodyGroups[decomposition.contacts[c].firstBody],
-                               gatherContactFields(solved, static_cast<int>(c), evaluation.contacts[c])));
-    putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, static_cast<int>(c)));
+                               gatherContactFields(solved, c, evaluation.contacts[c])));
+    putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, c));
   }
   const auto tieGroups = groupNames(decomposition.ties);
   if (!tieGroups.empty())

@@ -26,9 +26,8 @@ std::uint64_t mixed(std::uint64_t x) {
 std::uint64_t numberOf(const decomposition::Subdomain& subdomain, std::size_t unknown, int components) {
   const int position = subdomain.unknownPosition[unknown];
   const auto node = subdomain.nodes[position / components];
-  const auto component = static_cast<std::uint64_t>(position % components);
-  return mixed(mixed(mixed(static_cast<std::uint64_t>(subdomain.number)) + static_cast<std::uint64_t>(node)) +
-               component);
+  const std::uint64_t component = position % components;
+  return mixed(mixed(mixed(subdomain.number) + node) + component);
 }
 
 } // namespace
@@ -38,13 +37,12 @@ Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem) {
   AccurateSum stiffness;
   for (const decomposition::Subdomain& subdomain : problem.subdomains) {
     for (const decomposition::ConstraintEntry& entry : subdomain.constraint) {
-      const auto row = static_cast<std::uint64_t>(problem.numberOf(entry.multiplier));
-      rows += mixed(numberOf(subdomain, static_cast<std::size_t>(entry.unknown), problem.components) + row);
+      const std::uint64_t row = problem.numberOf(entry.multiplier);
+      rows += mixed(numberOf(subdomain, entry.unknown, problem.components) + row);
     }
     for (int i = 0; i < subdomain.stiffness->rows(); ++i) {
       const double share =
-          static_cast<double>(numberOf(subdomain, static_cast<std::size_t>(i), problem.components) >> 11U) /
-          9007199254740992.0;
+          static_cast<double>(numberOf(subdomain, i, problem.components) >> 11U) / 9007199254740992.0;
       stiffness.add((1 + share) * subdomain.stiffness->coeff(i, i));
     }
   }

@@ -98,7 +98,7 @@ hid_t memoryType() {
 
 /// Room for an object and for the groups above it that may have to be made.
 std::uintmax_t bytesOfPath(const std::string& path) {
-  return bytesOfObject * static_cast<std::uintmax_t>(1 + std::count(path.begin(), path.end(), '/'));
+  return bytesOfObject * (1 + std::count(path.begin(), path.end(), '/'));
 }
 
 hid_t createFile(const std::filesystem::path& temporary, MPI_Comm comm) {

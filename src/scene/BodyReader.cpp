@@ -84,7 +84,7 @@ meshing::MeshSource readMesh(const ListReader& list, int dimension) {
   source.order = list.integer("Order");
   if (dimension == 2)
     source.elements[2] = 0;
-  requireTellableNodes(list, extent, source, static_cast<std::size_t>(dimension));
+  requireTellableNodes(list, extent, source, dimension);
   return source;
 }
 

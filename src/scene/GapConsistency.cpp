@@ -32,31 +32,29 @@ std::array<int, 2> cornersOf(const std::string& edge) {
   return edge == "bottom" ? std::array{0, 1} : std::array{2, 3};
 }
 
-int nodeOf(std::size_t body, int corner) {
-  return 4 * static_cast<int>(body) + corner;
+int nodeOf(int body, int corner) {
+  return 4 * body + corner;
 }
 
 /// All of them; the last node is the ground, u = 0.
 std::vector<Constraint> constraintsOf(const Scene& scene) {
-  const int ground = nodeOf(scene.bodies.size(), 0);
+  const int ground = nodeOf(static_cast<int>(scene.bodies.size()), 0);
   std::vector<Constraint> constraints;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+  for (int b = 0; b < std::ssize(scene.bodies); ++b)
     if (isMembraneOnRectangle(scene.bodies[b]))
       for (const fem::SolidSupport& support : scene.bodies[b].supports)
         for (const int corner : cornersOf(support.surface)) {
           const double value = support.value[0].value_or(0);
-          constraints.push_back({ground, nodeOf(b, corner), value, -1, static_cast<int>(b)});
-          constraints.push_back({nodeOf(b, corner), ground, -value, -1, static_cast<int>(b)});
+          constraints.push_back({ground, nodeOf(b, corner), value, -1, b});
+          constraints.push_back({nodeOf(b, corner), ground, -value, -1, b});
         }
-  for (std::size_t p = 0; p < scene.contacts.size(); ++p) {
+  for (int p = 0; p < std::ssize(scene.contacts); ++p) {
     const SurfaceContact& pair = scene.contacts[p];
     if (!isAlongEdges(scene, pair))
       continue;
     for (std::size_t end = 0; end < 2; ++end)
-      constraints.push_back(
-          {nodeOf(static_cast<std::size_t>(pair.second), cornersOf(pair.secondSurface)[end]),
-           nodeOf(static_cast<std::size_t>(pair.first), cornersOf(pair.firstSurface)[end]), pair.gap,
-           static_cast<int>(p), -1});
+      constraints.push_back({nodeOf(pair.second, cornersOf(pair.secondSurface)[end]),
+                             nodeOf(pair.first, cornersOf(pair.firstSurface)[end]), pair.gap, p, -1});
   }
   return constraints;
 }
@@ -111,7 +109,7 @@ std::string placeOf(const Scene& scene, int node) {
 } // namespace
 
 void requireConsistentGaps(const Scene& scene) {
-  const int numNodes = nodeOf(scene.bodies.size(), 0) + 1;
+  const int numNodes = nodeOf(static_cast<int>(scene.bodies.size()), 0) + 1;
   const std::vector<Constraint> cycle = negativeCycle(constraintsOf(scene), numNodes);
   if (cycle.empty())
     return;

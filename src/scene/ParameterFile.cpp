@@ -209,7 +209,7 @@ ParameterList readParameterFile(const std::string& path, const Comm& comm) {
   for (std::string* part : {&where, &text}) {
     auto length = static_cast<int>(part->size());
     Teuchos::broadcast(comm, 0, 1, &length);
-    part->resize(static_cast<std::size_t>(length));
+    part->resize(length);
     if (length > 0)
       Teuchos::broadcast(comm, 0, length, part->data());
   }

@@ -62,10 +62,10 @@ std::map<Step::Place, double> factorsOf(const ListReader& step, const std::strin
                                         const Scene& scene, const Of& of) {
   std::map<std::string, Step::Place> places;
   std::vector<std::string> names;
-  for (std::size_t body = 0; body < scene.bodies.size(); ++body)
-    for (std::size_t k = 0; k < of(scene.bodies[body]).size(); ++k) {
+  for (int body = 0; body < std::ssize(scene.bodies); ++body)
+    for (int k = 0; k < std::ssize(of(scene.bodies[body])); ++k) {
       names.push_back(scene.bodies[body].name + '/' + of(scene.bodies[body])[k].name);
-      places[names.back()] = {static_cast<int>(body), static_cast<int>(k)};
+      places[names.back()] = {body, k};
     }
   std::map<Step::Place, double> factors;
   for (const auto& [name, factor] : entriesOf(step, parameter)) {
@@ -83,14 +83,14 @@ std::map<int, double> gapsOf(const ListReader& step, const Scene& scene) {
     names.push_back(contact.name);
   std::map<int, double> gaps;
   for (const auto& [name, gap] : entriesOf(step, "Gaps")) {
-    std::size_t place = 0;
-    while (place < names.size() && names[place] != name)
+    int place = 0;
+    while (place < std::ssize(names) && names[place] != name)
       ++place;
-    if (place == names.size())
+    if (place == std::ssize(names))
       refuseName(step, "Gaps", name, names);
     if (scene.contacts[place].kind == SurfaceContact::Kind::tied)
       step.refuseValue("Gaps", "\"" + name + "\" is a tied joint, which keeps the gap that there is");
-    gaps[static_cast<int>(place)] = gap;
+    gaps[place] = gap;
   }
   return gaps;
 }
@@ -126,16 +126,13 @@ Scene atStep(Scene scene, const std::vector<Step>& steps, std::size_t last) {
     for (const auto& [place, factor] : steps[k].supports)
       supports[place] = factor;
     for (const auto& [contact, gap] : steps[k].gaps)
-      scene.contacts[static_cast<std::size_t>(contact)].gap = gap;
+      scene.contacts[contact].gap = gap;
   }
   for (const auto& [place, factor] : loads)
-    for (double& component : scene.bodies[static_cast<std::size_t>(place.first)]
-                                 .loads[static_cast<std::size_t>(place.second)]
-                                 .value)
+    for (double& component : scene.bodies[place.first].loads[place.second].value)
       component *= factor;
   for (const auto& [place, factor] : supports) {
-    fem::SolidSupport& support =
-        scene.bodies[static_cast<std::size_t>(place.first)].supports[static_cast<std::size_t>(place.second)];
+    fem::SolidSupport& support = scene.bodies[place.first].supports[place.second];
     for (std::optional<double>& component : support.value)
       if (component)
         *component *= factor;

@@ -34,17 +34,13 @@ public:
       : combinations_(combinations) {
     std::vector<GlobalOrdinal> needed;
     for (const std::size_t row : rows)
-      forEach(row, [&](std::size_t other, double) {
-        needed.push_back(layout.firstRow + static_cast<GlobalOrdinal>(other));
-      });
+      forEach(row, [&](std::size_t other, double) { needed.push_back(layout.firstRow + other); });
     const auto map = makeMap(std::move(needed), whole.getMap()->getComm());
     Vector here(map);
     here.doImport(whole, Import(whole.getMap(), map), Tpetra::INSERT);
     const auto data = here.getData();
-    for (Teuchos::Ordinal i = 0; i < data.size(); ++i)
-      values_.emplace(
-          static_cast<std::size_t>(map->getGlobalElement(static_cast<LocalOrdinal>(i)) - layout.firstRow),
-          data[i]);
+    for (LocalOrdinal i = 0; i < data.size(); ++i)
+      values_.emplace(map->getGlobalElement(i) - layout.firstRow, data[i]);
   }
 
   /// Σ weight · value of a row's combination.
@@ -114,8 +110,7 @@ double penetrationOn(const mesh::Surface& surface, const ContactLayout& layout, 
                      const Vector& slack) {
   const std::vector<long long> all = completeFacets(layout, surface);
   const std::size_t perFacet = surface.nodesPerFacet();
-  const RowRange mine =
-      evenShare(static_cast<GlobalOrdinal>(all.size() / perFacet), *slack.getMap()->getComm());
+  const RowRange mine = evenShare(all.size() / perFacet, *slack.getMap()->getComm());
   const auto begin = all.begin() + mine.first * static_cast<GlobalOrdinal>(perFacet);
   const std::vector<std::size_t> rows(begin, begin + mine.count * static_cast<GlobalOrdinal>(perFacet));
   const RowValues gaps(slack, layout, rows, toNodes);
@@ -136,7 +131,7 @@ double penetrationOn(const mesh::Surface& surface, const ContactLayout& layout, 
 std::vector<long long> completeFacets(const ContactLayout& layout, const mesh::Surface& surface) {
   std::unordered_map<GlobalOrdinal, long long> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
-    rowOf.emplace(layout.firstNodes[row], static_cast<long long>(row));
+    rowOf.emplace(layout.firstNodes[row], row);
   std::vector<long long> corners;
   for (std::size_t f = 0; f < surface.numFacets(); ++f) {
     const auto nodes = surface.facet(f);
@@ -154,7 +149,7 @@ ContactState contactState(const SolvedScene& solved, int contact) {
   const Shares& around = layout.isDual ? none : layout.smoothed;
 
   const std::vector<std::size_t> own = layout.ownRows();
-  const RowRange slab = evenShare(static_cast<GlobalOrdinal>(own.size()), solved.comm());
+  const RowRange slab = evenShare(own.size(), solved.comm());
   const std::vector<std::size_t> rows(own.begin() + slab.first, own.begin() + slab.first + slab.count);
   const Shares onNodes = forceShares(layout);
   const RowValues forces(multiplier, layout, rows, onNodes), pushes(multiplier, layout, rows, around),

@@ -39,8 +39,8 @@ void addSubdomain(const accuracy::SubdomainFlux& flux, const Subdomain& subdomai
   for (std::size_t k = 0; k <= numStresses; ++k) {
     const auto column = sums.getDataNonConst(k);
     for (Eigen::Index slot = 0; slot < flux.values.cols(); ++slot) {
-      const GlobalOrdinal node = subdomain.nodes[flux.nodeOf(static_cast<std::size_t>(slot))];
-      column[sums.getMap()->getLocalElement(node)] += flux.values(static_cast<Eigen::Index>(k), slot);
+      const GlobalOrdinal node = subdomain.nodes[flux.nodeOf(slot)];
+      column[sums.getMap()->getLocalElement(node)] += flux.values(k, slot);
     }
   }
 }
@@ -55,8 +55,8 @@ std::vector<AccurateSum> sumContacts(const SolvedScene& solved, const Evaluation
   const auto multiplier = solved.solution.multiplier->getData();
   const auto isActive = solved.solution.active->getData();
   std::vector<AccurateSum> sums(contacts.size() * numTerms);
-  for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
-    const decomposition::MultiplierNumber index = map.getGlobalElement(static_cast<LocalOrdinal>(i));
+  for (LocalOrdinal i = 0; i < multiplier.size(); ++i) {
+    const decomposition::MultiplierNumber index = map.getGlobalElement(i);
     if (solved.decomposition.problem.kindOf(index) != decomposition::RowKind::contact)
       continue;
     for (std::size_t place = 0; place < contacts.size(); ++place) {
@@ -153,26 +153,26 @@ std::vector<double> cellErrors(const SolvedScene& solved, const accuracy::ErrorE
 Evaluation evaluate(const SolvedScene& solved, const accuracy::ErrorEstimate* estimate) {
   Evaluation result;
   result.hasErrors = estimate != nullptr;
-  for (std::size_t body = 0; body < solved.scene.bodies.size(); ++body) {
+  for (int body = 0; body < std::ssize(solved.scene.bodies); ++body) {
     result.vonMises.emplace_back();
-    if (solved.elasticBody(static_cast<int>(body)) != nullptr)
-      result.vonMises.back() = vonMisesAtNodes(solved, static_cast<int>(body));
+    if (solved.elasticBody(body) != nullptr)
+      result.vonMises.back() = vonMisesAtNodes(solved, body);
     result.errors.emplace_back();
     if (estimate != nullptr)
-      result.errors.back() = cellErrors(solved, *estimate, static_cast<int>(body));
+      result.errors.back() = cellErrors(solved, *estimate, body);
   }
-  for (std::size_t contact = 0; contact < solved.decomposition.contacts.size(); ++contact)
-    result.contacts.push_back(contactState(solved, static_cast<int>(contact)));
+  for (int contact = 0; contact < std::ssize(solved.decomposition.contacts); ++contact)
+    result.contacts.push_back(contactState(solved, contact));
   return result;
 }
 
 std::vector<BodyResult> bodyResults(const SolvedScene& solved, const Evaluation& evaluation) {
   std::vector<BodyResult> results;
-  for (std::size_t b = 0; b < solved.scene.bodies.size(); ++b) {
+  for (int b = 0; b < std::ssize(solved.scene.bodies); ++b) {
     const scene::Body& body = solved.scene.bodies[b];
     BodyResult& result = results.emplace_back();
     result.name = body.name;
-    result.isElastic = solved.elasticBody(static_cast<int>(b)) != nullptr;
+    result.isElastic = solved.elasticBody(b) != nullptr;
     result.floats = solved.decomposition.problem.bodies[b].kernelDimension > 0;
     result.parts = solved.decomposition.bodies[b].partition->numParts();
     if (body.decomposition.method == scene::Decomposition::Method::metis)
@@ -181,7 +181,7 @@ std::vector<BodyResult> bodyResults(const SolvedScene& solved, const Evaluation&
       continue;
     const std::vector<double>& stress = evaluation.vonMises[b];
     const double largest = stress.empty() ? 0 : *std::max_element(stress.begin(), stress.end());
-    result.largestDisplacement = largestDisplacement(solved, static_cast<int>(b));
+    result.largestDisplacement = largestDisplacement(solved, b);
     result.largestStress = maxOverRanks(solved.comm(), largest);
   }
   return results;
@@ -195,7 +195,7 @@ std::vector<ContactResult> contactResults(const SolvedScene& solved, const Evalu
     const auto sumOf = [&](std::size_t term) { return sums[c * numTerms + term].value(); };
     ContactResult& result = results.emplace_back();
     result.name = contacts[c].name;
-    result.candidates = static_cast<GlobalOrdinal>(contacts[c].ownRows().size());
+    result.candidates = contacts[c].ownRows().size();
     result.activeNodes = static_cast<GlobalOrdinal>(sumOf(active));
     result.force = sumOf(force);
     result.resultant = {sumOf(resultant), sumOf(resultant + 1), sumOf(resultant + 2)};

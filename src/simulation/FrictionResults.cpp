@@ -28,16 +28,14 @@ public:
   /// Of a row, as its nodes are combined.
   [[nodiscard]] Vector3d at(std::size_t row, int k) const {
     Vector3d direction = Vector3d::Zero();
-    contact_.forEachShare(row, [&](std::size_t place, double weight) {
-      direction += weight * tangents_.at(place)[static_cast<std::size_t>(k)];
-    });
+    contact_.forEachShare(
+        row, [&](std::size_t place, double weight) { direction += weight * tangents_.at(place)[k]; });
     return direction;
   }
   /// Number of a row of friction among all multipliers.
   [[nodiscard]] GlobalOrdinal numberOf(const decomposition::DecomposedProblem& problem, std::size_t row,
                                        int k) const {
-    return problem.numInequalities +
-           numTangents_ * (contact_.firstFriction + static_cast<GlobalOrdinal>(row)) + k;
+    return problem.numInequalities + numTangents_ * (contact_.firstFriction + row) + k;
   }
 
 private:
@@ -123,7 +121,7 @@ FrictionResult frictionResult(const SolvedScene& solved, const ContactLayout& co
     const GlobalOrdinal place = problem.numberOf(node.contact) - contact.firstRow;
     if (place < 0 || place >= contact.numRows())
       continue;
-    const auto row = static_cast<std::size_t>(place);
+    const std::size_t row = place;
     const double portion = contact.portion(row);
     Vector3d along = Vector3d::Zero(), slipped = Vector3d::Zero();
     for (int k = 0; k < tangents.numTangents(); ++k) {
@@ -135,8 +133,8 @@ FrictionResult frictionResult(const SolvedScene& solved, const ContactLayout& co
     const Vector3d whole = force[node.contact] * contact.spatialDirectionOf(row) + along,
                    turning = Vector3d(point[0], point[1], point[2]).cross(whole);
     for (Eigen::Index d = 0; d < 3; ++d) {
-      sums[tangential + static_cast<std::size_t>(d)].add(sign * portion * along[d]);
-      sums[moment + static_cast<std::size_t>(d)].add(sign * portion * turning[d]);
+      sums[tangential + d].add(sign * portion * along[d]);
+      sums[moment + d].add(sign * portion * turning[d]);
     }
     if (active[node.contact] > 0.5 && portion > 0) {
       sums[active[node.firstTangent] > 0.5 ? stick : slip].add(areas[row]);
@@ -160,11 +158,11 @@ FrictionFields frictionFields(const SolvedScene& solved, const ContactLayout& co
   const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
   const RowTangents tangents(solved, contact);
   const std::vector<std::size_t> own = contact.ownRows();
-  const RowRange slab = evenShare(static_cast<GlobalOrdinal>(own.size()), solved.comm());
+  const RowRange slab = evenShare(own.size(), solved.comm());
   const std::vector<std::size_t> rows(own.begin() + slab.first, own.begin() + slab.first + slab.count);
   std::vector<GlobalOrdinal> normals, numbers;
   for (const std::size_t row : rows) {
-    normals.push_back(contact.firstRow + static_cast<GlobalOrdinal>(row));
+    normals.push_back(contact.firstRow + row);
     for (int k = 0; k < tangents.numTangents(); ++k)
       numbers.push_back(tangents.numberOf(problem, row, k));
   }

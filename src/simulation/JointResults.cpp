@@ -75,8 +75,8 @@ private:
                    moment = place.cross(force);
     size_ = std::max(size_, place.norm());
     for (Eigen::Index d = 0; d < 3; ++d) {
-      sums_[first + static_cast<std::size_t>(d)].add(force[d]);
-      sums_[first + 3 + static_cast<std::size_t>(d)].add(moment[d]);
+      sums_[first + d].add(force[d]);
+      sums_[first + 3 + d].add(moment[d]);
     }
   }
   [[nodiscard]] Vector3d vector(std::size_t first) const {
@@ -98,8 +98,8 @@ JointSums sumsOf(const SolvedScene& solved, const ContactLayout& layout, GlobalO
   const Map& map = *solved.decomposition.problem.multiplierMap;
   const auto multiplier = solved.solution.multiplier->getData();
   JointSums sums(solved, layout, placeOf(solved, layout.firstBody, layout.firstNodes.front()));
-  for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
-    const GlobalOrdinal row = map.getGlobalElement(static_cast<LocalOrdinal>(i)) - offset - layout.firstRow;
+  for (LocalOrdinal i = 0; i < multiplier.size(); ++i) {
+    const GlobalOrdinal row = map.getGlobalElement(i) - offset - layout.firstRow;
     if (row < 0 || row >= layout.numRows())
       continue;
     const std::size_t place = row;
@@ -153,7 +153,7 @@ TieForces forcesOf(const SolvedScene& solved, const ContactLayout& tie) {
 TieFields gatherTieFields(const SolvedScene& solved, const ContactLayout& tie) {
   const Tractions traction = forcesOf(solved, tie).tractions;
   TieFields fields;
-  fields.numNodes = static_cast<GlobalOrdinal>(traction.size());
+  fields.numNodes = traction.size();
   fields.nodes = evenShare(fields.numNodes, solved.comm());
   auto entry = std::next(traction.begin(), fields.nodes.first);
   for (GlobalOrdinal k = 0; k < fields.nodes.count; ++k, ++entry) {
@@ -174,8 +174,8 @@ ContactForce contactForce(const SolvedScene& solved, const ContactLayout& layout
     const GlobalOrdinal row = force.weights->getMap()->getGlobalElement(i) - layout.firstRow;
     if (row < 0 || row >= layout.numRows())
       continue;
-    const double portion = layout.portion(static_cast<std::size_t>(row));
-    layout.forEachShare(static_cast<std::size_t>(row), [&](std::size_t place, double weight) {
+    const double portion = layout.portion(row);
+    layout.forEachShare(row, [&](std::size_t place, double weight) {
       layout.forEachFirst(place, [&](const contact::NodeShare& share) {
         weights[i] +=
             portion * weight * share.weight * layout.spatialDirectionAt(place).dot(resultant) / force.value;
@@ -195,7 +195,7 @@ std::vector<TieResult> tieResults(const SolvedScene& solved) {
     const auto [sums, tractions] = forcesOf(solved, layout);
     TieResult& result = results.emplace_back();
     result.name = layout.name;
-    result.nodes = static_cast<GlobalOrdinal>(tractions.size());
+    result.nodes = tractions.size();
     const bool areSwapped = layout.firstBody != solved.scene.contacts[layout.number].first;
     const Vector3d resultant = (areSwapped ? 1.0 : -1.0) * sums.resultant();
     result.resultant = {resultant[0], resultant[1], resultant[2]};

@@ -82,7 +82,7 @@ private:
   std::size_t peak_ = 0;
 };
 
-constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr std::size_t none = -1;
 
 Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
     : layout_(layout), mesh_(*solved.decomposition.bodies[layout.firstBody].mesh),
@@ -102,8 +102,8 @@ Pressures::Pressures(const SolvedScene& solved, const ContactLayout& layout)
   std::vector<double> pushes(layout.firstNodes.size(), 0.0), areas = layout.areas;
   const Map& map = *solved.decomposition.problem.multiplierMap;
   const auto multiplier = solved.solution.multiplier->getData();
-  for (Teuchos::Ordinal i = 0; i < multiplier.size(); ++i) {
-    const GlobalOrdinal row = map.getGlobalElement(static_cast<LocalOrdinal>(i)) - layout.firstRow;
+  for (LocalOrdinal i = 0; i < multiplier.size(); ++i) {
+    const GlobalOrdinal row = map.getGlobalElement(i) - layout.firstRow;
     if (row >= 0 && row < layout.numRows())
       pushes[row] = multiplier[i];
   }
@@ -260,7 +260,7 @@ LargestPressure largestPressure(const SolvedScene& solved, const ContactLayout& 
   while (band < widest && pressures.patch(1 - band).rows.size() < most)
     band *= 2;
   const Patch patch = pressures.patch(1 - band), wider = pressures.patch(1 - 2 * band);
-  VectorXd weights = VectorXd::Unit(at(static_cast<std::size_t>(layout.numRows())), at(pressures.peak()));
+  VectorXd weights = VectorXd::Unit(at(layout.numRows()), at(pressures.peak()));
   if (patch.rows.size() >= most)
     weights = pressures.fit(patch);
   result.width = wider.width;

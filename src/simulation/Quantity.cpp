@@ -40,7 +40,7 @@ std::size_t placeOf(const std::string& name, const Things& things, const std::st
     refuse("asks for " + what + " '" + name + "', which the scene does not have" +
            (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
-  return static_cast<std::size_t>(found - names.begin());
+  return found - names.begin();
 }
 
 } // namespace

@@ -26,7 +26,7 @@ std::vector<double> allErrors(const SceneRun& run) {
   const model::Decomposition& decomposition = *run.decomposition;
   std::vector<std::size_t> first(1, 0);
   for (const model::BodyLayout& body : decomposition.bodies)
-    first.push_back(first.back() + static_cast<std::size_t>(body.mesh->numElements()));
+    first.push_back(first.back() + body.mesh->numElements());
   std::vector<double> errors(first.back(), 0.0);
   const auto& shares = run.result.quantity && run.result.quantity->failure.empty()
                            ? run.result.quantity->elements
@@ -36,7 +36,7 @@ std::vector<double> allErrors(const SceneRun& run) {
     const model::BodyLayout& body = decomposition.bodies[subdomain.body];
     const auto elements = body.partition->elementsOf(subdomain.number - body.firstSubdomain);
     for (std::size_t e = 0; e < elements.size(); ++e)
-      errors[first[subdomain.body] + static_cast<std::size_t>(elements[e])] = shares[s][e];
+      errors[first[subdomain.body] + elements[e]] = shares[s][e];
   }
   sumOverRanks(*decomposition.problem.comm, std::span(errors)); // each element is one rank's
   return errors;
@@ -119,7 +119,7 @@ protected:
     std::vector<std::vector<double>> values;
     auto next = elements.begin();
     for (const model::BodyLayout& body : run().decomposition->bodies) {
-      const auto end = next + static_cast<std::ptrdiff_t>(body.mesh->numElements());
+      const auto end = next + body.mesh->numElements();
       values.emplace_back(next, end);
       next = end;
     }

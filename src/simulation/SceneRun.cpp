@@ -133,7 +133,7 @@ std::vector<double> closingOf(const SceneRun& run) {
     const contact::ContactLayout& layout = run.decomposition->contacts[c];
     const ContactState& state = run.evaluation.contacts[c];
     const std::vector<std::size_t> own = layout.ownRows();
-    const std::size_t first = evenShare(static_cast<GlobalOrdinal>(own.size()), comm).first;
+    const std::size_t first = evenShare(own.size(), comm).first;
     double most = 0;
     for (std::size_t i = 0; i < state.gap.size(); ++i)
       if (state.force[i] > 0)
