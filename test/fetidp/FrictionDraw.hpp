@@ -1,7 +1,7 @@
 #pragma once
 
-/// Small scenes with friction drawn from a seed: blocks and cubes that are held, slide, or lie on a floor or on
-/// each other, with either law of friction.
+/// Small scenes with friction drawn from a seed: blocks and cubes that are held, slide, or lie on a floor or
+/// on each other, with either law of friction.
 
 #include "epafi/scene/Scene.hpp"
 

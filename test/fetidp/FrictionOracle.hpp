@@ -1,7 +1,7 @@
 #pragma once
 
-/// A solver of contact with friction that shares no line with Epafi's: whole bodies condensed to their contacts
-/// by dense factors, an alternating projection, then semismooth Newton on all nodes.
+/// A solver of contact with friction that shares no line with Epafi's: whole bodies condensed to their
+/// contacts by dense factors, an alternating projection, then semismooth Newton on all nodes.
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
