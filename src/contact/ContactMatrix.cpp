@@ -2,6 +2,7 @@
 
 #include "epafi/base/Maps.hpp"
 
+#include <Eigen/Geometry>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
