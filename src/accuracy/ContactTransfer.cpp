@@ -61,7 +61,7 @@ void transferContact(const Decomposition& from, const Vector& lambda, const Deco
         continue;
       tree.nearest(places[row], 4, near); // of equally near ones, as in the middle of a facet, the first
       const double nearest = pressure[*std::ranges::min_element(near, {}, [&](std::size_t i) {
-        return fem::diameterOf(std::array{sources[i], places[row]});
+        return mesh::diameterOf(std::array{sources[i], places[row]});
       })];
       values[local] = std::max(0.0, nearest) * fine.areas[row];
     }

@@ -30,10 +30,10 @@ std::string textOnAllRanks(const std::function<std::string()>& makeText, const C
   return text;
 }
 
-meshing::GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
+GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
                                  const Comm& comm) {
   std::string text = textOnAllRanks(makeText, comm);
-  std::optional<meshing::GmshFile> mesh;
+  std::optional<GmshFile> mesh;
   collectively(comm, [&] { mesh.emplace(meshing::readMsh(file, std::move(text))); });
   return std::move(*mesh);
 }

@@ -19,7 +19,7 @@ std::string textOnAllRanks(const std::function<std::string()>& makeText, const C
 /// Rank 0 makes the text of a file (of a geometry, by meshing it) and hands it to the others: they all have
 /// the same mesh, whatever Gmsh does on their machines. \param file its name, for errors. Collective. \throws
 /// what `makeText` throws, and readMsh(), the same on all ranks.
-meshing::GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
+GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
                                  const Comm& comm);
 
 } // namespace epafi::meshing

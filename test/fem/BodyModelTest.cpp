@@ -88,7 +88,7 @@ TEST(BodyModelTest, LoadsAreExactForBoxesThatCutElements) {
   const mesh::Box cut = mesh::rectangle(1.5, 7, -3, 0.5);
   const auto loadOf = [](const mesh::Box& box, bool inSpace) {
     scene::Body body = plainBody();
-    body.physics = inSpace ? fem::Physics::elasticity3d : fem::Physics::membrane;
+    body.physics = inSpace ? Physics::elasticity3d : Physics::membrane;
     body.mesh.box = {{1, 0, 0}, {2, 2, 3}};
     body.mesh.elements = {1, 1, inSpace ? 1 : 0};
     body.loads = {fem::loadInside("load", box, 1)};

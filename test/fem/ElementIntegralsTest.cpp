@@ -14,14 +14,13 @@ namespace {
 
 using namespace test;
 
-using fem::Physics;
 
 int componentsIn(mesh::CellType type, Physics physics) {
   return physics == Physics::membrane ? 1 : dimensionOf(type);
 }
 
 Eigen::MatrixXd stiffnessOf(mesh::CellType type, std::span<const Point> points, Physics physics,
-                            const fem::Material& of = material) {
+                            const Material& of = material) {
   Eigen::MatrixXd stiffness;
   elementStiffness(type, points, physics, of, stiffness);
   return stiffness;
@@ -117,7 +116,7 @@ TEST(ElementStiffnessTest, DoesNotKnowWhereTheElementIs) {
 TEST(ElementStiffnessTest, FollowsTheUnits) {
   onDistortedElements([](mesh::CellType type, const std::vector<Point>& points, Physics physics) {
     const double length = 1e3, modulus = 1e6, thickness = physics == Physics::membrane ? 1 : 20;
-    fem::Material other = material;
+    Material other = material;
     other.conductivity *= modulus;
     other.youngsModulus *= modulus;
     if (dimensionOf(type) == 2)

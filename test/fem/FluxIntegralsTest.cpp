@@ -13,7 +13,6 @@ namespace {
 
 using namespace test;
 
-using fem::Physics;
 
 Eigen::VectorXd randomValues(Eigen::Index size, std::uint32_t seed) {
   SignedRandomNumbers random(seed);

@@ -7,9 +7,8 @@
 namespace epafi::fem {
 namespace {
 
-using fem::Physics;
 
-const fem::Material steel{.conductivity = 1, .youngsModulus = 210e3, .poissonsRatio = 0.3, .thickness = 2};
+const Material steel{.conductivity = 1, .youngsModulus = 210e3, .poissonsRatio = 0.3, .thickness = 2};
 
 Eigen::Matrix3d diagonal(double x, double y, double z) {
   return Eigen::Vector3d(x, y, z).asDiagonal();

@@ -11,7 +11,6 @@
 namespace epafi::fem {
 namespace {
 
-using fem::Physics;
 using Value = std::optional<double>;
 
 std::unique_ptr<mesh::Mesh> meshFor(Physics physics) {
@@ -21,8 +20,8 @@ std::unique_ptr<mesh::Mesh> meshFor(Physics physics) {
   return std::make_unique<mesh::StructuredMesh>(mesh::rectangle(1, 3, -1, 1), std::array<int, 3>{4, 3, 0});
 }
 
-scene::Body solidOf(Physics physics) {
-  scene::Body solid;
+Solid solidOf(Physics physics) {
+  Solid solid;
   solid.name = "block";
   solid.physics = physics;
   solid.material = {2.0, 10.0, 0.3, 0.5};
@@ -37,7 +36,7 @@ int numZeroEigenvalues(const AssembledSubdomain& body) {
 struct Supported {
   std::string name;
   Physics physics;
-  std::vector<fem::SolidSupport> supports;
+  std::vector<SolidSupport> supports;
   int numModes;
 };
 
@@ -67,7 +66,7 @@ TEST(SolidModelTest, KernelIsExactlyWhatSupportsLeaveFree) {
   for (const Supported& body : supportedBodies()) {
     SCOPED_TRACE(body.name);
     const auto mesh = meshFor(body.physics);
-    scene::Body solid = solidOf(body.physics);
+    Solid solid = solidOf(body.physics);
     solid.supports = body.supports;
     const BodyModel model(solid, *mesh);
     EXPECT_EQ(model.kernelDimension(), body.numModes);
@@ -88,9 +87,9 @@ Eigen::Vector3d resultant(const BodyModel& model) {
 }
 
 TEST(SolidModelTest, LoadsAddUpToTheirForces) {
-  using Kind = fem::SolidLoad::Kind;
+  using Kind = SolidLoad::Kind;
   const auto space = meshFor(Physics::elasticity3d), plane = meshFor(Physics::planeStress);
-  scene::Body solid = solidOf(Physics::elasticity3d), plate = solidOf(Physics::planeStress);
+  Solid solid = solidOf(Physics::elasticity3d), plate = solidOf(Physics::planeStress);
   solid.loads = {{"weight", Kind::body, {}, "", {}, {1, 2, 3}},
                  {"half", Kind::body, {{1, -1, 0}, {3, 0, 1}}, "", {}, {0, 0, 1}},
                  {"pull", Kind::traction, {}, "right", {}, {0, 5, 0}},
@@ -109,11 +108,11 @@ TEST(SolidModelTest, LoadsAddUpToTheirForces) {
 
 TEST(SolidModelTest, RegionsHaveTheirMaterial) {
   const auto mesh = meshFor(Physics::planeStrain);
-  scene::Body solid = solidOf(Physics::planeStrain);
-  fem::Material hard = solid.material;
+  Solid solid = solidOf(Physics::planeStrain);
+  Material hard = solid.material;
   hard.youngsModulus *= 8;
   solid.regions = {{"right half", {{2, -1, 0}, {3, 1, 0}}, "", hard}};
-  const scene::Body plain = solidOf(Physics::planeStrain);
+  const Solid plain = solidOf(Physics::planeStrain);
   const BodyModel model(solid, *mesh), uniform(plain, *mesh);
   for (GlobalOrdinal element = 0; element < mesh->numElements(); ++element) {
     Eigen::MatrixXd k, reference;
@@ -126,7 +125,7 @@ TEST(SolidModelTest, RegionsHaveTheirMaterial) {
   }
 }
 
-std::string complaint(const scene::Body& solid, const mesh::Mesh& mesh) {
+std::string complaint(const Solid& solid, const mesh::Mesh& mesh) {
   try {
     const BodyModel model(solid, mesh);
   } catch (const InputError& error) {
@@ -136,23 +135,23 @@ std::string complaint(const scene::Body& solid, const mesh::Mesh& mesh) {
 }
 
 TEST(SolidModelTest, SaysWhatDoesNotGoTogether) {
-  using Kind = fem::SolidLoad::Kind;
+  using Kind = SolidLoad::Kind;
   const Value free, held = 0.0, other = 1.0;
   const auto mesh = meshFor(Physics::elasticity3d);
   const auto expectSays = [&](const auto& change, const std::string& words) {
-    scene::Body solid = solidOf(Physics::elasticity3d);
+    Solid solid = solidOf(Physics::elasticity3d);
     change(solid);
     const std::string said = complaint(solid, *mesh);
     EXPECT_NE(said.find(words), std::string::npos) << said;
     EXPECT_NE(said.find("block"), std::string::npos) << said;
   };
-  expectSays([&](scene::Body& s) { s.supports = {{"foot", "sole", {held, free, free}}}; }, "'sole'");
-  expectSays([&](scene::Body& s) { s.regions = {{"inlay", {}, "steel", {}}}; }, "'steel'");
-  expectSays([&](scene::Body& s) { s.regions = {{"inlay", {{8, 8, 8}, {9, 9, 9}}, "", {}}}; }, "inlay");
-  expectSays([&](scene::Body& s) { s.loads = {{"pin", Kind::point, {}, "", {1.1, 0, 0}, {}}}; }, "no node");
-  expectSays([&](scene::Body& s) { s.physics = Physics::planeStrain; }, "hexahedron");
+  expectSays([&](Solid& s) { s.supports = {{"foot", "sole", {held, free, free}}}; }, "'sole'");
+  expectSays([&](Solid& s) { s.regions = {{"inlay", {}, "steel", {}}}; }, "'steel'");
+  expectSays([&](Solid& s) { s.regions = {{"inlay", {{8, 8, 8}, {9, 9, 9}}, "", {}}}; }, "inlay");
+  expectSays([&](Solid& s) { s.loads = {{"pin", Kind::point, {}, "", {1.1, 0, 0}, {}}}; }, "no node");
+  expectSays([&](Solid& s) { s.physics = Physics::planeStrain; }, "hexahedron");
   expectSays(
-      [&](scene::Body& s) {
+      [&](Solid& s) {
         s.supports = {{"a", "left", {held, free, free}}, {"b", "top", {other, free, free}}};
       },
       "different values");

@@ -18,8 +18,6 @@
 namespace epafi::fem {
 namespace {
 
-using fem::Physics;
-using fem::SolidSupport;
 using test::arraysOf;
 using test::expectRefusal;
 using test::placed;
@@ -43,8 +41,8 @@ mesh::UnstructuredMesh turned(int dimension, double angle, bool simplices, doubl
   return mesh::UnstructuredMesh(arraysOf(*structured(dimension), placed(dimension, angle, far), simplices));
 }
 
-scene::Body solidWith(int dimension, std::vector<SolidSupport> supports) {
-  scene::Body solid;
+Solid solidWith(int dimension, std::vector<SolidSupport> supports) {
+  Solid solid;
   solid.name = "block";
   solid.physics = dimension == 3 ? Physics::elasticity3d : Physics::planeStrain;
   solid.supports = std::move(supports);
@@ -67,7 +65,7 @@ TEST(SolidSupportsTest, NormalsOfAxisParallelPlanesAreComponents) {
     const auto mesh = structured(dimension);
     SolidSupport left{"left", "left", {-0.25, none, none}}, bottom{"bottom", "bottom", {}};
     bottom.value[dimension - 1] = 0.5;
-    const scene::Body byComponents = solidWith(dimension, {left, bottom}),
+    const Solid byComponents = solidWith(dimension, {left, bottom}),
                       byNormals = solidWith(dimension, {slide("left", 0.25), slide("bottom", -0.5)});
     const BodyModel a(byComponents, *mesh), b(byNormals, *mesh);
     EXPECT_FALSE(b.hasFrames());
@@ -89,7 +87,7 @@ TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
   for (const int dimension : {2, 3})
     for (const bool simplices : {false, true})
       for (const auto& [supports, numModes] : dimension == 2 ? plane : space) {
-        const scene::Body solid = solidWith(dimension, supports);
+        const Solid solid = solidWith(dimension, supports);
         const mesh::UnstructuredMesh mesh = turned(dimension, 0.7, simplices);
         const BodyModel model(solid, mesh);
         EXPECT_TRUE(model.hasFrames());
@@ -118,7 +116,7 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
       std::vector<SolidSupport> supports{slide("left", 0.0), slide("right", 0.3), slide("bottom", 0.0)};
       if (dimension == 3)
         supports.push_back(slide("front"));
-      const scene::Body solid = solidWith(dimension, supports);
+      const Solid solid = solidWith(dimension, supports);
       const test::Placement placement = placed(dimension, 0.7, {11, -5, dimension == 3 ? 3.0 : 0.0});
       const auto straightMesh = structured(dimension);
       const mesh::UnstructuredMesh mesh(arraysOf(*straightMesh, placement, simplices)),
@@ -141,9 +139,9 @@ TEST(SolidSupportsTest, AStretchBetweenSlidingPlanesTurnsWithTheBody) {
 }
 
 TEST(SolidSupportsTest, LoadsAndEnergyTurnWithTheFrames) {
-  using Kind = fem::SolidLoad::Kind;
+  using Kind = SolidLoad::Kind;
   for (const int dimension : {2, 3}) {
-    scene::Body framed = solidWith(dimension, {slide("left")}), plain = solidWith(dimension, {});
+    Solid framed = solidWith(dimension, {slide("left")}), plain = solidWith(dimension, {});
     framed.loads = {{"press", Kind::pressure, {}, "left", {}, {7, 0, 0}},
                     {"weight", Kind::body, {}, "", {}, {1, 2, dimension == 3 ? 3.0 : 0.0}}};
     plain.loads = framed.loads;
@@ -188,7 +186,7 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
         support.value[draw(dimension)] = 0.0;
       supports.push_back(support);
     }
-    const scene::Body solid = solidWith(dimension, supports);
+    const Solid solid = solidWith(dimension, supports);
     const mesh::UnstructuredMesh mesh = turned(dimension, trial % 4 < 2 ? 0.0 : 0.1 * trial, trial % 3 == 0);
     const BodyModel model(solid, mesh);
     SCOPED_TRACE(trial);
@@ -202,7 +200,7 @@ TEST(SolidSupportsTest, RandomSupportsLeaveTheKernelOfTheMatrix) {
 TEST(SolidSupportsTest, NormalsAndComponentsMeetInANode) {
   const double s = std::sqrt(0.5);
   const mesh::UnstructuredMesh mesh = turned(2, std::atan(1.0), false, 0); // left: outward (−s, −s)
-  const scene::Body solid =
+  const Solid solid =
       solidWith(2, {{"pull", "left", {1.0, none, none}}, slide("left", 0.0)}); // held altogether: (1, −1)
   const BodyModel model(solid, mesh);
   EXPECT_FALSE(model.hasFrames());
@@ -215,18 +213,18 @@ TEST(SolidSupportsTest, NormalsAndComponentsMeetInANode) {
 TEST(SolidSupportsTest, ContradictionsAreRefused) {
   const mesh::UnstructuredMesh mesh = turned(3, 0.4, false);
   const auto refused = [&](std::vector<SolidSupport> supports, const std::vector<std::string>& words) {
-    const scene::Body solid = solidWith(3, std::move(supports));
+    const Solid solid = solidWith(3, std::move(supports));
     expectRefusal([&] { BodyModel(solid, mesh); }, words);
   };
   SolidSupport held{"glue", "left", {0.0, 0.0, 0.0}};
   refused({held, slide("left", 0.1)}, {"'block'", "'slide left'", "different values"});
   refused({slide("left", 0.0), slide("left", 0.2)}, {"different values"});
   refused({held, {"twist", "bottom", {0.0, 0.5, 0.0}}}, {"component y", "different values"});
-  const scene::Body agreeing =
+  const Solid agreeing =
       solidWith(3, {held, slide("left", 0.0), slide("bottom", 0.0), slide("front", 0.0)});
   EXPECT_NO_THROW(BodyModel(agreeing, mesh));
 
-  scene::Body membrane = solidWith(2, {slide("left")});
+  Solid membrane = solidWith(2, {slide("left")});
   membrane.physics = Physics::membrane;
   const auto flat = structured(2);
   expectRefusal([&] { BodyModel(membrane, *flat); }, {"'block'", "membrane", "normal"});
@@ -254,7 +252,7 @@ mesh::UnstructuredMesh ring(int spokes, const Angle& angle) {
 }
 
 TEST(SolidSupportsTest, ARimThatSlidesAlongItselfLeavesTheTurnWhereItsNormalsDo) {
-  const scene::Body solid = solidWith(2, {slide("rim")});
+  const Solid solid = solidWith(2, {slide("rim")});
   const mesh::UnstructuredMesh even = ring(24, [](int i) { return i * M_PI / 12; });
   for (const NodeNormal& at : supportNormals(even, even.surface("rim"))) {
     const Point x = even.point(at.node); // the mean of two chords' normals is the circle's
@@ -274,7 +272,7 @@ TEST(SolidSupportsTest, AnEdgeOfASurfaceHoldsAlongBothNormals) {
   const mesh::UnstructuredMesh square = ring(4, [](int i) { return i * M_PI / 2; });
   const auto normals = supportNormals(square, square.surface("rim"));
   EXPECT_EQ(normals.size(), 8U);
-  const scene::Body solid = solidWith(2, {slide("rim")});
+  const Solid solid = solidWith(2, {slide("rim")});
   const BodyModel model(solid, square);
   EXPECT_EQ(model.kernelDimension(), 0);
   EXPECT_FALSE(model.hasFrames());
@@ -296,7 +294,7 @@ TEST(SolidSupportsTest, TinyChangesOfTheGeometryKeepTheMotionsOfSlidingPlanes) {
       const mesh::MeshArrays arrays =
           arraysOf(*structured(dimension), placed(dimension, 0.7, {11, -5, 0}), true);
       const mesh::UnstructuredMesh mesh = disturbed(arrays, size, 5);
-      const scene::Body solid = solidWith(dimension, {slide("left")});
+      const Solid solid = solidWith(dimension, {slide("left")});
       const BodyModel model(solid, mesh);
       EXPECT_EQ(model.kernelDimension(), dimension == 2 ? 1 : 3) << size;
       const AssembledSubdomain whole = assembled(model);
@@ -312,7 +310,7 @@ TEST(SolidSupportsTest, ABodyThatIsHardlyHeldIsRefused) {
     if (point[0] == 2)
       point[0] += 1e-7 * 3 * point[1];
   const mesh::UnstructuredMesh mesh(arrays);
-  const scene::Body solid = solidWith(2, {slide("left"), slide("right")});
+  const Solid solid = solidWith(2, {slide("left"), slide("right")});
   expectRefusal([&] { BodyModel(solid, mesh); }, {"'block'", "hardly hold"});
 }
 

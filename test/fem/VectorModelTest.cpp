@@ -16,9 +16,9 @@ namespace {
 /// in part.
 scene::Body slidingPlate() {
   scene::Body body = plainBody(); // 4 × 3 elements
-  body.physics = fem::Physics::planeStress;
+  body.physics = Physics::planeStress;
   body.supports = {{"floor", "bottom", {std::nullopt, 1.5, std::nullopt}}};
-  fem::SolidLoad load = fem::loadInside("load", mesh::rectangle(0.3, 1.7, 0.1, 0.8), 2);
+  SolidLoad load = fem::loadInside("load", mesh::rectangle(0.3, 1.7, 0.1, 0.8), 2);
   load.value[1] = -5;
   body.loads = {load};
   return body;

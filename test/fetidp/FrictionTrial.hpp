@@ -7,6 +7,7 @@
 
 #include "support/HandedOver.hpp"
 
+#include "epafi/ContactSolver.hpp"
 #include "epafi/decomposition/FrictionRows.hpp"
 
 #include <memory>

@@ -13,7 +13,7 @@ namespace {
 
 using Corners = std::array<GlobalOrdinal, 8>;
 
-const mesh::Box brick{{-1, 0.5, 2}, {2, 1.5, 2.5}}; // 3 × 1 × ½
+const Box brick{{-1, 0.5, 2}, {2, 1.5, 2.5}}; // 3 × 1 × ½
 
 /// The general case, one element, one row of elements in each direction, one layer in each direction.
 const std::vector<std::array<int, 3>> boxSizes{{3, 2, 4}, {1, 1, 1}, {4, 1, 1}, {1, 4, 1},
@@ -138,7 +138,7 @@ TEST(BoxMeshTest, NeighboursAreThoseWhoShareFourNodes) {
 }
 
 TEST(BoxMeshTest, EndPointsAreExactWhateverTheSpacing) {
-  const mesh::Box box{{0.1, -0.3, 100.1}, {0.7, 0.9, 100.3}};
+  const Box box{{0.1, -0.3, 100.1}, {0.7, 0.9, 100.3}};
   const StructuredMesh fine(box, {7, 49, 11});
   EXPECT_EQ(fine.point(0), box.lower);
   EXPECT_EQ(fine.point(fine.numNodes() - 1), box.upper);

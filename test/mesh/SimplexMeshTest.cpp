@@ -23,7 +23,7 @@ using test::soundBody;
 using test::sumOf;
 
 constexpr std::array<std::array<int, 3>, 2> grids{{{3, 2, 0}, {2, 1, 3}}}; // in the plane, in space
-constexpr mesh::Box box{{0, -1, 2}, {3, 1, 2.5}};
+constexpr Box box{{0, -1, 2}, {3, 1, 2.5}};
 
 Point unmoved(const Point& point) {
   return point;

@@ -151,8 +151,8 @@ TEST(FrictionSceneTest, InSpaceFrictionPointsAgainstTheSlip) {
 TEST(FrictionSceneTest, AStepThatFrictionDoesNotHoldIsNamed) {
   scene::Scene scene = heldBlock(4, test::cutInGrid({2, 1, 1}));
   scene.bodies[0].supports.clear();
-  scene::SolidLoad load;
-  load.kind = scene::SolidLoad::Kind::traction;
+  fem::SolidLoad load;
+  load.kind = fem::SolidLoad::Kind::traction;
   load.where = "top";
   for (const Vector3& value : {Vector3{0, -0.01, 0}, Vector3{0.001, 0, 0}}) {
     load.value = value;
