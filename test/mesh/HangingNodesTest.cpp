@@ -9,8 +9,6 @@
 namespace epafi::mesh {
 namespace {
 
-using namespace test;
-
 TEST(HangingNodesTest, DistancesFromEdgesTrianglesAndWarpedPatches) {
   const std::vector<Point> edge{{1, 1, 0}, {4, 5, 0}};
   EXPECT_NEAR(distanceFrom(CellType::line, edge, {2.5, 3, 0}), 0, 1e-15);

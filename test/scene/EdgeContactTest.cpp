@@ -4,6 +4,7 @@
 
 namespace {
 
+using namespace epafi;
 using namespace epafi::scene;
 
 TEST(EdgeSegmentTest, RunsUpwardsOrToTheRight) {
