@@ -31,7 +31,7 @@ std::string textOnAllRanks(const std::function<std::string()>& makeText, const C
 }
 
 GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
-                                 const Comm& comm) {
+                        const Comm& comm) {
   std::string text = textOnAllRanks(makeText, comm);
   std::optional<GmshFile> mesh;
   collectively(comm, [&] { mesh.emplace(meshing::readMsh(file, std::move(text))); });

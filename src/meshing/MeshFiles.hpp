@@ -20,6 +20,6 @@ std::string textOnAllRanks(const std::function<std::string()>& makeText, const C
 /// the same mesh, whatever Gmsh does on their machines. \param file its name, for errors. Collective. \throws
 /// what `makeText` throws, and readMsh(), the same on all ranks.
 GmshFile meshOnAllRanks(const std::string& file, const std::function<std::string()>& makeText,
-                                 const Comm& comm);
+                        const Comm& comm);
 
 } // namespace epafi::meshing

@@ -14,7 +14,6 @@ namespace {
 
 using namespace test;
 
-
 int componentsIn(mesh::CellType type, Physics physics) {
   return physics == Physics::membrane ? 1 : dimensionOf(type);
 }

@@ -15,7 +15,6 @@ namespace {
 
 using namespace test;
 
-
 /// The displacement's gradient in these tests, 0 where the plane has no component.
 Eigen::Matrix3d gradientIn(mesh::CellType type) {
   Eigen::Matrix3d gradient;

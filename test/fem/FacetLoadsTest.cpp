@@ -13,7 +13,6 @@ namespace {
 
 using namespace test;
 
-
 /// Σ x_a × f_a
 Eigen::Vector3d moment(std::span<const Point> points, const Eigen::VectorXd& load) {
   const auto components = load.size() / static_cast<Eigen::Index>(points.size());

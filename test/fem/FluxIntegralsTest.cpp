@@ -13,7 +13,6 @@ namespace {
 
 using namespace test;
 
-
 Eigen::VectorXd randomValues(Eigen::Index size, std::uint32_t seed) {
   SignedRandomNumbers random(seed);
   Eigen::VectorXd values(size);

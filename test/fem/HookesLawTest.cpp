@@ -7,7 +7,6 @@
 namespace epafi::fem {
 namespace {
 
-
 const Material steel{.conductivity = 1, .youngsModulus = 210e3, .poissonsRatio = 0.3, .thickness = 2};
 
 Eigen::Matrix3d diagonal(double x, double y, double z) {

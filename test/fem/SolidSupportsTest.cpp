@@ -66,7 +66,7 @@ TEST(SolidSupportsTest, NormalsOfAxisParallelPlanesAreComponents) {
     SolidSupport left{"left", "left", {-0.25, none, none}}, bottom{"bottom", "bottom", {}};
     bottom.value[dimension - 1] = 0.5;
     const Solid byComponents = solidWith(dimension, {left, bottom}),
-                      byNormals = solidWith(dimension, {slide("left", 0.25), slide("bottom", -0.5)});
+                byNormals = solidWith(dimension, {slide("left", 0.25), slide("bottom", -0.5)});
     const BodyModel a(byComponents, *mesh), b(byNormals, *mesh);
     EXPECT_FALSE(b.hasFrames());
     const AssembledSubdomain x = assembled(a), y = assembled(b);
@@ -220,8 +220,7 @@ TEST(SolidSupportsTest, ContradictionsAreRefused) {
   refused({held, slide("left", 0.1)}, {"'block'", "'slide left'", "different values"});
   refused({slide("left", 0.0), slide("left", 0.2)}, {"different values"});
   refused({held, {"twist", "bottom", {0.0, 0.5, 0.0}}}, {"component y", "different values"});
-  const Solid agreeing =
-      solidWith(3, {held, slide("left", 0.0), slide("bottom", 0.0), slide("front", 0.0)});
+  const Solid agreeing = solidWith(3, {held, slide("left", 0.0), slide("bottom", 0.0), slide("front", 0.0)});
   EXPECT_NO_THROW(BodyModel(agreeing, mesh));
 
   Solid membrane = solidWith(2, {slide("left")});
