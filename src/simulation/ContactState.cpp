@@ -4,6 +4,7 @@
 #include "epafi/base/Maps.hpp"
 #include "epafi/base/Slab.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
+#include "epafi/simulation/RowShares.hpp"
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>
@@ -16,7 +17,6 @@ namespace epafi::simulation {
 namespace {
 
 using contact::ContactLayout;
-using Shares = std::vector<std::vector<ContactLayout::Share>>;
 
 /// Penetration is looked for at this many points and one along each edge of a facet.
 constexpr int latticeSteps = 8;
@@ -30,11 +30,12 @@ class RowValues {
 public:
   /// Collective.
   RowValues(const Vector& whole, const ContactLayout& layout, const std::vector<std::size_t>& rows,
-            const Shares& combinations)
+            const RowShares& combinations)
       : combinations_(combinations) {
     std::vector<GlobalOrdinal> needed;
     for (const std::size_t row : rows)
-      forEach(row, [&](std::size_t other, double) { needed.push_back(layout.firstRow + other); });
+      forEachRow(combinations, row,
+                 [&](std::size_t other, double) { needed.push_back(layout.firstRow + other); });
     const auto map = makeMap(std::move(needed), whole.getMap()->getComm());
     Vector here(map);
     here.doImport(whole, Import(whole.getMap(), map), Tpetra::INSERT);
@@ -46,39 +47,24 @@ public:
   /// Σ weight · value of a row's combination.
   [[nodiscard]] double at(std::size_t row) const {
     double sum = 0;
-    forEach(row, [&](std::size_t other, double weight) { sum += weight * values_.at(other); });
+    forEachRow(combinations_, row,
+               [&](std::size_t other, double weight) { sum += weight * values_.at(other); });
     return sum;
   }
 
 private:
-  template <class Action>
-  void forEach(std::size_t row, const Action& action) const {
-    if (combinations_.empty())
-      return action(row, 1.0);
-    for (const ContactLayout::Share& share : combinations_[row])
-      action(share.node, share.weight);
-  }
-
-  const Shares& combinations_;
+  const RowShares& combinations_;
   std::unordered_map<std::size_t, double> values_;
 };
 
-Shares transposed(const Shares& shares) {
-  Shares result(shares.size());
-  for (std::size_t row = 0; row < shares.size(); ++row)
-    for (const ContactLayout::Share& share : shares[row])
-      result[share.node].push_back({row, share.weight});
-  return result;
-}
-
 /// What rows contribute to the forces on the nodes that have one; empty: each row is that of its own node.
-Shares forceShares(const ContactLayout& layout) {
+RowShares forceShares(const ContactLayout& layout) {
   if (layout.firstShares.empty())
     return transposed(layout.combinations);
   std::unordered_map<GlobalOrdinal, std::size_t> rowOf;
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     rowOf.emplace(layout.firstNodes[row], row);
-  Shares result(layout.firstNodes.size());
+  RowShares result(layout.firstNodes.size());
   for (std::size_t row = 0; row < layout.firstNodes.size(); ++row)
     for (const contact::NodeShare& share : layout.firstShares[row])
       if (const auto place = rowOf.find(share.node); place != rowOf.end())
@@ -106,7 +92,7 @@ std::vector<Eigen::VectorXd> latticeOn(mesh::CellType facet) {
 }
 
 /// Of the facets that are this rank's. Collective.
-double penetrationOn(const mesh::Surface& surface, const ContactLayout& layout, const Shares& toNodes,
+double penetrationOn(const mesh::Surface& surface, const ContactLayout& layout, const RowShares& toNodes,
                      const Vector& slack) {
   const std::vector<long long> all = completeFacets(layout, surface);
   const std::size_t perFacet = surface.nodesPerFacet();
@@ -145,13 +131,12 @@ std::vector<long long> completeFacets(const ContactLayout& layout, const mesh::S
 ContactState contactState(const SolvedScene& solved, int contact) {
   const ContactLayout& layout = solved.decomposition.contacts[contact];
   const Vector &slack = *solved.solution.slack, &multiplier = *solved.solution.multiplier;
-  const Shares none, toNodes = layout.isDual ? transposed(layout.smoothed) : none;
-  const Shares& around = layout.isDual ? none : layout.smoothed;
+  const RowShares around = sharesOfMeans(layout), toNodes = sharesOfSlacks(layout);
 
   const std::vector<std::size_t> own = layout.ownRows();
   const RowRange slab = evenShare(own.size(), solved.comm());
   const std::vector<std::size_t> rows(own.begin() + slab.first, own.begin() + slab.first + slab.count);
-  const Shares onNodes = forceShares(layout);
+  const RowShares onNodes = forceShares(layout);
   const RowValues forces(multiplier, layout, rows, onNodes), pushes(multiplier, layout, rows, around),
       gaps(slack, layout, rows, toNodes);
 
@@ -159,11 +144,7 @@ ContactState contactState(const SolvedScene& solved, int contact) {
   state.areas = layout.areas;
   for (const std::size_t row : rows) {
     double area = 0;
-    if (around.empty())
-      area = state.areas[row];
-    else
-      for (const ContactLayout::Share& share : around[row])
-        area += share.weight * state.areas[share.node];
+    forEachRow(around, row, [&](std::size_t other, double weight) { area += weight * state.areas[other]; });
     state.force.push_back(layout.portion(row) * forces.at(row));
     state.pressure.push_back(pushes.at(row) / area);
     state.gap.push_back(gaps.at(row));

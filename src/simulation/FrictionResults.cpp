@@ -4,6 +4,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/contact/ContactMatrix.hpp"
+#include "epafi/simulation/RowShares.hpp"
 
 #include <Eigen/Geometry>
 #include <Tpetra_Import.hpp>
@@ -58,50 +59,38 @@ std::vector<double> valuesOf(const Vector& vector, const std::vector<GlobalOrdin
   return {values.begin(), values.end()};
 }
 
-/// Means of λ_t around nodes, taken as those of the pressure are (ContactState), so that one is μ times the
-/// other where all that counts slips.
-class MeanTractions {
+/// Sums of tangential forces, or of slacks, over the rows of nodes.
+class TangentialSums {
 public:
+  /// Keeps references. \param rows  whose sums are asked for \param shares  what each of them consists of
   /// Collective.
-  MeanTractions(const SolvedScene& solved, const ContactLayout& contact, const RowTangents& tangents,
-                const std::vector<std::size_t>& rows)
-      : contact_(contact) {
+  TangentialSums(const Vector& whole, const SolvedScene& solved, const RowTangents& tangents,
+                 const std::vector<std::size_t>& rows, const RowShares& shares)
+      : shares_(shares) {
     std::vector<std::size_t> near;
     for (const std::size_t row : rows)
-      forEach(row, [&](std::size_t other, double) { near.push_back(other); });
+      forEachRow(shares, row, [&](std::size_t other, double) { near.push_back(other); });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     std::vector<GlobalOrdinal> numbers;
     for (const std::size_t row : near)
       for (int k = 0; k < tangents.numTangents(); ++k)
         numbers.push_back(tangents.numberOf(solved.decomposition.problem, row, k));
-    const std::vector<double> values = valuesOf(*solved.solution.multiplier, numbers);
+    const std::vector<double> values = valuesOf(whole, numbers);
     std::size_t next = 0;
     for (const std::size_t row : near)
       for (int k = 0; k < tangents.numTangents(); ++k)
-        forces_.try_emplace(row, Vector3d::Zero()).first->second += values[next++] * tangents.at(row, k);
+        values_.try_emplace(row, Vector3d::Zero()).first->second += values[next++] * tangents.at(row, k);
   }
   [[nodiscard]] Vector3d at(std::size_t row) const {
-    Vector3d force = Vector3d::Zero();
-    double area = 0;
-    forEach(row, [&](std::size_t other, double weight) {
-      force += weight * forces_.at(other);
-      area += weight * contact_.areas[other];
-    });
-    return force / area;
+    Vector3d sum = Vector3d::Zero();
+    forEachRow(shares_, row, [&](std::size_t other, double weight) { sum += weight * values_.at(other); });
+    return sum;
   }
 
 private:
-  template <class Action>
-  void forEach(std::size_t row, const Action& action) const {
-    if (contact_.isDual || contact_.smoothed.empty())
-      return action(row, 1.0);
-    for (const ContactLayout::Share& share : contact_.smoothed[row])
-      action(share.node, share.weight);
-  }
-
-  const ContactLayout& contact_;
-  std::unordered_map<std::size_t, Vector3d> forces_;
+  const RowShares& shares_;
+  std::unordered_map<std::size_t, Vector3d> values_;
 };
 
 } // namespace
@@ -160,30 +149,28 @@ FrictionFields frictionFields(const SolvedScene& solved, const ContactLayout& co
   const std::vector<std::size_t> own = contact.ownRows();
   const RowRange slab = evenShare(own.size(), solved.comm());
   const std::vector<std::size_t> rows(own.begin() + slab.first, own.begin() + slab.first + slab.count);
-  std::vector<GlobalOrdinal> normals, numbers;
+  std::vector<GlobalOrdinal> normals, firsts;
   for (const std::size_t row : rows) {
     normals.push_back(contact.firstRow + row);
-    for (int k = 0; k < tangents.numTangents(); ++k)
-      numbers.push_back(tangents.numberOf(problem, row, k));
+    firsts.push_back(tangents.numberOf(problem, row, 0));
   }
-  const MeanTractions tractions(solved, contact, tangents, rows);
-  const std::vector<double> slacks = valuesOf(*solved.solution.slack, numbers),
-                            sticks = valuesOf(*solved.solution.active, numbers),
+  // as those of the pressure and of the gap are (ContactState)
+  const RowShares around = sharesOfMeans(contact), toNodes = sharesOfSlacks(contact);
+  const TangentialSums forces(*solved.solution.multiplier, solved, tangents, rows, around),
+      slacks(*solved.solution.slack, solved, tangents, rows, toNodes);
+  const std::vector<double> sticks = valuesOf(*solved.solution.active, firsts),
                             closed = valuesOf(*solved.solution.active, normals);
   FrictionFields fields;
   const double sign = signOf(solved, contact);
-  std::size_t next = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vector3d traction = sign * tractions.at(rows[i]);
-    Vector3d slip = Vector3d::Zero();
-    const bool isStick = sticks[next] > 0.5;
-    for (int k = 0; k < tangents.numTangents(); ++k, ++next)
-      slip -= sign * slacks[next] * tangents.at(rows[i], k);
+    double area = 0;
+    forEachRow(around, rows[i], [&](std::size_t row, double weight) { area += weight * contact.areas[row]; });
+    const Vector3d traction = sign / area * forces.at(rows[i]), slip = -sign * slacks.at(rows[i]);
     fields.traction.insert(fields.traction.end(), traction.begin(), traction.end());
     fields.slip.insert(fields.slip.end(), slip.begin(), slip.end());
-    const FrictionState state = closed[i] <= 0.5 ? FrictionState::open
-                                : isStick        ? FrictionState::stick
-                                                 : FrictionState::slip;
+    const FrictionState state = closed[i] <= 0.5  ? FrictionState::open
+                                : sticks[i] > 0.5 ? FrictionState::stick
+                                                  : FrictionState::slip;
     fields.state.push_back(static_cast<int>(state));
   }
   return fields;

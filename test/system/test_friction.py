@@ -11,6 +11,9 @@ import tempfile
 import types
 import unittest
 
+import h5py
+import numpy
+
 EPAFI, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 STUDY = SOURCE / "drivers/study/friction"
 COMPLETE, FAILED, WRONG_USAGE = range(3)
@@ -20,6 +23,67 @@ study = types.SimpleNamespace(**runpy.run_path(str(STUDY), run_name="study"))
 def run(*arguments):
     return subprocess.run([STUDY, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120,
                           check=False)
+
+CUBE = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Physical Volume("cube") = {1};
+Physical Surface("bottom") = {5};
+Physical Surface("top") = {6};
+Mesh.MeshSizeMin = 0.35;
+Mesh.MeshSizeMax = 0.35;
+"""
+# A block of order 2 on a rigid floor, its top pressed down and pushed aside.
+PUSHED = """<ParameterList name="Epafi">
+  <ParameterList name="Bodies">
+    <ParameterList name="block">
+      <Parameter name="Physics" type="string" value="{physics}"/>
+      {mesh}
+      <Parameter name="Order" type="int" value="2"/>
+      <Parameter name="Young's Modulus" type="double" value="1"/>
+      <Parameter name="Poisson's Ratio" type="double" value="0.3"/>
+      <ParameterList name="Supports">
+        <ParameterList name="push">
+          <Parameter name="Surface" type="string" value="top"/>
+          <Parameter name="X" type="double" value="0.005"/>{across}
+          <Parameter name="{up}" type="double" value="-0.01"/>
+        </ParameterList>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Obstacles">
+    <ParameterList name="plate">
+      <Parameter name="Kind" type="string" value="plane"/>
+      <Parameter name="Point" type="Array(double)" value="{origin}"/>
+      <Parameter name="Normal" type="Array(double)" value="{normal}"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Contact">
+    <ParameterList name="floor">
+      <Parameter name="First Body" type="string" value="block"/>
+      <Parameter name="First Surface" type="string" value="bottom"/>
+      <Parameter name="Obstacle" type="string" value="plate"/>
+      <Parameter name="Friction" type="double" value="0.2"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Solver">
+    <Parameter name="Tolerance" type="double" value="1e-10"/>
+  </ParameterList>
+</ParameterList>
+"""
+
+
+def pushed(mesh):
+    """The scene on a grid in the plane, on one in space, or on tetrahedra."""
+    grids = {"plane": ("Rectangle", "{0, 1, 0, 1}", "{6, 6}"), "space": ("Box", "{0, 1, 0, 1, 0, 1}", "{3, 3, 3}")}
+    words = f'<Parameter name="Mesh" type="string" value="{mesh}"/>'
+    if mesh in grids:
+        kind, box, elements = grids[mesh]
+        words = (f'<Parameter name="{kind}" type="Array(double)" value="{box}"/>'
+                 f'<Parameter name="Elements" type="Array(int)" value="{elements}"/>')
+    if mesh == "plane":
+        return PUSHED.format(physics="plane strain", mesh=words, across="", up="Y", origin="{0, 0}", normal="{0, 1}")
+    return PUSHED.format(physics="elasticity 3-D", mesh=words, across='<Parameter name="Y" type="double" value="0.002"/>',
+                         up="Z", origin="{0, 0, 0}", normal="{0, 0, 1}")
 
 
 class Friction(unittest.TestCase):
@@ -74,6 +138,30 @@ class Friction(unittest.TestCase):
         self.assertEqual(len([row for row in rows if row["source"] == "computed"]), 13)
         report = study.xml.etree.ElementTree.parse(self.place / "report.xml").getroot()
         self.assertAlmostEqual(float(study.listed(report, "Contact", "joint", "Force")), 50.0 * 100, delta=1e-3)
+
+    def test_slip_is_the_displacement_along_the_floor_and_traction_within_coulombs_law_at_each_node(self):
+        (self.place / "cube.geo").write_text(CUBE, encoding="utf-8")
+        for mesh in ("plane", "space", "cube.geo"):
+            with self.subTest(mesh=mesh):
+                (self.place / "pushed.xml").write_text(pushed(mesh), encoding="utf-8")
+                ended = subprocess.run([EPAFI, self.place / "pushed.xml", "--quiet", "--output", self.place],
+                                       capture_output=True, text=True, timeout=120, check=False)
+                self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
+                with h5py.File(self.place / "pushed.h5", "r") as file:
+                    body, contact = file["bodies/block"], file["contact/floor"]
+                    points, u = body["points"][:], body["u"][:]
+                    places, slip, traction, pressure, state = (contact[name][:] for name in
+                                                               ("points", "slip", "traction", "pressure", "friction_state"))
+                nodes = [int(numpy.argmin(numpy.linalg.norm(points - place, axis=1))) for place in places]
+                along = u.shape[1] - 1
+                slips, size = state == 1, numpy.abs(slip).max()
+                self.assertGreater(slips.sum(), 4)
+                self.assertGreater(size, 1e-3)
+                closed = state > 0
+                off = numpy.abs(slip[closed][:, :along] - u[nodes][closed][:, :along]).max()
+                self.assertLess(off, 1e-6 * size)
+                length = numpy.linalg.norm(traction, axis=1)
+                self.assertLess((length - 0.2 * pressure).max(), 1e-6 * pressure.max())
 
     def test_the_study_writes_tables_and_says_what_went_wrong(self):
         ended = run("--program", EPAFI, "--output", self.place, "--factor", 4)
