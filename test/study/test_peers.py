@@ -340,7 +340,7 @@ class Peers(unittest.TestCase):
                                 ("have mortars", ["--problem", "held_blocks", "--multipliers", "upper", "--solvers", "snesvi_hypre"]),
                                 ("for blocks only", ["--lower-size", "8"]), ("within 1 ... 8", ["--problem", "lug", "--size", "9"]),
                                 ("snesvi_cholmod", ["--problem", "bracket", "--solvers", "calculix"]),
-                                ("setup build", ["--programs", str(self.place)])):
+                                ("setup studies", ["--programs", str(self.place)])):
             run = self.peers(*arguments)
             self.assertEqual(run.returncode, WRONG_USAGE, run.stdout + run.stderr)
             self.assertIn(word, run.stderr)
