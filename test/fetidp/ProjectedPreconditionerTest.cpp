@@ -1,7 +1,7 @@
 #include "support/Preconditioned.hpp"
 
 #include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
-#include "epafi/fetidp/equilibrium/ProjectedPreconditioner.hpp"
+#include "epafi/fetidp/equilibrium/ProjectedOperator.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
@@ -17,7 +17,7 @@ struct Projected {
   Projected(const scene::Scene& scene, const PreconditionerParameters& parameters, double penalty)
       : base(scene, parameters), m(matrixOf(base.m)),
         op(rcpFromRef(base.m), rcp(new NaturalCoarseSpace(base.problem, kernelConstraint(base.problem))),
-           penalty) {
+           1 / penalty) {
     const Eigen::MatrixXd z = kernelOf(kernelRows(base.problem));
     p = z * z.transpose();
     q = Eigen::MatrixXd::Identity(p.rows(), p.rows()) - p;
@@ -25,7 +25,7 @@ struct Projected {
 
   Preconditioned base;
   Eigen::MatrixXd m, p, q;
-  ProjectedPreconditioner op;
+  ProjectedOperator op;
 };
 
 std::vector<ContactCase> floatingCases() {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// PFP, the Hessian of the dual problem of floating bodies on Ker G.
+/// PAP + σQ with an orthogonal projector P = I − Q, most often that on Ker G. With F and σ = 0 it is the
+/// Hessian of the dual problem of floating bodies; with M ≈ F⁻¹ and σ = ρ⁻¹ the preconditioner of PFP + ρQ.
 
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
@@ -8,32 +9,43 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include <functional>
 #include <utility>
 
 namespace epafi::fetidp {
 
-/// n_λ × n_λ, symmetric positive semidefinite with the kernel Im Gᵀ. A product takes one with F and two
-/// messages of k numbers.
+/// n_λ × n_λ, symmetric. Where A is positive definite, so is this with σ > 0; with σ = 0 it has the kernel
+/// Im Q. A product takes one with A and P twice: from both sides, as of round-off beside Im P conjugate
+/// gradients would make negative curvature.
 class ProjectedOperator final : public SymmetricOperator {
 public:
-  /// \param dualOperator  F, on the map of the multipliers
-  /// \param coarseSpace   G and P
-  ProjectedOperator(RCP<const Operator> dualOperator, RCP<const NaturalCoarseSpace> coarseSpace)
-      : SymmetricOperator(dualOperator->getDomainMap()), dualOperator_(std::move(dualOperator)),
-        coarseSpace_(std::move(coarseSpace)), projected_(getDomainMap()) {}
+  /// \param a           A, on the map of the multipliers
+  /// \param project     x ← Px, collective
+  /// \param complement  σ ≥ 0
+  ProjectedOperator(RCP<const Operator> a, std::function<void(Vector&)> project, double complement = 0)
+      : SymmetricOperator(a->getDomainMap()), a_(std::move(a)), project_(std::move(project)),
+        complement_(complement), projected_(getDomainMap()) {}
+  /// On Ker G, with two messages of k numbers. \param coarseSpace  G and P
+  ProjectedOperator(RCP<const Operator> a, const RCP<const NaturalCoarseSpace>& coarseSpace,
+                    double complement = 0)
+      : ProjectedOperator(
+            std::move(a), [coarseSpace](Vector& x) { coarseSpace->project(x); }, complement) {}
 
 private:
   void multiply(const MultiVector& x, MultiVector& y) const override {
     forEachColumn(x, y, [&](const Vector& in, Vector& out) {
       projected_.assign(in);
-      coarseSpace_->project(projected_);     // Px
-      dualOperator_->apply(projected_, out); // FPx
-      coarseSpace_->project(out);            // PFPx
+      project_(projected_);       // Px
+      a_->apply(projected_, out); // APx
+      project_(out);              // PAPx
+      if (complement_ != 0)
+        out.update(complement_, in, -complement_, projected_, 1.0); // + σ(x − Px)
     });
   }
 
-  RCP<const Operator> dualOperator_;
-  RCP<const NaturalCoarseSpace> coarseSpace_;
+  RCP<const Operator> a_;
+  std::function<void(Vector&)> project_;
+  double complement_;
   mutable Vector projected_; ///< work: Px
 };
 

@@ -1,9 +1,8 @@
 #include "epafi/fetidp/solve/ContactResponse.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/base/Columns.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/base/SymmetricOperator.hpp"
+#include "epafi/fetidp/equilibrium/ProjectedOperator.hpp"
 #include "epafi/fetidp/operator/MultiplierExchange.hpp"
 #include "epafi/qp/ConjugateGradient.hpp"
 #include "epafi/qp/FaceEquality.hpp"
@@ -12,6 +11,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace epafi::fetidp {
@@ -64,28 +64,6 @@ private:
   qp::FaceEquality equality_;
 };
 
-/// x ↦ Z P A P Z x, Z = 1 on the face and 0 off it. From both sides: of round-off off the face CG would make
-/// negative curvature.
-class FaceOperator final : public SymmetricOperator {
-public:
-  FaceOperator(RCP<const Operator> a, Face& face)
-      : SymmetricOperator(a->getDomainMap()), a_(std::move(a)), face_(face), restricted_(getDomainMap()) {}
-
-private:
-  void multiply(const MultiVector& x, MultiVector& y) const override {
-    forEachColumn(x, y, [&](const Vector& in, Vector& out) {
-      restricted_.assign(in);
-      face_.restrict(restricted_);
-      a_->apply(restricted_, out);
-      face_.restrict(out);
-    });
-  }
-
-  RCP<const Operator> a_;
-  Face& face_;
-  mutable Vector restricted_; ///< work
-};
-
 /// B̄K̄⁺(f̄ − B̄ᵀλ) − c, and K̄⁺(…).
 struct Jumps {
   Jumps(const DualProblem& dual, const DataChange& change, const Vector* lambda)
@@ -130,10 +108,11 @@ RCP<Vector> multiplierOf(const DualProblem& dual, Face& face, const DataChange& 
   face.restrict(*rhs);
   constexpr double roundOff = 1e-12; // of what cancels in it, as for a change that moves a body as a whole
   if (rhs->normInf() > roundOff * start.termSize(dual, change)) {
-    const RCP<const Operator> hessian = rcp(new FaceOperator(operators.flexibility(), face));
+    const std::function<void(Vector&)> restrict = [&face](Vector& x) { face.restrict(x); };
+    const RCP<const Operator> hessian = rcp(new ProjectedOperator(operators.flexibility(), restrict));
     RCP<const Operator> preconditioner;
     if (!operators.facePreconditioner.is_null())
-      preconditioner = rcp(new FaceOperator(operators.facePreconditioner, face));
+      preconditioner = rcp(new ProjectedOperator(operators.facePreconditioner, restrict));
     report = qp::solveUnconstrained(hessian, rhs, lambda, tolerance,
                                     dual.parameters().mprgp.maxMultiplications, nullptr, preconditioner);
     for (int pass = 0; pass < 2; ++pass) // the operator does not see what round-off adds beside equilibrium

@@ -4,7 +4,6 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/equilibrium/Contradictions.hpp"
 #include "epafi/fetidp/equilibrium/ProjectedOperator.hpp"
-#include "epafi/fetidp/equilibrium/ProjectedPreconditioner.hpp"
 #include "epafi/fetidp/equilibrium/Solvability.hpp"
 #include "epafi/fetidp/precondition/OverratedColumns.hpp"
 #include "epafi/fetidp/precondition/SharedRows.hpp"
@@ -49,8 +48,8 @@ void addPreconditioner(const DecomposedProblem& problem, const std::shared_ptr<G
                                           operators.preconditioner.get())));
   operators.facePreconditioner = operators.preconditioner;
   if (!operators.coarseSpace.is_null())
-    operators.preconditioner = rcp(new ProjectedPreconditioner(
-        operators.preconditioner, operators.coarseSpace, parameters.smalbe.penalty * norm));
+    operators.preconditioner = rcp(new ProjectedOperator(operators.preconditioner, operators.coarseSpace,
+                                                         1.0 / (parameters.smalbe.penalty * norm)));
 }
 
 } // namespace
