@@ -103,7 +103,7 @@ bool ActiveSetIteration::startInside() {
   for (const Vector* const from : {&start_, &best_}) {
     copy(*from, on_.x);
     set_->project(on_.x);
-    if (!problem_.equality.is_null() && !findFeasiblePoint(problem_.equality, problem_.set, on_.x).isFeasible)
+    if (!program_.equality.is_null() && !findFeasiblePoint(program_.equality, program_.set, on_.x).isFeasible)
       continue;
     copy(on_.x, next_.isFree);
     set_->freeIndicator(on_.x, on_.face.isFree);

@@ -15,14 +15,14 @@ namespace epafi::qp {
 
 /// That of the start; at the origin, where it says nothing, that of Mb, as if M were A⁻¹. What is bounded on
 /// all sides, as forces of friction are, stays free where it is.
-void ActiveSetIteration::chooseFirstFace(const ActiveSetProblem& problem) {
+void ActiveSetIteration::chooseFirstFace(const QuadraticProgram& program) {
   copy(on_.x, inside_);
-  if (on_.x.normInf() == 0 && !problem.preconditioner.is_null()) {
-    problem.preconditioner->apply(objective_.linearTerm(), inside_);
+  if (on_.x.normInf() == 0 && !program.preconditioner.is_null()) {
+    program.preconditioner->apply(objective_.linearTerm(), inside_);
     ++counts_.preconditionerApplications;
   }
-  if (problem.setAt)
-    set_ = problem.setAt(inside_);
+  if (program.setAt)
+    set_ = program.setAt(inside_);
   set_->project(inside_);
   set_->freeIndicator(inside_, on_.face.isFree);
   const RCP<const ConvexSet> cone = set_->recessionCone(objective_.map());
@@ -69,7 +69,7 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
   reduction_.reduce();
   numActive_ = static_cast<long long>(reduction_.sum(1));
   const bool hasSetMoved =
-      problem_.setAt && objective_.norm() * std::sqrt(reduction_.sum(2)) > on_.gradientNorm();
+      program_.setAt && objective_.norm() * std::sqrt(reduction_.sum(2)) > on_.gradientNorm();
   if (reduction_.sum(0) == 0 && !hasSetMoved)
     return false;
   copy(inside_, on_.x);
@@ -81,10 +81,10 @@ bool ActiveSetIteration::chooseFace(bool isCautious) {
 /// set held and this one does not, a node that has just closed, goes as far against the gradient as it wants
 /// to, or as the set lets it: it sticks or slips.
 void ActiveSetIteration::followSet(const Vector& gradient) {
-  if (!problem_.setAt)
+  if (!program_.setAt)
     return;
   const RCP<const ConvexSet> last = set_;
-  set_ = problem_.setAt(inside_);
+  set_ = program_.setAt(inside_);
   const auto on = localData(on_.face.isFree);
   const auto held = localDataNonConst(next_.isFree);
   for (std::size_t i = 0; i < held.size(); ++i)

@@ -5,6 +5,7 @@
 /// on through points of Ω (ActiveSetDescent.cpp).
 
 #include "epafi/qp/ActiveSets.hpp"
+#include "epafi/qp/ErrorTarget.hpp"
 #include "epafi/qp/FaceIteration.hpp"
 #include "epafi/qp/StoppingRule.hpp"
 
@@ -12,11 +13,12 @@
 
 namespace epafi::qp {
 
-/// Keeps references to the problem.
+/// Keeps references to the program.
 class ActiveSetIteration {
 public:
-  ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start, const Vector* face,
-                     const SmalbeTolerances& tolerances, const MprgpParameters& limits);
+  ActiveSetIteration(const QuadraticProgram& program, const Vector& start,
+                     const ActiveSetParameters& parameters, const Tolerances& tolerances,
+                     const MprgpParameters& limits);
   /// Collective.
   Status run(Observer* observer);
   void describe(SolveReport& report) const;
@@ -32,7 +34,7 @@ private:
 
   Status settle();  ///< the loop of the paper
   Status descend(); ///< through points of Ω alone
-  void chooseFirstFace(const ActiveSetProblem& problem);
+  void chooseFirstFace(const QuadraticProgram& program);
   std::optional<Status> minimise(int maxSteps);
   [[nodiscard]] bool isEndless();
   bool leave();
@@ -48,15 +50,13 @@ private:
   [[nodiscard]] bool isSmall(double gradient, double energy);
   [[nodiscard]] bool holdsEquality() const;
   void record(StepKind kind);
-  [[nodiscard]] double enough() const {
-    return tolerances_.gradient * tolerances_.gradientReference * objective_.scale();
-  }
+  [[nodiscard]] double enough() const { return tolerances_.gradientLimit() * objective_.scale(); }
 
   StepCounts counts_;
-  const ActiveSetProblem& problem_;
+  const QuadraticProgram& program_;
   RCP<const ConvexSet> set_; ///< Ω, or Ω(x) as it was asked for last
   ScaledObjective objective_;
-  SmalbeTolerances tolerances_;
+  Tolerances tolerances_;
   std::optional<ErrorWatch> watch_; ///< with an error's target
   Interruption interruption_;
   FaceIteration on_; ///< the face, with x and g

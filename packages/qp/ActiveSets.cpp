@@ -26,25 +26,27 @@ constexpr int mostRunaways = 1, mostRunawayFaces = 8;
 
 } // namespace
 
-ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Vector& start,
-                                       const Vector* face, const SmalbeTolerances& tolerances,
+ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Vector& start,
+                                       const ActiveSetParameters& parameters, const Tolerances& tolerances,
                                        const MprgpParameters& limits)
-    : problem_(problem), set_(problem.set),
-      objective_(problem.hessian, problem.operatorNorm, limits.maxMultiplications, counts_),
+    : program_(program), set_(program.set),
+      objective_(program.hessian, program.operatorNorm, limits.maxMultiplications, counts_),
       tolerances_(tolerances), interruption_(limits.timeLimit),
-      on_(objective_, problem.preconditioner, problem.equality, interruption_, counts_),
+      on_(objective_, program.preconditioner,
+          Teuchos::rcp_dynamic_cast<const ReplicatedEquality>(program.equality, true), interruption_,
+          counts_),
       start_(start, Teuchos::Copy), best_(start, Teuchos::Copy), inside_(objective_.map()),
       next_(objective_.map()), work_(objective_.map()), reduction_(objective_.map()->getComm(), 4),
-      faceReduction_(problem.faceReduction) {
-  objective_.setLinearTerm(*problem.linearTerm, 0);
+      faceReduction_(parameters.faceReduction) {
+  objective_.setLinearTerm(*program.linearTerm, 0);
   if (tolerances.error != nullptr)
     watch_.emplace(*tolerances.error);
   copy(start, on_.x);
   set_->project(on_.x);
-  if (face != nullptr)
-    copy(*face, on_.face.isFree);
+  if (parameters.firstFace != nullptr)
+    copy(*parameters.firstFace, on_.face.isFree);
   else
-    chooseFirstFace(problem);
+    chooseFirstFace(program);
   next_.isFree.putScalar(1.0);
   addScaled(-1.0, on_.face.isFree, next_.isFree);
   set_->activate(next_.isFree, on_.x);
@@ -55,7 +57,7 @@ ActiveSetIteration::ActiveSetIteration(const ActiveSetProblem& problem, const Ve
 Status ActiveSetIteration::run(Observer* observer) {
   interruption_.setObserver(observer);
   const Status status = settle();
-  if ((status != Status::stagnated && status != Status::unbounded) || set_->isCurved() || problem_.setAt)
+  if ((status != Status::stagnated && status != Status::unbounded) || set_->isCurved() || program_.setAt)
     return status;
   const Status further = descend();
   return further == Status::stagnated ? status : further;
@@ -65,7 +67,7 @@ Status ActiveSetIteration::settle() {
   double least = std::numeric_limits<double>::infinity(), highest = 0, largest = 0;
   int numIdle = 0, numRunaways = 0, numRunawayFaces = 0;
   bool isRunaway = false;
-  const int mostIdle = problem_.setAt ? mostIdleWithMovingSet : maxIdleFaces;
+  const int mostIdle = program_.setAt ? mostIdleWithMovingSet : maxIdleFaces;
   for (int faces = 0; faces < maxFaces && numIdle <= mostIdle; ++faces) {
     copy(on_.x, inside_);
     on_.enter(isAtOrigin_ && faces == 0); // Bx = c, g afresh
@@ -90,7 +92,7 @@ Status ActiveSetIteration::settle() {
     numRunawayFaces += isRunaway ? 1 : 0;
     if (numRunaways > mostRunaways || numRunawayFaces > mostRunawayFaces)
       break;
-    if (gradient_ < least && (problem_.setAt || on_.objective() <= highest)) {
+    if (gradient_ < least && (program_.setAt || on_.objective() <= highest)) {
       least = gradient_;
       copy(on_.x, best_);
     }
@@ -110,7 +112,7 @@ Status ActiveSetIteration::settle() {
 
 /// Whether the face can hold Bx = c.
 bool ActiveSetIteration::holdsEquality() const {
-  return on_.constraintResidual() <= tolerances_.constraint * tolerances_.constraintReference;
+  return on_.constraintResidual() <= tolerances_.constraintLimit();
 }
 
 /// CG until ‖Zg‖ and (gᵀMg)^½ have fallen to a share of themselves, or are small enough.
@@ -193,10 +195,10 @@ bool ActiveSetIteration::isSolved() {
   reduction_.reduce();
   numActive_ = static_cast<long long>(reduction_.sum(3));
   const double outside = std::sqrt(reduction_.sum(1));
-  if (!problem_.setAt && outside > roundOffOfX * std::sqrt(reduction_.sum(2)))
+  if (!program_.setAt && outside > roundOffOfX * std::sqrt(reduction_.sum(2)))
     return false;
   const double whole =
-      std::hypot(gradient_, std::sqrt(reduction_.sum(0)), objective_.norm() * (problem_.setAt ? outside : 0));
+      std::hypot(gradient_, std::sqrt(reduction_.sum(0)), objective_.norm() * (program_.setAt ? outside : 0));
   const double share = gradient_ > 0 ? whole / gradient_ : 1;
   if (!isSmall(whole, share * share * on_.energy()))
     return false;
@@ -246,15 +248,15 @@ void ActiveSetIteration::describe(SolveReport& report) const {
   report.gradient->scale(1.0 / objective_.scale());
 }
 
-SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
-                              const SmalbeTolerances& tolerances, const MprgpParameters& limits,
-                              Observer* observer) {
+SolveReport solveByActiveSets(const QuadraticProgram& program, Vector& x,
+                              const ActiveSetParameters& parameters, const Tolerances& tolerances,
+                              const MprgpParameters& limits, Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
-  ActiveSetIteration method(problem, x, face, tolerances, limits);
+  ActiveSetIteration method(program, x, parameters, tolerances, limits);
   report.status = method.run(&recorder);
   x.assign(method.solution());
-  (problem.setAt ? problem.setAt(x) : problem.set)->project(x);
+  (program.setAt ? program.setAt(x) : program.set)->project(x);
   method.describe(report);
   return report;
 }

@@ -11,37 +11,29 @@
 /// with an objective that falls, unless Ω is curved or moves; where round-off ends that too, the method says
 /// so.
 
-#include "epafi/qp/ConvexSet.hpp"
-#include "epafi/qp/EqualityConstraint.hpp"
 #include "epafi/qp/MprgpParameters.hpp"
-#include "epafi/qp/Smalbe.hpp"
+#include "epafi/qp/QuadraticProgram.hpp"
 #include "epafi/qp/SolveReport.hpp"
-
-#include <functional>
+#include "epafi/qp/StoppingRule.hpp"
 
 namespace epafi::qp {
 
-/// The problem, as the method needs it.
-struct ActiveSetProblem {
-  RCP<const Operator> hessian;            ///< A, n × n, positive definite on Ker B
-  RCP<const Vector> linearTerm;           ///< b
-  RCP<const ConvexSet> set;               ///< Ω
-  RCP<const ReplicatedEquality> equality; ///< Bx = c; null for none
-  RCP<const Operator> preconditioner;     ///< M ≈ A⁻¹, or null; used as P_F M P_F
-  double operatorNorm = 1;                ///< ‖A‖ on Ker B, about
+/// How faces are gone through.
+struct ActiveSetParameters {
   /// What CG takes ‖Zg‖ and (gᵀMg)^½ down to before a face is looked at, a share of them where it was
   /// entered. Of both: the energy alone can be that of one direction which M overrates, gone after a step;
   /// the norm alone, that of one which hardly moves x. With less reduction wrong decisions are paid by
   /// further faces, with more right ones by steps.
   double faceReduction = 0.1;
-  /// Where Ω depends on x itself, as Coulomb's friction does on the normal forces: Ω(x), asked for on every
-  /// face; x is then to be in Ω(x), and `set` is what the first face is chosen from. Null: Ω.
-  std::function<RCP<const ConvexSet>(const Vector& x)> setAt = {};
+  /// 1 where x may move at first, else 0; if null the start's own face, or, where the start is 0, the face to
+  /// which Mb points.
+  const Vector* firstFace = nullptr;
 };
 
-/// \param x     in: start; out: the last point, in Ω
-/// \param face  1 where x may move at first, else 0; if null the start's own, or, where that is 0, the face
-/// to which Mb points
+/// \param x       in: start; out: the last point, in Ω
+/// \param limits  of products and time
+/// Precondition: A is positive definite on Ker B, whose rows are few (ReplicatedEquality); M ≈ A⁻¹ is used as
+/// P_F M P_F.
 ///
 /// Costs of a step: 1 product, 1 application of M, 2 reductions; of a face: 1 product (none at the start
 /// 0), 5 reductions (4 without rows). Steps allocate nothing; a face what B's inverse on it takes
@@ -50,8 +42,8 @@ struct ActiveSetProblem {
 /// one seems to have no minimum (whether it has none says RecessionDirection.hpp). With a set that
 /// depends on x, bounds are those of the last face while a face lasts (Hüeber, Wohlmuth, *Comput. Methods
 /// Appl. Mech. Engrg* 194 (2005)), and what they miss of Ω(x), times ‖A‖, counts as gradient. Collective.
-SolveReport solveByActiveSets(const ActiveSetProblem& problem, Vector& x, const Vector* face,
-                              const SmalbeTolerances& tolerances, const MprgpParameters& limits,
-                              Observer* observer = nullptr);
+SolveReport solveByActiveSets(const QuadraticProgram& program, Vector& x,
+                              const ActiveSetParameters& parameters, const Tolerances& tolerances,
+                              const MprgpParameters& limits, Observer* observer = nullptr);
 
 } // namespace epafi::qp

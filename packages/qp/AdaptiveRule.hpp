@@ -2,7 +2,8 @@
 
 /// When an inner loop of SMALBE is over.
 
-#include "epafi/qp/Smalbe.hpp"
+#include "epafi/qp/EqualityConstraint.hpp"
+#include "epafi/qp/ErrorTarget.hpp"
 #include "epafi/qp/StoppingRule.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ inline constexpr double forcing = 0.1;
 /// The inner loop's rule: ‖g^P‖ ≤ min(M‖Bx − c‖, η), or both final tolerances.
 class AdaptiveRule final : public StoppingRule {
 public:
-  AdaptiveRule(RCP<const EqualityConstraint> equality, const SmalbeTolerances& tolerances, double balance)
+  AdaptiveRule(RCP<const EqualityConstraint> equality, const Tolerances& tolerances, double balance)
       : equality_(std::move(equality)), tolerances_(tolerances), balance_(balance),
         residual_(equality_->numEntries()), weighed_(residual_.size()) {
     if (tolerances.error != nullptr)
@@ -44,11 +45,11 @@ public:
         isRough ? std::max(worthRestoring, tolerances_.constraint) : tolerances_.constraint;
     isFinal_ = residualNorm_ <= constraint * tolerances_.constraintReference &&
                (watch_ ? watch_->isSmallEnough(gradient.energy, *x_)
-                       : projectedGradient <= tolerances_.gradient * tolerances_.gradientReference);
+                       : projectedGradient <= tolerances_.gradientLimit());
     // After a thousand steps it is time for another multiplier, if only the gradient is small enough for the
     // end.
     const bool isLong = ++steps_ > 1000;
-    const double enough = isLong ? 0.1 * tolerances_.gradient * tolerances_.gradientReference : 0.0;
+    const double enough = isLong ? 0.1 * tolerances_.gradientLimit() : 0.0;
     return isFinal_ ||
            projectedGradient <=
                std::max(std::min(balance_ * residualNorm_, forcing * tolerances_.gradientReference), enough);
@@ -62,9 +63,7 @@ public:
   /// Both final tolerances hold, that of Bx = c as far as a restoration needs it.
   [[nodiscard]] bool isFinal() const { return isFinal_; }
   /// They hold as asked for.
-  [[nodiscard]] bool isMet() const {
-    return isFinal_ && residualNorm_ <= tolerances_.constraint * tolerances_.constraintReference;
-  }
+  [[nodiscard]] bool isMet() const { return isFinal_ && residualNorm_ <= tolerances_.constraintLimit(); }
   [[nodiscard]] double residualNorm() const { return residualNorm_; }
   [[nodiscard]] std::span<const double> residual() const { return residual_; }
   /// Of W(Bx − c), what it adds to multipliers.
@@ -74,7 +73,7 @@ public:
 
 private:
   RCP<const EqualityConstraint> equality_;
-  SmalbeTolerances tolerances_;
+  Tolerances tolerances_;
   double balance_;
   std::vector<double> residual_, weighed_;
   double residualNorm_ = 0;

@@ -1,6 +1,6 @@
 #include "epafi/qp/Feasibility.hpp"
 
-#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
 #include "epafi/qp/PenalizedOperator.hpp"
 
 #include <Tpetra_Map.hpp>

@@ -3,7 +3,6 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
-#include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"
 #include "epafi/qp/Feasibility.hpp"
 #include "epafi/qp/LocalData.hpp"
@@ -51,9 +50,11 @@ void QpSolver::Run::check() const {
              "the preconditioner");
   requireMap(given.activeGuess.is_null() || given.activeGuess->getMap()->isSameAs(map),
              "the guess of the active set");
+  if (!given.constraintMatrix.is_null() && !given.equality.is_null())
+    throw InputError("equality constraints are given twice, as a matrix and as rows; leave out one of them");
   if (given.constraintMatrix.is_null() && !given.constraintValues.is_null())
     throw InputError("constraint values are given without a constraint matrix");
-  if (!given.coarseSpace.is_null() && !given.constraintMatrix.is_null())
+  if (!given.coarseSpace.is_null() && !(given.constraintMatrix.is_null() && given.equality.is_null()))
     throw InputError(
         "projector preconditioning is for problems without equality constraints; leave out the coarse space");
   requireFinite(*given.linearTerm, "the linear term");
@@ -63,55 +64,50 @@ void QpSolver::Run::check() const {
 }
 
 bool QpSolver::Run::prepareConstraints() {
-  set = given.set.is_null() ? Teuchos::rcp_implicit_cast<const ConvexSet>(rcp(new Box())) : given.set;
-  if (const std::string emptiness = set->emptiness(*x.getMap()); !emptiness.empty())
+  if (given.set.is_null())
+    program.set = rcp(new Box());
+  if (const std::string emptiness = program.set->emptiness(*x.getMap()); !emptiness.empty())
     return end(Status::infeasible, emptiness);
   if (given.constraintMatrix.is_null())
     return true;
-  equality =
-      prepareEquality(given.constraintMatrix, given.constraintValues, solver.maxDenseRows_, solver.norm_);
-  if (equality.contradiction.empty())
+  rows = prepareEquality(given.constraintMatrix, given.constraintValues, solver.maxDenseRows_, solver.norm_);
+  program.equality = rows.constraint;
+  program.constraintMatrix = Teuchos::null;
+  if (rows.contradiction.empty())
     return true;
-  solution.report.certificate = equality.certificate;
-  return end(Status::infeasible, equality.contradiction);
+  solution.report.certificate = rows.certificate;
+  return end(Status::infeasible, rows.contradiction);
 }
 
 /// A feasible start from the given one: projected, with the guess of the active set, and onto Bx = c where x
 /// and the set allow it.
 bool QpSolver::Run::findStart() {
-  set->project(x);
+  program.set->project(x);
   if (!given.activeGuess.is_null())
-    set->activate(*given.activeGuess, x);
-  if (equality.constraint.is_null())
+    program.set->activate(*given.activeGuess, x);
+  if (program.equality.is_null())
     return true;
-  const Feasibility feasibility = findFeasiblePoint(equality.constraint, set, x);
+  const Feasibility feasibility = findFeasiblePoint(program.equality, program.set, x);
   if (feasibility.isFeasible)
     return true;
-  const RCP<Vector> certificate = equality.multiplierOfRows(feasibility.certificate);
-  certificate->scale(1.0 / certificate->norm2());
-  solution.report.certificate = certificate;
+  if (rows.multiplierOfRows) {
+    const RCP<Vector> certificate = rows.multiplierOfRows(feasibility.certificate);
+    certificate->scale(1.0 / certificate->norm2());
+    solution.report.certificate = certificate;
+  }
   return end(Status::infeasible,
              "no x within the bounds satisfies the equality constraints: the nearest one misses them by " +
                  text(feasibility.distance) + " (rows made orthonormal)");
 }
 
 bool QpSolver::Run::prepareOperators() {
-  hessian = given.hessian;
-  linearTerm = given.linearTerm;
-  preconditioner = given.preconditioner;
   if (!given.coarseSpace.is_null())
     deflate();
-  if (given.facePreconditioner) {
-    Vector free(x.getMap());
-    set->freeIndicator(x, free);
-    preconditioner = given.facePreconditioner(free);
-    if (preconditioner.is_null())
-      throw InputError("the function that makes the preconditioner of a face returned null");
-    requireMap(preconditioner->getDomainMap()->isSameAs(*x.getMap()), "the preconditioner of the face");
-  }
+  if (solver.operatorNorm_ > 0)
+    program.operatorNorm = solver.operatorNorm_;
   try {
-    operatorNorm =
-        solver.operatorNorm_ > 0 ? solver.operatorNorm_ : estimateNorm(*hessian, solver.norm_).norm;
+    if (!(program.operatorNorm > 0))
+      program.operatorNorm = estimateNorm(*program.hessian, solver.norm_).norm;
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) { // on all ranks alike
@@ -124,7 +120,7 @@ bool QpSolver::Run::prepareOperators() {
 void QpSolver::Run::deflate() {
   requireMap(given.coarseSpace->getMap()->isSameAs(*x.getMap()), "the coarse space");
   Vector free(x.getMap()); // U must vanish where there is a bound
-  set->distanceToBoundary(x, std::numeric_limits<double>::infinity(), free);
+  program.set->distanceToBoundary(x, std::numeric_limits<double>::infinity(), free);
   collectively(*x.getMap()->getComm(), [&] {
     const auto distance = localData(free);
     for (std::size_t k = 0; k < given.coarseSpace->getNumVectors(); ++k) {
@@ -145,9 +141,9 @@ void QpSolver::Run::deflate() {
                      "that others combine, or that A maps to zero");
   const RCP<Vector> projected = rcp(new Vector(*given.linearTerm, Teuchos::Copy));
   space.projectTransposed(*projected);
-  linearTerm = projected;
+  program.linearTerm = projected;
   deflated = rcp(new DeflatedOperator(given.hessian, std::move(space)));
-  hessian = deflated;
+  program.hessian = deflated;
 }
 
 /// What gradients are relative to: ‖b‖; where that is nothing beside the products with A that the bounds and
@@ -155,15 +151,16 @@ void QpSolver::Run::deflate() {
 /// solution.
 bool QpSolver::Run::chooseReference() {
   reference = solver.reference_ > 0 ? solver.reference_ : accurateNorm(*given.linearTerm);
-  const bool hasRows = !equality.constraint.is_null();
+  const bool hasRows = !program.equality.is_null();
+  double& operatorNorm = program.operatorNorm;
   if (operatorNorm == 0 && hasRows) // a linear objective: ρ and M still need units
     operatorNorm = accurateNorm(x) > 0 ? reference / accurateNorm(x) : reference;
   if (solver.reference_ > 0)
     return true;
   Vector nearest(x.getMap());
-  set->project(nearest);
+  program.set->project(nearest);
   if (hasRows)
-    findFeasiblePoint(equality.constraint, set, nearest);
+    findFeasiblePoint(program.equality, program.set, nearest);
   if (reference > 1e-12 * operatorNorm * accurateNorm(nearest))
     return true;
   if (accurateNorm(nearest) == 0) {
@@ -178,24 +175,18 @@ bool QpSolver::Run::chooseReference() {
 }
 
 void QpSolver::Run::iterate() {
-  if (equality.constraint.is_null()) {
-    const BoundProblem problem{hessian, linearTerm, set, preconditioner, operatorNorm};
-    solution.report = solveBoundProblem(problem, x, {solver.tolerance_, reference, solver.absoluteTolerance_},
-                                        solver.mprgp_, observer);
-    return;
+  Tolerances tolerances{.gradient = solver.tolerance_,
+                        .gradientReference = reference,
+                        .constraint = solver.constraintTolerance_,
+                        .absolute = solver.absoluteTolerance_};
+  if (!program.equality.is_null()) {
+    const EqualityConstraint& b = *program.equality;
+    const double c = b.isHomogeneous() ? 0.0 : b.normOf(b.rightHandSide()), norm = program.operatorNorm;
+    tolerances.constraintReference = c > 0 ? c : norm > 0 ? b.norm() * reference / norm : 0.0;
   }
-  const EqualityConstraint& b = *equality.constraint;
-  const double c = b.isHomogeneous() ? 0.0 : b.normOf(b.rightHandSide());
-  SmalbeTolerances tolerances;
-  tolerances.gradient =
-      reference > 0 ? std::max(solver.tolerance_, solver.absoluteTolerance_ / reference) : 0.0;
-  tolerances.gradientReference = reference;
-  tolerances.constraint = solver.constraintTolerance_;
-  tolerances.constraintReference = c > 0 ? c : operatorNorm > 0 ? b.norm() * reference / operatorNorm : 0.0;
-  const EqualityBoundProblem problem{hessian,        linearTerm,  set, equality.constraint,
-                                     preconditioner, operatorNorm};
-  solution.report =
-      solveEqualityBoundProblem(problem, x, multiplier, tolerances, solver.smalbe_, solver.mprgp_, observer);
+  solution.report = qp::solve(program, solver.method_, tolerances, solver.methods_, x, observer);
+  if (program.setAt)
+    program.set = program.setAt(x);
 }
 
 } // namespace epafi::qp

@@ -7,7 +7,6 @@
 #include "epafi/qp/QpSolver.hpp"
 
 #include <string>
-#include <vector>
 
 namespace epafi::qp {
 
@@ -19,14 +18,10 @@ struct QpSolver::Run {
   Observer* observer;
   QpSolution& solution;
 
-  RCP<const ConvexSet> set{};
-  RCP<const Operator> hessian{};
-  RCP<const Vector> linearTerm{};
-  RCP<const Operator> preconditioner{};
-  PreparedEquality equality{};
+  QuadraticProgram program;               ///< as the methods take it
+  PreparedEquality rows{};                ///< of the matrix of constraints; empty without
   RCP<const DeflatedOperator> deflated{}; ///< null without a coarse space
-  std::vector<double> multiplier{};       ///< μ of the prepared constraint
-  double operatorNorm = 0, reference = 0;
+  double reference = 0;
   int extraMultiplications = 0;
 
   void check() const;
@@ -39,6 +34,7 @@ struct QpSolver::Run {
   void lookForUnboundedness();
   void undoDeflation();
   void completeGradient();
+  void completeMultiplier(const Vector* ofLagrangian);
   void certifyBounds();
   void certifyRows();
   void judge();

@@ -6,8 +6,14 @@
 #include <Teuchos_TimeMonitor.hpp>
 
 #include <sstream>
+#include <vector>
 
 namespace epafi::qp {
+namespace {
+
+const std::vector<std::string> algorithms{"MPRGP", "active set"}; ///< in the order of Method
+
+} // namespace
 
 Teuchos::ParameterList QpSolver::validParameters() {
   Teuchos::ParameterList list("QP");
@@ -18,6 +24,12 @@ Teuchos::ParameterList QpSolver::validParameters() {
           "What ‖gᴾ‖ is relative to; 0 stands for ‖b‖ (or, where b is round-off beside ‖A‖‖y‖ for the "
           "feasible point y nearest to 0, for ‖Ay‖).",
           0.0);
+  addChoice(
+      list, "Algorithm", algorithms.front(),
+      "'MPRGP', with SMALBE around it where there are equations; 'active set', primal–dual active sets, "
+      "after which MPRGP goes on where their faces do not settle, and with more than 'Maximum Dense Rows' "
+      "equations.",
+      algorithms);
   addReal(list, "Constraint Tolerance", 1e-6,
           "Stop only if ‖Bx − c‖ ≤ this times ‖c‖ (or, if c = 0, ‖B‖‖b‖/‖A‖) as well.", 0.0, 1.0, true);
   addInteger(list, "Maximum Dense Rows", 300,
@@ -40,8 +52,9 @@ QpSolver::QpSolver(const Teuchos::ParameterList& parameters) {
   constraintTolerance_ = list.get<double>("Constraint Tolerance");
   maxDenseRows_ = list.get<int>("Maximum Dense Rows");
   operatorNorm_ = list.get<double>("Operator Norm");
-  mprgp_ = MprgpParameters::from(list.sublist("MPRGP"));
-  smalbe_ = SmalbeParameters::from(list.sublist("SMALBE"));
+  method_ = enumeratorFrom<Method>(list, "Algorithm", algorithms);
+  methods_.mprgp = MprgpParameters::from(list.sublist("MPRGP"));
+  methods_.smalbe = SmalbeParameters::from(list.sublist("SMALBE"));
   norm_ = NormEstimateParameters::from(list.sublist("Norm Estimate"));
 }
 
@@ -54,7 +67,7 @@ std::string QpSolver::description() const {
 QpSolution QpSolver::solve(const QuadraticProgram& problem, Vector& x, Observer* observer) {
   const Teuchos::TimeMonitor timing(*Teuchos::TimeMonitor::getNewCounter("Epafi::qp: QpSolver::solve"));
   QpSolution solution;
-  Run run{*this, problem, x, observer, solution};
+  Run run{*this, problem, x, observer, solution, problem};
   run.check();
   if (run.prepareConstraints() && run.findStart() && run.prepareOperators()) {
     run.iterate();

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
-#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
 
 #include <Tpetra_Map.hpp>
 
@@ -85,9 +85,11 @@ RecessionDirection findRecessionDirection(const RCP<const Operator>& a, double o
   for (double penalty = 1e2; penalty < 1e13 && found.multiplications < maxMultiplications; penalty *= 10) {
     hessian->setPenalty(penalty); // each from the solution of the one before
     parameters.maxMultiplications = maxMultiplications - found.multiplications;
-    const BoundProblem problem{hessian, target, cone, Teuchos::null,
-                               1 + penalty * (equality.is_null() ? 1 : 2)};
-    const SolveReport report = solveBoundProblem(problem, *d, {1e-9, 1.0, 0.0}, parameters);
+    const QuadraticProgram nearest{.hessian = hessian,
+                                   .linearTerm = target,
+                                   .set = cone,
+                                   .operatorNorm = 1 + penalty * (equality.is_null() ? 1 : 2)};
+    const SolveReport report = solveByMprgp(nearest, *d, {1e-9, 1.0}, parameters);
     found.multiplications += report.counts.hessianMultiplications + 1;
     const RCP<Vector> candidate =
         rcp(new Vector(*d, Teuchos::Copy)); // d(τ) = d(∞) + O(1/τ) within a face: extrapolated

@@ -2,8 +2,8 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/qp/AdaptiveRule.hpp"
-#include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/EqualityRestoration.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
 #include "epafi/qp/PenalizedOperator.hpp"
 
 #include <Tpetra_Map.hpp>
@@ -68,8 +68,8 @@ private:
 /// The outer iteration with its state μ, ρ, M.
 class OuterIteration {
 public:
-  OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
-                 const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
+  OuterIteration(const QuadraticProgram& program, std::vector<double>& multiplier,
+                 const Tolerances& tolerances, const SmalbeParameters& parameters,
                  const MprgpParameters& inner);
   /// The loop of the paper.
   Status run(const Vector& start, Observer* observer);
@@ -94,7 +94,7 @@ private:
   [[nodiscard]] double constantOfLagrangian() const;
   void linearTermOfLagrangian(Vector& b) const;
 
-  const EqualityBoundProblem& problem_;
+  const QuadraticProgram& program_;
   const SmalbeParameters& parameters_;
   const EqualityConstraint& equality_;
   double penalty_; ///< ρ
@@ -110,18 +110,18 @@ private:
   int numSlow_ = 0; ///< that did not halve it
 };
 
-OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<double>& multiplier,
-                               const SmalbeTolerances& tolerances, const SmalbeParameters& parameters,
+OuterIteration::OuterIteration(const QuadraticProgram& program, std::vector<double>& multiplier,
+                               const Tolerances& tolerances, const SmalbeParameters& parameters,
                                const MprgpParameters& inner)
-    : problem_(problem), parameters_(parameters), equality_(*problem.equality),
-      penalty_(parameters.penalty * (problem.operatorNorm > 0 ? problem.operatorNorm : 1.0) /
+    : program_(program), parameters_(parameters), equality_(*program.equality),
+      penalty_(parameters.penalty * (program.operatorNorm > 0 ? program.operatorNorm : 1.0) /
                (equality_.norm() * equality_.norm())),
       multiplier_(multiplier),
-      hessian_(rcp(new PenalizedOperator(problem.hessian, problem.hessian->getDomainMap(), problem.equality,
+      hessian_(rcp(new PenalizedOperator(program.hessian, program.hessian->getDomainMap(), program.equality,
                                          penalty_))),
-      rule_(problem.equality, tolerances, parameters.balance * problem.operatorNorm / equality_.norm()),
-      inner_(hessian_, problem.set, inner, normOfLagrangian(), problem.preconditioner),
-      work_(problem.hessian->getDomainMap()), creep_(equality_) {
+      rule_(program.equality, tolerances, parameters.balance * program.operatorNorm / equality_.norm()),
+      inner_(hessian_, program.set, inner, normOfLagrangian(), program.preconditioner),
+      work_(program.hessian->getDomainMap()), creep_(equality_) {
   multiplier_.assign(equality_.numEntries(), 0.0);
   weighedRhs_.resize(equality_.rightHandSide().size());
   if (!equality_.isHomogeneous())
@@ -130,7 +130,7 @@ OuterIteration::OuterIteration(const EqualityBoundProblem& problem, std::vector<
 
 /// ‖A + ρBᵀWB‖ at most.
 double OuterIteration::normOfLagrangian() const {
-  return problem_.operatorNorm + penalty_ * equality_.norm() * equality_.norm();
+  return program_.operatorNorm + penalty_ * equality_.norm() * equality_.norm();
 }
 
 /// −μᵀc + ρ/2 cᵀWc.
@@ -143,7 +143,7 @@ double OuterIteration::constantOfLagrangian() const {
 
 /// b − Bᵀμ + ρBᵀWc.
 void OuterIteration::linearTermOfLagrangian(Vector& b) const {
-  b.assign(*problem_.linearTerm);
+  b.assign(*program_.linearTerm);
   std::vector<double> combined(multiplier_);
   for (std::size_t i = 0; i < weighedRhs_.size(); ++i)
     combined[i] -= penalty_ * weighedRhs_[i];
@@ -204,7 +204,7 @@ void OuterIteration::adapt(const Progress& previous, const Progress& now) {
   const bool isRoundOff = now.residual <= 1e-13 * equality_.norm() * inner_.solutionNorm();
   numSlow_ = !isFirst && !isRoundOff && now.residual > 0.5 * previous.residual ? numSlow_ + 1 : 0;
   using Update = SmalbeParameters::Update;
-  const bool mayGrow = penalty_ * equality_.norm() * equality_.norm() < maxPenalty * problem_.operatorNorm;
+  const bool mayGrow = penalty_ * equality_.norm() * equality_.norm() < maxPenalty * program_.operatorNorm;
   if (grewTooLittle && (parameters_.update != Update::penalty || !mayGrow))
     rule_.reduceBalance(parameters_.balanceReduction);
   const bool isSlow = parameters_.update != Update::balance && numSlow_ >= 2;
@@ -222,7 +222,7 @@ void OuterIteration::startMultiplier() {
   Vector gradient(inner_.scaledGradient(), Teuchos::Copy);
   gradient.scale(1.0 / inner_.gradientScale());
   const std::vector<double> change =
-      estimateMultiplier(equality_, *problem_.set, inner_.solution(), gradient);
+      estimateMultiplier(equality_, *program_.set, inner_.solution(), gradient);
   work_.putScalar(0.0);
   equality_.addTransposedProduct(change, 1.0, work_);
   const double constant = equality_.isHomogeneous() ? 0.0 : equality_.dot(change, equality_.rightHandSide());
@@ -254,15 +254,15 @@ void OuterIteration::updateMultiplier(const Progress& previous) {
   equality_.addTransposedProduct(rule_.weighedResidual(), penalty_ * inner_.gradientScale(), work_);
   const double longest =
       minOverRanks(*work_.getMap()->getComm(),
-                   problem_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
+                   program_.set->longestMultiplierStep(inner_.solution(), inner_.scaledGradient(), work_));
   double foreseen = creep_.factor(rule_.residual(), rule_.weighedResidual(), residual, previous.residual);
   if (foreseen > 1) { // the face serves them no better only until a bound lets go
     Vector held(work_.getMap());
-    problem_.set->freeIndicator(inner_.solution(), held);
+    program_.set->freeIndicator(inner_.solution(), held);
     held.elementWiseMultiply(-1.0, held, work_, 0.0);
     held.update(1.0, work_, 1.0);
     foreseen = minOverRanks(*work_.getMap()->getComm(),
-                            std::min(foreseen, problem_.set->longestMultiplierStep(
+                            std::min(foreseen, program_.set->longestMultiplierStep(
                                                    inner_.solution(), inner_.scaledGradient(), held)));
   }
   const double step = std::max({1.0, std::isfinite(longest) ? longest : 1.0, foreseen});
@@ -276,7 +276,7 @@ void OuterIteration::updateMultiplier(const Progress& previous) {
 void OuterIteration::restore() {
   work_.assign(inner_.solution());
   if (equality_.isReplicated())
-    restoreEquality(equality_, *problem_.set, rule_.residual(), work_);
+    restoreEquality(equality_, *program_.set, rule_.residual(), work_);
   Vector b(work_.getMap()); // afresh as well: many shifts have left their round-off in it
   linearTermOfLagrangian(b);
   inner_.start(b, work_, constantOfLagrangian());
@@ -284,13 +284,12 @@ void OuterIteration::restore() {
 
 } // namespace
 
-SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x,
-                                      std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
-                                      const SmalbeParameters& parameters, const MprgpParameters& inner,
-                                      Observer* observer) {
+SolveReport solveBySmalbe(const QuadraticProgram& program, Vector& x, const Tolerances& tolerances,
+                          const SmalbeParameters& parameters, const MprgpParameters& inner,
+                          Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
-  OuterIteration outer(problem, multiplier, tolerances, parameters, inner);
+  OuterIteration outer(program, report.multiplier, tolerances, parameters, inner);
   report.status = outer.run(x, &recorder);
 
   Mprgp& solver = outer.inner();
@@ -300,9 +299,9 @@ SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vecto
     report.reason = "the limit of outer iterations was reached before the tolerance; raise 'Maximum Outer "
                     "Iterations' or the tolerance";
   report.relativeProjectedGradient = relativeTo(tolerances.gradientReference, solver.projectedGradient());
-  for (std::size_t i = 0; i < multiplier.size();
+  for (std::size_t i = 0; i < report.multiplier.size();
        ++i) // the gradient is that of L: μ + ρW(Bx − c) is what it belongs to
-    multiplier[i] += outer.penalty() * outer.rule().weighedResidual()[i];
+    report.multiplier[i] += outer.penalty() * outer.rule().weighedResidual()[i];
   report.relativeConstraintResidual = relativeTo(tolerances.constraintReference, outer.rule().residualNorm());
   return report;
 }

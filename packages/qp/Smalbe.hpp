@@ -10,15 +10,12 @@
 /// (to round-off, where the rows are replicated) and the gradient computed afresh must still meet its
 /// tolerance.
 
-#include "epafi/qp/ConvexSet.hpp"
-#include "epafi/qp/EqualityConstraint.hpp"
-#include "epafi/qp/ErrorTarget.hpp"
 #include "epafi/qp/MprgpParameters.hpp"
+#include "epafi/qp/QuadraticProgram.hpp"
 #include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/StoppingRule.hpp"
 
 #include <Teuchos_ParameterList.hpp>
-
-#include <vector>
 
 namespace epafi::qp {
 
@@ -40,32 +37,13 @@ struct SmalbeParameters {
   static SmalbeParameters from(const Teuchos::ParameterList& list);
 };
 
-/// What to stop at: ‖g^P‖ ≤ gradient · gradientReference, or the error's target if there is one, and
-/// ‖Bx − c‖ ≤ constraint · constraintReference.
-struct SmalbeTolerances {
-  double gradient = 1e-6, gradientReference = 1;
-  double constraint = 1e-6, constraintReference = 1;
-  ErrorTarget* error = nullptr; ///< takes the place of `gradient`; needs a preconditioner
-};
-
-/// The problem, as SMALBE needs it.
-struct EqualityBoundProblem {
-  RCP<const Operator> hessian;            ///< A, n × n, positive definite on Ker B
-  RCP<const Vector> linearTerm;           ///< b
-  RCP<const ConvexSet> set;               ///< Ω
-  RCP<const EqualityConstraint> equality; ///< Bx = c
-  RCP<const Operator> preconditioner;     ///< of A + ρBᵀB, or null
-  double operatorNorm = 1;                ///< over-estimate of ‖A‖
-};
-
+/// M, where there is one, is of A + ρBᵀB.
 /// \param x  in: start (projected onto Ω; the multiplier starts from what suits it); out: the last iterate,
 /// in Ω
-/// \param multiplier  out: μ, in the constraint's own entries
 /// Returns converged only if a gradient computed afresh bears it out. Precondition: Ω is not empty.
 /// Collective.
-SolveReport solveEqualityBoundProblem(const EqualityBoundProblem& problem, Vector& x,
-                                      std::vector<double>& multiplier, const SmalbeTolerances& tolerances,
-                                      const SmalbeParameters& parameters, const MprgpParameters& inner,
-                                      Observer* observer = nullptr);
+SolveReport solveBySmalbe(const QuadraticProgram& program, Vector& x, const Tolerances& tolerances,
+                          const SmalbeParameters& parameters, const MprgpParameters& inner,
+                          Observer* observer = nullptr);
 
 } // namespace epafi::qp

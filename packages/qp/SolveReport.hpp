@@ -86,8 +86,9 @@ struct SolveReport {
   /// the bounds.
   RCP<Vector> certificate;
   RCP<Vector>
-      gradient;    ///< of the Lagrangian at x, from a fresh product with A; null if the last one is not fresh
-  History history; ///< every step, in order
+      gradient; ///< of the Lagrangian at x, from a fresh product with A; null if the last one is not fresh
+  std::vector<double> multiplier; ///< μ of Bx = c, in the constraint's own entries; from SMALBE alone
+  History history;                ///< every step, in order
 };
 
 /// Adds the steps of a further solve to a report, its history numbered on. The rest of the report stays as it

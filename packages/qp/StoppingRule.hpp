@@ -10,6 +10,20 @@
 
 namespace epafi::qp {
 
+class ErrorTarget;
+
+/// What a solve stops at: ‖g^P‖ ≤ max(gradient · gradientReference, absolute), or the error's target if there
+/// is one, and with equations ‖Bx − c‖ ≤ constraint · constraintReference.
+struct Tolerances {
+  double gradient = 1e-6, gradientReference = 1;
+  double constraint = 1e-6, constraintReference = 1;
+  ErrorTarget* error = nullptr; ///< takes the place of `gradient`; needs a preconditioner (ErrorTarget.hpp)
+  double absolute = 0;          ///< of ‖g^P‖
+
+  [[nodiscard]] double gradientLimit() const { return std::max(gradient * gradientReference, absolute); }
+  [[nodiscard]] double constraintLimit() const { return constraint * constraintReference; }
+};
+
 /// The projected gradient in two norms.
 struct GradientNorms {
   double euclidean = 0; ///< ‖g^P‖
@@ -42,13 +56,11 @@ inline double relativeTo(double reference, double value) {
   return reference > 0 ? value / reference : value;
 }
 
-/// Stops when ‖g^P‖ ≤ max(relative · reference, absolute). A reference of 0 (no load) asks for ‖g^P‖ ≤
-/// absolute.
+/// Stops when ‖g^P‖ ≤ limit.
 class GradientRule final : public StoppingRule {
 public:
-  /// \param relative, reference, absolute  as above
-  GradientRule(double relative, double reference, double absolute = 0)
-      : limit_(std::max(relative * reference, absolute)), reference_(reference) {}
+  /// \param reference  what gradients are relative to in the history; 0: they are not
+  GradientRule(double limit, double reference) : limit_(limit), reference_(reference) {}
   bool isSatisfied(const GradientNorms& gradient, std::span<const AccurateSum> /*sums*/) override {
     return gradient.euclidean <= limit_;
   }

@@ -26,11 +26,11 @@ struct Answer {
 Answer solve(const Problem& problem, double tolerance, const Eigen::VectorXd& face = {},
              const qp::MprgpParameters& limits = {}, const Eigen::VectorXd& start = {}) {
   const auto map = test::linearMap(static_cast<int>(problem.b.size()));
-  qp::ActiveSetProblem given;
+  qp::QuadraticProgram given;
   given.hessian = rcp(new test::DenseOperator(map, problem.a));
   given.linearTerm = test::makeVector(map, problem.b);
   given.set = rcp(new qp::Box(test::makeVector(map, problem.lower)));
-  given.faceReduction = problem.faceReduction;
+  given.operatorNorm = 1;
   if (problem.g.rows() > 0)
     given.equality = rcp(new test::DenseEquality(map, problem.g));
   if (problem.m.size() > 0)
@@ -39,8 +39,8 @@ Answer solve(const Problem& problem, double tolerance, const Eigen::VectorXd& fa
   if (start.size() > 0)
     x.assign(*test::makeVector(map, start));
   const RCP<Vector> first = face.size() > 0 ? test::makeVector(map, face) : Teuchos::null;
-  const auto report =
-      qp::solveByActiveSets(given, x, first.get(), {tolerance, problem.b.norm(), 1e-10, 1.0}, limits);
+  const auto report = qp::solveByActiveSets(given, x, {problem.faceReduction, first.get()},
+                                            {tolerance, problem.b.norm(), 1e-10, 1.0}, limits);
   return {test::gather(x), report};
 }
 

@@ -4,8 +4,8 @@
 
 #include "support/Problems.hpp"
 
-#include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Box.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ inline Answer solve(const Problem& problem, double tolerance = 1e-10, double nor
       rcp(new qp::Box(makeVector(map, problem.lower), makeVector(map, problem.upper)));
   const auto b = makeVector(map, problem.b);
   const auto x = start.size() > 0 ? makeVector(map, start) : rcp(new Vector(map));
-  const auto report = qp::solveBoundProblem({a, b, box, Teuchos::null, norm}, *x,
-                                            {tolerance, accurateNorm(*b)}, {}, observer);
+  const auto report = qp::solveByMprgp({.hessian = a, .linearTerm = b, .set = box, .operatorNorm = norm}, *x,
+                                       {tolerance, accurateNorm(*b)}, {}, observer);
   return {gather(*x), report, a->applications};
 }
 

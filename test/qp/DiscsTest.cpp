@@ -4,8 +4,8 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
 #include "epafi/qp/ActiveSets.hpp"
-#include "epafi/qp/BoundProblem.hpp"
 #include "epafi/qp/Discs.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ RCP<const Map> mapOfNodes(int numNodes) {
   return makeMap(std::move(mine), nodes->getComm());
 }
 
-qp::ActiveSetProblem handedOver(const TrescaProblem& problem) {
+qp::QuadraticProgram handedOver(const TrescaProblem& problem) {
   const Eigen::Index n = problem.b.size();
   const auto map = mapOfNodes(static_cast<int>(problem.numNodes()));
   std::vector<Disc> discs;
@@ -140,7 +140,7 @@ qp::ActiveSetProblem handedOver(const TrescaProblem& problem) {
     if (map->getGlobalElement(i) % 3 == 0)
       discs.push_back({i + 1, i + 2, problem.bounds[static_cast<Eigen::Index>(node)]});
   }
-  qp::ActiveSetProblem given;
+  qp::QuadraticProgram given;
   given.hessian = rcp(new test::DenseOperator(map, problem.a));
   given.linearTerm = test::makeVector(map, problem.b);
   given.set = rcp(new qp::Discs(qp::Box(lower), discs, map));
@@ -190,7 +190,7 @@ TEST(TrescaTest, ASingleNodeSlipsAlongItsPush) {
   const auto given = handedOver(problem);
   Vector x(given.linearTerm->getMap());
 
-  const auto report = qp::solveByActiveSets(given, x, nullptr, {1e-12, 1.0, 1e-10, 1.0}, {});
+  const auto report = qp::solveByActiveSets(given, x, {}, {1e-12, 1.0, 1e-10, 1.0}, {});
 
   EXPECT_EQ(report.status, Status::converged);
   EXPECT_NEAR((test::gather(x) - Eigen::Vector3d(2, 0.6, 0.8)).norm(), 0, 1e-14);
@@ -208,7 +208,7 @@ TEST(TrescaTest, MprgpAndActiveSetsFindTheSameForces) {
         Vector byFaces(given.linearTerm->getMap()), byMprgp(byFaces.getMap());
 
         const auto faces =
-            qp::solveByActiveSets(given, byFaces, nullptr, {1e-10, problem.b.norm(), 1e-10, 1.0}, {});
+            qp::solveByActiveSets(given, byFaces, {}, {1e-10, problem.b.norm(), 1e-10, 1.0}, {});
         EXPECT_EQ(faces.status, Status::converged) << faces.reason;
         EXPECT_LE(naturalResidual(problem, test::gather(byFaces)), 1e-9);
         EXPECT_LE(faces.counts.hessianMultiplications, 150);
@@ -216,9 +216,7 @@ TEST(TrescaTest, MprgpAndActiveSetsFindTheSameForces) {
           continue;
         qp::MprgpParameters limits;
         limits.maxMultiplications = 20000;
-        const auto mprgp = qp::solveBoundProblem(
-            {given.hessian, given.linearTerm, given.set, given.preconditioner, given.operatorNorm}, byMprgp,
-            {1e-5, problem.b.norm(), 0.0}, limits);
+        const auto mprgp = qp::solveByMprgp(given, byMprgp, {1e-5, problem.b.norm()}, limits);
         EXPECT_EQ(mprgp.status, Status::converged) << mprgp.reason;
         EXPECT_LE(naturalResidual(problem, test::gather(byMprgp)), 1e-4);
         EXPECT_LE((test::gather(byFaces) - test::gather(byMprgp)).norm(), 1e-3 * problem.b.norm());
@@ -236,7 +234,7 @@ TEST(TrescaTest, EquilibriumIsHeldBesideTheDiscs) {
       const auto given = handedOver(problem);
       Vector x(given.linearTerm->getMap());
 
-      const auto report = qp::solveByActiveSets(given, x, nullptr, {1e-10, problem.b.norm(), 1e-10, 1.0}, {});
+      const auto report = qp::solveByActiveSets(given, x, {}, {1e-10, problem.b.norm(), 1e-10, 1.0}, {});
 
       EXPECT_EQ(report.status, Status::converged) << report.reason;
       const Eigen::VectorXd found = test::gather(x);

@@ -1,6 +1,6 @@
 #include "BoundProblems.hpp"
 
-#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,9 +60,11 @@ TEST(MprgpEndsTest, StopsAtTheLimitOfProducts) {
   qp::MprgpParameters parameters;
   parameters.maxMultiplications = 5;
 
-  const auto report = qp::solveBoundProblem({rcp(new test::DenseOperator(map, problem.a)),
-                                             test::makeVector(map, problem.b), box, Teuchos::null, 1.0},
-                                            x, {1e-12, problem.b.norm()}, parameters);
+  const auto report = qp::solveByMprgp({.hessian = rcp(new test::DenseOperator(map, problem.a)),
+                                        .linearTerm = test::makeVector(map, problem.b),
+                                        .set = box,
+                                        .operatorNorm = 1.0},
+                                       x, {1e-12, problem.b.norm()}, parameters);
 
   EXPECT_EQ(report.status, Status::maxIterations);
   EXPECT_LE(report.counts.hessianMultiplications, 7);
@@ -88,9 +90,11 @@ TEST(MprgpEndsTest, LeavesBoundsAndRightHandSideAlone) {
   const auto upper = test::makeVector(map, problem.upper);
   Vector x(map);
 
-  qp::solveBoundProblem(
-      {rcp(new test::DenseOperator(map, problem.a)), b, rcp(new Box(lower, upper)), Teuchos::null, 1.0}, x,
-      {1e-10, problem.b.norm()}, {});
+  qp::solveByMprgp({.hessian = rcp(new test::DenseOperator(map, problem.a)),
+                    .linearTerm = b,
+                    .set = rcp(new Box(lower, upper)),
+                    .operatorNorm = 1.0},
+                   x, {1e-10, problem.b.norm()}, {});
 
   EXPECT_EQ(test::gather(*b), problem.b);
   EXPECT_EQ(test::gather(*lower), problem.lower);

@@ -31,12 +31,13 @@ Answer solve(const Problem& problem, double tolerance, const qp::SmalbeParameter
   Vector x(map);
   if (start.size() > 0)
     x.assign(*test::makeVector(map, start));
-  const qp::SmalbeTolerances tolerances{tolerance, problem.b.norm(), tolerance, 1.0};
-  std::vector<double> multiplier;
-  const auto report =
-      qp::solveEqualityBoundProblem({rcp(new test::DenseOperator(map, problem.a)),
-                                     test::makeVector(map, problem.b), box, g, Teuchos::null, norm},
-                                    x, multiplier, tolerances, parameters, {});
+  const qp::Tolerances tolerances{tolerance, problem.b.norm(), tolerance, 1.0};
+  const auto report = qp::solveBySmalbe({.hessian = rcp(new test::DenseOperator(map, problem.a)),
+                                         .linearTerm = test::makeVector(map, problem.b),
+                                         .set = box,
+                                         .equality = g,
+                                         .operatorNorm = norm},
+                                        x, tolerances, parameters, {});
   return {test::gather(x), report};
 }
 

@@ -31,8 +31,8 @@ Answer solveWithShare(const Problem& problem, double share, double tolerance = 1
   const auto b = test::makeVector(map, problem.b), x = rcp(new Vector(map));
   qp::MprgpParameters parameters;
   parameters.sufficientShare = share;
-  const auto report = qp::solveBoundProblem({a, b, box, Teuchos::null, 1.0}, *x,
-                                            {tolerance, accurateNorm(*b)}, parameters, nullptr);
+  const auto report = qp::solveByMprgp({.hessian = a, .linearTerm = b, .set = box, .operatorNorm = 1.0}, *x,
+                                       {tolerance, accurateNorm(*b)}, parameters, nullptr);
   return {test::gather(*x), report, a->applications};
 }
 

@@ -8,7 +8,7 @@
 #include "epafi/fetidp/equilibrium/FeasibleForces.hpp"
 #include "epafi/fetidp/equilibrium/ProblemScales.hpp"
 #include "epafi/fetidp/operator/RowProducts.hpp"
-#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
 #include "epafi/qp/NormEstimate.hpp"
 #include "epafi/qp/RecessionDirection.hpp"
 
@@ -143,8 +143,9 @@ RCP<Vector> provedContradiction(const DecomposedProblem& problem, const RowProdu
   Vector d(problem.multiplierMap);
   qp::MprgpParameters parameters;
   parameters.maxMultiplications = patience;
-  const qp::SolveReport report = qp::solveBoundProblem({gram, target, set, Teuchos::null, norm}, d,
-                                                       {0.0, 1.0, 1e-3 * overlap}, parameters);
+  const qp::SolveReport report =
+      qp::solveByMprgp({.hessian = gram, .linearTerm = target, .set = set, .operatorNorm = norm}, d,
+                       {.gradient = 0.0, .absolute = 1e-3 * overlap}, parameters);
   const auto inRows = [&](const Vector& scaled) {
     const RCP<Vector> result = rcp(new Vector(problem.multiplierMap));
     result->elementWiseMultiply(1.0, inverseNorms, scaled, 0.0);

@@ -38,7 +38,7 @@ DualSolution DualProblem::solve(const decomposition::ProblemData& data, const Ve
   if (algorithm() == Algorithm::direct)
     return solvedDirectly(problem_);
   IterativeSolve solve(*this, data, start, observer, plan_.isBalanced ? balance : nullptr);
-  DualSolution solution = coarseSpace().is_null() ? solve.coercive() : solve.semicoercive(resultants);
+  DualSolution solution = solve.run(resultants);
   if (solution.report.status == qp::Status::unbounded && !solution.report.certificate.is_null())
     refuseContradiction(problem_, data, *solution.report.certificate);
   return solution;

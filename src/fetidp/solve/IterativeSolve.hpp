@@ -4,11 +4,8 @@
 
 #include "epafi/fetidp/solve/DualObservers.hpp"
 #include "epafi/fetidp/solve/DualProblem.hpp"
-#include "epafi/qp/ActiveSets.hpp"
+#include "epafi/qp/Solve.hpp"
 
-#include <Teuchos_Time.hpp>
-
-#include <functional>
 #include <optional>
 
 namespace epafi::fetidp {
@@ -27,25 +24,15 @@ public:
   IterativeSolve(const DualProblem& dual, const decomposition::ProblemData& data, const Vector* start,
                  qp::Observer* observer, const ErrorBalance* balance);
 
-  DualSolution coercive();
-  /// \param resultants  ẽ
-  DualSolution semicoercive(const Eigen::VectorXd& resultants);
+  /// \param resultants  ẽ; empty where no body floats
+  DualSolution run(const Eigen::VectorXd& resultants);
 
 private:
-  bool setReference();
-  void iterateInBounds();
-  using Method = std::function<qp::SolveReport(Vector&, const qp::MprgpParameters&)>;
-  /// The same within another set.
-  using MethodWithin =
-      std::function<qp::SolveReport(const RCP<const qp::ConvexSet>&, Vector&, const qp::MprgpParameters&)>;
-  void iterate(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
-               qp::Observer* observer, const MethodWithin& within);
-  void fixFriction(const qp::ActiveSetProblem& faces, const qp::SmalbeTolerances& tolerances, Vector& x,
-                   const MethodWithin& within);
   [[nodiscard]] RCP<const qp::ConvexSet> feasibleForces() const;
-  void goOn(const Method& method, Vector& x, int most);
-  [[nodiscard]] bool isToGoOn() const;
-  void refuseIfContradictory(const qp::ActiveSetProblem& faces, const Vector& x, int maxMultiplications);
+  [[nodiscard]] qp::QuadraticProgram program() const;
+  qp::QuadraticProgram shiftedProgram(const Eigen::VectorXd& resultants, const RCP<Vector>& shift);
+  void setReference(Vector& rhs);
+  void balance(const Eigen::VectorXd& resultants, double reference);
   void completeJumps(Vector& lambda) const;
   DualSolution finished();
 
@@ -55,12 +42,9 @@ private:
   const Vector* start_;
   qp::Observer* observer_;
   const ErrorBalance* balance_;
-  double tolerance_;
   RightHandSide wholeRhs_; ///< d̃
-  RCP<Vector> rhs_;        ///< of the iteration: d̃, Pᵀd̃ where jumps are deflated, Pd where bodies float
   DualSolution solution_;
-  std::optional<BalancedTarget> target_;     ///< with a balance
-  double began_ = Teuchos::Time::wallTime(); ///< seconds
+  std::optional<BalancedTarget> target_; ///< with a balance
 };
 
 } // namespace epafi::fetidp

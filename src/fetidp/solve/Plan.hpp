@@ -90,8 +90,8 @@ struct Plan {
   double algebraicFraction = 0.1;   ///< of the discretisation error, where isBalanced
   bool estimatesNorm = false;       ///< whether somebody asks for that of the Hessian
   bool beginsClosed = false;        ///< whether active sets without a start close all contact first
-  double faceReduction = qp::ActiveSetProblem().faceReduction; ///< see there
-  qp::MprgpParameters mprgp;                                   ///< as given, what was left open decided
+  double faceReduction = qp::ActiveSetParameters().faceReduction; ///< see there
+  qp::MprgpParameters mprgp;                                      ///< as given, what was left open decided
   JumpSearch gluing, contact; ///< of jumps that are deflated, and of those that M is corrected for
   /// A sentence on each choice, under the name of the parameter that leaves it open, most often.
   std::map<std::string, std::string> reasons;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Bounds that follow the solution, as those of Coulomb's friction follow the normal forces.
+/// Sets whose bounds follow the solution (QuadraticProgram::setAt).
 
 #include "epafi/qp/ConvexSet.hpp"
 
@@ -8,11 +8,11 @@
 
 #include <optional>
 
-namespace epafi::fetidp {
+namespace epafi::qp {
 
 /// Moves x, a solution within `old`, into `set`, whose bounds differ, and along with its bounds where it is
 /// at them; returns how far. Collective.
-double moveWithBounds(const qp::ConvexSet& old, const qp::ConvexSet& set, Vector& x);
+double moveWithBounds(const ConvexSet& old, const ConvexSet& set, Vector& x);
 
 /// Relaxation of a fixed point y ← y + θ(x(y) − y): Irons, Tuck, *Int. J. Numer. Methods Eng.* 1 (1969).
 class Relaxation {
@@ -25,4 +25,4 @@ private:
   double share_ = 1;           ///< θ
 };
 
-} // namespace epafi::fetidp
+} // namespace epafi::qp

@@ -1,4 +1,4 @@
-#include "epafi/fetidp/solve/MovingBounds.hpp"
+#include "epafi/qp/MovingSet.hpp"
 
 #include "epafi/base/AccurateSum.hpp"
 
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace epafi::fetidp {
+namespace epafi::qp {
 
-double moveWithBounds(const qp::ConvexSet& old, const qp::ConvexSet& set, Vector& x) {
+double moveWithBounds(const ConvexSet& old, const ConvexSet& set, Vector& x) {
   constexpr double atBound = 1e-9; // beside the largest entry
   const double largest = x.normInf();
   const Vector before(x, Teuchos::Copy);
@@ -47,4 +47,4 @@ void Relaxation::step(const Vector& x, Vector& y) {
   last_.emplace(misfit, Teuchos::Copy);
 }
 
-} // namespace epafi::fetidp
+} // namespace epafi::qp

@@ -1,4 +1,8 @@
-#include "epafi/qp/BoundProblem.hpp"
+#include "epafi/qp/MprgpSolve.hpp"
+
+#include "epafi/qp/ErrorTarget.hpp"
+
+#include <optional>
 
 namespace epafi::qp {
 
@@ -26,23 +30,21 @@ void describeEnd(Mprgp& solver, SolveReport& report) {
     report.certificate = solver.certificate();
 }
 
-SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, StoppingRule& rule, double reference,
-                              const MprgpParameters& parameters, Observer* observer) {
+SolveReport solveByMprgp(const QuadraticProgram& program, Vector& x, const Tolerances& tolerances,
+                         const MprgpParameters& parameters, Observer* observer) {
   SolveReport report;
   HistoryRecorder recorder(report.history, observer);
-  Mprgp solver(problem.hessian, problem.set, parameters, problem.operatorNorm, problem.preconditioner);
-  solver.start(*problem.linearTerm, x);
-  report.status = runToCertificate(solver, rule, &recorder);
+  Mprgp solver(program.hessian, program.set, parameters, program.operatorNorm, program.preconditioner);
+  solver.start(*program.linearTerm, x);
+  std::optional<ErrorRule> error;
+  GradientRule gradient(tolerances.gradientLimit(), tolerances.gradientReference);
+  if (tolerances.error != nullptr)
+    error.emplace(*tolerances.error, tolerances.gradientReference);
+  report.status = runToCertificate(solver, error ? static_cast<StoppingRule&>(*error) : gradient, &recorder);
   x.assign(solver.solution());
   describeEnd(solver, report);
-  report.relativeProjectedGradient = relativeTo(reference, solver.projectedGradient());
+  report.relativeProjectedGradient = relativeTo(tolerances.gradientReference, solver.projectedGradient());
   return report;
-}
-
-SolveReport solveBoundProblem(const BoundProblem& problem, Vector& x, const GradientTolerance& tolerance,
-                              const MprgpParameters& parameters, Observer* observer) {
-  GradientRule rule(tolerance.relative, tolerance.reference, tolerance.absolute);
-  return solveBoundProblem(problem, x, rule, tolerance.reference, parameters, observer);
 }
 
 } // namespace epafi::qp
