@@ -17,7 +17,7 @@ struct QuadraticProgram {
   RCP<const Vector> linearTerm{}; ///< b
   RCP<const ConvexSet> set{};     ///< Ω; null: everything
   /// Where Ω depends on x itself, as Coulomb's friction does on the normal forces: Ω(x); x is then to be in
-  /// Ω(x), and `set` is what the iteration begins with. For active sets, which all solves then are by.
+  /// Ω(x), and `set` is what the iteration begins with. It is by active sets then, whatever the method.
   std::function<RCP<const ConvexSet>(const Vector& x)> setAt = {};
   /// What is said where no x in Ω(x) is found.
   std::string unsettled = "the set that depends on the solution does not settle: there may be several "
