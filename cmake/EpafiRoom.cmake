@@ -39,11 +39,15 @@ function(epafi_library target name)
   endif()
 endfunction()
 
-# epafi_room(<room> SOURCES ... USES ... [NEEDS ...])
-# The library of the folder, as above, and the include path epafi/<room>/; that of the room fetidp/solve is Epafi::fetidp_solve.
+# epafi_room(<room> [NAME <name>] SOURCES ... USES ... [NEEDS ...])
+# The library of the folder, as above, and the include path epafi/<room>/; that of the room fetidp/solve is Epafi::fetidp_solve,
+# if it is not named otherwise.
 function(epafi_room room)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "SOURCES;USES;NEEDS")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "NAME" "SOURCES;USES;NEEDS")
   string(REPLACE "/" "_" name "${room}")
+  if(ROOM_NAME)
+    set(name ${ROOM_NAME})
+  endif()
   cmake_path(GET room PARENT_PATH above)
   file(MAKE_DIRECTORY "${EPAFI_INCLUDE_ROOT}/epafi/${above}")
   file(CREATE_LINK "${CMAKE_CURRENT_SOURCE_DIR}" "${EPAFI_INCLUDE_ROOT}/epafi/${room}" SYMBOLIC)

@@ -13,7 +13,7 @@
 #include "epafi/fetidp/solve/ContactResponse.hpp"
 #include "epafi/fetidp/solve/ContactSolution.hpp"
 #include "epafi/fetidp/solve/DualProblem.hpp"
-#include "epafi/qp/Interruption.hpp"
+#include "epafi/qp/solve/Interruption.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 

@@ -3,7 +3,7 @@
 #include "Table.hpp"
 #include "epafi/simulation/SceneRun.hpp"
 
-#include "epafi/qp/SpectrumEstimate.hpp"
+#include "epafi/qp/operators/SpectrumEstimate.hpp"
 #include "epafi/scene/SceneReader.hpp"
 
 #include <Teuchos_Comm.hpp>

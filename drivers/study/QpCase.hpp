@@ -3,7 +3,7 @@
 /// One row of qp.csv: a benchmark, a size, a method, a preconditioner and a start.
 
 #include "epafi/base/Types.hpp"
-#include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/solve/SolveReport.hpp"
 
 #include <string>
 #include <vector>

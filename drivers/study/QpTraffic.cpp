@@ -1,9 +1,9 @@
 #include "QpTraffic.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/LocalData.hpp"
-#include "epafi/qp/Mprgp.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/operators/LocalData.hpp"
+#include "epafi/qp/solve/Mprgp.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Teuchos_Time.hpp>

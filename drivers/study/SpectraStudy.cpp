@@ -5,7 +5,7 @@
 
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
-#include "epafi/qp/SpectrumEstimate.hpp"
+#include "epafi/qp/operators/SpectrumEstimate.hpp"
 #include "epafi/scene/SceneReader.hpp"
 
 #include <Tpetra_MultiVector.hpp>

@@ -1,6 +1,6 @@
 #include "epafi/benchmarks/BoundBenchmark.hpp"
 
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>

@@ -3,7 +3,7 @@
 /// A problem with bounds on a grid, ready for qp::QpSolver: min ½uᵀAu − bᵀu, l ≤ u ≤ h.
 
 #include "epafi/benchmarks/Grid.hpp"
-#include "epafi/qp/QpSolver.hpp"
+#include "epafi/qp/solve/QpSolver.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "epafi/linear/DualIteration.hpp"
 
 #include "epafi/linear/NodalBasis.hpp"
-#include "epafi/qp/BelosIteration.hpp"
+#include "epafi/qp/solve/BelosIteration.hpp"
 
 #include <algorithm>
 #include <limits>

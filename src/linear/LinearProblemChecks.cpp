@@ -6,7 +6,7 @@
 #include "epafi/fetidp/operator/MultiplierExchange.hpp"
 #include "epafi/fetidp/precondition/SharedRows.hpp"
 #include "epafi/linear/NodalBasis.hpp"
-#include "epafi/qp/StartVector.hpp"
+#include "epafi/qp/operators/StartVector.hpp"
 
 #include <Tpetra_Import.hpp>
 #include <Tpetra_Map.hpp>

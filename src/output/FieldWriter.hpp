@@ -3,7 +3,7 @@
 /// The solution of a scene as files that other programs open.
 
 #include "epafi/output/FileSet.hpp"
-#include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/solve/SolveReport.hpp"
 #include "epafi/simulation/Evaluation.hpp"
 
 #include <filesystem>

@@ -4,7 +4,7 @@
 
 #include "epafi/base/Types.hpp"
 #include "epafi/output/FileSet.hpp"
-#include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/solve/SolveReport.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 

@@ -1,5 +1,5 @@
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/QpSolver.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/solve/QpSolver.hpp"
 
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsMatrix.hpp>

@@ -100,9 +100,9 @@ class Places(unittest.TestCase):
         for name in ("bin/epafi", "bin/epafi-plot", "share/epafi/xml/coercive.xml",
                      "share/epafi/xml/meshes/bracket.geo", "share/epafi/plot/run.py", "share/doc/epafi/README.md",
                      "share/doc/epafi/LICENSE", "share/doc/epafi/docs/user-guide.md", "include/epafi/ContactSolver.hpp",
-                     "include/epafi/qp/QpSolver.hpp"):
+                     "include/epafi/qp/solve/QpSolver.hpp"):
             self.assertTrue((PREFIX / name).is_file(), name)
-        rooms = {"base", "direct", "qp", "benchmarks", "scene", "decomposition", "mesh", "meshing", "fem", "contact", "model", "accuracy",
+        rooms = {"base", "direct", "qp/operators", "qp/constraints", "qp", "benchmarks", "scene", "decomposition", "mesh", "meshing", "fem", "contact", "model", "accuracy",
                  "fetidp/operator", "fetidp/precondition", "fetidp/equilibrium", "fetidp/solve", "simulation", "output"}
         if has_adapters():
             rooms |= {"linear", "adapters"}

@@ -7,7 +7,7 @@
 #include "epafi/fetidp/precondition/CorrectedPreconditioner.hpp"
 #include "epafi/fetidp/precondition/Joints.hpp"
 #include "epafi/fetidp/precondition/OverratedColumns.hpp"
-#include "epafi/qp/DeflatedOperator.hpp"
+#include "epafi/qp/operators/DeflatedOperator.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Map.hpp>

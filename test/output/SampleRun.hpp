@@ -2,7 +2,7 @@
 
 #include "epafi/fetidp/solve/ContactSolution.hpp"
 #include "epafi/model/Decompose.hpp"
-#include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/solve/SolveReport.hpp"
 #include "epafi/scene/Scene.hpp"
 
 #include <Tpetra_Vector.hpp>

@@ -1,8 +1,8 @@
 #include "EqualityProblems.hpp"
 
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/qp/ActiveSets.hpp"
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/solve/ActiveSets.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "support/Problems.hpp"
 
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/MprgpSolve.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/solve/MprgpSolve.hpp"
 
 #include <algorithm>
 #include <cmath>

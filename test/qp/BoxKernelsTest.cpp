@@ -1,6 +1,6 @@
 #include "support/Problems.hpp"
 
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
 
 #include <gtest/gtest.h>
 

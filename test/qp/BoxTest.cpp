@@ -1,7 +1,7 @@
 #include "support/Problems.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
 
 #include <gtest/gtest.h>
 

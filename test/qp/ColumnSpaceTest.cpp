@@ -1,4 +1,4 @@
-#include "epafi/qp/DeflatedOperator.hpp"
+#include "epafi/qp/operators/DeflatedOperator.hpp"
 
 #include "support/Problems.hpp"
 

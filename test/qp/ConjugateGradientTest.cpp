@@ -1,6 +1,6 @@
 #include "support/Problems.hpp"
 
-#include "epafi/qp/ConjugateGradient.hpp"
+#include "epafi/qp/solve/ConjugateGradient.hpp"
 
 #include <gtest/gtest.h>
 

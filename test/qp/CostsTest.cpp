@@ -5,9 +5,9 @@
 #include "support/Problems.hpp"
 
 #include "epafi/base/Columns.hpp"
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/Mprgp.hpp"
-#include "epafi/qp/PenalizedOperator.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/constraints/PenalizedOperator.hpp"
+#include "epafi/qp/solve/Mprgp.hpp"
 
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -3,9 +3,9 @@
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Maps.hpp"
-#include "epafi/qp/ActiveSets.hpp"
-#include "epafi/qp/Discs.hpp"
-#include "epafi/qp/MprgpSolve.hpp"
+#include "epafi/qp/constraints/Discs.hpp"
+#include "epafi/qp/solve/ActiveSets.hpp"
+#include "epafi/qp/solve/MprgpSolve.hpp"
 
 #include <gtest/gtest.h>
 

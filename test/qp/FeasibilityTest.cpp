@@ -1,9 +1,9 @@
 #include "support/DenseProgram.hpp"
 #include "support/Problems.hpp"
 
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/Feasibility.hpp"
-#include "epafi/qp/MatrixEquality.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/constraints/MatrixEquality.hpp"
+#include "epafi/qp/solve/Feasibility.hpp"
 
 #include <gtest/gtest.h>
 

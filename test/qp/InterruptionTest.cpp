@@ -4,7 +4,7 @@
 #include "QpProblems.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/qp/ConjugateGradient.hpp"
+#include "epafi/qp/solve/ConjugateGradient.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
-#include "epafi/qp/MatrixEquality.hpp"
+#include "epafi/qp/constraints/MatrixEquality.hpp"
 
 #include <gtest/gtest.h>
 

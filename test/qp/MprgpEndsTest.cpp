@@ -1,6 +1,6 @@
 #include "BoundProblems.hpp"
 
-#include "epafi/qp/MprgpSolve.hpp"
+#include "epafi/qp/solve/MprgpSolve.hpp"
 
 #include <gtest/gtest.h>
 

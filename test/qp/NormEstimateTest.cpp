@@ -1,7 +1,7 @@
 #include "support/Problems.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/NormEstimate.hpp"
+#include "epafi/qp/operators/NormEstimate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "epafi/qp/ProgressWatch.hpp"
+#include "epafi/qp/solve/ProgressWatch.hpp"
 
 #include <gtest/gtest.h>
 

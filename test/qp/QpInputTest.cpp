@@ -1,7 +1,7 @@
 #include "QpProblems.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
 
 #include <Tpetra_MultiVector.hpp>
 #include <gtest/gtest.h>

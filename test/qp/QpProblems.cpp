@@ -1,6 +1,6 @@
 #include "QpProblems.hpp"
 
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
 
 #include <algorithm>
 #include <cmath>

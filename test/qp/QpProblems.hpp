@@ -6,7 +6,7 @@
 #include "support/DenseProgram.hpp"
 #include "support/Problems.hpp"
 
-#include "epafi/qp/QpSolver.hpp"
+#include "epafi/qp/solve/QpSolver.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 

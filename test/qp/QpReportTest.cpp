@@ -1,6 +1,6 @@
 #include "QpProblems.hpp"
 
-#include "epafi/qp/CsvHistory.hpp"
+#include "epafi/qp/solve/CsvHistory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "QpProblems.hpp"
 #include "support/DenseOracle.hpp"
 
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "EqualityProblems.hpp"
 
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/Smalbe.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/solve/Smalbe.hpp"
 
 #include <gtest/gtest.h>
 

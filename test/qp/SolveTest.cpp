@@ -3,9 +3,9 @@
 #include "support/DenseOracle.hpp"
 
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/LocalData.hpp"
-#include "epafi/qp/Solve.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/operators/LocalData.hpp"
+#include "epafi/qp/solve/Solve.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/direct/DenseSymmetric.hpp"
-#include "epafi/qp/SpectrumEstimate.hpp"
+#include "epafi/qp/operators/SpectrumEstimate.hpp"
 
 #include <gtest/gtest.h>
 

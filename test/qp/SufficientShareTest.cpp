@@ -2,7 +2,7 @@
 
 #include "support/Refusal.hpp"
 
-#include "epafi/qp/QpSolver.hpp"
+#include "epafi/qp/solve/QpSolver.hpp"
 
 #include <gtest/gtest.h>
 

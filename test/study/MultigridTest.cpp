@@ -3,7 +3,7 @@
 #include "Multigrid.hpp"
 
 #include "epafi/benchmarks/PublishedProblems.hpp"
-#include "epafi/qp/Box.hpp"
+#include "epafi/qp/constraints/Box.hpp"
 
 #include <gtest/gtest.h>
 

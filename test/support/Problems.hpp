@@ -5,8 +5,8 @@
 #include "epafi/base/Compatibility.hpp"
 #include "epafi/base/Types.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
-#include "epafi/qp/EqualityConstraint.hpp"
-#include "epafi/qp/LocalData.hpp"
+#include "epafi/qp/constraints/EqualityConstraint.hpp"
+#include "epafi/qp/operators/LocalData.hpp"
 
 #include <Eigen/Dense>
 #include <Teuchos_Comm.hpp>

@@ -4,7 +4,7 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
-#include "epafi/qp/QpSolver.hpp"
+#include "epafi/qp/solve/QpSolver.hpp"
 
 #include <Teuchos_Comm.hpp>
 #include <Tpetra_Core.hpp>

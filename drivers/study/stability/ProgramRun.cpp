@@ -1,8 +1,8 @@
 #include "ProgramRun.hpp"
 
 #include "epafi/base/Compatibility.hpp"
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/QpSolver.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/solve/QpSolver.hpp"
 
 #include <Teuchos_ArrayRCP.hpp>
 #include <Teuchos_CommHelpers.hpp>

@@ -9,8 +9,8 @@
 #include "RolSolver.hpp"
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/qp/Box.hpp"
-#include "epafi/qp/QpSolver.hpp"
+#include "epafi/qp/constraints/Box.hpp"
+#include "epafi/qp/solve/QpSolver.hpp"
 
 #include <Teuchos_Time.hpp>
 #include <Tpetra_Core.hpp>

@@ -1,7 +1,7 @@
 #include "epafi/fetidp/equilibrium/Balancing.hpp"
 
 #include "epafi/fetidp/equilibrium/ProblemScales.hpp"
-#include "epafi/qp/FaceInverse.hpp"
+#include "epafi/qp/constraints/FaceInverse.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -4,7 +4,7 @@
 
 #include "epafi/decomposition/ProblemData.hpp"
 #include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
-#include "epafi/qp/ConvexSet.hpp"
+#include "epafi/qp/constraints/ConvexSet.hpp"
 
 #include <Eigen/Core>
 

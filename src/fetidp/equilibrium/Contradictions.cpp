@@ -8,9 +8,9 @@
 #include "epafi/fetidp/equilibrium/FeasibleForces.hpp"
 #include "epafi/fetidp/equilibrium/ProblemScales.hpp"
 #include "epafi/fetidp/operator/RowProducts.hpp"
-#include "epafi/qp/MprgpSolve.hpp"
-#include "epafi/qp/NormEstimate.hpp"
-#include "epafi/qp/RecessionDirection.hpp"
+#include "epafi/qp/operators/NormEstimate.hpp"
+#include "epafi/qp/solve/MprgpSolve.hpp"
+#include "epafi/qp/solve/RecessionDirection.hpp"
 
 #include <Tpetra_Map.hpp>
 

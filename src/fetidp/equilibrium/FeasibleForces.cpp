@@ -1,7 +1,7 @@
 #include "epafi/fetidp/equilibrium/FeasibleForces.hpp"
 
-#include "epafi/qp/Discs.hpp"
-#include "epafi/qp/LocalData.hpp"
+#include "epafi/qp/constraints/Discs.hpp"
+#include "epafi/qp/operators/LocalData.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -4,7 +4,7 @@
 /// recovery, starts, contradictions.
 
 #include "epafi/decomposition/ProblemData.hpp"
-#include "epafi/qp/ConvexSet.hpp"
+#include "epafi/qp/constraints/ConvexSet.hpp"
 
 namespace epafi::fetidp {
 

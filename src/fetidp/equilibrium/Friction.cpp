@@ -3,8 +3,8 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
 #include "epafi/fetidp/equilibrium/FeasibleForces.hpp"
-#include "epafi/qp/Feasibility.hpp"
-#include "epafi/qp/LocalData.hpp"
+#include "epafi/qp/operators/LocalData.hpp"
+#include "epafi/qp/solve/Feasibility.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -16,7 +16,7 @@
 
 #include "epafi/fetidp/equilibrium/GramInverse.hpp"
 #include "epafi/fetidp/equilibrium/KernelGram.hpp"
-#include "epafi/qp/FaceInverse.hpp"
+#include "epafi/qp/constraints/FaceInverse.hpp"
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/direct/DenseOrthogonal.hpp"
-#include "epafi/qp/LocalData.hpp"
+#include "epafi/qp/operators/LocalData.hpp"
 
 #include <algorithm>
 #include <map>

@@ -5,7 +5,7 @@
 
 #include "epafi/base/RankGroups.hpp"
 #include "epafi/fetidp/equilibrium/KernelConstraint.hpp"
-#include "epafi/qp/Face.hpp"
+#include "epafi/qp/constraints/Face.hpp"
 
 #include <Eigen/SparseCore>
 

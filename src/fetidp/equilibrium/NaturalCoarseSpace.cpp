@@ -1,7 +1,7 @@
 #include "epafi/fetidp/equilibrium/NaturalCoarseSpace.hpp"
 
 #include "epafi/fetidp/equilibrium/KernelFaceInverse.hpp"
-#include "epafi/qp/LocalData.hpp"
+#include "epafi/qp/operators/LocalData.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -8,7 +8,7 @@
 
 #include "epafi/fetidp/equilibrium/GramInverse.hpp"
 #include "epafi/fetidp/equilibrium/KernelGram.hpp"
-#include "epafi/qp/EqualityConstraint.hpp"
+#include "epafi/qp/constraints/EqualityConstraint.hpp"
 
 #include <Eigen/Core>
 

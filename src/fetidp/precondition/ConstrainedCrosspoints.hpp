@@ -9,7 +9,7 @@
 ///   D = P_Uᵀ D⁰,   Ŝ_U⁻¹ = Ŝ⁻¹ − D⁰ᵀU(UᵀFU)⁻¹UᵀD⁰,   J_U = D Ŝ_U − B_C .
 
 #include "epafi/base/AccurateSum.hpp"
-#include "epafi/qp/ColumnSpace.hpp"
+#include "epafi/qp/operators/ColumnSpace.hpp"
 
 #include <Eigen/Core>
 

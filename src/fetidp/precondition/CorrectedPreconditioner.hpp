@@ -12,7 +12,7 @@
 
 #include "epafi/base/Columns.hpp"
 #include "epafi/base/SymmetricOperator.hpp"
-#include "epafi/qp/ColumnSpace.hpp"
+#include "epafi/qp/operators/ColumnSpace.hpp"
 
 #include <Tpetra_Vector.hpp>
 

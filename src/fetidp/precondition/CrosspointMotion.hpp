@@ -10,7 +10,7 @@
 #include "epafi/fetidp/precondition/ContactCrosspoints.hpp"
 #include "epafi/fetidp/precondition/ScaledConstraint.hpp"
 
-#include "epafi/qp/DeflatedOperator.hpp"
+#include "epafi/qp/operators/DeflatedOperator.hpp"
 
 #include <memory>
 #include <optional>

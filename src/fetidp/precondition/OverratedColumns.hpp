@@ -10,7 +10,7 @@
 
 #include "epafi/fetidp/operator/GeneralizedInverse.hpp"
 #include "epafi/fetidp/precondition/Joints.hpp"
-#include "epafi/qp/ColumnSpace.hpp"
+#include "epafi/qp/operators/ColumnSpace.hpp"
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/equilibrium/ProjectedOperator.hpp"
 #include "epafi/fetidp/operator/MultiplierExchange.hpp"
-#include "epafi/qp/ConjugateGradient.hpp"
-#include "epafi/qp/FaceEquality.hpp"
+#include "epafi/qp/constraints/FaceEquality.hpp"
+#include "epafi/qp/solve/ConjugateGradient.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -11,7 +11,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/fetidp/solve/ContactSolution.hpp"
 #include "epafi/fetidp/solve/DualProblem.hpp"
-#include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/solve/SolveReport.hpp"
 
 #include <Eigen/Core>
 

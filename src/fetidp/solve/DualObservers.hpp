@@ -4,7 +4,7 @@
 
 #include "epafi/fetidp/solve/DualProblem.hpp"
 #include "epafi/fetidp/solve/Recovery.hpp"
-#include "epafi/qp/ErrorTarget.hpp"
+#include "epafi/qp/solve/ErrorTarget.hpp"
 
 #include <Tpetra_Vector.hpp>
 

@@ -8,8 +8,8 @@
 #include "epafi/fetidp/precondition/CorrectedPreconditioner.hpp"
 #include "epafi/fetidp/precondition/DualPreconditioner.hpp"
 #include "epafi/fetidp/solve/Plan.hpp"
-#include "epafi/qp/DeflatedOperator.hpp"
-#include "epafi/qp/NormEstimate.hpp"
+#include "epafi/qp/operators/DeflatedOperator.hpp"
+#include "epafi/qp/operators/NormEstimate.hpp"
 
 #include <memory>
 #include <vector>

@@ -6,7 +6,7 @@
 #include "epafi/fetidp/equilibrium/FeasibleForces.hpp"
 #include "epafi/fetidp/solve/DualOperators.hpp"
 #include "epafi/fetidp/solve/ErrorBalance.hpp"
-#include "epafi/qp/SolveReport.hpp"
+#include "epafi/qp/solve/SolveReport.hpp"
 
 #include <memory>
 #include <span>

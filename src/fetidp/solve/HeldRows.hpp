@@ -3,7 +3,7 @@
 /// Which rows hold while a solution is settled (Recovery.hpp).
 
 #include "epafi/base/Collective.hpp"
-#include "epafi/qp/ConvexSet.hpp"
+#include "epafi/qp/constraints/ConvexSet.hpp"
 
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>

@@ -4,7 +4,7 @@
 
 #include "epafi/fetidp/solve/DualObservers.hpp"
 #include "epafi/fetidp/solve/DualProblem.hpp"
-#include "epafi/qp/Solve.hpp"
+#include "epafi/qp/solve/Solve.hpp"
 
 #include <optional>
 

@@ -6,10 +6,10 @@
 
 #include "epafi/decomposition/DecomposedProblem.hpp"
 #include "epafi/fetidp/operator/FetiParameters.hpp"
-#include "epafi/qp/ActiveSets.hpp"
-#include "epafi/qp/MprgpParameters.hpp"
-#include "epafi/qp/NormEstimate.hpp"
-#include "epafi/qp/Smalbe.hpp"
+#include "epafi/qp/operators/NormEstimate.hpp"
+#include "epafi/qp/solve/ActiveSets.hpp"
+#include "epafi/qp/solve/MprgpParameters.hpp"
+#include "epafi/qp/solve/Smalbe.hpp"
 
 #include <limits>
 #include <map>

@@ -5,7 +5,7 @@
 
 #include "epafi/fetidp/solve/ContactSolution.hpp"
 #include "epafi/fetidp/solve/DualProblem.hpp"
-#include "epafi/qp/Interruption.hpp"
+#include "epafi/qp/solve/Interruption.hpp"
 
 #include <optional>
 
