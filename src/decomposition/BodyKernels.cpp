@@ -1,5 +1,6 @@
 #include "epafi/decomposition/BodyKernels.hpp"
 
+#include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/decomposition/RigidModes.hpp"
@@ -29,8 +30,7 @@ std::vector<RigidModes> rigidModesOf(const Substructures& all) {
     for (std::size_t d = 0; d < 3; ++d) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (std::size_t s = 0; s < all.size(); ++s)
-        for (std::size_t node = 0;
-             static_cast<std::size_t>(all.subdomains[s].body) == b && node < all.numNodes(s); ++node) {
+        for (std::size_t node = 0; index(all.subdomains[s].body) == b && node < all.numNodes(s); ++node) {
           low = std::min(low, all.point(s, node)[d]);
           high = std::max(high, all.point(s, node)[d]);
         }
@@ -113,7 +113,7 @@ std::vector<bool> areRigid(const std::vector<SubdomainMatrix>& matrices, std::si
   for (std::size_t b = 0; b < numBodies; ++b)
     result.push_back(
         !holdsAnywhere(comm, std::any_of(matrices.begin(), matrices.end(), [b](const SubdomainMatrix& m) {
-                         return static_cast<std::size_t>(m.body) == b && m.nearKernel.cols() > 0;
+                         return index(m.body) == b && m.nearKernel.cols() > 0;
                        })));
   return result;
 }

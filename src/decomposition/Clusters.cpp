@@ -125,9 +125,7 @@ std::vector<Cluster> clustersOfBodies(std::span<const Body> bodies) {
 ClusterKernels findClusterKernels(const Substructures& all, std::vector<Motions> motions,
                                   const std::vector<int>& clusterOf) {
   ClusterKernels result;
-  result.clusters.resize(clusterOf.empty() ? 0
-                                           : static_cast<std::size_t>(
-                                                 1 + *std::max_element(clusterOf.begin(), clusterOf.end())));
+  result.clusters.resize(clusterOf.empty() ? 0 : 1 + *std::max_element(clusterOf.begin(), clusterOf.end()));
   std::vector<int> bodies;
   for (std::size_t s = 0; s < all.size(); ++s)
     bodies.push_back(all.subdomains[s].body);

@@ -186,7 +186,7 @@ struct DecomposedProblem {
   /// 1 or 2 for a row of friction along the first or second tangent of its node, else 0.
   [[nodiscard]] std::size_t tangentOf(TouchedMultiplier row) const {
     const GlobalOrdinal place = numberOf(row) - numInequalities;
-    return kindOf(row) == RowKind::friction ? static_cast<std::size_t>(1 + place % (components - 1)) : 0;
+    return kindOf(row) == RowKind::friction ? 1 + place % (components - 1) : 0;
   }
   [[nodiscard]] MultiplierNumber numberOf(OwnedMultiplier row) const { ///< in the whole problem
     return multiplierMap->getGlobalElement(row);
@@ -195,7 +195,7 @@ struct DecomposedProblem {
     return multiplierGhostMap->getGlobalElement(row);
   }
   [[nodiscard]] Eigen::Index numPositions(const Subdomain& subdomain) const { ///< nodes × components
-    return static_cast<Eigen::Index>(subdomain.nodes.size()) * components;
+    return subdomain.nodes.size() * components;
   }
   [[nodiscard]] const Cluster& clusterAt(const Subdomain& subdomain) const { ///< that it is in
     return clusters[clusterOf[subdomain.number]];

@@ -16,8 +16,8 @@ public:
         neighbours_(copies_.size()) {
     const std::vector<int>& positions = all.subdomains[subdomain].unknownPosition;
     std::vector<int> copyAt(all.numNodes(subdomain), -1);
-    for (std::size_t k = 0; k < copies_.size(); ++k)
-      copyAt[copies_[k].place] = static_cast<int>(k);
+    for (int k = 0; k < std::ssize(copies_); ++k)
+      copyAt[copies_[k].place] = k;
     const auto copyOf = [&](Eigen::Index unknown) { return copyAt[positions[unknown] / all.components]; };
     const SparseMatrix& stiffness = *all.nodal[subdomain].stiffness;
     for (int column = 0; column < stiffness.outerSize(); ++column) {

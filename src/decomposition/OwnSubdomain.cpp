@@ -22,15 +22,15 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   subdomain.nodes.erase(std::unique(subdomain.nodes.begin(), subdomain.nodes.end()), subdomain.nodes.end());
 
   const Eigen::Index n = matrix.unknowns.size();
-  const auto numPositions = subdomain.nodes.size() * components;
+  const Eigen::Index numPositions = subdomain.nodes.size() * components;
   std::vector<int> unknownAt(numPositions, -1); // of the application
   own.unknowns = matrix.unknowns;
-  for (std::size_t i = 0; i < own.unknowns.size(); ++i) {
+  for (int i = 0; i < std::ssize(own.unknowns); ++i) {
     const auto node =
         std::lower_bound(subdomain.nodes.begin(), subdomain.nodes.end(), own.unknowns[i] / components) -
         subdomain.nodes.begin();
     own.position.push_back(static_cast<int>(node * components + own.unknowns[i] % components));
-    unknownAt[own.position.back()] = static_cast<int>(i);
+    unknownAt[own.position.back()] = i;
   }
   own.prescribed = Eigen::VectorXd::Zero(n);
   std::vector<char> isFree(own.unknowns.size(), 1);
@@ -42,7 +42,7 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
   own.row.assign(own.unknowns.size(), -1);
   nodal.unknownOf.assign(numPositions, -1);
   data.prescribed = Eigen::VectorXd::Zero(numPositions);
-  for (std::size_t position = 0; position < numPositions; ++position) {
+  for (int position = 0; position < numPositions; ++position) {
     const int i = unknownAt[position];
     if (i < 0)
       continue;
@@ -52,7 +52,7 @@ OwnSubdomain takeSubdomain(SubdomainMatrix& matrix, int components, Subdomain& s
     }
     own.row[i] = static_cast<int>(subdomain.unknownPosition.size());
     nodal.unknownOf[position] = own.row[i];
-    subdomain.unknownPosition.push_back(static_cast<int>(position));
+    subdomain.unknownPosition.push_back(position);
   }
   own.load = std::move(matrix.load);
   own.heldForce = matrix.stiffness * own.prescribed;

@@ -152,8 +152,7 @@ SharedNodes::SharedNodes(const Substructures& all, std::span<const int> clusterO
   if (!clusterOf.empty())
     shared = insideClusters(shared, clusterOf);
 
-  const int me = comm_->getRank(),
-            firstNumber = all.size() > 0 ? static_cast<int>(all.subdomains.front().number) : 0;
+  const int me = comm_->getRank(), firstNumber = all.size() > 0 ? int{all.subdomains.front().number} : 0;
   firstCopy_.assign(all.size() + 1, 0);
   for (const Sighting& sighting : shared)
     if (sighting.rank == me)

@@ -64,8 +64,8 @@ public:
       senders.insert(neighbour.rank);
       for (const std::size_t copy : neighbour.sent)
         if (isWanted(copies_[copy].node))
-          message.insert(message.end(), values.begin() + static_cast<std::ptrdiff_t>(copy * columns),
-                         values.begin() + static_cast<std::ptrdiff_t>((copy + 1) * columns));
+          message.insert(message.end(), values.begin() + copy * columns,
+                         values.begin() + (copy + 1) * columns);
     }
     const std::map<int, std::vector<T>> incoming = epafi::exchange(*comm_, outgoing, senders);
     for (const Neighbour& neighbour : neighbours_) {

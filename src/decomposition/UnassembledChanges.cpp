@@ -71,7 +71,7 @@ void UnassembledProblem::refreshData(std::size_t subdomain) {
 
 void UnassembledProblem::setMatrix(std::size_t subdomain, const SparseMatrix& stiffness) {
   requireComplete();
-  const auto n = subdomain < own_.size() ? static_cast<Eigen::Index>(own_[subdomain].row.size()) : 0;
+  const Eigen::Index n = subdomain < own_.size() ? own_[subdomain].row.size() : 0;
   if (stiffness.rows() != n || stiffness.cols() != n)
     throw InputError("a stiffness of " + std::to_string(stiffness.rows()) + " rows was given for subdomain " +
                      std::to_string(subdomain) + " of this rank, which has " + std::to_string(n) +

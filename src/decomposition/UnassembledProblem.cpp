@@ -100,7 +100,7 @@ void UnassembledProblem::complete() {
   if (crosspoints_)
     throw Error("UnassembledProblem::complete was called twice.");
   const int first = firstNumber();
-  const bool areKernelsKnown = static_cast<bool>(places_.point);
+  const bool areKernelsKnown = places_.point != nullptr;
   if (!areKernelsKnown) {
     takeAdded(first);
     mapUnknowns();
@@ -110,8 +110,8 @@ void UnassembledProblem::complete() {
     if (friction_)
       requireSound(friction_->tangents, unknownMap_);
   }
-  for (std::size_t s = 0; s < nodal_.size(); ++s)
-    problem_.subdomains[s].number = first + static_cast<int>(s);
+  for (int s = 0; s < std::ssize(nodal_); ++s)
+    problem_.subdomains[s].number = first + s;
   shared_ = SharedNodes(view());
   std::vector<Motions> near;
   if (!areKernelsKnown)

@@ -49,13 +49,12 @@ RCP<const Vector> UnassembledProblem::enter(const ConstraintMatrix& matrix, Glob
 
 /// Rows of contact, ties and gluing, B and the gaps. Collective.
 void UnassembledProblem::attach() {
-  const auto numRows = [](const std::optional<ConstraintMatrix>& matrix) {
-    return matrix ? static_cast<GlobalOrdinal>(matrix->rows->getGlobalNumRows()) : 0;
+  const auto numRows = [](const std::optional<ConstraintMatrix>& matrix) -> GlobalOrdinal {
+    return matrix ? matrix->rows->getGlobalNumRows() : 0;
   };
   problem_.numInequalities = numRows(contact_);
   problem_.numTies = numRows(ties_);
-  problem_.numFriction =
-      friction_ ? static_cast<GlobalOrdinal>(friction_->tangents.rows->getGlobalNumRows()) : 0;
+  problem_.numFriction = friction_ ? friction_->tangents.rows->getGlobalNumRows() : 0;
   requireSoundFriction();
   std::vector<GlobalOrdinal> ownContact;
   std::vector<std::vector<RowEntry>> rows(nodal_.size());

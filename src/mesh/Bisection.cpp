@@ -17,9 +17,9 @@ public:
       : mesh_(mesh), numCorners_(index(mesh.dimension) + 1), times_(std::move(times)),
         ancestors_(mesh.elements.size()), elementsAt_(mesh.points.size()) {
     std::iota(ancestors_.begin(), ancestors_.end(), 0);
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    for (LocalOrdinal e = 0; e < std::ssize(mesh.elements); ++e) {
       for (std::size_t i = 0; i < numCorners_; ++i)
-        elementsAt_[index(mesh.elements[e].corners[i])].push_back(static_cast<LocalOrdinal>(e));
+        elementsAt_[index(mesh.elements[e].corners[i])].push_back(e);
       if (times_[e] > 0)
         queue_.push_back(e);
     }
@@ -29,7 +29,7 @@ public:
   /// each other ends.
   std::vector<LocalOrdinal> run() {
     while (!queue_.empty()) {
-      const std::size_t element = queue_.front();
+      const LocalOrdinal element = queue_.front();
       queue_.pop_front();
       if (times_[element] > 0 || hasCutEdge(element))
         split(element);
@@ -38,7 +38,7 @@ public:
   }
 
 private:
-  [[nodiscard]] bool hasCutEdge(std::size_t element) const {
+  [[nodiscard]] bool hasCutEdge(LocalOrdinal element) const {
     const auto& corners = mesh_.elements[element].corners;
     for (std::size_t i = 1; i < numCorners_; ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -58,7 +58,7 @@ private:
 
   /// Places of its ends among the corners. Edges are in one order, whichever element asks: by length, then by
   /// name.
-  [[nodiscard]] std::pair<std::size_t, std::size_t> longestEdge(std::size_t element) const {
+  [[nodiscard]] std::pair<std::size_t, std::size_t> longestEdge(LocalOrdinal element) const {
     const auto& corners = mesh_.elements[element].corners;
     std::pair<std::size_t, std::size_t> longest;
     std::pair<float, Edge> key{0.0F, 0};
@@ -104,7 +104,7 @@ private:
       if (const auto& corners = mesh_.elements[index(element)].corners;
           std::find(corners.begin(), corners.begin() + mesh_.dimension + 1, b) !=
           corners.begin() + mesh_.dimension + 1)
-        queue_.push_back(index(element));
+        queue_.push_back(element);
     return middle;
   }
 
@@ -118,7 +118,7 @@ private:
     setBend(middle, c, bend);
   }
 
-  void split(std::size_t element) {
+  void split(LocalOrdinal element) {
     const auto [at, bt] = longestEdge(element);
     SimplexMesh::Element first = mesh_.elements[element];
     const LocalOrdinal a = first.corners[at], b = first.corners[bt], middle = middleOf(a, b);
@@ -130,19 +130,18 @@ private:
     first.facets[at] = 0;
     second.corners[at] = middle;
     second.facets[bt] = 0;
-    const std::size_t other = mesh_.elements.size();
+    const auto other = static_cast<LocalOrdinal>(mesh_.elements.size());
     mesh_.elements[element] = first;
     mesh_.elements.push_back(second);
     times_[element] = std::max(0, times_[element] - 1);
     times_.push_back(times_[element]);
     ancestors_.push_back(ancestors_[element]);
     auto& around = elementsAt_[index(b)];
-    *std::find(around.begin(), around.end(), static_cast<LocalOrdinal>(element)) =
-        static_cast<LocalOrdinal>(other);
-    elementsAt_[index(middle)].push_back(static_cast<LocalOrdinal>(element));
+    *std::find(around.begin(), around.end(), element) = other;
+    elementsAt_[index(middle)].push_back(element);
     for (std::size_t i = 0; i < numCorners_; ++i)
       if (i != bt)
-        elementsAt_[index(second.corners[i])].push_back(static_cast<LocalOrdinal>(other));
+        elementsAt_[index(second.corners[i])].push_back(other);
     queue_.push_back(element);
     queue_.push_back(other);
   }
@@ -153,7 +152,7 @@ private:
   std::vector<LocalOrdinal> ancestors_;
   std::vector<std::vector<LocalOrdinal>> elementsAt_; ///< each node
   std::unordered_map<Edge, LocalOrdinal> middles_;    ///< of edges that are cut
-  std::deque<std::size_t> queue_;
+  std::deque<LocalOrdinal> queue_;
 };
 
 } // namespace

@@ -17,9 +17,9 @@ constexpr std::array<Facet, total / nodes> facetsIn(const std::array<int, total>
 /// Where the node on an edge is among the nodes of a cell.
 template <std::size_t total>
 constexpr int nodeBetween(int a, int b, const std::array<int, total>& edges, int corners) {
-  for (std::size_t e = 0; 2 * e < total; ++e)
+  for (int e = 0; 2 * e < std::ssize(edges); ++e)
     if ((edges[2 * e] == a && edges[2 * e + 1] == b) || (edges[2 * e] == b && edges[2 * e + 1] == a))
-      return corners + static_cast<int>(e);
+      return corners + e;
   return -1;
 }
 

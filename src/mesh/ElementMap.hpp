@@ -18,10 +18,10 @@ namespace epafi::mesh {
 template <int space>
 NodalColumns<space> relativeCorners(std::span<const Point> points) {
   assert(points.size() <= mostNodes);
-  NodalColumns<space> corners(space, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t a = 0; a < points.size(); ++a)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(space); ++i)
-      corners(static_cast<int>(i), static_cast<int>(a)) = points[a][i] - points[0][i];
+  NodalColumns<space> corners(space, points.size());
+  for (int a = 0; a < std::ssize(points); ++a)
+    for (int i = 0; i < space; ++i)
+      corners(i, a) = points[a][i] - points[0][i];
   return corners;
 }
 

@@ -75,9 +75,8 @@ public:
     for (int code = 0; code < power(degree_ + 1, dim); ++code) {
       Exponents exponents{};
       exponents.back() = degree_;
-      for (std::size_t i = 0, left = code, base = static_cast<std::size_t>(degree_) + 1; i < dim;
-           ++i, left /= base)
-        exponents.back() -= exponents[i] = static_cast<int>(left % base);
+      for (int i = 0, left = code, base = degree_ + 1; i < dim; ++i, left /= base)
+        exponents.back() -= exponents[i] = left % base;
       if (isSimplex_ && exponents.back() < 0)
         continue;
       all.push_back(exponents);
@@ -104,7 +103,7 @@ public:
 
 private:
   /// The last one: what is left of the degree, on simplices.
-  using Exponents = std::array<int, static_cast<std::size_t>(dim) + 1>;
+  using Exponents = std::array<int, dim + 1>;
 
   [[nodiscard]] double at(const Coordinates<dim>& xi, const Exponents& exponents) const {
     double value = 1;

@@ -36,15 +36,15 @@ struct MeshArrays {
   std::vector<GlobalOrdinal> nodeTags, elementTags;
 
   [[nodiscard]] LocalOrdinal numElements() const {
-    return static_cast<LocalOrdinal>(cells.size() / static_cast<std::size_t>(numNodesOf(cellType)));
+    return static_cast<LocalOrdinal>(cells.size() / numNodesOf(cellType));
   }
 };
 
 /// The nodes of one element among those of all.
 inline std::span<const LocalOrdinal> nodesOf(CellType type, std::span<const LocalOrdinal> cells,
-                                             LocalOrdinal element) {
+                                             std::size_t element) {
   const std::size_t count = numNodesOf(type);
-  return cells.subspan(static_cast<std::size_t>(element) * count, count);
+  return cells.subspan(element * count, count);
 }
 
 } // namespace epafi::mesh

@@ -41,12 +41,12 @@ private:
   [[nodiscard]] std::string element(LocalOrdinal number) const {
     return std::string("element ") + std::to_string(mesh_.elementTags[index(number)]);
   }
-  [[nodiscard]] std::string node(LocalOrdinal number) const {
-    const GlobalOrdinal tag = mesh_.nodeTags[index(number)];
+  [[nodiscard]] std::string node(std::size_t number) const {
+    const GlobalOrdinal tag = mesh_.nodeTags[number];
     return tag < 0 ? "an added node" : "node " + std::to_string(tag);
   }
   /// "(0.5, 1)"
-  [[nodiscard]] std::string place(LocalOrdinal number) const;
+  [[nodiscard]] std::string place(std::size_t number) const;
   [[nodiscard]] ElementShape shape(LocalOrdinal number) const;
   [[nodiscard]] std::span<const LocalOrdinal> nodes(LocalOrdinal number) const {
     return nodesOf(mesh_.cellType, mesh_.cells, number);
@@ -62,8 +62,8 @@ private:
   double size_ = 0; ///< diagonal of the body's box
 };
 
-std::string Checker::place(LocalOrdinal number) const {
-  return text(std::span(mesh_.points[index(number)]).first(dimension_));
+std::string Checker::place(std::size_t number) const {
+  return text(std::span(mesh_.points[number]).first(dimension_));
 }
 
 ElementShape Checker::shape(LocalOrdinal number) const {
@@ -81,15 +81,14 @@ bool Checker::haveSameNodes(LocalOrdinal a, LocalOrdinal b) const {
 void Checker::checkNodes() const {
   for (LocalOrdinal e = 0; e < mesh_.numElements(); ++e) {
     const auto own = nodes(e);
-    for (std::size_t i = 0; i < own.size(); ++i)
-      if (std::find(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(i), own[i]) !=
-          own.begin() + static_cast<std::ptrdiff_t>(i))
-        refuse(element(e) + " has " + node(own[i]) + " twice; give it " +
+    for (auto next = own.begin(); next != own.end(); ++next)
+      if (std::find(own.begin(), next, *next) != next)
+        refuse(element(e) + " has " + node(*next) + " twice; give it " +
                std::to_string(numNodesOf(mesh_.cellType)) + " different nodes, or use elements of one shape");
   }
   for (std::size_t n = 0; n < mesh_.points.size(); ++n)
-    if (const auto number = static_cast<LocalOrdinal>(n); topology_.elementsOf(number).empty())
-      refuse(node(number) + " at " + place(number) +
+    if (topology_.elementsOf(n).empty())
+      refuse(node(n) + " at " + place(n) +
              " is listed with the body but belongs to none of its elements; remove it from the file, or mesh "
              "anew");
 }
@@ -98,16 +97,15 @@ void Checker::checkPoints() {
   for (std::size_t n = 0; n < mesh_.points.size(); ++n)
     for (const double value : mesh_.points[n])
       if (!std::isfinite(value))
-        refuse(node(static_cast<LocalOrdinal>(n)) +
-               " has a coordinate that is not a finite number; mesh anew");
+        refuse(node(n) + " has a coordinate that is not a finite number; mesh anew");
   const auto [lower, upper] = boxOf(mesh_.points);
   size_ = std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
   if (dimension_ == 3)
     return;
   for (std::size_t n = 0; n < mesh_.points.size(); ++n)
     if (std::abs(mesh_.points[n][2]) > placeTolerance * size_)
-      refuse(node(static_cast<LocalOrdinal>(n)) + " lies at z = " + text(mesh_.points[n][2]) +
-             ", but a body of " + toString(mesh_.cellType) +
+      refuse(node(n) + " lies at z = " + text(mesh_.points[n][2]) + ", but a body of " +
+             toString(mesh_.cellType) +
              "s lies in the plane z = 0; move it there, or, if the body is solid, mesh its volume (gmsh -3)");
 }
 
@@ -167,7 +165,7 @@ void Checker::checkPlaces(const BoxTree& tree) const {
     tree.meeting(boxOf(std::span(&point, 1), tolerance), found);
     if (found.size() < 2)
       continue;
-    const auto first = static_cast<LocalOrdinal>(found[0]), second = static_cast<LocalOrdinal>(found[1]);
+    const std::size_t first = found[0], second = found[1];
     refuse(
         node(first) + " and " + node(second) + " are both at " + place(first) +
         ", so that the body is cut there; merge them (in a .geo file \"Coherence Mesh;\" after meshing). If "

@@ -15,8 +15,7 @@ namespace {
 /// Place of a number among ascending ones, their count if it is not there.
 std::size_t placeIn(const std::vector<GlobalOrdinal>& numbers, GlobalOrdinal number) {
   const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
-  return static_cast<std::size_t>(
-      found != numbers.end() && *found == number ? found - numbers.begin() : numbers.end() - numbers.begin());
+  return found != numbers.end() && *found == number ? found - numbers.begin() : numbers.size();
 }
 
 template <class Value>
@@ -46,12 +45,12 @@ std::size_t MeshPart::placeOf(GlobalOrdinal node) const {
   return place;
 }
 
-LocalOrdinal MeshPart::placeOfElement(GlobalOrdinal element) const {
+std::size_t MeshPart::placeOfElement(GlobalOrdinal element) const {
   const std::size_t place = placeIn(arrays_.elements, element);
   if (place == arrays_.elements.size())
     throw Error("Element " + std::to_string(element) +
                 " of a mesh is asked for on a rank that does not hold it.");
-  return static_cast<LocalOrdinal>(place);
+  return place;
 }
 
 /// Surfaces lose the nodes between their corners.
@@ -75,7 +74,7 @@ std::unique_ptr<const MeshPart> MeshPart::ofOrder1() const {
   part.cornerNumbers = part.nodes;
   part.cells.clear();
   for (std::size_t element = 0; element < arrays_.elements.size(); ++element) {
-    const auto nodes = nodesOf(arrays_.cellType, arrays_.cells, static_cast<LocalOrdinal>(element));
+    const auto nodes = nodesOf(arrays_.cellType, arrays_.cells, element);
     for (std::size_t i = 0; i < corners; ++i)
       part.cells.push_back(place[index(nodes[i])]);
   }
@@ -104,18 +103,18 @@ void MeshPart::elementNodes(std::span<const GlobalOrdinal> elements, std::span<G
 void MeshPart::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
   if (const std::size_t place = placeIn(arrays_.nodes, node); place < arrays_.nodes.size())
-    for (const LocalOrdinal element : topology_.elementsOf(static_cast<LocalOrdinal>(place)))
+    for (const LocalOrdinal element : topology_.elementsOf(place))
       elements.push_back(arrays_.elements[index(element)]);
 }
 
 void MeshPart::numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const {
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    numbers[i] = static_cast<int>(topology_.elementsOf(static_cast<LocalOrdinal>(placeOf(nodes[i]))).size());
+    numbers[i] = static_cast<int>(topology_.elementsOf(placeOf(nodes[i])).size());
 }
 
 void MeshPart::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
-  const LocalOrdinal own = placeOfElement(element);
+  const std::size_t own = placeOfElement(element);
   for (std::size_t f = 0; f < facetsOf(arrays_.cellType).size(); ++f)
     if (const LocalOrdinal other = topology_.across(own, f); other >= 0)
       elements.push_back(arrays_.elements[index(other)]);

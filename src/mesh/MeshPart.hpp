@@ -65,7 +65,7 @@ public:
 
 private:
   [[nodiscard]] std::size_t placeOf(GlobalOrdinal node) const;
-  [[nodiscard]] LocalOrdinal placeOfElement(GlobalOrdinal element) const;
+  [[nodiscard]] std::size_t placeOfElement(GlobalOrdinal element) const;
 
   PartArrays arrays_;
   MeshTopology topology_; ///< of the held elements

@@ -50,13 +50,12 @@ MeshTopology::MeshTopology(CellType type, LocalOrdinal numNodes, std::span<const
   markBoundary(cells);
 }
 
-std::span<const LocalOrdinal> MeshTopology::elementsOf(LocalOrdinal node) const {
-  const std::size_t n = node;
-  return std::span(elements_).subspan(firstElement_[n], firstElement_[n + 1] - firstElement_[n]);
+std::span<const LocalOrdinal> MeshTopology::elementsOf(std::size_t node) const {
+  return std::span(elements_).subspan(firstElement_[node], firstElement_[node + 1] - firstElement_[node]);
 }
 
 void MeshTopology::findElementsOfNodes(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
-  firstElement_.assign(static_cast<std::size_t>(numNodes) + 1, 0);
+  firstElement_.assign(std::size_t{1} + numNodes, 0);
   for (const LocalOrdinal node : cells)
     ++firstElement_[node + 1];
   accumulate(firstElement_);
@@ -69,7 +68,7 @@ void MeshTopology::findElementsOfNodes(LocalOrdinal numNodes, std::span<const Lo
 
 void MeshTopology::pairFacets(LocalOrdinal numNodes, std::span<const LocalOrdinal> cells) {
   // Buckets by lowest node: each holds a few dozen facets, whatever the mesh's size.
-  std::vector<std::size_t> first(static_cast<std::size_t>(numNodes) + 1, 0);
+  std::vector<std::size_t> first(std::size_t{1} + numNodes, 0);
   forEachFacet(type_, cells,
                [&](std::uint32_t, std::span<const LocalOrdinal> nodes) { ++first[nodes[0] + 1]; });
   accumulate(first);

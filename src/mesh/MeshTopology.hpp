@@ -23,13 +23,13 @@ public:
   MeshTopology(CellType type, LocalOrdinal numNodes, std::span<const LocalOrdinal> cells);
 
   /// Elements that touch a node, ascending.
-  [[nodiscard]] std::span<const LocalOrdinal> elementsOf(LocalOrdinal node) const;
+  [[nodiscard]] std::span<const LocalOrdinal> elementsOf(std::size_t node) const;
   /// The element across the facet facetsOf(type)[facet]; −1: none, the facet lies on the boundary.
-  [[nodiscard]] LocalOrdinal across(LocalOrdinal element, std::size_t facet) const {
-    return across_[static_cast<std::size_t>(element) * facetsPerElement_ + facet];
+  [[nodiscard]] LocalOrdinal across(std::size_t element, std::size_t facet) const {
+    return across_[element * facetsPerElement_ + facet];
   }
   /// Whether a node belongs to a facet on the boundary.
-  [[nodiscard]] bool isOnBoundary(LocalOrdinal node) const { return isOnBoundary_[node] != 0; }
+  [[nodiscard]] bool isOnBoundary(std::size_t node) const { return isOnBoundary_[node] != 0; }
   /// One facet that more than two elements share, if there is any: then across() is not to be used.
   [[nodiscard]] const std::optional<Crowd>& crowdedFacet() const { return crowdedFacet_; }
 

@@ -173,10 +173,8 @@ void Shape<dim>::placeNodes() {
     return;
   const auto ends = edgesOf(withOrder(type, 1));
   const int edges = static_cast<int>(ends.size()) / 2;
-  for (int e = 0; e < edges; ++e) {
-    const std::size_t first = 2 * static_cast<std::size_t>(e);
-    nodes_.col(corners + e) = 0.5 * (nodes_.col(ends[first]) + nodes_.col(ends[first + 1]));
-  }
+  for (int e = 0; e < edges; ++e)
+    nodes_.col(corners + e) = 0.5 * (nodes_.col(ends[2 * e]) + nodes_.col(ends[2 * e + 1]));
   for (int face = 0; corners + edges + face < numNodes && face < 6 && dim == 3; ++face)
     nodes_(face / 2, corners + edges + face) = face % 2 == 0 ? -1 : 1;
 }
@@ -200,8 +198,8 @@ NodalValues Shape<dim>::values(const Coordinates<dim>& xi) const {
   }
   values.template head<dim + 1>() = (all.array() * (2 * all.array() - 1)).matrix();
   const auto ends = edgesOf(type);
-  for (std::size_t e = 0; 2 * e < ends.size(); ++e)
-    values[dim + 1 + static_cast<int>(e)] = 4 * all[ends[2 * e]] * all[ends[2 * e + 1]];
+  for (int e = 0; 2 * e < std::ssize(ends); ++e)
+    values[dim + 1 + e] = 4 * all[ends[2 * e]] * all[ends[2 * e + 1]];
   return values;
 }
 
@@ -227,9 +225,9 @@ NodalColumns<dim> Shape<dim>::gradients(const Coordinates<dim>& xi) const {
   for (int a = 0; a <= dim; ++a)
     gradients.col(a) = (4 * all[a] - 1) * ofAll.col(a);
   const auto ends = edgesOf(type);
-  for (std::size_t e = 0; 2 * e < ends.size(); ++e) {
+  for (int e = 0; 2 * e < std::ssize(ends); ++e) {
     const int a = ends[2 * e], b = ends[2 * e + 1];
-    gradients.col(dim + 1 + static_cast<int>(e)) = 4 * (all[a] * ofAll.col(b) + all[b] * ofAll.col(a));
+    gradients.col(dim + 1 + e) = 4 * (all[a] * ofAll.col(b) + all[b] * ofAll.col(a));
   }
   return gradients;
 }

@@ -27,12 +27,11 @@ namespace epafi::mesh {
 template <int dim>
 using Coordinates = Eigen::Matrix<double, dim, 1>; ///< ξ
 /// A value at each node. No memory is allocated for it.
-using NodalValues = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(mostNodes), 1>;
+using NodalValues = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, mostNodes, 1>;
 /// A column for each node, likewise.
 template <int rows>
-using NodalColumns =
-    Eigen::Matrix<double, rows, Eigen::Dynamic, rows == 1 ? Eigen::RowMajor : Eigen::ColMajor, rows,
-                  static_cast<int>(mostNodes)>;
+using NodalColumns = Eigen::Matrix<double, rows, Eigen::Dynamic,
+                                   rows == 1 ? Eigen::RowMajor : Eigen::ColMajor, rows, mostNodes>;
 
 /// The shape functions at a point, and its weight in a rule.
 template <int dim>

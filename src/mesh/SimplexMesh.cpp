@@ -71,8 +71,8 @@ public:
     for (GlobalOrdinal cell = 0; cell < mesh_.numElements(); ++cell)
       addCell(cell);
     markGroups();
-    for (std::size_t s = 0; s < result_.surfaces.size(); ++s)
-      markSurface(static_cast<int>(s));
+    for (int s = 0; s < std::ssize(result_.surfaces); ++s)
+      markSurface(s);
     return std::move(result_);
   }
 
@@ -91,7 +91,7 @@ private:
     for (std::size_t node = 0; node < isCorner.size(); ++node)
       if (isCorner[node] != 0) {
         number_[node] = static_cast<LocalOrdinal>(result_.points.size());
-        result_.points.push_back(mesh_.point(static_cast<GlobalOrdinal>(node)));
+        result_.points.push_back(mesh_.point(node));
       }
   }
 
@@ -130,9 +130,9 @@ private:
   /// The node in the middle of an edge, of a diagonal of a face, or of one through the cell.
   [[nodiscard]] int nodeBetween(const std::array<int, 2>& ends) const {
     const std::span<const int> edges = edgesOf(linear_);
-    for (std::size_t e = 0; e < edges.size(); e += 2)
+    for (int e = 0; e < std::ssize(edges); e += 2)
       if (std::minmax(edges[e], edges[e + 1]) == std::minmax(ends[0], ends[1]))
-        return numCornersOf(linear_) + static_cast<int>(e / 2);
+        return numCornersOf(linear_) + e / 2;
     if (linear_ == CellType::hexahedron)
       for (const Facet& face : facetsOf(mesh_.cellType())) {
         const auto corners = face.nodes.first(4);
@@ -155,10 +155,10 @@ private:
 
   void markGroups() {
     Marks marks(result_.groupMarks);
-    for (std::size_t g = 0; g < result_.groups.size(); ++g)
+    for (int g = 0; g < std::ssize(result_.groups); ++g)
       for (const GlobalOrdinal cell : mesh_.group(result_.groups[g]))
         for (SimplexMesh::Element& element : piecesOf(cell))
-          marks.add(element.group, static_cast<int>(g));
+          marks.add(element.group, g);
   }
 
   void markSurface(int number) {
@@ -191,10 +191,10 @@ private:
 };
 
 /// Places of a simplex's corners round the facet opposite to one of them.
-std::span<const int> cornersOpposite(int dimension, std::size_t corner) {
+std::span<const int> cornersOpposite(int dimension, int corner) {
   const CellType type = dimension == 2 ? CellType::triangle : CellType::tetrahedron;
   for (const Facet& facet : facetsOf(type))
-    if (std::find(facet.begin(), facet.end(), static_cast<int>(corner)) == facet.end())
+    if (std::find(facet.begin(), facet.end(), corner) == facet.end())
       return facet.nodes;
   return {};
 }
@@ -203,7 +203,7 @@ void addSurfaces(const SimplexMesh& mesh, MeshArrays& arrays) {
   for (const std::string& name : mesh.surfaces)
     arrays.surfaces.push_back({name, {}});
   for (const SimplexMesh::Element& element : mesh.elements)
-    for (std::size_t opposite = 0; opposite < index(mesh.dimension) + 1; ++opposite)
+    for (int opposite = 0; opposite <= mesh.dimension; ++opposite)
       for (const int surface : mesh.facetMarks[index(element.facets[opposite])])
         for (const int place : cornersOpposite(mesh.dimension, opposite))
           arrays.surfaces[index(surface)].nodes.push_back(element.corners[index(place)]);
@@ -245,13 +245,13 @@ MeshArrays arraysOf(const SimplexMesh& mesh, int order) {
   for (const std::string& name : mesh.groups)
     arrays.groups.push_back({name, {}});
   arrays.cells.reserve(mesh.elements.size() * (index(mesh.dimension) + 1));
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+  for (LocalOrdinal e = 0; e < std::ssize(mesh.elements); ++e) {
     const SimplexMesh::Element& element = mesh.elements[e];
     arrays.cells.insert(arrays.cells.end(), element.corners.begin(),
                         element.corners.begin() + mesh.dimension + 1);
     arrays.elementTags.push_back(e);
     for (const int group : mesh.groupMarks[index(element.group)])
-      arrays.groups[index(group)].elements.push_back(static_cast<LocalOrdinal>(e));
+      arrays.groups[index(group)].elements.push_back(e);
   }
   for (std::size_t node = 0; node < arrays.points.size(); ++node)
     arrays.nodeTags.push_back(node);

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<BoxTree::Box> boxesOf(const MeshSizes& sizes) {
   std::vector<BoxTree::Box> boxes;
-  const auto count = static_cast<std::size_t>(sizes.dimension) + 1;
+  const std::size_t count = sizes.dimension + 1;
   for (std::size_t first = 0; first < sizes.corners.size(); first += count)
     boxes.push_back(boxOf(std::span(sizes.corners).subspan(first, count)));
   return boxes;
@@ -55,7 +55,7 @@ double SizeField::at(const Point& point) const {
   const auto look = [&] {
     for (const std::size_t simplex : found) {
       double outside = 0;
-      const double here = sizeIn(simplex * (static_cast<std::size_t>(sizes_.dimension) + 1), point, outside);
+      const double here = sizeIn(simplex * (sizes_.dimension + 1), point, outside);
       if (outside < least || (outside == least && here < size)) {
         least = outside;
         size = here;

@@ -56,9 +56,7 @@ GridPlace placeOf(GlobalOrdinal number, const std::array<int, 3>& size) {
 
 /// Of the n elements of an order in a row, how many touch its node i.
 int numTouching(GlobalOrdinal i, int n, int order) {
-  return order == 2 && i % 2 != 0
-             ? 1
-             : 2 - static_cast<int>(i == 0) - static_cast<int>(i == GlobalOrdinal{n} * order);
+  return order == 2 && i % 2 != 0 ? 1 : 2 - (i == 0) - (i == GlobalOrdinal{n} * order);
 }
 
 /// Appends the elements from (i,j,k) = first to end, the latter excluded, ascending.
@@ -83,11 +81,11 @@ StructuredMesh::StructuredMesh(const Box& box, const std::array<int, 3>& element
 }
 
 GlobalOrdinal StructuredMesh::numNodes() const {
-  return static_cast<GlobalOrdinal>(nodes_[0]) * nodes_[1] * nodes_[2];
+  return GlobalOrdinal{nodes_[0]} * nodes_[1] * nodes_[2];
 }
 
 GlobalOrdinal StructuredMesh::numElements() const {
-  return static_cast<GlobalOrdinal>(elements_[0]) * elements_[1] * elements_[2];
+  return GlobalOrdinal{elements_[0]} * elements_[1] * elements_[2];
 }
 
 double StructuredMesh::nodeCoordinate(std::size_t axis, GlobalOrdinal k) const {
@@ -143,7 +141,7 @@ void StructuredMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::
 void StructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
   const GridPlace place = placeOf(element, elements_);
-  const GridPlace step{1, elements_[0], static_cast<GlobalOrdinal>(elements_[0]) * elements_[1]};
+  const GridPlace step{1, elements_[0], GlobalOrdinal{elements_[0]} * elements_[1]};
   for (std::size_t d = 3; d-- > 0;)
     if (place[d] > 0)
       elements.push_back(element - step[d]);
@@ -154,7 +152,7 @@ void StructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<Global
 
 bool StructuredMesh::isBoundaryNode(GlobalOrdinal node) const {
   const GridPlace place = placeOf(node, nodes_);
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d)
+  for (int d = 0; d < dimension_; ++d)
     if (place[d] == 0 || place[d] == nodes_[d] - 1)
       return true;
   return false;

@@ -86,7 +86,7 @@ UnstructuredMesh::FacetPlace UnstructuredMesh::findFacet(const std::string& surf
 }
 
 void UnstructuredMesh::elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const {
-  const auto own = nodesOf(arrays_.cellType, arrays_.cells, static_cast<LocalOrdinal>(element));
+  const auto own = nodesOf(arrays_.cellType, arrays_.cells, element);
   std::copy(own.begin(), own.end(), nodes.begin());
 }
 
@@ -98,19 +98,19 @@ void UnstructuredMesh::elementNodes(std::span<const GlobalOrdinal> elements,
 }
 
 void UnstructuredMesh::nodeElements(GlobalOrdinal node, std::vector<GlobalOrdinal>& elements) const {
-  const auto own = topology_.elementsOf(static_cast<LocalOrdinal>(node));
+  const auto own = topology_.elementsOf(node);
   elements.assign(own.begin(), own.end());
 }
 
 void UnstructuredMesh::numNodeElements(std::span<const GlobalOrdinal> nodes, std::span<int> numbers) const {
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    numbers[i] = static_cast<int>(topology_.elementsOf(static_cast<LocalOrdinal>(nodes[i])).size());
+    numbers[i] = static_cast<int>(topology_.elementsOf(nodes[i]).size());
 }
 
 void UnstructuredMesh::elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const {
   elements.clear();
   for (std::size_t f = 0; f < facetsOf(arrays_.cellType).size(); ++f)
-    if (const LocalOrdinal other = topology_.across(static_cast<LocalOrdinal>(element), f); other >= 0)
+    if (const LocalOrdinal other = topology_.across(element, f); other >= 0)
       elements.push_back(other);
 }
 

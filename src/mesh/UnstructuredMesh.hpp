@@ -18,9 +18,7 @@ public:
   explicit UnstructuredMesh(MeshArrays arrays);
 
   [[nodiscard]] CellType cellType() const override { return arrays_.cellType; }
-  [[nodiscard]] GlobalOrdinal numNodes() const override {
-    return static_cast<GlobalOrdinal>(arrays_.points.size());
-  }
+  [[nodiscard]] GlobalOrdinal numNodes() const override { return arrays_.points.size(); }
   [[nodiscard]] GlobalOrdinal numElements() const override { return arrays_.numElements(); }
   [[nodiscard]] Point point(GlobalOrdinal node) const override { return arrays_.points[node]; }
   void elementNodes(GlobalOrdinal element, std::span<GlobalOrdinal> nodes) const override;
@@ -31,7 +29,7 @@ public:
   /// In the order of the element's facets.
   void elementNeighbours(GlobalOrdinal element, std::vector<GlobalOrdinal>& elements) const override;
   [[nodiscard]] bool isBoundaryNode(GlobalOrdinal node) const override {
-    return topology_.isOnBoundary(static_cast<LocalOrdinal>(node));
+    return topology_.isOnBoundary(node);
   }
 
   [[nodiscard]] std::vector<std::string> surfaceNames() const override;

@@ -237,9 +237,9 @@ void BodyMaker::addCells() {
     std::uint32_t block, element;
   };
   std::vector<Place> order;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (std::size_t e = 0; e < blocks_[b]->tags.size(); ++e)
-      order.push_back({blocks_[b]->tags[e], static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(e)});
+  for (std::uint32_t b = 0; b < blocks_.size(); ++b)
+    for (std::uint32_t e = 0; e < blocks_[b]->tags.size(); ++e)
+      order.push_back({blocks_[b]->tags[e], b, e});
   std::sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.tag < b.tag; });
   const auto count = index(numNodesOfGmsh(blocks_.front()->type));
   const std::vector<std::size_t> places = placesInGmsh(arrays_.cellType, count);
@@ -258,9 +258,9 @@ void BodyMaker::addGroups() {
     if (&group == chosen_)
       continue;
     mesh::NamedElements part{group.name, {}};
-    for (std::size_t e = 0; e < entities_.size(); ++e)
+    for (LocalOrdinal e = 0; e < std::ssize(entities_); ++e)
       if (holds(group, entities_[e]))
-        part.elements.push_back(static_cast<LocalOrdinal>(e));
+        part.elements.push_back(e);
     if (!part.elements.empty())
       arrays_.groups.push_back(std::move(part));
   }

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace epafi::meshing {
 namespace {
@@ -86,7 +87,7 @@ GlobalOrdinal MshScanner::whole() {
   if (!isBinary_)
     return fromText<GlobalOrdinal>(word(), "a whole number");
   const auto value = fromBytes<std::uint64_t>();
-  if (value > static_cast<std::uint64_t>(std::numeric_limits<GlobalOrdinal>::max()))
+  if (std::cmp_greater(value, std::numeric_limits<GlobalOrdinal>::max()))
     refuse("the number " + std::to_string(value) + " is too large; the file is damaged, so save it anew");
   return value;
 }
@@ -108,7 +109,7 @@ LocalOrdinal MshScanner::checkedCount(GlobalOrdinal number, const std::string& t
                                       std::size_t numbersEach) const {
   const std::size_t each = isBinary_ ? bytesEach : 2 * numbersEach; // a digit and a blank
   const std::size_t most = (text_.size() - next_) / each;
-  if (number < 0 || static_cast<std::size_t>(number) > most)
+  if (number < 0 || std::cmp_greater(number, most))
     refuse("it promises " + std::to_string(number) + ' ' + things +
            ", but the rest of the file holds at most " + std::to_string(most) +
            "; the file is damaged or cut off, so save it anew");

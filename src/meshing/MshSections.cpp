@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace epafi::meshing {
 namespace {
@@ -130,7 +131,7 @@ void readEntity(MshScanner& file, MshRecords& records, std::size_t dimension, bo
   const int entity = file.integer();
   bool isInGroups = true;
   if (isPartitioned) {
-    isInGroups = file.integer() == static_cast<int>(dimension);
+    isInGroups = std::cmp_equal(file.integer(), dimension);
     skipIntegers(file, 1);
     skipIntegers(file, file.count("partitions", 4, 1));
   }

@@ -29,8 +29,8 @@ struct DualGraph {
 /// \param elements  all or a piece of the mesh
 DualGraph dualGraphOf(const mesh::Mesh& mesh, std::span<const GlobalOrdinal> elements) {
   std::vector<idx_t> place(mesh.numElements());
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    place[elements[i]] = static_cast<idx_t>(i);
+  for (idx_t i = 0; i < std::ssize(elements); ++i)
+    place[elements[i]] = i;
   DualGraph graph{{0}, {}};
   graph.start.reserve(elements.size() + 1);
   graph.neighbours.reserve(mesh::facetsOf(mesh.cellType()).size() * elements.size());
@@ -142,7 +142,7 @@ bool moveStray(const mesh::Mesh& mesh, std::vector<int>& part) {
 
 /// Numbers the parts that have elements from 0, in the old order; returns how many there are.
 int renumber(std::vector<int>& part) {
-  std::vector<int> number(static_cast<std::size_t>(*std::max_element(part.begin(), part.end())) + 1, -1);
+  std::vector<int> number(*std::max_element(part.begin(), part.end()) + 1, -1);
   for (const int p : part)
     number[p] = 0;
   int next = 0;
@@ -198,8 +198,8 @@ GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const
     : parts_(std::move(parts)), order_(parts_->numParts()), number_(order_.size()) {
   std::vector<Point> centres(order_.size());
   std::vector<GlobalOrdinal> nodes(mesh.nodesPerElement());
-  for (std::size_t part = 0; part < centres.size(); ++part) {
-    const std::vector<GlobalOrdinal> elements = parts_->elementsOf(static_cast<int>(part));
+  for (int part = 0; part < std::ssize(centres); ++part) {
+    const std::vector<GlobalOrdinal> elements = parts_->elementsOf(part);
     for (const GlobalOrdinal element : elements) {
       mesh.elementNodes(element, nodes);
       for (const GlobalOrdinal node : nodes)
@@ -209,8 +209,8 @@ GroupedPartition::GroupedPartition(std::shared_ptr<const Partition> parts, const
   }
   std::iota(order_.begin(), order_.end(), 0);
   bisect(order_, size, centres);
-  for (std::size_t part = 0; part < order_.size(); ++part)
-    number_[order_[part]] = static_cast<int>(part);
+  for (int part = 0; part < std::ssize(order_); ++part)
+    number_[order_[part]] = part;
 }
 
 GridPartition::GridPartition(const mesh::StructuredMesh& mesh, std::array<int, 3> counts)
@@ -223,7 +223,7 @@ GridPartition::GridPartition(const mesh::StructuredMesh& mesh, std::array<int, 3
   };
   columnOf_ = cut(elements_[0], counts_[0]);
   const std::vector<int> rowInLayer = cut(elements_[1], counts_[1]);
-  rowOf_.reserve(static_cast<std::size_t>(elements_[1]) * static_cast<std::size_t>(elements_[2]));
+  rowOf_.reserve(GlobalOrdinal{elements_[1]} * elements_[2]);
   for (const int layer : cut(elements_[2], counts_[2]))
     for (const int row : rowInLayer)
       rowOf_.push_back(row + layer * counts_[1]);
@@ -277,8 +277,8 @@ GraphPartition::GraphPartition(const mesh::Mesh& mesh, int parts, const Comm& co
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   members_.resize(part_.size());
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-  for (std::size_t element = 0; element < part_.size(); ++element)
-    members_[next[part_[element]]++] = static_cast<int>(element);
+  for (int element = 0; element < std::ssize(part_); ++element)
+    members_[next[part_[element]]++] = element;
 }
 
 std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {

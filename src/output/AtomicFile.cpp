@@ -78,7 +78,7 @@ int reserveOnThisRank(const fs::path& file, std::uintmax_t bytes) {
     return errno;
   int result = 0;
   do
-    result = ::fallocate(descriptor, 0, 0, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+    result = ::fallocate(descriptor, 0, 0, bytes) == 0 ? 0 : errno;
   while (result == EINTR);
   ::close(descriptor);
   return result == EOPNOTSUPP || result == ENOSYS ? 0 : result;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstring>
 #include <span>
+#include <utility>
 
 namespace epafi::output {
 namespace {
@@ -107,7 +108,7 @@ NodeValues valuesOfSubdomains(const simulation::SolvedScene& solved, int body) {
 MultiVector toSlab(const NodeValues& sent, std::size_t columns, GlobalOrdinal numNodes,
                    const RCP<const Comm>& comm) {
   const auto source = mapInOrder(sent.nodes, comm);
-  if (source->getGlobalNumElements() != static_cast<Tpetra::global_size_t>(numNodes))
+  if (std::cmp_not_equal(source->getGlobalNumElements(), numNodes))
     throw Error("The subdomains of a body hold " + std::to_string(source->getGlobalNumElements()) +
                 " of its " + std::to_string(numNodes) + " nodes.");
   const auto target = slabMap(numNodes, comm);
@@ -132,7 +133,7 @@ void fillNodes(const MultiVector& values, int components, BodyFields& fields) {
   }
   Teuchos::ArrayRCP<const double> place[3];
   for (std::size_t d = 0; d < 3; ++d)
-    place[d] = values.getData(static_cast<std::size_t>(components) + 1 + d);
+    place[d] = values.getData(components + 1 + d);
   for (Teuchos::Ordinal row = 0; row < crosspoint.size(); ++row)
     for (const auto& coordinate : place) {
       fields.points.push_back(coordinate[row]);
@@ -145,7 +146,7 @@ void fillNodes(const MultiVector& values, int components, BodyFields& fields) {
 void fillCells(const simulation::SolvedScene& solved, int body, BodyFields& fields) {
   const auto& problem = solved.decomposition.problem;
   const BodyLayout& layout = solved.decomposition.bodies[body];
-  const auto perCell = static_cast<std::size_t>(numNodesOf(fields.cellType)), width = perCell + 2;
+  const std::size_t perCell = numNodesOf(fields.cellType), width = perCell + 2;
   std::vector<GlobalOrdinal> records;
   std::vector<int> ranks;
   collectively(*problem.comm, [&] {
@@ -198,7 +199,7 @@ BodyFields gatherBodyFields(const simulation::SolvedScene& solved, int body) {
   fields.numCells = layout.mesh->numElements();
   fields.cells = evenShare(fields.numCells, *problem.comm);
   fields.cellType = layout.mesh->cellType();
-  const auto columns = static_cast<std::size_t>(problem.components) + 4;
+  const std::size_t columns = problem.components + 4;
   const MultiVector values = toSlab(sent, columns, fields.numNodes, problem.comm);
   fillNodes(values, problem.components, fields);
   fillCells(solved, body, fields);

@@ -150,7 +150,7 @@ Checkpoint readOnThisRank(const fs::path& file) {
   std::vector<double>& values = checkpoint.values;
   values.resize(header.fingerprint.numMultipliers());
   stream.clear();
-  stream.seekg(static_cast<std::streamoff>(header.length));
+  stream.seekg(header.length);
   const std::size_t bytes = values.size() * sizeof(double);
   if (take(values.data(), bytes) != bytes || take(&stored, sizeof stored) != sizeof stored)
     throw InputError("cannot be read to its end");

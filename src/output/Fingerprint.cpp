@@ -58,7 +58,7 @@ Fingerprint fingerprintOf(const decomposition::DecomposedProblem& problem) {
   fingerprint.numSubdomains = problem.numSubdomains;
   fingerprint.components = problem.components;
   fingerprint.kernelDimension = problem.kernelDimension;
-  fingerprint.rows = (static_cast<std::uint64_t>(halves[0]) << 32U) + static_cast<std::uint64_t>(halves[1]);
+  fingerprint.rows = (static_cast<std::uint64_t>(halves[0]) << 32U) + halves[1];
   fingerprint.stiffness = stiffness.value();
   return fingerprint;
 }

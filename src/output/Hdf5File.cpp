@@ -249,8 +249,7 @@ void Hdf5File::write(const std::string& dataset, GlobalOrdinal rows, int columns
                     " rows.");
     });
     const int width = columns == 0 ? 1 : columns;
-    reserve(static_cast<std::uintmax_t>(rows) * static_cast<std::uintmax_t>(width) * sizeof(T) +
-            bytesOfPath(dataset));
+    reserve(sizeof(T) * rows * width + bytesOfPath(dataset));
     const QuietHdf5 quiet;
     hid_t id = -1;
     collectively(*comm_, [&] { id = createDataset(file_, path_, dataset, memoryType<T>(), rows, columns); });

@@ -36,7 +36,7 @@ void DistinctDirections::add(const Eigen::VectorXd& direction, double value) {
 }
 
 Eigen::MatrixXd DistinctDirections::all() const {
-  Eigen::MatrixXd all(dimension_ + 1, static_cast<Eigen::Index>(known_.size()));
+  Eigen::MatrixXd all(dimension_ + 1, known_.size());
   Eigen::Index column = 0;
   for (const auto& [key, row] : known_)
     all.col(column++) = row;
@@ -45,10 +45,9 @@ Eigen::MatrixXd DistinctDirections::all() const {
 
 void DistinctDirections::gather(const Comm& comm) {
   const Eigen::MatrixXd mine = all();
-  const std::vector<double> gathered =
-      gatherOnAll(comm, std::span(mine.data(), static_cast<std::size_t>(mine.size())));
+  const std::vector<double> gathered = gatherOnAll(comm, std::span(mine.data(), mine.size()));
   const Eigen::Map<const Eigen::MatrixXd> rows(gathered.data(), mine.rows(),
-                                               static_cast<Eigen::Index>(gathered.size()) / mine.rows());
+                                               std::ssize(gathered) / mine.rows());
   known_.clear();
   for (Eigen::Index j = 0; j < rows.cols(); ++j)
     add(rows.col(j).head(dimension_), rows(dimension_, j));

@@ -20,9 +20,8 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 RCP<Vector> leastForces(const decomposition::DecomposedProblem& problem) {
   const RCP<Vector> lower = rcp(new Vector(problem.multiplierMap));
   const auto least = qp::localDataNonConst(*lower);
-  for (std::size_t row = 0; row < least.size(); ++row)
-    if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(row))) !=
-        decomposition::RowKind::contact)
+  for (LocalOrdinal row = 0; row < std::ssize(least); ++row)
+    if (problem.kindOf(decomposition::OwnedMultiplier(row)) != decomposition::RowKind::contact)
       least[row] = -unbounded;
   return lower;
 }
@@ -38,7 +37,7 @@ RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& 
   const auto force = qp::localData(*normal);
   const double least = roundOff * normal->normInf();
   const auto boundOf = [&](const decomposition::FrictionNode& node) {
-    const double pressing = force[static_cast<std::size_t>(int{node.contact})];
+    const double pressing = force[node.contact];
     return data.frictionBound(node, pressing > least ? pressing : 0.0);
   };
   std::vector<qp::Disc> discs;
@@ -59,9 +58,8 @@ RCP<const qp::ConvexSet> feasibleForces(const decomposition::DecomposedProblem& 
 RCP<const qp::ConvexSet> feasibleForcesWithoutFriction(const decomposition::DecomposedProblem& problem) {
   const RCP<Vector> lower = leastForces(problem), upper = rcp(new Vector(problem.multiplierMap));
   const auto least = qp::localDataNonConst(*lower), most = qp::localDataNonConst(*upper);
-  for (std::size_t row = 0; row < least.size(); ++row)
-    if (problem.kindOf(decomposition::OwnedMultiplier(static_cast<LocalOrdinal>(row))) ==
-        decomposition::RowKind::friction)
+  for (LocalOrdinal row = 0; row < std::ssize(least); ++row)
+    if (problem.kindOf(decomposition::OwnedMultiplier(row)) == decomposition::RowKind::friction)
       least[row] = 0;
     else
       most[row] = unbounded;

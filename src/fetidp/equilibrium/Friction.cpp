@@ -33,8 +33,7 @@ Eigen::Vector2d tangentialForce(const DecomposedProblem& problem, const Friction
 bool sticks(const DecomposedProblem& problem, const ProblemData& data, const FrictionNode& node,
             const Vector& lambda) {
   constexpr double roundOff = 1e-9;
-  const double bound =
-      data.frictionBound(node, qp::localData(lambda)[static_cast<std::size_t>(node.contact)]);
+  const double bound = data.frictionBound(node, qp::localData(lambda)[node.contact]);
   return tangentialForce(problem, node, lambda).norm() < bound * (1 - roundOff);
 }
 

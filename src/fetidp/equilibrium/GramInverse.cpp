@@ -23,9 +23,9 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 Triplets entriesOf(const Eigen::SparseMatrix<double>& matrix) {
   Triplets entries;
-  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+  for (int column = 0; column < matrix.outerSize(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry)
-      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(column), entry.value());
+      entries.emplace_back(static_cast<int>(entry.row()), column, entry.value());
   return entries;
 }
 
@@ -61,7 +61,7 @@ std::vector<Value> ofLeader(const Comm& comm, const RankGroups& groups, const Ma
 /// How many of P ranks have N and its factor while rows are made: √P, or one of sixteen if these are more, so
 /// that none makes more than 16 ranks' rows.
 int numLeaders(int ranks) {
-  return std::max(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(ranks)))), ranks / 16);
+  return std::max(static_cast<int>(std::ceil(std::sqrt(ranks))), ranks / 16);
 }
 
 } // namespace
@@ -109,9 +109,9 @@ void GramInverse::spread(const RankGroups& groups) {
   });
   const std::vector<double> rows = ofLeader<double>(*comm_, groups, [&](int rank) {
     const auto [first, number] = columnsOf(rank);
-    std::vector<double> columns(static_cast<std::size_t>(size_) * static_cast<std::size_t>(number));
+    std::vector<double> columns(std::ptrdiff_t{size_} * number);
     for (int j = 0; j < number; ++j)
-      Eigen::Map<Eigen::VectorXd>(columns.data() + static_cast<std::ptrdiff_t>(j) * size_, size_) =
+      Eigen::Map<Eigen::VectorXd>(columns.data() + std::ptrdiff_t{j} * size_, size_) =
           factor_->solve(Eigen::VectorXd::Unit(size_, first + j));
     return columns;
   });
@@ -139,7 +139,7 @@ void GramInverse::apply(std::span<const double> b, std::span<double> alpha) cons
   const Eigen::Map<const Eigen::VectorXd> given(b.data(), size_);
   if (isSpread()) {
     work_.noalias() = rows_.transpose() * given;
-    shares_.gather({work_.data(), static_cast<std::size_t>(work_.size())}, alpha);
+    shares_.gather(std::span(work_.data(), work_.size()), alpha);
     return;
   }
   work_.noalias() = factor_->permutationP() * given;
@@ -152,21 +152,19 @@ void GramInverse::multiply(std::span<const double> alpha, std::span<double> b) c
   const Eigen::Map<const Eigen::VectorXd> given(alpha.data(), size_);
   if (isSpread()) {
     work_.noalias() = gram_.transpose() * given;
-    shares_.gather({work_.data(), static_cast<std::size_t>(work_.size())}, b);
+    shares_.gather(std::span(work_.data(), work_.size()), b);
   } else {
     Eigen::Map<Eigen::VectorXd>(b.data(), size_).noalias() = gram_.selfadjointView<Eigen::Lower>() * given;
   }
 }
 
 std::size_t GramInverse::bytes() const {
-  return isSpread() ? static_cast<std::size_t>(rows_.size()) * sizeof(double) : factorBytes();
+  return isSpread() ? rows_.size() * sizeof(double) : factorBytes();
 }
 
 /// 0 where another rank has it.
 std::size_t GramInverse::factorBytes() const {
-  return factor_ ? static_cast<std::size_t>(factor_->matrixL().nestedExpression().nonZeros()) *
-                       (sizeof(double) + sizeof(int))
-                 : 0;
+  return factor_ ? factor_->matrixL().nestedExpression().nonZeros() * (sizeof(double) + sizeof(int)) : 0;
 }
 
 } // namespace epafi::fetidp

@@ -39,7 +39,7 @@ std::vector<Term> termsOf(const DecomposedProblem& problem) {
       if (problem.kindOf(entry.multiplier) == decomposition::RowKind::gluing &&
           numClusters[subdomain.body] == 1)
         continue;
-      for (int mode = 0; mode < static_cast<int>(subdomain.kernel.cols()); ++mode)
+      for (int mode = 0; mode < subdomain.kernel.cols(); ++mode)
         if (const double value = entry.coefficient * subdomain.kernel(entry.unknown, mode); value != 0)
           terms.push_back(
               {problem.numberOf(entry.multiplier), problem.kernelOffsetOf(subdomain) + mode, value});
@@ -59,7 +59,7 @@ std::vector<int> ownersOfRows(const Map& map, const std::vector<Term>& terms) {
 std::vector<std::size_t> clustersOfModes(const DecomposedProblem& problem) {
   std::vector<std::size_t> clusterOf;
   for (std::size_t c = 0; c < problem.clusters.size(); ++c)
-    clusterOf.insert(clusterOf.end(), static_cast<std::size_t>(problem.clusters[c].kernelDimension), c);
+    clusterOf.insert(clusterOf.end(), problem.clusters[c].kernelDimension, c);
   return clusterOf;
 }
 
@@ -98,8 +98,8 @@ std::vector<KernelEntry> kernelConstraintOfBodies(const DecomposedProblem& probl
       continue;
     const decomposition::Cluster& cluster = problem.clusters[clusterOf[entry.mode]];
     const int first = problem.bodies[cluster.body].kernelOffset;
-    for (Eigen::Index mode = 0; mode < cluster.ofBody.cols(); ++mode)
-      values[{entry.row, first + static_cast<int>(mode)}] +=
+    for (int mode = 0; mode < cluster.ofBody.cols(); ++mode)
+      values[{entry.row, first + mode}] +=
           entry.value * cluster.ofBody(entry.mode - cluster.kernelOffset, mode);
   }
   std::vector<KernelEntry> result;

@@ -50,10 +50,9 @@ KernelFaceInverse::KernelFaceInverse(std::shared_ptr<const ContactGram> gram,
                                      std::shared_ptr<const GramInverse> inverse,
                                      std::shared_ptr<const ContactStiffness> stiffness)
     : gram_(std::move(gram)), inverse_(std::move(inverse)), stiffness_(std::move(stiffness)),
-      shares_(inverse_->comm(), static_cast<int>(stiffness_->pivots.size())),
-      resultant_(static_cast<std::size_t>(inverse_->size())), residual_(resultant_.size()),
-      correction_(resultant_.size()), atContact_(stiffness_->pivots.size()), reaction_(atContact_.size()),
-      onFace_(atContact_.size()) {}
+      shares_(inverse_->comm(), static_cast<int>(stiffness_->pivots.size())), resultant_(inverse_->size()),
+      residual_(resultant_.size()), correction_(resultant_.size()), atContact_(stiffness_->pivots.size()),
+      reaction_(atContact_.size()), onFace_(atContact_.size()) {}
 
 /// X ← S_δ⁻¹X.
 template <class Matrix>
@@ -108,8 +107,7 @@ void KernelFaceInverse::makeRows(const Eigen::MatrixXd& missing, double delta) {
 void KernelFaceInverse::react() const {
   if (inverse_->isSpread()) {
     share_.noalias() = rows_.transpose() * atContact_;
-    shares_.gather({share_.data(), static_cast<std::size_t>(share_.size())},
-                   {reaction_.data(), static_cast<std::size_t>(reaction_.size())});
+    shares_.gather(std::span(share_.data(), share_.size()), std::span(reaction_.data(), reaction_.size()));
     return;
   }
   reaction_.noalias() = stiffness_->matrix.selfadjointView<Eigen::Lower>() * atContact_;

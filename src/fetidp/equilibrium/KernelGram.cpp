@@ -31,7 +31,7 @@ void forEachPair(std::span<const KernelEntry> row, int size, const Body& body) {
   for (const KernelEntry& a : row)
     for (const KernelEntry& b : row)
       if (a.mode >= b.mode)
-        body(static_cast<std::int64_t>(b.mode) * size + a.mode, a.value * b.value);
+        body(std::int64_t{b.mode} * size + a.mode, a.value * b.value);
 }
 
 template <class Values>
@@ -41,7 +41,7 @@ void sortOnce(Values& values) {
 }
 
 std::size_t placeIn(const Pairs& pairs, std::int64_t pair) {
-  return static_cast<std::size_t>(std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin());
+  return std::lower_bound(pairs.begin(), pairs.end(), pair) - pairs.begin();
 }
 
 /// The pairs of this rank's rows, ascending. Not collective.
@@ -117,11 +117,11 @@ std::vector<int> anchorsAmong(const std::vector<int>& modes,
     const Eigen::Index dimension = found[body].empty() ? 0 : motions[body].front().size();
     if (dimension == 0)
       continue;
-    Eigen::MatrixXd columns(dimension, static_cast<Eigen::Index>(found[body].size()));
+    Eigen::MatrixXd columns(dimension, found[body].size());
     for (std::size_t i = 0; i < found[body].size(); ++i)
       columns.col(i) = motions[body][i];
     const direct::PivotedColumns pivoted = direct::pivotedColumns(columns);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(pivoted.rank); ++i)
+    for (Eigen::Index i = 0; i < pivoted.rank; ++i)
       anchors.push_back(found[body][pivoted.order[i]]);
   }
   return anchors;
@@ -171,8 +171,8 @@ ContactGram::ContactGram(const decomposition::DecomposedProblem& problem,
           problem.components > 2 && first != rows.end() && second != rows.end())
         for (const KernelEntry& a : first->second)
           for (const KernelEntry& b : second->second)
-            body(static_cast<std::int64_t>(std::min(a.mode, b.mode)) * size + std::max(a.mode, b.mode),
-                 first->first, (a.mode == b.mode ? 2 : 1) * a.value * b.value);
+            body(std::int64_t{std::min(a.mode, b.mode)} * size + std::max(a.mode, b.mode), first->first,
+                 (a.mode == b.mode ? 2 : 1) * a.value * b.value);
   };
   Pairs pairs = pairsOf(contact, size);
   forEachMixed([&](std::int64_t pair, int /*row*/, double /*value*/) { pairs.push_back(pair); });

@@ -13,7 +13,7 @@ namespace epafi::fetidp {
 namespace {
 
 std::span<double> entriesOf(Eigen::VectorXd& x) {
-  return {x.data(), static_cast<std::size_t>(x.size())};
+  return std::span(x.data(), x.size());
 }
 
 } // namespace
@@ -22,9 +22,8 @@ NaturalCoarseSpace::NaturalCoarseSpace(const decomposition::DecomposedProblem& p
                                        std::vector<KernelEntry> entries, GramInverse::Form form)
     : comm_(problem.comm), entries_(std::move(entries)),
       inverse_(std::make_shared<const GramInverse>(problem, entries_, form)),
-      contactGram_(std::make_shared<const ContactGram>(problem, entries_)),
-      sums_(static_cast<std::size_t>(problem.kernelDimension)), product_(problem.kernelDimension),
-      motion_(problem.kernelDimension) {}
+      contactGram_(std::make_shared<const ContactGram>(problem, entries_)), sums_(problem.kernelDimension),
+      product_(problem.kernelDimension), motion_(problem.kernelDimension) {}
 
 void NaturalCoarseSpace::addLocalProduct(const Vector& x, std::span<AccurateSum> sums) const {
   const std::span<const double> values = qp::localData(x);

@@ -41,7 +41,7 @@ public:
   [[nodiscard]] const Eigen::VectorXd& product(const Vector& x) const;
   /// ‖r‖ in the metric of N⁻¹. Collective.
   [[nodiscard]] double normOf(const Eigen::VectorXd& r) const {
-    return normOf(std::span<const double>(r.data(), static_cast<std::size_t>(r.size())));
+    return normOf(std::span(r.data(), r.size()));
   }
   /// x ← Px = x − G̃ᵀN⁻¹(G̃x). One message of k numbers, and what N⁻¹ takes. Collective.
   void project(Vector& x) const;

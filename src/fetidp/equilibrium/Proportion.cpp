@@ -39,7 +39,7 @@ std::vector<VectorXd> rigidParts(const DecomposedProblem& problem, const Subdoma
   }
   std::vector<VectorXd> parts;
   for (MatrixXd& sum : sums) {
-    sumOverRanks(*problem.comm, std::span(sum.data(), static_cast<std::size_t>(sum.size())));
+    sumOverRanks(*problem.comm, std::span(sum.data(), sum.size()));
     parts.emplace_back(direct::solvedSymmetric(sum.leftCols(sum.rows()), sum.rightCols(1)));
   }
   return parts;

@@ -71,7 +71,7 @@ Eigen::VectorXd fittedClusters(const DecomposedProblem& problem, const std::vect
   for (const auto& [place, value] : sums)
     triplets.emplace_back(place.first, place.second, value);
   triplets = gatherOnAll(*problem.comm, triplets);
-  sumOverRanks(*problem.comm, std::span<double>(alpha.data(), static_cast<std::size_t>(k)));
+  sumOverRanks(*problem.comm, std::span<double>(alpha.data(), k));
   std::vector<bool> isHeld(problem.bodies.size(), false);
   for (const decomposition::Cluster& cluster : problem.clusters) {
     if (cluster.ofBody.cols() == 0 || isHeld[cluster.body])
@@ -83,7 +83,7 @@ Eigen::VectorXd fittedClusters(const DecomposedProblem& problem, const std::vect
       for (int j = 0; j < cluster.kernelDimension; ++j)
         triplets.emplace_back(cluster.kernelOffset + i, cluster.kernelOffset + j, hold(i, j));
   }
-  decomposition::SparseMatrix normal(static_cast<int>(k), static_cast<int>(k));
+  decomposition::SparseMatrix normal(k, k);
   normal.setFromTriplets(triplets.begin(), triplets.end());
   const Eigen::SimplicialLDLT<decomposition::SparseMatrix> factor(normal);
   if (factor.info() != Eigen::Success)

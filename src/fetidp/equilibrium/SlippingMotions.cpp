@@ -130,7 +130,7 @@ public:
     for (const VectorXd& row : others_)
       seen += row * row.transpose() / (roundOff * roundOff);
     both << seen, moved;
-    sumOverRanks(comm_, std::span(both.data(), static_cast<std::size_t>(both.size())));
+    sumOverRanks(comm_, std::span(both.data(), both.size()));
     moved = both.rightCols(k);
     moved.diagonal().array() += 1e-10 * moved.trace(); // of bodies that have no place
     const MatrixXd factor = direct::choleskyFactor(moved).value();
@@ -156,10 +156,8 @@ public:
       const VectorXd seen = motions.transpose() * row;
       note(seen.norm() / (clearly * roundOff * motions.norm()), seen);
     }
-    const std::vector<double> all =
-        gatherOnAll(comm_, std::span(mine.data(), static_cast<std::size_t>(mine.size())));
-    const Eigen::Map<const MatrixXd> found(all.data(), mine.size(),
-                                           static_cast<Eigen::Index>(all.size()) / mine.size());
+    const std::vector<double> all = gatherOnAll(comm_, std::span(mine.data(), mine.size()));
+    const Eigen::Map<const MatrixXd> found(all.data(), mine.size(), std::ssize(all) / mine.size());
     Eigen::Index best = 0;
     if (!(found.row(0).maxCoeff(&best) > 1))
       return std::nullopt;

@@ -39,8 +39,8 @@ RCP<const Comm> teamOf(const DecomposedProblem& problem) {
       mine; // pieces of ranks, and of clusters, whose numbers come after those of the ranks
   for (const int cluster : clusters)
     mine.push_back({rank, ranks + cluster});
-  const std::vector<int> teams = decomposition::piecesOf(
-      static_cast<std::size_t>(ranks) + problem.clusters.size(), gatherOnAll(*all, mine));
+  const std::vector<int> teams =
+      decomposition::piecesOf(ranks + problem.clusters.size(), gatherOnAll(*all, mine));
   const bool isOne = std::all_of(teams.begin(), teams.begin() + ranks, [](int team) { return team == 0; });
   return isOne ? all : RCP<const Comm>(all->split(teams[rank], rank));
 }
@@ -61,8 +61,7 @@ SparseMatrix assemble(const DecomposedProblem& problem, const Comm& comm, int si
     std::transform(indices.begin(), indices.end(), places.begin(), placeOf);
     for (std::size_t j = 0; j < places.size(); ++j)
       for (std::size_t i = 0; i < places.size(); ++i)
-        mine.emplace_back(places[i], places[j],
-                          (*blocks[s])(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+        mine.emplace_back(places[i], places[j], (*blocks[s])(i, j));
   }
   const Triplets all = isOnFirst ? gatherOnFirst(comm, mine) : gatherOnAll(comm, mine);
   SparseMatrix result(size, size);
@@ -84,19 +83,16 @@ CoarseKernel gatherKernel(const DecomposedProblem& problem, const Comm& comm, in
   Triplets mine;
   for (const auto& subdomain : problem.subdomains)
     for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
-      for (Eigen::Index mode = 0; mode < subdomain.kernel.cols(); ++mode)
-        mine.emplace_back(placeOf(subdomain.crosspointIndices[i]),
-                          problem.kernelOffsetOf(subdomain) + static_cast<int>(mode),
+      for (int mode = 0; mode < subdomain.kernel.cols(); ++mode)
+        mine.emplace_back(placeOf(subdomain.crosspointIndices[i]), problem.kernelOffsetOf(subdomain) + mode,
                           subdomain.kernel(subdomain.crosspointUnknowns[i], mode));
   int most = 0;
   std::vector<int> clusterOf; // of each mode
-  for (std::size_t c = 0; c < problem.clusters.size(); ++c) {
+  for (int c = 0; c < std::ssize(problem.clusters); ++c) {
     most = std::max(most, problem.clusters[c].kernelDimension);
-    clusterOf.insert(clusterOf.end(), static_cast<std::size_t>(problem.clusters[c].kernelDimension),
-                     static_cast<int>(c));
+    clusterOf.insert(clusterOf.end(), problem.clusters[c].kernelDimension, c);
   }
-  CoarseKernel kernel{Eigen::MatrixXd::Zero(size, most),
-                      std::vector<int>(static_cast<std::size_t>(size), -1)};
+  CoarseKernel kernel{Eigen::MatrixXd::Zero(size, most), std::vector<int>(size, -1)};
   for (const auto& entry : gatherOnAll(comm, mine)) {
     const int cluster = clusterOf[entry.col()];
     kernel.cluster[entry.row()] = cluster;
@@ -111,9 +107,9 @@ CoarseKernel gatherKernel(const DecomposedProblem& problem, const Comm& comm, in
 /// pivoting.
 std::vector<int> fixingUnknowns(const DecomposedProblem& problem, const CoarseKernel& kernel) {
   std::vector<std::vector<int>> candidates(problem.clusters.size());
-  for (std::size_t i = 0; i < kernel.cluster.size(); ++i)
+  for (int i = 0; i < std::ssize(kernel.cluster); ++i)
     if (kernel.cluster[i] >= 0)
-      candidates[kernel.cluster[i]].push_back(static_cast<int>(i));
+      candidates[kernel.cluster[i]].push_back(i);
   std::vector<int> fixed;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     const decomposition::Cluster& cluster = problem.clusters[c];
@@ -127,7 +123,7 @@ std::vector<int> fixingUnknowns(const DecomposedProblem& problem, const CoarseKe
                   "' do not hold the " + std::to_string(cluster.kernelDimension) +
                   " rigid modes of its cluster of subdomains number " + std::to_string(c) +
                   "; choose more crosspoints");
-    for (std::size_t k = 0; k < static_cast<std::size_t>(cluster.kernelDimension); ++k)
+    for (int k = 0; k < cluster.kernelDimension; ++k)
       fixed.push_back(candidates[c][pivoted.order[k]]);
   }
   return fixed;
@@ -218,9 +214,7 @@ CoarseProblem::CoarseProblem(const DecomposedProblem& problem, std::span<const S
     sums_.resize(factorSize_);
     return;
   }
-  const auto whole = static_cast<Tpetra::global_size_t>(factorSize_);
-  const RCP<const Map> firstMap =
-      rcp(new Map(whole, static_cast<std::size_t>(isMine ? factorSize_ : 0), 0, team_));
+  const RCP<const Map> firstMap = rcp(new Map(factorSize_, isMine ? factorSize_ : 0, 0, team_));
   const RCP<const Map> myMap = mapInOrder({places_.begin(), places_.end()}, team_);
   import_ = rcp(new Import(firstMap, myMap));
   first_ = rcp(new MultiVector(firstMap, 1));

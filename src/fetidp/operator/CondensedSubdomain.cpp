@@ -11,19 +11,19 @@ using decomposition::SparseMatrix;
 SparseMatrix block(const SparseMatrix& matrix, const std::vector<int>& rows,
                    const std::vector<int>& columns) {
   std::vector<int> position(matrix.rows(), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    position[rows[i]] = static_cast<int>(i);
-  SparseMatrix result(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  for (int i = 0; i < std::ssize(rows); ++i)
+    position[rows[i]] = i;
+  SparseMatrix result(rows.size(), columns.size());
   Eigen::Index numEntries = 0;
   for (const int column : columns)
     numEntries += matrix.outerIndexPtr()[column + 1] - matrix.outerIndexPtr()[column];
   result.reserve(numEntries);
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    result.startVec(static_cast<Eigen::Index>(j));
+  for (int j = 0; j < std::ssize(columns); ++j) {
+    result.startVec(j);
     for (SparseMatrix::InnerIterator entry(matrix, columns[j]); entry; ++entry) {
       const int row = position[entry.row()];
       if (row >= 0)
-        result.insertBack(row, static_cast<Eigen::Index>(j)) = entry.value();
+        result.insertBack(row, j) = entry.value();
     }
   }
   result.finalize();

@@ -90,8 +90,8 @@ void GeneralizedInverse::prepareDual(const DualOperatorParameters& parameters) {
 /// The coarse sums begin at 0.
 void GeneralizedInverse::prepareColumns(int numColumns, Workspace& work) const {
   work.groups.resize(groups_.size());
-  work.coarseForces.assign(crosspoints_.size() * static_cast<std::size_t>(numColumns), AccurateSum());
-  work.coarseValues.resize(static_cast<Eigen::Index>(crosspoints_.size()), numColumns);
+  work.coarseForces.assign(crosspoints_.size() * numColumns, AccurateSum());
+  work.coarseValues.resize(crosspoints_.size(), numColumns);
 }
 
 void GeneralizedInverse::applyDual(std::span<const double> lambda, std::span<double> result, int numColumns,
@@ -132,9 +132,8 @@ GeneralizedInverse::coarseColumns(std::span<const std::vector<decomposition::Coa
   for (std::size_t j = 0; j < unknowns.size(); ++j)
     for (const decomposition::CoarseNumber unknown : unknowns[j])
       if (crosspointMap_->isNodeGlobalElement(unknown)) // one rank says so
-        units[j * crosspoints_.size() + static_cast<std::size_t>(coarseIndexOf(unknown))] = AccurateSum(1.0);
-  Eigen::MatrixXd columns(static_cast<Eigen::Index>(crosspoints_.size()),
-                          static_cast<Eigen::Index>(unknowns.size()));
+        units[j * crosspoints_.size() + coarseIndexOf(unknown)] = AccurateSum(1.0);
+  Eigen::MatrixXd columns(crosspoints_.size(), unknowns.size());
   coarseProblem_->solve(units, columns);
   return columns;
 }

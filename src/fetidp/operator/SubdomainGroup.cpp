@@ -13,7 +13,7 @@ constexpr Eigen::Index batch = 4;
 
 void addTransposed(std::span<const InterfaceEntry> b, std::span<const double> lambda, Eigen::Index numColumns,
                    Eigen::MatrixXd& values) {
-  const auto numMultipliers = static_cast<Eigen::Index>(lambda.size()) / numColumns;
+  const Eigen::Index numMultipliers = std::ssize(lambda) / numColumns;
   for (Eigen::Index j = 0; j < numColumns; ++j) {
     const double* multipliers = lambda.data() + j * numMultipliers;
     double* column = values.data() + j * values.size() / numColumns;
@@ -24,7 +24,7 @@ void addTransposed(std::span<const InterfaceEntry> b, std::span<const double> la
 
 void addProduct(std::span<const InterfaceEntry> b, const Eigen::MatrixXd& values, Eigen::Index numColumns,
                 std::span<double> result) {
-  const auto numMultipliers = static_cast<Eigen::Index>(result.size()) / numColumns;
+  const Eigen::Index numMultipliers = std::ssize(result) / numColumns;
   for (Eigen::Index j = 0; j < numColumns; ++j) {
     double* multipliers = result.data() + j * numMultipliers;
     const double* column = values.data() + j * values.size() / numColumns;
@@ -59,9 +59,9 @@ SubdomainGroup::SubdomainGroup(const std::vector<decomposition::Subdomain>& subd
     addEntries(member, members_[member]);
   coarseIndices_.resize(condensed_->numCrosspoints(), numMembers());
   for (Eigen::Index member = 0; member < numMembers(); ++member) {
-    const auto unknowns = crosspointIndices(static_cast<std::size_t>(member));
+    const auto unknowns = crosspointIndices(member);
     for (std::size_t i = 0; i < unknowns.size(); ++i)
-      coarseIndices_(static_cast<Eigen::Index>(i), member) = static_cast<int>(
+      coarseIndices_(i, member) = static_cast<int>(
           std::lower_bound(crosspoints.begin(), crosspoints.end(), unknowns[i]) - crosspoints.begin());
   }
 }
@@ -175,7 +175,7 @@ void SubdomainGroup::addToCoarse(const Eigen::MatrixXd& crosspointForces,
                                  std::span<AccurateSum> coarse) const {
   const Eigen::Index numColumns = crosspointForces.cols() / numMembers();
   for (Eigen::Index j = 0; j < numColumns; ++j) {
-    AccurateSum* sums = coarse.data() + j * static_cast<Eigen::Index>(coarse.size()) / numColumns;
+    AccurateSum* sums = coarse.data() + j * std::ssize(coarse) / numColumns;
     const double* values = crosspointForces.data() + j * coarseIndices_.size();
     for (Eigen::Index i = 0; i < coarseIndices_.size(); ++i)
       sums[coarseIndices_.data()[i]].add(values[i]);
@@ -249,7 +249,7 @@ void SubdomainGroup::takeCrosspoints(const std::vector<Eigen::MatrixXd>& u, Eige
 void SubdomainGroup::subtractForces(std::span<const double> lambda, std::vector<Eigen::MatrixXd>& b) const {
   for (const std::size_t member : members_)
     for (Eigen::Index j = 0; j < b[member].cols(); ++j) {
-      const double* values = lambda.data() + j * static_cast<Eigen::Index>(lambda.size()) / b[member].cols();
+      const double* values = lambda.data() + j * std::ssize(lambda) / b[member].cols();
       for (const auto& entry : (*subdomains_)[member].constraint)
         b[member](entry.unknown, j) -= entry.coefficient * values[entry.multiplier];
     }
@@ -258,7 +258,7 @@ void SubdomainGroup::subtractForces(std::span<const double> lambda, std::vector<
 void SubdomainGroup::addConstraint(const std::vector<Eigen::MatrixXd>& u, std::span<double> result) const {
   for (const std::size_t member : members_)
     for (Eigen::Index j = 0; j < u[member].cols(); ++j) {
-      double* values = result.data() + j * static_cast<Eigen::Index>(result.size()) / u[member].cols();
+      double* values = result.data() + j * std::ssize(result) / u[member].cols();
       for (const auto& entry : (*subdomains_)[member].constraint)
         values[entry.multiplier] += entry.coefficient * u[member](entry.unknown, j);
     }

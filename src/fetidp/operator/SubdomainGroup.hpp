@@ -118,7 +118,7 @@ public:
   [[nodiscard]] std::size_t applyBytes() const;
 
 private:
-  [[nodiscard]] Eigen::Index numMembers() const { return static_cast<Eigen::Index>(members_.size()); }
+  [[nodiscard]] Eigen::Index numMembers() const { return members_.size(); }
   [[nodiscard]] bool fits(const decomposition::Subdomain& subdomain,
                           const SubdomainInterface& interface) const;
   /// Column j of the members' values: member after member, then the next of k.

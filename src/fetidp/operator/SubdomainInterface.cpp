@@ -30,7 +30,7 @@ std::uint64_t fingerprint(const Subdomain& subdomain, const std::vector<char>& i
     hash ^= hash >> 29U;
   };
   for (const int unknown : subdomain.crosspointUnknowns)
-    mix(static_cast<std::uint64_t>(unknown));
+    mix(unknown);
   for (std::size_t unknown = 0; unknown < isTouched.size(); ++unknown)
     if (isTouched[unknown] != 0)
       mix(unknown);
@@ -45,9 +45,9 @@ SubdomainInterface interfaceOf(const Subdomain& subdomain) {
   interface.positionOf.assign(isTouched.size(), -1);
   int next = 0;
   const auto collect = [&](const std::vector<int>& unknowns, std::vector<int>& positions) {
-    for (std::size_t i = 0; i < unknowns.size(); ++i)
+    for (int i = 0; i < std::ssize(unknowns); ++i)
       if (isTouched[unknowns[i]] != 0) {
-        positions.push_back(static_cast<int>(i));
+        positions.push_back(i);
         interface.positionOf[unknowns[i]] = next++;
       }
   };

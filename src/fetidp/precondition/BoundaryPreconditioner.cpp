@@ -53,8 +53,7 @@ BoundaryPreconditioner::Work& BoundaryPreconditioner::prepared(std::size_t group
                                                                Eigen::Index numColumns) const {
   const SubdomainGroup& all = inverse_->groups()[group];
   Work& work = work_[group];
-  work.displacement.resize(all.condensed().numBoundary(),
-                           static_cast<Eigen::Index>(all.members().size()) * numColumns);
+  work.displacement.resize(all.condensed().numBoundary(), all.members().size() * numColumns);
   work.forces.resizeLike(work.displacement);
   return work;
 }

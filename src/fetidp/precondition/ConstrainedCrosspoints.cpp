@@ -12,11 +12,12 @@
 namespace epafi::fetidp {
 namespace {
 
+using Rows = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
 /// This rank's rows.
-Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>> rowsOf(MultiVector& values) {
+Rows rowsOf(MultiVector& values) {
   const auto view = values.getLocalViewHost(Tpetra::Access::ReadWrite);
-  return {view.data(), static_cast<Eigen::Index>(view.extent(0)), static_cast<Eigen::Index>(view.extent(1)),
-          Eigen::OuterStride<>(static_cast<Eigen::Index>(view.stride(1)))};
+  return Rows(view.data(), view.extent(0), view.extent(1), Eigen::OuterStride<>(view.stride(1)));
 }
 
 } // namespace
@@ -55,7 +56,7 @@ ConstrainedCrosspoints::ConstrainedCrosspoints(const qp::ColumnSpace& space, con
 
 void ConstrainedCrosspoints::negativeJumps(const Eigen::MatrixXd& u, MultiVector& y) const {
   for (Eigen::Index column = 0; column < u.cols(); ++column) {
-    const auto values = y.getDataNonConst(static_cast<std::size_t>(column));
+    const auto values = y.getDataNonConst(column);
     for (Eigen::Index i = 0; i < jumps_.rows(); ++i)
       values[i] = 0;
     for (Eigen::Index k = 0; k < jumps_.cols(); ++k) // entry by entry: the same on any number of ranks
@@ -69,8 +70,7 @@ void ConstrainedCrosspoints::subtractForces(const MultiVector& r, std::span<Accu
     const auto values = r.getData(column);
     for (Eigen::Index k = 0; k < jumps_.cols(); ++k)
       for (Eigen::Index i = 0; i < jumps_.rows(); ++i)
-        sums[static_cast<std::size_t>(k) + column * static_cast<std::size_t>(jumps_.cols())].add(
-            -jumps_(i, k) * values[i]);
+        sums[k + column * jumps_.cols()].add(-jumps_(i, k) * values[i]);
   }
 }
 

@@ -32,13 +32,13 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, const Comm& c
   Unknowns myTouched, myFollowing;
   std::vector<int> isTouched(problem.clusters.size(), 0); // of each cluster
   const auto clusterOf = [&problem](const decomposition::Subdomain& subdomain) {
-    return static_cast<std::size_t>(problem.clusterOf[subdomain.number]);
+    return problem.clusterOf[subdomain.number];
   };
   std::vector<int> crosspointOf;
   for (const auto& subdomain : problem.subdomains) {
     crosspointOf.assign(subdomain.stiffness->rows(), -1);
-    for (std::size_t i = 0; i < subdomain.crosspointUnknowns.size(); ++i)
-      crosspointOf[subdomain.crosspointUnknowns[i]] = static_cast<int>(i);
+    for (int i = 0; i < std::ssize(subdomain.crosspointUnknowns); ++i)
+      crosspointOf[subdomain.crosspointUnknowns[i]] = i;
     for (const auto& entry : subdomain.constraint)
       if (const int i = crosspointOf[entry.unknown]; i >= 0) {
         myTouched.push_back(subdomain.crosspointIndices[i]);
@@ -60,7 +60,7 @@ void findUnknowns(const decomposition::DecomposedProblem& problem, const Comm& c
   for (const auto& subdomain : problem.subdomains)
     if (isTouched[clusterOf(subdomain)] > 0)
       for (const decomposition::CoarseNumber unknown : subdomain.crosspointIndices)
-        found[unknown] = static_cast<int>(clusterOf(subdomain));
+        found[unknown] = clusterOf(subdomain);
   struct Near {
     decomposition::CoarseNumber unknown;
     int cluster;
@@ -95,16 +95,16 @@ ContactCrosspoints::ContactCrosspoints(const decomposition::DecomposedProblem& p
 /// \param clusters  of the near ones
 void ContactCrosspoints::findBlocks(const std::vector<int>& clusters) {
   std::map<int, Block> blocks; // by cluster
-  for (std::size_t i = 0; i < near_.size(); ++i) {
+  for (int i = 0; i < std::ssize(near_); ++i) {
     Block& block = blocks[clusters[i]];
-    block.near.push_back(static_cast<int>(i));
+    block.near.push_back(i);
     if (const int touched = indexOf(near_[i]); touched >= 0)
       block.touched.push_back(touched);
   }
   Eigen::Index mostTouched = 0, mostNear = 0;
   for (auto& [cluster, block] : blocks) {
-    mostTouched = std::max(mostTouched, static_cast<Eigen::Index>(block.touched.size()));
-    mostNear = std::max(mostNear, static_cast<Eigen::Index>(block.near.size()));
+    mostTouched = std::max<Eigen::Index>(mostTouched, block.touched.size());
+    mostNear = std::max<Eigen::Index>(mostNear, block.near.size());
     blocks_.push_back(std::move(block));
   }
   touchedWork_.resize(mostTouched);
@@ -136,17 +136,15 @@ void ContactCrosspoints::fillBlocks(const decomposition::DecomposedProblem& prob
       for (std::size_t i = 0; i < block.near.size(); ++i)
         if (const auto unknown = near_[block.near[i]]; problem.crosspointMap->isNodeGlobalElement(unknown))
           for (std::size_t j = 0; j < unknowns.size() && first + j < block.touched.size(); ++j)
-            value[static_cast<std::ptrdiff_t>(i + (first + j) * block.near.size())] =
-                columns(inverse.coarseIndexOf(unknown), static_cast<Eigen::Index>(j));
-      value += static_cast<std::ptrdiff_t>(block.near.size() * block.touched.size());
+            value[i + (first + j) * block.near.size()] = columns(inverse.coarseIndexOf(unknown), j);
+      value += block.near.size() * block.touched.size();
     }
   }
   sumOverRanks(*comm_, std::span<double>(values));
   collectively(*problem.comm, [&] {
     const double* value = values.data();
     for (Block& block : blocks_) {
-      const auto numNear = static_cast<Eigen::Index>(block.near.size()),
-                 n = static_cast<Eigen::Index>(block.touched.size());
+      const Eigen::Index numNear = block.near.size(), n = block.touched.size();
       const Eigen::Map<const Eigen::MatrixXd> response(value, numNear, n);
       value += response.size();
       Eigen::MatrixXd flexibility(n, n);

@@ -30,9 +30,9 @@ public:
 
   [[nodiscard]] const RCP<const Comm>& comm() const { return comm_; } ///< as given
   /// Number of the crosspoint values, n_C; the same on all these ranks.
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(touched_.size()); }
+  [[nodiscard]] Eigen::Index size() const { return touched_.size(); }
   /// Number of the near ones, n_N; likewise.
-  [[nodiscard]] Eigen::Index numNear() const { return static_cast<Eigen::Index>(near_.size()); }
+  [[nodiscard]] Eigen::Index numNear() const { return near_.size(); }
   /// Index of a coarse unknown among them, or −1.
   [[nodiscard]] int indexOf(decomposition::CoarseNumber coarseUnknown) const;
   /// Whether a coarse unknown follows the faces at its edge's ends: no row touches it.

@@ -68,10 +68,9 @@ void CrosspointMotion::takeWeights(const ScaledConstraint& scaled, const Map& ma
 /// The groups of bodies that contact touches at a crosspoint.
 void CrosspointMotion::findFollowers() {
   for (const SubdomainGroup& group : inverse_->groups()) {
-    Eigen::MatrixXi near(group.condensed().numCrosspoints(),
-                         static_cast<Eigen::Index>(group.members().size()));
+    Eigen::MatrixXi near(group.condensed().numCrosspoints(), group.members().size());
     for (Eigen::Index member = 0; member < near.cols(); ++member) {
-      const auto crosspoints = group.crosspointIndices(static_cast<std::size_t>(member));
+      const auto crosspoints = group.crosspointIndices(member);
       for (Eigen::Index c = 0; c < near.rows(); ++c)
         near(c, member) = crosspoints_.nearIndexOf(crosspoints[c]);
     }
@@ -95,14 +94,13 @@ void CrosspointMotion::constrain(const decomposition::DecomposedProblem& problem
   for (const auto& subdomain : problem.subdomains)
     for (const auto& entry : subdomain.constraint)
       if (const int touched = crosspoints_.indexOf(subdomain, entry.unknown); touched >= 0)
-        entries[static_cast<std::size_t>(entry.multiplier) +
-                static_cast<std::size_t>(touched) * entries.size() / size] += entry.coefficient;
+        entries[entry.multiplier + touched * entries.size() / size] += entry.coefficient;
   work_.output.sumToOwners(atCrosspoints); // B_C
   constrained_.emplace(deflated.space(), jumps, atCrosspoints, crosspoints_.stiffness());
 }
 
 /// Work space for k columns; sums begin at 0.
-void CrosspointMotion::prepareColumns(Eigen::Index numColumns) const {
+void CrosspointMotion::prepareColumns(std::size_t numColumns) const {
   for (std::size_t f = 0; f < followers_.size(); ++f) {
     const Eigen::MatrixXi& near = followers_[f].near;
     work_.followers[f].atCrosspoints.resize(near.rows(), near.cols() * numColumns);
@@ -114,12 +112,12 @@ void CrosspointMotion::prepareColumns(Eigen::Index numColumns) const {
   work_.forces.resize(crosspoints_.size(), numColumns);
   work_.touchedSums.assign(work_.forces.size(), AccurateSum());
   work_.nearSums.assign(work_.nearForces.size(), AccurateSum());
-  if (work_.shared->getNumVectors() != static_cast<std::size_t>(numColumns))
-    work_.shared = rcp(new MultiVector(work_.shared->getMap(), static_cast<std::size_t>(numColumns)));
+  if (work_.shared->getNumVectors() != numColumns)
+    work_.shared = rcp(new MultiVector(work_.shared->getMap(), numColumns));
 }
 
 void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, MultiVector& rest) const {
-  prepareColumns(static_cast<Eigen::Index>(lambda.getNumVectors()));
+  prepareColumns(lambda.getNumVectors());
   u.resize(crosspoints_.size(), work_.forces.cols());
   const std::span<const double> atSubdomains =
       isLocal_ ? work_.input.toSubdomains(lambda) : std::span<const double>();
@@ -149,7 +147,7 @@ void CrosspointMotion::split(const MultiVector& lambda, Eigen::MatrixXd& u, Mult
 /// −J of the near displacement, but for the shares: boundaries move by −Ψ_Δ X u, each subdomain for itself.
 void CrosspointMotion::negativeJumps(MultiVector& jumps) const {
   const Eigen::Index numColumns = work_.nearDisplacement.cols();
-  const std::span<double> result = work_.output.zeros(static_cast<std::size_t>(numColumns));
+  const std::span<double> result = work_.output.zeros(numColumns);
   for (std::size_t f = 0; f < followers_.size(); ++f) {
     const auto& [group, near] = followers_[f];
     auto& [motion, displacement] = work_.followers[f];
@@ -233,13 +231,13 @@ void CrosspointMotion::pullBack(const Eigen::MatrixXd& u, MultiVector& y) const 
     const std::size_t numColumns = u.cols();
     const std::span<double> values = work_.output.zeros(numColumns);
     for (Eigen::Index j = 0; j < u.cols(); ++j)
-      addTo(j, values.data() + static_cast<std::size_t>(j) * (values.size() / numColumns));
+      addTo(j, values.data() + j * (values.size() / numColumns));
     work_.output.sumToOwners(*work_.shared);
     y.update(1.0, *work_.shared, 1.0);
     return;
   }
   for (Eigen::Index j = 0; j < u.cols(); ++j)
-    addTo(j, y.getDataNonConst(static_cast<std::size_t>(j)).get());
+    addTo(j, y.getDataNonConst(j).get());
 }
 
 } // namespace epafi::fetidp

@@ -59,7 +59,7 @@ private:
   void takeWeights(const ScaledConstraint& scaled, const Map& map);
   void findFollowers();
   void constrain(const decomposition::DecomposedProblem& problem, const qp::DeflatedOperator& deflated);
-  void prepareColumns(Eigen::Index numColumns) const;
+  void prepareColumns(std::size_t numColumns) const;
   void negativeJumps(MultiVector& jumps) const;
   void addForcesOfJumps() const;
   void pullBack(const Eigen::MatrixXd& u, MultiVector& y) const;

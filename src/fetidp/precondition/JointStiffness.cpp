@@ -23,7 +23,7 @@ std::vector<Entry> entriesOf(const decomposition::Subdomain& subdomain, const Su
                              std::span<const int> rows, PreconditionerParameters::Scaling scaling) {
   std::map<int, Eigen::Index> placeOf;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    placeOf[rows[i]] = static_cast<Eigen::Index>(i);
+    placeOf[rows[i]] = i;
   std::vector<Entry> entries;
   for (const auto& entry : subdomain.constraint)
     if (const auto found = placeOf.find(entry.multiplier); found != placeOf.end()) {
@@ -38,15 +38,14 @@ std::vector<Entry> entriesOf(const decomposition::Subdomain& subdomain, const Su
 
 template <class Values>
 void put(std::vector<std::byte>& message, const Values& values) {
-  const auto bytes = std::as_bytes(std::span(values.data(), static_cast<std::size_t>(values.size())));
+  const auto bytes = std::as_bytes(std::span(values.data(), values.size()));
   message.insert(message.end(), bytes.begin(), bytes.end());
 }
 
 /// As many values as there are in `values`.
 template <class Values>
 void take(std::span<const std::byte>& message, Values& values) {
-  const auto bytes =
-      std::as_writable_bytes(std::span(values.data(), static_cast<std::size_t>(values.size())));
+  const auto bytes = std::as_writable_bytes(std::span(values.data(), values.size()));
   std::copy_n(message.begin(), bytes.size(), bytes.begin());
   message = message.subspan(bytes.size());
 }
@@ -107,7 +106,7 @@ Eigen::MatrixXd spanOf(const Eigen::MatrixXd& columns) {
 
 JointPart::JointPart(int number, int ofCluster, Eigen::Index numRows, Eigen::Index numCrosspoints,
                      Eigen::Index numMotions)
-    : subdomain(number), cluster(ofCluster), crosspoints(static_cast<std::size_t>(numCrosspoints)),
+    : subdomain(number), cluster(ofCluster), crosspoints(numCrosspoints),
       flexibility(Eigen::MatrixXd::Zero(numRows, numRows)),
       response(Eigen::MatrixXd::Zero(numRows, numCrosspoints)),
       crosspointStiffness(Eigen::MatrixXd::Zero(numCrosspoints, numCrosspoints)),
@@ -118,8 +117,7 @@ JointPart::JointPart(int number, int ofCluster, Eigen::Index numRows, Eigen::Ind
 JointPart partOf(const decomposition::Subdomain& subdomain, int cluster, const CondensedSubdomain& condensed,
                  const CondensedBoundary& boundary, std::span<const int> rows,
                  PreconditionerParameters::Scaling scaling) {
-  JointPart part(subdomain.number, cluster, static_cast<Eigen::Index>(rows.size()),
-                 condensed.numCrosspoints(), subdomain.kernel.cols());
+  JointPart part(subdomain.number, cluster, rows.size(), condensed.numCrosspoints(), subdomain.kernel.cols());
   part.crosspoints = subdomain.crosspointIndices;
   part.crosspointStiffness = condensed.schurComplement();
   part.crosspointDiagonal = subdomain.stiffness->diagonal()(subdomain.crosspointUnknowns);

@@ -58,7 +58,7 @@ std::vector<std::vector<int>> subdomainsOfRows(const DecomposedProblem& problem,
     const auto values = largest.getData();
     isAnyLeft = false;
     for (std::size_t row = 0; row < subdomains.size(); ++row)
-      if (const int number = values[static_cast<Teuchos_Ordinal>(row)]; number > 0) {
+      if (const int number = values[row]; number > 0) {
         subdomains[row].insert(subdomains[row].begin(), number - 1);
         isAnyLeft = true;
       }
@@ -106,10 +106,10 @@ std::vector<Joint> jointsOf(const DecomposedProblem& problem, const Import& plan
   const std::vector<std::vector<int>> subdomains = subdomainsOfRows(problem, plan);
   const Map& ghosts = *plan.getTargetMap();
   std::map<std::vector<int>, std::vector<int>> rowsOf;
-  for (std::size_t row = 0; row < subdomains.size(); ++row)
-    if (problem.kindOf(decomposition::TouchedMultiplier(static_cast<LocalOrdinal>(row))) == kind &&
-        !subdomains[row].empty() && subdomains[row].back() < problem.numSubdomains)
-      rowsOf[subdomains[row]].push_back(static_cast<int>(row));
+  for (int row = 0; row < std::ssize(subdomains); ++row)
+    if (problem.kindOf(decomposition::TouchedMultiplier(row)) == kind && !subdomains[row].empty() &&
+        subdomains[row].back() < problem.numSubdomains)
+      rowsOf[subdomains[row]].push_back(row);
   const auto before = [&ghosts](int a, int b) {
     return ghosts.getGlobalElement(a) < ghosts.getGlobalElement(b);
   };
@@ -150,9 +150,9 @@ std::vector<bool> stiffnessVaries(const DecomposedProblem& problem, const Import
                                   const std::vector<Joint>& joints, double ratio,
                                   const std::vector<bool>& always) {
   std::vector<int> jointOf(numLocal(*plan.getTargetMap()), -1); // of each row
-  for (std::size_t j = 0; j < joints.size(); ++j)
+  for (int j = 0; j < std::ssize(joints); ++j)
     for (const int row : joints[j].rows)
-      jointOf[row] = static_cast<int>(j);
+      jointOf[row] = j;
   IntVector varies(plan.getTargetMap()); // at the joint's first row
   for (const Subdomain& subdomain : problem.subdomains) {
     const Eigen::VectorXd diagonal = nodalDiagonal(subdomain);

@@ -193,8 +193,7 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, Generali
   });
   columns.numJoints = sumOverRanks(comm, columns.numJoints);
   std::map<std::pair<GlobalOrdinal, GlobalOrdinal>, int> columnOf;
-  for (const Candidate& candidate :
-       chosenCandidates(comm, mine, static_cast<std::size_t>(search.maxNumber))) {
+  for (const Candidate& candidate : chosenCandidates(comm, mine, search.maxNumber)) {
     columnOf.emplace(candidate.key(), columns.number++);
     columns.largestRatio = std::max(columns.largestRatio, candidate.ratio);
   }
@@ -203,8 +202,7 @@ OverratedColumns findOverratedColumns(const DecomposedProblem& problem, Generali
     for (Eigen::Index k = 0; k < jumps[j].ratios.size(); ++k)
       if (const auto found = columnOf.find({firstRowOf(joints[j], problem), k}); found != columnOf.end())
         for (std::size_t i = 0; i < joints[j].rows.size(); ++i)
-          columns.entries.push_back(
-              {joints[j].rows[i], found->second, values(static_cast<Eigen::Index>(i), k)});
+          columns.entries.push_back({joints[j].rows[i], found->second, values(i, k)});
   }
   return columns;
 }

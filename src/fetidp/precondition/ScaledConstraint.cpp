@@ -16,15 +16,13 @@ template <class WeightOf>
 std::vector<double> meansOfNodes(const decomposition::DecomposedProblem& problem, const Subdomain& subdomain,
                                  const WeightOf& weightOf) {
   std::vector<double> means(subdomain.unknownPosition.size());
-  const auto nodeOf = [&](std::size_t unknown) {
-    return subdomain.unknownPosition[unknown] / problem.components;
-  };
-  for (std::size_t first = 0, end = 0; first < means.size(); first = end) {
+  const auto nodeOf = [&](int unknown) { return subdomain.unknownPosition[unknown] / problem.components; };
+  for (int first = 0, end = 0; first < std::ssize(means); first = end) {
     double sum = 0;
-    for (; end < means.size() && nodeOf(end) == nodeOf(first); ++end)
-      sum += weightOf(subdomain, static_cast<int>(end));
-    for (std::size_t unknown = first; unknown < end; ++unknown)
-      means[unknown] = sum / static_cast<double>(end - first);
+    for (; end < std::ssize(means) && nodeOf(end) == nodeOf(first); ++end)
+      sum += weightOf(subdomain, end);
+    for (int unknown = first; unknown < end; ++unknown)
+      means[unknown] = sum / (end - first);
   }
   return means;
 }
@@ -67,9 +65,9 @@ ScaledConstraint scaleConstraint(const decomposition::DecomposedProblem& problem
 
   ScaledConstraint result;
   const auto owned = total.getData(0);
-  for (Teuchos_Ordinal row = 0; row < owned.size(); ++row)
+  for (int row = 0; row < owned.size(); ++row)
     if (owned[row] == 0)
-      result.untouched.push_back(static_cast<int>(row));
+      result.untouched.push_back(row);
   const std::span<const double> totals = exchange.toSubdomains(total);
   result.boundaryShares.assign(totals.size(), 0.0);
   result.boundary.resize(problem.subdomains.size());

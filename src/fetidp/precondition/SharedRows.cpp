@@ -54,9 +54,9 @@ OwnEntries ownEntries(const decomposition::DecomposedProblem& problem, const Imp
       if (const int row = problem.subdomains[s].constraint[e].multiplier; isDependent(own[row], all[row]))
         result.counts[s][e] = 1;
   const auto ownHere = owned.getData(0), allHere = owned.getData(1);
-  for (Teuchos_Ordinal row = 0; row < ownHere.size(); ++row)
+  for (LocalOrdinal row = 0; row < ownHere.size(); ++row)
     if (isDependent(ownHere[row], allHere[row]))
-      result.dependent.push_back(static_cast<LocalOrdinal>(row));
+      result.dependent.push_back(row);
   return result;
 }
 

@@ -55,7 +55,7 @@ public:
   /// face. Collective.
   [[nodiscard]] Eigen::VectorXd motionOf(Vector& x) {
     const std::span<const double> alpha = equality_.fit(x);
-    return Eigen::Map<const Eigen::VectorXd>(alpha.data(), static_cast<Eigen::Index>(alpha.size()));
+    return Eigen::Map<const Eigen::VectorXd>(alpha.data(), alpha.size());
   }
 
 private:
