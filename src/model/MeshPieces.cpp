@@ -136,7 +136,7 @@ void PieceMaker::takeAround() {
     senders.insert(rank);
     std::vector<LocalOrdinal> touching;
     for (const GlobalOrdinal key : shared)
-      for (const LocalOrdinal element : topology_->elementsOf(static_cast<LocalOrdinal>(placeOf(key))))
+      for (const LocalOrdinal element : topology_->elementsOf(placeOf(key)))
         touching.push_back(element);
     sortEach(touching);
     for (const LocalOrdinal element : touching) {
@@ -155,7 +155,7 @@ void PieceMaker::markBoundary() {
   for (std::size_t e = 0; e < held_.size(); ++e)
     if (isOwn(e))
       for (const GlobalOrdinal key : held_.nodes(e))
-        if (topology_->isOnBoundary(static_cast<LocalOrdinal>(placeOf(key))))
+        if (topology_->isOnBoundary(placeOf(key)))
           onBoundary.push_back(key);
   sortEach(onBoundary);
   directory_.markBoundary(onBoundary);
@@ -181,7 +181,7 @@ void PieceMaker::requireJoined() const {
     std::set<std::pair<int, int>> pairs;
     for (std::size_t e = 0; e < held_.size(); ++e)
       for (std::size_t f = 0; isOwn(e) && f < facetsOf(loose_.cellType).size(); ++f) {
-        const LocalOrdinal other = topology_->across(static_cast<LocalOrdinal>(e), f);
+        const LocalOrdinal other = topology_->across(e, f);
         if (other < 0)
           continue;
         requireWhole(e, f, index(other));
@@ -214,7 +214,7 @@ void PieceMaker::findFacet(const meshing::NamedFacet& facet) {
   const auto isCorner = [&](GlobalOrdinal key) {
     return std::find(facet.corners.begin(), facet.corners.end(), key) != facet.corners.end();
   };
-  for (const LocalOrdinal element : topology_->elementsOf(static_cast<LocalOrdinal>(first))) {
+  for (const LocalOrdinal element : topology_->elementsOf(first)) {
     const auto nodes = held_.nodes(index(element));
     for (std::size_t f = 0; isOwn(index(element)) && f < facets.size(); ++f) {
       if (!std::all_of(facets[f].begin(), facets[f].begin() + perFacet,
