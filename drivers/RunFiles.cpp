@@ -4,7 +4,6 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/output/AtomicFile.hpp"
 #include "epafi/output/Checkpoint.hpp"
-#include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/Fingerprint.hpp"
 #include "epafi/output/Report.hpp"
 
@@ -59,10 +58,15 @@ std::string tableOf(const std::vector<accuracy::MeshResult>& meshes) {
   return table.str();
 }
 
+/// What a stage is.
+std::string stageOf(const simulation::RunResult& result) {
+  return result.steps.empty() ? "mesh" : "step";
+}
+
 } // namespace
 
 RunFiles::RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started)
-    : options_(options), watch_(watch), comm_(std::move(comm)), started_(started), lastMesh_(started) {}
+    : options_(options), watch_(watch), comm_(std::move(comm)), started_(started), lastStage_(started) {}
 
 /// Runs `work`, which writes `file` and returns a line that says so; notes what all ranks agree that it could
 /// not.
@@ -75,15 +79,18 @@ void RunFiles::attempt(const std::filesystem::path& file, const Work& work) {
   }
 }
 
-void RunFiles::publish(output::FileSet& files) {
+/// Returns whether all files are in place; notes what all ranks agree that is not.
+bool RunFiles::publish(output::FileSet& files) {
   try {
     files.publish();
+    return true;
   } catch (const Error& error) {
     failures_.emplace_back(error.what());
+    return false;
   }
 }
 
-/// All but the checkpoint, which is of the mesh that the iteration is on, and says which, get their names
+/// All but the checkpoint, which is of the stage that the iteration is on, and says which, get their names
 /// later; reports last.
 void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
   lines_.clear();
@@ -98,9 +105,10 @@ void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
     });
     prepareFields(run, files);
   }
-  if (hasMesh_ && !failures_.empty())
-    run.result.reason +=
-        "; not all files of this mesh could be written: what is missing may be there of a mesh before";
+  if (hasStage_ && !failures_.empty())
+    run.result.reason += "; not all files of this " + stageOf(run.result) +
+                         " could be written: what is missing may be there of a " + stageOf(run.result) +
+                         " before";
   enterTimes(run);
   for (const std::filesystem::path& file : reportsOf(options_))
     attempt(file, [&] {
@@ -119,9 +127,14 @@ void RunFiles::prepareFields(simulation::SceneRun& run, output::FileSet& files) 
     return std::string();
   });
   const std::string name = std::filesystem::path(options_.scene).stem().string();
+  const std::vector<simulation::StepResult>& steps = run.result.steps;
+  if (!steps.empty())
+    steps_.push_back({steps.back().name, static_cast<int>(steps.size())});
+  hasFields_ = false;
   attempt(directory / (name + ".h5"), [&] {
     const auto fields = output::writeFields(directory, name, run.solved(), run.evaluation,
-                                            run.solver->report().history, files);
+                                            run.solver->report().history, files, steps_);
+    hasFields_ = true;
     return line("fields", fields.hdf5.string() + " and " + fields.xdmf.string());
   });
   lines_ += table;
@@ -141,8 +154,9 @@ void RunFiles::enterTimes(simulation::SceneRun& run) {
 /// Whoever finds this report when the run was killed is warned.
 void RunFiles::announce(const simulation::SceneRun& run) {
   simulation::RunResult result(run.result);
-  result.reason = "the files of this mesh are being put in place: each is complete, and of this mesh or "
-                  "older; where none puts them there any more the run was killed just then";
+  const std::string stage = stageOf(result);
+  result.reason = "the files of this " + stage + " are being put in place: each is complete, and of this " +
+                  stage + " or older; where none puts them there any more the run was killed just then";
   const Teuchos::ParameterList report = simulation::reportOf(result);
   output::FileSet files(comm_, false); // for less than a millisecond
   for (const std::filesystem::path& file : reportsOf(options_))
@@ -153,30 +167,43 @@ void RunFiles::announce(const simulation::SceneRun& run) {
   publish(files);
 }
 
-void RunFiles::writeMesh(simulation::SceneRun& run) {
+/// No later step writes them, and the next one's are to come beside those that are there.
+void RunFiles::noteLostFields() {
+  if (steps_.empty() || hasFields_)
+    return;
+  lost_.push_back("fields of step \"" + steps_.back().name + "\" are not in the files: " + failures_.front());
+  steps_.pop_back();
+}
+
+void RunFiles::writeStage(simulation::SceneRun& run) {
   constexpr double often = 1; // seconds; what fewer of them brought is not worth a wait for the disk
   began_ = Teuchos::Time::wallTime();
-  output::FileSet files(comm_, maxOverRanks(*comm_, began_ - lastMesh_) > often);
+  output::FileSet files(comm_, maxOverRanks(*comm_, began_ - lastStage_) > often);
   prepare(run, files);
-  if (failures_.empty()) {
+  if (failures_.empty() || !run.result.steps.empty()) {
     announce(run);
-    publish(files);
+    hasFields_ = publish(files) && hasFields_;
   }
-  isOfThisMesh_ = failures_.empty();
-  hasMesh_ = hasMesh_ || isOfThisMesh_;
-  if (!isOfThisMesh_ && comm_->getRank() == 0 && !std::exchange(hasComplained_, true))
-    std::cerr << "epafi: the run goes on without files of this mesh: " << failures_.front() << '\n'
+  isOfThisStage_ = failures_.empty();
+  hasStage_ = hasStage_ || isOfThisStage_;
+  if (!isOfThisStage_ && comm_->getRank() == 0 && !std::exchange(hasComplained_, true))
+    std::cerr << "epafi: the run goes on without files of this " << stageOf(run.result) << ": "
+              << failures_.front() << '\n'
               << std::flush;
-  lastMesh_ = Teuchos::Time::wallTime();
-  output_ += lastMesh_ - began_;
+  noteLostFields();
+  lastStage_ = Teuchos::Time::wallTime();
+  output_ += lastStage_ - began_;
 }
 
 void RunFiles::finish(simulation::SceneRun& run) {
   began_ = Teuchos::Time::wallTime();
-  if (!isOfThisMesh_) {
+  if (!isOfThisStage_ || !run.result.steps.empty()) { // the last step has been no stage
+    for (const std::string& fields : lost_)
+      run.result.reason += "; " + fields;
     output::FileSet files(comm_);
     prepare(run, files);
     publish(files);
+    failures_.insert(failures_.begin(), lost_.begin(), lost_.end());
     return;
   }
   enterTimes(run);

@@ -6,6 +6,7 @@
 #include "RunWatch.hpp"
 #include "epafi/simulation/SceneRun.hpp"
 
+#include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/FileSet.hpp"
 
 #include <filesystem>
@@ -25,12 +26,13 @@ public:
   /// \param started  wall time at the start of the run
   RunFiles(const Options& options, const RunWatch& watch, RCP<const Comm> comm, double started);
 
-  /// The files of a mesh of several, in place of those of the mesh before: all, with a report that says that
-  /// the run goes on, or none, and the run goes on without, of which rank 0 tells once. They are put in place
-  /// together, between a report that says so and the one that is to stay.
-  void writeMesh(simulation::SceneRun& run);
+  /// The files of a stage, that is a mesh of several or a load step, in place of those of the stage before:
+  /// all, with a report that says that the run goes on, or, of a mesh, none, and the run goes on without, of
+  /// which rank 0 tells once. They are put in place together, between a report that says so and the one that
+  /// is to stay. Fields of a step come beside those of the steps before.
+  void writeStage(simulation::SceneRun& run);
   /// Those of a run that is over; of its last mesh, if that has them, the reports alone. Enters Time/Output,
-  /// that of all meshes, and Time/Total in the run's report, as writeMesh() does.
+  /// that of all stages, and Time/Total in the run's report, as writeStage() does.
   void finish(simulation::SceneRun& run);
 
   [[nodiscard]] const std::string& lines() const { return lines_; } ///< for people: what was written where
@@ -40,21 +42,25 @@ public:
 private:
   template <class Work>
   void attempt(const std::filesystem::path& file, const Work& work);
-  void publish(output::FileSet& files);
+  bool publish(output::FileSet& files);
   void prepare(simulation::SceneRun& run, output::FileSet& files);
   void prepareFields(simulation::SceneRun& run, output::FileSet& files);
   void enterTimes(simulation::SceneRun& run);
   void announce(const simulation::SceneRun& run);
+  void noteLostFields();
 
   const Options& options_;
   const RunWatch& watch_;
   RCP<const Comm> comm_;
   double started_, began_ = 0; ///< wall time: of the run, of the work at hand
   double output_ = 0;          ///< seconds that all before it took
-  double lastMesh_;            ///< wall time at which its files were there
-  bool hasMesh_ = false, isOfThisMesh_ = false, hasComplained_ = false;
+  double lastStage_;           ///< wall time at which its files were there
+  bool hasStage_ = false, isOfThisStage_ = false, hasComplained_ = false;
+  bool hasFields_ = false;               ///< those of the stage at hand are written
+  std::vector<output::FieldStep> steps_; ///< up to the one at hand, but those whose fields are lost
   std::string lines_;
   std::vector<std::string> failures_;
+  std::vector<std::string> lost_; ///< likewise, of fields of steps that no later stage makes up for
 };
 
 } // namespace epafi::drivers

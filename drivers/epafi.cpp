@@ -75,16 +75,16 @@ simulation::SceneRun solveAsAsked(const scene::Scene& scene, const std::vector<s
                                        .companion = &watch,
                                        .meshes = model::Meshes::pieces};
   if (!steps.empty())
-    return simulation::solveSteps(scene, steps, solver, comm, options,
-                                  [&](const simulation::StepResult& step) {
-                                    if (speaks)
-                                      std::cout << describe(step) << std::flush;
-                                  });
+    return simulation::solveSteps(scene, steps, solver, comm, options, [&](simulation::SceneRun& run) {
+      files.writeStage(run);
+      if (speaks) // of a step whose files are there
+        std::cout << describe(run.result.steps.back()) << std::flush;
+    });
   if (accuracy.target == 0)
     return simulation::solveScene(scene, solver, comm, options);
   watch.expectSeries();
   const auto tell = [&](const accuracy::MeshResult& mesh, simulation::SceneRun& run) {
-    files.writeMesh(run);
+    files.writeStage(run);
     if (speaks) // of a mesh whose files are there
       std::cout << describe(mesh) << std::flush;
   };

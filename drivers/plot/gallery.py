@@ -10,7 +10,7 @@ STUDIES = ("accuracy.csv", "tables.csv", "qp.csv", "scaling.csv", "stability.csv
            "spectra.csv", "targets.csv", "meshes.csv", "friction_traction.csv", "friction_loop.csv")
 
 
-def draw(source, output, extension, dpi, box=None):
+def draw(source, output, extension, dpi, box=None, step=None):
     """Yields the path of each picture once it is written."""
     files = find(source)
     for file in files:
@@ -18,7 +18,7 @@ def draw(source, output, extension, dpi, box=None):
         if file.suffix == ".csv":
             yield from draw_table(file, canvas)
         else:
-            yield from draw_run(file, canvas, box)
+            yield from draw_run(file, canvas, box, step)
 
 
 def find(source):
@@ -36,10 +36,10 @@ def find(source):
     return found
 
 
-def draw_run(file, canvas, box):
-    run = read_run(file)
+def draw_run(file, canvas, box, step):
+    run = read_run(file, step)
     shown = run if box is None else part.of(run, box)
-    stem = file.stem
+    stem = run.stem
     in_space = not run.is_plane()
     if run.is_elastic():
         yield canvas.save(space.figure(shown) if in_space else plane.figure(shown, box), f"{stem}_deformed")

@@ -101,6 +101,7 @@ class History:
 @dataclasses.dataclass
 class Run:
     title: str
+    stem: str  # what names of pictures begin with
     bodies: list
     contacts: list
     history: History  # or None
@@ -117,18 +118,33 @@ class Run:
         return numpy.ptp(points, axis=0).max()
 
 
-def read_run(file):
+def read_run(file, step=None):
+    """The run as it is at the end of a load step, which its name or number says; without one as it is at its end."""
     try:
-        with h5py.File(file, "r") as content:
+        with h5py.File(file, "r") as whole:
+            content, suffix = (whole, "") if step is None else of_step(file, whole, step)
             bodies = [read_body(name, group) for name, group in content["bodies"].items()]
             contacts = [read_contact(name, group) for name, group in content.get("contact", {}).items()]
-            run = Run(file.stem, bodies, contacts, read_history(content.get("history")))
+            run = Run(file.stem if step is None else f"{file.stem}, step {title('', content)}", file.stem + suffix, bodies,
+                      contacts, read_history(content.get("history")))
     except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
         reason = str(error).strip("'\"")
         raise PlotError(f"'{file}' cannot be read as the HDF5 file of an Epafi run: {reason}.") from error
     if not run.bodies or any(len(body.cells) == 0 for body in run.bodies):
         raise PlotError(f"'{file}' holds a body without cells, or no body; there is nothing to draw.")
     return run
+
+
+def of_step(file, content, step):
+    """The group of a load step, which is laid out as the file is, and what tells its pictures from those of other steps."""
+    groups = sorted(content.get("steps", {}).values(), key=lambda group: group.attrs["number"])
+    names, numbers = [title("", group) for group in groups], [str(group.attrs["number"]) for group in groups]
+    for labels in (names, numbers):
+        if step in labels:
+            group = groups[labels.index(step)]
+            return group, "_" + group.name.split("/")[-1]
+    there = ", ".join(f"{number} '{name}'" for number, name in zip(numbers, names))
+    raise PlotError(f"'{file}' has no load step '{step}'; " + (f"its steps are {there}." if there else "it has no load steps."))
 
 
 def read_body(name, group):

@@ -70,6 +70,14 @@ void writeOnThisRank(const fs::path& file, const std::string& text, const fs::pa
                 ". Check the free space and the permissions of its directory.");
 }
 
+void copyOnThisRank(const fs::path& from, const fs::path& temporary) {
+  std::error_code error;
+  fs::copy_file(from, temporary, error);
+  if (error)
+    throw Error("File '" + from.string() + "' could not be copied, to go on with it: " + error.message() +
+                ". Check the free space, and that nobody has removed it.");
+}
+
 /// 0, or the error number.
 int reserveOnThisRank(const fs::path& file, std::uintmax_t bytes) {
 #ifdef __linux__
@@ -119,10 +127,14 @@ void removeTemporary(const fs::path& temporary) noexcept try {
   // A hidden file stays.
 }
 
-void createForAll(const fs::path& temporary, const Comm& comm) {
+void createForAll(const fs::path& temporary, const Comm& comm, const fs::path& from) {
   collectively(comm, [&] {
-    if (comm.getRank() == 0)
+    if (comm.getRank() > 0)
+      return;
+    if (from.empty())
       writeOnThisRank(temporary, "", temporary, false);
+    else
+      copyOnThisRank(from, temporary);
   });
   collectively(comm, [&] {
     std::error_code error;

@@ -25,9 +25,10 @@ std::filesystem::path temporaryBeside(const std::filesystem::path& file, const C
 /// stays where a file could not be closed). Says nothing of failures. Not collective.
 void removeTemporary(const std::filesystem::path& temporary) noexcept;
 
-/// Makes `temporary`, empty, from rank 0, for all ranks to open. Collective. \throws InputError if a rank
-/// does not see it there, on a disk of its own perhaps; Error if it cannot be made.
-void createForAll(const std::filesystem::path& temporary, const Comm& comm);
+/// Makes `temporary`, empty or a copy of rank 0's file `from`, for all ranks to open. Collective. \throws
+/// InputError if a rank does not see it there, on a disk of its own perhaps; Error if it cannot be made.
+void createForAll(const std::filesystem::path& temporary, const Comm& comm,
+                  const std::filesystem::path& from = {});
 
 /// Makes sure that the file system has room for the first `bytes` bytes of the file `temporary`, which
 /// exists; the file grows to that size. Does nothing on file systems that cannot reserve. Collective (rank 0

@@ -16,15 +16,40 @@ namespace {
 using Type = XdmfData::Type;
 using Center = XdmfAttribute::Center;
 
+/// Where fields go: the file itself, or the group of a load step, which is laid out as the file is.
+struct FieldGroup {
+  Hdf5File& file;
+  std::string path;  ///< of a step's group; empty: the file itself
+  std::string first; ///< of the first step's group, which has the meshes of all of them
+
+  void createGroup(const std::string& group) { file.createGroup(path + group); }
+  void attribute(const std::string& group, const std::string& name, const std::string& value) {
+    file.attribute(path + group, name, value);
+  }
+};
+
+template <class T>
+constexpr Type typeOf = std::is_same_v<T, double> ? Type::real8
+                        : sizeof(T) == 4          ? Type::integer4
+                                                  : Type::integer8;
+
 /// Writes a table and says where it lies.
 template <class T>
-XdmfData put(Hdf5File& file, const std::string& dataset, GlobalOrdinal rows, int columns,
+XdmfData put(FieldGroup& to, const std::string& dataset, GlobalOrdinal rows, int columns,
              const RowRange& range, const std::vector<T>& values) {
-  file.write(dataset, rows, columns, range, std::span<const T>(values));
-  const Type type = std::is_same_v<T, double> ? Type::real8
-                    : sizeof(T) == 4          ? Type::integer4
-                                              : Type::integer8;
-  return {dataset, rows, columns, type};
+  to.file.write(to.path + dataset, rows, columns, range, std::span<const T>(values));
+  return {dataset, rows, columns, typeOf<T>, true};
+}
+
+/// The same of a table that no load step changes: it is there once.
+template <class T>
+XdmfData putShared(FieldGroup& to, const std::string& dataset, GlobalOrdinal rows, int columns,
+                   const RowRange& range, const std::vector<T>& values) {
+  if (to.path == to.first)
+    put(to, dataset, rows, columns, range, values);
+  else
+    to.file.link(to.path + dataset, to.first + dataset);
+  return {to.first + dataset, rows, columns, typeOf<T>};
 }
 
 /// Rows of two numbers become rows of three, the last one 0.
@@ -37,7 +62,7 @@ std::vector<double> inSpace(const std::vector<double>& plane) {
 }
 
 /// What elastic bodies have beside membranes: a vector to warp by, and stress.
-void putElastic(Hdf5File& file, const std::string& group, const BodyFields& fields, const XdmfData& u,
+void putElastic(FieldGroup& file, const std::string& group, const BodyFields& fields, const XdmfData& u,
                 const std::vector<double>& vonMises, XdmfGrid& grid) {
   const GlobalOrdinal n = fields.numNodes;
   const XdmfData displacement =
@@ -47,7 +72,7 @@ void putElastic(Hdf5File& file, const std::string& group, const BodyFields& fiel
       {"von_mises", Center::node, put(file, group + "/von_mises", n, 0, fields.nodes, vonMises)});
 }
 
-XdmfGrid putBody(Hdf5File& file, const std::string& group, const simulation::SolvedScene& solved,
+XdmfGrid putBody(FieldGroup& file, const std::string& group, const simulation::SolvedScene& solved,
                  const simulation::Evaluation& evaluation, int body) {
   const BodyFields fields = gatherBodyFields(solved, body);
   const std::size_t place = body;
@@ -60,13 +85,15 @@ XdmfGrid putBody(Hdf5File& file, const std::string& group, const simulation::Sol
   const GlobalOrdinal cells = fields.numCells;
   XdmfGrid grid;
   grid.name = name;
-  grid.points = put(file, group + "/points", n, 3, fields.nodes, fields.points);
+  grid.points = putShared(file, group + "/points", n, 3, fields.nodes, fields.points);
   grid.cellType = fields.cellType;
-  grid.cells = put(file, group + "/cells", cells, numNodesOf(fields.cellType), fields.cells, fields.corners);
+  grid.cells =
+      putShared(file, group + "/cells", cells, numNodesOf(fields.cellType), fields.cells, fields.corners);
   const XdmfData u =
       put(file, group + "/u", n, solved.decomposition.problem.components, fields.nodes, fields.u);
-  const XdmfData subdomain = put(file, group + "/subdomain", cells, 0, fields.cells, fields.subdomain);
-  put(file, group + "/crosspoints", fields.numCrosspoints, 3, fields.crosspoints, fields.crosspointPoints);
+  const XdmfData subdomain = putShared(file, group + "/subdomain", cells, 0, fields.cells, fields.subdomain);
+  putShared(file, group + "/crosspoints", fields.numCrosspoints, 3, fields.crosspoints,
+            fields.crosspointPoints);
   if (solved.elasticBody(body) != nullptr)
     putElastic(file, group, fields, u, evaluation.vonMises[place], grid);
   else
@@ -79,7 +106,7 @@ XdmfGrid putBody(Hdf5File& file, const std::string& group, const simulation::Sol
   return grid;
 }
 
-XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string& name,
+XdmfGrid putContact(FieldGroup& file, const std::string& group, const std::string& name,
                     const std::string& firstBody, const ContactFields& fields) {
   file.createGroup(group);
   file.attribute(group, "name", name);
@@ -89,17 +116,18 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
   const GlobalOrdinal n = fields.numRows;
   XdmfGrid grid;
   grid.name = name;
-  grid.points = put(file, group + "/points", n, 3, fields.rows, fields.points);
+  grid.points = putShared(file, group + "/points", n, 3, fields.rows, fields.points);
   grid.cellType = fields.facetType;
-  grid.cells =
-      put(file, group + "/cells", fields.numFacets, fields.nodesPerFacet(), fields.facets, fields.corners);
+  grid.cells = putShared(file, group + "/cells", fields.numFacets, fields.nodesPerFacet(), fields.facets,
+                         fields.corners);
   grid.attributes.push_back(
-      {"normal", Center::node, put(file, group + "/normal", n, 3, fields.rows, fields.normals)});
+      {"normal", Center::node, putShared(file, group + "/normal", n, 3, fields.rows, fields.normals)});
   const auto column = [&](const std::string& field, const auto& values) {
     grid.attributes.push_back(
         {field, Center::node, put(file, group + "/" + field, n, 0, fields.rows, values)});
   };
-  column("area", fields.areas);
+  grid.attributes.push_back(
+      {"area", Center::node, putShared(file, group + "/area", n, 0, fields.rows, fields.areas)});
   column("initial_gap", fields.initialGap);
   column("gap", fields.gap);
   column("multiplier", fields.multiplier);
@@ -119,15 +147,15 @@ XdmfGrid putContact(Hdf5File& file, const std::string& group, const std::string&
 }
 
 /// The mesh on the other side of mortars.
-void putFacing(Hdf5File& file, const std::string& group, const FacingSurface& facing) {
+void putFacing(FieldGroup& file, const std::string& group, const FacingSurface& facing) {
   if (facing.numFacets == 0)
     return;
   file.createGroup(group);
-  put(file, group + "/points", facing.numPoints, 3, facing.points, facing.places);
-  put(file, group + "/cells", facing.numFacets, facing.cornersPerFacet, facing.facets, facing.corners);
+  putShared(file, group + "/points", facing.numPoints, 3, facing.points, facing.places);
+  putShared(file, group + "/cells", facing.numFacets, facing.cornersPerFacet, facing.facets, facing.corners);
 }
 
-XdmfGrid putTie(Hdf5File& file, const std::string& group, const std::string& name,
+XdmfGrid putTie(FieldGroup& file, const std::string& group, const std::string& name,
                 const simulation::TieFields& fields) {
   file.createGroup(group);
   file.attribute(group, "name", name);
@@ -136,8 +164,8 @@ XdmfGrid putTie(Hdf5File& file, const std::string& group, const std::string& nam
     cells.push_back(fields.nodes.first + k);
   XdmfGrid grid;
   grid.name = name;
-  grid.points = put(file, group + "/points", fields.numNodes, 3, fields.nodes, fields.points);
-  grid.cells = put(file, group + "/cells", fields.numNodes, 1, fields.nodes, cells);
+  grid.points = putShared(file, group + "/points", fields.numNodes, 3, fields.nodes, fields.points);
+  grid.cells = putShared(file, group + "/cells", fields.numNodes, 1, fields.nodes, cells);
   grid.attributes.push_back(
       {"traction", Center::node,
        put(file, group + "/traction", fields.numNodes, 3, fields.nodes, fields.traction)});
@@ -145,7 +173,7 @@ XdmfGrid putTie(Hdf5File& file, const std::string& group, const std::string& nam
 }
 
 /// The history; every rank has it whole, rank 0 writes it.
-void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
+void putHistory(FieldGroup& file, const qp::History& history, const Comm& comm) {
   using Record = qp::StepRecord;
   file.createGroup("/history");
   const GlobalOrdinal rows = history.size();
@@ -154,7 +182,7 @@ void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
     std::vector<T> values;
     for (GlobalOrdinal k = 0; k < range.count; ++k)
       values.push_back(static_cast<T>(history[k].*member));
-    file.write("/history/" + name, rows, 0, range, std::span<const T>(values));
+    put(file, "/history/" + name, rows, 0, range, values);
   };
   column("iteration", 0, &Record::iteration);
   column("outer", 0, &Record::outer);
@@ -166,13 +194,18 @@ void putHistory(Hdf5File& file, const qp::History& history, const Comm& comm) {
   column("hessian_multiplications", 0, &Record::hessianMultiplications);
 }
 
+/// \param group  "/" or that of a step
+void putSums(Hdf5File& file, const std::string& group, const fetidp::ContactSolution& solution) {
+  file.attribute(group, "energy", solution.energy);
+  file.attribute(group, "contact_force", solution.contactForce);
+}
+
 void putHead(Hdf5File& file, const model::Decomposition& decomposition,
              const fetidp::ContactSolution& solution) {
   file.attribute("/", "program", std::string("Epafi"));
   file.attribute("/", "format", 1LL);
   file.attribute("/", "components", GlobalOrdinal{decomposition.problem.components});
-  file.attribute("/", "energy", solution.energy);
-  file.attribute("/", "contact_force", solution.contactForce);
+  putSums(file, "/", solution);
 }
 
 template <class Layouts>
@@ -181,6 +214,62 @@ std::vector<std::string> groupNames(const Layouts& layouts) {
   for (const auto& layout : layouts)
     names.push_back(layout.name);
   return safeNames(names);
+}
+
+/// All that the file has of a solution. Returns what of it has a mesh.
+std::vector<XdmfGrid> putFields(FieldGroup& file, const simulation::SolvedScene& solved,
+                                const simulation::Evaluation& evaluation, const qp::History& history) {
+  const model::Decomposition& decomposition = solved.decomposition;
+  std::vector<XdmfGrid> grids;
+  file.createGroup("/bodies");
+  file.createGroup("/contact");
+  const auto bodyGroups = groupNames(decomposition.bodies);
+  for (int b = 0; b < std::ssize(bodyGroups); ++b)
+    grids.push_back(putBody(file, "/bodies/" + bodyGroups[b], solved, evaluation, b));
+  const auto contactGroups = groupNames(decomposition.contacts);
+  for (int c = 0; c < std::ssize(contactGroups); ++c) {
+    grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
+                               bodyGroups[decomposition.contacts[c].firstBody],
+                               gatherContactFields(solved, c, evaluation.contacts[c])));
+    putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, c));
+  }
+  const auto tieGroups = groupNames(decomposition.ties);
+  if (!tieGroups.empty())
+    file.createGroup("/tied");
+  for (std::size_t t = 0; t < tieGroups.size(); ++t)
+    grids.push_back(putTie(file, "/tied/" + tieGroups[t], decomposition.ties[t].name,
+                           simulation::gatherTieFields(solved, decomposition.ties[t])));
+  putHistory(file, history, *decomposition.problem.comm);
+  return grids;
+}
+
+/// The fields of the last one of these steps, in a group of its own, and under the names that those of a
+/// scene without steps have.
+std::vector<XdmfGrid> putStep(Hdf5File& file, const std::vector<XdmfStep>& steps,
+                              const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
+                              const qp::History& history) {
+  const std::string& group = steps.back().group;
+  file.createGroup(group);
+  file.attribute(group, "name", steps.back().name);
+  file.attribute(group, "number", GlobalOrdinal{steps.back().number});
+  putSums(file, group, solved.solution);
+  FieldGroup own{file, group, steps.front().group};
+  const std::vector<XdmfGrid> grids = putFields(own, solved, evaluation, history);
+  std::vector<std::string> parts{"/bodies", "/contact", "/history"};
+  if (!solved.decomposition.ties.empty())
+    parts.emplace_back("/tied");
+  for (const std::string& part : parts)
+    file.link(part, group + part);
+  return grids;
+}
+
+/// The steps with the groups that they have in the file.
+std::vector<XdmfStep> inGroups(const std::vector<FieldStep>& steps) {
+  const std::vector<std::string> groups = groupNames(steps);
+  std::vector<XdmfStep> result;
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    result.push_back({steps[k].name, steps[k].number, "/steps/" + groups[k]});
+  return result;
 }
 
 bool isSafe(char letter) {
@@ -218,39 +307,23 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
 
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
-                       const qp::History& history, FileSet& together) {
+                       const qp::History& history, FileSet& together, const std::vector<FieldStep>& steps) {
   if (name.empty() || name.find('/') != std::string::npos) // the same on all ranks
     throw InputError("'" + name + "' is no name for an output file; it must not be empty nor contain '/'.");
-  const model::Decomposition& decomposition = solved.decomposition;
-  const auto& problem = decomposition.problem;
+  const auto& problem = solved.decomposition.problem;
+  const std::vector<XdmfStep> placed = inGroups(steps);
   FieldFiles files{directory / (name + ".h5"), directory / (name + ".xdmf")};
 
-  std::vector<XdmfGrid> grids;
-  Hdf5File file(files.hdf5, problem.comm);
-  putHead(file, decomposition, solved.solution);
-  file.createGroup("/bodies");
-  file.createGroup("/contact");
-  const auto bodyGroups = groupNames(decomposition.bodies);
-  for (int b = 0; b < std::ssize(bodyGroups); ++b)
-    grids.push_back(putBody(file, "/bodies/" + bodyGroups[b], solved, evaluation, b));
-  const auto contactGroups = groupNames(decomposition.contacts);
-  for (int c = 0; c < std::ssize(contactGroups); ++c) {
-    grids.push_back(putContact(file, "/contact/" + contactGroups[c], decomposition.contacts[c].name,
-                               bodyGroups[decomposition.contacts[c].firstBody],
-                               gatherContactFields(solved, c, evaluation.contacts[c])));
-    putFacing(file, "/contact/" + contactGroups[c] + "/facing", facingSurface(solved, c));
-  }
-  const auto tieGroups = groupNames(decomposition.ties);
-  if (!tieGroups.empty())
-    file.createGroup("/tied");
-  for (std::size_t t = 0; t < tieGroups.size(); ++t)
-    grids.push_back(putTie(file, "/tied/" + tieGroups[t], decomposition.ties[t].name,
-                           simulation::gatherTieFields(solved, decomposition.ties[t])));
-  putHistory(file, history, *problem.comm);
+  Hdf5File file(files.hdf5, problem.comm,
+                steps.size() > 1 ? Hdf5File::Content::older : Hdf5File::Content::none);
+  putHead(file, solved.decomposition, solved.solution);
+  FieldGroup whole{file, "", ""};
+  const std::vector<XdmfGrid> grids = steps.empty() ? putFields(whole, solved, evaluation, history)
+                                                    : putStep(file, placed, solved, evaluation, history);
   FileSet both(problem.comm, together.syncs());
   both.add(file.complete(), files.hdf5);
   both.write(
-      files.xdmf, [&] { return xdmfDocument(name + ".h5", grids); }, FileSet::Older::goesFirst);
+      files.xdmf, [&] { return xdmfDocument(name + ".h5", grids, placed); }, FileSet::Older::goesFirst);
   together.take(both);
   return files;
 }

@@ -18,6 +18,12 @@ struct FieldFiles {
   std::filesystem::path xdmf;
 };
 
+/// A load step whose fields are in the files.
+struct FieldStep {
+  std::string name;
+  int number = 1; ///< 1, 2, … in the order of the scene
+};
+
 /// Writes `directory`/`name`.h5 and `directory`/`name`.xdmf; creates the directory, replaces older files. An
 /// XDMF file is never beside an HDF5 file of another call: the older one goes before that is replaced, the
 /// new one comes after it.
@@ -46,8 +52,12 @@ struct FieldFiles {
 ///  `projected_gradient`,
 ///    `constraint_residual`, `objective`, `active_bounds` (int64), `hessian_multiplications`: one entry a
 ///    step.
-/// Groups of bodies and pairs are named as safeNames says; their attribute `name` is the scene's
+/// Groups of bodies, pairs and steps are named as safeNames says; their attribute `name` is the scene's
 /// name. The file itself has attributes `program`, `format` (1), `components`, `energy` and `contact_force`.
+///
+/// Of a scene in load steps `/steps/<step>` has all this of each, with the attributes `name`, `number`,
+/// `energy` and `contact_force`, and the file itself has the last one's by other names of the same datasets.
+/// What no step changes (points, cells, `subdomain`, `crosspoints`, `normal`, `area`) is there once.
 ///
 /// Every rank writes a contiguous slab of each table; nothing of global size lies on one rank. `history` must
 /// be the same on all ranks (rank 0's is written). Precondition: `evaluation` is that of `solved`.
@@ -58,9 +68,12 @@ FieldFiles writeFields(const std::filesystem::path& directory, const std::string
                        const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
                        const qp::History& history);
 /// The same, for files that get their names with others of `together`, of which there is none if it throws.
+/// \param steps  the load steps whose fields are in the files then, the solution's as the last one; those
+/// before are in the HDF5 file that is there, which is copied. None: the scene has no steps.
 FieldFiles writeFields(const std::filesystem::path& directory, const std::string& name,
                        const simulation::SolvedScene& solved, const simulation::Evaluation& evaluation,
-                       const qp::History& history, FileSet& together);
+                       const qp::History& history, FileSet& together,
+                       const std::vector<FieldStep>& steps = {});
 
 /// Names that are safe in HDF5 and XDMF paths, one for each name, all different: letters, digits, '_', '-',
 /// '.' and anything beyond ASCII stay, every other character ('/', ':', blanks, quotes, …) becomes '_'. A

@@ -101,7 +101,7 @@ std::uintmax_t bytesOfPath(const std::string& path) {
   return bytesOfObject * (1 + std::count(path.begin(), path.end(), '/'));
 }
 
-hid_t createFile(const std::filesystem::path& temporary, MPI_Comm comm) {
+hid_t openFile(const std::filesystem::path& temporary, Hdf5File::Content content, MPI_Comm comm) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   checked(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), temporary, "choosing parallel access");
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -109,6 +109,8 @@ hid_t createFile(const std::filesystem::path& temporary, MPI_Comm comm) {
   // The temporary is ours alone, and some file systems know no locks.
   H5Pset_file_locking(access, false, true);
 #endif
+  if (content == Hdf5File::Content::older)
+    return checked(H5Fopen(temporary.c_str(), H5F_ACC_RDWR, access), temporary, "opening it");
   return checked(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), temporary, "creating it");
 }
 
@@ -146,15 +148,17 @@ void writeRows(hid_t dataset, const std::filesystem::path& path, const std::stri
 
 } // namespace
 
-Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm)
+Hdf5File::Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm, Content content)
     : path_(path), comm_(comm), exceptions_(std::uncaught_exceptions()) {
   prepareTarget(path, *comm);
   temporary_ = temporaryBeside(path, *comm);
   const QuietHdf5 quiet;
   try {
-    createForAll(temporary_, *comm); // HDF5 would wait for a rank that cannot open it
+    // HDF5 would wait for a rank that cannot open it.
+    createForAll(temporary_, *comm, content == Content::older ? path : std::filesystem::path());
     collectively(*comm, [&] {
-      file_ = createFile(temporary_, comm->getSize() > 1 ? rawCommunicator(*comm) : MPI_COMM_SELF);
+      reserved_ = std::filesystem::file_size(temporary_);
+      file_ = openFile(temporary_, content, comm->getSize() > 1 ? rawCommunicator(*comm) : MPI_COMM_SELF);
     });
     reserve(bytesOfFile);
   } catch (const Error&) {
@@ -269,11 +273,27 @@ template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowR
 template void Hdf5File::write(const std::string&, GlobalOrdinal, int, const RowRange&,
                               std::span<const signed char>);
 
+void Hdf5File::link(const std::string& name, const std::string& object) {
+  together([&] {
+    reserve(bytesOfPath(name));
+    const QuietHdf5 quiet;
+    collectively(*comm_, [&] {
+      if (H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0)
+        checked(H5Ldelete(file_, name.c_str(), H5P_DEFAULT), path_, "taking away the name", name);
+      checked(H5Lcreate_hard(file_, object.c_str(), file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_,
+              "giving the name", name);
+    });
+  });
+}
+
 void Hdf5File::writeAttribute(const std::string& object, const std::string& name, Identifier type,
                               const void* value) {
   together([&] {
     reserve(bytesOfObject + H5Tget_size(type));
     collectively(*comm_, [&] {
+      if (H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
+        checked(H5Adelete_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT), path_,
+                "removing attribute", name);
       const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
       const Handle made(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
                                           H5P_DEFAULT, H5P_DEFAULT),

@@ -27,9 +27,12 @@ namespace epafi::output {
 /// that has initialised MPI.
 class Hdf5File {
 public:
+  /// What a file begins with: nothing, or all that the older one of its name has.
+  enum class Content { none, older };
+
   /// Opens the temporary.
   /// \throws InputError if the directory cannot be made or written to, Error if HDF5 refuses.
-  Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm);
+  Hdf5File(const std::filesystem::path& path, const RCP<const Comm>& comm, Content content = Content::none);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -45,7 +48,11 @@ public:
   void write(const std::string& dataset, GlobalOrdinal rows, int columns, const RowRange& range,
              std::span<const T> values);
 
-  /// Attribute of a group or dataset that exists ("/" is the file itself). \throws Error.
+  /// Gives a group or dataset that exists one more name, which another one may have had. \throws Error.
+  void link(const std::string& name, const std::string& object);
+
+  /// Attribute of a group or dataset that exists ("/" is the file itself); an older one of the name goes.
+  /// \throws Error.
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, long long value);

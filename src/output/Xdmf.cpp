@@ -39,6 +39,21 @@ class Writer {
 public:
   explicit Writer(const std::string& hdf5File) : hdf5File_(escaped(hdf5File)) {}
 
+  /// \param step  null: of a scene without load steps
+  void scene(const std::vector<XdmfGrid>& grids, const XdmfStep* step) {
+    text_ << "    <Grid Name=\"" << (step != nullptr ? escaped(step->name) : "scene")
+          << "\" GridType=\"Collection\" CollectionType=\"Spatial\">\n";
+    if (step != nullptr)
+      text_ << "      <Time Value=\"" << step->number << "\"/>\n";
+    group_ = step != nullptr ? escaped(step->group) : "";
+    for (const XdmfGrid& part : grids)
+      grid(part);
+    text_ << "    </Grid>\n";
+  }
+
+  [[nodiscard]] std::string text() const { return text_.str(); }
+
+private:
   void grid(const XdmfGrid& grid) {
     text_ << "      <Grid Name=\"" << escaped(grid.name) << "\" GridType=\"Uniform\">\n";
     text_ << "        <Topology TopologyType=\"" << nameOf(grid.cellType) << "\" NumberOfElements=\""
@@ -53,9 +68,6 @@ public:
     text_ << "      </Grid>\n";
   }
 
-  [[nodiscard]] std::string text() const { return text_.str(); }
-
-private:
   void attribute(const XdmfAttribute& field) {
     const int columns = field.data.columns;
     const char* kind = columns <= 1 ? "Scalar" : columns == 3 ? "Vector" : "Matrix";
@@ -72,25 +84,28 @@ private:
       text_ << ' ' << data.columns;
     text_ << "\" NumberType=\"" << (data.type == XdmfData::Type::real8 ? "Float" : "Int") << "\" Precision=\""
           << (data.type == XdmfData::Type::integer4 ? 4 : 8) << "\">" << hdf5File_ << ':'
-          << escaped(data.dataset) << "</DataItem>\n";
+          << (data.isOfStep ? group_ : "") << escaped(data.dataset) << "</DataItem>\n";
   }
 
   std::string hdf5File_;
+  std::string group_; ///< of the step at hand
   std::ostringstream text_;
 };
 
 } // namespace
 
-std::string xdmfDocument(const std::string& hdf5File, const std::vector<XdmfGrid>& grids) {
+std::string xdmfDocument(const std::string& hdf5File, const std::vector<XdmfGrid>& grids,
+                         const std::vector<XdmfStep>& steps) {
   Writer writer(hdf5File);
-  for (const XdmfGrid& grid : grids)
-    writer.grid(grid);
+  if (steps.empty())
+    writer.scene(grids, nullptr);
+  for (const XdmfStep& step : steps)
+    writer.scene(grids, &step);
+  const std::string begin = "    <Grid Name=\"steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<Xdmf Version=\"2.0\">\n"
-         "  <Domain>\n"
-         "    <Grid Name=\"scene\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" +
-         writer.text() +
-         "    </Grid>\n"
+         "  <Domain>\n" +
+         (steps.empty() ? writer.text() : begin + writer.text() + "    </Grid>\n") +
          "  </Domain>\n"
          "</Xdmf>\n";
 }

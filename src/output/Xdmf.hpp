@@ -14,10 +14,11 @@ namespace epafi::output {
 
 /// A dataset of the HDF5 file, exactly as it lies there.
 struct XdmfData {
-  std::string dataset; ///< path within the file
+  std::string dataset; ///< path within the file, or within the group of a load step
   GlobalOrdinal rows = 0;
   int columns = 0; ///< 0: one-dimensional
   enum class Type { real8, integer4, integer8 } type = Type::real8;
+  bool isOfStep = false; ///< each load step has one in its group
 };
 
 /// A field on nodes or cells.
@@ -36,8 +37,17 @@ struct XdmfGrid {
   std::vector<XdmfAttribute> attributes;
 };
 
-/// The document: a spatial collection of the grids. Names are escaped. `hdf5File` is the name of the HDF5
-/// file relative to the document. Not collective.
-std::string xdmfDocument(const std::string& hdf5File, const std::vector<XdmfGrid>& grids);
+/// A load step, whose time is its number.
+struct XdmfStep {
+  std::string name;
+  int number = 1;
+  std::string group; ///< path in the file of the group that has its datasets
+};
+
+/// The document: a spatial collection of the grids, or, of a scene in load steps, a temporal collection of
+/// such, one a step. Names are escaped. `hdf5File` is the name of the HDF5 file relative to the document. Not
+/// collective.
+std::string xdmfDocument(const std::string& hdf5File, const std::vector<XdmfGrid>& grids,
+                         const std::vector<XdmfStep>& steps = {});
 
 } // namespace epafi::output

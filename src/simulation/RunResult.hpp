@@ -24,7 +24,7 @@ enum class RunStatus {
   notConverged, ///< SolveFacts::status says why
   targetMissed, ///< solved, but not as accurately as was asked for
   interrupted,  ///< by a signal
-  running       ///< on to the next mesh
+  running       ///< on to the next mesh or load step
 };
 
 /// A coarser mesh on which the contact zone was found first.

@@ -66,17 +66,21 @@ private:
 
 SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& steps,
                     const Teuchos::ParameterList& solverParameters, const RCP<const Comm>& comm,
-                    const RunOptions& options, const std::function<void(const StepResult&)>& tell) {
+                    const RunOptions& options, const std::function<void(SceneRun&)>& tell) {
   RunOptions first = options;
   first.facts.coarserFrom = fetidp::RunFacts().coarserFrom; // a coarser mesh would know one step alone
   SceneRun run = inStep(
       steps[0], [&] { return solveScene(scene::atStep(scene, steps, 0), solverParameters, comm, first); });
   model::Decomposition& cut = *run.decomposition;
-  std::vector<StepResult> results{resultOf(steps[0].name, run.result)};
+  std::vector<StepResult>& results = run.result.steps;
+  results.push_back(resultOf(steps[0].name, run.result));
   Slip slip(cut.problem);
   for (std::size_t k = 1; k < steps.size() && results.back().status == RunStatus::converged; ++k) {
+    run.result.status = RunStatus::running;
+    run.result.reason =
+        "the run went on with the next load step; if it is not under way any more it ended there";
     if (tell)
-      tell(results.back());
+      tell(run);
     slip.add(*run.solution.slack);
     run.scene = scene::atStep(scene, steps, k);
     inStep(steps[k], [&] {
@@ -90,7 +94,6 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
     });
     results.push_back(resultOf(steps[k].name, run.result));
   }
-  run.result.steps = std::move(results);
   return run;
 }
 

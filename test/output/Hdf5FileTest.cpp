@@ -95,6 +95,29 @@ TEST_F(Hdf5FileTest, AbandonedFileLeavesTheOlderOne) {
   EXPECT_EQ(directory.content(), Names{"fields.h5"});
 }
 
+TEST_F(Hdf5FileTest, AFileGoesOnWithAllThatTheOlderOneHas) {
+  Hdf5File first(path, comm);
+  writeTable<int>(first, "/steps/a/x", 2, 0, evenShare(2, *comm));
+  first.link("/x", "/steps/a/x");
+  first.attribute("/", "name", std::string("a"));
+  first.close();
+  {
+    Hdf5File second(path, comm, Hdf5File::Content::older);
+    writeTable<int>(second, "/steps/b/x", 3, 0, evenShare(3, *comm));
+    second.link("/x", "/steps/b/x");
+    second.attribute("/", "name", std::string("longer"));
+    EXPECT_THROW(second.link("/y", "/steps/c/x"), Error);
+    EXPECT_EQ(test::readTable(path, "/x").values.size(), 2U); // until it is complete
+    second.close();
+  }
+  EXPECT_EQ(directory.content(), Names{"fields.h5"});
+  EXPECT_EQ(test::readTable(path, "/steps/a/x").values, (std::vector<double>{0, 10}));
+  EXPECT_EQ(test::readTable(path, "/x").values, (std::vector<double>{0, 10, 20}));
+  EXPECT_EQ(test::readText(path, "/", "name"), "longer");
+  EXPECT_THROW(Hdf5File(directory.path() / "none.h5", comm, Hdf5File::Content::older), Error);
+  EXPECT_EQ(directory.content(), Names{"fields.h5"});
+}
+
 TEST_F(Hdf5FileTest, WrongSlabOnOneRankIsAnErrorOnAll) {
   Hdf5File file(path, comm);
   RowRange range = evenShare(8, *comm);

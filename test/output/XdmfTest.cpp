@@ -65,6 +65,18 @@ TEST(XdmfTest, KindOfAttributeFollowsTheNumberOfColumns) {
   EXPECT_TRUE(contains(kind(3), "AttributeType=\"Vector\""));
 }
 
+TEST(XdmfTest, EachLoadStepHasItsTimeItsFieldsAndTheMeshOfAll) {
+  const XdmfGrid grid{
+      "a", {"/p", 1, 3}, std::nullopt, {}, {{"u", Center::node, {"/u", 1, 0, Type::real8, true}}}};
+  const std::string text = xdmfDocument("run.h5", {grid}, {{"out", 1, "/steps/out"}, {"&", 3, "/steps/_"}});
+  EXPECT_TRUE(contains(text, "CollectionType=\"Temporal\">\n    <Grid Name=\"out\" "));
+  EXPECT_TRUE(contains(text, "<Grid Name=\"&amp;\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
+                             "      <Time Value=\"3\"/>"));
+  EXPECT_TRUE(contains(text, ">run.h5:/steps/out/u<"));
+  EXPECT_TRUE(contains(text, ">run.h5:/steps/_/u<"));
+  EXPECT_FALSE(contains(text, "/steps/out/p"));
+}
+
 TEST(XdmfTest, NamesAreEscaped) {
   const std::string text = xdmfDocument("a&b.h5", {{"<\"x\">", {"/p", 1, 3}, std::nullopt, {}, {}}});
   EXPECT_TRUE(contains(text, "Name=\"&lt;&quot;x&quot;&gt;\""));

@@ -430,6 +430,27 @@ class Plot(unittest.TestCase):
         for wrong in ("0,1,0", "0,1,1,0", "0,1,nan,1", "a,b,c,d", "0,inf,0,1"):
             self.assertIn("argument --box", run(self.directory / "hexahedron.h5", f"--box={wrong}").stderr)
 
+    def test_a_load_step_is_drawn_by_its_name_or_number(self):
+        file = self.directory / "run.h5"
+        elastic_runs.write(file, "quadrilateral", amplitude=0.002)
+        self.assertIn("it has no load steps", self.refused(file, "--step", "1"))
+        with h5py.File(file, "a") as content:
+            for number, (group, name) in enumerate((("to_the_left", "to the left"), ("1", "1")), 1):
+                step = content.create_group(f"steps/{group}")
+                step.attrs["name"], step.attrs["number"] = name, number
+                for part in ("bodies", "contact", "history"):
+                    content.copy(part, step)
+                for body in step["bodies"].values():
+                    body["u"][...] *= number
+        last = self.pictures(file, "--format", "svg")[0]
+        for word, stem, said in (("to the left", "run_to_the_left", "20 times"), ("2", "run_1", "10 times"),
+                                 ("1", "run_1", "10 times")):
+            picture = self.pictures(file, "--format", "svg", "--step", word)[0]
+            self.assertEqual(picture.name, f"{stem}_deformed.svg")
+            self.assertIn(said, picture.read_text())
+        self.assertEqual(last.name, "run_deformed.svg")
+        self.assertIn("its steps are 1 'to the left', 2 '1'.", self.refused(file, "--step", "3"))
+
     def test_a_hundred_thousand_nodes_in_space_are_drawn(self):
         elastic_runs.write(self.directory / "run.h5", "hexahedron", n=36)  # twice 37³ nodes
         self.assertEqual(len(self.pictures(self.directory / "run.h5")), 4)

@@ -211,7 +211,8 @@ TEST(FrictionSceneTest, WhatHasSlippedIsKeptFromStepToStep) {
   const SceneRun run =
       solveSteps(scene, steps,
                  Teuchos::ParameterList().set("Tolerance", tolerance).set("Equilibrium Tolerance", tolerance),
-                 Tpetra::getDefaultComm(), {}, [&](const StepResult&) { ++told; });
+                 Tpetra::getDefaultComm(), {},
+                 [&](SceneRun& soFar) { EXPECT_EQ(std::ssize(soFar.result.steps), ++told); });
 
   ASSERT_EQ(run.result.steps.size(), 4U);
   EXPECT_EQ(told, 3);

@@ -11,6 +11,8 @@ import subprocess
 import sys
 import unittest
 
+import h5py
+
 from running import (FAILED, FAULTY_RANKS, LAUNCH, LIMIT, NOT_SOLVABLE, PROGRAM, SOLVED, WITH_FAULTS, WRONG_INPUT, Run, elements,
                      report_of, run, said, scene)
 
@@ -181,6 +183,21 @@ class Disks(Run):
         self.assertIn("coercive.h5 is not written", at_the_end)
         self.assertLessEqual({"coercive.h5", "coercive.xdmf", "report.xml"}, self.assert_complete(disk, "coercive"))
         self.assertIn("not all files of this mesh could be written", report_of(disk)["Status"]["Reason"])
+
+    def test_load_steps_whose_fields_have_no_room_are_named_and_the_others_kept(self):
+        disk = self.disk("1200k")
+        ended = run(PROGRAM, scene("clamped_strap"), "--output", disk)
+        self.assertEqual(ended.returncode, FAILED, ended.stdout + ended.stderr)
+        on_the_way, *lost, at_the_end = said(ended.stderr)
+        self.assertIn("goes on without files of this step", on_the_way)
+        self.assertIn("clamped_strap.h5 is not written", at_the_end)
+        with h5py.File(disk / "clamped_strap.h5") as file:
+            kept = [step.attrs["name"].decode() for step in file["steps"].values()]
+        self.assertEqual(len(kept) + len(lost) + 1, 13)
+        for sentence in lost:
+            name = re.search('fields of step "(.*)" are not in the files', sentence)[1]
+            self.assertNotIn(name, kept)
+            self.assertIn(f'"{name}"', report_of(disk)["Status"]["Reason"])
 
     def test_a_directory_that_goes_during_the_run(self):
         """A file has taken its place when it comes to writing."""

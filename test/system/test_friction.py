@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""test_friction.py EPAFI SOURCE_DIR: scenes with friction beside closed forms, by the study that compares them."""
+"""test_friction.py EPAFI SOURCE_DIR MPIRUN ARGUMENTS...: scenes with friction beside closed forms, by the study that compares
+them, and the fields of their load steps."""
 
 import csv
 import math
@@ -10,11 +11,12 @@ import sys
 import tempfile
 import types
 import unittest
+import xml.etree.ElementTree
 
 import h5py
 import numpy
 
-EPAFI, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+EPAFI, SOURCE, LAUNCH = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
 STUDY = SOURCE / "drivers/study/friction"
 COMPLETE, FAILED, WRONG_USAGE = range(3)
 study = types.SimpleNamespace(**runpy.run_path(str(STUDY), run_name="study"))
@@ -84,6 +86,26 @@ def pushed(mesh):
         return PUSHED.format(physics="plane strain", mesh=words, across="", up="Y", origin="{0, 0}", normal="{0, 1}")
     return PUSHED.format(physics="elasticity 3-D", mesh=words, across='<Parameter name="Y" type="double" value="0.002"/>',
                          up="Z", origin="{0, 0, 0}", normal="{0, 0, 1}")
+
+
+STEPS = {"press it": 0.5, "aside": 1.0, "back": 0.3}
+
+
+def in_steps(names):
+    """The scene in the plane in some of STEPS."""
+    steps = "".join(f'<ParameterList name="{name}"><Parameter name="Supports" type="string" value="block/push = {STEPS[name]}"/>'
+                    '</ParameterList>' for name in names)
+    return pushed("plane").replace('<ParameterList name="Solver">', f'<ParameterList name="Steps">{steps}</ParameterList>'
+                                                                    '<ParameterList name="Solver">')
+
+
+def fields_of(group):
+    """All datasets of a run, or of one of its load steps, by their paths."""
+    found = {}
+    for part in ("bodies", "contact", "history"):
+        group[part].visititems(lambda name, item, part=part: found.update({f"{part}/{name}": item[()]})
+                               if isinstance(item, h5py.Dataset) else None)
+    return found
 
 
 class Friction(unittest.TestCase):
@@ -162,6 +184,42 @@ class Friction(unittest.TestCase):
                 self.assertLess(off, 1e-6 * size)
                 length = numpy.linalg.norm(traction, axis=1)
                 self.assertLess((length - 0.2 * pressure).max(), 1e-6 * pressure.max())
+
+    def assert_one_grid_a_step(self, directory):
+        (series,) = xml.etree.ElementTree.parse(directory / "pushed.xdmf").findall("./Domain/Grid")
+        self.assertEqual(series.get("CollectionType"), "Temporal")
+        self.assertEqual([(step.get("Name"), step.find("Time").get("Value")) for step in series],
+                         [("press it", "1"), ("aside", "2"), ("back", "3")])
+        meshes = {tuple(step.find(f"./Grid/{part}/DataItem").text for part in ("Topology", "Geometry")) for step in series}
+        self.assertEqual(len(meshes), 1)
+        self.assertIn("pushed.h5:/steps/aside/contact/floor/slip", [item.text for item in series[1].iter("DataItem")])
+        with h5py.File(directory / "pushed.h5") as file:
+            for item in series.iter("DataItem"):
+                self.assertEqual(tuple(map(int, item.get("Dimensions").split())), file[item.text.split(":")[1]].shape, item.text)
+
+    def test_the_files_have_the_fields_of_every_load_step_as_if_the_run_had_ended_there(self):
+        for ranks in (1, 2):
+            def solved(number, ranks=ranks):
+                directory = self.place / f"{ranks}_{number}"
+                (self.place / "pushed.xml").write_text(in_steps(list(STEPS)[:number]), encoding="utf-8")
+                ended = subprocess.run([*LAUNCH, str(ranks), EPAFI, self.place / "pushed.xml", "--quiet", "--output", directory],
+                                       capture_output=True, text=True, timeout=120, check=False)
+                self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
+                return directory
+            directory = solved(3)
+            self.assert_one_grid_a_step(directory)
+            with h5py.File(directory / "pushed.h5") as whole:
+                steps = sorted(whole["steps"].values(), key=lambda step: step.attrs["number"])
+                self.assertEqual([step.attrs["name"].decode() for step in steps], list(STEPS))
+                for number, step in enumerate(steps, 1):
+                    with h5py.File(solved(number) / "pushed.h5") as short, self.subTest(ranks=ranks, number=number):
+                        self.assertEqual(step.attrs["energy"], short.attrs["energy"])
+                        found, expected = fields_of(step), fields_of(short)
+                        self.assertEqual(found.keys(), expected.keys())
+                        for name, values in expected.items():
+                            numpy.testing.assert_array_equal(found[name], values, name)
+                u = [step["bodies/block/u"][:] for step in steps]
+                self.assertGreater(min(abs(u[0] - u[1]).max(), abs(u[1] - u[2]).max()), 1e-3)
 
     def test_the_study_writes_tables_and_says_what_went_wrong(self):
         ended = run("--program", EPAFI, "--output", self.place, "--factor", 4)

@@ -7,7 +7,9 @@ import random
 import signal
 import sys
 import unittest
+import xml.etree.ElementTree
 
+import h5py
 import numpy
 
 from running import (FAILED, PROGRAM, SLOW, SOLVED, WITH_FAULTS, WRONG_INPUT, Run, elements, fields_of, has, ranks_of,
@@ -239,6 +241,38 @@ class Kills(Run):
         self.assertEqual(levels, sorted(levels))
         self.assertEqual(set(levels), set(range(1, meshes + 1)))
         self.assertEqual(between, 5 * meshes, "five files after the report that announces them")
+
+    def steps_in(self, directory):
+        """u of each load step in the files, in their order; the XDMF file, if there is one, tells of these."""
+        file = directory / "clamped_strap.h5"
+        if not file.exists():
+            self.assertFalse(file.with_suffix(".xdmf").exists())
+            return []
+        with h5py.File(file) as fields:
+            steps = sorted(fields["steps"].values(), key=lambda step: step.attrs["number"])
+            if file.with_suffix(".xdmf").exists():
+                series = xml.etree.ElementTree.parse(file.with_suffix(".xdmf"))
+                self.assertEqual(len(series.findall("./Domain/Grid/Grid/Time")), len(steps))
+                for item in series.iter("DataItem"):
+                    self.assertIn(item.text.split(":")[1], fields)
+            return [step["bodies/strap/u"][:] for step in steps]
+
+    def test_killed_before_any_file_gets_its_name_the_fields_of_finished_steps_are_there(self):
+        def end(number, directory):
+            environment = {**os.environ, "EPAFI_TEST_KILL": f"0:{number}"}
+            return run(WITH_FAULTS, scene("clamped_strap"), "--output", directory, env=environment)
+        self.assertEqual(end(0, self.place / "whole").returncode, SOLVED)
+        expected, told = self.steps_in(self.place / "whole"), []
+        for number in range(1, 20):  # six files a step, up to the first one of the fourth
+            directory = self.place / f"out{number}"
+            ended = end(number, directory)
+            self.assertEqual(ended.returncode, -signal.SIGKILL)
+            found = self.steps_in(directory)
+            told.append(ended.stdout.count("\n  step        "))
+            self.assertIn(len(found) - told[-1], (0, 1))
+            for u, same in zip(found, expected):
+                numpy.testing.assert_array_equal(u, same)
+        self.assertEqual((told[-1], len(expected)), (3, 13))
 
     def test_a_killed_rank_ends_the_others(self):
         process = self.start(PROGRAM, scene("coercive"), *SLOW, *elements(128, "left", "right"), "--output", self.place / "out",
