@@ -20,7 +20,9 @@ struct Tolerances {
   ErrorTarget* error = nullptr; ///< takes the place of `gradient`; needs a preconditioner (ErrorTarget.hpp)
   double absolute = 0;          ///< of ‖g^P‖
 
+  /// What ‖g^P‖ is to fall to.
   [[nodiscard]] double gradientLimit() const { return std::max(gradient * gradientReference, absolute); }
+  /// What ‖Bx − c‖ is to fall to.
   [[nodiscard]] double constraintLimit() const { return constraint * constraintReference; }
 };
 
