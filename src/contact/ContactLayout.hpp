@@ -53,7 +53,10 @@ struct ContactLayout {
   std::vector<std::vector<NodeShare>>
       secondNodes;                ///< what the same rows face, one node or more; empty for an obstacle
   std::vector<double> directions; ///< d, `components` numbers a row
-  std::vector<double> gaps;       ///< before supports are taken into account
+  /// Of each row, what its tangents are perpendicular to, where supports keep nodes in a plane that some d
+  /// leave; empty: d.
+  std::vector<Eigen::Vector3d> slidingNormals;
+  std::vector<double> gaps; ///< before supports are taken into account
   /// Share of the first surface on which a row's force acts; in the plane of its length, times the thickness
   /// of the thinner body.
   std::vector<double> areas;
@@ -87,6 +90,10 @@ struct ContactLayout {
     for (std::size_t c = 0; c < numComponents(); ++c)
       direction[c] = directions[place * numComponents() + c];
     return direction;
+  }
+  /// What tangents are perpendicular to there.
+  [[nodiscard]] Eigen::Vector3d slidingNormalAt(std::size_t place) const {
+    return slidingNormals.empty() ? directionAt(place) : slidingNormals[place];
   }
   /// The same in space, where the deflection of membranes is along z.
   [[nodiscard]] Eigen::Vector3d spatialDirectionAt(std::size_t place) const {

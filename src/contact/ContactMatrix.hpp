@@ -25,7 +25,8 @@ struct NodeUnknowns {
   std::function<bool(int body, GlobalOrdinal node)> isMine;
 };
 
-/// The tangents of a contact's nodes, perpendicular to d and each other. From node to node they turn no more
+/// The tangents of a contact's nodes, perpendicular to d (in planes of symmetry to what these leave of it,
+/// ContactLayout::slidingNormals) and each other. From node to node they turn no more
 /// than d does where that is possible: rows may combine several nodes.
 class ContactTangents {
 public:

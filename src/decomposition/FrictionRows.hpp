@@ -11,7 +11,9 @@ namespace epafi::decomposition {
 
 /// Rows of friction: B_t u − c_t is by how much two surfaces slip at nodes that have a row of contact, along
 /// the tangents there. A node has as many of them as it has components less one, of the same length as its
-/// row of contact and perpendicular to it and each other.
+/// row of contact and perpendicular to it and each other, if supports hold none of its components: in a plane
+/// of symmetry one of them is to be perpendicular to the plane, and thus held, the other to what the plane
+/// leaves of the row of contact. Coefficients that are small beside the others would spoil the iteration.
 struct FrictionRows {
   /// B_t and c_t (the jump at the end of the last step), rows of a node one after the other, on the rank of
   /// the node's row of contact.

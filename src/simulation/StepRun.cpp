@@ -13,7 +13,14 @@
 namespace epafi::simulation {
 namespace {
 
-StepResult resultOf(const std::string& name, const RunResult& result) {
+std::string inStep(const std::string& name) {
+  return " (in step \"" + name + "\")";
+}
+
+/// What came of a step; where it has not been solved the run's reason names it from now on.
+StepResult resultOf(const std::string& name, RunResult& result) {
+  if (result.status != RunStatus::converged)
+    result.reason += inStep(name);
   double dissipation = 0;
   for (const ContactResult& contact : result.contacts)
     if (contact.friction)
@@ -30,11 +37,11 @@ StepResult resultOf(const std::string& name, const RunResult& result) {
 
 /// Does what a step needs; whether it has a solution is said with its name.
 template <class Action>
-auto inStep(const scene::Step& step, const Action& action) {
+auto forStep(const scene::Step& step, const Action& action) {
   try {
     return action();
   } catch (const SolvabilityError& error) {
-    throw SolvabilityError(error.kind(), std::string(error.what()) + " (in step \"" + step.name + "\")");
+    throw SolvabilityError(error.kind(), std::string(error.what()) + inStep(step.name));
   }
 }
 
@@ -69,7 +76,7 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
                     const RunOptions& options, const std::function<void(SceneRun&)>& tell) {
   RunOptions first = options;
   first.facts.coarserFrom = fetidp::RunFacts().coarserFrom; // a coarser mesh would know one step alone
-  SceneRun run = inStep(
+  SceneRun run = forStep(
       steps[0], [&] { return solveScene(scene::atStep(scene, steps, 0), solverParameters, comm, first); });
   model::Decomposition& cut = *run.decomposition;
   std::vector<StepResult>& results = run.result.steps;
@@ -83,7 +90,7 @@ SceneRun solveSteps(const scene::Scene& scene, const std::vector<scene::Step>& s
       tell(run);
     slip.add(*run.solution.slack);
     run.scene = scene::atStep(scene, steps, k);
-    inStep(steps[k], [&] {
+    forStep(steps[k], [&] {
       model::Decomposition next = model::decompose(run.scene, std::move(cut.bodies), comm); // its data alone
       cut.bodies = std::move(next.bodies);
       cut.contacts = std::move(next.contacts);
