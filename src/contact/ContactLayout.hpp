@@ -24,6 +24,12 @@ struct NodeForce {
   Eigen::Vector3d force;
 };
 
+/// A plane of symmetry that a node with a row lies in: supports hold the node across it.
+struct SymmetryPlane {
+  Eigen::Vector3d normal; ///< of length 1
+  GlobalOrdinal facing;   ///< a node of the second body that they hold likewise, in the same plane
+};
+
 /// A contact: one inequality, a *row*, for each of some nodes of the first body's surface,
 ///   dᵀ(u_first − u_second) ≤ gap,
 /// d the direction in which the second body, or an obstacle, lies (1 for membranes), u_first and u_second
@@ -53,9 +59,8 @@ struct ContactLayout {
   std::vector<std::vector<NodeShare>>
       secondNodes;                ///< what the same rows face, one node or more; empty for an obstacle
   std::vector<double> directions; ///< d, `components` numbers a row
-  /// Of each row, what its tangents are perpendicular to, where supports keep nodes in a plane that some d
-  /// leave; empty: d.
-  std::vector<Eigen::Vector3d> slidingNormals;
+  /// Those in which the node of a row lies (SymmetryPlanes.hpp); empty: none does.
+  std::vector<std::vector<SymmetryPlane>> symmetryPlanes;
   std::vector<double> gaps; ///< before supports are taken into account
   /// Share of the first surface on which a row's force acts; in the plane of its length, times the thickness
   /// of the thinner body.
@@ -91,13 +96,18 @@ struct ContactLayout {
       direction[c] = directions[place * numComponents() + c];
     return direction;
   }
-  /// What tangents are perpendicular to there.
-  [[nodiscard]] Eigen::Vector3d slidingNormalAt(std::size_t place) const {
-    return slidingNormals.empty() ? directionAt(place) : slidingNormals[place];
-  }
   /// The same in space, where the deflection of membranes is along z.
   [[nodiscard]] Eigen::Vector3d spatialDirectionAt(std::size_t place) const {
     return numComponents() == 1 ? Eigen::Vector3d(0, 0, directions[place]) : directionAt(place);
+  }
+  /// d less what of it leaves planes of symmetry, of length 1: what tangents at a node are perpendicular to.
+  [[nodiscard]] Eigen::Vector3d slidingNormalAt(std::size_t place) const {
+    Eigen::Vector3d normal = directionAt(place);
+    if (symmetryPlanes.empty() || symmetryPlanes[place].empty())
+      return normal;
+    for (const SymmetryPlane& plane : symmetryPlanes[place])
+      normal -= normal.dot(plane.normal) * plane.normal;
+    return normal.normalized();
   }
   /// Direction in space of a row, of those of its nodes as they are combined.
   [[nodiscard]] Eigen::Vector3d spatialDirectionOf(std::size_t row) const {

@@ -18,6 +18,7 @@ namespace {
 /// A node that can move in a row's direction by no more than this share of what it is moved by does not count
 /// in it: the rest is round-off of normals.
 constexpr double heldDirection = 1e-6;
+constexpr double clearlyApart = 0.1; ///< sine of an angle between axes
 /// Coefficients that would be 0 without round-off of normals and frames.
 constexpr double roundOffOfDirection = 1e-14;
 
@@ -29,71 +30,62 @@ struct MatrixRow {
   std::vector<double> coefficients;
 };
 
-/// Whether supports hold a node along d, given in its unknowns.
-bool isHeldAlong(const Eigen::Vector3d& direction, const NodeUnknowns& unknowns, int body,
-                 GlobalOrdinal node) {
+/// Enters a node along d, times a factor, in its unknowns: its components, or Qᵀd where it has a frame Q.
+void enter(Eigen::Vector3d direction, const NodeUnknowns& unknowns, int body, GlobalOrdinal node,
+           double factor, MatrixRow& row) {
+  if (const Eigen::Matrix3d* frame = unknowns.frame(body, node))
+    direction = frame->transpose() * direction;
   double free = 0;
   for (int c = 0; c < unknowns.components; ++c)
     if (!unknowns.isHeld(body, node, c))
       free = std::hypot(free, direction[c]);
-  return free <= heldDirection;
-}
-
-/// d in the unknowns of a node: its components, or Qᵀd where it has a frame Q.
-Eigen::Vector3d inUnknowns(const Eigen::Vector3d& direction, const NodeUnknowns& unknowns, int body,
-                           GlobalOrdinal node) {
-  const Eigen::Matrix3d* frame = unknowns.frame(body, node);
-  return frame != nullptr ? Eigen::Vector3d(frame->transpose() * direction) : direction;
-}
-
-/// Which nodes of a row count.
-enum class Entries { all, heldOnes };
-
-/// Enters a node along d, times a factor.
-void enter(const Eigen::Vector3d& direction, const NodeUnknowns& unknowns, int body, GlobalOrdinal node,
-           double factor, Entries entries, MatrixRow& row) {
-  const Eigen::Vector3d along = inUnknowns(direction, unknowns, body, node);
-  const bool isHeld = isHeldAlong(along, unknowns, body, node);
-  if (!isHeld && entries == Entries::heldOnes)
-    return;
   for (int c = 0; c < unknowns.components; ++c)
-    if (std::abs(along[c]) > roundOffOfDirection && (!isHeld || unknowns.isHeld(body, node, c))) {
+    if (std::abs(direction[c]) > roundOffOfDirection &&
+        (free > heldDirection || unknowns.isHeld(body, node, c))) {
       row.unknowns.push_back((unknowns.firstNode[body] + node) * unknowns.components + c);
-      row.coefficients.push_back(factor * along[c]);
+      row.coefficients.push_back(factor * direction[c]);
     }
 }
 
 /// Enters a row of a place along directionOf(node) at each of the nodes that it combines.
 template <class DirectionOf>
 void enterAlong(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns,
-                Entries entries, const DirectionOf& directionOf, MatrixRow& row) {
+                const DirectionOf& directionOf, MatrixRow& row) {
   contact.forEachShare(place, [&](std::size_t node, double weight) {
     const Eigen::Vector3d direction = directionOf(node);
     contact.forEachFirst(node, [&](const NodeShare& share) {
-      enter(direction, unknowns, contact.firstBody, share.node, weight * share.weight, entries, row);
+      enter(direction, unknowns, contact.firstBody, share.node, weight * share.weight, row);
     });
     if (contact.secondBody >= 0)
       for (const NodeShare& share : contact.secondNodes[node])
-        enter(direction, unknowns, contact.secondBody, share.node, -weight * share.weight, entries, row);
+        enter(direction, unknowns, contact.secondBody, share.node, -weight * share.weight, row);
   });
 }
 
-/// Where supports hold a row's own node along a tangent, and what it faces, as in a plane of symmetry, there
-/// is no slip that a force could hinder: what the row has of nodes around is none of its own.
-Entries entriesAlong(const Eigen::Vector3d& tangent, const ContactLayout& contact, std::size_t place,
-                     const NodeUnknowns& unknowns) {
-  const auto isHeld = [&](int body, GlobalOrdinal node) {
-    return isHeldAlong(inUnknowns(tangent, unknowns, body, node), unknowns, body, node);
-  };
-  if (!isHeld(contact.firstBody, contact.firstNodes[place]))
-    return Entries::all;
-  if (contact.secondBody < 0)
-    return Entries::heldOnes;
-  const std::vector<NodeShare>& facing = contact.secondNodes[place];
-  return std::any_of(facing.begin(), facing.end(),
-                     [&](const NodeShare& share) { return isHeld(contact.secondBody, share.node); })
-             ? Entries::heldOnes
-             : Entries::all;
+/// The plane of symmetry of a place across which a tangent is; null: it is across none.
+const SymmetryPlane* planeAcross(const Eigen::Vector3d& tangent, const ContactLayout& contact,
+                                 std::size_t place) {
+  constexpr double parallel = 1 - 1e-9; // least cosine
+  if (!contact.symmetryPlanes.empty())
+    for (const SymmetryPlane& plane : contact.symmetryPlanes[place])
+      if (std::abs(tangent.dot(plane.normal)) > parallel)
+        return &plane;
+  return nullptr;
+}
+
+/// Enters a row of friction along the tangents that `frames` has of each node. Across a plane of symmetry
+/// tractions are odd, none in the plane, and nothing slips: what the row would have of nodes around is left
+/// out, and the rest is what supports hold.
+void enterFriction(const ContactLayout& contact, std::size_t place, const NodeUnknowns& unknowns,
+                   const ContactTangents& frames, GlobalOrdinal k, MatrixRow& row) {
+  const Eigen::Vector3d tangent = frames.at(place)[k];
+  if (const SymmetryPlane* plane = planeAcross(tangent, contact, place)) {
+    enter(tangent, unknowns, contact.firstBody, contact.firstNodes[place], 1, row);
+    enter(tangent, unknowns, contact.secondBody, plane->facing, -1, row);
+    return;
+  }
+  enterAlong(
+      contact, place, unknowns, [&](std::size_t node) { return frames.at(node)[k]; }, row);
 }
 
 /// action(contact, place) for the rows that this rank owns, ascending.
@@ -136,13 +128,26 @@ ContactTangents::ContactTangents(const ContactLayout& contact) : contact_(contac
   Eigen::Index farthest = 0;
   nearest.minCoeff(&farthest);
   axis_ = Eigen::Vector3d::Unit(farthest);
+  for (const std::vector<SymmetryPlane>& planes : contact.symmetryPlanes)
+    for (const SymmetryPlane& plane : planes)
+      if (isApart(plane.normal)) {
+        axis_ = plane.normal;
+        return;
+      }
+}
+
+/// Whether an axis is clearly another direction than all d.
+bool ContactTangents::isApart(const Eigen::Vector3d& axis) const {
+  for (std::size_t place = 0; place < contact_.firstNodes.size(); ++place)
+    if (contact_.slidingNormalAt(place).cross(axis).norm() < clearlyApart)
+      return false;
+  return true;
 }
 
 std::array<Eigen::Vector3d, 2> ContactTangents::at(std::size_t place) const {
   const Eigen::Vector3d normal = contact_.slidingNormalAt(place);
   if (contact_.numComponents() < 3)
     return decomposition::tangentsOf(normal);
-  constexpr double clearlyApart = 0.1;
   const Eigen::Vector3d across = normal.cross(axis_);
   if (across.norm() < clearlyApart)
     return decomposition::tangentsOf(normal);
@@ -159,12 +164,11 @@ decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& 
     contact.forEachShare(place,
                          [&](std::size_t node, double weight) { row.gap += weight * contact.gaps[node]; });
     enterAlong(
-        contact, place, unknowns, Entries::all, [&](std::size_t node) { return contact.directionAt(node); },
-        row);
+        contact, place, unknowns, [&](std::size_t node) { return contact.directionAt(node); }, row);
     if (!contact.secondLevers.empty())
       for (const NodeForce& lever : contact.secondLevers[place])
         if (const double size = lever.force.norm(); size > 0)
-          enter(lever.force / size, unknowns, contact.secondBody, lever.node, -size, Entries::all, row);
+          enter(lever.force / size, unknowns, contact.secondBody, lever.node, -size, row);
   });
   return matrixOf(rows, comm);
 }
@@ -181,16 +185,10 @@ decomposition::FrictionRows frictionRows(const std::vector<ContactLayout>& conta
     const ContactTangents& frames = tangents.try_emplace(contact.firstRow, contact).first->second;
     const GlobalOrdinal offset = place;
     result.contactRows.push_back(contact.firstRow + offset);
-    for (GlobalOrdinal k = 0; k < numTangents; ++k) {
-      const Eigen::Vector3d tangent = frames.at(place)[k];
-      const Entries entries = entriesAlong(tangent, contact, place, unknowns);
-      MatrixRow& row =
-          rows.emplace_back(MatrixRow{numTangents * (contact.firstFriction + offset) + k, 0, {}, {}});
-      enterAlong(
-          contact, place, unknowns, entries, [&](std::size_t node) { return frames.at(node)[k]; }, row);
-      if (row.unknowns.empty()) // of no node that it combines: its own stands for what is held
-        enter(tangent, unknowns, contact.firstBody, contact.firstNodes[place], 1, entries, row);
-    }
+    for (GlobalOrdinal k = 0; k < numTangents; ++k)
+      enterFriction(
+          contact, place, unknowns, frames, k,
+          rows.emplace_back(MatrixRow{numTangents * (contact.firstFriction + offset) + k, 0, {}, {}}));
   });
   result.tangents = matrixOf(rows, comm);
   return result;

@@ -25,9 +25,10 @@ struct NodeUnknowns {
   std::function<bool(int body, GlobalOrdinal node)> isMine;
 };
 
-/// The tangents of a contact's nodes, perpendicular to d (in planes of symmetry to what these leave of it,
-/// ContactLayout::slidingNormals) and each other. From node to node they turn no more
-/// than d does where that is possible: rows may combine several nodes.
+/// The tangents of a contact's nodes, perpendicular to each other and to d, or to what of d lies in a plane
+/// of symmetry (ContactLayout::slidingNormalAt); there one of them is across the plane, if that is along an
+/// axis of space or like the first such plane. From node to node they turn no more than d does where that is
+/// possible: rows may combine several nodes.
 class ContactTangents {
 public:
   explicit ContactTangents(const ContactLayout& contact); ///< keeps a reference
@@ -35,8 +36,10 @@ public:
   [[nodiscard]] std::array<Eigen::Vector3d, 2> at(std::size_t place) const;
 
 private:
+  [[nodiscard]] bool isApart(const Eigen::Vector3d& axis) const;
+
   const ContactLayout& contact_;
-  Eigen::Vector3d axis_; ///< that is farthest from all d
+  Eigen::Vector3d axis_; ///< across a plane of symmetry, or that of space which is farthest from all d
 };
 
 /// dᵀ(u_first − u_second) ≤ gap for all rows of all contacts. A node that supports hold in the row's

@@ -31,6 +31,7 @@ void keepRows(ContactLayout& contact, const std::vector<std::size_t>& places) {
   keep(contact.firstNodes, 1);
   keep(contact.firstShares, 1);
   keep(contact.secondNodes, 1);
+  keep(contact.symmetryPlanes, 1);
   keep(contact.gaps, 1);
   keep(contact.areas, 1);
   for (std::vector<double>& areas : contact.areasOfParts)

@@ -11,9 +11,9 @@ namespace epafi::decomposition {
 
 /// Rows of friction: B_t u − c_t is by how much two surfaces slip at nodes that have a row of contact, along
 /// the tangents there. A node has as many of them as it has components less one, of the same length as its
-/// row of contact and perpendicular to it and each other, if supports hold none of its components: in a plane
-/// of symmetry one of them is to be perpendicular to the plane, and thus held, the other to what the plane
-/// leaves of the row of contact. Coefficients that are small beside the others would spoil the iteration.
+/// row of contact and perpendicular to it and each other. Where supports hold the node, one is better along
+/// what they hold, the other perpendicular to what they leave of the row of contact: what supports leave of a
+/// row must not be small beside the row, or preconditioners overrate it.
 struct FrictionRows {
   /// B_t and c_t (the jump at the end of the last step), rows of a node one after the other, on the rank of
   /// the node's row of contact.

@@ -4,6 +4,7 @@
 #include "epafi/contact/MortarRows.hpp"
 #include "epafi/contact/QuadraticFaces.hpp"
 #include "epafi/contact/RigidLinks.hpp"
+#include "epafi/contact/SymmetryPlanes.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/mesh/StructuredMesh.hpp"
 #include "epafi/model/ContactSurfaces.hpp"
@@ -126,6 +127,9 @@ ContactLayout Coupler::finish(ContactLayout layout, const Side& first, const Sid
   layout.secondBody = second.body;
   layout.secondSurfaces = second.surfaces;
   layout.means = std::move(means);
+  if (components_ > 1 && second.body >= 0 && supported_.heldAxes)
+    contact::findSymmetryPlanes(pointsOf(layoutOf(first)), pointsOf(layoutOf(second)), supported_.heldAxes,
+                                layout);
   return layout;
 }
 

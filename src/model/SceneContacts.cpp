@@ -109,19 +109,26 @@ ContactLayout layoutContact(const scene::SurfaceContact& terms, const std::vecto
 SupportedNodes supportedNodes(const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
   const auto modelOf = [&models](int body) -> const fem::BodyModel& { return *models[body]; };
   SupportedNodes result;
-  result.unheldPart = [modelOf](int body, GlobalOrdinal node, const Eigen::Vector3d& direction) {
+  result.isHeld = [modelOf](int body, GlobalOrdinal node, const Eigen::Vector3d& direction) {
+    constexpr double held = 1e-6; // of a direction, what is free beside it is round-off
     const fem::BodyModel& model = modelOf(body);
     const Eigen::Matrix3d* frame = model.frame(node);
-    const Eigen::Matrix3d axes = frame != nullptr ? *frame : Eigen::Matrix3d::Identity();
-    Eigen::Vector3d along = axes.transpose() * direction;
-    for (int c = 0; c < 3; ++c)
-      if (c >= model.components() || model.prescribed(node, c))
-        along[c] = 0;
-    return Eigen::Vector3d(axes * along);
+    const Eigen::Vector3d along =
+        frame != nullptr ? Eigen::Vector3d(frame->transpose() * direction) : direction;
+    double free = 0;
+    for (int c = 0; c < model.components(); ++c)
+      if (!model.prescribed(node, c))
+        free = std::hypot(free, along[c]);
+    return free <= held;
   };
-  result.isHeld = [part = result.unheldPart](int body, GlobalOrdinal node, const Eigen::Vector3d& direction) {
-    constexpr double held = 1e-6; // of a direction, what is free beside it is round-off
-    return part(body, node, direction).norm() <= held;
+  result.heldAxes = [modelOf](int body, GlobalOrdinal node) {
+    const fem::BodyModel& model = modelOf(body);
+    const Eigen::Matrix3d* frame = model.frame(node);
+    std::vector<Eigen::Vector3d> axes;
+    for (int c = 0; c < model.components(); ++c)
+      if (model.prescribed(node, c))
+        axes.push_back(frame != nullptr ? Eigen::Vector3d(frame->col(c)) : Eigen::Vector3d::Unit(c));
+    return axes;
   };
   result.axes = [modelOf](int body, const mesh::Surface& surface) {
     const fem::BodyModel& model = modelOf(body);
@@ -195,23 +202,6 @@ void numberRows(const std::vector<ContactGroup>& groups, std::vector<ContactLayo
       if (std::find(group.numbers.begin(), group.numbers.end(), layout.number) != group.numbers.end())
         layout.firstRow = firstRows.at(group.numbers.front());
   }
-}
-
-/// What tangents are perpendicular to. Facets on one side of a plane of symmetry have a mean normal there
-/// that leaves the plane; with tangents perpendicular to it friction would hinder what the surfaces' approach
-/// moves, by coefficients as small as that error.
-std::vector<Eigen::Vector3d> slidingNormals(const ContactLayout& contact, const SupportedNodes& supported) {
-  constexpr double mostOff = 0.3; // as 35 degrees an element have; beyond it is a slope
-  std::vector<Eigen::Vector3d> normals;
-  bool isAnyOff = false;
-  for (std::size_t place = 0; place < contact.firstNodes.size(); ++place) {
-    const Eigen::Vector3d normal = contact.directionAt(place),
-                          inside = supported.unheldPart(contact.firstBody, contact.firstNodes[place], normal);
-    const double off = (normal - inside).norm();
-    normals.push_back(off > 0 && off <= mostOff ? inside.normalized() : normal);
-    isAnyOff = isAnyOff || (off > 0 && off <= mostOff);
-  }
-  return isAnyOff ? normals : std::vector<Eigen::Vector3d>();
 }
 
 /// Numbers nodes with friction, contact after contact; of those that share rows one is enough.
@@ -289,8 +279,6 @@ SceneContacts layoutContacts(const scene::Scene& scene, const std::vector<BodyLa
     const mesh::Surface surface = contact::unite(mesh, layout.firstSurfaces).surface;
     addDropped(known.dropFrom(layout, spacingOf(mesh, surface)), layout, all.contacts);
     layout.firstShares.empty() ? contact::adaptRows(surface, layout) : contact::smoothRows(surface, layout);
-    if (layout.numComponents() > 1 && supported.unheldPart)
-      layout.slidingNormals = slidingNormals(layout, supported);
     enter(partsOf(layout, group), all.contacts);
   }
   numberRows(groups, all.contacts);

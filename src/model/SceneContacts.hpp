@@ -26,8 +26,8 @@ struct SceneContacts {
 struct SupportedNodes {
   /// Whether they hold a node of a body in a direction.
   std::function<bool(int body, GlobalOrdinal node, const Eigen::Vector3d& direction)> isHeld;
-  /// What they leave free of a direction at a node of a body.
-  std::function<Eigen::Vector3d(int body, GlobalOrdinal node, const Eigen::Vector3d& direction)> unheldPart;
+  /// Directions along which they hold a node of an elastic body, of length 1.
+  std::function<std::vector<Eigen::Vector3d>(int body, GlobalOrdinal node)> heldAxes;
   /// Axes (columns) along which they hold the nodes of a surface: the frame of that which is held most.
   std::function<Eigen::Matrix3d(int body, const mesh::Surface& surface)> axes;
   /// Thicknesses of a plane body at the facets of a surface; empty of other bodies.
