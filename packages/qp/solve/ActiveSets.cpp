@@ -51,6 +51,8 @@ ActiveSetIteration::ActiveSetIteration(const QuadraticProgram& program, const Ve
   addScaled(-1.0, on_.face.isFree, next_.isFree);
   set_->activate(next_.isFree, on_.x);
   set_->followBoundary(on_.x, on_.gradient(), 0, nullptr, on_.face);
+  if (start_.normInf() == 0) // it says nothing of directions on circles: pairs may move as they want to
+    on_.face.tangents.clear();
   isAtOrigin_ = on_.x.normInf() == 0;
 }
 

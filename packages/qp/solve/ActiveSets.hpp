@@ -26,7 +26,7 @@ struct ActiveSetParameters {
   /// further faces, with more right ones by steps.
   double faceReduction = 0.1;
   /// 1 where x may move at first, else 0; if null the start's own face, or, where the start is 0, the face to
-  /// which Mb points.
+  /// which Mb points, pairs in discs being free there.
   const Vector* firstFace = nullptr;
 };
 
