@@ -127,7 +127,7 @@ ContactLayout Coupler::finish(ContactLayout layout, const Side& first, const Sid
   layout.secondBody = second.body;
   layout.secondSurfaces = second.surfaces;
   layout.means = std::move(means);
-  if (components_ > 1 && second.body >= 0 && supported_.heldAxes)
+  if (!isTied() && components_ > 1 && second.body >= 0 && supported_.heldAxes)
     contact::findSymmetryPlanes(pointsOf(layoutOf(first)), pointsOf(layoutOf(second)), supported_.heldAxes,
                                 layout);
   return layout;
