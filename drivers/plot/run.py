@@ -125,7 +125,7 @@ def read_run(file, step=None):
             content, suffix = (whole, "") if step is None else of_step(file, whole, step)
             bodies = [read_body(name, group) for name, group in content["bodies"].items()]
             contacts = [read_contact(name, group) for name, group in content.get("contact", {}).items()]
-            run = Run(file.stem if step is None else f"{file.stem}, step {title('', content)}", file.stem + suffix, bodies,
+            run = Run(file.stem if step is None else f"{file.stem},\nstep {title('', content)}", file.stem + suffix, bodies,
                       contacts, read_history(content.get("history")))
     except (OSError, KeyError, ValueError, TypeError, AttributeError) as error:
         reason = str(error).strip("'\"")
