@@ -31,6 +31,20 @@ mesh::Surface SolidBody::surfaceOf(const std::string& user, const std::string& s
   return mesh.surface(surface);
 }
 
+std::vector<GlobalOrdinal> SolidBody::nodesOf(const std::string& user, const std::string& name) const {
+  std::vector<std::string> names = mesh.surfaceNames();
+  const std::vector<std::string> sets = mesh.nodeSetNames();
+  if (std::find(names.begin(), names.end(), name) != names.end()) {
+    std::vector<GlobalOrdinal> nodes = mesh.surface(name).facetNodes;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+  }
+  names.insert(names.end(), sets.begin(), sets.end());
+  requireName(*this, user, sets.empty() ? "surface" : "surface or set of nodes", name, names);
+  return mesh.nodeSet(name);
+}
+
 std::vector<GlobalOrdinal> SolidBody::groupOf(const std::string& user, const std::string& group) const {
   requireName(*this, user, "group", group, mesh.groupNames());
   return mesh.group(group);

@@ -72,11 +72,8 @@ SolidSupports::SolidSupports(const SolidBody& body) : components_(body.component
 std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBody& body) {
   std::vector<Condition> conditions;
   for (const SolidSupport& support : body.solid.supports) {
-    const mesh::Surface surface = body.surfaceOf("support '" + support.name + "'", support.surface);
-    std::vector<GlobalOrdinal> nodes = surface.facetNodes;
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    for (const GlobalOrdinal node : nodes)
+    const std::string user = "support '" + support.name + "'";
+    for (const GlobalOrdinal node : body.nodesOf(user, support.surface))
       for (int c = 0; c < body.components(); ++c)
         if (const auto& value = support.value[c])
           conditions.push_back({node, Vector3d::Unit(c), *value, c, &support});
@@ -86,7 +83,7 @@ std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBod
       throw body.refusal("support '" + support.name +
                          "' holds the displacement along the normal, which a membrane does not have; give "
                          "its value instead");
-    for (const NodeNormal& at : supportNormals(body.mesh, surface))
+    for (const NodeNormal& at : supportNormals(body.mesh, body.surfaceOf(user, support.surface)))
       conditions.push_back({at.node, at.normal, *support.normal, -1, &support});
   }
   std::stable_sort(conditions.begin(), conditions.end(), [](const Condition& a, const Condition& b) {

@@ -70,6 +70,11 @@ public:
   /// Elements of a group, ascending. Precondition: `name` is one of groupNames().
   [[nodiscard]] virtual std::vector<GlobalOrdinal> group(const std::string& name) const = 0;
 
+  /// Names of sets of nodes that a file gives, as physical groups of points and, in space, of curves do.
+  [[nodiscard]] virtual std::vector<std::string> nodeSetNames() const { return {}; }
+  /// Nodes of a set, ascending; perhaps none. Precondition: `name` is one of nodeSetNames().
+  [[nodiscard]] virtual std::vector<GlobalOrdinal> nodeSet(const std::string& name) const;
+
   /// Where some nodes lie; `points` is overwritten.
   void pointsAt(std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) const;
   /// Where the nodes of an element lie; `points` is overwritten.
@@ -93,6 +98,10 @@ private:
   std::array<GlobalOrdinal, mostNodes> nodes_{};
   std::size_t number_;
 };
+
+inline std::vector<GlobalOrdinal> Mesh::nodeSet(const std::string& /*name*/) const {
+  return {};
+}
 
 inline void Mesh::pointsAt(std::span<const GlobalOrdinal> nodes, std::vector<Point>& points) const {
   points.clear();

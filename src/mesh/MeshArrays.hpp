@@ -25,6 +25,12 @@ struct NamedElements {
   std::vector<LocalOrdinal> elements;
 };
 
+/// Nodes with a name, wherever they lie: those of points and lines.
+struct NamedNodes {
+  std::string name;
+  std::vector<LocalOrdinal> nodes;
+};
+
 struct MeshArrays {
   std::string name; ///< how errors call the body, such as `"plate" of "press.msh"`
   CellType cellType = CellType::triangle;
@@ -32,6 +38,7 @@ struct MeshArrays {
   std::vector<LocalOrdinal> cells; ///< nodes of the elements, numNodesOf(cellType) each
   std::vector<NamedFacets> surfaces;
   std::vector<NamedElements> groups;
+  std::vector<NamedNodes> nodeSets;
   /// Numbers that nodes and elements have in the file, for errors; −1: the file does not have the node.
   std::vector<GlobalOrdinal> nodeTags, elementTags;
 

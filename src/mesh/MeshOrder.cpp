@@ -127,6 +127,11 @@ MeshArrays linearised(MeshArrays mesh) {
   for (NamedFacets& surface : mesh.surfaces)
     for (LocalOrdinal& node : surface.nodes)
       node = number[index(node)];
+  for (NamedNodes& set : mesh.nodeSets) {
+    for (LocalOrdinal& node : set.nodes)
+      node = number[index(node)];
+    std::erase(set.nodes, -1);
+  }
   return mesh;
 }
 

@@ -78,6 +78,11 @@ std::unique_ptr<const MeshPart> MeshPart::ofOrder1() const {
     for (std::size_t i = 0; i < corners; ++i)
       part.cells.push_back(place[index(nodes[i])]);
   }
+  for (auto& [name, nodes] : part.nodeSets) {
+    std::erase_if(nodes, [&](GlobalOrdinal node) { return arrays_.cornerNumbers[placeOf(node)] < 0; });
+    for (GlobalOrdinal& node : nodes)
+      node = arrays_.cornerNumbers[placeOf(node)];
+  }
   for (auto& [name, surface] : part.surfaces) {
     const Surface whole = std::move(surface);
     surface = {facetTypeOf(part.cellType), {}, whole.elements};
@@ -134,6 +139,14 @@ std::vector<std::string> MeshPart::groupNames() const {
 
 std::vector<GlobalOrdinal> MeshPart::group(const std::string& name) const {
   return named(arrays_.groups, name);
+}
+
+std::vector<std::string> MeshPart::nodeSetNames() const {
+  return namesOf(arrays_.nodeSets);
+}
+
+std::vector<GlobalOrdinal> MeshPart::nodeSet(const std::string& name) const {
+  return named(arrays_.nodeSets, name);
 }
 
 } // namespace epafi::mesh

@@ -29,6 +29,7 @@ struct PartArrays {
   std::vector<std::uint8_t> isOnBoundary;      ///< of the held nodes
   std::vector<std::pair<std::string, Surface>> surfaces;                  ///< whole
   std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> groups; ///< as far as held, ascending
+  std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> nodeSets; ///< likewise
 };
 
 /// Every query may be asked of held nodes and elements. Of nodes of the own elements it has the same answer
@@ -62,6 +63,8 @@ public:
   [[nodiscard]] Surface surface(const std::string& name) const override; ///< whole
   [[nodiscard]] std::vector<std::string> groupNames() const override;
   [[nodiscard]] std::vector<GlobalOrdinal> group(const std::string& name) const override; ///< as far as held
+  [[nodiscard]] std::vector<std::string> nodeSetNames() const override;
+  [[nodiscard]] std::vector<GlobalOrdinal> nodeSet(const std::string& name) const override; ///< as far as held
 
 private:
   [[nodiscard]] std::size_t placeOf(GlobalOrdinal node) const;

@@ -41,6 +41,8 @@ UnstructuredMesh::UnstructuredMesh(MeshArrays arrays)
   }
   for (NamedElements& group : arrays_.groups)
     std::sort(group.elements.begin(), group.elements.end());
+  for (NamedNodes& set : arrays_.nodeSets)
+    std::sort(set.nodes.begin(), set.nodes.end());
 }
 
 void UnstructuredMesh::findFacets(const NamedFacets& surface) {
@@ -138,6 +140,15 @@ std::vector<std::string> UnstructuredMesh::groupNames() const {
 std::vector<GlobalOrdinal> UnstructuredMesh::group(const std::string& name) const {
   const std::vector<LocalOrdinal>& elements = arrays_.groups[placeOf(name, arrays_.groups)].elements;
   return {elements.begin(), elements.end()};
+}
+
+std::vector<std::string> UnstructuredMesh::nodeSetNames() const {
+  return namesOf(arrays_.nodeSets);
+}
+
+std::vector<GlobalOrdinal> UnstructuredMesh::nodeSet(const std::string& name) const {
+  const std::vector<LocalOrdinal>& nodes = arrays_.nodeSets[placeOf(name, arrays_.nodeSets)].nodes;
+  return {nodes.begin(), nodes.end()};
 }
 
 } // namespace epafi::mesh

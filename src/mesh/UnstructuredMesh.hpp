@@ -37,6 +37,8 @@ public:
   [[nodiscard]] Surface surface(const std::string& name) const override;
   [[nodiscard]] std::vector<std::string> groupNames() const override;
   [[nodiscard]] std::vector<GlobalOrdinal> group(const std::string& name) const override;
+  [[nodiscard]] std::vector<std::string> nodeSetNames() const override;
+  [[nodiscard]] std::vector<GlobalOrdinal> nodeSet(const std::string& name) const override;
 
   /// How errors call the body.
   [[nodiscard]] const std::string& name() const { return arrays_.name; }

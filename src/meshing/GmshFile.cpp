@@ -113,6 +113,7 @@ private:
   void addCells();
   void addGroups();
   void addSurfaces();
+  void addNodeSets();
   [[noreturn]] void refuseGroup() const;
   [[nodiscard]] bool isOfBody(int entity) const { return chosen_ == nullptr || holds(*chosen_, entity); }
 
@@ -134,6 +135,7 @@ mesh::MeshArrays BodyMaker::make() {
   addCells();
   addGroups();
   addSurfaces();
+  addNodeSets();
   const int given = numNodesOfGmsh(blocks_.front()->type);
   return given < numNodesOf(arrays_.cellType) ? completed(std::move(arrays_), true) : std::move(arrays_);
 }
@@ -156,8 +158,8 @@ void BodyMaker::chooseBlocks() {
 void BodyMaker::refuseGroup() const {
   const std::vector<std::string> names = namesOf(file_.groups);
   std::vector<std::string> lower = namesOf(file_.surfaces);
-  for (const GmshGroup& group : file_.lesser)
-    lower.push_back(group.name);
+  for (const mesh::NamedNodes& set : file_.nodeSets)
+    lower.push_back(set.name);
   std::string text = "The mesh file " + inQuotes(file_.file) + " has no physical group " + inQuotes(group_) +
                      " of dimension " + std::to_string(file_.dimension);
   if (std::find(lower.begin(), lower.end(), group_) != lower.end())
@@ -291,6 +293,18 @@ void BodyMaker::addSurfaces() {
   }
 }
 
+/// Those of the file of which the body has a node.
+void BodyMaker::addNodeSets() {
+  for (const mesh::NamedNodes& set : file_.nodeSets) {
+    mesh::NamedNodes part{set.name, {}};
+    for (const LocalOrdinal node : set.nodes)
+      if (newNumber_[index(node)] >= 0)
+        part.nodes.push_back(newNumber_[index(node)]);
+    if (!part.nodes.empty())
+      arrays_.nodeSets.push_back(std::move(part));
+  }
+}
+
 } // namespace
 
 GmshFile::GmshFile(const std::string& file) : GmshFile(readMsh(file, textOfMeshFile(file))) {}
@@ -337,6 +351,9 @@ void GmshFile::visitFacets(
         visit(surface.name, tags);
       }
     }
+  for (const mesh::NamedNodes& set : contents_.nodeSets)
+    for (const LocalOrdinal node : set.nodes)
+      visit(set.name, std::array{contents_.nodeTags[index(node)]});
 }
 
 } // namespace epafi::meshing

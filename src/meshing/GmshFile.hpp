@@ -48,7 +48,7 @@ public:
   /// Into how many files the whole mesh was cut; 0: the file does not say.
   [[nodiscard]] GlobalOrdinal numPartitions() const { return contents_.numPartitions; }
   /// Calls visit(surface, corners) for each facet of each named surface of any body: the surface's name, and
-  /// the numbers that the corners have in the file.
+  /// the numbers that the corners have in the file; and visit(set, node) for each node of each named set.
   void
   visitFacets(const std::function<void(const std::string&, std::span<const GlobalOrdinal>)>& visit) const;
 

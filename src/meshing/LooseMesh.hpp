@@ -51,7 +51,8 @@ private:
   std::vector<GlobalOrdinal> values_;
 };
 
-/// A facet of a named surface: keys of its corners, those that it lacks −1.
+/// A facet of a named surface: keys of its corners, those that it lacks −1; or a node of a named set, with
+/// one corner alone.
 struct NamedFacet {
   int surface = 0; ///< place of its name
   std::array<GlobalOrdinal, mesh::mostFacetCorners> corners{};

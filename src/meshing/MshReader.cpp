@@ -132,6 +132,7 @@ private:
   [[nodiscard]] LocalOrdinal nodeOf(GlobalOrdinal tag) const;
   std::vector<GmshGroup> groupsOf(int dimension) const;
   std::vector<GmshBlock> blocksOf(int dimension);
+  void addNodeSets(int dimension);
 
   MshRecords records_;
   GmshContents contents_;
@@ -146,10 +147,9 @@ GmshContents Contents::make() {
   contents_.numPartitions = records_.numPartitions;
   contents_.groups = groupsOf(d);
   contents_.surfaces = groupsOf(d - 1);
-  for (int lower = d - 2; lower >= 0; --lower)
-    for (GmshGroup& group : groupsOf(lower))
-      contents_.lesser.push_back(std::move(group));
   setNodes();
+  for (int lower = d - 2; lower >= 0; --lower)
+    addNodeSets(lower);
   contents_.elements = blocksOf(d);
   std::set<int> named;
   for (const GmshGroup& surface : contents_.surfaces)
@@ -220,6 +220,22 @@ std::vector<GmshBlock> Contents::blocksOf(int dimension) {
     blocks.push_back(std::move(made.block));
   }
   return blocks;
+}
+
+/// Groups of one name and different dimensions are one set.
+void Contents::addNodeSets(int dimension) {
+  const std::vector<GmshBlock> blocks = blocksOf(dimension);
+  for (const GmshGroup& group : groupsOf(dimension)) {
+    auto set = std::find_if(contents_.nodeSets.begin(), contents_.nodeSets.end(),
+                            [&](const mesh::NamedNodes& other) { return other.name == group.name; });
+    if (set == contents_.nodeSets.end())
+      set = contents_.nodeSets.insert(set, {group.name, {}});
+    for (const GmshBlock& block : blocks)
+      if (std::binary_search(group.entities.begin(), group.entities.end(), block.entity))
+        set->nodes.insert(set->nodes.end(), block.nodes.begin(), block.nodes.end());
+    std::sort(set->nodes.begin(), set->nodes.end());
+    set->nodes.erase(std::unique(set->nodes.begin(), set->nodes.end()), set->nodes.end());
+  }
 }
 
 } // namespace

@@ -40,7 +40,7 @@ struct GmshContents {
   std::vector<GmshGroup> groups;   ///< of dimension d
   std::vector<GmshBlock> facets;   ///< of dimension d − 1, on entities that belong to a group
   std::vector<GmshGroup> surfaces; ///< groups of dimension d − 1
-  std::vector<GmshGroup> lesser;   ///< groups of lower dimension still: for errors
+  std::vector<mesh::NamedNodes> nodeSets; ///< of groups of lower dimension still, ascending
 };
 
 /// What the text of a mesh file says. It is all in memory, and what is made of it takes about twice as much

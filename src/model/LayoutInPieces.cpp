@@ -33,6 +33,9 @@ meshing::LooseMesh looseMeshOf(const BodyLayout* whole, const Comm& comm) {
       for (std::size_t f = 0; f < surface.numFacets(); ++f)
         facets.add(name, surface.facet(f).first(numCornersOf(surface.facetType)));
     }
+    for (const std::string& name : whole->mesh->nodeSetNames())
+      for (const GlobalOrdinal node : whole->mesh->nodeSet(name))
+        facets.add(name, std::array{node});
   });
   return looseMeshOf(shares, std::make_shared<const meshing::FacetList>(gathered(facets, comm)), comm);
 }

@@ -60,6 +60,7 @@ private:
   void findFacet(const meshing::NamedFacet& facet);
   void takeSurfaces();
   mesh::PartArrays arrays() const;
+  void addNodeSets(mesh::PartArrays& part) const;
 
   meshing::LooseMesh loose_;
   Share own_;
@@ -262,6 +263,24 @@ void PieceMaker::takeSurfaces() {
   });
 }
 
+/// Their names on all ranks, if any has a node; the nodes as far as held.
+void PieceMaker::addNodeSets(mesh::PartArrays& part) const {
+  std::vector<Keys> sets(loose_.facets->names.size());
+  for (const meshing::NamedFacet& facet : loose_.facets->facets)
+    if (const std::size_t place = placeOf(facet.corners[0]);
+        facet.corners[1] < 0 && place < keys_.size() && keys_[place] == facet.corners[0])
+      sets[index(facet.surface)].push_back(part.nodes[place]);
+  std::vector<int> isUsed;
+  for (Keys& nodes : sets) {
+    sortEach(nodes);
+    isUsed.push_back(nodes.empty() ? 0 : 1);
+  }
+  sumOverRanks(comm_, std::span(isUsed));
+  for (std::size_t s = 0; s < sets.size(); ++s)
+    if (isUsed[s] > 0)
+      part.nodeSets.emplace_back(loose_.facets->names[s], std::move(sets[s]));
+}
+
 mesh::PartArrays PieceMaker::arrays() const {
   mesh::PartArrays part;
   part.cellType = loose_.cellType;
@@ -293,6 +312,7 @@ mesh::PartArrays PieceMaker::arrays() const {
       if (held_.isIn(e, g))
         group.push_back(held_.number(e));
   }
+  addNodeSets(part);
   const auto perFacet = index(nodesPerFacet(loose_.cellType));
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     if (f == 0 || facets_[f].surface != facets_[f - 1].surface)
