@@ -57,12 +57,6 @@ std::string wholeText(const ParameterEntry& entry) {
   return text.str();
 }
 
-std::string trimmed(const std::string& text) {
-  const char* const blanks = " \t\r\n";
-  const auto first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 template <class T>
 T parsedNumber(const std::string& text, const char* kind) {
   const std::string word = trimmed(text);
@@ -78,12 +72,16 @@ T parsedNumber(const std::string& text, const char* kind) {
   return value;
 }
 
+} // namespace
+
 double parsedReal(const std::string& text) {
   const auto value = parsedNumber<double>(text, "a number");
   if (!std::isfinite(value))
     throw InputError("is not a finite number");
   return value;
 }
+
+namespace {
 
 int parsedInteger(const std::string& text) {
   return parsedNumber<int>(text, "a whole number");

@@ -21,6 +21,9 @@ std::string typeName(const Teuchos::ParameterEntry& entry);
 std::string valueText(const Teuchos::ParameterEntry& entry);
 std::string valueText(double value);
 
+/// The finite number that a text spells out, blanks around it aside. \throws InputError like parseValue()
+double parsedReal(const std::string& text);
+
 /// The value of a given type that a text spells out. The whole text must be the value, blanks around it
 /// aside; a string has at most 4096 bytes.
 /// \param type  one of parameterTypes()

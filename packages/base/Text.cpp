@@ -18,6 +18,12 @@ std::string text(std::span<const double> point, int digits) {
   return result + ')';
 }
 
+std::string trimmed(const std::string& text) {
+  constexpr const char* blanks = " \t\r\n";
+  const auto first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string inQuotes(const std::string& text) {
   return '"' + text + '"';
 }

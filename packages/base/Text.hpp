@@ -27,6 +27,9 @@ std::string text(const Point& point, int digits = 6) {
   return text(std::span<const double>(point.data(), static_cast<std::size_t>(point.size())), digits);
 }
 
+/// Without the blanks and line breaks around it.
+std::string trimmed(const std::string& text);
+
 /// "name", with the quotes.
 std::string inQuotes(const std::string& text);
 

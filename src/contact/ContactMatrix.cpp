@@ -156,7 +156,8 @@ std::array<Eigen::Vector3d, 2> ContactTangents::at(std::size_t place) const {
 }
 
 decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
-                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm) {
+                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm,
+                                              const std::vector<Equation>& equations) {
   std::vector<MatrixRow> rows;
   forEachOwnRow(contacts, unknowns, [&](const ContactLayout& contact, std::size_t place) {
     MatrixRow& row =
@@ -170,6 +171,17 @@ decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& 
         if (const double size = lever.force.norm(); size > 0)
           enter(lever.force / size, unknowns, contact.secondBody, lever.node, -size, row);
   });
+  GlobalOrdinal next = 0;
+  for (const ContactLayout& contact : contacts)
+    next += contact.hasOwnRows ? contact.numRows() : 0;
+  for (const Equation& equation : equations) {
+    const GlobalOrdinal number = next++;
+    if (!unknowns.isMine(equation.terms.front().body, equation.terms.front().node))
+      continue;
+    MatrixRow& row = rows.emplace_back(MatrixRow{number, equation.value, {}, {}});
+    for (const Equation::Term& term : equation.terms)
+      enter(term.direction.normalized(), unknowns, term.body, term.node, term.direction.norm(), row);
+  }
   return matrixOf(rows, comm);
 }
 

@@ -25,6 +25,17 @@ struct NodeUnknowns {
   std::function<bool(int body, GlobalOrdinal node)> isMine;
 };
 
+/// A linear equation between displacements: Σ directionᵀu = value over its terms.
+struct Equation {
+  struct Term {
+    int body;
+    GlobalOrdinal node;
+    Eigen::Vector3d direction; ///< in space, of any length but 0
+  };
+  std::vector<Term> terms; ///< at least one
+  double value = 0;
+};
+
 /// The tangents of a contact's nodes, perpendicular to each other and to d, or to what of d lies in a plane
 /// of symmetry (ContactLayout::slidingNormalAt); there one of them is across the plane, if that is along an
 /// axis of space or like the first such plane. From node to node they turn no more than d does where that is
@@ -44,9 +55,12 @@ private:
 
 /// dᵀ(u_first − u_second) ≤ gap for all rows of all contacts. A node that supports hold in the row's
 /// direction has no entry but those of its prescribed values. Collective.
-/// \param contacts  the same on all ranks
+/// \param contacts   the same on all ranks
+/// \param equations  likewise; their rows follow those of contacts. The rank has a row that is to own those of
+/// its first term's node
 decomposition::ConstraintMatrix contactMatrix(const std::vector<ContactLayout>& contacts,
-                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm);
+                                              const NodeUnknowns& unknowns, const RCP<const Comm>& comm,
+                                              const std::vector<Equation>& equations = {});
 
 /// Rows of friction beside those of contacts that have it (ContactLayout::firstFriction): tᵀ(u_first −
 /// u_second) is what they slip. Collective.

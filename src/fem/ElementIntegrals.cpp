@@ -118,6 +118,28 @@ void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics p
   });
 }
 
+void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
+                  const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load) {
+  assert(fits(type, physics) && physics != Physics::membrane);
+  withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    const auto corners = mesh::relativeCorners<dim>(points);
+    Eigen::Vector3d first = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < dim; ++i)
+      first[i] = points[0][i] - rotation.point[i];
+    const Eigen::Vector3d axis = Eigen::Map<const Eigen::Vector3d>(rotation.axis.data()).normalized();
+    const double factor = rotation.value[0] * thicknessOf(physics, material);
+    mesh::NodalColumns<dim> forces = mesh::NodalColumns<dim>::Zero(dim, shape.numNodes);
+    for (const auto& sample : shape.fineSamples()) {
+      Eigen::Vector3d radius = first;
+      radius.template head<dim>() += corners.lazyProduct(sample.values);
+      radius -= radius.dot(axis) * axis;
+      const double weight = factor * sample.weight * mesh::ElementMap(corners, sample).determinant();
+      forces += (weight * radius.template head<dim>()).lazyProduct(sample.values.transpose());
+    }
+    load = forces.reshaped();
+  });
+}
+
 void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
                   const Material& material, const Vector3& traction, Eigen::VectorXd& load) {
   assert(boundsElement(facet, physics));

@@ -28,6 +28,12 @@ void elementStiffness(mesh::CellType type, std::span<const Point> points, Physic
 void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
                    const Material& material, const Vector3& force, Eigen::VectorXd& load);
 
+/// t∫N_a q r of a force per volume that grows with the distance r from an axis: q = value[0] of a load of the
+/// kind rotation, r(x) from its axis to x, perpendicular to it. `load` is overwritten. Precondition: not a
+/// membrane; in the plane the axis is perpendicular to it.
+void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
+                  const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load);
+
 // Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has
 // them, in an order that makes the normal point outwards, as in Cell.hpp and Surface. Edges go with
 // membranes, plane strain and plane stress, and their points' third coordinate does not matter; faces go with

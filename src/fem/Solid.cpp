@@ -1,5 +1,7 @@
 #include "epafi/fem/Solid.hpp"
 
+#include <Eigen/Geometry>
+
 #include <utility>
 
 namespace epafi::fem {
@@ -31,6 +33,24 @@ int componentsOf(Physics physics) {
 
 int dimensionOf(Physics physics) {
   return entryOf(physics).dimension;
+}
+
+Eigen::Matrix3d axesAt(const LocalAxes& axes, const Point& point) {
+  using Eigen::Vector3d;
+  const Vector3d a = Eigen::Map<const Vector3d>(axes.a.data()), b = Eigen::Map<const Vector3d>(axes.b.data());
+  Eigen::Matrix3d result;
+  if (axes.isCylindrical) {
+    const Vector3d along = (b - a).normalized();
+    const Vector3d away = Eigen::Map<const Vector3d>(point.data()) - a;
+    const Vector3d radius = away - away.dot(along) * along;
+    const Vector3d first =
+        radius.norm() > 1e-9 * (b - a).norm() ? Vector3d(radius.normalized()) : along.unitOrthogonal();
+    result << first, along.cross(first), along;
+  } else {
+    const Vector3d first = a.normalized(), third = first.cross(b).normalized();
+    result << first, third.cross(first), third;
+  }
+  return result;
 }
 
 SolidLoad loadInside(std::string name, const mesh::Box& box, double value) {

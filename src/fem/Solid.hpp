@@ -6,6 +6,8 @@
 
 #include "epafi/mesh/Box.hpp"
 
+#include <Eigen/Core>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -46,13 +48,26 @@ struct SolidRegion {
   bool mayBeEmpty = false; ///< that no element has its centre in the box is no fault, but of a coarse mesh
 };
 
-/// Components of the displacement prescribed on a surface, or the displacement along its outward normal. One
-/// alone makes a sliding support.
+/// Axes that displacements are given along, perpendicular to each other, at every point.
+struct LocalAxes {
+  bool isCylindrical = false;
+  /// The first axis, and a direction in the plane of the first two; cylindrical: two points of the line that
+  /// the second axis turns about and the third lies along, while the first leads away from it.
+  Vector3 a{1, 0, 0}, b{0, 1, 0};
+};
+
+/// The axes at a point, columns of a rotation. Precondition: a and b are not parallel, or not one point; on
+/// the line itself the first axis is any that is perpendicular to it.
+Eigen::Matrix3d axesAt(const LocalAxes& axes, const Point& point);
+
+/// Components of the displacement prescribed on a surface or a set of nodes, or the displacement along the
+/// surface's outward normal. One alone makes a sliding support.
 struct SolidSupport {
   std::string name;
   std::string surface; ///< "left" … "top" of a structured mesh, or a physical group
   std::array<std::optional<double>, 3> value;
   std::optional<double> normal = std::nullopt; ///< uᵀn, n the outward normal; the surface slides along itself
+  std::optional<LocalAxes> axes = std::nullopt; ///< those of the components; nothing: those of space
 };
 
 /// A load; loads add up.
@@ -62,17 +77,19 @@ struct SolidLoad {
     body, ///< force per volume (per area of a membrane) in the elements whose centre lies in a box or a group
     traction, ///< force per area on a surface
     pressure, ///< force per area against a surface's outward normal; value[0]
-    point     ///< force at the node that lies at a point
+    point,    ///< force at the node that lies at a point, or at each node of a surface or set of nodes
+    rotation  ///< force per volume away from an axis, in the elements of a group: value[0] times the distance
   };
   std::string name;
   Kind kind = Kind::body;
   mesh::Box box;
-  std::string where; ///< group (body; may be empty: the box counts) or surface
-  Vector3 point{0, 0, 0};
+  std::string where;      ///< group (body, rotation; may be empty: the box counts), surface or set of nodes
+  Vector3 point{0, 0, 0}; ///< where the node lies, or on the axis of rotation
   Vector3 value{0, 0, 0};
   /// Kind body with a box: elements carry the load as a whole or not at all. If false, on structured meshes
   /// exactly the part of the body that lies in the box does.
   bool wholeElements = true;
+  Vector3 axis{0, 0, 1}; ///< of rotation, of any length but 0
 };
 
 /// All that assembly asks of a body beside its mesh.

@@ -41,8 +41,8 @@ struct SolidBody {
   [[nodiscard]] const std::vector<Need>& needs() const { return *needs_; }
   /// \throws InputError if the mesh has no such surface. \param user  who asks, such as "support 'floor'"
   [[nodiscard]] mesh::Surface surfaceOf(const std::string& user, const std::string& surface) const;
-  /// Nodes of a surface, or of a set of nodes where no surface has the name, ascending; of a piece as far as
-  /// held. \throws InputError if the mesh has neither.
+  /// Nodes of a surface, or of a set of nodes where no surface has the name, ascending.
+  /// \throws InputError if the mesh has neither.
   [[nodiscard]] std::vector<GlobalOrdinal> nodesOf(const std::string& user, const std::string& name) const;
   /// Ascending. \throws InputError if the mesh has no such group.
   [[nodiscard]] std::vector<GlobalOrdinal> groupOf(const std::string& user, const std::string& group) const;

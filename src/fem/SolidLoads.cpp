@@ -74,14 +74,13 @@ SolidLoads::SolidLoads(const SolidBody& body, const SolidRegions& regions) {
     using Kind = SolidLoad::Kind;
     if (load.kind == Kind::point)
       addPoint(body, load);
-    else if (load.kind != Kind::body)
+    else if (load.kind != Kind::body && load.kind != Kind::rotation)
       addSurface(body, regions, load);
     else if (!load.wholeElements && body.isCongruent())
       addGridForce(body, load);
     else
       bodyForces_.push_back(
-          {SolidDomain(body, "load '" + load.name + "'", load.where, load.box, !load.wholeElements),
-           load.value});
+          {SolidDomain(body, "load '" + load.name + "'", load.where, load.box, !load.wholeElements), &load});
   }
   std::stable_sort(forces_.begin(), forces_.end(),
                    [](const NodalForce& a, const NodalForce& b) { return a.element < b.element; });
@@ -125,12 +124,17 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions, 
 }
 
 void SolidLoads::addPoint(const SolidBody& body, const SolidLoad& load) {
-  const std::optional<GlobalOrdinal> node = nodeAt(body, load);
-  if (!node)
-    return;
+  if (!load.where.empty())
+    for (const GlobalOrdinal node : body.nodesOf("load '" + load.name + "'", load.where))
+      addForceAt(body.mesh, node, load.value);
+  else if (const std::optional<GlobalOrdinal> node = nodeAt(body, load))
+    addForceAt(body.mesh, *node, load.value);
+}
+
+void SolidLoads::addForceAt(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force) {
   std::vector<GlobalOrdinal> elements;
-  body.mesh.nodeElements(*node, elements);
-  forces_.push_back({*std::min_element(elements.begin(), elements.end()), *node, load.value});
+  mesh.nodeElements(node, elements);
+  forces_.push_back({*std::min_element(elements.begin(), elements.end()), node, force});
 }
 
 void SolidLoads::of(const SolidBody& body, const SolidRegions& regions,
@@ -183,9 +187,15 @@ void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& region
   std::vector<Point> points;
   for (const BodyForce& force : bodyForces_)
     force.domain.forEachIn(body, elements, [&](std::size_t e) {
-      body.cornersOf(elements[e], points);
-      bodyForceLoad(body.mesh.cellType(), points, body.solid.physics,
-                    materialIn(body.solid, regions.of(body, elements[e])), force.value, values);
+      const Material& material = materialIn(body.solid, regions.of(body, elements[e]));
+      const SolidLoad& load = *force.load;
+      if (load.kind == SolidLoad::Kind::rotation) {
+        body.mesh.elementPoints(elements[e], points);
+        rotationLoad(body.mesh.cellType(), points, body.solid.physics, material, load, values);
+      } else {
+        body.cornersOf(elements[e], points);
+        bodyForceLoad(body.mesh.cellType(), points, body.solid.physics, material, load.value, values);
+      }
       loads.col(e) += values;
     });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The loads of a body, element by element.
+/// The loads of a body, element by element. Keeps references to those of the solid.
 
 #include "epafi/fem/SolidDomains.hpp"
 
@@ -31,7 +31,7 @@ private:
   /// A force per volume.
   struct BodyForce {
     SolidDomain domain;
-    Vector3 value;
+    const SolidLoad* load;
   };
   /// The same on what of a structured mesh lies in a box: ∫N over the loaded part of each column, row and
   /// layer, for the functions N of one coordinate there. Products of the three are the integrals of the
@@ -44,6 +44,7 @@ private:
   void addGridForce(const SolidBody& body, const SolidLoad& load);
   void addSurface(const SolidBody& body, const SolidRegions& regions, const SolidLoad& load);
   void addPoint(const SolidBody& body, const SolidLoad& load);
+  void addForceAt(const mesh::Mesh& mesh, GlobalOrdinal node, const Vector3& force);
   void addGridForces(const SolidBody& body, const SolidRegions& regions,
                      std::span<const GlobalOrdinal> elements, Eigen::MatrixXd& loads) const;
   void addBodyForces(const SolidBody& body, const SolidRegions& regions,

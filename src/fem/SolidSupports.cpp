@@ -73,10 +73,13 @@ std::vector<SolidSupports::Condition> SolidSupports::conditionsOf(const SolidBod
   std::vector<Condition> conditions;
   for (const SolidSupport& support : body.solid.supports) {
     const std::string user = "support '" + support.name + "'";
-    for (const GlobalOrdinal node : body.nodesOf(user, support.surface))
+    for (const GlobalOrdinal node : body.nodesOf(user, support.surface)) {
+      const Eigen::Matrix3d axes = support.axes ? axesAt(*support.axes, body.mesh.point(node))
+                                                : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
       for (int c = 0; c < body.components(); ++c)
         if (const auto& value = support.value[c])
-          conditions.push_back({node, Vector3d::Unit(c), *value, c, &support});
+          conditions.push_back({node, axes.col(c), *value, support.axes ? -1 : c, &support});
+    }
     if (!support.normal)
       continue;
     if (body.components() == 1)
@@ -103,14 +106,13 @@ void SolidSupports::hold(const SolidBody& body, std::span<const Condition> condi
     for (const double value : held.values())
       scale = std::max(scale, std::abs(value));
     if (std::abs(known->value - condition.value) > known->uncertainty * scale)
-      throw body.refusal("supports '" + conditions.front().support->name + "' and '" +
-                         condition.support->name + "' hold the node at " +
-                         text(body.mesh.point(condition.node)) +
-                         (condition.component >= 0
-                              ? std::string(" in component ") + "xyz"[condition.component]
-                              : " along " + text(condition.direction) + ", the normal of the surface of '" +
-                                    condition.support->name + "',") +
-                         " at different values, " + text(known->value) + " and " + text(condition.value));
+      throw body.refusal(
+          "supports '" + conditions.front().support->name + "' and '" + condition.support->name +
+          "' hold the node at " + text(body.mesh.point(condition.node)) +
+          (condition.component >= 0 ? std::string(" in component ") + "xyz"[condition.component]
+                                    : " along " + text(condition.direction) +
+                                          (condition.support->axes ? "" : ", the normal of the surface,")) +
+          " at different values, " + text(known->value) + " and " + text(condition.value));
   }
   holdInFrame(conditions.front().node, body.components(), held.axes(), held.values());
 }

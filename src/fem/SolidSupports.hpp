@@ -52,7 +52,7 @@ private:
     GlobalOrdinal node;
     Eigen::Vector3d direction;
     double value;
-    int component; ///< −1: along a normal
+    int component; ///< −1: along a normal or an axis of its own
     const SolidSupport* support;
   };
 

@@ -27,9 +27,9 @@ struct PartArrays {
   std::vector<Point> points;                   ///< of the held nodes
   std::vector<GlobalOrdinal> cornerNumbers;    ///< of the held nodes, among the body's corners; −1: none
   std::vector<std::uint8_t> isOnBoundary;      ///< of the held nodes
-  std::vector<std::pair<std::string, Surface>> surfaces;                  ///< whole
-  std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> groups; ///< as far as held, ascending
-  std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> nodeSets; ///< likewise
+  std::vector<std::pair<std::string, Surface>> surfaces;                    ///< whole
+  std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> groups;   ///< as far as held, ascending
+  std::vector<std::pair<std::string, std::vector<GlobalOrdinal>>> nodeSets; ///< whole, ascending
 };
 
 /// Every query may be asked of held nodes and elements. Of nodes of the own elements it has the same answer
@@ -64,7 +64,7 @@ public:
   [[nodiscard]] std::vector<std::string> groupNames() const override;
   [[nodiscard]] std::vector<GlobalOrdinal> group(const std::string& name) const override; ///< as far as held
   [[nodiscard]] std::vector<std::string> nodeSetNames() const override;
-  [[nodiscard]] std::vector<GlobalOrdinal> nodeSet(const std::string& name) const override; ///< as far as held
+  [[nodiscard]] std::vector<GlobalOrdinal> nodeSet(const std::string& name) const override; ///< whole
 
 private:
   [[nodiscard]] std::size_t placeOf(GlobalOrdinal node) const;

@@ -36,10 +36,10 @@ struct GmshContents {
   /// Geometric entity inside which each node lies: its dimension and number. Format 2.2 says neither: −1 and
   /// 0.
   std::vector<std::array<int, 2>> nodeEntities;
-  std::vector<GmshBlock> elements; ///< of dimension d
-  std::vector<GmshGroup> groups;   ///< of dimension d
-  std::vector<GmshBlock> facets;   ///< of dimension d − 1, on entities that belong to a group
-  std::vector<GmshGroup> surfaces; ///< groups of dimension d − 1
+  std::vector<GmshBlock> elements;        ///< of dimension d
+  std::vector<GmshGroup> groups;          ///< of dimension d
+  std::vector<GmshBlock> facets;          ///< of dimension d − 1, on entities that belong to a group
+  std::vector<GmshGroup> surfaces;        ///< groups of dimension d − 1
   std::vector<mesh::NamedNodes> nodeSets; ///< of groups of lower dimension still, ascending
 };
 

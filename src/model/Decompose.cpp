@@ -6,6 +6,7 @@
 #include "epafi/decomposition/UnassembledProblem.hpp"
 #include "epafi/fem/SubdomainAssembly.hpp"
 #include "epafi/model/SceneContacts.hpp"
+#include "epafi/model/SceneEquations.hpp"
 #include "epafi/model/ScenePlaces.hpp"
 
 #include <Teuchos_Comm.hpp>
@@ -177,8 +178,10 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   if (std::any_of(result.contacts.begin(), result.contacts.end(),
                   [](const contact::ContactLayout& each) { return each.firstFriction >= 0; }))
     problem.setFriction(contact::frictionRows(result.contacts, unknowns, comm));
-  if (!result.ties.empty())
-    problem.setTies(contact::contactMatrix(result.ties, unknowns, comm));
+  std::vector<contact::Equation> equations;
+  collectively(*comm, [&] { equations = equationsOf(scene, models); });
+  if (!result.ties.empty() || !equations.empty())
+    problem.setTies(contact::contactMatrix(result.ties, unknowns, comm, equations));
   problem.complete();
   result.data = problem.data();
   setFrictionData(scene, result.contacts, problem.problem(), result.data);

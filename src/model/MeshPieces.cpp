@@ -25,13 +25,13 @@ void sortEach(std::vector<Number>& keys) {
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
-/// A facet of a surface as the rank finds it that has its element.
+/// A facet of a surface, or a node of a set, as the rank finds it that has its element.
 struct FoundFacet {
-  int surface = 0, place = 0; ///< of its name; among the element's facets
+  int surface = 0, place = 0; ///< of its name; among the element's facets, −1 of a node
   GlobalOrdinal element = 0;
   std::array<GlobalOrdinal, mesh::mostFacetNodes> nodes{}; ///< their keys, outwards
 
-  [[nodiscard]] auto order() const { return std::tuple(surface, element, place); }
+  [[nodiscard]] auto order() const { return std::tuple(surface, element, place, nodes[0]); }
 };
 
 class PieceMaker {
@@ -60,6 +60,7 @@ private:
   void findFacet(const meshing::NamedFacet& facet);
   void takeSurfaces();
   mesh::PartArrays arrays() const;
+  void addSurfaces(mesh::PartArrays& part) const;
   void addNodeSets(mesh::PartArrays& part) const;
 
   meshing::LooseMesh loose_;
@@ -207,6 +208,12 @@ void PieceMaker::findFacet(const meshing::NamedFacet& facet) {
   const std::size_t first = placeOf(facet.corners[0]);
   if (first == keys_.size() || keys_[first] != facet.corners[0])
     return;
+  if (facet.corners[1] < 0) {
+    for (const LocalOrdinal element : topology_->elementsOf(first))
+      if (isOwn(index(element)))
+        facets_.push_back({facet.surface, -1, held_.number(index(element)), {facet.corners[0]}});
+    return;
+  }
   const auto facets = facetsOf(loose_.cellType);
   const int perFacet = numCornersOf(facetTypeOf(loose_.cellType));
   if (std::count_if(facet.corners.begin(), facet.corners.end(), [](auto key) { return key >= 0; }) !=
@@ -234,7 +241,7 @@ void PieceMaker::findFacet(const meshing::NamedFacet& facet) {
   }
 }
 
-/// All surfaces, and the elements at them.
+/// All surfaces and sets of nodes, and the elements at them.
 void PieceMaker::takeSurfaces() {
   Keys records;
   collectively(comm_, [&] {
@@ -263,22 +270,33 @@ void PieceMaker::takeSurfaces() {
   });
 }
 
-/// Their names on all ranks, if any has a node; the nodes as far as held.
-void PieceMaker::addNodeSets(mesh::PartArrays& part) const {
-  std::vector<Keys> sets(loose_.facets->names.size());
-  for (const meshing::NamedFacet& facet : loose_.facets->facets)
-    if (const std::size_t place = placeOf(facet.corners[0]);
-        facet.corners[1] < 0 && place < keys_.size() && keys_[place] == facet.corners[0])
-      sets[index(facet.surface)].push_back(part.nodes[place]);
-  std::vector<int> isUsed;
-  for (Keys& nodes : sets) {
-    sortEach(nodes);
-    isUsed.push_back(nodes.empty() ? 0 : 1);
+void PieceMaker::addSurfaces(mesh::PartArrays& part) const {
+  const auto perFacet = index(nodesPerFacet(loose_.cellType));
+  int last = -1;
+  for (const FoundFacet& facet : facets_) {
+    if (facet.place < 0)
+      continue;
+    if (std::exchange(last, facet.surface) != facet.surface)
+      part.surfaces.emplace_back(loose_.facets->names[index(facet.surface)],
+                                 mesh::Surface{facetTypeOf(loose_.cellType), {}, {}});
+    mesh::Surface& surface = part.surfaces.back().second;
+    surface.elements.push_back(facet.element);
+    for (const GlobalOrdinal key : std::span(facet.nodes).first(perFacet))
+      surface.facetNodes.push_back(part.nodes[placeOf(key)]);
   }
-  sumOverRanks(comm_, std::span(isUsed));
-  for (std::size_t s = 0; s < sets.size(); ++s)
-    if (isUsed[s] > 0)
-      part.nodeSets.emplace_back(loose_.facets->names[s], std::move(sets[s]));
+}
+
+void PieceMaker::addNodeSets(mesh::PartArrays& part) const {
+  int last = -1;
+  for (const FoundFacet& node : facets_) {
+    if (node.place >= 0)
+      continue;
+    if (std::exchange(last, node.surface) != node.surface)
+      part.nodeSets.emplace_back(loose_.facets->names[index(node.surface)], Keys());
+    part.nodeSets.back().second.push_back(part.nodes[placeOf(node.nodes[0])]);
+  }
+  for (auto& [name, nodes] : part.nodeSets)
+    sortEach(nodes);
 }
 
 mesh::PartArrays PieceMaker::arrays() const {
@@ -312,17 +330,8 @@ mesh::PartArrays PieceMaker::arrays() const {
       if (held_.isIn(e, g))
         group.push_back(held_.number(e));
   }
+  addSurfaces(part);
   addNodeSets(part);
-  const auto perFacet = index(nodesPerFacet(loose_.cellType));
-  for (std::size_t f = 0; f < facets_.size(); ++f) {
-    if (f == 0 || facets_[f].surface != facets_[f - 1].surface)
-      part.surfaces.emplace_back(loose_.facets->names[index(facets_[f].surface)],
-                                 mesh::Surface{facetTypeOf(loose_.cellType), {}, {}});
-    mesh::Surface& surface = part.surfaces.back().second;
-    surface.elements.push_back(facets_[f].element);
-    for (const GlobalOrdinal key : std::span(facets_[f].nodes).first(perFacet))
-      surface.facetNodes.push_back(part.nodes[placeOf(key)]);
-  }
   return part;
 }
 

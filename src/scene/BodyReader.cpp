@@ -3,9 +3,12 @@
 #include "epafi/base/ParameterValue.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace epafi::scene {
 namespace {
@@ -169,6 +172,26 @@ void requireAgreement(const ListReader& entry, const fem::SolidSupport& support,
   }
 }
 
+/// Nothing where they are those of space.
+std::optional<fem::LocalAxes> readAxes(const ListReader& entry, int dimension) {
+  const bool isCylindrical = entry.hasEntries("Cylinder");
+  if (isCylindrical && entry.hasEntries("Axes"))
+    entry.refuseGiven({"Axes"}, "there is a \"Cylinder\", too; give one of them");
+  if (!isCylindrical && !entry.hasEntries("Axes"))
+    return std::nullopt;
+  const char* const name = isCylindrical ? "Cylinder" : "Axes";
+  const auto [a, b] = entry.vectors(name);
+  const Eigen::Vector3d first = Eigen::Map<const Eigen::Vector3d>(a.data()),
+                        second = Eigen::Map<const Eigen::Vector3d>(b.data());
+  if (isCylindrical ? first == second : first.cross(second).norm() <= 1e-9 * first.norm() * second.norm())
+    entry.refuseValue(name, isCylindrical ? "that is one point" : "that is one direction");
+  fem::LocalAxes axes{isCylindrical, a, b};
+  const Eigen::Vector3d third = axesAt(axes, {1, 2, 3}).col(2);
+  if (dimension == 2 && std::abs(third[2]) < 1 - 1e-9)
+    entry.refuseValue(name, "the third axis must be across the plane of the body");
+  return axes;
+}
+
 /// The components of an elastic body, or its normal.
 void readComponents(const ListReader& entry, const Body& body, fem::SolidSupport& support) {
   entry.refuseGiven({"Value"}, "the components \"X\", \"Y\" and \"Z\" say what is held of an elastic body");
@@ -177,6 +200,7 @@ void readComponents(const ListReader& entry, const Body& body, fem::SolidSupport
   for (int c = 0; c < componentsOf(body.physics); ++c)
     if (const std::string component(1, "XYZ"[c]); entry.has(component))
       support.value[c] = entry.real(component);
+  support.axes = readAxes(entry, dimensionOf(body));
   if (entry.has("Normal"))
     support.normal = entry.real("Normal");
   if (!support.normal && std::none_of(support.value.begin(), support.value.end(),
@@ -202,7 +226,8 @@ std::vector<fem::SolidSupport> readSupports(const ListReader& list, const Body& 
     if (isElastic(body)) {
       readComponents(entry, body, support);
     } else {
-      entry.refuseGiven({"X", "Y", "Z", "Normal"}, "a membrane's deflection is its \"Value\"");
+      entry.refuseGiven({"X", "Y", "Z", "Normal", "Axes", "Cylinder"},
+                        "a membrane's deflection is its \"Value\"");
       support.value[0] = entry.real("Value");
       if (isMembraneOnRectangle(body))
         requireAgreement(entry, support, supports);
@@ -217,19 +242,36 @@ void readPlace(const ListReader& list, const Body& body, fem::SolidLoad& load) {
   const std::string reason = "a load of the kind \"" + list.word("Kind") + "\" has no use for it";
   using Kind = fem::SolidLoad::Kind;
   if (load.kind != Kind::body)
-    list.refuseGiven({"Box", "Group"}, reason);
-  if (load.kind == Kind::body || load.kind == Kind::point)
+    list.refuseGiven({"Box"}, reason);
+  if (load.kind != Kind::body && load.kind != Kind::rotation)
+    list.refuseGiven({"Group"}, reason);
+  if (load.kind == Kind::body || load.kind == Kind::rotation)
     list.refuseGiven({"Surface"}, reason);
-  if (load.kind != Kind::point)
+  if (load.kind != Kind::point && load.kind != Kind::rotation)
     list.refuseGiven({"Point"}, reason);
+  if (load.kind != Kind::rotation || dimensionOf(body) == 2)
+    list.refuseGiven({"Axis"}, reason);
   if (load.kind == Kind::body) {
     requireOneDomain(list, body.mesh);
     load.where = list.word("Group");
     if (list.hasEntries("Box"))
       load.box = boxIn(list, body);
     load.wholeElements = !isMembraneOnRectangle(body);
+  } else if (load.kind == Kind::rotation) {
+    load.where = list.word("Group");
+    if (list.hasEntries("Point"))
+      load.point = list.vector("Point", dimensionOf(body));
+    if (dimensionOf(body) == 3) {
+      list.require("Axis", " of a load of the kind \"rotation\" in space");
+      load.axis = list.vector("Axis", 3);
+      if (load.axis == Vector3{0, 0, 0})
+        list.refuseValue("Axis", "that is no direction");
+    }
+  } else if (load.kind == Kind::point && list.hasEntries("Surface")) {
+    list.refuseGiven({"Point"}, "there is a \"Surface\", too; give one of them");
+    load.where = list.word("Surface");
   } else if (load.kind == Kind::point) {
-    list.require("Point");
+    list.require("Point", " of a load of the kind \"point\" without a \"Surface\"");
     load.point = list.vector("Point", dimensionOf(body));
   } else {
     list.require("Surface");
@@ -242,6 +284,7 @@ fem::SolidLoad::Kind kindOf(const std::string& word) {
   return word == "body"       ? Kind::body
          : word == "traction" ? Kind::traction
          : word == "pressure" ? Kind::pressure
+         : word == "rotation" ? Kind::rotation
                               : Kind::point;
 }
 
@@ -256,8 +299,11 @@ std::vector<fem::SolidLoad> readLoads(const ListReader& list, const Body& body) 
       entry.refuseValue("Kind", "a membrane on a rectangle carries loads of the kind \"body\" only");
     if (load.kind == fem::SolidLoad::Kind::pressure && !isElastic(body))
       entry.refuseValue("Kind", "membranes carry no pressure on their edges; give a traction");
+    if (load.kind == fem::SolidLoad::Kind::rotation && !isElastic(body))
+      entry.refuseValue("Kind", "membranes do not turn");
     readPlace(entry, body, load);
-    if (!isElastic(body) || load.kind == fem::SolidLoad::Kind::pressure) {
+    if (!isElastic(body) || load.kind == fem::SolidLoad::Kind::pressure ||
+        load.kind == fem::SolidLoad::Kind::rotation) {
       entry.refuseGiven({"Force"}, "a load of this kind is a number, its \"Value\"");
       entry.require("Value");
       load.value[0] = entry.real("Value");

@@ -96,6 +96,13 @@ Vector3 ListReader::vector(const std::string& name, int dimension) const {
   return vector;
 }
 
+std::array<Vector3, 2> ListReader::vectors(const std::string& name) const {
+  const auto& values = list_.get<Teuchos::Array<double>>(name);
+  requireLength(name, 6, "{x, y, z, x, y, z}");
+  requireModerate(name);
+  return {{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}}};
+}
+
 int ListReader::length(const std::string& name) const {
   const Teuchos::ParameterEntry& entry = list_.getEntry(name);
   return static_cast<int>(entry.isType<Teuchos::Array<int>>()

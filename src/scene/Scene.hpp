@@ -48,10 +48,24 @@ struct SurfaceContact {
   [[nodiscard]] bool hasFriction() const { return friction > 0 || frictionBound > 0; }
 };
 
+/// A linear equation between displacements of nodes: Σ factor · component = value.
+struct Equation {
+  struct Term {
+    double factor = 1;
+    int body = 0;      ///< index into Scene::bodies
+    std::string nodes; ///< surface or set of nodes of it, of one node
+    int component = 0; ///< 0 to 2
+  };
+  std::string name;
+  std::vector<Term> terms;
+  double value = 0;
+};
+
 struct Scene {
   std::string title;
   std::vector<Body> bodies;
   std::vector<SurfaceContact> contacts;
+  std::vector<Equation> equations;
 };
 
 } // namespace epafi::scene

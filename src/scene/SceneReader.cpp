@@ -3,6 +3,7 @@
 #include "epafi/base/Parameters.hpp"
 #include "epafi/scene/BodyReader.hpp"
 #include "epafi/scene/ContactReader.hpp"
+#include "epafi/scene/EquationReader.hpp"
 #include "epafi/scene/GapConsistency.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
@@ -38,6 +39,7 @@ Scene readScene(const ParameterList& list, const std::string& where) {
     bodies.refuseList("has no bodies, but a scene needs at least one");
   readContacts(ListReader(complete.sublist("Contact"), where, "Contact"),
                ListReader(complete.sublist("Obstacles"), where, "Obstacles"), scene);
+  readEquations(ListReader(complete.sublist("Equations"), where, "Equations"), scene);
   requireConsistentGaps(scene);
   return scene;
 }

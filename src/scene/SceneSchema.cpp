@@ -89,11 +89,23 @@ void describeSupports(ParameterList& body) {
                    "One supported edge or surface. Of an elastic body those components "
                    "are held that are given: one alone, or the normal, makes a sliding support.");
   addChoice(support, "Edge", "", "Membranes on rectangles, required: the supported edge.", edgeNames);
-  support.set("Surface", "", "All other bodies, required: the supported surface.");
+  support.set(
+      "Surface", "",
+      "All other bodies, required: the supported surface; of a mesh file also a group of points or, in "
+      "space, of curves.");
   addReal(support, "Value", 0.0, "Membranes: deflection along it.");
   addReal(support, "X", 0.0, "Elastic bodies: displacement in x; free if not given.");
   addReal(support, "Y", 0.0, "Elastic bodies: displacement in y; free if not given.");
   addReal(support, "Z", 0.0, "Elastic bodies in space: displacement in z; free if not given.");
+  addArray(support, "Axes", Array<double>(),
+           "Elastic bodies: the axes of X, Y and Z, unless they are those of space: {x, y, z, x, y, z}, two "
+           "vectors, X along the first, Y in the plane of both.",
+           "");
+  addArray(
+      support, "Cylinder", Array<double>(),
+      "Elastic bodies, instead of Axes: two points of a line, {x, y, z, x, y, z}; X leads away from it, Y "
+      "around it, Z along it.",
+      "");
   addReal(
       support, "Normal", 0.0,
       "Elastic bodies: displacement along the surface's outward normal; the surface slides along itself.");
@@ -106,19 +118,30 @@ void describeLoads(ParameterList& body) {
       load, "Kind", "body",
       "body: force per volume (per area of a membrane) in the elements of a box or group; traction: force "
       "per area on a surface (per length on a membrane's); pressure: force per area against a surface's "
-      "outward normal; point: force at a node.",
-      {"body", "traction", "pressure", "point"});
+      "outward normal; point: force at a node, or at each of a group; rotation: force per volume away from "
+      "an "
+      "axis, Value times the distance, in the elements of a group: ρω² of a body that turns.",
+      {"body", "traction", "pressure", "point", "rotation"});
   addArray(load, "Box", Array<double>(),
            "Kind body: extent {x0, x1, y0, y1}, in space {x0, x1, y0, y1, z0, z1}, of what carries the load: "
            "that part of a "
            "membrane, of an elastic body the elements whose centre lies in it. {} is the whole body.",
            box);
-  load.set("Group", "", "Kind body: physical group of the mesh file that carries the load.");
-  load.set("Surface", "", "Kinds traction and pressure, required: the loaded surface.");
-  addArray(load, "Point", Array<double>(), "Kind point, required: where the node lies, {x, y} or {x, y, z}.",
-           "");
-  addReal(load, "Value", 0.0,
-          "Membranes, required: force, positive upwards. Kind pressure, required: the pressure.");
+  load.set("Group", "", "Kinds body and rotation: physical group of the mesh file that carries the load.");
+  load.set("Surface", "",
+           "Kinds traction and pressure, required: the loaded surface. Kind point: a surface, or a group of "
+           "points "
+           "or curves, at each of whose nodes the force is.");
+  addArray(
+      load, "Point", Array<double>(),
+      "Kind point, unless there is a Surface: where the node lies, {x, y} or {x, y, z}. Kind rotation: a "
+      "point of the axis, unless it is the origin.",
+      "");
+  addArray(load, "Axis", Array<double>(), "Kind rotation in space, required: direction of the axis.", "");
+  addReal(
+      load, "Value", 0.0,
+      "Membranes, required: force, positive upwards. Kind pressure, required: the pressure. Kind rotation, "
+      "required: force per volume and distance.");
   addArray(load, "Force", Array<double>(),
            "Elastic bodies, required but for pressure: components {x, y} or {x, y, z} of the force.", "");
 }
@@ -254,6 +277,15 @@ ParameterList sceneSchema() {
                             "magnitude."));
   describeObstacle(list.sublist("Obstacles", false, "Rigid obstacles that elastic bodies may meet."));
   describePair(list.sublist("Contact", false, "What cannot penetrate each other, or is tied."));
+  ParameterList& equation =
+      list.sublist("Equations", false, "Linear equations between displacements of nodes of elastic bodies.")
+          .sublist("<equation>", false, "One equation: the sum of its terms is its value.");
+  equation.set(
+      "Terms", "",
+      "\"factor body/nodes/component\", several parted by commas: a number, a surface or group of the "
+      "body's mesh that has one node, and X, Y or Z.");
+  setRequired(equation, {"Terms"});
+  addReal(equation, "Value", 0.0, "What the sum is.");
   describeStep(
       list.sublist("Steps", false,
                    "Load steps, in their order; without any there is one, with all loads. What friction "

@@ -1,24 +1,17 @@
 #include "epafi/scene/StepReader.hpp"
 
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/ParameterValue.hpp"
 #include "epafi/base/Parameters.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/scene/ListReader.hpp"
 #include "epafi/scene/SceneSchema.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <limits>
 #include <string_view>
 
 namespace epafi::scene {
 namespace {
-
-std::string trimmed(const std::string& text) {
-  constexpr const char* blanks = " \t\n\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /// The entries "name = number" of a parameter, parted by commas.
 std::vector<std::pair<std::string, double>> entriesOf(const ListReader& step, const std::string& parameter) {
@@ -31,11 +24,12 @@ std::vector<std::pair<std::string, double>> entriesOf(const ListReader& step, co
     if (entry.empty())
       continue;
     const std::size_t equals = entry.rfind('=');
-    const std::string number = equals == std::string::npos ? "" : trimmed(entry.substr(equals + 1));
-    double value = std::numeric_limits<double>::quiet_NaN();
-    const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc() || rest != number.data() + number.size() || !std::isfinite(value))
+    double value = 0;
+    try {
+      value = parsedReal(equals == std::string::npos ? "" : entry.substr(equals + 1));
+    } catch (const InputError&) {
       step.refuseValue(parameter, "\"" + entry + "\" is not of the form name = number");
+    }
     const std::string name = trimmed(entry.substr(0, equals));
     if (std::any_of(entries.begin(), entries.end(), [&](const auto& other) { return other.first == name; }))
       step.refuseValue(parameter, "\"" + name + "\" is named twice");

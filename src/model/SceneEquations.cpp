@@ -1,0 +1,95 @@
+#include "epafi/model/SceneEquations.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace epafi::model {
+namespace {
+
+/// Supports that share a direction with an axis up to this prescribe it.
+constexpr double sameDirection = 1e-9;
+
+/// Displacement of a node along an axis, if supports prescribe it.
+std::optional<double> heldAlong(const fem::BodyModel& model, GlobalOrdinal node,
+                                const Eigen::Vector3d& axis) {
+  const Eigen::Matrix3d* const frame = model.frame(node);
+  const Eigen::Vector3d own = frame != nullptr ? Eigen::Vector3d(frame->transpose() * axis) : axis;
+  double sum = 0;
+  for (int c = 0; c < model.components(); ++c)
+    if (std::abs(own[c]) > sameDirection) {
+      const std::optional<double> value = model.prescribed(node, c);
+      if (!value)
+        return std::nullopt;
+      sum += own[c] * *value;
+    }
+  return sum;
+}
+
+/// The one node of each set that equations name; a set is looked for once.
+class EquationNodes {
+public:
+  EquationNodes(const scene::Scene& scene, const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
+    for (std::size_t b = 0; b < models.size(); ++b)
+      bodies_.push_back(std::make_unique<fem::SolidBody>(scene.bodies[b], models[b]->mesh()));
+  }
+  GlobalOrdinal of(const scene::Equation& equation, const scene::Equation::Term& term) {
+    const auto [place, isNew] = known_.try_emplace({term.body, term.nodes}, 0);
+    if (isNew) {
+      const fem::SolidBody& body = *bodies_[term.body];
+      const std::vector<GlobalOrdinal> nodes = body.nodesOf(inQuotes(equation.name), term.nodes);
+      if (nodes.size() != 1)
+        throw body.refusal("equation " + inQuotes(equation.name) + " is about one node, but " +
+                           inQuotes(term.nodes) + " has " + std::to_string(nodes.size()));
+      place->second = nodes.front();
+    }
+    return place->second;
+  }
+
+private:
+  std::vector<std::unique_ptr<fem::SolidBody>> bodies_;
+  std::map<std::pair<int, std::string>, GlobalOrdinal> known_;
+};
+
+/// Whether supports prescribe all of an equation. \throws SolvabilityError if they contradict it
+bool isFixed(const contact::Equation& equation, const std::string& name,
+             const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
+  double sum = -equation.value, scale = std::abs(equation.value);
+  for (const contact::Equation::Term& term : equation.terms) {
+    const double length = term.direction.norm();
+    const auto held = heldAlong(*models[term.body], term.node, term.direction / length);
+    if (!held)
+      return false;
+    sum += length * *held;
+    scale = std::max(scale, std::abs(length * *held));
+  }
+  if (std::abs(sum) > 1e-10 * scale)
+    throw SolvabilityError("supports hold all displacements of the equation " + inQuotes(name) +
+                           ", at values that miss it by " + text(sum) + "; release one of them");
+  return true;
+}
+
+} // namespace
+
+std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
+                                           const std::vector<std::unique_ptr<fem::BodyModel>>& models) {
+  std::vector<contact::Equation> equations;
+  EquationNodes nodes(scene, models);
+  for (const scene::Equation& each : scene.equations) {
+    contact::Equation equation{{}, each.value};
+    for (const scene::Equation::Term& term : each.terms)
+      equation.terms.push_back(
+          {term.body, nodes.of(each, term), term.factor * Eigen::Vector3d::Unit(term.component)});
+    if (!isFixed(equation, each.name, models))
+      equations.push_back(std::move(equation));
+  }
+  return equations;
+}
+
+} // namespace epafi::model

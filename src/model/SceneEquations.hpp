@@ -1,0 +1,20 @@
+#pragma once
+
+/// The equations of a scene over nodes of its meshes.
+
+#include "epafi/contact/ContactMatrix.hpp"
+#include "epafi/fem/BodyModel.hpp"
+#include "epafi/scene/Scene.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace epafi::model {
+
+/// Those that supports do not fix altogether. \throws InputError if a term's nodes are not there, or not one;
+/// SolvabilityError if supports hold all of an equation's displacements, at values that contradict it. Not
+/// collective (every rank finds the same).
+std::vector<contact::Equation> equationsOf(const scene::Scene& scene,
+                                           const std::vector<std::unique_ptr<fem::BodyModel>>& models);
+
+} // namespace epafi::model
