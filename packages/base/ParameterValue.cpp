@@ -119,6 +119,10 @@ Array<T> parsedArray(const std::string& text, T (*parsed)(const std::string&)) {
 
 } // namespace
 
+std::string spelledOut(const ParameterEntry& entry) {
+  return entry.isType<std::string>() ? Teuchos::getValue<std::string>(entry) : wholeText(entry);
+}
+
 const std::vector<std::string>& parameterTypes() {
   static const std::vector<std::string> types = {"int",    "double",     "bool",
                                                  "string", "Array(int)", "Array(double)"};
@@ -161,7 +165,7 @@ ParameterEntry parseValue(const std::string& type, const std::string& text) {
     return ParameterEntry(parsedArray<int>(text, parsedInteger));
   if (type == "Array(double)")
     return ParameterEntry(parsedArray<double>(text, parsedReal));
-  constexpr std::size_t longest = 4096; // as long as a path can be
+  constexpr std::size_t longest = std::size_t{1} << 20; // a list of many loads
   if (text.size() > longest)
     throw InputError("has more than " + std::to_string(longest) + " letters");
   return ParameterEntry(text);

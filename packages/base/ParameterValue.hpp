@@ -21,11 +21,14 @@ std::string typeName(const Teuchos::ParameterEntry& entry);
 std::string valueText(const Teuchos::ParameterEntry& entry);
 std::string valueText(double value);
 
+/// The value as parseValue() takes it, in all its digits and letters. Precondition: of one of parameterTypes().
+std::string spelledOut(const Teuchos::ParameterEntry& entry);
+
 /// The finite number that a text spells out, blanks around it aside. \throws InputError like parseValue()
 double parsedReal(const std::string& text);
 
 /// The value of a given type that a text spells out. The whole text must be the value, blanks around it
-/// aside; a string has at most 4096 bytes.
+/// aside; a string has at most 2^20 bytes.
 /// \param type  one of parameterTypes()
 /// \throws InputError that says what is wrong with the text, to follow the words "the value … ": "is not a
 ///         number".

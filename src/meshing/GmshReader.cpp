@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/Text.hpp"
+#include "epafi/deck/DeckModel.hpp"
 #include "epafi/meshing/ChildProcess.hpp"
 #include "epafi/meshing/GmshSession.hpp"
 #include "epafi/meshing/MeshSource.hpp"
@@ -44,9 +45,9 @@ private:
 /// What Gmsh would take for an empty model, or read without a word.
 void checkFile(const std::string& file) {
   const fs::path path(file);
-  if (path.extension() != ".msh" && path.extension() != ".geo")
+  if (path.extension() != ".msh" && path.extension() != ".geo" && !deck::isDeck(file))
     throw InputError("The mesh file " + inQuotes(file) +
-                     " is of an unknown kind; its name must end in .msh or .geo");
+                     " is of an unknown kind; its name must end in .msh, .geo or .inp");
   if (isSplit(file))
     throw InputError(
         "The mesh files " + inQuotes(file) +
@@ -72,6 +73,11 @@ std::string textOf(const std::string& path, const std::string& file) {
   if (!stream)
     throw InputError("The mesh file " + inQuotes(file) + " could not be read to its end");
   return text;
+}
+
+std::string textOfDeck(const std::string& file) {
+  const deck::Deck deck = deck::readDeck(file);
+  return mshText(deck, modelOf(deck, file).groups);
 }
 
 /// What Gmsh saves of a file; empty if `run` saves nothing.
@@ -114,9 +120,12 @@ std::string textOfMeshFile(const std::string& file, double meshSizeFactor, int r
   checkFile(file);
   if (file.ends_with(".geo"))
     return textOfGmsh(file, meshSizeFactor, refinements, order);
-  std::string text = textOf(file, file);
+  std::string text = deck::isDeck(file) ? textOfDeck(file) : textOf(file, file);
   if (refinements == 0)
     return text;
+  if (deck::isDeck(file))
+    throw InputError("The mesh of the deck " + inQuotes(file) +
+                     " is solved as it is; refine what epafi --export makes of it");
   (void)readMsh(file, std::move(text)); // a file that is known to be sound can be handed to Gmsh
   return textOfGmsh(file, meshSizeFactor, refinements, order);
 }

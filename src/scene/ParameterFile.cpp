@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/ParameterValue.hpp"
+#include "epafi/deck/DeckModel.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_StringInputSource.hpp>
@@ -40,6 +41,40 @@ std::string textOfFile(const std::string& path) {
   if (text.size() > mostBytes)
     throw InputError(path + " is larger than 64 MiB, which no parameter file should be.");
   return text;
+}
+
+std::string textOf(const std::string& path) {
+  if (!deck::isDeck(path))
+    return textOfFile(path);
+  const std::string name = std::filesystem::path(path).filename().string();
+  return xmlText(deck::modelOf(deck::readDeck(path), name).scene);
+}
+
+/// In an attribute.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char letter : text)
+    result += letter == '&'   ? "&amp;"
+              : letter == '<' ? "&lt;"
+              : letter == '>' ? "&gt;"
+              : letter == '"' ? "&quot;"
+                              : std::string(1, letter);
+  return result;
+}
+
+void write(const ParameterList& list, const std::string& indent, std::string& text) {
+  for (auto entry = list.begin(); entry != list.end(); ++entry) {
+    const std::string name = escaped(list.name(entry));
+    const ParameterEntry& value = list.entry(entry);
+    if (value.isList()) {
+      text += indent + "<ParameterList name=\"" + name + "\">\n";
+      write(Teuchos::getValue<ParameterList>(value), indent + "  ", text);
+      text += indent + "</ParameterList>\n";
+    } else {
+      text += indent + "<Parameter name=\"" + name + "\" type=\"" + typeName(value) + "\" value=\"" +
+              escaped(spelledOut(value)) + "\"/>\n";
+    }
+  }
 }
 
 /// Teuchos reports "… XML parse error at line 2: reason" after lines that mean nothing to a user.
@@ -200,11 +235,17 @@ private:
 
 } // namespace
 
+std::string xmlText(const ParameterList& list) {
+  std::string text = "<ParameterList name=\"" + escaped(list.name()) + "\">\n";
+  write(list, "  ", text);
+  return text + "</ParameterList>\n";
+}
+
 ParameterList readParameterFile(const std::string& path, const Comm& comm) {
   std::string text, where = path;
   collectively(comm, [&] {
     if (comm.getRank() == 0)
-      text = textOfFile(path);
+      text = textOf(path);
   });
   for (std::string* part : {&where, &text}) {
     auto length = static_cast<int>(part->size());

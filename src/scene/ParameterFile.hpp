@@ -11,13 +11,17 @@
 
 namespace epafi::scene {
 
-/// Reads a file of nested `<ParameterList>` and `<Parameter name= type= value=>` elements, in the file's
+/// Reads an input deck (.inp, .inp.gz), which becomes the list that describes the same (deck/DeckModel.hpp), or a
+/// file of nested `<ParameterList>` and `<Parameter name= type= value=>` elements, in the file's
 /// order. Rank 0 reads the file and broadcasts its text.
 ///
 /// \throws InputError (the same on all ranks) if the file is missing, is a directory, is empty or larger than
 ///         64 MiB, and as parseParameters().
 /// Collective; only rank 0's `path` counts.
 Teuchos::ParameterList readParameterFile(const std::string& path, const Comm& comm);
+
+/// The text of a list, as parseParameters() reads it. Precondition: its values are of parameterTypes().
+std::string xmlText(const Teuchos::ParameterList& list);
 
 /// The parameter list that an XML text spells out. Types are those of parameterTypes(). Lists that Teuchos
 /// wrote are read too; its element `<Validators>` at the top is passed over.

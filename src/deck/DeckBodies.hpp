@@ -1,0 +1,46 @@
+#pragma once
+
+/// What of a deck hangs together.
+
+#include "epafi/deck/Deck.hpp"
+#include "epafi/deck/DeckElements.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace epafi::deck {
+
+/// Elements of one type, joined facet by facet.
+struct DeckBody {
+  std::string name; ///< "body 1"
+  const ElementType* type = nullptr;
+  Place place;                         ///< of the type's first card
+  std::vector<GlobalOrdinal> elements; ///< their numbers, ascending
+  std::vector<GlobalOrdinal> nodes;    ///< likewise
+};
+
+class DeckBodies {
+public:
+  /// Keeps a reference. \throws InputError for element types that Epafi has not, elements without a section,
+  /// elements of the plane beside others, or other kinds of them
+  explicit DeckBodies(const Deck& deck);
+
+  [[nodiscard]] const std::vector<DeckBody>& all() const { return bodies_; }
+  /// The body of an element.
+  [[nodiscard]] int ofElement(GlobalOrdinal element) const { return bodyOfElement_.at(element); }
+  /// Those that have a node, ascending; none of a node without elements.
+  [[nodiscard]] const std::vector<int>& ofNode(GlobalOrdinal node) const;
+  /// Section of an element, as its place in Deck::sections.
+  [[nodiscard]] int sectionOf(GlobalOrdinal element) const { return sectionOf_.at(element); }
+
+private:
+  void findSections(const Deck& deck);
+  void addBodies(const Elements& elements);
+
+  std::vector<DeckBody> bodies_;
+  std::map<GlobalOrdinal, int> bodyOfElement_, sectionOf_;
+  std::map<GlobalOrdinal, std::vector<int>> bodiesOfNode_;
+};
+
+} // namespace epafi::deck

@@ -1,0 +1,28 @@
+#pragma once
+
+/// What the element types of decks are: their physics, their nodes beside those of Gmsh, their faces.
+
+#include "epafi/deck/Deck.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace epafi::deck {
+
+struct ElementType {
+  std::string physics; ///< as a scene's XML calls it
+  int dimension = 3;
+  int kind = 0;      ///< Gmsh's number of it
+  int facetKind = 0; ///< of its facets, with corners alone
+  bool isReduced = false;
+  /// Places of the deck's nodes in Gmsh's order.
+  std::vector<int> places;
+  /// Corners of each face, those of S1 first, as places among the deck's nodes.
+  std::vector<std::vector<int>> faces;
+};
+
+/// \throws InputError with the place of the type's first card if Epafi has no such element
+const ElementType& typeOf(const Elements& elements);
+
+} // namespace epafi::deck

@@ -1,0 +1,277 @@
+#include "epafi/base/Errors.hpp"
+#include "epafi/deck/ModelMaker.hpp"
+
+#include <Teuchos_Array.hpp>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+namespace epafi::deck {
+namespace {
+
+using Teuchos::Array;
+using Teuchos::ParameterList;
+
+std::string exactly(double value) {
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  return out.str();
+}
+
+/// What cards say of things of one kind as steps go by: a card replaces what earlier steps say of a thing, and
+/// adds to what its own step says.
+template <class Key, class Card>
+class History {
+public:
+  void beginStep(bool isNew) {
+    if (isNew)
+      cards_.clear();
+    isOfStep_.clear();
+  }
+  void add(const Key& key, const Card* card) {
+    std::vector<const Card*>& own = cards_[key];
+    if (!isOfStep_[key])
+      own.clear();
+    isOfStep_[key] = true;
+    own.push_back(card);
+  }
+  [[nodiscard]] const std::map<Key, std::vector<const Card*>>& all() const { return cards_; }
+
+private:
+  std::map<Key, std::vector<const Card*>> cards_;
+  std::map<Key, bool> isOfStep_;
+};
+
+Array<double> firstOf(const Eigen::Vector3d& vector, int dimension) {
+  return {vector.data(), vector.data() + dimension};
+}
+
+/// Face of P1 … P6; 0: the load is none on a face.
+int faceOf(const DistributedLoad& load) {
+  return load.label.size() == 2 && load.label[0] == 'P' ? load.label[1] - '0' : 0;
+}
+
+[[noreturn]] void refuse(const Place& place, const std::string& what) {
+  throw InputError(text(place) + ": " + what);
+}
+
+} // namespace
+
+double ModelMaker::factorAt(const std::string& amplitude, double delay, std::size_t step) const {
+  if (amplitude.empty())
+    return 1;
+  const Amplitude& curve = deck_.amplitudes.at(amplitude);
+  double time = deck_.steps[step].period - delay;
+  for (std::size_t k = 0; curve.isOfTotalTime && k < step; ++k)
+    time += deck_.steps[k].period;
+  const auto& points = curve.points;
+  const auto behind =
+      std::find_if(points.begin(), points.end(), [&](const auto& point) { return point.first >= time; });
+  if (behind == points.begin() || behind == points.end())
+    return behind == points.end() ? points.back().second : points.front().second;
+  const auto& before = *(behind - 1);
+  return before.second +
+         (behind->second - before.second) * (time - before.first) / (behind->first - before.first);
+}
+
+ModelMaker::Prescribed ModelMaker::prescribed() const {
+  History<std::pair<GlobalOrdinal, int>, Boundary> history;
+  Prescribed result;
+  const auto take = [&](const std::vector<Boundary>& boundaries) {
+    for (const Boundary& boundary : boundaries)
+      for (const GlobalOrdinal node : boundary.nodes)
+        for (int c = boundary.first - 1; c < boundary.last; ++c) {
+          if (boundary.isFixed && !history.all().contains({node, c}))
+            refuse(boundary.place,
+                   "*BOUNDARY: FIXED holds what a step before has moved, which is not solved here");
+          history.beginStep(false); // the last card holds
+          if (!boundary.isFixed)
+            history.add({node, c}, &boundary);
+        }
+  };
+  take(deck_.boundaries);
+  for (std::size_t k = 0; k < deck_.steps.size(); ++k) {
+    history.beginStep(deck_.steps[k].newBoundaries);
+    take(deck_.steps[k].boundaries);
+    for (const auto& [key, cards] : history.all()) {
+      const Boundary& card = *cards.back();
+      std::vector<double>& values = result[key];
+      if (values.size() != k)
+        refuse(card.place,
+               "*BOUNDARY: supports that come with a later step are not solved here; hold them from "
+               "the first step on");
+      values.push_back(card.value * factorAt(card.amplitude, card.delay, k));
+    }
+  }
+  for (const auto& [key, values] : result)
+    if (values.size() != deck_.steps.size())
+      refuse(deck_.steps[values.size()].place,
+             "*STEP: supports that a step takes away are not solved here; keep "
+             "them, or make the step a deck of its own");
+  return result;
+}
+
+void ModelMaker::addSupports() {
+  // Nodes with the same values in the same axes.
+  std::map<std::tuple<int, int, int, std::vector<double>>, Numbers> groups; // by body, transform, component
+  for (const auto& [key, values] : prescribed()) {
+    const auto transform = transformOf_.find(key.first);
+    for (const int body : bodies_.ofNode(key.first))
+      groups[{body, transform == transformOf_.end() ? -1 : transform->second, key.second, values}].push_back(
+          key.first);
+  }
+  for (const auto& [key, nodes] : groups) {
+    const auto& [body, transform, component, values] = key;
+    if (component >= bodies_.all()[body].type->dimension)
+      continue;
+    const std::string name = "support " + std::to_string(listOf(body).sublist("Supports").numParams() + 1);
+    ParameterList& list = listOf(body).sublist("Supports").sublist(name);
+    list.set("Surface", nodesNamed(bodies_.all()[body].name + ' ' + name, nodes));
+    const auto first = std::find_if(values.begin(), values.end(), [](double value) { return value != 0; });
+    const double base = first == values.end() ? 0 : *first;
+    list.set(std::string(1, "XYZ"[component]), base);
+    if (transform >= 0) {
+      const Transform& axes = deck_.transforms[transform];
+      list.set(axes.isCylindrical ? "Cylinder" : "Axes",
+               Array<double>({axes.a[0], axes.a[1], axes.a[2], axes.b[0], axes.b[1], axes.b[2]}));
+    }
+    for (std::size_t k = 0; base != 0 && k < values.size(); ++k)
+      supportFactors_[k] += bodies_.all()[body].name + '/' + name + " = " + exactly(values[k] / base) + ", ";
+  }
+}
+
+ParameterList& ModelMaker::addLoad(int body, std::size_t step, const std::string& kind) {
+  ParameterList& loads = listOf(body).sublist("Loads");
+  const std::string name =
+      "step " + std::to_string(step + 1) + " load " + std::to_string(loads.numParams() + 1);
+  for (std::size_t k = 0; k < loadFactors_.size(); ++k)
+    loadFactors_[k] += bodies_.all()[body].name + '/' + name + (k == step ? " = 1, " : " = 0, ");
+  ParameterList& load = loads.sublist(name);
+  load.set("Kind", kind);
+  return load;
+}
+
+void ModelMaker::addForces(std::size_t step) {
+  History<std::pair<GlobalOrdinal, int>, NodeForce> history;
+  for (std::size_t k = 0; k <= step; ++k) {
+    history.beginStep(deck_.steps[k].newForces);
+    for (const NodeForce& force : deck_.steps[k].forces)
+      for (const GlobalOrdinal node : force.nodes)
+        history.add({node, force.component - 1}, &force);
+  }
+  std::map<GlobalOrdinal, Eigen::Vector3d> forces;
+  for (const auto& [key, cards] : history.all())
+    for (const NodeForce* card : cards) {
+      if (bodies_.ofNode(key.first).empty())
+        refuse(card->place, "*CLOAD: node " + std::to_string(key.first) +
+                                " belongs to no element; a force on it is not solved here");
+      Eigen::Vector3d& force = forces.try_emplace(key.first, Eigen::Vector3d::Zero()).first->second;
+      force += card->value * factorAt(card->amplitude, card->delay, step) * axesOf(key.first).col(key.second);
+    }
+  std::map<std::pair<int, std::array<double, 3>>, Numbers> groups; // nodes with the same force
+  for (const auto& [node, force] : forces)
+    if (!force.isZero(0))
+      groups[{bodies_.ofNode(node).front(), {force[0], force[1], force[2]}}].push_back(node);
+  for (const auto& [key, nodes] : groups) {
+    ParameterList& load = addLoad(key.first, step, "point");
+    load.set("Surface",
+             nodesNamed("loaded " + std::to_string(nodes.front()) + " with " +
+                            std::to_string(nodes.size() - 1) + " more of step " + std::to_string(step + 1),
+                        nodes));
+    load.set("Force", firstOf(Eigen::Map<const Eigen::Vector3d>(key.second.data()),
+                              bodies_.all()[key.first].type->dimension));
+  }
+}
+
+void ModelMaker::addPressures(std::size_t step) {
+  History<std::pair<GlobalOrdinal, int>, DistributedLoad> history; // by element and face
+  for (std::size_t k = 0; k <= step; ++k) {
+    history.beginStep(deck_.steps[k].newDistributedLoads);
+    for (const DistributedLoad& load : deck_.steps[k].loads)
+      if (!load.surface.empty())
+        for (const auto& face : deck_.surfaces.at(load.surface).faces)
+          history.add(face, &load);
+      else if (const int face = faceOf(load); face > 0)
+        for (const GlobalOrdinal element : load.elements)
+          history.add({element, face}, &load);
+      else if (load.label != "GRAV" && load.label != "CENTRIF")
+        refuse(load.place, "*DLOAD: loads of the kind " + load.label +
+                               " are not solved here; there are P1 … P6, GRAV and CENTRIF");
+  }
+  std::map<std::pair<int, double>, std::vector<std::pair<GlobalOrdinal, int>>> groups; // of the same pressure
+  for (const auto& [face, cards] : history.all()) {
+    double pressure = 0;
+    for (const DistributedLoad* card : cards)
+      pressure += card->values.at(0) * factorAt(card->amplitude, card->delay, step);
+    if (pressure != 0)
+      groups[{bodies_.ofElement(face.first), pressure}].push_back(face);
+  }
+  for (const auto& [key, faces] : groups) {
+    ParameterList& load = addLoad(key.first, step, "pressure");
+    const std::string name = "pressed " + std::to_string(model_.groups.surfaces.size() + 1);
+    model_.groups.surfaces[name] = faces;
+    load.set("Surface", name);
+    load.set("Value", key.second);
+  }
+}
+
+void ModelMaker::addBodyForces(std::size_t step) {
+  History<std::pair<GlobalOrdinal, std::string>, DistributedLoad> history; // by element and label
+  for (std::size_t k = 0; k <= step; ++k) {
+    history.beginStep(deck_.steps[k].newDistributedLoads);
+    for (const DistributedLoad& load : deck_.steps[k].loads)
+      for (const GlobalOrdinal element : load.elements)
+        if (load.label == "GRAV" || load.label == "CENTRIF")
+          history.add({element, load.label}, &load);
+  }
+  std::map<std::tuple<int, int, const DistributedLoad*>, Numbers> groups; // by body and section
+  for (const auto& [key, cards] : history.all())
+    for (const DistributedLoad* card : cards)
+      groups[{bodies_.ofElement(key.first), bodies_.sectionOf(key.first), card}].push_back(key.first);
+  for (const auto& [key, elements] : groups) {
+    const auto& [body, section, card] = key;
+    const Material& material = deck_.materials.at(deck_.sections[section].material);
+    if (!material.density)
+      refuse(card->place, "*DLOAD: " + card->label + " needs the *DENSITY of the material " +
+                              deck_.sections[section].material);
+    const double size = *material.density * card->values.at(0) * factorAt(card->amplitude, card->delay, step);
+    const int dimension = bodies_.all()[body].type->dimension;
+    ParameterList& load = addLoad(body, step, card->label == "GRAV" ? "body" : "rotation");
+    if (elements != bodies_.all()[body].elements)
+      load.set("Group",
+               elementsNamed("loaded elements " + std::to_string(elementNames_.size() + 1), elements));
+    const auto vector = [&](std::size_t first) {
+      return Eigen::Vector3d(card->values.at(first), card->values.at(first + 1), card->values.at(first + 2));
+    };
+    if (card->label == "GRAV") {
+      load.set("Force", firstOf(size * vector(1), dimension));
+      continue;
+    }
+    load.set("Value", size);
+    load.set("Point", firstOf(vector(1), dimension));
+    if (dimension == 3)
+      load.set("Axis", firstOf(vector(4), 3));
+    else if (vector(4).head<2>() != Eigen::Vector2d::Zero())
+      refuse(card->place, "*DLOAD: CENTRIF: plane bodies turn about an axis across their plane");
+  }
+}
+
+void ModelMaker::addSteps() {
+  addSupports();
+  for (std::size_t k = 0; k < deck_.steps.size(); ++k) {
+    addForces(k);
+    addPressures(k);
+    addBodyForces(k);
+  }
+  if (deck_.steps.size() == 1)
+    return;
+  for (std::size_t k = 0; k < deck_.steps.size(); ++k) {
+    ParameterList& step = model_.scene.sublist("Steps").sublist("step " + std::to_string(k + 1));
+    step.set("Loads", loadFactors_[k]);
+    step.set("Supports", supportFactors_[k]);
+  }
+}
+
+} // namespace epafi::deck

@@ -1,0 +1,73 @@
+#pragma once
+
+/// What the parts of a DeckModel are made with.
+
+#include "epafi/deck/DeckBodies.hpp"
+#include "epafi/deck/DeckModel.hpp"
+
+#include <Eigen/Core>
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace epafi::deck {
+
+/// A model in the making: keeps references to deck and bodies.
+class ModelMaker {
+public:
+  ModelMaker(const Deck& deck, std::string mesh);
+
+  /// Materials, sections, and what is reduced.
+  void addBodies();
+  /// Supports, forces and pressures, and the steps where there are several.
+  void addSteps();
+  /// Equations of the deck, and those of nodes that bodies share.
+  void addEquations();
+  /// Contact pairs and ties.
+  void addContacts();
+  [[nodiscard]] DeckModel take() { return std::move(model_); }
+
+private:
+  using Numbers = std::vector<GlobalOrdinal>;
+  /// By node and component (0 to 2): what each step prescribes.
+  using Prescribed = std::map<std::pair<GlobalOrdinal, int>, std::vector<double>>;
+
+  // DeckModel.cpp
+  [[nodiscard]] Teuchos::ParameterList& listOf(int body);
+  void addMaterial(Teuchos::ParameterList& list, const Section& section, bool isRegion);
+  /// Name of a group of nodes or elements of the mesh that has these; equal ones have one name.
+  std::string nodesNamed(const std::string& name, Numbers nodes);
+  std::string elementsNamed(const std::string& name, Numbers elements);
+
+  // ModelLoads.cpp
+  [[nodiscard]] double factorAt(const std::string& amplitude, double delay, std::size_t step) const;
+  [[nodiscard]] Prescribed prescribed() const;
+  void addSupports();
+  void addForces(std::size_t step);
+  void addPressures(std::size_t step);
+  void addBodyForces(std::size_t step);
+  Teuchos::ParameterList& addLoad(int body, std::size_t step, const std::string& kind);
+
+  // ModelEquations.cpp
+  /// Axes of a node's displacements, columns; those of space where nothing transforms it.
+  [[nodiscard]] Eigen::Matrix3d axesOf(GlobalOrdinal node) const;
+  [[nodiscard]] const Point& pointOf(GlobalOrdinal node) const;
+  std::string term(int body, GlobalOrdinal node, const Eigen::Vector3d& direction);
+  void addEquation(const std::string& name, const std::string& terms, double value);
+
+  // ModelContacts.cpp
+  [[nodiscard]] std::map<int, std::string> surfacesOf(const std::string& surface, const Place& place);
+
+  const Deck& deck_;
+  std::string mesh_;
+  DeckBodies bodies_;
+  DeckModel model_;
+  std::map<Numbers, std::string> nodeNames_, elementNames_;
+  std::map<GlobalOrdinal, int> transformOf_; ///< place in Deck::transforms
+  /// Of each step the factors of loads and supports, "body/load = 1, …".
+  std::vector<std::string> loadFactors_, supportFactors_;
+};
+
+} // namespace epafi::deck
