@@ -70,8 +70,9 @@ bool isFixed(const contact::Equation& equation, const std::string& name,
     scale = std::max(scale, std::abs(length * *held));
   }
   if (std::abs(sum) > 1e-10 * scale)
-    throw SolvabilityError("supports hold all displacements of the equation " + inQuotes(name) +
-                           ", at values that miss it by " + text(sum) + "; release one of them");
+    throw SolvabilityError(SolvabilityError::Kind::noSolution,
+                           "supports hold all displacements of the equation " + inQuotes(name) +
+                               ", at values that miss it by " + text(sum) + "; release one of them");
   return true;
 }
 
