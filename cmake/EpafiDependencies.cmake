@@ -127,6 +127,17 @@ function(epafi_find_boost missing)
   epafi_imported(boost INCLUDES "${BOOST_GEOMETRY_INCLUDE_DIR}")
 endfunction()
 
+# Packed input decks.
+function(epafi_find_zlib missing)
+  find_path(ZLIB_INCLUDE_DIR zlib.h)
+  find_library(ZLIB_LIBRARY z)
+  if(NOT ZLIB_INCLUDE_DIR OR NOT ZLIB_LIBRARY)
+    set(${missing} "zlib is not found; name its prefix in CMAKE_PREFIX_PATH (Debian: zlib1g-dev)" PARENT_SCOPE)
+    return()
+  endif()
+  epafi_imported(zlib INCLUDES "${ZLIB_INCLUDE_DIR}" LIBRARIES "${ZLIB_LIBRARY}")
+endfunction()
+
 # Fields are written by all ranks at once, which takes the parallel HDF5.
 function(epafi_find_hdf5 missing)
   if(NOT CMAKE_C_COMPILER_LOADED)

@@ -40,7 +40,7 @@ documentation.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libepafi-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost-dev, libeigen3-dev, libhdf5-openmpi-dev, libmetis-dev, libopenmpi-dev, \
-libptscotch-dev, libscotch-dev, libsuitesparse-dev, trilinos-all-dev")
+libptscotch-dev, libscotch-dev, libsuitesparse-dev, trilinos-all-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "cmake, g++, libopenblas-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS epafi)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Epafi solves frictionless contact problems of elastic bodies and of

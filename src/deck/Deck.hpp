@@ -263,8 +263,8 @@ struct Deck {
   std::vector<Ignored> ignored;
 };
 
-/// The deck in the file, `.inp` or gzip'ed `.inp.gz`, with the files that it includes, whose names are relative to
-/// its folder. Not collective: the rank that calls it reads.
+/// The deck in the file, `.inp` or gzip'ed `.inp.gz`, with the files that it includes, whose names are
+/// relative to its folder. Not collective: the rank that calls it reads.
 /// \throws InputError  "beam.inp, line 12: *PLASTIC: ..." for what is wrong or beyond what Epafi solves
 Deck readDeck(const std::string& file);
 
