@@ -18,7 +18,7 @@ std::size_t rootOf(std::vector<std::size_t>& parents, std::size_t number) {
 }
 
 /// Of each element the lowest one that it is joined with by facets.
-std::vector<std::size_t> joined(const Elements& elements, const ElementType& type) {
+std::vector<std::size_t> joined(const Elements& elements, const ElementForm& type) {
   std::vector<std::size_t> parents(elements.numbers.size());
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   std::map<Numbers, std::size_t> firstAt; // by the facet's corners, ascending
@@ -64,7 +64,7 @@ void DeckBodies::findSections(const Deck& deck) {
 }
 
 void DeckBodies::addBodies(const Elements& elements) {
-  const ElementType& type = typeOf(elements);
+  const ElementForm& type = formOf(elements);
   const std::vector<std::size_t> first = joined(elements, type);
   std::map<std::size_t, std::size_t> bodyAt; // by its lowest element
   for (std::size_t e = 0; e < first.size(); ++e) {

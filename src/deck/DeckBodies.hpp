@@ -14,7 +14,7 @@ namespace epafi::deck {
 /// Elements of one type, joined facet by facet.
 struct DeckBody {
   std::string name; ///< "body 1"
-  const ElementType* type = nullptr;
+  const ElementForm* type = nullptr;
   Place place;                         ///< of the type's first card
   std::vector<GlobalOrdinal> elements; ///< their numbers, ascending
   std::vector<GlobalOrdinal> nodes;    ///< likewise

@@ -25,9 +25,9 @@ std::vector<int> inOrder(int number) {
 const std::vector<int> places10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8},
     places20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14};
 
-const std::map<std::string, ElementType>& types() {
-  static const std::map<std::string, ElementType> all = [] {
-    std::map<std::string, ElementType> known{
+const std::map<std::string, ElementForm>& types() {
+  static const std::map<std::string, ElementForm> all = [] {
+    std::map<std::string, ElementForm> known{
         {"C3D4", {"elasticity 3-D", 3, 4, 2, false, inOrder(4), ofTetrahedron}},
         {"C3D10", {"elasticity 3-D", 3, 11, 2, false, places10, ofTetrahedron}},
         {"C3D8", {"elasticity 3-D", 3, 5, 3, false, inOrder(8), ofHexahedron}},
@@ -49,7 +49,7 @@ const std::map<std::string, ElementType>& types() {
 
 } // namespace
 
-const ElementType& typeOf(const Elements& elements) {
+const ElementForm& formOf(const Elements& elements) {
   const auto found = types().find(elements.type);
   if (found == types().end())
     throw InputError(text(elements.place) + ": *ELEMENT: elements of the type " + elements.type +

@@ -10,7 +10,7 @@
 
 namespace epafi::deck {
 
-struct ElementType {
+struct ElementForm {
   std::string physics; ///< as a scene's XML calls it
   int dimension = 3;
   int kind = 0;      ///< Gmsh's number of it
@@ -23,6 +23,6 @@ struct ElementType {
 };
 
 /// \throws InputError with the place of the type's first card if Epafi has no such element
-const ElementType& typeOf(const Elements& elements);
+const ElementForm& formOf(const Elements& elements);
 
 } // namespace epafi::deck

@@ -101,7 +101,7 @@ void MshWriter::addElements(const MeshGroups& groups) {
       const auto own = groupsOfElement.find(elements.numbers[e]);
       if (own == groupsOfElement.end())
         continue;
-      const ElementType& type = typeOf(elements);
+      const ElementForm& type = formOf(elements);
       dimension_ = type.dimension;
       Cell cell{elements.numbers[e], {}};
       for (const int place : type.places)
@@ -132,7 +132,7 @@ void MshWriter::addFacets(const MeshGroups& groups) {
       const auto place = std::lower_bound(elements.numbers.begin(), elements.numbers.end(), element);
       if (place == elements.numbers.end() || *place != element)
         continue;
-      const ElementType& type = typeOf(elements);
+      const ElementForm& type = formOf(elements);
       if (label < 1 || label > std::ssize(type.faces))
         throw InputError(deck_.file + ": element " + std::to_string(element) + " of the type " +
                          elements.type + " has no face " + std::to_string(label));

@@ -13,7 +13,7 @@ using FaceList = std::vector<std::pair<GlobalOrdinal, int>>;
 FaceList facesAt(const Deck& deck, const std::vector<GlobalOrdinal>& nodes) {
   std::map<std::vector<GlobalOrdinal>, FaceList> facesOf; // by corners, ascending
   for (const Elements& elements : deck.elements) {
-    const ElementType& type = typeOf(elements);
+    const ElementForm& type = formOf(elements);
     for (std::size_t e = 0; e < elements.numbers.size(); ++e)
       for (int f = 0; f < std::ssize(type.faces); ++f) {
         std::vector<GlobalOrdinal> corners;
