@@ -106,6 +106,27 @@ TEST(SolidModelTest, LoadsAddUpToTheirForces) {
             1e-12);
 }
 
+TEST(SolidModelTest, ABodyThatTurnsIsPulledByItsMassTimesTheDistanceOfItsCentre) {
+  using Kind = SolidLoad::Kind;
+  const auto space = meshFor(Physics::elasticity3d), plane = meshFor(Physics::planeStress);
+  Solid solid = solidOf(Physics::elasticity3d), plate = solidOf(Physics::planeStress);
+  const auto centreOf = [](const mesh::Mesh& mesh) { // of boxes the mean of the corners
+    Eigen::Vector3d sum(0, 0, 0);
+    for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
+      for (std::size_t d = 0; d < 3; ++d)
+        sum[d] += mesh.point(node)[d] / static_cast<double>(mesh.numNodes());
+    return sum;
+  };
+  solid.loads = {{"turn", Kind::rotation, {}, "", {5, 6, 7}, {3, 0, 0}, true, {0, 3, 4}}};
+  const Eigen::Vector3d axis(0, 0.6, 0.8), away = centreOf(*space) - Eigen::Vector3d(5, 6, 7);
+  const Eigen::Vector3d expected = 3 * 4 * (away - away.dot(axis) * axis); // the volume is 4
+  EXPECT_LE((resultant(BodyModel(solid, *space)) - expected).norm(), 1e-12 * expected.norm());
+
+  plate.loads = {{"turn", Kind::rotation, {}, "", {5, 6, 0}, {3, 0, 0}}};
+  const Eigen::Vector3d pull = 3 * 4 * 0.5 * (centreOf(*plane) - Eigen::Vector3d(5, 6, 0));
+  EXPECT_LE((resultant(BodyModel(plate, *plane)) - pull).norm(), 1e-12 * pull.norm());
+}
+
 TEST(SolidModelTest, RegionsHaveTheirMaterial) {
   const auto mesh = meshFor(Physics::planeStrain);
   Solid solid = solidOf(Physics::planeStrain);

@@ -77,6 +77,38 @@ TEST(SolidSupportsTest, NormalsOfAxisParallelPlanesAreComponents) {
   }
 }
 
+TEST(SolidSupportsTest, ComponentsInTurnedAxesAreThoseOfTheTurnedBody) {
+  const double angle = 0.7;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const mesh::UnstructuredMesh mesh = turned(2, angle, false);
+  SolidSupport left{"left", "left", {-0.25, none, none}};
+  left.axes = LocalAxes{false, {turn(0, 0), turn(1, 0), 0}, {turn(0, 1), turn(1, 1), 0}};
+  const Solid byAxes = solidWith(2, {left}), byNormals = solidWith(2, {slide("left", 0.25)});
+  const BodyModel a(byAxes, mesh), b(byNormals, mesh);
+  EXPECT_EQ(a.kernelDimension(), b.kernelDimension());
+  const AssembledSubdomain x = assembled(a), y = assembled(b);
+  EXPECT_EQ(x.unknownOf, y.unknownOf);
+  EXPECT_LE((Eigen::MatrixXd(x.stiffness).cwiseAbs() - Eigen::MatrixXd(y.stiffness).cwiseAbs()).norm(),
+            1e-12 * y.stiffness.norm()); // axes may point the other way
+}
+
+TEST(SolidSupportsTest, CylindricalAxesLeadAwayFromTheLine) {
+  const LocalAxes axes{true, {1, 0, 0}, {1, 0, 5}};
+  const Eigen::Matrix3d at = axesAt(axes, {1, 3, 7});
+  EXPECT_LE((at.col(0) - Eigen::Vector3d(0, 1, 0)).norm(), 1e-15);
+  EXPECT_LE((at.col(1) - Eigen::Vector3d(-1, 0, 0)).norm(), 1e-15);
+  EXPECT_LE((at.col(2) - Eigen::Vector3d(0, 0, 1)).norm(), 1e-15);
+  // A ring held around its axis and along it cannot move but grow: no rigid motion is left.
+  const auto mesh = structured(3);
+  SolidSupport around{"around", "left", {none, 0, 0}};
+  around.axes = LocalAxes{true, {-3, 0.5, 0}, {-3, 0.5, 1}};
+  const Solid solid = solidWith(3, {around});
+  const BodyModel model(solid, *mesh);
+  EXPECT_TRUE(model.hasFrames());
+  EXPECT_EQ(model.kernelDimension(), 0);
+  expectKernelOfMatrix(model);
+}
+
 TEST(SolidSupportsTest, TurnedSlidingPlanesLeaveAsManyMotionsAsStraightOnes) {
   const std::vector<std::pair<std::vector<SolidSupport>, int>> plane{
       {{slide("left")}, 1}, {{slide("left"), slide("right")}, 1}, {{slide("left"), slide("bottom")}, 0}},

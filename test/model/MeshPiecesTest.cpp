@@ -22,6 +22,7 @@ Box(2) = {-0.5, -0.5, 1, 1, 1, 0.7};
 Physical Volume("lower") = {1}; Physical Volume("upper") = {2};
 Physical Surface("side") = {1}; Physical Surface("joint") = {2}; Physical Surface("bottom") = {3};
 Physical Surface("foot") = {8}; Physical Surface("lid") = {9};
+Physical Curve("rim") = {3}; Physical Point("tip") = {10};
 )";
 }
 
@@ -46,11 +47,17 @@ scene::Scene sceneOf(const MeshFolder& folder, int order, scene::SurfaceContact:
   scene.bodies = {body("lower", folder, 5, order), body("upper", folder, 4, order)};
   scene::Body &lower = scene.bodies[0], &upper = scene.bodies[1];
   lower.supports = {{"floor", "bottom", {std::nullopt, std::nullopt, 0.0}}, {"wall", "side", {}, 0.0}};
+  lower.supports.push_back({.name = "around",
+                            .surface = "rim",
+                            .value = {std::nullopt, 0.1, std::nullopt},
+                            .axes = fem::LocalAxes{true, {0, 0, 0}, {0, 0, 1}}});
   lower.regions = {{"core", {{-1, -1, 0}, {0.1, 1, 1}}, "", {}}};
   lower.regions[0].material.youngsModulus = 500;
   using Kind = fem::SolidLoad::Kind;
   upper.loads = {{"press", Kind::pressure, {}, "lid", {}, {3, 0, 0}},
                  {"corner", Kind::point, {}, "", {0.5, 0.5, 1.7}, {0, 0.1, 0.2}},
+                 {"pull", Kind::point, {}, "tip", {}, {1, 2, 3}},
+                 {"turn", Kind::rotation, {}, "", {0.5, 0, 0}, {2, 0, 0}},
                  {"weight", Kind::body, {{-1, -1, 1.2}, {1, 0.2, 2}}, "", {}, {0, 0, -1}}};
   scene::SurfaceContact contact;
   contact.name = "joint";
