@@ -112,9 +112,11 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions, 
     body.mesh.pointsAt(nodes, points);
     const Material& material = materialIn(body.solid, regions.of(body, surface.elements[f]));
     if (load.kind == SolidLoad::Kind::pressure)
-      pressureLoad(surface.facetType, points, physics, material, load.value[0], values);
+      pressureLoad(surface.facetType, points, physics, material, load.value[0], values,
+                   integrationOf(body.solid));
     else
-      tractionLoad(surface.facetType, points, physics, material, load.value, values);
+      tractionLoad(surface.facetType, points, physics, material, load.value, values,
+                   integrationOf(body.solid));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       NodalForce force{surface.elements[f], nodes[i], {0, 0, 0}};
       for (int c = 0; c < components; ++c)
@@ -185,7 +187,8 @@ void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& region
     force.domain.forEachIn(body, elements, [&](std::size_t e) {
       body.cornersOf(elements[e], points);
       bodyForceLoad(body.mesh.cellType(), points, body.solid.physics,
-                    materialIn(body.solid, regions.of(body, elements[e])), force.value, values);
+                    materialIn(body.solid, regions.of(body, elements[e])), force.value, values,
+                    integrationOf(body.solid));
       loads.col(e) += values;
     });
 }

@@ -96,6 +96,12 @@ Vector3 ListReader::vector(const std::string& name, int dimension) const {
   return vector;
 }
 
+std::vector<double> ListReader::reals(const std::string& name) const {
+  requireModerate(name);
+  const auto& values = list_.get<Teuchos::Array<double>>(name);
+  return {values.begin(), values.end()};
+}
+
 int ListReader::length(const std::string& name) const {
   const Teuchos::ParameterEntry& entry = list_.getEntry(name);
   return static_cast<int>(entry.isType<Teuchos::Array<int>>()

@@ -48,6 +48,8 @@ public:
   [[nodiscard]] std::array<int, 3> counts(const std::string& name, int dimension) const;
   /// {x, y} or {x, y, z}, as real(); z = 0 in the plane.
   [[nodiscard]] Vector3 vector(const std::string& name, int dimension) const;
+  /// As many as there are, each as real().
+  [[nodiscard]] std::vector<double> reals(const std::string& name) const;
   /// Number of entries of an array of real numbers.
   [[nodiscard]] int length(const std::string& name) const;
   /// The file that a word names: beside the scene's file unless the path is absolute.
