@@ -23,7 +23,7 @@ def octants():
             for first in numpy.ndindex(2, 2, 2)]
 
 
-# Linear cells between the nodes of quadratic ones.
+# Linear cells between the nodes of quadratic ones; of cells without inner nodes that of their corners.
 PIECES = {
     "line": [(0, 2), (2, 1)],
     "triangle": [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)],
@@ -37,6 +37,9 @@ PIECES = {
 def linear(cell_type, cells):
     """Linear cells that draw quadratic ones, by ascending first nodes, each with its cell; linear ones are left alone."""
     shape = cell_type.removeprefix("quadratic ")
+    if cell_type.startswith("serendipity "):
+        shape = cell_type.removeprefix("serendipity ")
+        return shape, cells[:, :len(set(sum(FACETS[shape], ())))], numpy.arange(len(cells))
     if shape == cell_type:
         return cell_type, cells, numpy.arange(len(cells))
     pieces = PIECES[shape]

@@ -155,7 +155,8 @@ def read_body(name, group):
     crosspoints = group["crosspoints"][:] if "crosspoints" in group else numpy.zeros((0, 3))
     cell_type = text(group.attrs.get("cell_type", "quadrilateral"))
     corners = {"triangle": 3, "quadrilateral": 4, "tetrahedron": 4, "hexahedron": 8, "quadratic triangle": 6,
-               "quadratic quadrilateral": 9, "quadratic tetrahedron": 10, "quadratic hexahedron": 27}
+               "quadratic quadrilateral": 9, "quadratic tetrahedron": 10, "quadratic hexahedron": 27,
+               "serendipity quadrilateral": 8, "serendipity hexahedron": 20}
     if cells.ndim != 2 or cells.shape[1] != corners[cell_type]:
         raise ValueError(f"the cells of body {name} are no {cell_type}s")
     von_mises = group["von_mises"][:] if "von_mises" in group else None

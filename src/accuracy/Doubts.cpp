@@ -1,5 +1,6 @@
 #include "epafi/accuracy/Doubts.hpp"
 
+#include "epafi/fem/HookesLaw.hpp"
 #include "epafi/scene/EdgeContact.hpp"
 
 #include <Eigen/Geometry>
@@ -75,7 +76,9 @@ bool locks(const scene::Body& body) {
   constexpr double nearHalf = 0.48; // λ/μ = 24
   if (body.physics == fem::Physics::membrane || body.physics == fem::Physics::planeStress)
     return false;
-  const auto isNear = [](const fem::Material& material) { return material.poissonsRatio >= nearHalf; };
+  const auto isNear = [](const fem::Material& material) {
+    return fem::meanModuli(material).poissonsRatio >= nearHalf;
+  };
   return isNear(body.material) || std::any_of(body.regions.begin(), body.regions.end(),
                                               [&](const auto& region) { return isNear(region.material); });
 }

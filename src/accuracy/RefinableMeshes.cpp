@@ -4,6 +4,7 @@
 #include "epafi/accuracy/PointLocation.hpp"
 #include "epafi/base/ArrayIndex.hpp"
 #include "epafi/base/Collective.hpp"
+#include "epafi/base/Errors.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/mesh/UnstructuredMesh.hpp"
 #include "epafi/meshing/GmshReader.hpp"
@@ -86,11 +87,18 @@ void addSizes(const SimplexMesh& mesh, const std::vector<double>& halvings, doub
 } // namespace
 
 RefinableMeshes::RefinableMeshes(const scene::Scene& scene, const Comm& comm) : scene_(scene) {
+  for (const scene::Body& body : scene_.bodies)
+    if (body.reducedIntegration)
+      throw InputError("body '" + body.name +
+                       "' is integrated by fewer points, which goes with quadrilaterals of 8 nodes and "
+                       "hexahedra of 20 alone, but meshes on the way to a target are made of triangles or "
+                       "tetrahedra; choose the integration \"full\", or solve it on its own mesh");
   const bool hasFiles = std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
                                     [](const scene::Body& body) { return !body.mesh.file.empty(); });
   scene::Scene uncut(scene_);
   for (scene::Body& body : uncut.bodies) {
     body.decomposition = {scene::Decomposition::Method::metis, {1, 1, 1}, 1};
+    body.mesh.innerNodes = mesh::InnerNodes::added; // of them edges between simplices are bent
     if (body.mesh.file.ends_with(".geo"))
       body.mesh.order = 2; // on the geometry; nodes on edges can be left out
   }

@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 /// Nodes this near to where straight edges would have them, beside the facet's size, are there.
 constexpr double straight = 1e-10;
 
-/// Places of the corners of a facet's pieces, each a halving of one of order 2.
+/// Places of the corners of a facet's pieces, between all its nodes if it is of order 2.
 std::vector<std::vector<int>> piecesOf(mesh::CellType type, bool isStraight) {
   using mesh::CellType;
   if (isStraight || mesh::orderOf(type) == 1) {
@@ -32,6 +32,8 @@ std::vector<std::vector<int>> piecesOf(mesh::CellType type, bool isStraight) {
     return {{0, 2}, {2, 1}};
   if (type == CellType::triangle6)
     return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  if (type == CellType::quadrilateral8)
+    return {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6, 7}};
   return {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
 }
 

@@ -212,7 +212,7 @@ ContactLayout meetByMortar(const ContactTerms& terms, const PlacedSurface& first
   };
   ContactLayout layout;
   layout.name = terms.name;
-  layout.isDual = first.surface.facetType == mesh::CellType::triangle6;
+  layout.isDual = haveDualRows(first.surface.facetType);
   RowAreas areas(terms, nodes.nodes.size());
   for (const MortarRow& row :
        maker.rows([&](std::size_t k) { return isTied && isTied(nodes.nodes[k]); }, false, areas)) {
@@ -242,7 +242,7 @@ ContactLayout tieByMortar(const ContactTerms& terms, const PlacedSurface& first,
       enter(row, nodes, areas, axis, terms.components, 0.0, layout);
   }
   requireMortarRows(terms, layout);
-  layout.isDual = first.surface.facetType == mesh::CellType::triangle6;
+  layout.isDual = haveDualRows(first.surface.facetType);
   smoothRows(first.surface, layout);
   return layout;
 }

@@ -19,7 +19,9 @@ using Shares = std::vector<std::vector<ContactLayout::Share>>;
 constexpr double roundOff = 1e-9;
 
 double alphaOf(mesh::CellType facet) {
-  return facet == mesh::CellType::triangle6 ? 1.0 / 6 : 0.15;
+  return facet == mesh::CellType::triangle6        ? 1.0 / 6
+         : facet == mesh::CellType::quadrilateral8 ? 0.325
+                                                   : 0.15;
 }
 
 /// W of one facet's nodes that have rows.
@@ -129,9 +131,13 @@ void setSmoothed(const Weights& weights, ContactLayout& contact) {
 
 } // namespace
 
+bool haveDualRows(mesh::CellType facet) {
+  return facet == mesh::CellType::triangle6 || facet == mesh::CellType::quadrilateral8;
+}
+
 Eigen::MatrixXd dualBasis(mesh::CellType facet) {
   Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(numNodesOf(facet), numNodesOf(facet));
-  if (facet != mesh::CellType::triangle6)
+  if (!haveDualRows(facet))
     return basis;
   const double alpha = alphaOf(facet);
   const std::span<const int> ends = edgesOf(facet);
@@ -153,7 +159,7 @@ void adaptRows(const mesh::Surface& surface, ContactLayout& contact) {
     return;
   const Weights weights = weightsOf(surface, contact);
   setSmoothed(weights, contact);
-  if (surface.facetType != mesh::CellType::triangle6)
+  if (!haveDualRows(surface.facetType))
     return;
   contact.isDual = true;
   contact.combinations = dualCombinations(weights, alphaOf(surface.facetType), contact.firstNodes.size());

@@ -7,11 +7,12 @@
 /// of quadrilaterals their products along both axes; N̂ = W N. All have a positive integral, and α makes the
 /// second moments of N̂_c and N̂_m about their nodes agree on even meshes, as shares of the integrals: a
 /// pressure ∫pN̂_k/∫N̂_k is then p + O(h²) with the same O(h²) everywhere, and has no wiggle where p has
-/// none. α = 3/20 for three-node edges and quadrilaterals, 1/6 for triangles.
+/// none. α = 3/20 for three-node edges and quadrilaterals, 1/6 for triangles, 13/40 for quadrilaterals
+/// without a node in their middle.
 ///
 /// *Edges and quadrilaterals* keep the rows of their nodes, whose ∫N_a are positive; N̂ serves to look at the
-/// pressure. *Triangles*: of N_c the integral is 0, and multipliers of single nodes would say nothing of the
-/// pressure. Their multipliers are dual to N̂, with rows in terms of the coefficients û in that basis,
+/// pressure. *Triangles and quadrilaterals of eight nodes*: of N_c the integral is 0 or less, and multipliers
+/// of single nodes would say nothing of the pressure. Their multipliers are dual to N̂, with rows in terms of the coefficients û in that basis,
 ///   û_c = u_c,   û_m = (u_m − α(u_c + u_c'))/(1 − 2α),
 /// and likewise of the gaps: no node of a solution penetrates, and an even pressure is met exactly (Wohlmuth,
 /// Popp, Gee, Wall, *Comput. Mech.* 49 (2012); Popp, Wohlmuth, Gee, Wall, *SIAM J. Sci. Comput.* 34 (2012),
@@ -24,14 +25,17 @@
 
 namespace epafi::contact {
 
-/// N̂ = T N on a facet for which rows are dual to N̂: six-node triangles; of others the identity.
+/// Whether rows of facets of a type are dual to N̂: six-node triangles, eight-node quadrilaterals.
+bool haveDualRows(mesh::CellType facet);
+
+/// N̂ = T N on a facet for which rows are dual to N̂; of others the identity.
 Eigen::MatrixXd dualBasis(mesh::CellType facet);
 
 /// Finds W of a contact whose first surface has facets of order 2; else leaves everything as it is.
 /// \param surface  the first body's
 void smoothRows(const mesh::Surface& surface, ContactLayout& contact);
 
-/// Finds W of a contact whose first surface has facets of order 2, and turns the rows of triangles into those
+/// Finds W of a contact whose first surface has facets of order 2, and turns rows that are to be dual into those
 /// of N̂ and their areas into ∫N̂; else leaves everything as it is. A middle between corners that have no
 /// row, at the rim of what contact can reach, keeps its own.
 /// \param surface  the first body's

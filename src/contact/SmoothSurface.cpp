@@ -33,6 +33,8 @@ std::vector<std::vector<std::size_t>> piecesOf(mesh::CellType type) {
     return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
   case mesh::CellType::quadrilateral9:
     return {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
+  case mesh::CellType::quadrilateral8:
+    return {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6, 7}};
   case mesh::CellType::line:
     return {{0, 1}};
   case mesh::CellType::triangle:

@@ -53,8 +53,23 @@ void requireJoined(const SolidBody& body) {
                      "a body of its own, or join the parts in the mesh");
 }
 
+/// Of other elements motions without energy would go on from element to element.
+void requireIntegration(const SolidBody& body) {
+  if (!body.solid.reducedIntegration)
+    return;
+  if (!isSerendipity(body.mesh.cellType()))
+    throw body.refusal(
+        "reduced integration goes with quadrilaterals of 8 nodes and hexahedra of 20 alone, but its "
+        "mesh consists of " +
+        std::string(toString(body.mesh.cellType())) +
+        "s; choose the integration \"full\", or read elements without inner nodes as they are");
+  if (body.components() == 1)
+    throw body.refusal("membranes are integrated fully; choose the integration \"full\"");
+}
+
 SolidBody checked(SolidBody body) {
   requireDimension(body);
+  requireIntegration(body);
   requireJoined(body);
   return body;
 }
@@ -109,7 +124,8 @@ void BodyModel::integrateRegions() {
       stiffness = material.conductivity * rectangleStiffness(body_.mesh.structured()->elementSize()[0],
                                                              body_.mesh.structured()->elementSize()[1]);
     else
-      elementStiffness(body_.mesh.cellType(), body_.shape, body_.solid.physics, material, stiffness);
+      elementStiffness(body_.mesh.cellType(), body_.shape, body_.solid.physics, material, stiffness,
+                       integrationOf(body_.solid));
   }
 }
 
@@ -177,7 +193,8 @@ void BodyModel::stiffness(GlobalOrdinal kind, Eigen::MatrixXd& stiffness) const 
   const GlobalOrdinal element = kind - numShared;
   std::vector<Point> points;
   body_.cornersOf(element, points);
-  elementStiffness(body_.mesh.cellType(), points, body_.solid.physics, materialOf(element), stiffness);
+  elementStiffness(body_.mesh.cellType(), points, body_.solid.physics, materialOf(element), stiffness,
+                   integrationOf(body_.solid));
   if (isFramed(element))
     turnIntoFrames(element, stiffness);
 }

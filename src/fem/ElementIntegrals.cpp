@@ -1,6 +1,5 @@
 #include "epafi/fem/ElementIntegrals.hpp"
 
-#include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/mesh/ElementMap.hpp"
 #include "epafi/mesh/ShapeFunctions.hpp"
 
@@ -36,14 +35,23 @@ void shareOut(std::span<const double> shares, Physics physics, const Material& m
       load[a * components + i] = thickness * shares[a] * force[i];
 }
 
+/// Of loads; those of stiffnesses are Shape's gaussSamples.
+template <int dim>
+const typename mesh::Shape<dim>::Samples& loadSamples(const mesh::Shape<dim>& shape,
+                                                      Integration integration) {
+  return integration == Integration::reduced ? shape.reducedSamples() : shape.fineSamples();
+}
+
 /// S = ∫ g gᵀ, g = (∂N_0/∂x, ∂N_0/∂y, …, ∂N_1/∂x, …); of its blocks on the diagonal and above.
 template <int dim>
-GradientProducts<dim> gradientProducts(const mesh::Shape<dim>& shape, std::span<const Point> points) {
+GradientProducts<dim> gradientProducts(const mesh::Shape<dim>& shape, std::span<const Point> points,
+                                       Integration integration) {
   const auto corners = mesh::relativeCorners<dim>(points);
   const int size = dim * shape.numNodes;
   GradientProducts<dim> products(size, size);
   products.setZero();
-  for (const auto& sample : shape.gaussSamples()) {
+  for (const auto& sample :
+       integration == Integration::reduced ? shape.reducedSamples() : shape.gaussSamples()) {
     const mesh::ElementMap map(corners, sample);
     const mesh::NodalColumns<dim> gradients = map.gradients(sample);
     const Eigen::Map<const Eigen::VectorXd> g(gradients.data(), size);
@@ -86,17 +94,40 @@ void elasticStiffness(const GradientProducts<dim>& products, double lambda, doub
     }
 }
 
+/// K_ai,bj = Σ C_ikjl S_ak,bl
+template <int dim>
+void anisotropicStiffness(const GradientProducts<dim>& products, const ElasticityMatrix& elasticity,
+                          Eigen::MatrixXd& stiffness) {
+  using Block = Eigen::Matrix<double, dim, dim>;
+  std::array<std::array<Block, dim>, dim> c; // C_ikjl of ij, kl
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j)
+      for (int k = 0; k < dim; ++k)
+        for (int l = 0; l < dim; ++l)
+          c[i][j](k, l) = elasticity(placeInTensor[i][k], placeInTensor[j][l]);
+  for (Eigen::Index b = 0; b < stiffness.cols(); b += dim)
+    for (Eigen::Index a = 0; a <= b; a += dim) {
+      const Block s = products.template block<dim, dim>(a, b);
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          stiffness(a + i, b + j) = c[i][j].cwiseProduct(s).sum();
+    }
+}
+
 } // namespace
 
 void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
-                      const Material& material, Eigen::MatrixXd& stiffness) {
+                      const Material& material, Eigen::MatrixXd& stiffness, Integration integration) {
   assert(fits(type, physics));
   withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
-    const GradientProducts<dim> products = gradientProducts(shape, points);
+    const GradientProducts<dim> products = gradientProducts(shape, points, integration);
     const int size = physics == Physics::membrane ? shape.numNodes : dim * shape.numNodes;
     stiffness.resize(size, size);
     if (physics == Physics::membrane) {
       membraneStiffness<dim>(products, material.conductivity, stiffness);
+    } else if (material.elasticity) {
+      anisotropicStiffness<dim>(products, thicknessOf(physics, material) * elasticityIn(physics, material),
+                                stiffness);
     } else {
       const auto [lambda, mu] = lameConstants(physics, material);
       const double thickness = thicknessOf(physics, material);
@@ -107,19 +138,21 @@ void elementStiffness(mesh::CellType type, std::span<const Point> points, Physic
 }
 
 void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
-                   const Material& material, const Vector3& force, Eigen::VectorXd& load) {
+                   const Material& material, const Vector3& force, Eigen::VectorXd& load,
+                   Integration integration) {
   assert(fits(type, physics));
   withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     const auto corners = mesh::relativeCorners<dim>(points);
     mesh::NodalValues integrals = mesh::NodalValues::Zero(shape.numNodes); // ∫N_a
-    for (const auto& sample : shape.fineSamples())
+    for (const auto& sample : loadSamples(shape, integration))
       integrals += (sample.weight * mesh::ElementMap(corners, sample).determinant()) * sample.values;
     shareOut({integrals.data(), points.size()}, physics, material, force, load);
   });
 }
 
 void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
-                  const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load) {
+                  const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load,
+                  Integration integration) {
   assert(fits(type, physics) && physics != Physics::membrane);
   withShape(type, [&]<int dim>(const mesh::Shape<dim>& shape) {
     const auto corners = mesh::relativeCorners<dim>(points);
@@ -129,7 +162,7 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
     const Eigen::Vector3d axis = Eigen::Map<const Eigen::Vector3d>(rotation.axis.data()).normalized();
     const double factor = rotation.value[0] * thicknessOf(physics, material);
     mesh::NodalColumns<dim> forces = mesh::NodalColumns<dim>::Zero(dim, shape.numNodes);
-    for (const auto& sample : shape.fineSamples()) {
+    for (const auto& sample : loadSamples(shape, integration)) {
       Eigen::Vector3d radius = first;
       radius.template head<dim>() += corners.lazyProduct(sample.values);
       radius -= radius.dot(axis) * axis;
@@ -141,22 +174,26 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
 }
 
 void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
-                  const Material& material, const Vector3& traction, Eigen::VectorXd& load) {
+                  const Material& material, const Vector3& traction, Eigen::VectorXd& load,
+                  Integration integration) {
   assert(boundsElement(facet, physics));
-  std::array<double, mesh::mostFacetNodes> shares{};
-  const auto own = std::span(shares).first(points.size());
-  nodalShares(facet, points, own);
-  shareOut(own, physics, material, traction, load);
+  withFacetShape(facet, [&]<int dim>(const mesh::Shape<dim>& shape) {
+    const auto corners = mesh::relativeCorners<dim + 1>(points);
+    mesh::NodalValues shares = mesh::NodalValues::Zero(shape.numNodes);
+    for (const auto& sample : loadSamples(shape, integration))
+      shares += (sample.weight * facetNormal(corners, sample).norm()) * sample.values;
+    shareOut({shares.data(), points.size()}, physics, material, traction, load);
+  });
 }
 
 void pressureLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
-                  const Material& material, double pressure, Eigen::VectorXd& load) {
+                  const Material& material, double pressure, Eigen::VectorXd& load, Integration integration) {
   assert(boundsElement(facet, physics) && physics != Physics::membrane);
   withFacetShape(facet, [&]<int dim>(const mesh::Shape<dim>& shape) {
     const auto corners = mesh::relativeCorners<dim + 1>(points);
     mesh::NodalColumns<dim + 1> forces = mesh::NodalColumns<dim + 1>::Zero(dim + 1, shape.numNodes);
     const double factor = -pressure * thicknessOf(physics, material);
-    for (const auto& sample : shape.fineSamples())
+    for (const auto& sample : loadSamples(shape, integration))
       forces +=
           (factor * sample.weight * facetNormal(corners, sample)).lazyProduct(sample.values.transpose());
     load = forces.reshaped();

@@ -18,21 +18,35 @@
 
 namespace epafi::fem {
 
-/// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space), by full
-/// integration. Symmetric to the last bit. `stiffness` is overwritten, and resized if need be.
-void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
-                      const Material& material, Eigen::MatrixXd& stiffness);
+/// By which points to integrate.
+enum class Integration {
+  full,   ///< what the quantity asks for
+  reduced ///< Shape's reducedSamples: quadrilaterals and bricks of order 2, and their facets
+};
 
-/// t∫N_a f of a constant force f per volume; of a membrane ∫N_a f₀, f₀ per area. Exact. `load` is
-/// overwritten.
+/// That of a body's elements.
+inline Integration integrationOf(const Solid& body) {
+  return body.reducedIntegration ? Integration::reduced : Integration::full;
+}
+
+/// ∫κ∇N_a·∇N_b of a membrane, t∫ε(N_a):σ(N_b) of an elastic body of thickness t (1 in space). Symmetric to
+/// the last bit. `stiffness` is overwritten, and resized if need be.
+void elementStiffness(mesh::CellType type, std::span<const Point> points, Physics physics,
+                      const Material& material, Eigen::MatrixXd& stiffness,
+                      Integration integration = Integration::full);
+
+/// t∫N_a f of a constant force f per volume; of a membrane ∫N_a f₀, f₀ per area. Exact by full integration.
+/// `load` is overwritten.
 void bodyForceLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
-                   const Material& material, const Vector3& force, Eigen::VectorXd& load);
+                   const Material& material, const Vector3& force, Eigen::VectorXd& load,
+                   Integration integration = Integration::full);
 
 /// t∫N_a q r of a force per volume that grows with the distance r from an axis: q = value[0] of a load of the
 /// kind rotation, r(x) from its axis to x, perpendicular to it. `load` is overwritten. Precondition: not a
 /// membrane; in the plane the axis is perpendicular to it.
 void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics physics,
-                  const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load);
+                  const Material& material, const SolidLoad& rotation, Eigen::VectorXd& load,
+                  Integration integration = Integration::full);
 
 // Loads on one edge of a plane element or one face of a solid one: rows as above, nodes as the facet has
 // them, in an order that makes the normal point outwards, as in Cell.hpp and Surface. Edges go with
@@ -42,11 +56,13 @@ void rotationLoad(mesh::CellType type, std::span<const Point> points, Physics ph
 /// t∫N_a q of a constant force q per area, t the thickness (1 in space); of a membrane ∫N_a q₀, q₀ per
 /// length. Exact on edges and plane faces. `load` is overwritten.
 void tractionLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
-                  const Material& material, const Vector3& traction, Eigen::VectorXd& load);
+                  const Material& material, const Vector3& traction, Eigen::VectorXd& load,
+                  Integration integration = Integration::full);
 
-/// −t∫N_a p n of a constant pressure p against the outward normal n, that of each point of the face. Exact.
-/// `load` is overwritten. Precondition: not a membrane.
+/// −t∫N_a p n of a constant pressure p against the outward normal n, that of each point of the face. Exact by
+/// full integration. `load` is overwritten. Precondition: not a membrane.
 void pressureLoad(mesh::CellType facet, std::span<const Point> points, Physics physics,
-                  const Material& material, double pressure, Eigen::VectorXd& load);
+                  const Material& material, double pressure, Eigen::VectorXd& load,
+                  Integration integration = Integration::full);
 
 } // namespace epafi::fem

@@ -39,15 +39,23 @@ struct ElasticLaw {
   using Gradient = Eigen::Matrix<double, components, dim>;
 
   ElasticLaw(Physics bodyPhysics, const Material& bodyMaterial)
-      : physics(bodyPhysics), material(bodyMaterial), thickness(thicknessOf(bodyPhysics, bodyMaterial)) {}
+      : physics(bodyPhysics), material(bodyMaterial), thickness(thicknessOf(bodyPhysics, bodyMaterial)) {
+    if (!material.elasticity)
+      return;
+    elasticity = elasticityIn(physics, material);
+    compliance = direct::inverseOfSpd(*material.elasticity);
+  }
   [[nodiscard]] Flux flux(const Gradient& gradient) const {
     Eigen::Matrix3d whole = Eigen::Matrix3d::Zero();
     whole.template topLeftCorner<components, components>() = gradient;
-    const SymmetricTensor stress = stressOf(whole, physics, material);
+    const SymmetricTensor stress =
+        material.elasticity ? stressOf(whole, elasticity) : stressOf(whole, physics, material);
     return Eigen::Map<const Flux>(stress.data());
   }
-  /// σ:C⁻¹:σ = ((1 + ν) σ:σ − ν tr(σ)²)/E
+  /// σ:C⁻¹:σ, if isotropic ((1 + ν) σ:σ − ν tr(σ)²)/E
   [[nodiscard]] double density(const Flux& q) const {
+    if (material.elasticity)
+      return thickness * q.dot(compliance * q);
     const double trace = q[0] + q[1] + q[2];
     const double square = q.template head<3>().squaredNorm() + 2 * q.template tail<3>().squaredNorm();
     const double ratio = material.poissonsRatio;
@@ -57,6 +65,7 @@ struct ElasticLaw {
   Physics physics;
   const Material& material;
   double thickness;
+  ElasticityMatrix elasticity, compliance; ///< of what is not isotropic
 };
 
 /// An element's displacements, a column for each node.

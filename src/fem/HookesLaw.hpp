@@ -1,12 +1,13 @@
 #pragma once
 
-/// The law of the linear, isotropic, elastic material, in space and in the plane.
+/// The law of linear elastic materials, isotropic or not, in space and in the plane.
 
 #include "epafi/fem/Solid.hpp"
 
 #include <Eigen/Core>
 
 #include <array>
+#include <span>
 
 namespace epafi::fem {
 
@@ -16,8 +17,28 @@ struct LameConstants {
 };
 
 /// Those of the material; for plane stress λ is 2λμ/(λ + 2μ), with which the law holds for the components in
-/// the plane. Precondition: not a membrane; E > 0, −1 < ν < ½.
+/// the plane. Precondition: not a membrane; isotropic; E > 0, −1 < ν < ½.
 LameConstants lameConstants(Physics physics, const Material& material);
+
+/// C of constants in the order of Abaqus, in which indices go 11, 22, 33, 12, 13, 23: of an orthotropic
+/// material 9, D1111 D1122 D2222 D1133 D2233 D3333 D1212 D1313 D2323; of any other 21, the upper triangle
+/// column by column. \param axes  those in which the constants hold, columns 1, 2, 3: a rotation
+ElasticityMatrix elasticityOf(std::span<const double> constants, const Eigen::Matrix3d& axes);
+
+/// Whether C stores energy in every strain, far from round-off.
+bool isPositiveDefinite(const ElasticityMatrix& elasticity);
+
+/// C of a material that has one, for a physics: for plane stress that of the components in the plane if the
+/// others, which have no stress, are left to themselves; those are 0 in it. Precondition: not isotropic.
+ElasticityMatrix elasticityIn(Physics physics, const Material& material);
+
+/// E and ν of an isotropic material; of others those of the isotropic one that has the same energy on the
+/// mean of all directions (Voigt).
+struct MeanModuli {
+  double youngsModulus = 0, poissonsRatio = 0;
+};
+/// Of elastic bodies.
+MeanModuli meanModuli(const Material& material);
 
 /// The thickness that integrals over an element or facet are multiplied with: the material's for plane strain
 /// and plane stress, otherwise 1.
@@ -26,10 +47,16 @@ double thicknessOf(Physics physics, const Material& material);
 /// xx, yy, zz, xy, yz, zx.
 using SymmetricTensor = std::array<double, 6>;
 
+/// Place of the component ij of a symmetric tensor.
+constexpr std::array<std::array<int, 3>, 3> placeInTensor{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
+
 /// Stress from the displacement's gradient, entry (i, j) = ∂u_i/∂x_j, 0 in what the plane has not. Plane
 /// strain has a stress across the plane (zz), plane stress has none. Precondition: not a membrane.
 SymmetricTensor stressOf(const Eigen::Matrix3d& displacementGradient, Physics physics,
                          const Material& material);
+
+/// The same with C of the physics.
+SymmetricTensor stressOf(const Eigen::Matrix3d& displacementGradient, const ElasticityMatrix& elasticity);
 
 /// √(3/2 s:s) with the stress deviator s; 0 if the stress is the same in all directions.
 double vonMisesOf(const SymmetricTensor& stress);

@@ -30,12 +30,18 @@ int componentsOf(Physics physics);
 /// Of what fills the body: 3 in space, else 2.
 int dimensionOf(Physics physics);
 
+/// C of any linear elastic law, σ = Cε, in the order xx, yy, zz, xy, yz, zx, shear strains being angles:
+/// ε_xy = ∂u/∂y + ∂v/∂x. Symmetric, positive definite, force per area.
+using ElasticityMatrix = Eigen::Matrix<double, 6, 6>;
+
 /// What a body or a region of it is made of; which numbers count follows from the physics.
 struct Material {
   double conductivity = 1;    ///< κ of a membrane (its tension)
   double youngsModulus = 1;   ///< E > 0, force per area
   double poissonsRatio = 0.3; ///< ν, −1 < ν < ½
   double thickness = 1;       ///< of plane bodies
+  /// Of a body that is not isotropic, instead of E and ν.
+  std::optional<ElasticityMatrix> elasticity = std::nullopt;
 };
 
 /// Another material in the elements whose centre lies in a box, or that belong to a group of the mesh file;
@@ -100,6 +106,7 @@ struct Solid {
   std::vector<SolidRegion> regions;
   std::vector<SolidSupport> supports;
   std::vector<SolidLoad> loads;
+  bool reducedIntegration = false; ///< of elements by Shape's reducedSamples
 };
 
 /// A membrane's load per area on exactly what lies in a box.

@@ -111,9 +111,11 @@ void SolidLoads::addSurface(const SolidBody& body, const SolidRegions& regions, 
     body.mesh.pointsAt(nodes, points);
     const Material& material = materialIn(body.solid, regions.of(body, surface.elements[f]));
     if (load.kind == SolidLoad::Kind::pressure)
-      pressureLoad(surface.facetType, points, physics, material, load.value[0], values);
+      pressureLoad(surface.facetType, points, physics, material, load.value[0], values,
+                   integrationOf(body.solid));
     else
-      tractionLoad(surface.facetType, points, physics, material, load.value, values);
+      tractionLoad(surface.facetType, points, physics, material, load.value, values,
+                   integrationOf(body.solid));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       NodalForce force{surface.elements[f], nodes[i], {0, 0, 0}};
       for (int c = 0; c < components; ++c)
@@ -191,10 +193,12 @@ void SolidLoads::addBodyForces(const SolidBody& body, const SolidRegions& region
       const SolidLoad& load = *force.load;
       if (load.kind == SolidLoad::Kind::rotation) {
         body.mesh.elementPoints(elements[e], points);
-        rotationLoad(body.mesh.cellType(), points, body.solid.physics, material, load, values);
+        rotationLoad(body.mesh.cellType(), points, body.solid.physics, material, load, values,
+                     integrationOf(body.solid));
       } else {
         body.cornersOf(elements[e], points);
-        bodyForceLoad(body.mesh.cellType(), points, body.solid.physics, material, load.value, values);
+        bodyForceLoad(body.mesh.cellType(), points, body.solid.physics, material, load.value, values,
+                      integrationOf(body.solid));
       }
       loads.col(e) += values;
     });

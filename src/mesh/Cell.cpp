@@ -56,6 +56,7 @@ constexpr auto ofTriangle6 = withMiddles<3, 2>(triangleEdges, triangleEdges, 3, 
 constexpr auto ofQuadrilateral9 = withMiddles<3, 2>(quadrilateralEdges, quadrilateralEdges, 4, {});
 constexpr auto ofTetrahedron10 = withMiddles<6, 3>(ofTetrahedron, tetrahedronEdges, 4, {});
 constexpr auto ofHexahedron27 = withMiddles<9, 4>(ofHexahedron, hexahedronEdges, 8, {24, 25, 22, 21, 23, 20});
+constexpr auto ofHexahedron20 = withMiddles<8, 4>(ofHexahedron, hexahedronEdges, 8, {});
 
 constexpr auto triangleFacets = facetsIn<CellType::line, 2>(triangleEdges);
 constexpr auto quadrilateralFacets = facetsIn<CellType::line, 2>(quadrilateralEdges);
@@ -65,6 +66,7 @@ constexpr auto triangle6Facets = facetsIn<CellType::line3, 3>(ofTriangle6);
 constexpr auto quadrilateral9Facets = facetsIn<CellType::line3, 3>(ofQuadrilateral9);
 constexpr auto tetrahedron10Facets = facetsIn<CellType::triangle6, 6>(ofTetrahedron10);
 constexpr auto hexahedron27Facets = facetsIn<CellType::quadrilateral9, 9>(ofHexahedron27);
+constexpr auto hexahedron20Facets = facetsIn<CellType::quadrilateral8, 8>(ofHexahedron20);
 
 /// What is to be known of a type.
 struct Entry {
@@ -74,9 +76,9 @@ struct Entry {
   std::span<const int> edges;
 };
 
-constexpr int numShapes = 5;
+constexpr int numShapes = 5, numSerendipity = 2;
 /// In the order of CellType.
-constexpr std::array<Entry, std::size_t{2} * numShapes> table{
+constexpr std::array<Entry, std::size_t{2} * numShapes + numSerendipity> table{
     {{"triangle", 2, 1, 3, 3, triangleFacets, triangleEdges},
      {"quadrilateral", 2, 1, 4, 4, quadrilateralFacets, quadrilateralEdges},
      {"tetrahedron", 3, 1, 4, 4, tetrahedronFacets, tetrahedronEdges},
@@ -86,7 +88,9 @@ constexpr std::array<Entry, std::size_t{2} * numShapes> table{
      {"quadratic quadrilateral", 2, 2, 9, 4, quadrilateral9Facets, quadrilateralEdges},
      {"quadratic tetrahedron", 3, 2, 10, 4, tetrahedron10Facets, tetrahedronEdges},
      {"quadratic hexahedron", 3, 2, 27, 8, hexahedron27Facets, hexahedronEdges},
-     {"quadratic line", 1, 2, 3, 2, {}, lineEdges}}};
+     {"quadratic line", 1, 2, 3, 2, {}, lineEdges},
+     {"serendipity quadrilateral", 2, 2, 8, 4, quadrilateral9Facets, quadrilateralEdges},
+     {"serendipity hexahedron", 3, 2, 20, 8, hexahedron20Facets, hexahedronEdges}}};
 
 const Entry& entryOf(CellType type) {
   return table[static_cast<std::size_t>(type)];
@@ -111,7 +115,25 @@ int numCornersOf(CellType type) {
 }
 
 CellType withOrder(CellType type, int order) {
-  return static_cast<CellType>(static_cast<int>(type) % numShapes + (order - 1) * numShapes);
+  if (isSerendipity(type) && order == 2)
+    return type;
+  return static_cast<CellType>(static_cast<int>(withInnerNodes(type)) % numShapes + (order - 1) * numShapes);
+}
+
+bool isSerendipity(CellType type) {
+  return type == CellType::quadrilateral8 || type == CellType::hexahedron20;
+}
+
+CellType withInnerNodes(CellType type) {
+  return type == CellType::quadrilateral8 ? CellType::quadrilateral9
+         : type == CellType::hexahedron20 ? CellType::hexahedron27
+                                          : type;
+}
+
+CellType withoutInnerNodes(CellType type) {
+  return type == CellType::quadrilateral9 ? CellType::quadrilateral8
+         : type == CellType::hexahedron27 ? CellType::hexahedron20
+                                          : type;
 }
 
 std::span<const Facet> facetsOf(CellType type) {

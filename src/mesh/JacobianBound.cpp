@@ -169,10 +169,28 @@ double leastDeterminantOf(const Shape<dim>& shape, std::span<const Point> points
   }
 }
 
+/// The nodes of the same element with inner nodes.
+std::vector<Point> withInnerPoints(CellType type, std::span<const Point> points) {
+  return withShape(type, [&]<int dim>(const Shape<dim>& shape) {
+    const Shape<dim>& whole = referenceShape<dim>(withInnerNodes(type));
+    std::vector<Point> all(points.begin(), points.end());
+    for (int inner = shape.numNodes; inner < whole.numNodes; ++inner) {
+      const NodalValues values = shape.values(whole.node(inner));
+      Point& point = all.emplace_back();
+      for (std::size_t a = 0; a < points.size(); ++a)
+        for (std::size_t d = 0; d < 3; ++d)
+          point[d] += values[a] * points[a][d];
+    }
+    return all;
+  });
+}
+
 } // namespace
 
 double leastDeterminant(CellType type, std::span<const Point> points) {
   assert(orderOf(type) == 2);
+  if (isSerendipity(type))
+    return leastDeterminant(withInnerNodes(type), withInnerPoints(type, points));
   return withShape(type, [&](const auto& shape) { return leastDeterminantOf(shape, points); });
 }
 

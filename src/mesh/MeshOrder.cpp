@@ -13,12 +13,13 @@ namespace {
 /// Adds the nodes element by element; what elements share is added once.
 class Completion {
 public:
-  Completion(MeshArrays mesh, bool hasEdgeNodes)
+  Completion(MeshArrays mesh, bool hasEdgeNodes, InnerNodes inner)
       : mesh_(std::move(mesh)), given_(index(numCornersOf(mesh_.cellType))), edges_(edgesOf(mesh_.cellType)),
         hasEdgeNodes_(hasEdgeNodes) {
     if (hasEdgeNodes)
       given_ += edges_.size() / 2;
-    mesh_.cellType = withOrder(mesh_.cellType, 2);
+    const CellType type = withOrder(mesh_.cellType, 2);
+    mesh_.cellType = inner == InnerNodes::added ? withInnerNodes(type) : withoutInnerNodes(type);
   }
 
   MeshArrays make() {
@@ -30,7 +31,7 @@ public:
       if (mesh_.cellType == CellType::hexahedron27)
         addFaceNodes();
       if (mesh_.cellType == CellType::hexahedron27 || mesh_.cellType == CellType::quadrilateral9)
-        nodes_.push_back(addPoint(middle(nodes_, index(numCornersOf(mesh_.cellType)), edges_.size() / 2)));
+        nodes_.push_back(addPoint(middle(nodes_, dimensionOf(mesh_.cellType))));
       mesh_.cells.insert(mesh_.cells.end(), nodes_.begin(), nodes_.end());
     }
     return std::move(mesh_);
@@ -71,18 +72,19 @@ private:
       std::sort(key.begin(), key.end());
       const auto [place, isNew] = onFace_.try_emplace(key, 0);
       if (isNew)
-        place->second = addPoint(middle(around, corners, middles));
+        place->second = addPoint(middle(around, 2));
       nodes_.push_back(place->second);
     }
   }
 
   /// Where the Serendipity functions of corners and edges put the middle of a face or brick.
-  [[nodiscard]] Point middle(const std::vector<LocalOrdinal>& nodes, std::size_t corners,
-                             std::size_t middles) const {
+  [[nodiscard]] Point middle(const std::vector<LocalOrdinal>& nodes, int dimension) const {
+    const std::size_t corners = dimension == 2 ? 4 : 8, edges = dimension == 2 ? 4 : 12;
     Point point{0, 0, 0};
-    for (std::size_t i = 0; i < corners + middles; ++i)
+    for (std::size_t i = 0; i < corners + edges; ++i)
       for (std::size_t d = 0; d < 3; ++d)
-        point[d] += (i < corners ? -0.25 : middles == 4 ? 0.5 : 0.25) * mesh_.points[index(nodes[i])][d];
+        point[d] +=
+            (i < corners ? cornerInMiddle : edgeInMiddle(dimension)) * mesh_.points[index(nodes[i])][d];
     return point;
   }
 
@@ -97,8 +99,8 @@ private:
 
 } // namespace
 
-MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes) {
-  return Completion(std::move(mesh), hasEdgeNodes).make();
+MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes, InnerNodes inner) {
+  return Completion(std::move(mesh), hasEdgeNodes, inner).make();
 }
 
 MeshArrays linearised(MeshArrays mesh) {

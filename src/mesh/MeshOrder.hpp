@@ -6,6 +6,13 @@
 
 namespace epafi::mesh {
 
+/// What becomes of the inner nodes that quadrilaterals and bricks of order 2 have in the middle of faces and
+/// of themselves.
+enum class InnerNodes {
+  added, ///< where they are missing
+  none   ///< elements without them stay as they are
+};
+
 /// Adds the nodes that elements of order 2 have beyond those that are given: where they are missing, in the
 /// middle of straight edges; and on faces with four corners and inside of bricks where the given nodes of the
 /// edges put them (Serendipity), so that elements of 8 and 20 nodes keep their form. Added nodes stand behind
@@ -13,7 +20,8 @@ namespace epafi::mesh {
 /// \param mesh  cells with their corners and, if `hasEdgeNodes`, the nodes on their edges, in the order of
 /// Cell.hpp; `cellType` of any order. Nodes of surfaces are corners of facets
 /// \param hasEdgeNodes  whether the cells have them
-MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes);
+/// \param inner  whether quadrilaterals and bricks are to have inner nodes
+MeshArrays completed(MeshArrays mesh, bool hasEdgeNodes, InnerNodes inner = InnerNodes::added);
 
 /// The corners alone; all others are dropped.
 MeshArrays linearised(MeshArrays mesh);

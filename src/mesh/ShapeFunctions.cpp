@@ -78,6 +78,16 @@ Rule<dim> lowDegree(double measure) {
   }
 }
 
+/// Two Gauss points of an edge; nothing of triangles and tetrahedra, which have no axes.
+template <int dim>
+Rule<dim> reducedRule() {
+  const double away = 0.5 / std::sqrt(3.0);
+  if constexpr (dim == 1)
+    return {{Coordinates<1>(0.5 - away), 0.5}, {Coordinates<1>(0.5 + away), 0.5}};
+  else
+    return {};
+}
+
 /// Degree 4 on triangles (Strang, Fix 1973), 5 on tetrahedra (Walkington 2000); all weights are positive.
 /// None of an edge, where the other rule is as good.
 template <int dim>
@@ -93,15 +103,16 @@ Rule<dim> highDegree(double measure) {
                                {0.045503704125649649492, 0.042546020777081466438, true}});
 }
 
-/// order + 1 Gauss points along each axis.
+/// As many Gauss points along each axis as a brick has nodes there, 2 or 3.
+/// \param nodes  all of them, a column each
 template <int dim>
-Rule<dim> productRule(const Shape<dim>& shape) {
-  const double away = shape.order == 1 ? 1 / std::sqrt(3.0) : std::sqrt(0.6);
+Rule<dim> productRule(const NodalColumns<dim>& nodes) {
+  const bool isLinear = nodes.cols() == 1 << dim;
+  const double away = isLinear ? 1 / std::sqrt(3.0) : std::sqrt(0.6);
   Rule<dim> rule;
-  for (int a = 0; a < shape.numNodes; ++a) {
-    const Coordinates<dim> at = shape.node(a);
+  for (const Coordinates<dim> at : nodes.colwise()) {
     double weight = 1;
-    for (int i = 0; i < dim && shape.order == 2; ++i)
+    for (int i = 0; i < dim && !isLinear; ++i)
       weight *= at[i] == 0 ? 8.0 / 9 : 5.0 / 9;
     rule.push_back({away * at, weight});
   }
@@ -140,14 +151,18 @@ Shape<dim>::Shape(CellType shapeType)
     : type(shapeType), isSimplex(numCornersOf(type) == dim + 1), order(orderOf(type)),
       numNodes(numNodesOf(type)), measure(measureOfReference(dim, isSimplex)) {
   placeNodes();
+  findFollowers();
   centreSample_ = sampleAt(Coordinates<dim>::Constant(isSimplex ? 1.0 / (dim + 1) : 0.0), measure);
   if (!isSimplex) {
-    gaussSamples_ = samplesOf(*this, productRule(*this));
+    gaussSamples_ = samplesOf(*this, productRule<dim>(nodes_));
+    if (order == 2)
+      reducedSamples_ = samplesOf(*this, productRule<dim>(nodes_.leftCols(1 << dim)));
   } else if (order == 1) {
     gaussSamples_ = {centreSample_};
   } else {
     gaussSamples_ = samplesOf(*this, lowDegree<dim>(measure));
     fineSamples_ = samplesOf(*this, highDegree<dim>(measure));
+    reducedSamples_ = samplesOf(*this, reducedRule<dim>());
   }
   for (int a = 0; a < numNodes; ++a)
     nodeSamples_.push_back(sampleAt(node(a)));
@@ -156,7 +171,8 @@ Shape<dim>::Shape(CellType shapeType)
 /// Corners, then the middles of edges, faces, and the whole: what lies between corners is half their sum.
 template <int dim>
 void Shape<dim>::placeNodes() {
-  nodes_.setZero(dim, numNodes);
+  const int number = numNodesOf(withInnerNodes(type));
+  nodes_.setZero(dim, number);
   const int corners = numCornersOf(type);
   for (int a = 0; a < corners; ++a)
     if (isSimplex) {
@@ -175,15 +191,45 @@ void Shape<dim>::placeNodes() {
   const int edges = static_cast<int>(ends.size()) / 2;
   for (int e = 0; e < edges; ++e)
     nodes_.col(corners + e) = 0.5 * (nodes_.col(ends[2 * e]) + nodes_.col(ends[2 * e + 1]));
-  for (int face = 0; corners + edges + face < numNodes && face < 6 && dim == 3; ++face)
+  for (int face = 0; corners + edges + face < number && face < 6 && dim == 3; ++face)
     nodes_(face / 2, corners + edges + face) = face % 2 == 0 ? -1 : 1;
+}
+
+/// The middle of a face, or of the whole, follows the corners and edges around.
+template <int dim>
+void Shape<dim>::findFollowers() {
+  followers_.setZero(numNodes, nodes_.cols() - numNodes);
+  for (Eigen::Index inner = 0; inner < followers_.cols(); ++inner) {
+    const Coordinates<dim> place = nodes_.col(numNodes + inner);
+    const auto free = static_cast<int>((place.array() == 0).count()); // dimension of what it is the middle of
+    for (int a = 0; a < numNodes; ++a)
+      if (((nodes_.col(a) - place).array() * place.array() == 0).all())
+        followers_(a, inner) = a < numCornersOf(type) ? cornerInMiddle : edgeInMiddle(free);
+  }
 }
 
 template <int dim>
 NodalValues Shape<dim>::values(const Coordinates<dim>& xi) const {
-  NodalValues values(numNodes);
+  const NodalValues all = valuesOfAll(xi);
+  if (followers_.cols() == 0)
+    return all;
+  return all.head(numNodes) + followers_.lazyProduct(all.tail(followers_.cols()));
+}
+
+template <int dim>
+NodalColumns<dim> Shape<dim>::gradients(const Coordinates<dim>& xi) const {
+  const NodalColumns<dim> all = gradientsOfAll(xi);
+  if (followers_.cols() == 0)
+    return all;
+  return all.leftCols(numNodes) + all.rightCols(followers_.cols()).lazyProduct(followers_.transpose());
+}
+
+/// Of inner nodes too that the shape has not.
+template <int dim>
+NodalValues Shape<dim>::valuesOfAll(const Coordinates<dim>& xi) const {
+  NodalValues values(nodes_.cols());
   if (!isSimplex) {
-    for (int a = 0; a < numNodes; ++a) {
+    for (int a = 0; a < nodes_.cols(); ++a) {
       double product = 1;
       for (int i = 0; i < dim; ++i)
         product *= along(order, nodes_(i, a), xi[i]);
@@ -204,10 +250,10 @@ NodalValues Shape<dim>::values(const Coordinates<dim>& xi) const {
 }
 
 template <int dim>
-NodalColumns<dim> Shape<dim>::gradients(const Coordinates<dim>& xi) const {
-  NodalColumns<dim> gradients(dim, numNodes);
+NodalColumns<dim> Shape<dim>::gradientsOfAll(const Coordinates<dim>& xi) const {
+  NodalColumns<dim> gradients(dim, nodes_.cols());
   if (!isSimplex) {
-    for (int a = 0; a < numNodes; ++a)
+    for (int a = 0; a < nodes_.cols(); ++a)
       for (int i = 0; i < dim; ++i) {
         double product = 1;
         for (int k = 0; k < dim; ++k)
@@ -235,7 +281,7 @@ NodalColumns<dim> Shape<dim>::gradients(const Coordinates<dim>& xi) const {
 template <int dim>
 const Shape<dim>& referenceShape(CellType type) {
   static const auto shapes = [] {
-    std::array<std::unique_ptr<const Shape<dim>>, static_cast<std::size_t>(CellType::line3) + 1> all;
+    std::array<std::unique_ptr<const Shape<dim>>, static_cast<std::size_t>(CellType::hexahedron20) + 1> all;
     for (std::size_t number = 0; number < all.size(); ++number)
       if (const auto known = static_cast<CellType>(number); dimensionOf(known) == dim)
         all[number] = std::make_unique<const Shape<dim>>(known);

@@ -11,7 +11,9 @@
 /// Two rules: that of *gaussSamples* serves stiffnesses and is exact for them on elements with straight edges
 /// (bricks: parallelepipeds), and for constant strains on curved ones; that of *fineSamples* serves measures,
 /// loads and estimates and is exact for squares of shape functions there, and for what curved edges make of
-/// measures and pressures. They are the same where one rule does both.
+/// measures and pressures. They are the same where one rule does both. A third one, *reducedSamples*, has as
+/// many Gauss points along each axis as the order, 2, and is there for bricks and edges of order 2 alone: less
+/// than a stiffness asks for, which leaves motions of single elements without energy.
 
 #include "epafi/mesh/Cell.hpp"
 
@@ -52,7 +54,9 @@ constexpr int power(int base, int exponent) {
 /// Order 2: L_a(2L_a − 1) at the corners, 4L_aL_b between them; the rules have degrees 2 and 4 (tetrahedron:
 /// 3 and 5). Bricks: products of the order's functions of each ξᵢ. The rule has order + 1 points along each
 /// axis, exact for degree 2 · order + 1 in each ξᵢ: for areas, volumes, constant loads and pressures on
-/// elements of any form. Each of its points is the one next to the node of its number.
+/// elements of any form. Each of its points is the one next to the node of its number. Bricks without inner
+/// nodes: functions and rule of those with them, whose inner nodes follow the others (Serendipity): N_a gets
+/// what a has in each inner node.
 template <int dim>
 class Shape {
 public:
@@ -77,6 +81,11 @@ public:
   [[nodiscard]] const Samples& fineSamples() const {
     return fineSamples_.empty() ? gaussSamples_ : fineSamples_;
   }
+  /// Of bricks and edges of order 2.
+  [[nodiscard]] const Samples& reducedSamples() const {
+    assert(!reducedSamples_.empty());
+    return reducedSamples_;
+  }
   [[nodiscard]] const Samples& nodeSamples() const { return nodeSamples_; } ///< at the nodes; weights 0
   [[nodiscard]] const ShapeSample<dim>& centreSample() const {
     return centreSample_;
@@ -84,10 +93,15 @@ public:
 
 private:
   void placeNodes();
+  void findFollowers();
+  [[nodiscard]] NodalValues valuesOfAll(const Coordinates<dim>& xi) const;
+  [[nodiscard]] NodalColumns<dim> gradientsOfAll(const Coordinates<dim>& xi) const;
 
-  NodalColumns<dim> nodes_;
+  NodalColumns<dim> nodes_; ///< inner ones that the shape has not stand behind the others
+  /// What each node has in each of these, a column each; empty: there are none.
+  Eigen::MatrixXd followers_;
   ShapeSample<dim> centreSample_;
-  Samples gaussSamples_, fineSamples_, nodeSamples_;
+  Samples gaussSamples_, fineSamples_, reducedSamples_, nodeSamples_;
 };
 
 extern template class Shape<1>;

@@ -102,7 +102,8 @@ void checkSurfaces(const GmshContents& file) {
 /// Makes the arrays of one body.
 class BodyMaker {
 public:
-  BodyMaker(const GmshContents& file, const std::string& group) : file_(file), group_(group) {}
+  BodyMaker(const GmshContents& file, const std::string& group, mesh::InnerNodes inner)
+      : file_(file), group_(group), inner_(inner) {}
 
   mesh::MeshArrays make();
 
@@ -119,6 +120,7 @@ private:
 
   const GmshContents& file_;
   const std::string& group_;
+  mesh::InnerNodes inner_;
   const GmshGroup* chosen_ = nullptr; ///< null: all elements
   Blocks blocks_;
   std::vector<LocalOrdinal> newNumber_; ///< of each node of the file; −1: not of the body
@@ -201,6 +203,8 @@ void BodyMaker::chooseCellType() {
   arrays_.cellType = types[kind - 2];
   if (kind != *kinds.begin())
     arrays_.cellType = withOrder(arrays_.cellType, 2);
+  if (inner_ == mesh::InnerNodes::none && numNodesOfGmsh(*kinds.begin()) < numNodesOf(arrays_.cellType))
+    arrays_.cellType = withoutInnerNodes(arrays_.cellType);
 }
 
 /// Places of a cell's nodes among those of Gmsh's element; of bricks without nodes inside as far as they have
@@ -212,7 +216,7 @@ std::vector<std::size_t> placesInGmsh(mesh::CellType type, std::size_t count) {
     std::swap(places[8], places[9]);
   constexpr std::array<std::size_t, 18> hexahedron{11, 13, 9,  16, 18, 19, 17, 10, 12,
                                                    14, 15, 22, 23, 21, 24, 20, 25, 26};
-  if (type == mesh::CellType::hexahedron27)
+  if (withInnerNodes(type) == mesh::CellType::hexahedron27)
     std::copy(hexahedron.begin(), hexahedron.begin() + (count - 9), places.begin() + 9);
   return places;
 }
@@ -326,14 +330,14 @@ bool GmshFile::hasElements(const std::string& group) const {
   });
 }
 
-mesh::UnstructuredMesh GmshFile::body(const std::string& group, int order) const {
-  mesh::MeshArrays arrays = BodyMaker(contents_, group).make();
+mesh::UnstructuredMesh GmshFile::body(const std::string& group, int order, mesh::InnerNodes inner) const {
+  mesh::MeshArrays arrays = BodyMaker(contents_, group, inner).make();
   if (order == 0 || order == orderOf(arrays.cellType))
     return mesh::UnstructuredMesh(std::move(arrays));
   if (order == 1)
     return mesh::UnstructuredMesh(linearised(std::move(arrays)));
   const mesh::UnstructuredMesh sound(arrays); // what is wrong with it is said in terms of the file
-  return mesh::UnstructuredMesh(completed(std::move(arrays), false));
+  return mesh::UnstructuredMesh(completed(std::move(arrays), false, inner));
 }
 
 void GmshFile::visitFacets(

@@ -12,6 +12,7 @@
 /// they are read (by Gmsh 500), of which the object keeps 80, and each body made of them 140 (tetrahedra:
 /// 130, 35 and 70).
 
+#include "epafi/mesh/MeshOrder.hpp"
 #include "epafi/mesh/UnstructuredMesh.hpp"
 #include "epafi/meshing/MshReader.hpp"
 
@@ -40,8 +41,9 @@ public:
   /// are numbered in the order of their numbers in the file. Throws InputError if there is no such group, it
   /// mixes shapes of elements, or UnstructuredMesh refuses it.
   /// \param order  of the mesh, 1 or 2, whatever the file has (MeshOrder.hpp); 0: as the file has it.
-  /// Elements of 8 and 20 nodes become those of 9 and 27
-  [[nodiscard]] mesh::UnstructuredMesh body(const std::string& group, int order = 0) const;
+  /// \param inner  whether elements of 8 and 20 nodes become those of 9 and 27
+  [[nodiscard]] mesh::UnstructuredMesh body(const std::string& group, int order = 0,
+                                            mesh::InnerNodes inner = mesh::InnerNodes::added) const;
 
   /// Whether there is anything that body() would make a mesh of.
   [[nodiscard]] bool hasElements(const std::string& group) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "epafi/mesh/Box.hpp"
+#include "epafi/mesh/MeshOrder.hpp"
 
 #include <array>
 #include <string>
@@ -15,6 +16,7 @@ struct MeshSource {
   double sizeFactor = 1;                ///< by which all element sizes of a geometry (.geo) are multiplied
   int refinements = 0;                  ///< how often every element of the file is split
   int order = 1;                        ///< of the elements, 1 or 2; 0: as the mesh file has it
+  mesh::InnerNodes innerNodes = mesh::InnerNodes::added; ///< of elements of order 2 from a file
   std::string group; ///< the physical group in it that is this body; empty: all its elements
 };
 

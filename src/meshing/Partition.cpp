@@ -4,6 +4,7 @@
 #include "epafi/base/Errors.hpp"
 #include "epafi/base/HeldSignal.hpp"
 #include "epafi/mesh/ConnectedElements.hpp"
+#include "epafi/meshing/BracedParts.hpp"
 
 #include <Teuchos_CommHelpers.hpp>
 #include <metis.h>
@@ -253,7 +254,7 @@ std::vector<GlobalOrdinal> GridPartition::elementsOf(int part) const {
   return elements;
 }
 
-GraphPartition::GraphPartition(const mesh::Mesh& mesh, int parts, const Comm& comm)
+GraphPartition::GraphPartition(const mesh::Mesh& mesh, int parts, const Comm& comm, Parts kind)
     : part_(mesh.numElements(), 0) {
   collectively(comm, [&] {
     requireCut(mesh, parts);
@@ -265,6 +266,8 @@ GraphPartition::GraphPartition(const mesh::Mesh& mesh, int parts, const Comm& co
       std::sort(pieces.front().begin(), pieces.front().end());
       part_ = cutByMetis(mesh, pieces.front(), parts);
       makeConnected(mesh, part_);
+      if (kind == Parts::braced)
+        makeBraced(mesh, part_);
     }
     numParts_ = renumber(part_);
   });
@@ -287,7 +290,7 @@ std::vector<GlobalOrdinal> GraphPartition::elementsOf(int part) const {
   return {members.begin(), members.end()};
 }
 
-std::unique_ptr<const Partition> cutPieces(const mesh::Mesh& mesh, int parts) {
+std::unique_ptr<const Partition> cutPieces(const mesh::Mesh& mesh, int parts, Parts kind) {
   requireCut(mesh, parts);
   std::vector<int> part(mesh.numElements(), 0);
   int first = 0; // part of the piece
@@ -303,6 +306,8 @@ std::unique_ptr<const Partition> cutPieces(const mesh::Mesh& mesh, int parts) {
     first += wanted;
   }
   makeConnected(mesh, part);
+  if (kind == Parts::braced)
+    makeBraced(mesh, part);
   const int number = renumber(part);
   HeldElements held{0, number, std::vector<GlobalOrdinal>(part.size()), std::move(part)};
   std::iota(held.elements.begin(), held.elements.end(), GlobalOrdinal{0});

@@ -40,15 +40,22 @@ private:
   std::vector<int> rowOf_;    ///< row of parts of each row of elements; rows are counted through all layers
 };
 
+/// What each part of a mesh must be.
+enum class Parts {
+  connected, ///< through facets of elements
+  braced     ///< of elements, too, that are braced by others of the part (BracedElements.hpp)
+};
+
 /// Cuts the dual graph of a mesh by METIS and makes every part connected. The part of every element of the
 /// body is kept on each rank (two ints an element): the one place where something of the mesh's size is
 /// replicated.
 class GraphPartition final : public Partition {
 public:
   /// METIS runs on rank 0, its result is broadcast; the same mesh and count give the same parts on any
-  /// number of ranks. The number of parts may differ from the one asked for where METIS leaves parts empty.
+  /// number of ranks. The number of parts may differ from the one asked for where METIS leaves parts empty,
+  /// and be less where small ones are to be braced.
   /// Collective. \throws InputError if METIS refuses.
-  GraphPartition(const mesh::Mesh& mesh, int parts, const Comm& comm);
+  GraphPartition(const mesh::Mesh& mesh, int parts, const Comm& comm, Parts kind = Parts::connected);
   [[nodiscard]] int numParts() const override { return numParts_; }
   [[nodiscard]] int partOf(GlobalOrdinal element) const override { return part_[element]; }
   [[nodiscard]] std::vector<GlobalOrdinal> elementsOf(int part) const override;
@@ -79,7 +86,7 @@ private:
 
 /// Cuts a mesh that need not hang together, on one rank: each piece by METIS, into its share of the parts,
 /// one at least. Not collective. \throws InputError if METIS refuses.
-std::unique_ptr<const Partition> cutPieces(const mesh::Mesh& mesh, int parts);
+std::unique_ptr<const Partition> cutPieces(const mesh::Mesh& mesh, int parts, Parts kind = Parts::connected);
 
 /// Elements that a rank holds, and their parts.
 struct HeldElements {

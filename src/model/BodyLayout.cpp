@@ -114,7 +114,7 @@ std::unique_ptr<const mesh::Mesh> makeMesh(const scene::Body& body, const MeshFi
   const meshing::MeshSource& source = body.mesh;
   if (!source.file.empty())
     return std::make_unique<const mesh::UnstructuredMesh>(
-        files.at(keyOf(source)).body(source.group, source.order));
+        files.at(keyOf(source)).body(source.group, source.order, source.innerNodes));
   return structuredMesh(source);
 }
 
@@ -132,7 +132,7 @@ bool areCutAlike(const mesh::Mesh& a, const scene::Decomposition& cut, const mes
 std::shared_ptr<const meshing::Partition> cutByMetis(const scene::Body& body, int parts,
                                                      const mesh::Mesh& mesh, const Comm& comm) {
   try {
-    return std::make_shared<const meshing::GraphPartition>(mesh, parts, comm);
+    return std::make_shared<const meshing::GraphPartition>(mesh, parts, comm, kindOfParts(body, mesh));
   } catch (const InputError& error) { // the same on all ranks
     throw InputError("body '" + body.name + "': " + error.what());
   }
@@ -181,6 +181,12 @@ std::vector<BodyLayout> layoutBodies(const scene::Scene& scene, const Comm& comm
 
 std::unique_ptr<const mesh::Mesh> structuredMesh(const meshing::MeshSource& source) {
   return std::make_unique<const mesh::StructuredMesh>(source.box, source.elements, source.order);
+}
+
+meshing::Parts kindOfParts(const scene::Body& body, const mesh::Mesh& mesh) {
+  return body.reducedIntegration && isSerendipity(mesh.cellType()) // others are refused
+             ? meshing::Parts::braced
+             : meshing::Parts::connected;
 }
 
 int partsFor(const scene::Body& body, const mesh::Mesh& mesh) {

@@ -45,6 +45,9 @@ std::vector<BodyLayout> cutBodies(const scene::Scene& scene,
 /// The mesh of a body that has no file.
 std::unique_ptr<const mesh::Mesh> structuredMesh(const meshing::MeshSource& source);
 
+/// What the parts must be.
+meshing::Parts kindOfParts(const scene::Body& body, const mesh::Mesh& mesh);
+
 /// How many parts METIS makes of a mesh where the scene leaves it open.
 int partsFor(const scene::Body& body, const mesh::Mesh& mesh);
 

@@ -2,6 +2,7 @@
 
 #include "epafi/base/Errors.hpp"
 #include "epafi/contact/MortarIntegrals.hpp"
+#include "epafi/fem/HookesLaw.hpp"
 #include "epafi/mesh/BoxTree.hpp"
 #include "epafi/mesh/ElementGeometry.hpp"
 
@@ -138,7 +139,7 @@ std::string chooseSide(const scene::Scene& scene, const std::vector<BodyLayout>&
   const auto stiffness = [&](int body, const std::string&) {
     const scene::Body& owner = scene.bodies[body];
     return owner.physics == fem::Physics::membrane ? owner.material.conductivity
-                                                   : owner.material.youngsModulus;
+                                                   : fem::meanModuli(owner.material).youngsModulus;
   };
   const auto decides = [&](const auto& measure, double margin) {
     const double first = measure(terms.first, terms.firstSurface),

@@ -2,9 +2,12 @@
 
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
+#include "epafi/base/Text.hpp"
 #include "epafi/decomposition/EqualMatrices.hpp"
 #include "epafi/decomposition/UnassembledProblem.hpp"
 #include "epafi/fem/SubdomainAssembly.hpp"
+#include "epafi/mesh/BracedElements.hpp"
+#include "epafi/mesh/ElementGeometry.hpp"
 #include "epafi/model/SceneContacts.hpp"
 #include "epafi/model/SceneEquations.hpp"
 #include "epafi/model/ScenePlaces.hpp"
@@ -15,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -74,9 +78,28 @@ std::size_t bodyOf(const std::vector<BodyLayout>& bodies, int number) {
   return next - bodies.begin() - 1;
 }
 
+/// A part must have no motions without energy but rigid ones. \throws InputError
+void requireBraced(const BodyLayout& body, std::span<const GlobalOrdinal> elements) {
+  const auto isIn = [&](GlobalOrdinal other) {
+    return std::binary_search(elements.begin(), elements.end(), other);
+  };
+  std::vector<Point> points;
+  for (const GlobalOrdinal element : elements) {
+    if (isBraced(*body.mesh, element, isIn))
+      continue;
+    body.mesh->elementPoints(element, points);
+    const bool isPlane = dimensionOf(body.mesh->cellType()) == 2;
+    throw InputError("body '" + body.name + "': reduced integration leaves the element at " +
+                     text(mesh::centreOf(points)) + " loose, since " +
+                     (isPlane ? "it has no neighbours in its part of the body"
+                              : "its neighbours in its part of the body lie along one axis of it at most") +
+                     "; choose fewer parts if it has others in the body, else the integration \"full\"");
+  }
+}
+
 /// Assembles this rank's subdomains and hands them over, in the order of their numbers. Not collective.
-void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, const Share& share,
-                   decomposition::UnassembledProblem& problem) {
+void addSubdomains(const scene::Scene& scene, const std::vector<BodyLayout>& bodies, const Models& models,
+                   const Share& share, decomposition::UnassembledProblem& problem) {
   std::optional<fem::SubdomainAssembler> assembler;
   decomposition::EqualMatrices matrices;
   SparseMatrix scratch;
@@ -87,7 +110,11 @@ void addSubdomains(const std::vector<BodyLayout>& bodies, const Models& models, 
       assembler.emplace(*models[b]);
     fem::AssembledSubdomain values;
     values.stiffness.swap(scratch); // its memory is used again if the last matrix was a known one
-    assembler->assemble(bodies[b].partition->elementsOf(number - bodies[b].firstSubdomain), values);
+    const std::vector<GlobalOrdinal> elements =
+        bodies[b].partition->elementsOf(number - bodies[b].firstSubdomain);
+    if (scene.bodies[b].reducedIntegration)
+      requireBraced(bodies[b], elements);
+    assembler->assemble(elements, values);
     NodalSubdomain nodal{
         std::move(values.unknownOf), std::move(values.borderNodes), matrices.store(values.stiffness), {}};
     scratch.swap(values.stiffness);
@@ -168,7 +195,7 @@ Decomposition decompose(const scene::Scene& scene, std::vector<BodyLayout> bodie
   }
   problem.setClusterSizes(std::move(clusters));
   const Share share = shareOf(result.bodies, *comm);
-  collectively(*comm, [&] { addSubdomains(result.bodies, models, share, problem); });
+  collectively(*comm, [&] { addSubdomains(scene, result.bodies, models, share, problem); });
   const contact::NodeUnknowns unknowns = nodeUnknowns(result.bodies, models, comm);
   if (!result.contacts.empty()) {
     decomposition::ConstraintMatrix matrix = contact::contactMatrix(result.contacts, unknowns, comm);

@@ -106,7 +106,7 @@ void SplitReader::requireAll(const meshing::GmshFile& file) const {
 }
 
 mesh::UnstructuredMesh SplitReader::meshOf(const scene::Body& body, const meshing::GmshFile& file) {
-  mesh::UnstructuredMesh mesh = file.body(body.mesh.group, body.mesh.order);
+  mesh::UnstructuredMesh mesh = file.body(body.mesh.group, body.mesh.order, body.mesh.innerNodes);
   for (GlobalOrdinal node = 0; node < mesh.numNodes(); ++node)
     if (mesh.nodeTag(node) < 0)
       throw InputError(
@@ -123,7 +123,8 @@ void SplitReader::cut(std::size_t body, GlobalOrdinal before, GlobalOrdinal all)
     const GlobalOrdinal here = share.mesh.numElements(), behind = before + here;
     const GlobalOrdinal parts = how.parts == 0 ? partsFor(*bodies_[body], share.mesh)
                                                : behind * how.parts / all - before * how.parts / all;
-    share.partition = meshing::cutPieces(share.mesh, static_cast<int>(std::max<GlobalOrdinal>(parts, 1)));
+    share.partition = meshing::cutPieces(share.mesh, static_cast<int>(std::max<GlobalOrdinal>(parts, 1)),
+                                         kindOfParts(*bodies_[body], share.mesh));
     constexpr int single = 1; // neighbours follow each other, whatever run they fall into
     share.partition = std::make_shared<const meshing::GroupedPartition>(share.partition, share.mesh, single);
     before = behind;

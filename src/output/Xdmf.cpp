@@ -30,7 +30,9 @@ const char* nameOf(std::optional<mesh::CellType> type) {
                              "Quadrilateral_9",
                              "Tetrahedron_10",
                              "Hexahedron_27",
-                             "Edge_3"};
+                             "Edge_3",
+                             "Quadrilateral_8",
+                             "Hexahedron_20"};
   return type ? names.at(static_cast<std::size_t>(*type)) : "Polyvertex\" NodesPerElement=\"1";
 }
 

@@ -2,6 +2,7 @@
 
 #include "epafi/base/ParameterValue.hpp"
 #include "epafi/scene/EdgeContact.hpp"
+#include "epafi/scene/MaterialReader.hpp"
 
 #include <Eigen/Geometry>
 
@@ -71,10 +72,12 @@ meshing::MeshSource readMesh(const ListReader& list, int dimension) {
       list.refuseGiven({"Mesh Refinements"}, "a mesh in several files is read as it is; refine it in Gmsh");
     }
     source.group = list.word("Group");
+    if (list.word("Inner Nodes") == "none")
+      source.innerNodes = mesh::InnerNodes::none;
     source.order = list.has("Order") || source.file.ends_with(".geo") ? list.integer("Order") : 0;
     return source;
   }
-  list.refuseGiven({"Group", "Mesh Size Factor", "Mesh Refinements"},
+  list.refuseGiven({"Group", "Mesh Size Factor", "Mesh Refinements", "Inner Nodes"},
                    "the body has no mesh file that it could apply to");
   list.refuseGiven({dimension == 3 ? "Rectangle" : "Box"},
                    "a body in " +
@@ -89,33 +92,6 @@ meshing::MeshSource readMesh(const ListReader& list, int dimension) {
     source.elements[2] = 0;
   requireTellableNodes(list, extent, source, dimension);
   return source;
-}
-
-/// What is not given is as in `outer`. Of a region nothing is required.
-fem::Material readMaterial(const ListReader& list, fem::Physics physics, const fem::Material& outer,
-                           bool isRegion) {
-  fem::Material material = outer;
-  const auto take = [&](const char* name, double& value) {
-    if (list.has(name))
-      value = list.positive(name);
-  };
-  if (physics == fem::Physics::membrane) {
-    list.refuseGiven({"Young's Modulus", "Poisson's Ratio", "Thickness"}, "membranes have none; remove it");
-    take("Conductivity", material.conductivity);
-    return material;
-  }
-  const std::string useless = "bodies of the physics \"" + toString(physics) + "\" have none; remove it";
-  list.refuseGiven({"Conductivity"}, useless);
-  if (physics == fem::Physics::elasticity3d)
-    list.refuseGiven({"Thickness"}, useless);
-  if (!isRegion)
-    for (const char* const name : {"Young's Modulus", "Poisson's Ratio"})
-      list.require(name, " of an elastic body");
-  take("Young's Modulus", material.youngsModulus);
-  take("Thickness", material.thickness);
-  if (list.has("Poisson's Ratio"))
-    material.poissonsRatio = list.real("Poisson's Ratio");
-  return material;
 }
 
 /// A box that meets the body's own, if this is known.
@@ -353,6 +329,7 @@ Body readBody(const std::string& name, const ListReader& list) {
   body.name = name;
   body.physics = physicsOf(list.word("Physics"));
   body.mesh = readMesh(list, dimensionOf(body));
+  body.reducedIntegration = list.word("Integration") == "reduced";
   body.material = readMaterial(list, body.physics, {}, false);
   body.regions = readRegions(list.inside("Regions"), body);
   body.supports = readSupports(list.inside("Supports"), body);

@@ -103,6 +103,12 @@ std::array<Vector3, 2> ListReader::vectors(const std::string& name) const {
   return {{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}}};
 }
 
+std::vector<double> ListReader::reals(const std::string& name) const {
+  requireModerate(name);
+  const auto& values = list_.get<Teuchos::Array<double>>(name);
+  return {values.begin(), values.end()};
+}
+
 int ListReader::length(const std::string& name) const {
   const Teuchos::ParameterEntry& entry = list_.getEntry(name);
   return static_cast<int>(entry.isType<Teuchos::Array<int>>()

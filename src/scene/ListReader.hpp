@@ -50,6 +50,8 @@ public:
   [[nodiscard]] Vector3 vector(const std::string& name, int dimension) const;
   /// {x, y, z, x, y, z}, as real(): two vectors in space.
   [[nodiscard]] std::array<Vector3, 2> vectors(const std::string& name) const;
+  /// As many as there are, each as real().
+  [[nodiscard]] std::vector<double> reals(const std::string& name) const;
   /// Number of entries of an array of real numbers.
   [[nodiscard]] int length(const std::string& name) const;
   /// The file that a word names: beside the scene's file unless the path is absolute.

@@ -27,9 +27,25 @@ void describeMaterial(ParameterList& list, const std::string& of) {
   addReal(list, "Conductivity", material.conductivity, "Membranes: conductivity (tension) " + of + '.', 0.0,
           infinity, true);
   addReal(list, "Young's Modulus", material.youngsModulus,
-          "Elastic bodies, required: E " + of + ", force per area.", 0.0, infinity, true);
-  addReal(list, "Poisson's Ratio", material.poissonsRatio, "Elastic bodies, required: ν " + of + '.', -1.0,
-          0.5, true, true);
+          "Elastic bodies, required if isotropic: E " + of + ", force per area.", 0.0, infinity, true);
+  addReal(list, "Poisson's Ratio", material.poissonsRatio,
+          "Elastic bodies, required if isotropic: ν " + of + '.', -1.0, 0.5, true, true);
+  addArray(
+      list, "Elasticity", Array<double>(),
+      "Elastic bodies that are not isotropic, instead of Young's Modulus and Poisson's Ratio: constants " +
+          of +
+          ", force per area, of σ = Dε with shear strains as angles. 9 of an orthotropic material, {D1111, "
+          "D1122, "
+          "D2222, D1133, D2233, D3333, D1212, D1313, D2323}, or 21 of any, {D1111, D1122, D2222, D1133, "
+          "D2233, "
+          "D3333, D1112, D2212, D3312, D1212, D1113, D2213, D3313, D1213, D1313, D1123, D2223, D3323, D1223, "
+          "D1323, D2323}. Plane bodies take what they need: in plane stress no stress acts across the plane.",
+      "D is positive definite");
+  addArray(list, "Axes", Array<double>(),
+           "With Elasticity: two vectors {ax, ay, az, bx, by, bz}. Its axis 1 is along a, its axis 2 in the "
+           "plane of "
+           "a and b, on the side of b. {}: the axes of space.",
+           "");
   addReal(list, "Thickness", material.thickness, "Plane strain and plane stress: thickness " + of + '.', 0.0,
           infinity, true);
 }
@@ -56,6 +72,13 @@ void describeMesh(ParameterList& list) {
       "Order of the elements: linear or quadratic. Of a mesh file (.msh) its own order counts if none is "
       "given; quadratic elements of a geometry (.geo) are curved where it is.",
       1, 2);
+  addChoice(list, "Inner Nodes", "added",
+            "With a mesh file: what becomes of quadratic quadrilaterals and hexahedra without nodes in the "
+            "middle of "
+            "faces and of themselves (8 and 20 nodes). added: they get them (9 and 27 nodes), and keep their "
+            "form; none: "
+            "they stay as they are.",
+            {"added", "none"});
   addReal(list, "Mesh Size Factor", meshing::MeshSource().sizeFactor,
           "With a .geo file: by which all its mesh sizes are multiplied; 0.5 halves the elements.", 0.0,
           infinity, true);
@@ -154,6 +177,19 @@ void describeBody(ParameterList& bodies) {
       "number of unknowns a node.",
       {"membrane", "plane strain", "plane stress", "elasticity 3-D"});
   describeMesh(list);
+  addChoice(
+      list, "Integration", "full",
+      "By how many points elements are integrated. reduced: by two along each axis, as others do (C3D20R, "
+      "CPS8R), "
+      "of elastic bodies of quadrilaterals of 8 and hexahedra of 20 nodes alone. Such elements lock less and "
+      "cost "
+      "less, but are less reliable: single ones have motions without energy. A body, and a part of it, is "
+      "refused "
+      "in which an element has no neighbours along two of its axes (in the plane along one); near loads at "
+      "points "
+      "and in coarse meshes displacements may waver all the same, and refining need not bring an error down "
+      "steadily.",
+      {"full", "reduced"});
   describeMaterial(list, "of the body outside of its regions");
   describeRegions(list);
   describeSupports(list);

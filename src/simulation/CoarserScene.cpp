@@ -73,6 +73,7 @@ std::optional<CoarserScene> coarserScene(const scene::Scene& scene,
   coarser.means = "elements of order 1";
   for (std::size_t b = 0; b < number; ++b) {
     coarser.scene.bodies[b].mesh.order = 1;
+    coarser.scene.bodies[b].reducedIntegration = false;
     if (isQuadratic(b))
       mergeParts(coarser.scene.bodies[b].decomposition, dimensionOf(scene.bodies[b].physics) == 2 ? 4 : 8);
   }

@@ -122,6 +122,36 @@ TEST_F(MeshOrderTest, SerendipityElementsOfFilesAreCompleted) {
   }
 }
 
+TEST_F(MeshOrderTest, SerendipityElementsOfFilesStayAsTheyAreIfAsked) {
+  for (const CellType type : {CellType::quadrilateral, CellType::hexahedron}) {
+    SCOPED_TRACE(toString(type));
+    const MeshArrays linear = boxOf(type);
+    MeshArrays mesh = completed(linear, false, InnerNodes::none);
+    EXPECT_EQ(mesh.cellType, withoutInnerNodes(withOrder(type, 2)));
+    SignedRandomNumbers random(3);
+    for (Point& point : mesh.points)
+      for (int d = 0; d < dimensionOf(type); ++d)
+        point[d] += 0.01 * random();
+    const meshing::GmshFile file(folder.write("serendipity.msh", test::fileOf(mesh)));
+    const UnstructuredMesh read = file.body("body", 0, InnerNodes::none);
+    EXPECT_EQ(read.cellType(), mesh.cellType);
+    ASSERT_EQ(read.numNodes(), std::ssize(mesh.points));
+    std::vector<Point> own;
+    for (GlobalOrdinal e = 0; e < read.numElements(); ++e) {
+      read.elementPoints(e, own);
+      const auto nodes = nodesOf(mesh.cellType, mesh.cells, e);
+      for (std::size_t i = 0; i < own.size(); ++i)
+        EXPECT_EQ(own[i], mesh.points[nodes[i]]);
+    }
+    const UnstructuredMesh whole = file.body("body"); // the same elements, with inner nodes
+    EXPECT_EQ(whole.cellType(), withOrder(type, 2));
+    EXPECT_NEAR(test::measureOf(whole), test::measureOf(read), 1e-14);
+    const UnstructuredMesh corners = file.body("body", 1, InnerNodes::none);
+    EXPECT_EQ(corners.cellType(), type);
+    EXPECT_EQ(corners.numNodes(), std::ssize(linear.points));
+  }
+}
+
 TEST_F(MeshOrderTest, GeometriesOfOrderTwoAreCurved) {
   const std::string geometries[] = {R"(
 Disk(1) = {0, 0, 0, 1};

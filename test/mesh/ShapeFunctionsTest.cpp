@@ -114,6 +114,32 @@ TEST(ShapeFunctionsTest, RulesAreExactForPolynomialsOfTheirDegree) {
   });
 }
 
+/// Order by order, of bricks: two points along each axis are exact for cubics.
+TEST(ShapeFunctionsTest, ReducedRulesOfBricksAreExactForCubics) {
+  for (const CellType type : {CellType::quadrilateral8, CellType::hexahedron20, CellType::hexahedron27})
+    withShape(type, []<int dim>(const Shape<dim>& shape) {
+      EXPECT_EQ(std::ssize(shape.reducedSamples()), 1 << dim);
+      for (int code = 0; code < power(4, dim); ++code)
+        EXPECT_NEAR(errorOf(shape, shape.reducedSamples(), {code % 4, code / 4 % 4, code / 16}), 0, 5e-15);
+    });
+}
+
+/// Of ξ²η and its like, but of no more.
+TEST(ShapeFunctionsTest, SerendipityFunctionsReproduceQuadraticFunctions) {
+  for (const CellType type : {CellType::quadrilateral8, CellType::hexahedron20})
+    withShape(type, []<int dim>(const Shape<dim>& shape) {
+      const auto function = [](const auto& x) {
+        return 1 + 2 * x[0] - x[1] + x[0] * x[1] + 3 * x[0] * x[0] - x[1] * x[1] + 0.5 * x[0] * x[0] * x[1] +
+               (dim == 3 ? x[dim - 1] * (x[0] * x[1] + x[dim - 1] + x[1] * x[1] * x[0]) : 0.0);
+      };
+      NodalValues nodal(shape.numNodes);
+      for (int a = 0; a < shape.numNodes; ++a)
+        nodal[a] = function(shape.node(a));
+      const Coordinates<dim> xi = somePoint(shape);
+      EXPECT_NEAR(nodal.dot(shape.values(xi)), function(xi), 1e-14);
+    });
+}
+
 TEST(ShapeOfCellTest, HasTheNodesAndTheDimensionOfTheCellAndItsFacets) {
   for (const CellType type : allCellTypes) {
     SCOPED_TRACE(toString(type));

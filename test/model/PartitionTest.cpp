@@ -3,6 +3,7 @@
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Errors.hpp"
 #include "epafi/fem/LocalNumbering.hpp"
+#include "epafi/mesh/BracedElements.hpp"
 #include "epafi/mesh/UnstructuredMesh.hpp"
 
 #include <Teuchos_DefaultMpiComm.hpp>
@@ -306,6 +307,28 @@ TEST(PartitionTest, MeshesInPiecesAreNotCut) {
     EXPECT_NE(std::string(error.what()).find("only 1 of its 2 elements are joined"), std::string::npos)
         << error.what();
   }
+}
+
+TEST(PartitionTest, BracedPartsHaveNeighboursAlongAllAxesButOneOfEachElement) {
+  for (const auto& counts : {std::array{12, 9, 0}, {6, 5, 4}, {9, 8, 1}}) {
+    const mesh::StructuredMesh mesh({{0, 0, 0}, {1, 1, 1}}, counts);
+    const auto expectBraced = [&](const Partition& partition) {
+      expectSound(partition, mesh);
+      for (GlobalOrdinal element = 0; element < mesh.numElements(); ++element)
+        EXPECT_TRUE(isBraced(mesh, element, [&](GlobalOrdinal other) {
+          return partition.partOf(other) == partition.partOf(element);
+        })) << element;
+    };
+    const auto numElements = static_cast<int>(mesh.numElements());
+    for (const int parts : {1, 5, numElements / 5, numElements / 2, numElements})
+      expectBraced(GraphPartition(mesh, parts, *world(), meshing::Parts::braced));
+  }
+}
+
+/// Nothing can be done for a row of hexahedra.
+TEST(PartitionTest, ElementsThatTheBodyDoesNotBraceStayWhereTheyAre) {
+  const mesh::StructuredMesh mesh = boxMesh(7, 1, 1);
+  EXPECT_EQ(GraphPartition(mesh, 3, *world(), meshing::Parts::braced).numParts(), 1);
 }
 
 TEST(PartitionTest, AGroupedGridFallsIntoBlocks) {

@@ -53,6 +53,8 @@ TEST(XdmfTest, EveryTypeOfCellHasItsName) {
   EXPECT_TRUE(contains(text(CellType::triangle, 3), "TopologyType=\"Triangle\""));
   EXPECT_TRUE(contains(text(CellType::tetrahedron, 4), "TopologyType=\"Tetrahedron\""));
   EXPECT_TRUE(contains(text(CellType::hexahedron, 8), "TopologyType=\"Hexahedron\""));
+  EXPECT_TRUE(contains(text(CellType::quadrilateral8, 8), "TopologyType=\"Quadrilateral_8\""));
+  EXPECT_TRUE(contains(text(CellType::hexahedron20, 20), "TopologyType=\"Hexahedron_20\""));
 }
 
 TEST(XdmfTest, KindOfAttributeFollowsTheNumberOfColumns) {

@@ -97,6 +97,77 @@ TEST(SolidReaderTest, FindsMeshFilesBesideTheScene) {
   EXPECT_EQ(solidOf(list).mesh.file, "/parts/cube.geo");
 }
 
+TEST(SolidReaderTest, ReadsWhatBecomesOfInnerNodesAndByHowManyPointsIsIntegrated) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  EXPECT_FALSE(solidOf(list).reducedIntegration);
+  cube.remove("Box");
+  cube.remove("Elements");
+  cube.set("Mesh", "cube.msh");
+  EXPECT_EQ(solidOf(list).mesh.innerNodes, mesh::InnerNodes::added);
+  cube.set("Inner Nodes", "none").set("Integration", "reduced");
+  EXPECT_EQ(solidOf(list).mesh.innerNodes, mesh::InnerNodes::none);
+  EXPECT_TRUE(solidOf(list).reducedIntegration);
+  expectSays(cubeRefusal("Inner Nodes", "none"), {"\"Inner Nodes\"", "no mesh file"});
+}
+
+/// Twice as stiff along a = (0, 1, 0) as across.
+TEST(SolidReaderTest, ReadsElasticConstantsInTheirAxes) {
+  ParameterList list = cubeOnFloor();
+  ParameterList& cube = bodyOf(list, "cube");
+  cube.remove("Young's Modulus");
+  cube.remove("Poisson's Ratio");
+  cube.set("Elasticity", numbers({4, 0.1, 2, 0.2, 0.3, 3, 5, 6, 7})).set("Axes", numbers({0, 2, 0, 0, 5, 1}));
+  const fem::Material made = solidOf(list).material;
+  ASSERT_TRUE(made.elasticity);
+  const auto& c = *made.elasticity; // axes 1, 2, 3 are y, z, x
+  EXPECT_NEAR(c(1, 1), 4, 1e-14);
+  EXPECT_NEAR(c(2, 2), 2, 1e-14);
+  EXPECT_NEAR(c(0, 0), 3, 1e-14);
+  EXPECT_NEAR(c(1, 2), 0.1, 1e-14);
+  EXPECT_NEAR(c(1, 0), 0.2, 1e-14);
+  EXPECT_NEAR(c(2, 0), 0.3, 1e-14);
+  EXPECT_NEAR(c(4, 4), 5, 1e-14); // 12 is yz
+  EXPECT_NEAR(c(3, 3), 6, 1e-14); // 13 is yx
+  EXPECT_NEAR(c(5, 5), 7, 1e-14); // 23 is zx
+  ParameterList& region = cube.sublist("Regions").sublist("steel");
+  region.set("Box", numbers({0, 0.5, 0, 1, 0, 1})).set("Young's Modulus", 210.0).set("Poisson's Ratio", 0.3);
+  EXPECT_FALSE(solidOf(list).regions.at(0).material.elasticity);
+}
+
+TEST(SolidReaderTest, RefusesElasticConstantsThatAreNone) {
+  const auto refused = [](const std::function<void(ParameterList&)>& change) {
+    return refusalOf([&](ParameterList& list) {
+      ParameterList& cube = bodyOf(list, "cube");
+      cube.remove("Young's Modulus");
+      cube.remove("Poisson's Ratio");
+      cube.set("Elasticity", numbers({4, 0.1, 2, 0.2, 0.3, 3, 5, 6, 7}));
+      change(cube);
+    });
+  };
+  expectSays(cubeRefusal("Elasticity", numbers({4, 0.1, 2, 0.2, 0.3, 3, 5, 6, 7})),
+             {"\"Young's Modulus\"", "\"Elasticity\""});
+  expectSays(cubeRefusal("Axes", numbers({1, 0, 0, 0, 1, 0})), {"\"Axes\"", "\"Elasticity\""});
+  expectSays(refused([](ParameterList& cube) {
+               cube.set("Elasticity", numbers({1, 2, 3}));
+             }),
+             {"\"Elasticity\"", "9", "21", "not 3"});
+  expectSays(refused([](ParameterList& cube) {
+               cube.set("Elasticity", numbers({1, 2, 1, 0, 0, 1, 1, 1, 1}));
+             }),
+             {"\"Elasticity\"", "positive definite"});
+  expectSays(refused([](ParameterList& cube) {
+               cube.set("Axes", numbers({1, 0, 0, -2, 0, 0}));
+             }),
+             {"\"Axes\"", "in one line"});
+  expectSays(refused([](ParameterList& cube) { cube.set("Axes", numbers({1, 0, 0})); }), {"\"Axes\"", "6"});
+  expectSays(refused([](ParameterList& cube) {
+               ParameterList& region = cube.sublist("Regions").sublist("steel");
+               region.set("Box", numbers({0, 0.5, 0, 1, 0, 1})).set("Young's Modulus", 210.0);
+             }),
+             {"\"Poisson's Ratio\"", "must be given"});
+}
+
 TEST(SolidReaderTest, ReadsAMembraneOnAMeshFile) {
   ParameterList list;
   ParameterList& body = bodyOf(list, "skin");

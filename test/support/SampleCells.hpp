@@ -24,10 +24,11 @@ namespace epafi::test {
 
 inline constexpr std::array linearCellTypes{mesh::CellType::triangle, mesh::CellType::quadrilateral,
                                             mesh::CellType::tetrahedron, mesh::CellType::hexahedron};
-inline constexpr std::array allCellTypes{mesh::CellType::triangle,      mesh::CellType::quadrilateral,
-                                         mesh::CellType::tetrahedron,   mesh::CellType::hexahedron,
-                                         mesh::CellType::triangle6,     mesh::CellType::quadrilateral9,
-                                         mesh::CellType::tetrahedron10, mesh::CellType::hexahedron27};
+inline constexpr std::array allCellTypes{mesh::CellType::triangle,       mesh::CellType::quadrilateral,
+                                         mesh::CellType::tetrahedron,    mesh::CellType::hexahedron,
+                                         mesh::CellType::triangle6,      mesh::CellType::quadrilateral9,
+                                         mesh::CellType::tetrahedron10,  mesh::CellType::hexahedron27,
+                                         mesh::CellType::quadrilateral8, mesh::CellType::hexahedron20};
 
 /// Physics that go with a type of cell, membranes apart.
 inline std::vector<fem::Physics> elasticPhysics(mesh::CellType type) {

@@ -60,8 +60,8 @@ Physical Surface("front") = {lower(2), upper(2)}; Physical Surface("left") = {lo
 }
 
 /// Of order 2, the nodes inside moved about: all edges inside are curved.
-mesh::MeshArrays curved(mesh::MeshArrays arrays) {
-  arrays = completed(std::move(arrays), false);
+mesh::MeshArrays curved(mesh::MeshArrays arrays, mesh::InnerNodes inner) {
+  arrays = completed(std::move(arrays), false, inner);
   for (std::size_t node = 0; node < arrays.nodeTags.size(); ++node)
     arrays.nodeTags[node] = static_cast<GlobalOrdinal>(node) + 1;
   const mesh::MeshTopology topology(arrays.cellType, static_cast<LocalOrdinal>(arrays.points.size()),
@@ -88,16 +88,18 @@ meshing::MeshSource meshOf(const Kind& kind, bool isLower, double bottom, const 
   if (isLower && kind.lowerElements > 0 && isSpace)
     source.elements[1] = kind.lowerElements + 1;
   source.order = order;
-  if (kind.source == Source::structured && !isSimplex(cell))
+  if (kind.source == Source::structured && !isSimplex(cell) && !kind.isSerendipity)
     return source;
+  const auto inner = kind.isSerendipity ? mesh::InnerNodes::none : mesh::InnerNodes::added;
   const mesh::StructuredMesh mesh(source.box, source.elements);
   mesh::MeshArrays arrays = arraysOf(mesh, kind.placement(), isSimplex(cell));
   if (kind.source == Source::curved)
-    arrays = curved(std::move(arrays));
+    arrays = curved(std::move(arrays), inner);
   meshing::MeshSource file;
   file.file = folder.write(isLower ? "lower.msh" : "upper.msh", epafi::test::fileOf(arrays));
   file.group = "body";
   file.order = kind.source == Source::curved ? 0 : order;
+  file.innerNodes = inner;
   return file;
 }
 
@@ -111,6 +113,7 @@ scene::Scene stack(const Kind& kind, Below below, const MeshFolder& folder) {
     body.name = level == 0 ? "lower" : "upper";
     body.physics = kind.physics;
     body.material = {1.0, 200.0, 0.3, 0.5};
+    body.reducedIntegration = kind.isReduced;
     if (kind.source == Source::gmsh) {
       body.mesh.file =
           level == 0 ? folder.write("stack.geo", geometryOf(kind.cell, gap)) : folder.path("stack.geo");

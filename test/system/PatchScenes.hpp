@@ -24,6 +24,8 @@ struct Kind {
   mesh::CellType lowerCell = cell; ///< likewise
   int lowerElements = 0;           ///< along the joint, if the lower block is meshed apart
   int upperElements = 0;           ///< along the joint, if not as usual
+  bool isSerendipity = false;      ///< without inner nodes
+  bool isReduced = false;          ///< integrated by fewer points
 
   [[nodiscard]] int dimension() const { return mesh::dimensionOf(cell); }
   [[nodiscard]] epafi::test::Placement placement() const {

@@ -194,6 +194,7 @@ std::string nameOfKind(const testing::TestParamInfo<Kind>& instance) {
                      std::to_string(kind.order) +
                      (kind.lowerOrder != kind.order ? "on" + std::to_string(kind.lowerOrder) : "") +
                      (kind.lowerCell != kind.cell ? std::string("on") + mesh::toString(kind.lowerCell) : "") +
+                     (kind.isSerendipity ? "serendipity" : "") + (kind.isReduced ? "reduced" : "") +
                      (kind.upperElements > 0 ? "from" + std::to_string(kind.upperElements) : "") +
                      (kind.lowerElements > 0 ? "apart" + std::to_string(kind.lowerElements) : "");
   std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
@@ -217,6 +218,23 @@ std::vector<Kind> kinds() {
     for (const int order : {1, 2})
       all.push_back({mesh::dimensionOf(cell) == 2 ? Physics::planeStrain : Physics::elasticity3d, cell,
                      Source::structured, order, 3 - order});
+  return all;
+}
+
+/// Elements of 8 and 20 nodes; by fewer points straight ones alone pass.
+std::vector<Kind> kindsOfSerendipity() {
+  std::vector<Kind> all;
+  for (const auto& [physics, cell] : {std::pair(Physics::planeStrain, CellType::quadrilateral),
+                                      {Physics::elasticity3d, CellType::hexahedron}}) {
+    Kind kind{physics, cell, Source::curved, 2};
+    kind.isSerendipity = true;
+    all.push_back(kind);
+    kind.source = Source::turned;
+    kind.isReduced = true;
+    all.push_back(kind);
+    kind.lowerElements = 3; // coupled by mortars
+    all.push_back(kind);
+  }
   return all;
 }
 
@@ -248,6 +266,7 @@ std::vector<Kind> kindsApart() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stacks, PatchTest, testing::ValuesIn(kinds()), nameOfKind);
+INSTANTIATE_TEST_SUITE_P(Serendipity, PatchTest, testing::ValuesIn(kindsOfSerendipity()), nameOfKind);
 INSTANTIATE_TEST_SUITE_P(Apart, PatchTest, testing::ValuesIn(kindsApart()), nameOfKind);
 
 } // namespace

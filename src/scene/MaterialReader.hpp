@@ -1,0 +1,14 @@
+#pragma once
+
+/// What bodies and their regions are made of, from a scene's file.
+
+#include "epafi/fem/Solid.hpp"
+#include "epafi/scene/ListReader.hpp"
+
+namespace epafi::scene {
+
+/// What is not given is as in `outer`. Of a region nothing is required. \throws InputError
+fem::Material readMaterial(const ListReader& list, fem::Physics physics, const fem::Material& outer,
+                           bool isRegion);
+
+} // namespace epafi::scene
