@@ -86,6 +86,9 @@ void Card::refuseAt(const Place& where, const std::string& what) const {
 
 Cards::Cards(const std::string& name, std::string text, Include include) : include_(std::move(include)) {
   read(name, std::move(text));
+  if (cards_.empty())
+    throw InputError(asSentence(deck::text({name, 1}) +
+                                ": there is no keyword, such as *NODE, in the file; it is no input deck"));
 }
 
 void Cards::read(const std::string& name, std::string text) {
@@ -113,9 +116,7 @@ void Cards::read(const std::string& name, std::string text) {
     } else if (!keywordLine.empty())
       keywordLine += line;
     else if (cards_.empty())
-      throw InputError(deck::text({file, number}) +
-                       ": a deck begins with a keyword, such as *NODE, and not with \"" +
-                       shortened(std::string(line)) + "\".");
+      textInFront_ = textInFront_.value_or(Place{file, number}); // CalculiX passes over it
     else
       cards_.back().data.push_back({line, &file, number});
     if (line.back() != ',')

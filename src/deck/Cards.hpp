@@ -54,10 +54,12 @@ public:
   /// The text of an included file.
   using Include = std::function<std::string(const std::string& name, const Card& card)>;
 
-  /// \throws InputError  of data without a keyword, includes that go in circles, or whatever `include` throws
+  /// \throws InputError  if there is no keyword, of includes that go in circles, or whatever `include` throws
   Cards(const std::string& name, std::string text, Include include);
 
   [[nodiscard]] const std::vector<Card>& list() const { return cards_; }
+  /// Where there is something before the first keyword that is no comment.
+  [[nodiscard]] const std::optional<Place>& textInFront() const { return textInFront_; }
 
 private:
   void read(const std::string& name, std::string text);
@@ -68,6 +70,7 @@ private:
   std::deque<std::string> texts_, names_; ///< where they stand, they stay
   std::vector<std::string> open_;
   std::vector<Card> cards_;
+  std::optional<Place> textInFront_;
 };
 
 std::string_view withoutBlanks(std::string_view text); ///< at both ends

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 /// \param sentence  where the file is named, in front of what is wrong
 std::string unpackedText(const fs::path& file, const std::string& sentence) {
   constexpr std::size_t chunk = 1u << 16;
-  if (!fs::exists(file))
+  std::error_code error;
+  if (!fs::exists(file, error))
     throw InputError(sentence + " does not exist.");
   const std::unique_ptr<gzFile_s, decltype(&gzclose)> stream(gzopen(file.c_str(), "rb"), &gzclose);
   std::string text;
@@ -24,10 +25,10 @@ std::string unpackedText(const fs::path& file, const std::string& sentence) {
   int numBytes = -1;
   while (stream && (numBytes = gzread(stream.get(), bytes.data(), bytes.size())) > 0)
     text.append(bytes.data(), static_cast<std::size_t>(numBytes));
-  int error = Z_OK;
+  int state = Z_OK;
   if (stream)
-    gzerror(stream.get(), &error); // of a file that is cut off there is no other sign
-  if (numBytes < 0 || error != Z_OK)
+    gzerror(stream.get(), &state); // of a file that is cut off there is no other sign
+  if (numBytes < 0 || state != Z_OK)
     throw InputError(sentence + " cannot be read to its end; it is damaged, cut off, or no file.");
   return text;
 }

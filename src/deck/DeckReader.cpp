@@ -156,6 +156,8 @@ Deck deckOf(const Cards& cards, const std::string& name) {
       refuseUnknown(card);
   Reading reading;
   reading.deck.file = name;
+  if (cards.textInFront())
+    reading.ignore("text before the first keyword", *cards.textInFront());
   readNodes(reading, cards.list());
   readElements(reading, cards.list());
   readSets(reading, cards.list());

@@ -133,7 +133,7 @@ const std::array refusedParameters{
                      "its stiffness depends on the gap; write HARD, or LINEAR with a stiffness"},
     RefusedParameter{"SURFACEBEHAVIOR", "PRESSURE-OVERCLOSURE", "TABULAR",
                      "its stiffness depends on the gap; write HARD, or LINEAR with a stiffness"},
-    RefusedParameter{"SURFACEBEHAVIOR", "NOSEPARATION", "",
+    RefusedParameter{"SURFACEBEHAVIOR", "NO SEPARATION", "",
                      "surfaces may part here; write *TIE where they may not"},
     RefusedParameter{"FRICTION", "ROUGH", "", "give a coefficient of friction"},
     RefusedParameter{"FRICTION", "TAUMAX", "", "friction is Coulomb's without a limit; leave it out"},
@@ -142,26 +142,26 @@ const std::array refusedParameters{
     RefusedParameter{"CONTACTPAIR", "TIED", "", "write *TIE"},
     RefusedParameter{"MODELCHANGE", "TYPE", "ELEMENT",
                      "bodies stay the same; TYPE=CONTACT PAIR is read alone"},
-    RefusedParameter{"TIE", "CYCLICSYMMETRY", "", "cyclic symmetry is not read; give the whole ring"},
+    RefusedParameter{"TIE", "CYCLIC SYMMETRY", "", "cyclic symmetry is not read; give the whole ring"},
     RefusedParameter{"TIE", "MULTISTAGE", "", "cyclic symmetry is not read; give the whole ring"},
-    RefusedParameter{"TIE", "FLUIDPERIODIC", "", "fluids are not computed here"},
-    RefusedParameter{"TIE", "FLUIDCYCLIC", "", "fluids are not computed here"},
+    RefusedParameter{"TIE", "FLUID PERIODIC", "", "fluids are not computed here"},
+    RefusedParameter{"TIE", "FLUID CYCLIC", "", "fluids are not computed here"},
     RefusedParameter{"EQUATION", "REMOVE", "",
                      "equations hold in all steps; make decks of their own of the steps"},
-    RefusedParameter{"EQUATION", "REMOVEALL", "",
+    RefusedParameter{"EQUATION", "REMOVE ALL", "",
                      "equations hold in all steps; make decks of their own of the steps"},
-    RefusedParameter{"BOUNDARY", "MASSFLOW", "", "fluids are not computed here"},
+    RefusedParameter{"BOUNDARY", "MASS FLOW", "", "fluids are not computed here"},
     RefusedParameter{"BOUNDARY", "USER", "", prescribedOnly},
     RefusedParameter{"BOUNDARY", "SUBMODEL", "", prescribedOnly},
-    RefusedParameter{"BOUNDARY", "LOADCASE", "", notHarmonic},
+    RefusedParameter{"BOUNDARY", "LOAD CASE", "", notHarmonic},
     RefusedParameter{"CLOAD", "USER", "", prescribedOnly},
     RefusedParameter{"CLOAD", "SUBMODEL", "", prescribedOnly},
-    RefusedParameter{"CLOAD", "LOADCASE", "", notHarmonic},
+    RefusedParameter{"CLOAD", "LOAD CASE", "", notHarmonic},
     RefusedParameter{"CLOAD", "SECTOR", "", notHarmonic},
     RefusedParameter{"CLOAD", "OMEGA0", "", notHarmonic},
     RefusedParameter{"CLOAD", "FOLLOWER", "", "forces keep their direction here; leave it out"},
     RefusedParameter{"DLOAD", "USER", "", prescribedOnly},
-    RefusedParameter{"DLOAD", "LOADCASE", "", notHarmonic},
+    RefusedParameter{"DLOAD", "LOAD CASE", "", notHarmonic},
     RefusedParameter{"DLOAD", "SECTOR", "", notHarmonic},
     RefusedParameter{"DSLOAD", "SUBMODEL", "", prescribedOnly},
     RefusedParameter{"DSLOAD", "USER", "", prescribedOnly},
@@ -171,15 +171,33 @@ const std::array refusedParameters{
     RefusedParameter{"EXPANSION", "USER", "", prescribedOnly},
     RefusedParameter{"NODE", "SYSTEM", "", "nodes are read as x, y, z; write them so"},
     RefusedParameter{"STATIC", "RIKS", "", "loads follow time here; leave it out"},
-    RefusedParameter{"STATIC", "TIMERESET", "", "time goes on from step to step; leave it out"},
-    RefusedParameter{"STATIC", "TOTALTIMEATSTART", "", "time goes on from step to step; leave it out"},
+    RefusedParameter{"STATIC", "TIME RESET", "", "time goes on from step to step; leave it out"},
+    RefusedParameter{"STATIC", "TOTAL TIME AT START", "", "time goes on from step to step; leave it out"},
     RefusedParameter{"NSET", "ELSET", "", "nodes of elements are not looked for; write their numbers"},
     RefusedParameter{"NSET", "INSTANCE", "", "instances are not read; write the deck without them"},
     RefusedParameter{"ELSET", "INSTANCE", "", "instances are not read; write the deck without them"},
     RefusedParameter{"SOLIDSECTION", "COMPOSITE", "", "a section is of one material; name it by MATERIAL="},
     RefusedParameter{"ELASTIC", "DEPENDENCIES", "", "constants depend on temperature alone"}};
 
-constexpr const char* otherElements = "the elements that are read are ";
+/// What elements are whose types begin so, in the order in which they are tried.
+struct OtherElements {
+  const char *begin, *are;
+};
+
+constexpr std::array otherElements{
+    OtherElements{"SPRING", "springs"},  OtherElements{"DASHPOT", "dashpots"},
+    OtherElements{"DCOUP", "couplings"}, OtherElements{"GAP", "gaps"},
+    OtherElements{"MASS", "masses"},     OtherElements{"B", "beams"},
+    OtherElements{"S", "shells"},        OtherElements{"M3D", "membranes"},
+    OtherElements{"T", "trusses"},       OtherElements{"D", "networks of fluids"},
+    OtherElements{"F", "fluids"},        OtherElements{"", "elements of this type"}};
+
+std::string reasonOfElement(const std::string& type) {
+  const auto* const other =
+      std::find_if(otherElements.begin(), otherElements.end(),
+                   [&](const OtherElements& elements) { return type.starts_with(elements.begin); });
+  return std::string(other->are) + " are not read; model the part by one of " + listed(elementTypeNames());
+}
 
 const std::set<std::string>& squeezedNames(const Names& names) {
   static std::map<const Names*, std::set<std::string>> known;
@@ -190,22 +208,25 @@ const std::set<std::string>& squeezedNames(const Names& names) {
   return result;
 }
 
-/// What of the card's parameters stands in its name: those by which it is refused, and USER.
+/// What of the card's parameters stands in its name: the one by which it is refused, and USER.
 std::string nameWith(const Card& card, const RefusedParameter& refused) {
   std::string name = card.shown + ", " + refused.parameter;
-  if (!card.value(refused.parameter).empty())
-    name += '=' + shortened(card.value(refused.parameter));
+  const std::string value = card.value(squeezed(refused.parameter));
+  if (!value.empty())
+    name += '=' + shortened(value);
   if (card.has("USER") && std::string_view(refused.parameter) != "USER")
     name += ", USER";
   return name;
 }
 
 bool isRefused(const Card& card, const RefusedParameter& refused) {
-  if (card.keyword != refused.keyword || !card.has(refused.parameter))
+  if (card.keyword != refused.keyword)
     return false;
-  const std::string_view value = refused.value;
-  return value.empty() || (value[0] == '!' ? card.value(refused.parameter) != value.substr(1)
-                                           : card.value(refused.parameter) == value);
+  const std::string parameter = squeezed(refused.parameter), value = card.value(parameter);
+  const std::string_view wrong = refused.value;
+  if (!card.has(parameter))
+    return false;
+  return wrong.empty() || (wrong[0] == '!' ? value != wrong.substr(1) : value == wrong);
 }
 
 } // namespace
@@ -231,7 +252,7 @@ std::optional<Refusal> refusalOf(const Card& card) {
       return Refusal{nameWith(card, refused), card.place, refused.reason};
   if (card.keyword == "ELEMENT" && findElementType(card.required("TYPE")) == nullptr)
     return Refusal{card.shown + ", TYPE=" + shortened(card.value("TYPE")), card.place,
-                   otherElements + listed(elementTypeNames())};
+                   reasonOfElement(card.value("TYPE"))};
   return std::nullopt;
 }
 

@@ -102,8 +102,8 @@ void readDensity(Reading& reading, const Card& card) {
   Material& material = currentMaterial(reading, card);
   requireOnce(card, material.density.has_value());
   const std::vector<std::vector<double>> rows = rowsOf(card, 2, 1);
-  if (rows.size() > 1)
-    card.refuse("it depends on temperature, and does not here; give one value");
+  if (std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row[0] != rows[0][0]; }))
+    card.refuse("it depends on temperature, and may not here; give one value");
   material.density = rows[0][0];
 }
 

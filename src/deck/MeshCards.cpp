@@ -17,7 +17,7 @@ void readNodeCard(const Card& card, std::vector<std::pair<GlobalOrdinal, Point>>
                   std::vector<GlobalOrdinal>* set) {
   for (const Line& line : card.data) {
     const Fields fields(card, line);
-    fields.requireAtMost(4);
+    fields.requireAtMost(7); // the last three are Abaqus' normal, of use for shells
     const GlobalOrdinal number = fields.number(0, "a node");
     Point point{};
     for (int i = 0; i < 3; ++i)

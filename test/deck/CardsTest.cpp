@@ -49,8 +49,16 @@ TEST(CardsTest, ReadsNumbersOfCAndOfFortran) {
     EXPECT_FALSE(deck::parsedWhole(text)) << text;
 }
 
-TEST(CardsTest, RefusesDataInFrontOfTheFirstKeyword) {
-  expectSays(refusal([] { (void)deckOf("\n1, 2, 3\n"); }), {"a.inp, line 2: ", "begins with a keyword"});
+TEST(CardsTest, PassesOverTextInFrontOfTheFirstKeyword) {
+  const deck::Deck deck = deckOf("\n>** a beam\n1, 2, 3\n*NODE\n5, 0.\n");
+  EXPECT_EQ(deck.nodes.numbers, std::vector<GlobalOrdinal>{5});
+  ASSERT_EQ(deck.ignored.size(), 1u);
+  EXPECT_EQ(deck.ignored[0].place.line, 2);
+}
+
+TEST(CardsTest, RefusesATextWithoutKeywords) {
+  for (const char* const text : {"", "\n1, 2, 3\n", "** a comment\n"})
+    expectSays(refusal([&] { (void)deckOf(text); }), {"a.inp, line 1: ", "no keyword"});
 }
 
 TEST(CardsTest, RefusesAnIncludeInAText) {

@@ -92,7 +92,7 @@ TEST(ContactCardsTest, ReadsTiesAndBolts) {
   expectSays(refusalWithSurfaces("*PRE-TENSION SECTION, SURFACE=slave, NODE=9\n"), {"line 16", "no node 9"});
   expectSays(refusalWithSurfaces("*PRE-TENSION SECTION, NODE=4\n"), {"line 16", "SURFACE="});
   expectSays(refusalWithSurfaces("*TIE, NAME=t, CYCLIC SYMMETRY\nslave, master\n"),
-             {"line 16: *TIE, CYCLICSYMMETRY"});
+             {"line 16: *TIE, CYCLIC SYMMETRY: "});
 }
 
 TEST(ContactCardsTest, ReadsWhatStepsChange) {

@@ -22,6 +22,10 @@ TEST(MaterialCardsTest, ReadsConstantsOverTemperature) {
   EXPECT_EQ(steel.expansion->rows[0].coefficients, std::vector<double>{1e-5});
 }
 
+TEST(MaterialCardsTest, TakesADensityThatIsTheSameAtAllTemperatures) {
+  EXPECT_EQ(material("*DENSITY\n7.8e-9, 0.\n7.8e-9, 2000.\n").density, 7.8e-9);
+}
+
 TEST(MaterialCardsTest, ReadsRowsOfSeveralLines) {
   const deck::Material wood =
       material("*ELASTIC, TYPE=ORTHO\n1, 2, 3, 4, 5, 6, 7, 8\n9, 20.\n1, 2, 3, 4, 5, 6, 7, 8\n"

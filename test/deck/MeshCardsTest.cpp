@@ -48,7 +48,7 @@ TEST(MeshCardsTest, RefusesWrongElements) {
   expectSays(refusalWith("*ELEMENT, TYPE=C3D4\n1, 2, 1, 4, 3\n"),
              {"line 11", "element 1 is defined in a.inp, line 7"});
   expectSays(refusalWith("*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n"), {"element 1 is also one of type C3D4"});
-  expectSays(refusalWith("*ELEMENT, TYPE=B31\n2, 1, 2\n"), {"line 10: *ELEMENT, TYPE=B31: ", "C3D20R"});
+  expectSays(refusalWith("*ELEMENT, TYPE=B31\n2, 1, 2\n"), {"line 10: *ELEMENT, TYPE=B31: beams ", "C3D20R"});
   EXPECT_EQ(withTetrahedron("*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n").elements[0].numbers, Numbers{1});
 }
 
