@@ -12,7 +12,8 @@
 ///
 /// *Edges and quadrilaterals* keep the rows of their nodes, whose ∫N_a are positive; N̂ serves to look at the
 /// pressure. *Triangles and quadrilaterals of eight nodes*: of N_c the integral is 0 or less, and multipliers
-/// of single nodes would say nothing of the pressure. Their multipliers are dual to N̂, with rows in terms of the coefficients û in that basis,
+/// of single nodes would say nothing of the pressure. Their multipliers are dual to N̂, with rows in terms of
+/// the coefficients û in that basis,
 ///   û_c = u_c,   û_m = (u_m − α(u_c + u_c'))/(1 − 2α),
 /// and likewise of the gaps: no node of a solution penetrates, and an even pressure is met exactly (Wohlmuth,
 /// Popp, Gee, Wall, *Comput. Mech.* 49 (2012); Popp, Wohlmuth, Gee, Wall, *SIAM J. Sci. Comput.* 34 (2012),
@@ -35,9 +36,9 @@ Eigen::MatrixXd dualBasis(mesh::CellType facet);
 /// \param surface  the first body's
 void smoothRows(const mesh::Surface& surface, ContactLayout& contact);
 
-/// Finds W of a contact whose first surface has facets of order 2, and turns rows that are to be dual into those
-/// of N̂ and their areas into ∫N̂; else leaves everything as it is. A middle between corners that have no
-/// row, at the rim of what contact can reach, keeps its own.
+/// Finds W of a contact whose first surface has facets of order 2, and turns rows that are to be dual into
+/// those of N̂ and their areas into ∫N̂; else leaves everything as it is. A middle between corners that have
+/// no row, at the rim of what contact can reach, keeps its own.
 /// \param surface  the first body's
 void adaptRows(const mesh::Surface& surface, ContactLayout& contact);
 

@@ -83,8 +83,8 @@ int nodesPerFacet(CellType type);
 /// Pairs of corners that are joined by an edge, in the order of the nodes that lie on them.
 std::span<const int> edgesOf(CellType type);
 
-/// "line", "triangle", "quadrilateral", "tetrahedron", "hexahedron", "quadratic …" of order 2, and "serendipity
-/// …" without inner nodes.
+/// "line", "triangle", "quadrilateral", "tetrahedron", "hexahedron", "quadratic …" of order 2, and
+/// "serendipity …" without inner nodes.
 const char* toString(CellType type);
 
 } // namespace epafi::mesh

@@ -12,8 +12,8 @@
 /// (bricks: parallelepipeds), and for constant strains on curved ones; that of *fineSamples* serves measures,
 /// loads and estimates and is exact for squares of shape functions there, and for what curved edges make of
 /// measures and pressures. They are the same where one rule does both. A third one, *reducedSamples*, has as
-/// many Gauss points along each axis as the order, 2, and is there for bricks and edges of order 2 alone: less
-/// than a stiffness asks for, which leaves motions of single elements without energy.
+/// many Gauss points along each axis as the order, 2, and is there for bricks and edges of order 2 alone:
+/// less than a stiffness asks for, which leaves motions of single elements without energy.
 
 #include "epafi/mesh/Cell.hpp"
 
