@@ -35,6 +35,7 @@ Options parseOptions(int argc, const char* const* argv) {
              })
       .value("--output", options.output)
       .value("--report", options.report)
+      .value("--frd", options.frd)
       .value("--restart", options.restart)
       .value("--checkpoint-interval",
              [&](const std::string& text) { options.checkpointInterval = secondsOf(text); })
@@ -61,6 +62,9 @@ std::string usage() {
          "  --output DIR                           write DIR/<scene>.h5, .xdmf, history.csv, report.xml and\n"
          "                                         checkpoint.epafi\n"
          "  --report FILE.xml                      write the report as an XML parameter list\n"
+         "  --frd FILE.frd                         write displacements, stresses and contact of elastic "
+         "bodies as\n"
+         "                                         CalculiX does, for FreeCAD, PrePoMax and cgx\n"
          "  --restart CHECKPOINT                   go on from a checkpoint of this scene, on any number of "
          "ranks\n"
          "  --checkpoint-interval SECONDS          time between checkpoints (600); 0: only at the end\n"

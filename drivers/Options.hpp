@@ -12,6 +12,7 @@ struct Options {
   std::vector<std::string> overrides; ///< --set
   std::string output;                 ///< --output DIR; empty: no files
   std::string report;                 ///< --report FILE; empty: only DIR/report.xml
+  std::string frd;                    ///< --frd FILE; empty: none
   std::string restart;                ///< --restart FILE, a checkpoint; empty: from the beginning
   double checkpointInterval = 600;    ///< --checkpoint-interval, seconds; 0: only at the end
   bool printParameters = false, quiet = false, help = false, version = false;

@@ -105,6 +105,8 @@ void RunFiles::prepare(simulation::SceneRun& run, output::FileSet& files) {
     });
     prepareFields(run, files);
   }
+  if (!options_.frd.empty())
+    prepareFrd(run, files);
   if (hasStage_ && !failures_.empty())
     run.result.reason += "; not all files of this " + stageOf(run.result) +
                          " could be written: what is missing may be there of a " + stageOf(run.result) +
@@ -143,6 +145,20 @@ void RunFiles::prepareFields(simulation::SceneRun& run, output::FileSet& files) 
       files.write(directory / "meshes.csv", [&] { return tableOf(run.result.target->meshes); });
       return line("meshes", (directory / "meshes.csv").string());
     });
+}
+
+void RunFiles::prepareFrd(simulation::SceneRun& run, output::FileSet& files) {
+  attempt(options_.frd, [&] {
+    const std::vector<simulation::StepResult>& steps = run.result.steps;
+    if (steps.empty()) {
+      frd_ = output::FrdFile();
+      frd_.add(run.solved(), run.evaluation);
+    } else {
+      frd_.add(run.solved(), run.evaluation, {steps.back().name, static_cast<int>(steps.size())});
+    }
+    files.write(options_.frd, [&] { return frd_.text(); });
+    return line("frd", options_.frd);
+  });
 }
 
 void RunFiles::enterTimes(simulation::SceneRun& run) {

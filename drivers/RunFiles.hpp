@@ -8,6 +8,7 @@
 
 #include "epafi/output/FieldWriter.hpp"
 #include "epafi/output/FileSet.hpp"
+#include "epafi/output/FrdFile.hpp"
 
 #include <filesystem>
 #include <string>
@@ -18,9 +19,9 @@ namespace epafi::drivers {
 /// DIR/report.xml and the file of --report, as far as they were asked for; not twice the same.
 std::vector<std::filesystem::path> reportsOf(const Options& options);
 
-/// Writes what was asked for: checkpoint, history, fields, reports, the smallest first. A file that cannot be
-/// written does not keep the others from it. All methods are collective; what they note is the same on all
-/// ranks.
+/// Writes what was asked for: checkpoint, history, fields, results as CalculiX has them, reports, the
+/// smallest first. A file that cannot be written does not keep the others from it. All methods are
+/// collective; what they note is the same on all ranks.
 class RunFiles {
 public:
   /// \param started  wall time at the start of the run
@@ -45,6 +46,7 @@ private:
   bool publish(output::FileSet& files);
   void prepare(simulation::SceneRun& run, output::FileSet& files);
   void prepareFields(simulation::SceneRun& run, output::FileSet& files);
+  void prepareFrd(simulation::SceneRun& run, output::FileSet& files);
   void enterTimes(simulation::SceneRun& run);
   void announce(const simulation::SceneRun& run);
   void noteLostFields();
@@ -58,6 +60,7 @@ private:
   bool hasStage_ = false, isOfThisStage_ = false, hasComplained_ = false;
   bool hasFields_ = false;               ///< those of the stage at hand are written
   std::vector<output::FieldStep> steps_; ///< up to the one at hand, but those whose fields are lost
+  output::FrdFile frd_;                  ///< of the mesh at hand, up to the step at hand
   std::string lines_;
   std::vector<std::string> failures_;
   std::vector<std::string> lost_; ///< likewise, of fields of steps that no later stage makes up for

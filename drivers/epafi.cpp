@@ -106,6 +106,23 @@ void requireOneOfBoth(const std::string& file, const std::vector<scene::Step>& s
                      "\"Accuracy\": load steps are solved on the mesh that is given; leave out one of them.");
 }
 
+/// Better now than after an hour. Collective.
+void requireTargets(const Options& options, const Comm& comm) {
+  std::vector<std::filesystem::path> files = reportsOf(options);
+  if (!options.frd.empty())
+    files.emplace_back(options.frd);
+  for (const auto& file : files) {
+    collectively(comm, [&] {
+      std::error_code ignored;
+      for (const std::string& input : {options.scene, options.restart})
+        if (std::filesystem::equivalent(file, input, ignored))
+          throw InputError("the file " + file.string() +
+                           " would overwrite what is read; choose another name");
+    });
+    output::prepareTarget(file, comm);
+  }
+}
+
 int solve(const Options& options, const RCP<const Comm>& comm) {
   const bool speaks = comm->getRank() == 0 && !options.quiet;
   const double start = Teuchos::Time::wallTime();
@@ -117,16 +134,9 @@ int solve(const Options& options, const RCP<const Comm>& comm) {
   const scene::Scene scene = scene::readScene(given, options.scene);
   const std::vector<scene::Step> steps = scene::readSteps(given, options.scene, scene);
   requireOneOfBoth(options.scene, steps, list.sublist("Accuracy"));
-  for (const auto& file : reportsOf(options)) {
-    collectively(*comm, [&] {
-      std::error_code ignored;
-      for (const std::string& input : {options.scene, options.restart})
-        if (std::filesystem::equivalent(file, input, ignored))
-          throw InputError("the report " + file.string() +
-                           " would overwrite what is read; choose another name");
-    });
-    output::prepareTarget(file, *comm); // better now than after an hour
-  }
+  if (!options.frd.empty())
+    output::requireElasticBodies(scene, options.scene + ", option --frd");
+  requireTargets(options, *comm);
   if (speaks)
     std::cout << "Epafi " << version() << ": " << (scene.title.empty() ? options.scene : scene.title) << '\n'
               << std::flush;

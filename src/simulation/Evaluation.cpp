@@ -5,7 +5,6 @@
 #include "epafi/base/AccurateSum.hpp"
 #include "epafi/base/Collective.hpp"
 #include "epafi/base/Maps.hpp"
-#include "epafi/fem/HookesLaw.hpp"
 
 #include <Tpetra_Export.hpp>
 #include <Tpetra_Map.hpp>
@@ -99,7 +98,7 @@ double largestDisplacement(const SolvedScene& solved, int body) {
 
 } // namespace
 
-std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body) {
+std::vector<fem::SymmetricTensor> stressesAtNodes(const SolvedScene& solved, int body) {
   const std::size_t place = body;
   const decomposition::DecomposedProblem& problem = solved.decomposition.problem;
   const model::BodyLayout& layout = solved.decomposition.bodies[place];
@@ -117,14 +116,17 @@ std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body) {
   std::vector<Teuchos::ArrayRCP<const double>> columns;
   for (std::size_t k = 0; k <= numStresses; ++k)
     columns.push_back(slab.getData(k));
+  std::vector<fem::SymmetricTensor> result(slab.getLocalLength());
+  for (Teuchos::Ordinal row = 0; row < columns[0].size(); ++row)
+    for (std::size_t k = 0; k < numStresses; ++k)
+      result[row][k] = columns[k][row] / columns[numStresses][row];
+  return result;
+}
+
+std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body) {
   std::vector<double> result;
-  result.reserve(slab.getLocalLength());
-  for (Teuchos::Ordinal row = 0; row < columns[0].size(); ++row) {
-    fem::SymmetricTensor stress{};
-    for (std::size_t k = 0; k < stress.size(); ++k)
-      stress[k] = columns[k][row] / columns[numStresses][row];
+  for (const fem::SymmetricTensor& stress : stressesAtNodes(solved, body))
     result.push_back(fem::vonMisesOf(stress));
-  }
   return result;
 }
 

@@ -3,6 +3,7 @@
 /// What follows from displacements and multipliers, computed once for files and results.
 
 #include "epafi/accuracy/ErrorEstimate.hpp"
+#include "epafi/fem/HookesLaw.hpp"
 #include "epafi/simulation/ContactState.hpp"
 #include "epafi/simulation/FrictionResults.hpp"
 #include "epafi/simulation/JointResults.hpp"
@@ -15,12 +16,15 @@
 
 namespace epafi::simulation {
 
-/// Von Mises stress at the nodes of body `body`, of this rank's slab (evenShare of the nodes). Linear
-/// elements have their stress at their centres; a node has the mean of the elements around it, weighted by
-/// their areas or volumes, of every component of the tensor, and von Mises' norm of that: exact where the
-/// stress is constant, O(h²) inside uniform meshes, and the same for every cut and number of ranks but for
-/// round-off. Between two materials it is the mean of both sides. Each rank looks at the elements of its own
-/// subdomains. Precondition: the body is elastic. Collective.
+/// Stress at the nodes of body `body`, of this rank's slab (evenShare of the nodes). Linear elements have
+/// their stress at their centres; a node has the mean of the elements around it, weighted by their areas or
+/// volumes, of every component of the tensor: exact where the stress is constant, O(h²) inside uniform
+/// meshes, and the same for every cut and number of ranks but for round-off. Between two materials it is the
+/// mean of both sides. Each rank looks at the elements of its own subdomains. Precondition: the body is
+/// elastic. Collective.
+std::vector<fem::SymmetricTensor> stressesAtNodes(const SolvedScene& solved, int body);
+
+/// Von Mises' norm of these. Likewise.
 std::vector<double> vonMisesAtNodes(const SolvedScene& solved, int body);
 
 /// η_T, the error in the energy norm of each cell of a body, of this rank's slab (evenShare of the cells).

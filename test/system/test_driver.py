@@ -269,6 +269,11 @@ class RefusesWrongInput(Driver):
         for ranks in (1, 3):
             for option in ("--output", "--report"):
                 self.expect(WRONG_INPUT, [str(blocked)], scene("coercive"), option, blocked / "out", ranks=ranks)
+            self.expect(WRONG_INPUT, [str(blocked)], scene("stacked_blocks"), "--frd", blocked / "out", ranks=ranks)
+            self.expect(WRONG_INPUT, ["--frd", "membrane"], scene("coercive"), "--frd", self.place / "out.frd", ranks=ranks)
+        self.assertEqual([file.name for file in self.place.iterdir()], ["file"])
+        copy = self.changed("stacked_blocks")
+        self.expect(WRONG_INPUT, ["overwrite"], copy, "--frd", copy)
 
 
 PLATE = """

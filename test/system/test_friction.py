@@ -5,6 +5,7 @@ them, and the fields of their load steps."""
 import csv
 import math
 import pathlib
+import re
 import runpy
 import subprocess
 import sys
@@ -218,17 +219,27 @@ class Friction(unittest.TestCase):
             for item in series.iter("DataItem"):
                 self.assertEqual(tuple(map(int, item.get("Dimensions").split())), file[item.text.split(":")[1]].shape, item.text)
 
+    def assert_steps_of_one_mesh(self, file, shorter):
+        """Blocks of all steps, the first two steps' as if the run had ended there."""
+        text = file.read_text(encoding="utf-8")
+        self.assertEqual(re.findall("^    1PNAME +(.+)$", text, re.MULTILINE), [name for name in STEPS for _ in range(3)])
+        self.assertEqual(re.findall("^ -4  ([A-Z]+) ", text, re.MULTILINE), 3 * ["DISP", "STRESS", "CONTACT"])
+        self.assertEqual(text.count("    2C"), 1)
+        self.assertTrue(text.endswith("\n -3\n 9999\n"))
+        self.assertTrue(text.startswith(shorter.read_text(encoding="utf-8").removesuffix(" 9999\n")))
+
     def test_the_files_have_the_fields_of_every_load_step_as_if_the_run_had_ended_there(self):
         for ranks in (1, 2):
             def solved(number, ranks=ranks):
                 directory = self.place / f"{ranks}_{number}"
                 (self.place / "pushed.xml").write_text(in_steps(list(STEPS)[:number]), encoding="utf-8")
-                ended = subprocess.run([*LAUNCH, str(ranks), EPAFI, self.place / "pushed.xml", "--quiet", "--output", directory],
-                                       capture_output=True, text=True, timeout=120, check=False)
+                ended = subprocess.run([*LAUNCH, str(ranks), EPAFI, self.place / "pushed.xml", "--quiet", "--output", directory,
+                                        "--frd", directory / "pushed.frd"], capture_output=True, text=True, timeout=120, check=False)
                 self.assertEqual((ended.returncode, ended.stderr), (COMPLETE, ""))
                 return directory
             directory = solved(3)
             self.assert_one_grid_a_step(directory)
+            self.assert_steps_of_one_mesh(directory / "pushed.frd", solved(2) / "pushed.frd")
             with h5py.File(directory / "pushed.h5") as whole:
                 steps = sorted(whole["steps"].values(), key=lambda step: step.attrs["number"])
                 self.assertEqual([step.attrs["name"].decode() for step in steps], list(STEPS))

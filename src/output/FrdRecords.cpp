@@ -1,0 +1,148 @@
+#include "epafi/output/FrdRecords.hpp"
+
+#include "epafi/base/Errors.hpp"
+#include "epafi/base/Version.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace epafi::output {
+namespace {
+
+/// The format's number of a type of elements, and how many nodes it has.
+struct FrdCell {
+  int type;
+  std::size_t numNodes;
+};
+
+FrdCell frdCellOf(mesh::CellType type) {
+  using enum mesh::CellType;
+  switch (type) {
+  case triangle:
+    return {7, 3};
+  case quadrilateral:
+    return {9, 4};
+  case tetrahedron:
+    return {3, 4};
+  case hexahedron:
+    return {1, 8};
+  case triangle6:
+    return {8, 6};
+  case quadrilateral9:
+    return {10, 8};
+  case tetrahedron10:
+    return {6, 10};
+  case hexahedron27:
+    return {4, 20};
+  case line:
+  case line3:
+    break;
+  }
+  throw Error(std::string("No body consists of a ") + mesh::toString(type) + ".");
+}
+
+/// Places of an element's nodes in the order of the format: on a hexahedron's edges below, upright and above.
+constexpr std::array placesOfNodes{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15};
+
+void put(std::string& text, GlobalOrdinal number, std::size_t width) {
+  const std::string digits = std::to_string(number);
+  text.append(width - std::min(width, digits.size()), ' ').append(digits);
+}
+
+/// As C's %12.5E.
+void put(std::string& text, double value) {
+  constexpr double least = std::numeric_limits<float>::min(), most = std::numeric_limits<float>::max();
+  const double shown = std::abs(value) < least ? 0 : std::clamp(value, -most, most);
+  std::array<char, 16> digits{};
+  char* const end = std::to_chars(digits.begin(), digits.end(), shown, std::chars_format::scientific, 5).ptr;
+  std::replace(digits.begin(), end, 'e', 'E');
+  text.append(12 - (end - digits.begin()), ' ').append(digits.begin(), end);
+}
+
+} // namespace
+
+const char* const frdDisplacement = " -4  DISP        4    1\n"
+                                    " -5  D1          1    2    1    0\n"
+                                    " -5  D2          1    2    2    0\n"
+                                    " -5  D3          1    2    3    0\n"
+                                    " -5  ALL         1    2    0    0    1ALL\n";
+const char* const frdStress = " -4  STRESS      6    1\n"
+                              " -5  SXX         1    4    1    1\n"
+                              " -5  SYY         1    4    2    2\n"
+                              " -5  SZZ         1    4    3    3\n"
+                              " -5  SXY         1    4    1    2\n"
+                              " -5  SYZ         1    4    2    3\n"
+                              " -5  SZX         1    4    3    1\n";
+const char* const frdContact = " -4  CONTACT     6    1\n"
+                               " -5  COPEN       1    4    1    1\n"
+                               " -5  CSLIP1      1    4    2    2\n"
+                               " -5  CSLIP2      1    4    3    3\n"
+                               " -5  CPRESS      1    4    1    2\n"
+                               " -5  CSHEAR1     1    4    2    3\n"
+                               " -5  CSHEAR2     1    4    3    1\n";
+
+void putFrdStart(std::string& text, std::span<const std::string> bodies) {
+  text.append("    1C\n    1UPGM               Epafi\n    1UVERSION           Version ");
+  text.append(epafi::version()).append("\n");
+  int material = 0;
+  for (const std::string& body : bodies) {
+    text += "    1UMAT";
+    put(text, ++material, 5);
+    text += body + '\n';
+  }
+}
+
+void putFrdSize(std::string& text, const char* key, GlobalOrdinal number) {
+  text.append(key).append(18, ' ');
+  put(text, number, 12);
+  text.append(37, ' ').append("1\n");
+}
+
+void putFrdNode(std::string& text, GlobalOrdinal number, std::span<const double> values) {
+  text += " -1";
+  put(text, number, 10);
+  for (const double value : values)
+    put(text, value);
+  text += '\n';
+}
+
+void putFrdElement(std::string& text, GlobalOrdinal number, int material, mesh::CellType type,
+                   std::span<const GlobalOrdinal> nodes) {
+  constexpr std::size_t perLine = 10;
+  const FrdCell cell = frdCellOf(type);
+  text += " -1";
+  put(text, number, 10);
+  for (const int value : {cell.type, 0, material})
+    put(text, value, 5);
+  for (std::size_t i = 0; i < cell.numNodes; ++i) {
+    if (i % perLine == 0)
+      text += "\n -2";
+    put(text, nodes[placesOfNodes[i]], 10);
+  }
+  text += '\n';
+}
+
+void putFrdEnd(std::string& text) {
+  text += " -3\n";
+}
+
+void putFrdHead(std::string& text, const FrdPlace& place, GlobalOrdinal numNodes, const char* kind) {
+  text.append("    1PSTEP").append(14, ' ');
+  for (const int number : {place.block, 1, place.step})
+    put(text, number, 12);
+  text.append(10, ' ').append("\n");
+  if (!place.name.empty()) // the next record has room for it, but several programs count the words there
+    text += "    1PNAME              " + place.name + '\n';
+  text += "  100CL";
+  put(text, 100 + place.increment, 5);
+  put(text, place.step);
+  put(text, numNodes, 12);
+  text.append(20, ' ').append(" 0");
+  put(text, place.increment, 5);
+  text.append(10, ' ').append(" 1\n").append(kind);
+}
+
+} // namespace epafi::output
